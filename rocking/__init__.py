@@ -1,0 +1,1 @@
+"""Rocking structures under recorded earthquakes: SI units and radians inside."""

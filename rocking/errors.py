@@ -1,0 +1,36 @@
+"""The error classes: one root, so that a caller can catch everything this package says.
+
+A message is one sentence: what (file, field), the value, what is allowed, what to do.
+"""
+
+
+class RockingError(Exception):
+    """Root of every error this package raises on purpose."""
+
+
+class RecordError(RockingError):
+    """A file or array that cannot stand as an accelerogram."""
+
+
+class UnknownFormatError(RecordError):
+    """No reader recognises the file; the message says what was looked for."""
+
+
+class PulseError(RockingError):
+    """A pulse that cannot exist, or a record in which none can be sought."""
+
+
+class StructureError(RockingError):
+    """A geometry that cannot stand, or a structure that cannot be described as asked."""
+
+
+class MotionError(RockingError):
+    """A setting of the integration, or a forcing, outside what is allowed."""
+
+
+class CatalogueError(RockingError):
+    """A catalogue of records with defects; all of them stand in one message."""
+
+
+class ConfigurationError(RockingError):
+    """A setting or a structure list with defects; all of them stand in one message."""

@@ -1,0 +1,39 @@
+"""Response: what an integration says."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rocking.outcome import Outcome
+
+
+@dataclass(frozen=True, eq=False)
+class Response:
+    """Largest rotation of a structure under a ground motion, and what is needed to trust it.
+
+    rotation_ratio: largest φ/φ_cr over the sides; inf if it overturns, 0 without uplift, nan if it failed.
+    outcome: an Outcome; reason: one sentence when it is FAILED, else "".
+    impacts: how many times φ = 0 was reached with rocking going on or ending. peak_time: s from the first sample,
+    time of the largest rotation (nan if overturned or never lifted). uplift_time: s of the first uplift (nan if none).
+    peak_side: +1 or −1, the side of the largest rotation or of the overturning; 0 without uplift.
+    sensitivity: d ln φ_max / d ln a, how many percent the largest rotation changes when the ground motion is scaled by
+    one percent (nan unless it rocks, or if it was not asked for).
+    fragile: whether scaling the ground motion by ± `fragility_change` flips the verdict; None if not asked for.
+    steps: integration steps taken. tolerance: the relative tolerance asked for; 0.0 for the exact linear response.
+    With history: times (k,) s, rotation (k,) rad signed, angular_velocity (k,) rad/s signed.
+    """
+
+    rotation_ratio: float
+    outcome: Outcome
+    impacts: int = 0
+    peak_time: float = np.nan
+    uplift_time: float = np.nan
+    peak_side: int = 0
+    sensitivity: float = np.nan
+    fragile: bool | None = None
+    steps: int = 0
+    tolerance: float = 0.0
+    reason: str = ""
+    times: np.ndarray | None = None
+    rotation: np.ndarray | None = None
+    angular_velocity: np.ndarray | None = None

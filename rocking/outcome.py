@@ -1,0 +1,25 @@
+"""What became of a structure: four outcomes, each with the sentence a reader is told."""
+
+from enum import StrEnum
+
+
+class Outcome(StrEnum):
+    """Outcome of a prediction or an integration."""
+
+    NO_UPLIFT = "no uplift"
+    ROCKS = "rocks"
+    OVERTURNS = "overturns"
+    FAILED = "failed"
+
+    @property
+    def sentence(self) -> str:
+        """One sentence for the reader."""
+        return _SENTENCES[self]
+
+
+_SENTENCES = {
+    Outcome.NO_UPLIFT: "The ground acceleration never reaches the uplift acceleration, so the structure does not rock.",
+    Outcome.ROCKS: "The structure rocks and returns to rest.",
+    Outcome.OVERTURNS: "The structure overturns.",
+    Outcome.FAILED: "No result could be computed; the reason stands beside it.",
+}

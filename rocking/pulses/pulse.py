@@ -1,0 +1,43 @@
+"""Pulse: one full sine cycle of acceleration. A signal, nothing else."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rocking.checks import finite, positive
+from rocking.errors import PulseError
+
+
+@dataclass(frozen=True)
+class Pulse:
+    """a(t) = amplitude · sin(circular_frequency · (t − start_time)) for one period, zero outside.
+
+    amplitude: m/s², signed. circular_frequency: rad/s, > 0. start_time: s.
+    Raises PulseError when a value is not finite or the frequency not positive.
+    """
+
+    amplitude: float
+    circular_frequency: float
+    start_time: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "amplitude", finite(PulseError, "amplitude", self.amplitude, "m/s²"))
+        frequency = positive(PulseError, "circular_frequency", self.circular_frequency, "rad/s")
+        object.__setattr__(self, "circular_frequency", frequency)
+        object.__setattr__(self, "start_time", finite(PulseError, "start_time", self.start_time, "s"))
+
+    @property
+    def period(self) -> float:
+        """T = 2π/ω, s."""
+        return 2 * np.pi / self.circular_frequency
+
+    @property
+    def end_time(self) -> float:
+        """Time at which the cycle is complete, s."""
+        return self.start_time + self.period
+
+    def acceleration(self, times: np.ndarray) -> np.ndarray:
+        """Return the acceleration in m/s² at `times` (any shape, s)."""
+        phase = self.circular_frequency * (np.asarray(times, dtype=float) - self.start_time)
+        inside = (phase >= 0) & (phase <= 2 * np.pi)
+        return np.where(inside, self.amplitude * np.sin(phase), 0.0)

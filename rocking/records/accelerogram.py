@@ -1,0 +1,107 @@
+"""Accelerogram: what every reader returns. An acceleration history and where it came from, nothing else."""
+
+import hashlib
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from rocking.checks import finite, positive
+from rocking.errors import RecordError
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where the numbers of an accelerogram came from."""
+
+    path: str = ""
+    format: str = ""
+    sha256: str = ""
+    unit: str = ""
+    """Unit of the numbers in the file, as declared or as the format defines it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Accelerogram:
+    """One component of ground acceleration, uniformly sampled, in m/s².
+
+    acceleration: (n,) m/s², n ≥ 2, finite, stored as a read-only float64 copy.
+    time_step: s. scale_factor: what the file's numbers were multiplied by, beyond their unit.
+    processing: the steps that made these numbers from the file's, in order, one sentence each.
+    warnings: what the reader noticed that a user must know, one sentence each.
+    high_pass_frequency: corner in Hz if a high-pass is known to have been applied.
+    Raises RecordError when the numbers cannot stand as an accelerogram.
+    """
+
+    acceleration: np.ndarray
+    time_step: float
+    component: str = ""
+    station: str = ""
+    event: str = ""
+    source: Source = field(default_factory=Source)
+    scale_factor: float = 1.0
+    processing: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+    high_pass_frequency: float | None = None
+    network: str = ""
+    start_time: str = ""
+    """ISO 8601 UTC time of the first sample, if the file says it."""
+    azimuth: float | None = None
+    """Direction of positive acceleration, degrees clockwise from north; None if unknown."""
+    vertical: bool = False
+    borehole: bool = False
+    processed: bool = False
+    """Whether the file says that its numbers are already corrected."""
+
+    def __post_init__(self) -> None:
+        name = self.source.path or "acceleration"
+        samples = _samples(name, self.acceleration)
+        object.__setattr__(self, "acceleration", samples)
+        object.__setattr__(self, "time_step", positive(RecordError, f"{name}: time_step", self.time_step, "s"))
+        object.__setattr__(self, "scale_factor", finite(RecordError, f"{name}: scale_factor", self.scale_factor))
+
+    @property
+    def times(self) -> np.ndarray:
+        """(n,) s, from 0."""
+        return np.arange(self.acceleration.size) * self.time_step
+
+    @property
+    def duration(self) -> float:
+        """Time from the first to the last sample, s."""
+        return (self.acceleration.size - 1) * self.time_step
+
+    @cached_property
+    def peak_acceleration(self) -> float:
+        """Largest magnitude of the samples, m/s²."""
+        return float(np.abs(self.acceleration).max())
+
+    @cached_property
+    def sha256(self) -> str:
+        """Hash of the time step and the samples as they stand here (not of the file)."""
+        return hashlib.sha256(np.float64(self.time_step).tobytes() + self.acceleration.tobytes()).hexdigest()
+
+    def scaled(self, factor: float) -> "Accelerogram":
+        """Return this accelerogram with its acceleration multiplied by `factor`, remembered in scale_factor."""
+        factor = finite(RecordError, "factor", factor)
+        return replace(self, acceleration=self.acceleration * factor, scale_factor=self.scale_factor * factor)
+
+    def processed_by(self, acceleration: np.ndarray, step: str, **changes) -> "Accelerogram":
+        """Return a copy with new samples and one more processing sentence."""
+        return replace(self, acceleration=acceleration, processing=(*self.processing, step), **changes)
+
+
+def _samples(name: str, values: np.ndarray) -> np.ndarray:
+    try:
+        samples = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise RecordError(f"{name}: the samples are not all numbers; give a one-dimensional array.") from None
+    if samples.ndim != 1 or samples.size < 2:
+        raise RecordError(f"{name}: the samples have shape {samples.shape}, but must be one row of at least 2.")
+    bad = np.flatnonzero(~np.isfinite(samples))
+    if bad.size:
+        raise RecordError(
+            f"{name}: sample {bad[0]} is {samples[bad[0]]}, one of {bad.size} that are not finite; "
+            "fill or cut the gap before use."
+        )
+    samples.flags.writeable = False
+    return samples

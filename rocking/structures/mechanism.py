@@ -1,0 +1,189 @@
+"""The standard form of every rocking structure, and the equivalent block it reduces to.
+
+On the side s = ±1 to which it rocks, with the rotation φ ≥ 0 (theory: section 1, "One standard form"):
+
+    I(φ) φ'' + J(φ) φ'² + G(φ) (g + ü_v) = −s B(φ) ü_g ,   J = I'/2
+
+Uplift from rest to the side s = −sign(ü_g) when |ü_g| / (g + ü_v) exceeds G(0)/B(0). At φ = 0 an impact ends the
+motion on this side; the angular velocity of the next flight is `restitution` times the one of arrival.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+from rocking.checks import positive, within
+from rocking.errors import StructureError
+from rocking.units import GRAVITY
+
+Function = Callable[[np.ndarray], np.ndarray]
+"""A function of the rotation φ [rad], any shape in, the same shape out."""
+
+Scale = Literal["linearised", "uplift", "mean"]
+"""Which acceleration scale an equivalent block carries: a_sc, a_sc,alt = φ_cr/λ, or their mean."""
+
+
+@dataclass(frozen=True, eq=False)
+class Side:
+    """One direction of rocking: I [m], I' [m/rad], G [-], G' [1/rad], B [-] as functions of φ on [0, end_rotation].
+
+    All five may carry one common factor (a mass, say), which cancels.
+    critical_rotation: φ_cr, where G vanishes, rad. end_rotation: where the geometry of the mechanism ends, rad,
+    > φ_cr. restitution: η of the impact that ends rocking on this side, in [0, 1].
+    Raises StructureError when G(0) ≤ 0, B ≤ 0 or I ≤ 0 where it matters, or a rotation is out of order.
+    """
+
+    inertia: Function
+    inertia_slope: Function
+    gravity: Function
+    gravity_slope: Function
+    ground: Function
+    critical_rotation: float
+    end_rotation: float
+    restitution: float
+
+    def __post_init__(self) -> None:
+        critical = positive(StructureError, "critical_rotation", self.critical_rotation, "rad")
+        if not self.end_rotation > critical:
+            raise StructureError(
+                f"end_rotation is {self.end_rotation!r} rad, but must exceed critical_rotation = {critical!r} rad."
+            )
+        object.__setattr__(self, "restitution", within(StructureError, "restitution", self.restitution, 0, 1))
+        for name, at in (("inertia", 0.0), ("inertia", critical), ("gravity", 0.0), ("ground", 0.0), ("ground", critical)):
+            value = self.at(name, at)
+            if not value > 0:
+                raise StructureError(f"{name} is {value!r} at a rotation of {at!r} rad, but must be positive there.")
+
+    def at(self, name: str, rotation: float) -> float:
+        """Return one of the five functions, by name, at one rotation [rad], as a float."""
+        return float(getattr(self, name)(np.float64(rotation)))
+
+    @cached_property
+    def uplift_multiplier(self) -> float:
+        """λ = G(0)/B(0), the ground acceleration in g that starts rocking to this side (Eq. 7)."""
+        return self.at("gravity", 0.0) / self.at("ground", 0.0)
+
+    @cached_property
+    def frequency_parameter(self) -> float:
+        """p = sqrt(−g G'(φ_cr)/I(φ_cr)), rad/s (Eq. 11)."""
+        critical = self.critical_rotation
+        return float(np.sqrt(-GRAVITY * self.at("gravity_slope", critical) / self.at("inertia", critical)))
+
+    @cached_property
+    def acceleration_scale(self) -> float:
+        """a_sc = −B(φ_cr)/G'(φ_cr) (Eq. 11)."""
+        critical = self.critical_rotation
+        return -self.at("ground", critical) / self.at("gravity_slope", critical)
+
+    def scaled_acceleration(self, scale: Scale) -> float:
+        """a_sc, a_sc,alt = φ_cr/λ (Eq. 13), or their mean."""
+        alternative = self.critical_rotation / self.uplift_multiplier
+        scales = {
+            "linearised": self.acceleration_scale,
+            "uplift": alternative,
+            "mean": (self.acceleration_scale + alternative) / 2,
+        }
+        if scale not in scales:
+            raise StructureError(f"scale is {scale!r}, but must be one of {', '.join(scales)}.")
+        return scales[scale]
+
+
+@dataclass(frozen=True, eq=False)
+class Mechanism:
+    """A structure as the motion sees it: a Side for each direction of rocking.
+
+    positive: the side of positive rotation, taken when the ground accelerates in the negative direction.
+    negative: the other side; None when it mirrors the positive one.
+    one_sided: the structure leans on something (a façade against side walls) and rocks to the positive side only;
+    an impact then throws it back to the same side.
+    """
+
+    positive: Side
+    negative: Side | None = None
+    one_sided: bool = False
+
+    def __post_init__(self) -> None:
+        if self.one_sided and self.negative is not None:
+            raise StructureError("negative is given, but a one-sided mechanism has the positive side only; leave it out.")
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether both directions share one Side."""
+        return self.negative is None and not self.one_sided
+
+    @property
+    def sides(self) -> tuple[Side, ...]:
+        """The distinct sides, positive first."""
+        return (self.positive,) if self.negative is None else (self.positive, self.negative)
+
+    @property
+    def critical_rotation(self) -> float:
+        """φ_cr of the positive side, rad."""
+        return self.positive.critical_rotation
+
+    @property
+    def uplift_multiplier(self) -> float:
+        """λ: the smallest ground acceleration in g that starts rocking, over the sides."""
+        return min(side.uplift_multiplier for side in self.sides)
+
+    @property
+    def restitution(self) -> float:
+        """η of the positive side."""
+        return self.positive.restitution
+
+    def with_restitution(self, restitution: float) -> "Mechanism":
+        """Return this mechanism with the same η on every side."""
+        negative = None if self.negative is None else replace(self.negative, restitution=restitution)
+        return replace(self, positive=replace(self.positive, restitution=restitution), negative=negative)
+
+    def equivalent_block(self, scale: Scale = "linearised") -> "EquivalentBlock":
+        """Return the block that this mechanism linearises to about φ_cr (Eqs. 9–13)."""
+        block = _equivalent(self.positive, scale)
+        other = None if self.negative is None else _equivalent(self.negative, scale)
+        return replace(block, other_side=other, one_sided=self.one_sided)
+
+
+@dataclass(frozen=True)
+class EquivalentBlock:
+    """φ'' = p² (φ − φ_cr − s a_sc ü_g/g): the linear rocking block (Eq. 10).
+
+    frequency_parameter: p, rad/s. critical_rotation: φ_cr, rad. acceleration_scale: a_sc, -. restitution: η in [0, 1].
+    other_side: the block of the negative side when the two differ; None when they mirror each other.
+    one_sided: rocks to the positive side only and is thrown back at φ = 0.
+    """
+
+    frequency_parameter: float
+    critical_rotation: float
+    acceleration_scale: float
+    restitution: float
+    other_side: "EquivalentBlock | None" = None
+    one_sided: bool = False
+
+    def __post_init__(self) -> None:
+        for name, unit in (("frequency_parameter", "rad/s"), ("critical_rotation", "rad"), ("acceleration_scale", "")):
+            object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), unit))
+        object.__setattr__(self, "restitution", within(StructureError, "restitution", self.restitution, 0, 1))
+        if self.other_side is not None and (self.one_sided or self.other_side.other_side is not None):
+            raise StructureError("other_side is given, but a one-sided block has none and another side has no further one.")
+
+    @property
+    def uplift_multiplier(self) -> float:
+        """λ of the positive side = φ_cr/a_sc, the ground acceleration in g that starts rocking (Eq. 12)."""
+        return self.critical_rotation / self.acceleration_scale
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether both directions are alike."""
+        return self.other_side is None and not self.one_sided
+
+
+def _equivalent(side: Side, scale: Scale) -> EquivalentBlock:
+    return EquivalentBlock(
+        frequency_parameter=side.frequency_parameter,
+        critical_rotation=side.critical_rotation,
+        acceleration_scale=side.scaled_acceleration(scale),
+        restitution=side.restitution,
+    )

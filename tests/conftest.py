@@ -1,0 +1,39 @@
+"""Fixtures that every test may use, and the count of tests that used real records."""
+
+import csv
+import os
+from pathlib import Path
+
+import pytest
+
+_VARIABLE = "ROCKING_RECORDS"
+
+
+@pytest.fixture(scope="session")
+def real_records() -> Path:
+    """The folder of real strong-motion records, or a skip that says what to set."""
+    folder = os.environ.get(_VARIABLE)
+    if not folder:
+        pytest.skip(f"{_VARIABLE} is not set; set it to the folder of real records to run this test")
+    path = Path(folder).expanduser()
+    if not (path / "manifest.tsv").is_file():
+        pytest.skip(f"{_VARIABLE} is {folder!r}, but holds no manifest.tsv")
+    return path.resolve()
+
+
+@pytest.fixture(scope="session")
+def manifest(real_records: Path) -> list[dict[str, str]]:
+    """The rows of manifest.tsv as mappings of text."""
+    with (real_records / "manifest.tsv").open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream, delimiter="\t"))
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Say how many tests used real records, and how many were skipped for want of them."""
+
+    def marked(outcome: str) -> int:
+        reports = terminalreporter.stats.get(outcome, [])
+        return sum(1 for r in reports if "real_records" in getattr(r, "keywords", {}) and r.when in ("call", "setup"))
+
+    used, skipped = marked("passed") + marked("failed"), marked("skipped")
+    terminalreporter.write_line(f"real records: used by {used} tests, {skipped} skipped without them")
