@@ -21,7 +21,9 @@ def positive(error: type[RockingError], field: str, value: float, unit: str = ""
     return number
 
 
-def within(error: type[RockingError], field: str, value: float, low: float, high: float, unit: str = "") -> float:
+def within(
+    error: type[RockingError], field: str, value: float, low: float, high: float, unit: str = ""
+) -> float:
     """Return `value` as a float in [low, high], or raise `error` naming `field`."""
     number = finite(error, field, value, unit)
     if not low <= number <= high:

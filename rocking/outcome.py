@@ -18,7 +18,7 @@ class Outcome(StrEnum):
 
 
 _SENTENCES = {
-    Outcome.NO_UPLIFT: "The ground acceleration never reaches the uplift acceleration, so the structure does not rock.",
+    Outcome.NO_UPLIFT: "The ground acceleration never reaches the uplift acceleration.",
     Outcome.ROCKS: "The structure rocks and returns to rest.",
     Outcome.OVERTURNS: "The structure overturns.",
     Outcome.FAILED: "No result could be computed; the reason stands beside it.",

@@ -18,7 +18,15 @@ ACCELERATION_UNITS = {
 
 def acceleration_factor(unit: str) -> float:
     """Return the factor from `unit` to m/s². Raises RecordError when the unit is not known."""
-    name = str(unit).strip().lower().replace("²", "2").replace("^2", "2").replace("**2", "2").replace("/s/s", "/s2")
+    name = (
+        str(unit)
+        .strip()
+        .lower()
+        .replace("²", "2")
+        .replace("^2", "2")
+        .replace("**2", "2")
+        .replace("/s/s", "/s2")
+    )
     if name not in ACCELERATION_UNITS:
         raise RecordError(f"unit is {unit!r}, but must be one of {', '.join(ACCELERATION_UNITS)}.")
     return ACCELERATION_UNITS[name]

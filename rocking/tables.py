@@ -1,0 +1,123 @@
+"""The tables a user gets: each column once, with its type, unit and meaning; written whole or not at all."""
+
+import csv
+import io
+import json
+import math
+import os
+import tempfile
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+from rocking.errors import RockingError
+
+Row = Mapping[str, object]
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column: name (ending in its unit), Frictionless type, meaning, and the equation it comes from."""
+
+    name: str
+    type: str
+    description: str
+    equation: str = ""
+
+
+@dataclass(frozen=True)
+class Table:
+    """A CSV table: its file name without folder, what a row is, and its columns in order."""
+
+    name: str
+    description: str
+    columns: tuple[Column, ...]
+
+    @property
+    def file_name(self) -> str:
+        """Name of the CSV file."""
+        return f"{self.name}.csv"
+
+    @property
+    def column_names(self) -> tuple[str, ...]:
+        """Names of the columns, in order."""
+        return tuple(column.name for column in self.columns)
+
+
+def csv_text(table: Table, rows: Iterable[Row]) -> str:
+    """Return the CSV text of `rows`, every one of which must have exactly the table's columns.
+
+    Raises RockingError for a row with a missing or an unknown column.
+    """
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(table.column_names)
+    for row in rows:
+        if set(row) != set(table.column_names):
+            wrong = ", ".join(sorted(set(row) ^ set(table.column_names)))
+            raise RockingError(f"{table.file_name}: a row and the table differ in the columns {wrong}.")
+        writer.writerow([_cell(row[name]) for name in table.column_names])
+    return stream.getvalue()
+
+
+def read_rows(path: Path) -> list[dict[str, str]]:
+    """Return the rows of a CSV file as mappings of text, nothing converted."""
+    with Path(path).open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def write_table(table: Table, rows: Iterable[Row], path: Path) -> None:
+    """Write `rows` to `path` as the CSV that `table` describes, whole or not at all."""
+    write_whole(path, csv_text(table, rows).encode())
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write `content` to `path` through a temporary file beside it, so that it appears whole."""
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(content)
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def data_package(name: str, paths: Sequence[tuple[str, Table]]) -> bytes:
+    """Return a Frictionless datapackage.json that describes the tables at `paths` (path, table)."""
+    resources = [_resource(path, table) for path, table in paths]
+    return (
+        json.dumps({"profile": "tabular-data-package", "name": name, "resources": resources}, indent=1) + "\n"
+    ).encode()
+
+
+def _resource(path: str, table: Table) -> dict[str, object]:
+    fields = []
+    for column in table.columns:
+        field = {"name": column.name, "type": column.type, "description": column.description}
+        fields.append(field | ({"equation": column.equation} if column.equation else {}))
+    return {
+        "name": path.removesuffix(".csv").replace("/", "-").lower(),
+        "path": path,
+        "profile": "tabular-data-resource",
+        "description": table.description,
+        "schema": {"fields": fields, "missingValues": ["", "nan"]},
+    }
+
+
+def _cell(value: object) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, Enum):
+        return str(value.value)
+    if isinstance(value, float):
+        return "" if math.isnan(value) else repr(float(value)).replace("inf", "INF")
+    if isinstance(value, tuple | list):
+        return "; ".join(str(item) for item in value)
+    return str(value)
