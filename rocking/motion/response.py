@@ -13,13 +13,13 @@ class Response:
 
     rotation_ratio: largest φ/φ_cr over the sides; inf if it overturns, 0 without uplift, nan if it failed.
     outcome: an Outcome; reason: one sentence when it is FAILED, else "".
-    impacts: how many times φ = 0 was reached with rocking going on or ending. peak_time: s from the first sample,
-    time of the largest rotation (nan if overturned or never lifted). uplift_time: s of the first uplift (nan if none).
+    impacts: how many times φ = 0 was reached. uplift_time: s of the first uplift (nan if none).
+    peak_time: s from the first sample to the largest rotation (nan if overturned or never lifted).
     peak_side: +1 or −1, the side of the largest rotation or of the overturning; 0 without uplift.
-    sensitivity: d ln φ_max / d ln a, how many percent the largest rotation changes when the ground motion is scaled by
-    one percent (nan unless it rocks, or if it was not asked for).
+    sensitivity: d ln φ_max / d ln a, the percent by which the largest rotation changes when the ground
+    motion is scaled by one percent (nan unless it rocks, or if it was not asked for).
     fragile: whether scaling the ground motion by ± `fragility_change` flips the verdict; None if not asked for.
-    steps: integration steps taken. tolerance: the relative tolerance asked for; 0.0 for the exact linear response.
+    steps: integration steps taken. tolerance: the one asked for; 0.0 for the exact linear response.
     With history: times (k,) s, rotation (k,) rad signed, angular_velocity (k,) rad/s signed.
     """
 
