@@ -34,3 +34,7 @@ class CatalogueError(RockingError):
 
 class ConfigurationError(RockingError):
     """A setting or a structure list with defects; all of them stand in one message."""
+
+
+class StructureWarning(UserWarning):
+    """A structure that can be computed, but with a value that is not physical; the message says which."""

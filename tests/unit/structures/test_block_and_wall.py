@@ -1,0 +1,104 @@
+"""Block and wall against their closed forms."""
+
+import numpy as np
+import pytest
+
+from rocking.errors import StructureError, StructureWarning
+from rocking.structures.block import Block
+from rocking.structures.wall import Wall
+from rocking.units import GRAVITY
+
+WALLS = [(2.0, 2.0, 0.3), (1.0, 3.0, 0.3), (3.0, 1.0, 0.3), (0.7, 4.0, 0.3)]
+
+
+@pytest.mark.parametrize("slenderness", [0.05, 0.2, 0.5])
+def test_block_is_housners(slenderness):
+    mechanism = Block(2.0, slenderness).mechanism()
+    side = mechanism.positive
+    assert mechanism.uplift_multiplier == pytest.approx(np.tan(slenderness), rel=1e-15)
+    assert mechanism.critical_rotation == slenderness
+    assert side.frequency_parameter == pytest.approx(np.sqrt(3 * GRAVITY / 8), rel=1e-15)
+    assert side.acceleration_scale == pytest.approx(1.0, rel=1e-15)
+    assert mechanism.restitution == pytest.approx(1 - 1.5 * np.sin(slenderness) ** 2, rel=1e-14)
+
+
+def test_block_by_its_size_is_the_same_block():
+    block = Block.of_size(0.6, 2.4)
+    assert (block.breadth, block.height) == pytest.approx((0.6, 2.4), rel=1e-15)
+    assert np.tan(block.slenderness) == pytest.approx(0.25, rel=1e-15)
+
+
+@pytest.mark.parametrize("h1, h2, thickness", WALLS)
+def test_wall_has_the_closed_form_parameters(h1, h2, thickness):
+    mechanism = Wall(h1, h2, thickness, restitution=0.9).mechanism()
+    x, ratio = h2 / h1, np.hypot(h1, thickness) / np.hypot(h2, thickness)
+    sum_ = 1 + 2 * x + x * ratio
+    lower_diagonal = np.hypot(h1, thickness) / 2
+    assert mechanism.uplift_multiplier == pytest.approx(2 * thickness / h1, rel=1e-14)
+    assert mechanism.critical_rotation == pytest.approx(np.arctan(thickness / h1), rel=1e-15)
+    squared = 3 * GRAVITY / (4 * lower_diagonal) * sum_ / (1 + x)
+    assert mechanism.positive.frequency_parameter == pytest.approx(np.sqrt(squared), rel=1e-14)
+    assert mechanism.positive.acceleration_scale == pytest.approx((1 + x) / sum_, rel=1e-14)
+
+
+def test_mid_height_wall_is_equation_4_corrected():
+    thickness, height = 0.4, 1.8
+    side = Wall(height, height, thickness).mechanism().positive
+    diagonal, alpha = np.hypot(height, thickness) / 2, np.arctan(thickness / height)
+    rotation = np.linspace(0, 0.8 * side.end_rotation, 9)
+    scale = side.gravity(rotation) / np.sin(alpha - rotation)
+    angle = alpha - rotation
+    inertia = 2 * diagonal / 3 + 2 * diagonal * np.sin(angle) ** 2
+    np.testing.assert_allclose(scale, scale[0], rtol=1e-13)
+    np.testing.assert_allclose(side.inertia(rotation), scale * inertia, rtol=1e-13)
+    np.testing.assert_allclose(
+        side.inertia_slope(rotation) / 2, -scale * diagonal * np.sin(2 * angle), rtol=1e-11
+    )
+    np.testing.assert_allclose(side.ground(rotation), scale * 0.5 * np.cos(angle), rtol=1e-13)
+
+
+def test_mid_height_wall_momentum_balance():
+    alpha = np.arctan(0.4 / 1.8)
+    expected = (1 - 4.5 * np.sin(alpha) ** 2) / (1 + 3 * np.sin(alpha) ** 2)
+    assert Wall(1.8, 1.8, 0.4).mechanism().restitution == pytest.approx(expected, rel=1e-14)
+
+
+def test_wall_momentum_balance_never_goes_negative():
+    alpha = np.arcsin(np.sqrt(2 / 9)) + 1e-3
+    with pytest.warns(StructureWarning, match="not physical"):
+        assert Wall(1.0, 1.0, np.tan(alpha)).mechanism().restitution == 0.0
+
+
+@pytest.mark.parametrize("h1, h2, thickness", WALLS)
+def test_wall_slopes_are_the_derivatives(h1, h2, thickness):
+    side = Wall(h1, h2, thickness, restitution=0.9).mechanism().positive
+    rotation = np.linspace(0, 0.95 * side.end_rotation, 20)
+    step = 1e-30  # complex step: exact to rounding, shares nothing with the slopes
+    for name in ("inertia", "gravity"):
+        derivative = getattr(side, name)(rotation + 1j * step).imag / step
+        np.testing.assert_allclose(
+            getattr(side, f"{name}_slope")(rotation), derivative, rtol=1e-11, atol=1e-12
+        )
+
+
+def test_mechanism_is_made_once():
+    wall = Wall(2.0, 2.0, 0.3)
+    assert wall.mechanism() is wall.mechanism()
+
+
+@pytest.mark.parametrize(
+    "make, message",
+    [
+        (lambda: Block(0.0, 0.2), "semi_diagonal is 0.0 m"),
+        (lambda: Block(1.0, 1.6), "slenderness is 1.6 rad, but must lie between 0 and π/2"),
+        (lambda: Block(1.0, 0.2, restitution=1.1), "restitution is 1.1, but must lie between 0 and 1"),
+        (lambda: Block(1.0, 0.2, restitution="magic"), "restitution is 'magic'.*momentum, housner"),
+        (lambda: Block(1.0, 0.2, one_sided=True), "one-sided body needs its own number"),
+        (lambda: Wall(2.0, -1.0, 0.3), "upper_height is -1.0 m"),
+        (lambda: Wall(2.0, 1.0, float("nan")), "thickness is nan"),
+        (lambda: Wall.hinged_at(3.0, 3.5, 0.3), "hinge_height is 3.5 m, but must lie inside the wall.*3.0 m"),
+    ],
+)
+def test_bad_geometry_is_refused_in_one_sentence(make, message):
+    with pytest.raises(StructureError, match=message):
+        make()
