@@ -18,7 +18,7 @@ class Response:
     peak_side: +1 or −1, the side of the largest rotation or of the overturning; 0 without uplift.
     sensitivity: d ln φ_max / d ln a, the percent by which the largest rotation changes when the ground
     motion is scaled by one percent (nan unless it rocks, or if it was not asked for).
-    fragile: whether scaling the ground motion by ± `fragility_change` flips the verdict; None if not asked for.
+    fragile: whether ± `fragility_change` of the ground motion flips the verdict; None if not asked for.
     steps: integration steps taken. tolerance: the one asked for; 0.0 for the exact linear response.
     With history: times (k,) s, rotation (k,) rad signed, angular_velocity (k,) rad/s signed.
     """
