@@ -6,10 +6,12 @@ import json
 import math
 import os
 import tempfile
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
+from typing import BinaryIO
 
 from rocking.errors import RockingError
 
@@ -45,20 +47,23 @@ class Table:
         return tuple(column.name for column in self.columns)
 
 
-def csv_text(table: Table, rows: Iterable[Row]) -> str:
-    """Return the CSV text of `rows`, every one of which must have exactly the table's columns.
+def csv_lines(table: Table, rows: Iterable[Row]) -> Iterator[str]:
+    """Yield the CSV lines of `rows`, every one of which must have exactly the table's columns.
 
     Raises RockingError for a row with a missing or an unknown column.
     """
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(table.column_names)
+    yield _line(table.column_names)
+    names = set(table.column_names)
     for row in rows:
-        if set(row) != set(table.column_names):
-            wrong = ", ".join(sorted(set(row) ^ set(table.column_names)))
+        if set(row) != names:
+            wrong = ", ".join(sorted(set(row) ^ names))
             raise RockingError(f"{table.file_name}: a row and the table differ in the columns {wrong}.")
-        writer.writerow([_cell(row[name]) for name in table.column_names])
-    return stream.getvalue()
+        yield _line([_cell(row[name]) for name in table.column_names])
+
+
+def csv_cells(table: Table, row: Row) -> dict[str, str]:
+    """Return `row` as the text that a CSV file of `table` would hold."""
+    return {name: _cell(row[name]) for name in table.column_names}
 
 
 def read_rows(path: Path) -> list[dict[str, str]]:
@@ -68,18 +73,26 @@ def read_rows(path: Path) -> list[dict[str, str]]:
 
 
 def write_table(table: Table, rows: Iterable[Row], path: Path) -> None:
-    """Write `rows` to `path` as the CSV that `table` describes, whole or not at all."""
-    write_whole(path, csv_text(table, rows).encode())
+    """Write `rows` to `path` as the CSV that `table` describes, row by row, whole or not at all."""
+    with _whole(path) as stream:
+        for line in csv_lines(table, rows):
+            stream.write(line.encode())
 
 
 def write_whole(path: Path, content: bytes) -> None:
     """Write `content` to `path` through a temporary file beside it, so that it appears whole."""
+    with _whole(path) as stream:
+        stream.write(content)
+
+
+@contextmanager
+def _whole(path: Path) -> Iterator[BinaryIO]:
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     try:
         with os.fdopen(handle, "wb") as stream:
-            stream.write(content)
+            yield stream
         os.chmod(temporary, 0o644)
         os.replace(temporary, path)
     except BaseException:
@@ -107,6 +120,12 @@ def _resource(path: str, table: Table) -> dict[str, object]:
         "description": table.description,
         "schema": {"fields": fields, "missingValues": ["", "nan"]},
     }
+
+
+def _line(cells: Iterable[str]) -> str:
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerow(cells)
+    return stream.getvalue()
 
 
 def _cell(value: object) -> str:

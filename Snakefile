@@ -1,0 +1,20 @@
+"""Rocking of structures under recorded earthquakes: from a catalogue of accelerograms to reports and tables."""
+
+from snakemake.utils import min_version
+
+min_version("9.0")
+
+configfile: workflow.source_path("workflow/config.yaml")
+
+include: "workflow/rules/study.smk"
+
+
+rule all:
+    input:
+        TARGETS,
+    default_target: True
+
+
+include: "workflow/rules/assess.smk"
+include: "workflow/rules/summarise.smk"
+include: "workflow/rules/report.smk"

@@ -1,0 +1,110 @@
+"""The plan of a study before its first job: settings checked, catalogue and structures read, records shared out."""
+
+import hashlib
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import yaml
+from jsonschema import Draft7Validator
+
+from rocking.errors import ConfigurationError, RockingError
+from rocking.records.catalogue import CatalogueRecord, load_catalogue
+from rocking.structures.config import load_structures
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a study will do. records: by identifier, in the order of the catalogue. jobs: identifiers by job."""
+
+    settings: Mapping[str, object]
+    records: Mapping[str, CatalogueRecord]
+    jobs: Mapping[str, tuple[str, ...]]
+    settings_sha256: str
+    """Names the settings that change a number, the structure list and the package, in every row."""
+    package_sha256: str
+
+    def job(self, name: str) -> tuple[CatalogueRecord, ...]:
+        """The records of one job."""
+        return tuple(self.records[identifier] for identifier in self.jobs[name])
+
+    def local_files(self, name: str) -> list[str]:
+        """The files of one job that lie beside the catalogue, so that an edit of one is noticed."""
+        return sorted({str(record.local_file) for record in self.job(name) if record.local_file is not None})
+
+
+_DO_NOT_CHANGE_NUMBERS = {"catalogue", "structures", "results", "mirror", "reports", "records_per_job"}
+
+
+def make_plan(settings: Mapping[str, object], schema: Path) -> Plan:
+    """Check `settings`, the catalogue and the structures they name, and share out the records.
+
+    Raises ConfigurationError with every defect of the three in one message.
+    """
+    check_settings(settings, schema)
+    defects: list[str] = []
+    records = _collect(defects, lambda: load_catalogue(Path(settings["catalogue"])))
+    structures = Path(settings["structures"])
+    _collect(defects, lambda: load_structures(structures))
+    if defects:
+        raise ConfigurationError("\n".join(defects))
+    package = package_sha256(leave_out=("reports", "cli"))
+    numbers = {name: value for name, value in settings.items() if name not in _DO_NOT_CHANGE_NUMBERS}
+    return Plan(
+        settings=settings,
+        records={record.id: record for record in records},
+        jobs=share_out((record.id for record in records), settings["records_per_job"]),
+        settings_sha256=settings_sha256(numbers, structures.read_bytes(), package),
+        package_sha256=package,
+    )
+
+
+def check_settings(settings: Mapping[str, object], schema: Path) -> None:
+    """Check `settings` against the JSON Schema in the YAML file `schema`; all defects in one ConfigurationError."""
+    validator = Draft7Validator(yaml.safe_load(schema.read_text(encoding="utf-8")))
+    errors = sorted(validator.iter_errors(dict(settings)), key=lambda error: list(map(str, error.path)))
+    if errors:
+        lines = (f"setting {'.'.join(map(str, error.path)) or '(top)'}: {error.message}." for error in errors)
+        raise ConfigurationError("\n".join(lines))
+
+
+def settings_sha256(numbers: Mapping[str, object], structures: bytes, package: str) -> str:
+    """Return one hash for the settings that change a number, the structure list and the package."""
+    text = json.dumps(numbers, sort_keys=True)
+    return hashlib.sha256(b"\0".join((text.encode(), structures, package.encode()))).hexdigest()
+
+
+def package_sha256(leave_out: Sequence[str] = ()) -> str:
+    """Return one hash for the source of this package, without what lies below the names in `leave_out`."""
+    root = Path(__file__).parent
+    digest = hashlib.sha256()
+    for path in sorted(root.rglob("*")):
+        name = path.relative_to(root).as_posix()
+        if path.suffix in {".py", ".csv", ".typ", ".yaml"} and not name.startswith(tuple(leave_out)):
+            digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, tuple[str, ...]]:
+    """Share out records to jobs by a hash of their identifier, so that adding one record changes one job.
+
+    size: about how many records a job takes; None chooses the square root of their number, at most 32.
+    Returns the identifiers of each job that has any, in their order, by the name of the job.
+    """
+    identifiers = tuple(identifiers)
+    size = size or min(32, max(1, round(len(identifiers) ** 0.5)))
+    count = 1 << max(0, (-(-len(identifiers) // size) - 1).bit_length())
+    shared: dict[str, list[str]] = {}
+    for identifier in identifiers:
+        place = int.from_bytes(hashlib.sha256(identifier.encode()).digest()[:4], "big") % count
+        shared.setdefault(f"{place:05d}_of_{count:05d}", []).append(identifier)
+    return {name: tuple(shared[name]) for name in sorted(shared)}
+
+
+def _collect(defects: list[str], load):
+    try:
+        return load()
+    except RockingError as error:
+        defects.append(str(error))
+        return ()

@@ -1,0 +1,222 @@
+"""Rows of the result tables, made from what was computed. The columns stand in rocking.columns."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from rocking.comparison import Case, Failure, Method, Prediction, ratio, verdict
+from rocking.motion import Response
+from rocking.outcome import Outcome
+from rocking.pulses import PulseAnalysis, PulseEvidence
+from rocking.records import Accelerogram
+from rocking.records.processing import displacement, velocity
+from rocking.structures import Mechanism
+from rocking.tables import Row
+
+
+@dataclass(frozen=True)
+class Identity:
+    """Which record, component and settings a row belongs to."""
+
+    record: str
+    accelerogram: Accelerogram
+    settings_sha256: str
+
+    @property
+    def head(self) -> dict[str, object]:
+        """The first columns of every row."""
+        return {"record": self.record, "component": self.accelerogram.component}
+
+    @property
+    def provenance(self) -> dict[str, object]:
+        """The last columns of every row."""
+        return {
+            "scale_factor": self.accelerogram.scale_factor,
+            "record_sha256": self.accelerogram.source.sha256,
+            "settings_sha256": self.settings_sha256,
+        }
+
+
+def record_row(identity: Identity, licence: str) -> Row:
+    """The row of the record table for one component."""
+    accelerogram = identity.accelerogram
+    return (
+        identity.head
+        | {
+            "event": accelerogram.event,
+            "station": accelerogram.station,
+            "file": accelerogram.source.path,
+            "format": accelerogram.source.format,
+            "unit": accelerogram.source.unit,
+            "licence": licence,
+            "samples": accelerogram.acceleration.size,
+            "time_step_s": accelerogram.time_step,
+            "duration_s": accelerogram.duration,
+            "peak_acceleration_m_s2": accelerogram.peak_acceleration,
+            "peak_velocity_m_s": float(np.abs(velocity(accelerogram)).max()),
+            "peak_displacement_m": float(np.abs(displacement(accelerogram)).max()),
+            "high_pass_frequency_hz": accelerogram.high_pass_frequency,
+            "processing": accelerogram.processing,
+            "warnings": accelerogram.warnings,
+        }
+        | identity.provenance
+    )
+
+
+def pulse_rows(identity: Identity, analysis: PulseAnalysis | None) -> list[Row]:
+    """The rows of the pulses table: ranked alternatives, then the pursuit sequence."""
+    if analysis is None:
+        return []
+    kinds = {"alternative": analysis.alternatives, "sequence": analysis.sequence}
+    return [
+        _pulse_row(identity, kind, rank, evidence, analysis.gain)
+        for kind, pulses in kinds.items()
+        for rank, evidence in enumerate(pulses, start=1)
+    ]
+
+
+def _pulse_row(
+    identity: Identity, kind: str, rank: int, evidence: PulseEvidence, dominant_gain: float
+) -> Row:
+    pulse, interval = evidence.pulse, evidence.interval
+    return (
+        identity.head
+        | {
+            "kind": kind,
+            "rank": rank,
+            "amplitude_m_s2": pulse.amplitude,
+            "amplitude_low_m_s2": interval and interval.amplitude[0],
+            "amplitude_high_m_s2": interval and interval.amplitude[1],
+            "circular_frequency_rad_s": pulse.circular_frequency,
+            "period_s": pulse.period,
+            "period_low_s": interval and interval.period[0],
+            "period_high_s": interval and interval.period[1],
+            "start_time_s": pulse.start_time,
+            "gain_m2_s3": evidence.gain,
+            "gain_ratio": evidence.gain / dominant_gain,
+            "explained_energy": evidence.explained_energy,
+            "effective_length_m": evidence.effective_length,
+            "flags": evidence.flags,
+        }
+        | identity.provenance
+    )
+
+
+def prediction_rows(identity: Identity, case: Case, acceleration_scale: str) -> list[Row]:
+    """The rows of the predictions table: Eq. 15 as printed, and the exact closed form."""
+    if case.prediction is None:
+        return []
+    prediction, maximum = case.prediction, case.prediction.maximum
+    printed = _prediction_head(identity, case, prediction, Method.PRINTED, acceleration_scale) | {
+        "rotation_ratio": prediction.printed,
+        "rotation_rad": prediction.printed * prediction.block.critical_rotation,
+        "rotation_ratio_low": None,
+        "rotation_ratio_high": None,
+        "outcome": None,
+        "regime": None,
+        "impacts": None,
+    }
+    exact = _prediction_head(identity, case, prediction, Method.CLOSED_FORM, acceleration_scale) | {
+        "rotation_ratio": maximum.rotation_ratio,
+        "rotation_rad": rotation(case.mechanism, maximum.rotation_ratio, maximum.peak_side),
+        "rotation_ratio_low": prediction.low,
+        "rotation_ratio_high": prediction.high,
+        "outcome": maximum.outcome,
+        "regime": maximum.regime,
+        "impacts": maximum.impacts,
+    }
+    return [row | {"light": prediction.light} | identity.provenance for row in (printed, exact)]
+
+
+def _prediction_head(
+    identity: Identity, case: Case, prediction: Prediction, method: Method, acceleration_scale: str
+) -> dict[str, object]:
+    block = prediction.block
+    return identity.head | {
+        "structure": case.structure,
+        "method": method,
+        "acceleration_scale_choice": acceleration_scale,
+        "frequency_parameter_rad_s": block.frequency_parameter,
+        "critical_rotation_rad": block.critical_rotation,
+        "acceleration_scale": block.acceleration_scale,
+        "uplift_multiplier": block.uplift_multiplier,
+        "restitution": block.restitution,
+        "amplitude_ratio": prediction.amplitude_ratio,
+        "frequency_ratio": prediction.frequency_ratio,
+    }
+
+
+def response_rows(identity: Identity, case: Case) -> list[Row]:
+    """The rows of the responses table: one for each integration."""
+    return [_response_row(identity, case, method, response) for method, response in case.responses.items()]
+
+
+def _response_row(identity: Identity, case: Case, method: Method, response: Response) -> Row:
+    return (
+        identity.head
+        | {
+            "structure": case.structure,
+            "method": method,
+            "rotation_ratio": response.rotation_ratio,
+            "rotation_rad": rotation(case.mechanism, response.rotation_ratio, response.peak_side),
+            "outcome": response.outcome,
+            "impacts": response.impacts,
+            "peak_side": response.peak_side,
+            "peak_time_s": response.peak_time,
+            "uplift_time_s": response.uplift_time,
+            "sensitivity": response.sensitivity,
+            "fragile": response.fragile,
+            "tolerance": response.tolerance,
+            "steps": response.steps,
+            "reason": response.reason,
+        }
+        | identity.provenance
+    )
+
+
+def comparison_row(identity: Identity, case: Case) -> Row:
+    """The row of the comparison table: the closed form beside the integration of the whole record."""
+    reference = case.responses[Method.MECHANISM_ON_RECORD]
+    prediction = case.prediction
+    predicted = prediction.maximum.rotation_ratio if prediction else math.nan
+    error_ratio = ratio(predicted, reference.rotation_ratio)
+    on_pulse = case.responses.get(Method.MECHANISM_ON_PULSE)
+    return (
+        identity.head
+        | {
+            "structure": case.structure,
+            "printed_rotation_ratio": prediction and prediction.printed,
+            "predicted_rotation_ratio": predicted,
+            "pulse_rotation_ratio": on_pulse and on_pulse.rotation_ratio,
+            "block_rotation_ratio": case.responses[Method.BLOCK_ON_RECORD].rotation_ratio,
+            "integrated_rotation_ratio": reference.rotation_ratio,
+            "prediction_over_integration": error_ratio,
+            "within_factor_two": None if math.isnan(error_ratio) else 0.5 <= error_ratio <= 2,
+            "verdict": verdict(
+                prediction.maximum.outcome if prediction else Outcome.FAILED, reference.outcome
+            ),
+            "regime": prediction and prediction.maximum.regime,
+            "light": prediction and prediction.light,
+            "sensitivity": reference.sensitivity,
+            "fragile": reference.fragile,
+        }
+        | identity.provenance
+    )
+
+
+def failure_row(record: str, component: str, failure: Failure) -> Row:
+    """The row of the failures table."""
+    return {
+        "record": record,
+        "component": component,
+        "structure": failure.structure,
+        "stage": failure.stage,
+        "message": failure.message,
+    }
+
+
+def rotation(mechanism: Mechanism, rotation_ratio: float, side: int) -> float:
+    """Return the rotation in rad that `rotation_ratio` means on `side` (+1 or −1) of `mechanism`."""
+    negative = side < 0 and mechanism.negative is not None
+    return rotation_ratio * (mechanism.negative if negative else mechanism.positive).critical_rotation

@@ -1,0 +1,104 @@
+"""A study: many records against one list of structures, each record in its own folder of tables."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from time import process_time
+
+from rocking import columns, rows
+from rocking.comparison import AssessmentSettings, Failure, Structure, assess
+from rocking.errors import RockingError
+from rocking.pulses import PulseSettings
+from rocking.records import Accelerogram
+from rocking.records.catalogue import CatalogueRecord, open_record
+from rocking.structures.config import load_structures
+from rocking.tables import Row, Table, write_table
+
+
+@dataclass(frozen=True)
+class Study:
+    """What every record of a study is put through.
+
+    structures: by name. mirror: a folder that holds the files of remote records, or None.
+    settings_sha256: names the settings, the structure list and the package in every row.
+    """
+
+    structures: Mapping[str, Structure]
+    settings: AssessmentSettings
+    settings_sha256: str
+    mirror: Path | None = None
+
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, object], structures: Path, sha256: str) -> "Study":
+        """Return the study that checked `settings` and the structure list in `structures` describe."""
+        pulse = settings["pulse"]
+        assessment = AssessmentSettings(
+            acceleration_scale=settings["acceleration_scale"],
+            tolerance=settings["tolerance"],
+            fragility_change=settings["fragility_change"],
+            pulse=PulseSettings(
+                lowest_frequency=pulse["lowest_frequency_hz"],
+                highest_frequency=pulse["highest_frequency_hz"],
+                per_octave=pulse["frequencies_per_octave"],
+            ),
+        )
+        mirror = settings["mirror"]
+        return cls(load_structures(structures), assessment, sha256, Path(mirror) if mirror else None)
+
+
+def assess_records(records: Iterable[CatalogueRecord], study: Study, results: Path, log: Path) -> None:
+    """Write the tables of each record into its folder below `results`, and a line for each into `log`."""
+    with log.open("w", encoding="utf-8") as stream:
+        for record in records:
+            failures = assess_record(record, study, results / record.id)
+            print(f"{record.id}: {'; '.join(failures) or 'assessed'}", file=stream, flush=True)
+
+
+def assess_record(record: CatalogueRecord, study: Study, folder: Path) -> list[str]:
+    """Write the tables of `record` into `folder`; what fails becomes a row of its failures table.
+
+    Returns the sentences of what failed.
+    """
+    started = process_time()
+    tables: dict[str, list[Row]] = {table.name: [] for table in _PER_RECORD}
+    try:
+        accelerograms = open_record(record, mirror=study.mirror)
+    except RockingError as error:
+        tables["failures"] = [rows.failure_row(record.id, "", Failure("read", "", str(error)))]
+        accelerograms = []
+    durations = {"read": process_time() - started}
+    for accelerogram in accelerograms:
+        _assess_component(record, accelerogram, study, tables, durations)
+    tables["timings"] = [
+        {"record": record.id, "stage": stage, "duration_s": duration} for stage, duration in durations.items()
+    ]
+    for table in _PER_RECORD:
+        write_table(table, tables[table.name], folder / table.file_name)
+    return [str(row["message"]) for row in tables["failures"]]
+
+
+def _assess_component(
+    record: CatalogueRecord,
+    accelerogram: Accelerogram,
+    study: Study,
+    tables: dict[str, list[Row]],
+    durations: dict[str, float],
+) -> None:
+    assessment = assess(accelerogram, study.structures, study.settings)
+    identity = rows.Identity(record.id, accelerogram, study.settings_sha256)
+    tables["record"].append(rows.record_row(identity, record.licence))
+    tables["pulses"].extend(rows.pulse_rows(identity, assessment.analysis))
+    for case in assessment.cases:
+        tables["predictions"].extend(rows.prediction_rows(identity, case, study.settings.acceleration_scale))
+        tables["responses"].extend(rows.response_rows(identity, case))
+        tables["comparison"].append(rows.comparison_row(identity, case))
+    tables["failures"].extend(
+        rows.failure_row(record.id, accelerogram.component, failure) for failure in assessment.failures
+    )
+    for stage, duration in assessment.durations.items():
+        durations[stage] = durations.get(stage, 0.0) + duration
+
+
+_PER_RECORD: tuple[Table, ...] = (*columns.RECORD_TABLES, columns.FAILURES, columns.TIMINGS)
+PER_RECORD_FILES = tuple(table.file_name for table in _PER_RECORD)
+"""The files that assess_record writes."""

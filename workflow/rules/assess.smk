@@ -1,0 +1,23 @@
+"""Read each record, extract its pulse, predict and integrate every structure, and compare."""
+
+for JOB, RECORDS in PLAN.jobs.items():
+
+    rule:
+        name:
+            f"assess_{JOB}"
+        input:
+            structures=config["structures"],
+            files=PLAN.local_files(JOB),
+        output:
+            record_files(RECORDS, *CSV),
+        log:
+            f"{RESULTS}/logs/assess_{JOB}.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/assess_{JOB}.tsv"
+        params:
+            records=[record.row for record in PLAN.job(JOB)],
+            settings_sha256=PLAN.settings_sha256,
+        message:
+            f"Assess {len(RECORDS)} records (job {JOB})"
+        script:
+            "../scripts/assess.py"

@@ -1,0 +1,42 @@
+"""Set the PDF of each record, and the one of the whole study."""
+
+for JOB, RECORDS in PLAN.jobs.items():
+
+    rule:
+        name:
+            f"report_{JOB}"
+        input:
+            tables=record_files(RECORDS, *CSV),
+            structures=config["structures"],
+        output:
+            record_files(RECORDS, "report.pdf"),
+        log:
+            f"{RESULTS}/logs/report_{JOB}.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/report_{JOB}.tsv"
+        params:
+            records=[record.row for record in PLAN.job(JOB)],
+            settings_sha256=PLAN.settings_sha256,
+            package_sha256=package_sha256(),
+        message:
+            f"Report {len(RECORDS)} records (job {JOB})"
+        script:
+            "../scripts/report.py"
+
+
+rule report_summary:
+    input:
+        [f"{SUMMARY}/{table}.csv" for table in SUMMARIES],
+    output:
+        f"{SUMMARY}/summary.pdf",
+    log:
+        f"{RESULTS}/logs/report_summary.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/report_summary.tsv"
+    params:
+        settings=config,
+        package_sha256=package_sha256(),
+    message:
+        "Report on all records"
+    script:
+        "../scripts/report_summary.py"

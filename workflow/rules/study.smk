@@ -1,0 +1,22 @@
+"""What is studied: settings, records and structures, checked before the first job starts."""
+
+from pathlib import Path
+
+from rocking.plan import make_plan, package_sha256
+
+PLAN = make_plan(config, Path(workflow.source_path("../schemas/config.schema.yaml")))
+RESULTS = config["results"]
+SUMMARY = f"{RESULTS}/summary"
+TABLES = ["record", "pulses", "predictions", "responses", "comparison", "failures", "timings"]
+SUMMARIES = ["record", "pulses", "comparison", "maxima", "structures", "failures", "timings"]
+
+
+def record_files(records, *names):
+    return [f"{RESULTS}/{record}/{name}" for record in records for name in names]
+
+
+CSV = [f"{table}.csv" for table in TABLES]
+TARGETS = [f"{SUMMARY}/{table}.csv" for table in SUMMARIES]
+TARGETS += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json"]
+if config["reports"]:
+    TARGETS += record_files(PLAN.records, "report.pdf") + [f"{SUMMARY}/summary.pdf"]

@@ -1,0 +1,24 @@
+"""Gather the tables of all records and describe where they came from."""
+
+
+rule summarise:
+    input:
+        tables=record_files(PLAN.records, *CSV),
+        structures=config["structures"],
+    output:
+        [f"{SUMMARY}/{table}.csv" for table in SUMMARIES],
+        f"{SUMMARY}/provenance.json",
+        f"{SUMMARY}/datapackage.json",
+    log:
+        f"{RESULTS}/logs/summarise.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/summarise.tsv"
+    params:
+        records={record.id: record.sha256 for record in PLAN.records.values()},
+        settings=config,
+        settings_sha256=PLAN.settings_sha256,
+        package_sha256=PLAN.package_sha256,
+    message:
+        "Summarise all records"
+    script:
+        "../scripts/summarise.py"

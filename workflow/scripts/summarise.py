@@ -1,0 +1,16 @@
+"""Gather the tables of all records: snakemake.* onto rocking.summary."""
+
+from pathlib import Path
+
+from rocking.structures.config import load_structures
+
+from rocking.summary import write_description, write_provenance, write_summary
+
+if __name__ == "__main__":
+    params, config = snakemake.params, snakemake.config  # noqa: F821
+    results = Path(config["results"])
+    folders = [results / record for record in params.records]
+    write_summary(folders, load_structures(Path(snakemake.input.structures)), results / "summary")  # noqa: F821
+    write_description(folders, results / "summary")
+    hashes = {"settings": params.settings_sha256, "package": params.package_sha256}
+    write_provenance(params.settings, params.records, hashes, results / "summary")
