@@ -104,7 +104,7 @@ def assess(
     settings: AssessmentSettings | None = None,
     vertical: Accelerogram | None = None,
 ) -> Assessment:
-    """Predict and integrate every structure under `accelerogram`; a structure that fails costs no other its result."""
+    """Predict and integrate every structure under `accelerogram`; one that fails costs no other."""
     settings = settings or AssessmentSettings()
     started = process_time()
     failures: list[Failure] = []
@@ -125,7 +125,7 @@ def assess(
 
 
 def predict(block: EquivalentBlock, analysis: PulseAnalysis, pulse: Pulse | None = None) -> Prediction:
-    """Return the closed forms of `block` under `pulse` (default: the dominant one) with the band of its interval."""
+    """Return the closed forms of `block` under `pulse` (default: the dominant) with its band."""
     pulse = pulse or analysis.dominant
     amplitude_ratio = abs(pulse.amplitude) / (GRAVITY * _uplift_multiplier(block, pulse))
     ratios = [predict_maximum(block, other).rotation_ratio for other in analysis.interval_pulses()]
@@ -143,7 +143,7 @@ def predict(block: EquivalentBlock, analysis: PulseAnalysis, pulse: Pulse | None
 
 
 def verdict(predicted: Outcome, integrated: Outcome) -> str:
-    """Say whether a prediction errs: "agree", "unsafe" (it says less than happens) or "safe" (it says more)."""
+    """Say whether a prediction errs: agree, unsafe (it says less than happens) or safe (it says more)."""
     order = [Outcome.NO_UPLIFT, Outcome.ROCKS, Outcome.OVERTURNS]
     if predicted not in order or integrated not in order:
         return "unknown"

@@ -1,4 +1,4 @@
-"""The plan of a study before its first job: settings checked, catalogue and structures read, records shared out."""
+"""The plan of a study before its first job: settings checked, inputs read, jobs shared out."""
 
 import hashlib
 import json
@@ -16,7 +16,7 @@ from rocking.structures.config import load_structures
 
 @dataclass(frozen=True)
 class Plan:
-    """What a study will do. records: by identifier, in the order of the catalogue. jobs: identifiers by job."""
+    """What a study will do. records: by identifier, in catalogue order. jobs: identifiers by job."""
 
     settings: Mapping[str, object]
     records: Mapping[str, CatalogueRecord]
@@ -61,7 +61,7 @@ def make_plan(settings: Mapping[str, object], schema: Path) -> Plan:
 
 
 def check_settings(settings: Mapping[str, object], schema: Path) -> None:
-    """Check `settings` against the JSON Schema in the YAML file `schema`; all defects in one ConfigurationError."""
+    """Check `settings` against the JSON Schema in a YAML file; all defects in one ConfigurationError."""
     validator = Draft7Validator(yaml.safe_load(schema.read_text(encoding="utf-8")))
     errors = sorted(validator.iter_errors(dict(settings)), key=lambda error: list(map(str, error.path)))
     if errors:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rocking.comparison import Case, Failure, Method, Prediction, ratio, verdict
+from rocking.comparison import Assessment, Case, Failure, Method, Prediction, ratio, verdict
 from rocking.motion import Response
 from rocking.outcome import Outcome
 from rocking.pulses import PulseAnalysis, PulseEvidence
@@ -36,6 +36,24 @@ class Identity:
             "record_sha256": self.accelerogram.source.sha256,
             "settings_sha256": self.settings_sha256,
         }
+
+
+def all_rows(
+    record: str, assessment: Assessment, acceleration_scale: str, licence: str, settings_sha256: str
+) -> dict[str, list[Row]]:
+    """The rows of every table of one record that one component gives, by name of the table."""
+    identity = Identity(record, assessment.accelerogram, settings_sha256)
+    cases = assessment.cases
+    return {
+        "record": [record_row(identity, licence)],
+        "pulses": pulse_rows(identity, assessment.analysis),
+        "predictions": [row for case in cases for row in prediction_rows(identity, case, acceleration_scale)],
+        "responses": [row for case in cases for row in response_rows(identity, case)],
+        "comparison": [comparison_row(identity, case) for case in cases],
+        "failures": [
+            failure_row(record, assessment.accelerogram.component, failure) for failure in assessment.failures
+        ],
+    }
 
 
 def record_row(identity: Identity, licence: str) -> Row:

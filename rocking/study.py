@@ -85,16 +85,10 @@ def _assess_component(
     durations: dict[str, float],
 ) -> None:
     assessment = assess(accelerogram, study.structures, study.settings)
-    identity = rows.Identity(record.id, accelerogram, study.settings_sha256)
-    tables["record"].append(rows.record_row(identity, record.licence))
-    tables["pulses"].extend(rows.pulse_rows(identity, assessment.analysis))
-    for case in assessment.cases:
-        tables["predictions"].extend(rows.prediction_rows(identity, case, study.settings.acceleration_scale))
-        tables["responses"].extend(rows.response_rows(identity, case))
-        tables["comparison"].append(rows.comparison_row(identity, case))
-    tables["failures"].extend(
-        rows.failure_row(record.id, accelerogram.component, failure) for failure in assessment.failures
-    )
+    scale = study.settings.acceleration_scale
+    made = rows.all_rows(record.id, assessment, scale, record.licence, study.settings_sha256)
+    for name, new in made.items():
+        tables[name].extend(new)
     for stage, duration in assessment.durations.items():
         durations[stage] = durations.get(stage, 0.0) + duration
 

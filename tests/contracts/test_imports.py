@@ -1,0 +1,84 @@
+"""Imports run one way, floor by floor, and heavy libraries stay where they belong."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+import rocking
+
+PACKAGE = Path(rocking.__file__).parent
+FLOORS = [
+    {"errors", "checks", "units", "outcome"},
+    {"records", "structures", "pulses"},
+    {"sine_pulse", "motion"},
+    {"spectrum", "pulse_spectrum", "comparison", "tables", "columns"},
+    {"rows", "plan"},
+    {"summary"},
+    {"study", "reports"},
+    {"reporting", "own_study"},
+    {"cli"},
+]
+SAME_FLOOR = {
+    ("checks", "errors"),
+    ("units", "errors"),
+    ("pulses", "records"),
+    ("columns", "tables"),
+    ("reporting", "study"),
+}
+ONLY_IN = {
+    "obspy": ("records/",),
+    "numba": ("motion/kernel.py", "pulses/scan.py"),
+    "matplotlib": ("reports/",),
+    "typst": ("reports/",),
+    "snakemake": (),
+}
+
+
+def _modules() -> list[Path]:
+    return sorted(
+        path for path in PACKAGE.rglob("*.py") if path.name != "__init__.py" or path.parent != PACKAGE
+    )
+
+
+def _imports(path: Path) -> set[str]:
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+            names |= {f"{node.module}.{alias.name}" for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.level:
+            raise AssertionError(f"{path}: relative import")
+    return names
+
+
+def _part(path: Path) -> str:
+    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
+
+
+def _floor(part: str) -> int:
+    return next(level for level, parts in enumerate(FLOORS) if part in parts)
+
+
+def test_every_module_has_a_floor():
+    assert {_part(path) for path in _modules()} <= set().union(*FLOORS)
+
+
+@pytest.mark.parametrize("path", _modules(), ids=lambda path: path.relative_to(PACKAGE).as_posix())
+def test_imports_run_downwards(path):
+    part = _part(path)
+    for name in _imports(path):
+        if not name.startswith("rocking."):
+            continue
+        other = name.split(".")[1]
+        allowed = other == part or _floor(other) < _floor(part) or (part, other) in SAME_FLOOR
+        assert allowed, f"{part} imports {other}"
+
+
+@pytest.mark.parametrize("path", _modules(), ids=lambda path: path.relative_to(PACKAGE).as_posix())
+def test_heavy_libraries_stay_in_their_place(path):
+    place = path.relative_to(PACKAGE).as_posix()
+    for name in _imports(path):
+        homes = ONLY_IN.get(name.split(".")[0])
+        assert homes is None or place.startswith(homes), f"{place} imports {name}"
