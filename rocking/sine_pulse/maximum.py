@@ -1,0 +1,258 @@
+"""The exact largest rotation of an equivalent block under one full sine pulse, in every regime.
+
+The block is followed flight by flight: closed form between impacts, one scalar root per impact. After the pulse the
+energy (x − 1)² − x'² is conserved in each flight, so what is left is algebra. Nothing is assumed monotone, and a
+rotation beyond φ_cr during the pulse is not overturning: the pulse may bring the block back.
+"""
+
+import math
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from rocking.outcome import Outcome
+from rocking.pulses.pulse import Pulse
+from rocking.sine_pulse.flight import LONGEST_TIME, Flight, Landing
+from rocking.sine_pulse.ratios import Ratios, first_and_second
+from rocking.structures.mechanism import EquivalentBlock
+
+_PULSE_END = 2 * math.pi
+
+REST_ENERGY = 1e-24
+"""An impact that leaves less than this share of the energy needed to overturn leaves the block at rest."""
+
+MOST_IMPACTS = 10_000
+"""Impacts followed during the pulse before the prediction gives up; only a restitution within 1e-3 of 1 gets here."""
+
+
+class Regime(StrEnum):
+    """How the block reaches its largest rotation."""
+
+    NO_UPLIFT = "no uplift"
+    PRINTED_EXACT = "Eq. 15 exact"
+    AFTER_FIRST_IMPACT = "maximum after the first impact"
+    CONTACT_DURING_PULSE = "contact during the pulse"
+    BEFORE_FIRST_IMPACT = "maximum before the first impact"
+    OVERTURNS_WITHOUT_IMPACT = "overturns without impact"
+    OVERTURNS_AFTER_IMPACTS = "overturns after impacts"
+    UNRESOLVED = "unresolved"
+
+    @property
+    def sentence(self) -> str:
+        """One sentence for the reader."""
+        return _SENTENCES[self]
+
+
+_SENTENCES = {
+    Regime.NO_UPLIFT: "The pulse never reaches the uplift acceleration, so the structure does not rock.",
+    Regime.PRINTED_EXACT: "The structure stays off the ground until the pulse ends and is largest after its first "
+    "impact, which is the one course of events for which Eq. 15 is exact.",
+    Regime.AFTER_FIRST_IMPACT: "The structure stays off the ground until the pulse ends and is largest after an "
+    "impact; Eq. 15 does not hold, because the two sides differ or the pulse's first half lifts nothing.",
+    Regime.CONTACT_DURING_PULSE: "The structure touches the ground before the pulse ends, so Eq. 15 does not hold.",
+    Regime.BEFORE_FIRST_IMPACT: "The largest rotation comes before the first impact, so Eq. 15 does not hold.",
+    Regime.OVERTURNS_WITHOUT_IMPACT: "The structure overturns on the side it first rocks to, without any impact.",
+    Regime.OVERTURNS_AFTER_IMPACTS: "The structure overturns after one or more impacts.",
+    Regime.UNRESOLVED: f"More than {MOST_IMPACTS} impacts follow each other during the pulse without dying out, "
+    "because the restitution is so close to 1; a restitution of at most 0.999 can be followed.",
+}
+
+
+@dataclass(frozen=True)
+class Maximum:
+    """Largest rotation of an equivalent block under a pulse.
+
+    rotation_ratio: largest φ/φ_cr over both sides, each with its own φ_cr; inf if it overturns, 0 without uplift, nan
+    if unresolved. outcome: an Outcome, FAILED only where the regime is unresolved.
+    impacts: how many impacts come before the largest rotation, or before it overturns.
+    peak_side: +1 or −1, the side of the largest rotation or of the overturning; 0 without uplift.
+    overturning_margin: smallest 1 − x − x' (x = φ/φ_cr, time p t) at the start of a flight after the pulse; 1 when it
+    rests by then, negative when it overturns, −inf when it does so beyond recall during the pulse. 0 is the border.
+    """
+
+    rotation_ratio: float
+    outcome: Outcome
+    regime: Regime
+    impacts: int = 0
+    peak_side: int = 0
+    overturning_margin: float = 1.0
+
+
+def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
+    """Return the exact largest rotation of `equivalent_block` under `pulse`, with the regime that it belongs to.
+
+    Exact to rounding in every regime, times the sensitivity of the motion itself, which grows without bound at the
+    borders of overturning and where a contact just grazes. A chain of ever smaller impacts during the pulse is at
+    rest once it is proved to die out before the ground can lift the block again (see `_settles`), or once its energy
+    is below REST_ENERGY.
+    """
+    first, second = first_and_second(equivalent_block, pulse)
+    course = _Course((first, second))
+    course.follow()
+    return course.maximum(1 if pulse.amplitude < 0 else -1, equivalent_block.symmetric)
+
+
+@dataclass
+class _Course:
+    """The course of events: sides[0] is lifted by the pulse's first half, sides[1] by its second."""
+
+    sides: tuple[Ratios | None, Ratios | None]
+    impacts: int = 0
+    contacts_in_pulse: int = 0
+    peak: float = 0.0
+    peak_impacts: int = 0
+    peak_side: int | None = None
+    margin: float = 1.0
+    unresolved: bool = False
+    overturned: bool = field(default=False)
+
+    def follow(self) -> None:
+        """Follow the block from rest at the pulse's start to its last relevant flight."""
+        start = self._next_uplift(0.0)
+        while start is not None:
+            rest = self._rock(*start)
+            start = None if rest is None else self._next_uplift(rest)
+
+    def maximum(self, first_side: int, symmetric: bool) -> Maximum:
+        """Return what was found; `first_side` is the sign of sides[0]."""
+        if self.unresolved:
+            return Maximum(math.nan, Outcome.FAILED, Regime.UNRESOLVED, self.impacts, 0, math.nan)
+        if self.peak_side is None:
+            return Maximum(0.0, Outcome.NO_UPLIFT, Regime.NO_UPLIFT)
+        side = first_side if self.peak_side == 0 else -first_side
+        outcome = Outcome.OVERTURNS if self.overturned else Outcome.ROCKS
+        return Maximum(self.peak, outcome, self._regime(symmetric), self.peak_impacts, side, self.margin)
+
+    def _regime(self, symmetric: bool) -> Regime:
+        if self.overturned:
+            return Regime.OVERTURNS_AFTER_IMPACTS if self.peak_impacts else Regime.OVERTURNS_WITHOUT_IMPACT
+        if self.contacts_in_pulse:
+            return Regime.CONTACT_DURING_PULSE
+        if not self.peak_impacts:
+            return Regime.BEFORE_FIRST_IMPACT
+        return Regime.PRINTED_EXACT if symmetric else Regime.AFTER_FIRST_IMPACT
+
+    def _next_uplift(self, phase: float) -> tuple[float, int] | None:
+        """Return the phase, at or after `phase`, and the index of the side at which a resting block is lifted."""
+        starts = []
+        for index, side in enumerate(self.sides):
+            if side is None or side.amplitude_ratio <= 1:
+                continue
+            start, end = index * math.pi + side.uplift_phase, (index + 1) * math.pi - side.uplift_phase
+            if phase < end:
+                starts.append((max(phase, start), index))
+        return min(starts, default=None)
+
+    def _rock(self, phase: float, index: int) -> float | None:
+        """Follow the block from rest until it rests again; return that phase, or None when nothing more can come."""
+        velocity = 0.0
+        while True:
+            flight = self._flight(phase, index, velocity)
+            landing = self._land(flight)
+            self._record(landing.peak, index)
+            if not landing.contact:
+                self._after_pulse(index, landing)
+                return None
+            phase += flight.omega * landing.time
+            self.impacts += 1
+            self.contacts_in_pulse += 1
+            index, velocity = self._impact(index, -landing.velocity)
+            if velocity * velocity <= REST_ENERGY:
+                return phase
+            rest = self._settles(phase, index, velocity)
+            if rest is not None:
+                return rest
+            if self.impacts >= MOST_IMPACTS:
+                self.unresolved = True
+                return None
+
+    def _flight(self, phase: float, index: int, velocity: float) -> Flight:
+        side = self._side(index)
+        amplitude = side.amplitude_ratio * (1 - 2 * index)
+        if velocity == 0 and phase == index * math.pi + side.uplift_phase:
+            excess, slope = 0.0, side.uplift_slope
+        else:
+            excess, slope = amplitude * math.sin(phase) - 1, amplitude * math.cos(phase)
+        return Flight(side.frequency_ratio, amplitude, phase, velocity, excess, slope)
+
+    def _land(self, flight: Flight) -> Landing:
+        remaining = max(0.0, (_PULSE_END - flight.phase) / flight.omega)
+        duration = min(remaining, LONGEST_TIME)
+        landing = flight.hop(duration, self.peak) or flight.land(duration)
+        if landing.contact or duration == remaining:
+            return landing
+        return landing._replace(velocity=math.inf)
+
+    def _impact(self, index: int, speed: float) -> tuple[int, float]:
+        """Return the side and the velocity after landing on side `index` with `speed`."""
+        old = self._side(index)
+        other = self.sides[1 - index]
+        new, following = (old, index) if other is None else (other, 1 - index)
+        return following, old.restitution * speed * old.velocity_scale / new.velocity_scale
+
+    def _record(self, peak: float, index: int) -> None:
+        if self.peak_side is None or peak > self.peak:
+            self.peak, self.peak_impacts, self.peak_side = peak, self.impacts, index
+
+    def _after_pulse(self, index: int, end: Landing) -> None:
+        """Follow the free motion from the pulse's end: x − 1 + x' > 0 overturns, else (x − 1)² − x'² is conserved."""
+        x, velocity = end.position, end.velocity
+        if self._falls(x + velocity, index):
+            return
+        energy = x * (2 - x) + velocity * velocity
+        if velocity > 0:
+            self._record(_free_peak(energy), index)
+        for _ in range(2):
+            self.impacts += 1
+            index, velocity = self._impact(index, math.sqrt(max(energy, 0.0)))
+            if self._falls(velocity, index):
+                return
+            energy = velocity * velocity
+            self._record(_free_peak(energy), index)
+
+    def _falls(self, unstable: float, index: int) -> bool:
+        """Record whether the block overturns on side `index`, given x + x' in free motion."""
+        self.margin = min(self.margin, 1 - unstable)
+        if unstable > 1:
+            self._record(math.inf, index)
+            self.overturned = True
+        return self.overturned
+
+    def _settles(self, phase: float, index: int, velocity: float) -> float | None:
+        """Return a phase by which the chain of impacts is proved to be over, or None if that is not proved.
+
+        Halfway to the next uplift, d bounds 1 − f on both sides from below. A flight launched with v² ≤ d²/2 has
+        x'' ≤ −d/2: it lasts 4v/d at most, rises v²/d at most, and lands with at most v √(1 + 8aωv/d²), so two flights
+        multiply the velocity by ρ² = η₁η₂ (1 + 8aωv/d²) at most. If ρ² < 1 the times of all flights sum to
+        8v/(d (1 − ρ²)). The chain is over if that ends in time and v²/d does not exceed the peak on record.
+        """
+        sides = [side for side in self.sides if side is not None]
+        following = self._next_uplift(phase)
+        end = _PULSE_END if following is None else phase + (following[0] - phase) / 2
+        least = min(1 - _largest_force(side.amplitude_ratio, phase, end) for side in sides)
+        scale = self._side(index).velocity_scale
+        v = velocity * max(scale / side.velocity_scale for side in sides)
+        if least <= 0 or v * v > least * least / 2 or v * v / least > self.peak:
+            return None
+        omega = max(side.frequency_ratio for side in sides)
+        steepest = max(side.amplitude_ratio * side.frequency_ratio for side in sides)
+        shrink = sides[0].restitution * sides[-1].restitution * (1 + 8 * steepest * v / least**2)
+        over = shrink < 1 and phase + 8 * omega * v / (least * (1 - shrink)) <= end
+        return end if over else None
+
+    def _side(self, index: int) -> Ratios:
+        side = self.sides[index]
+        assert side is not None
+        return side
+
+
+def _free_peak(energy: float) -> float:
+    """1 − √(1 − (1 − D)) for 1 − D = `energy` ≤ 1, without cancellation."""
+    return energy / (1 + math.sqrt(max(1 - energy, 0.0)))
+
+
+def _largest_force(amplitude_ratio: float, start: float, end: float) -> float:
+    """Return the largest a |sin θ| for θ in [start, end], rad."""
+    for crest in (math.pi / 2, 3 * math.pi / 2):
+        if start < crest < end:
+            return amplitude_ratio
+    return amplitude_ratio * max(abs(math.sin(start)), abs(math.sin(end)))

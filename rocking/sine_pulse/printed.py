@@ -1,0 +1,91 @@
+"""Eqs. 15 and 16 as the paper prints them, evaluated so that they keep their digits."""
+
+import math
+
+from rocking.checks import finite, positive
+from rocking.errors import PulseError
+from rocking.pulses.pulse import Pulse
+from rocking.sine_pulse.ratios import Ratios, first_and_second
+from rocking.structures.mechanism import EquivalentBlock
+
+_LARGEST_EXPONENT = 709.0
+"""exp of more than this leaves the range of doubles."""
+
+
+def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
+    """Return φ_max/φ_cr by Eq. 15 exactly as the paper prints it: 1 − √(1 − η² (1 − D₀)).
+
+    nan where the radicand is negative, which the paper reads as overturning; 0.0 where the pulse lifts nothing
+    (a ≤ 1), where Eq. 16 is not defined. It may be negative, and it is wrong outside the regime
+    `Regime.PRINTED_EXACT`; `predict_maximum` is not. For a block with two different sides it takes
+    the side that the pulse lifts first, as if the other were the same.
+    """
+    first, second = first_and_second(equivalent_block, pulse)
+    side = first or second
+    if side is None or side.amplitude_ratio <= 1:
+        return 0.0
+    eta = side.restitution
+    drop = 0.0 if eta == 0 else eta**2 * pulse_end_energy(side.frequency_ratio, side.amplitude_ratio)
+    if drop > 1:
+        return math.nan
+    root = math.sqrt(1 - drop)
+    return drop / (1 + root) if drop > -1 else 1 - root
+
+
+def pulse_end_measure(frequency_ratio: float, amplitude_ratio: float) -> float:
+    """Return D₀ = (x − 1)² − x'² at the end of the pulse, for x = φ/φ_cr and time p t (Eq. 16).
+
+    frequency_ratio: ω = ω_g/p > 0. amplitude_ratio: a = a_g/(gλ) > 1. Both as in `pulse_end_energy`, whose complement
+    this is. ± inf where the value leaves the range of doubles (ω < 0.009).
+    The relative error stays below 1e-11 for ω from 1e-3 to 1e6 and a from 1 + 1e-12 to 1e6, except beside the zeros
+    of D₀ and of √(a² − 1) − ω, where terms cancel: it grows as 1e-15 times the largest term over the sum.
+    Raises PulseError for an argument that is not finite or out of range.
+    """
+    omega, side = _checked(frequency_ratio, amplitude_ratio)
+    a, s = side.amplitude_ratio, side.uplift_slope
+    exponent = (2 * math.pi - side.uplift_phase) / omega
+    if exponent < 1:
+        return 1 - _energy_of_short_pulse(omega, a, s, exponent)
+    growth = _times_exponential((s - omega) * a, exponent)
+    decay = (s + omega) * a * math.exp(-exponent)
+    return (omega / (omega**2 + 1)) ** 2 * (omega**2 - 2 * a**2 + 1 + decay + growth)
+
+
+def pulse_end_energy(frequency_ratio: float, amplitude_ratio: float) -> float:
+    """Return 1 − D₀: the squared velocity x'² with which a block that rocks at the pulse's end will land.
+
+    The same arguments, errors and accuracy as `pulse_end_measure`; ill-conditioned beside its own zeros.
+    """
+    omega, side = _checked(frequency_ratio, amplitude_ratio)
+    a, s = side.amplitude_ratio, side.uplift_slope
+    exponent = (2 * math.pi - side.uplift_phase) / omega
+    if exponent < 1:
+        return _energy_of_short_pulse(omega, a, s, exponent)
+    growth = _times_exponential((omega - s) / 2, exponent)
+    bracket = a + growth - (omega + s) / 2 * math.exp(-exponent)
+    return 1 / (omega**2 + 1) + 2 * a * (omega / (omega**2 + 1)) ** 2 * bracket
+
+
+def _energy_of_short_pulse(omega: float, a: float, s: float, exponent: float) -> float:
+    """1 − D₀ with a − s cosh T + ω sinh T, T = ln E, freed of its cancellations: a − s = 1/(a + s)."""
+    bracket = 1 / (a + s) - 2 * s * math.sinh(exponent / 2) ** 2 + omega * math.sinh(exponent)
+    return 1 / (omega**2 + 1) + 2 * a * (omega / (omega**2 + 1)) ** 2 * bracket
+
+
+def _times_exponential(factor: float, exponent: float) -> float:
+    if factor == 0:
+        return 0.0
+    if exponent + math.log(abs(factor)) > _LARGEST_EXPONENT:
+        return math.copysign(math.inf, factor)
+    half = math.exp(exponent / 2)
+    return factor * half * half
+
+
+def _checked(frequency_ratio: float, amplitude_ratio: float) -> tuple[float, Ratios]:
+    omega = positive(PulseError, "frequency_ratio", frequency_ratio)
+    a = finite(PulseError, "amplitude_ratio", amplitude_ratio)
+    if not a > 1:
+        raise PulseError(
+            f"amplitude_ratio is {amplitude_ratio!r}, but must exceed 1 for the pulse to lift the block."
+        )
+    return omega, Ratios(omega, a, 1.0)

@@ -1,0 +1,55 @@
+"""Ratios: what one side of an equivalent block and a pulse are to each other, without dimensions."""
+
+import math
+from dataclasses import dataclass
+
+from rocking.pulses.pulse import Pulse
+from rocking.structures.mechanism import EquivalentBlock
+from rocking.units import GRAVITY
+
+
+@dataclass(frozen=True, slots=True)
+class Ratios:
+    """One side of a block under one pulse.
+
+    frequency_ratio: ω = ω_g/p. amplitude_ratio: a = |a_g|/(gλ). restitution: η of the impact that ends rocking here.
+    velocity_scale: p φ_cr, rad/s, which turns d(φ/φ_cr)/d(pt) into an angular velocity.
+    """
+
+    frequency_ratio: float
+    amplitude_ratio: float
+    restitution: float
+    velocity_scale: float = 1.0
+
+    @property
+    def uplift_slope(self) -> float:
+        """s = √(a² − 1), the slope of a sin θ where it reaches 1."""
+        a = self.amplitude_ratio
+        return math.sqrt((a - 1) * (a + 1))
+
+    @property
+    def uplift_phase(self) -> float:
+        """asin(1/a), rad, written so that it keeps its digits near a = 1."""
+        return math.atan2(1.0, self.uplift_slope)
+
+
+def ratios(block: EquivalentBlock, pulse: Pulse) -> Ratios:
+    """Return the ratios of the positive side of `block`."""
+    return Ratios(
+        frequency_ratio=pulse.circular_frequency / block.frequency_parameter,
+        amplitude_ratio=abs(pulse.amplitude) / (GRAVITY * block.uplift_multiplier),
+        restitution=block.restitution,
+        velocity_scale=block.frequency_parameter * block.critical_rotation,
+    )
+
+
+def first_and_second(block: EquivalentBlock, pulse: Pulse) -> tuple[Ratios | None, Ratios | None]:
+    """Return the side the first half of the pulse rocks to, then the other; None where a one-sided block leans.
+
+    Ground that accelerates in the positive direction rocks the block to its negative side.
+    """
+    positive = ratios(block, pulse)
+    negative = positive if block.other_side is None else ratios(block.other_side, pulse)
+    if block.one_sided:
+        negative = None
+    return (negative, positive) if pulse.amplitude > 0 else (positive, negative)
