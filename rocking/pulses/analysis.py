@@ -1,0 +1,84 @@
+"""PulseEvidence and PulseAnalysis: the pulses of one record and what the record says for them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rocking.errors import PulseError
+from rocking.pulses.flags import Flag
+from rocking.pulses.pulse import Pulse
+from rocking.records.accelerogram import Accelerogram
+
+
+@dataclass(frozen=True)
+class PulseEvidence:
+    """One pulse and what the record says for it.
+
+    gain: ⟨a, s⟩²/⟨s, s⟩, m²/s³, the acceleration energy ∫a² dt that the pulse takes out of the record.
+    explained_energy: 1 − ‖a − s‖²/‖a‖² of the record it was sought in.
+    phase: rad in (−π/2, π/2], of the least-squares cosine beside the sine: 0 for a sine, ±π/2 for a cosine.
+    """
+
+    pulse: Pulse
+    gain: float
+    explained_energy: float
+    phase: float
+
+    @property
+    def effective_length(self) -> float:
+        """L_e = |a_g| T_g², m: the length scale of the pulse."""
+        return abs(self.pulse.amplitude) * self.pulse.period**2
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Times at which the cycle starts and ends, s."""
+        return self.pulse.start_time, self.pulse.end_time
+
+
+@dataclass(frozen=True, eq=False)
+class PulseAnalysis:
+    """The pulses of one record.
+
+    ranked: maxima of the energy gain on the record, by gain, that do not cover one another; the first is dominant.
+    sequence: the pursuit, each pulse sought in what the ones before it left.
+    residual: (n,) m/s², the record less the dominant pulse.
+    flags: reasons to doubt the dominant pulse.
+    Raises PulseError without a pulse.
+    """
+
+    accelerogram: Accelerogram
+    ranked: tuple[PulseEvidence, ...]
+    sequence: tuple[PulseEvidence, ...]
+    residual: np.ndarray
+    flags: tuple[Flag, ...]
+    band: tuple[float, float]
+    """Lowest and highest frequency that were searched, Hz."""
+
+    def __post_init__(self) -> None:
+        if not self.ranked:
+            raise PulseError("ranked is empty, but must hold at least the dominant pulse.")
+
+    @property
+    def dominant(self) -> Pulse:
+        """The pulse of largest energy gain."""
+        return self.ranked[0].pulse
+
+    @property
+    def evidence(self) -> PulseEvidence:
+        """The dominant pulse with its evidence."""
+        return self.ranked[0]
+
+    @property
+    def alternatives(self) -> tuple[PulseEvidence, ...]:
+        """The rivals of the dominant pulse, by gain."""
+        return self.ranked[1:]
+
+    @property
+    def explained_energy(self) -> float:
+        """EVa: share of the record's acceleration energy that the dominant pulse explains."""
+        return self.ranked[0].explained_energy
+
+    @property
+    def gain_ratio(self) -> float:
+        """G₂/G₁, second gain over first; 0 when the record holds one maximum only."""
+        return self.ranked[1].gain / self.ranked[0].gain if len(self.ranked) > 1 else 0.0
