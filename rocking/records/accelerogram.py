@@ -57,8 +57,12 @@ class Accelerogram:
         name = self.source.path or "acceleration"
         samples = _samples(name, self.acceleration)
         object.__setattr__(self, "acceleration", samples)
-        object.__setattr__(self, "time_step", positive(RecordError, f"{name}: time_step", self.time_step, "s"))
-        object.__setattr__(self, "scale_factor", finite(RecordError, f"{name}: scale_factor", self.scale_factor))
+        object.__setattr__(
+            self, "time_step", positive(RecordError, f"{name}: time_step", self.time_step, "s")
+        )
+        object.__setattr__(
+            self, "scale_factor", finite(RecordError, f"{name}: scale_factor", self.scale_factor)
+        )
 
     @property
     def times(self) -> np.ndarray:
@@ -96,7 +100,9 @@ def _samples(name: str, values: np.ndarray) -> np.ndarray:
     except (TypeError, ValueError):
         raise RecordError(f"{name}: the samples are not all numbers; give a one-dimensional array.") from None
     if samples.ndim != 1 or samples.size < 2:
-        raise RecordError(f"{name}: the samples have shape {samples.shape}, but must be one row of at least 2.")
+        raise RecordError(
+            f"{name}: the samples have shape {samples.shape}, but must be one row of at least 2."
+        )
     bad = np.flatnonzero(~np.isfinite(samples))
     if bad.size:
         raise RecordError(

@@ -1,0 +1,157 @@
+"""Catalogue: the list of records a run uses, checked as a whole before the first file is opened."""
+
+import csv
+import re
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+from rocking.errors import CatalogueError, RecordError, RockingError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.catalogue_record import CatalogueRecord
+from rocking.records.directions import azimuth, is_vertical
+from rocking.records.fetch import fetch, inventory_of
+from rocking.records.read import read
+
+COLUMNS = (
+    "id", "file", "source_repository", "source_path", "source_commit", "component", "vertical_component", "unit",
+    "time_step_s", "scale_factor", "event", "station", "licence", "sha256", "inventory", "high_pass_hz", "note",
+)  # fmt: skip
+"""Columns of a catalogue. Required: id, file and sha256; the source columns only for files that are fetched."""
+
+_REQUIRED = ("id", "file", "sha256")
+
+
+def load_catalogue(path: str | Path, mirror: str | Path | None = None) -> tuple[CatalogueRecord, ...]:
+    """Return the rows of the CSV file at `path`.
+
+    mirror: a folder; if given, a file that is neither bundled, nor there, nor fetchable is a defect.
+    Raises CatalogueError with every defect of the file in one message.
+    """
+    path = Path(path)
+    rows = _rows(path)
+    records, defects = [], []
+    for line, row in rows:
+        try:
+            records.append(_record(row, path.parent))
+        except RockingError as error:
+            defects.append(f"line {line} ({row.get('id') or 'no id'}): {error}")
+    defects += _duplicates(row.get("id", "") for _, row in rows)
+    if mirror is not None:
+        defects += [d for record in records for d in _absent(record, Path(mirror))]
+    if defects:
+        raise CatalogueError(f"{path.name} has {len(defects)} defects: " + " | ".join(defects))
+    return tuple(records)
+
+
+def open_record(
+    record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None
+) -> list[Accelerogram]:
+    """Return the accelerograms of `record`: the components it names, else every horizontal one at the surface.
+
+    scale_factor, station, event and high_pass_frequency of the row are applied.
+    Raises RecordError naming record and file.
+    """
+    path = fetch(record, mirror, cache)
+    try:
+        channels = read(
+            path, unit=record.unit or None, time_step=record.time_step, inventory=inventory_of(record, mirror)
+        )
+        if channels[0].source.sha256 != record.sha256:
+            raise RecordError(f"{path.name}: the file changed while it was read.")
+        return [_as_declared(channel, record) for channel in _selected(channels, record)]
+    except RecordError as error:
+        raise type(error)(f"{record.id} ({record.file}): {error}") from error
+
+
+def vertical_of(channels: list[Accelerogram], record: CatalogueRecord) -> Accelerogram | None:
+    """Return the vertical channel among `channels`: the one the row names, else the first that says it is."""
+    named = [c for c in channels if c.component == record.vertical_component]
+    spoken = [c for c in channels if c.vertical and not c.borehole]
+    return next(iter(named if record.vertical_component else spoken), None)
+
+
+def _rows(path: Path) -> list[tuple[int, dict[str, str]]]:
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as stream:
+            reader = csv.DictReader(stream, restkey="", restval="", strict=True)
+            rows = [(reader.line_num, row) for row in reader]
+            names = list(reader.fieldnames or ())
+    except (OSError, ValueError, csv.Error) as error:
+        raise CatalogueError(f"{path}: the catalogue cannot be read as UTF-8 CSV, {error}.") from None
+    defects = [f"column {name!r} is not known" for name in names if name not in COLUMNS]
+    defects += [f"column {name!r} stands {n} times" for name, n in Counter(names).items() if n > 1]
+    defects += [f"column {name!r} is missing" for name in _REQUIRED if name not in names]
+    defects += [f"line {line} has more cells than there are columns" for line, row in rows if row.get("")]
+    if defects:
+        raise CatalogueError(f"{path.name}: {'; '.join(defects)}; the columns are {', '.join(COLUMNS)}.")
+    if not rows:
+        raise CatalogueError(f"{path.name}: the catalogue has no rows; give at least one record.")
+    return rows
+
+
+def _record(row: dict[str, str], folder: Path) -> CatalogueRecord:
+    cells = {name: (value or "").strip() for name, value in row.items() if name}
+    numbers = {
+        "time_step": _number(cells.pop("time_step_s", ""), "time_step_s", None),
+        "scale_factor": _number(cells.pop("scale_factor", ""), "scale_factor", 1.0),
+        "high_pass_frequency": _number(cells.pop("high_pass_hz", ""), "high_pass_hz", None),
+    }
+    return CatalogueRecord(**cells, **numbers, folder=folder)
+
+
+def _number(cell: str, column: str, default: float | None) -> float | None:
+    if not cell:
+        return default
+    if not re.fullmatch(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", cell):
+        raise CatalogueError(f"{column} is {cell!r}, but must be a number.")
+    return float(cell)
+
+
+def _duplicates(ids: Iterable[str]) -> list[str]:
+    counts = Counter(name.strip().lower() for name in ids)
+    return [
+        f"id {name!r} stands {n} times (upper and lower case count as one)"
+        for name, n in counts.items()
+        if n > 1 and name
+    ]
+
+
+def _absent(record: CatalogueRecord, mirror: Path) -> Iterable[str]:
+    here = record.example_name or record.is_remote
+    if not here and not any((folder / record.file).is_file() for folder in (mirror, record.folder)):
+        yield f"{record.id}: file {record.file!r} is neither in {mirror} nor in {record.folder}."
+
+
+def _selected(channels: list[Accelerogram], record: CatalogueRecord) -> list[Accelerogram]:
+    held = ", ".join(c.component or "(unnamed)" for c in channels)
+    if len(channels) == len(record.components) == 1 and not channels[0].component:
+        return [_named(channels[0], record.component.strip())]
+    if record.components:
+        missing = [name for name in record.components if name not in {c.component for c in channels}]
+        if missing:
+            raise RecordError(f"component is {missing[0]!r}, but the file holds {held}.")
+        return [next(c for c in channels if c.component == name) for name in record.components]
+    vertical = vertical_of(channels, record)
+    chosen = [c for c in channels if c is not vertical and not c.vertical and not c.borehole]
+    if not chosen:
+        raise RecordError(
+            f"the file holds no horizontal component at the surface, only {held}; name a component."
+        )
+    return chosen
+
+
+def _named(channel: Accelerogram, component: str) -> Accelerogram:
+    """Return a channel that its file leaves unnamed under the name that the catalogue gives it."""
+    return replace(channel, component=component, azimuth=azimuth(component), vertical=is_vertical(component))
+
+
+def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
+    channel = channel.scaled(record.scale_factor) if record.scale_factor != 1 else channel
+    return replace(
+        channel,
+        station=record.station or channel.station,
+        event=record.event or channel.event,
+        high_pass_frequency=record.high_pass_frequency or channel.high_pass_frequency,
+    )

@@ -1,0 +1,140 @@
+"""CatalogueRecord: one row of a catalogue, checked at birth."""
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from rocking.checks import finite, positive
+from rocking.errors import CatalogueError, RockingError
+from rocking.units import acceleration_factor
+
+_OBSPY = "obspy:"
+_ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
+_RESERVED = {
+    "con",
+    "prn",
+    "aux",
+    "nul",
+    *(f"{port}{i}" for port in ("com", "lpt") for i in range(10)),
+    "summary",
+}
+_REPOSITORY = re.compile(r"[\w.-]+/[\w.-]+", re.ASCII)
+
+
+@dataclass(frozen=True)
+class CatalogueRecord:
+    """One row: where a record is, what its file does not say, and what must be true of it.
+
+    file: path inside `folder` or a mirror, or "obspy:NAME" for an example file that obspy installs. component: which
+    channels to use, separated by ";" (empty: every horizontal one at the surface). vertical_component: the channel that
+    is vertical where the file's own name for it does not say so. unit, time_step [s]: where the file is silent.
+    scale_factor: multiplies the acceleration. inventory: StationXML, a path like `file`. high_pass_frequency: Hz.
+    sha256: of the file as it lies on disk. folder: of the catalogue. Raises CatalogueError naming the field.
+    """
+
+    id: str
+    file: str
+    sha256: str
+    source_repository: str = ""
+    source_path: str = ""
+    source_commit: str = ""
+    component: str = ""
+    vertical_component: str = ""
+    unit: str = ""
+    time_step: float | None = None
+    scale_factor: float = 1.0
+    event: str = ""
+    station: str = ""
+    licence: str = ""
+    inventory: str = ""
+    high_pass_frequency: float | None = None
+    note: str = ""
+    folder: Path = Path()
+
+    def __post_init__(self) -> None:
+        if defects := list(_defects(self)):
+            raise CatalogueError(" ".join(defects))
+
+    @property
+    def is_remote(self) -> bool:
+        """Whether the file can be fetched from its source repository."""
+        return bool(self.source_repository)
+
+    @property
+    def example_name(self) -> str | None:
+        """NAME of "obspy:NAME", else None."""
+        return self.file.removeprefix(_OBSPY) if self.file.startswith(_OBSPY) else None
+
+    @property
+    def components(self) -> tuple[str, ...]:
+        """The channels asked for by name."""
+        return tuple(part.strip() for part in self.component.split(";") if part.strip())
+
+    def fetch(self, mirror: str | Path | None = None, cache: str | Path | None = None) -> Path:
+        """Return the path of the file, its hash checked; see rocking.records.fetch.fetch."""
+        from rocking.records.fetch import fetch
+
+        return fetch(self, mirror, cache)
+
+
+def _defects(record: CatalogueRecord) -> Iterable[str]:
+    if (
+        not _ID.fullmatch(record.id)
+        or record.id.endswith(".")
+        or record.id.split(".")[0].lower() in _RESERVED
+    ):
+        allowed = "a safe file name: letters, digits, . _ -, at most 80, not a reserved name"
+        yield f"id is {record.id!r}, but must be {allowed}."
+    for name in ("file", "inventory"):
+        if (value := getattr(record, name)) and not _stays_inside(value.removeprefix(_OBSPY)):
+            yield f"{name} is {value!r}, but must be a relative path without '..'."
+    if not record.file:
+        yield "file is missing; give a path beside the catalogue or obspy:NAME."
+    if not re.fullmatch(r"[0-9a-f]{64}", record.sha256):
+        yield f"sha256 is {record.sha256!r}, but must be 64 hexadecimal digits in lower case."
+    yield from _source_defects(record)
+    yield from _number_defects(record)
+
+
+def _source_defects(record: CatalogueRecord) -> Iterable[str]:
+    source = (record.source_repository, record.source_path, record.source_commit)
+    if not any(source):
+        return
+    if not _REPOSITORY.fullmatch(record.source_repository):
+        yield f"source_repository is {record.source_repository!r}, but must be owner/name."
+    if not record.source_path or not _stays_inside(record.source_path):
+        yield f"source_path is {record.source_path!r}, but must be a relative path without '..'."
+    if not re.fullmatch(r"[0-9a-f]{40}", record.source_commit):
+        yield f"source_commit is {record.source_commit!r}, but must be 40 hexadecimal digits."
+
+
+def _number_defects(record: CatalogueRecord) -> Iterable[str]:
+    def scale(value: float) -> None:
+        if finite(CatalogueError, "scale_factor", value) == 0:
+            raise CatalogueError("scale_factor is 0, but must not be; leave the row out instead.")
+
+    checks = (
+        (lambda: acceleration_factor(record.unit), record.unit),
+        (
+            lambda: positive(CatalogueError, "time_step_s", record.time_step, "s"),
+            record.time_step is not None,
+        ),
+        (lambda: scale(record.scale_factor), True),
+        (
+            lambda: positive(CatalogueError, "high_pass_hz", record.high_pass_frequency, "Hz"),
+            record.high_pass_frequency is not None,
+        ),
+    )
+    for check, wanted in checks:
+        try:
+            if wanted:
+                check()
+        except RockingError as error:
+            yield str(error)
+
+
+def _stays_inside(path: str) -> bool:
+    parts = PurePosixPath(path).parts
+    plain = not re.search(r"[\\:\0]|[\x00-\x1f]", path)
+    return bool(parts) and plain and not path.startswith("/") and ".." not in parts

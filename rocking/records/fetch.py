@@ -1,0 +1,108 @@
+"""Fetch: the file of a catalogue row, from mirror, catalogue folder, obspy or network, its hash checked."""
+
+import hashlib
+from pathlib import Path
+from urllib.parse import quote
+
+from rocking.errors import RecordError
+from rocking.records.catalogue_record import CatalogueRecord
+
+_RETRIES = 3
+_RAW = "https://raw.githubusercontent.com/{repository}/{commit}/{path}"
+
+
+def source_address(record: CatalogueRecord) -> str:
+    """Return the address from which a remote record is downloaded."""
+    return _RAW.format(
+        repository=record.source_repository,
+        commit=record.source_commit,
+        path=quote(record.source_path, safe="/"),
+    )
+
+
+def fetch(record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None) -> Path:
+    """Return the path of the record's file after checking its sha256.
+
+    mirror: a folder that is looked into first. cache: where downloads are kept (default: the user's cache folder).
+    Raises RecordError naming the record and the file when it cannot be had or its hash differs.
+    """
+    path = _local(record, mirror)
+    if path is None and record.is_remote:
+        path = _download(record, cache)
+    if path is None:
+        places = " or ".join(str(folder) for folder in (mirror, record.folder) if folder)
+        raise RecordError(
+            f"{record.id}: file {record.file!r} is not in {places}; mend the catalogue or add the file."
+        )
+    _check(record, path)
+    return path
+
+
+def inventory_of(record: CatalogueRecord, mirror: str | Path | None = None) -> Path | None:
+    """Return the path of the record's StationXML, or None when the row names none."""
+    if not record.inventory:
+        return None
+    path = _beside(record, record.inventory, mirror)
+    if path is None:
+        raise RecordError(
+            f"{record.id}: inventory {record.inventory!r} is not there; mend the catalogue or add the file."
+        )
+    return path
+
+
+def _local(record: CatalogueRecord, mirror: str | Path | None) -> Path | None:
+    if record.example_name is not None:
+        return _example(record)
+    return _beside(record, record.file, mirror)
+
+
+def _beside(record: CatalogueRecord, file: str, mirror: str | Path | None) -> Path | None:
+    """Return `file` in the mirror or the catalogue's folder, refusing links that lead out of it."""
+    for folder in (mirror, record.folder):
+        if folder is None or not (path := Path(folder) / file).is_file():
+            continue
+        if not path.resolve().is_relative_to(Path(folder).resolve()):
+            raise RecordError(f"{record.id}: file {file!r} leads out of {folder}; keep it inside.")
+        return path
+    return None
+
+
+def _example(record: CatalogueRecord) -> Path:
+    from obspy.core.util.base import get_example_file
+
+    try:
+        return Path(get_example_file(record.example_name))
+    except (OSError, ValueError):
+        raise RecordError(f"{record.id}: obspy installs no example file {record.example_name!r}.") from None
+
+
+def _download(record: CatalogueRecord, cache: str | Path | None) -> Path:
+    import pooch
+
+    name = f"{record.sha256[:16]}-{Path(record.source_path).name}"
+    address = source_address(record)
+    store = pooch.create(
+        path=Path(cache) if cache else pooch.os_cache("rocking"), base_url="",
+        registry={name: f"sha256:{record.sha256}"}, urls={name: address}, retry_if_failed=_RETRIES,
+    )  # fmt: skip
+    pooch.get_logger().setLevel("WARNING")
+    try:
+        return Path(store.fetch(name))
+    except Exception as error:
+        reason = str(error).splitlines()[0][:200] if str(error) else type(error).__name__
+        raise RecordError(
+            f"{record.id}: file {record.file!r} cannot be fetched from {address}, {reason}; "
+            "try again or give a mirror folder."
+        ) from error
+
+
+def _check(record: CatalogueRecord, path: Path) -> None:
+    try:
+        found = hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError as error:
+        raise RecordError(f"{record.id}: file {path} cannot be opened, {error.strerror}.") from None
+    if found != record.sha256:
+        raise RecordError(
+            f"{record.id}: file {path} has sha256 {found}, but the catalogue says {record.sha256}; "
+            "it is another version."
+        )

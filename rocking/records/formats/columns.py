@@ -1,0 +1,184 @@
+"""Plain columns: time and acceleration, several named channels, or one series wrapped over lines (OpenSees)."""
+
+import re
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.directions import azimuth, is_vertical
+from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.sampling import even_step, resampled
+from rocking.records.formats.text import count, is_number, lines, number, numbers, whole
+from rocking.units import ACCELERATION_UNITS
+
+_SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
+_TIME = re.compile(r"t|time\b.*|seconds?", re.I)
+_UNIT = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
+_EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
+_HEAD = 12
+
+
+@dataclass(frozen=True)
+class _Table:
+    names: tuple[str, ...]
+    widths: tuple[int, ...]
+    start: int
+    """Number of lines before the first row of numbers."""
+
+
+def _cells(line: str) -> list[str]:
+    line = line.strip().rstrip(",;").rstrip()
+    return _SEPARATOR.split(line) if line else []
+
+
+def _names(line: str) -> tuple[str, ...]:
+    parts = re.split(r"[,;\t]", line) if re.search(r"[,;\t]", line) else line.split()
+    return tuple(part.strip().strip("\"'") for part in parts)
+
+
+def _table(content: bytes) -> _Table | None:
+    """Return how the columns stand, or None when the head is not comments, at most one row of names, then numbers."""
+    names: tuple[str, ...] = ()
+    widths: list[int] = []
+    start = 0
+    for line in _whole_lines(content):
+        cells = _cells(line)
+        if not cells or (line.lstrip().startswith(("#", "%")) and not widths):
+            start += not widths
+        elif all(is_number(cell) for cell in cells):
+            widths.append(len(cells))
+        elif names or widths:
+            return None
+        else:
+            names, start = _names(line), start + 1
+    if len(widths) < 2 or (names and len(names) != widths[0]) or len(set(widths[:-1])) > 1:
+        return None
+    return _Table(names, tuple(widths), start)
+
+
+def _whole_lines(content: bytes) -> list[str]:
+    return [line for line in lines(content, _HEAD) if len(line) < 2000]
+
+
+def _recognise(content: bytes) -> bool:
+    return b"\0" not in content[:4096] and _table(content) is not None
+
+
+def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    table = _table(content)
+    if table is None:
+        raise RecordError(
+            f"{name}: the file does not hold columns of numbers below at most one row of names."
+        )
+    width = max(table.widths)
+    body = _body(content, table.start)
+    if _EMPTY_CELL.search(body):
+        raise RecordError(f"{name}: a cell is empty; every column needs a number on every line.")
+    values = numbers(name, body.replace(b",", b" ").replace(b";", b" "))
+    if width == 1 or (not table.names and width > 2 and not _time_first(values, width)):
+        return [_series(name, values, options, table.names[0] if width == 1 and table.names else "")]
+    return _channels(name, _rows(name, body, values, width), table.names, options)
+
+
+def _body(content: bytes, start: int) -> bytes:
+    content = content.removeprefix(b"\xef\xbb\xbf")
+    ends = re.finditer(rb"\r*\n|\r+(?!\n)", content)
+    return (
+        content
+        if start == 0
+        else next((content[m.end() :] for i, m in enumerate(ends, 1) if i == start), b"")
+    )
+
+
+def _time_first(values: np.ndarray, width: int) -> bool:
+    """Whether the first of `width` columns without names counts time: evenly upwards from zero or above."""
+    first = values[: values.size - values.size % width][: 50 * width : width]
+    steps = np.diff(first)
+    return first.size > 2 and first[0] >= 0 and steps.min() > 0 and float(np.ptp(steps)) < 0.01 * steps[0]
+
+
+def _rows(name: str, body: bytes, values: np.ndarray, width: int) -> np.ndarray:
+    for i, line in enumerate(lines(body), start=1):
+        filled = len(_cells(line))
+        if filled not in (0, width):
+            raise RecordError(
+                f"{name}: line {i} of the samples has {filled} columns, but the first has {width}."
+            )
+    return values.reshape(-1, width)
+
+
+def _series(name: str, values: np.ndarray, options: Options, label: str) -> Accelerogram:
+    unit = options.unit_of(name, _unit(label))
+    step = options.time_step_of(name, None)
+    return accelerogram(name, COLUMNS.name, unit, values, step, component="" if _unit(label) else label)
+
+
+def _channels(name: str, rows: np.ndarray, names: tuple[str, ...], options: Options) -> list[Accelerogram]:
+    labels = names or ("time", *[""] * (rows.shape[1] - 1))
+    timed = bool(_TIME.fullmatch(labels[0]))
+    step, resample, told = options.time_step, None, ()
+    if timed:
+        step, resample, told = _step(name, rows[:, 0])
+    make = partial(_channel, name, step=step, resample=resample, told=told, options=options)
+    return [make(labels[i], rows[:, i]) for i in range(int(timed), rows.shape[1])]
+
+
+def _step(name: str, times: np.ndarray):
+    """Return (step, a function that resamples or None, sentences) of a column of times."""
+    step = even_step(name, times)
+    if step is not None:
+        return step, None, ()
+    step, at, sentence = resampled(name, times)
+    return step, partial(np.interp, at, times), (sentence,)
+
+
+def _channel(
+    name: str, label: str, values: np.ndarray, *, step, resample, told, options: Options
+) -> Accelerogram:
+    unit = options.unit_of(name, _unit(label))
+    component = _component(label)
+    return accelerogram(
+        name, COLUMNS.name, unit, values if resample is None else resample(values), options.time_step_of(name, step),
+        component=component, processing=told, warnings=told,
+        azimuth=azimuth(component), vertical=is_vertical(component),
+    )  # fmt: skip
+
+
+def _unit(label: str) -> str | None:
+    found = _UNIT.search(label)
+    unit = found[1].lower().replace("²", "2").replace("^2", "2") if found else ""
+    return unit if unit in ACCELERATION_UNITS else None
+
+
+def _component(label: str) -> str:
+    return re.sub(r"^(acc|acceleration|a)[_\s-]+", "", _UNIT.sub("", label).strip(), flags=re.I)
+
+
+def _titled(content: bytes) -> tuple[str, str] | None:
+    """Return the (samples, step) of a file whose second line gives both, its first a title, the rest one column."""
+    head = _whole_lines(content)
+    if len(head) < 5 or is_number(head[0].strip()) or len(second := head[1].split()) != 2:
+        return None
+    single = all(is_number(line.strip()) for line in head[2:-1])
+    return (second[0], second[1]) if single and second[0].isdecimal() and is_number(second[1]) else None
+
+
+def _read_titled(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    found = _titled(content)
+    if found is None:
+        raise RecordError(f"{name}: the second line does not give the number of samples and the time step.")
+    step = options.time_step_of(name, number(name, "time step", found[1]))
+    values, told = whole(
+        name, numbers(name, _body(content, 2)), count(name, "number of samples", found[0]), per_line=1
+    )
+    return [accelerogram(name, TITLED.name, options.unit_of(name, None), values, step, warnings=told)]
+
+
+COLUMNS = Format(
+    "columns of numbers", "lines that hold numbers only, below at most one row of names", _recognise, _read
+)
+TITLED = Format("titled column", "title, then a line with samples and step, then one number a line",
+                lambda content: _titled(content) is not None, _read_titled)  # fmt: skip

@@ -1,0 +1,89 @@
+"""Format: how one kind of file is recognised and read, and the options a caller may declare."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal
+
+from rocking.checks import positive
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram, Source
+from rocking.units import acceleration_factor
+
+Response = Literal["sensitivity", "full"]
+
+
+@dataclass(frozen=True)
+class Options:
+    """What a caller declares beside the file: used where the file is silent, refused where it says otherwise.
+
+    unit: unit of the numbers. time_step: s. inventory: a StationXML file; folder: where to look for one.
+    response: whether counts are divided by the overall sensitivity or the full instrument response is removed.
+    Raises RecordError for an unknown unit or response, or a time step that is not positive.
+    """
+
+    unit: str | None = None
+    time_step: float | None = None
+    inventory: Path | None = None
+    folder: Path | None = None
+    response: Response = "sensitivity"
+
+    def __post_init__(self) -> None:
+        if self.unit is not None:
+            acceleration_factor(self.unit)
+        if self.time_step is not None:
+            positive(RecordError, "time_step", self.time_step, "s")
+        if self.response not in ("sensitivity", "full"):
+            raise RecordError(f"response is {self.response!r}, but must be 'sensitivity' or 'full'.")
+
+    def unit_of(self, name: str, in_file: str | None) -> str:
+        """Return the unit the file declares, else the caller's. Raises RecordError when none or two are declared."""
+        unit = in_file or self.unit
+        if unit is None:
+            raise RecordError(
+                f"{name}: unit is not declared, neither in the file nor by the caller; give unit=."
+            )
+        if self.unit is not None and acceleration_factor(self.unit) != acceleration_factor(unit):
+            raise RecordError(
+                f"{name}: unit is {unit!r} in the file, but {self.unit!r} was declared; give the true one."
+            )
+        return unit
+
+    def time_step_of(self, name: str, in_file: float | None) -> float:
+        """Return the time step [s] the file declares, else the caller's; the two may differ by 0.1 %."""
+        step = in_file if in_file is not None else self.time_step
+        if step is None:
+            raise RecordError(
+                f"{name}: time_step is not declared, neither in the file nor by the caller; give time_step=."
+            )
+        positive(RecordError, f"{name}: time_step", step, "s")
+        if self.time_step is not None and abs(self.time_step - step) > 1e-3 * step:
+            raise RecordError(
+                f"{name}: time_step is {step!r} s in the file, but {self.time_step!r} s was declared."
+            )
+        return step
+
+
+@dataclass(frozen=True)
+class Format:
+    """One kind of file.
+
+    sought: what the recogniser looks for, as the end of "no ...". recognise: whole content to bool, never raises.
+    read: (content, name, options) to accelerograms; raises RecordError only.
+    """
+
+    name: str
+    sought: str
+    recognise: Callable[[bytes], bool]
+    read: Callable[[bytes, str, Options], list[Accelerogram]]
+
+
+def accelerogram(name: str, form: str, unit: str, values, time_step: float, **fields) -> Accelerogram:
+    """Return an Accelerogram from `values` in `unit` of the file `name` in the format `form`."""
+    source = Source(path=name, format=form, unit=unit)
+    return Accelerogram(values * acceleration_factor(unit), time_step, source=source, **fields)
+
+
+def with_warning(record: Accelerogram, *sentences: str) -> Accelerogram:
+    """Return `record` with more warnings."""
+    return replace(record, warnings=(*record.warnings, *sentences))

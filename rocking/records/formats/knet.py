@@ -1,0 +1,98 @@
+"""K-NET and KiK-net ASCII: counts with a scale factor, one component per file."""
+
+import re
+from datetime import datetime, timedelta
+
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.directions import azimuth, is_vertical
+from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.text import lines, number, numbers
+from rocking.records.gates import agree_with_header
+
+_FIELDS = (
+    "Origin Time", "Lat.", "Long.", "Depth. (km)", "Mag.", "Station Code", "Station Lat.", "Station Long.",
+    "Station Height(m)", "Record Time", "Sampling Freq(Hz)", "Duration Time(s)", "Dir.", "Scale Factor",
+    "Max. Acc. (gal)", "Last Correction", "Memo.",
+)  # fmt: skip
+_KIKNET = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
+_BOREHOLE = {"1", "2", "3"}
+_DELAY = timedelta(hours=9, seconds=15)
+"""Times are Japanese, and the record time carries the 15 s delay of the recorder."""
+
+
+def _recognise(content: bytes) -> bool:
+    head = lines(content, 10)
+    return len(head) == 10 and all(row.startswith(field) for row, field in zip(head, _FIELDS, strict=False))
+
+
+def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    head = lines(content, len(_FIELDS))
+    fields = {
+        key: row[len(key) :].strip() for key, row in zip(_FIELDS, head, strict=False) if row.startswith(key)
+    }
+    missing = [key for key in _FIELDS if key not in fields]
+    if missing:
+        raise RecordError(
+            f"{name}: the header has no line {missing[0]!r}; a K-NET header has {len(_FIELDS)} lines."
+        )
+    options.unit_of(name, "gal")
+    counts = numbers(name, _body(content))
+    time_step = options.time_step_of(
+        name, 1 / _positive(name, "Sampling Freq(Hz)", fields["Sampling Freq(Hz)"])
+    )
+    _check_duration(name, fields, counts.size * time_step)
+    values = counts * _scale(name, fields["Scale Factor"])
+    offset = values.mean() if values.size else 0.0
+    direction = fields["Dir."]
+    component = _KIKNET.get(direction, direction)
+    record = accelerogram(
+        name, KNET.name, "gal", values - offset, time_step, component=component, station=fields["Station Code"],
+        event=f"{fields['Origin Time']} M{fields['Mag.']}", start_time=_start(fields["Record Time"]),
+        processing=(f"Mean of the whole record removed, {offset / 100:.6g} m/s²: the offset of the recorder.",),
+        network="BO", azimuth=azimuth(component), vertical=is_vertical(component), borehole=direction in _BOREHOLE,
+    )  # fmt: skip
+    agree_with_header(
+        record, number(name, "Max. Acc. (gal)", fields["Max. Acc. (gal)"]), "gal", half_digit=5e-4
+    )
+    return [record]
+
+
+def _body(content: bytes) -> bytes:
+    found = re.search(rb"^Memo\.[^\r\n]*[\r\n]+", content[:4000], re.M)
+    return content[found.end() :] if found else b""
+
+
+def _positive(name: str, field: str, text: str) -> float:
+    value = number(name, field, text.removesuffix("Hz"))
+    if not value > 0:
+        raise RecordError(f"{name}: {field} is {text!r}, but must be greater than 0.")
+    return value
+
+
+def _check_duration(name: str, fields: dict[str, str], duration: float) -> None:
+    declared = number(name, "Duration Time(s)", fields["Duration Time(s)"])
+    if abs(duration - declared) > 1.0:
+        raise RecordError(
+            f"{name}: the header declares {declared:g} s, but the samples last {duration:g} s; fetch the whole file."
+        )
+
+
+def _scale(name: str, text: str) -> float:
+    """Return gal per count from "3920(gal)/6182761"."""
+    parts = re.fullmatch(r"([0-9.]+)\(gal\)/([0-9.]+)", text.replace(" ", ""))
+    if not parts:
+        raise RecordError(f"{name}: Scale Factor is {text!r}, but must look like 3920(gal)/6182761.")
+    return number(name, "Scale Factor", parts[1]) / _positive(name, "Scale Factor", parts[2])
+
+
+def _start(text: str) -> str:
+    try:
+        return (datetime.strptime(text, "%Y/%m/%d %H:%M:%S") - _DELAY).isoformat() + "Z"
+    except (ValueError, OverflowError):
+        return ""
+
+
+KNET = Format(
+    "K-NET/KiK-net", "header that starts with Origin Time, Lat., Long., Depth. (km)", _recognise, _read
+)

@@ -1,0 +1,132 @@
+"""PEER AT2 in every spelling of its header, and the VT2 and DT2 files that are not acceleration."""
+
+import re
+
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.directions import azimuth, is_vertical
+from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.text import count, lines, number, numbers, whole
+from rocking.records.gates import agree_with_header
+
+_STEPS = (
+    re.compile(r"NPTS\s*=\s*(?P<npts>[^\s,]+)\s*,?\s*DT\s*=\s*(?P<dt>[0-9.+\-]+(E[+-]?\d+)?)", re.I),
+    re.compile(r"^\s*(?P<npts>\d+)\s+(?P<dt>\S+)\s+NPTS\s*,\s*DT", re.I),
+)
+_UNITS = (
+    (re.compile(r"\b(CM/SEC?(/SEC?|\*\*2|\^?2)|GAL)\b", re.I), "cm/s2"),
+    (re.compile(r"\bM/SEC?(/SEC?|\*\*2|\^?2)", re.I), "m/s2"),
+    (re.compile(r"\b(UNITS OF|UNITS ARE|ACCELERATION IN)\s*\(?G\b", re.I), "g"),
+)
+_PEAK = re.compile(r"PGA\s*=\s*([0-9.]+)\s*G\b", re.I)
+_FILTER_POINTS = re.compile(r"HP\s*=\s*([0-9.]+)\s*HZ", re.I)
+_POLES = re.compile(r"(-?\d+)\s+POLE\s+@\s*([0-9.]+)", re.I)
+_HEADER_LINES = 8
+_LONGEST_COMPONENT = 16
+
+
+def _header(content: bytes) -> tuple[list[str], re.Match[str]] | None:
+    """Return the lines up to the one that gives NPTS and DT, and its match."""
+    head = lines(content, _HEADER_LINES)
+    for i, line in enumerate(head):
+        found = next((m for pattern in _STEPS if (m := pattern.search(line[:200]))), None)
+        if found:
+            return head[: i + 1], found
+    return None
+
+
+def _quantity(header: list[str]) -> str:
+    """Return the quantity a header names: acceleration unless it says velocity or displacement."""
+    text = " ".join(header).upper()
+    named = re.search(r"(VELOCITY|DISPLACEMENT)\s+(TIME|IN)", text)
+    return named[1].lower() if named else "acceleration"
+
+
+def _is_acceleration(content: bytes) -> bool:
+    header = _header(content)
+    return header is not None and _quantity(header[0]) == "acceleration"
+
+
+def _is_other(content: bytes) -> bool:
+    header = _header(content)
+    return header is not None and _quantity(header[0]) != "acceleration"
+
+
+def _refuse(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    header = _header(content)
+    quantity = _quantity(header[0]) if header else "velocity"
+    raise RecordError(
+        f"{name}: this is a PEER {quantity} file, not acceleration; use the AT2 file of the same record."
+    )
+
+
+def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    header = _header(content)
+    if header is None:
+        raise RecordError(f"{name}: the header holds no line with NPTS and DT; give a PEER AT2 file.")
+    head, found = header
+    declared = count(name, "NPTS", found["npts"])
+    time_step = options.time_step_of(name, number(name, "DT", found["dt"]))
+    unit = options.unit_of(name, _unit(head))
+    values, warnings = whole(name, numbers(name, _body(content, len(head))), declared, per_line=8)
+    component = _component(head)
+    record = accelerogram(
+        name, PEER_AT2.name, unit, values, time_step,
+        component=component, station=_field(head, -2), event=_field(head, 0),
+        warnings=warnings + _doubled(content), processed=True, high_pass_frequency=_high_pass(head),
+        azimuth=azimuth(component), vertical=is_vertical(component),
+    )  # fmt: skip
+    peak = _PEAK.search(" ".join(head))
+    agree_with_header(record, number(name, "PGA", peak[1]) if peak else None, "g", half_digit=5e-6)
+    return [record]
+
+
+def _body(content: bytes, header_lines: int) -> bytes:
+    position = 0
+    for ending in re.finditer(rb"\r*\n|\r+(?!\n)", content[: 400 * header_lines]):
+        position, header_lines = ending.end(), header_lines - 1
+        if not header_lines:
+            return content[position:]
+    return b""
+
+
+def _doubled(content: bytes) -> tuple[str, ...]:
+    if b"\r\r\n" not in content[:2000]:
+        return ()
+    return (
+        "The line ends are doubled (CR CR LF), as a faulty conversion leaves them; the numbers are unharmed.",
+    )
+
+
+def _unit(head: list[str]) -> str | None:
+    text = " ".join(head)
+    return next((unit for pattern, unit in _UNITS if pattern.search(text)), None)
+
+
+def _field(head: list[str], index: int) -> str:
+    fields = [field.strip() for field in head[1].split(",")] if len(head) > 1 else []
+    return fields[index] if len(fields) >= 3 else ""
+
+
+def _component(head: list[str]) -> str:
+    title = re.sub(r"\([^()]*\)", "", head[1]).strip() if len(head) > 1 else ""
+    spelled = re.search(r"(LONGITUDINAL|TRANSVERSE|VERTICAL)\s+COMP", title)
+    if spelled:
+        return spelled[1].title()
+    last = title.rsplit(",", 1)[-1].strip() if "," in title else ""
+    return last if len(last) <= _LONGEST_COMPONENT else ""
+
+
+def _high_pass(head: list[str]) -> float | None:
+    text = " ".join(head)
+    points, poles = _FILTER_POINTS.search(text), _POLES.findall(text)
+    corner = points[1] if points else poles[1][1] if len(poles) > 1 and poles[1][0] != "0" else "0"
+    return float(corner) or None if corner.count(".") <= 1 and corner != "." else None
+
+
+PEER_AT2 = Format(
+    "PEER AT2", "line with NPTS and DT in the first 8 lines of an acceleration file", _is_acceleration, _read
+)
+PEER_OTHER = Format(
+    "PEER VT2 or DT2", "NPTS and DT below VELOCITY or DISPLACEMENT TIME SERIES", _is_other, _refuse
+)

@@ -1,0 +1,61 @@
+"""Sampling: the step of printed times, and an even step for times that are uneven."""
+
+import numpy as np
+
+from rocking.errors import RecordError
+
+_LARGEST_SERIES = 4_000_000
+
+
+def even_step(name: str, times: np.ndarray) -> float | None:
+    """Return the step of `times` (n,) s if they are even within the rounding of their printing, else None.
+
+    Raises RecordError when they do not increase.
+    """
+    if times.size < 2 or not np.all(np.isfinite(times)):
+        raise RecordError(f"{name}: {times.size} finite times, but at least 2 are needed.")
+    steps = np.diff(times)
+    if steps.min() <= 0:
+        at = int(np.flatnonzero(steps <= 0)[0])
+        raise RecordError(
+            f"{name}: time {times[at + 1]:g} s follows {times[at]:g} s, but times must increase."
+        )
+    step = (times[-1] - times[0]) / (times.size - 1)
+    off = np.abs(times - (times[0] + step * np.arange(times.size))).max()
+    quantum = _quantum(times)
+    if off > max(0.01 * step, min(0.51 * quantum, 0.5 * step)) + 1e-9 * abs(times[-1]):
+        return None
+    return _rounded(step, quantum / times.size)
+
+
+def resampled(name: str, times: np.ndarray) -> tuple[float, np.ndarray, str]:
+    """Return (step, even times, the sentence that says so) for uneven `times`: linear, at their median step."""
+    step = float(f"{np.median(np.diff(times)):.6g}")
+    number = int(min((times[-1] - times[0]) / step, 1e12)) + 1 if step > 0 else 0
+    if not 2 <= number <= _LARGEST_SERIES:
+        raise RecordError(
+            f"{name}: the times are uneven and would make {number} samples at their median step {step:g} s."
+        )
+    sentence = (
+        f"The {times.size} samples are unevenly spaced; "
+        f"interpolated linearly to {number} at their median step, {step:g} s."
+    )
+    return step, times[0] + step * np.arange(number), sentence
+
+
+def _quantum(times: np.ndarray) -> float:
+    """Return the last printed digit's weight, s."""
+    for digits in range(9):
+        scaled = times * 10.0**digits
+        if np.allclose(scaled, np.round(scaled), rtol=0, atol=1e-4):
+            return 10.0**-digits
+    return 1e-9
+
+
+def _rounded(step: float, uncertainty: float) -> float:
+    """Return the roundest number within the uncertainty of a step that was derived from rounded times."""
+    for digits in range(1, 10):
+        candidate = float(f"{step:.{digits}g}")
+        if abs(candidate - step) <= uncertainty + 1e-12 * step:
+            return candidate
+    return step

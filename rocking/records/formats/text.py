@@ -1,0 +1,84 @@
+"""Numbers out of text: fast, yet strict about every character."""
+
+import re
+import warnings
+
+import numpy as np
+
+from rocking.errors import RecordError
+
+_NUMERIC = b"0123456789+-.eE \t\n\r"
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_LINE_END = re.compile(rb"\r*\n|\r+")
+
+
+def lines(content: bytes, limit: int | None = None) -> list[str]:
+    """Return the first `limit` lines (all by default) as text; bytes beyond ASCII are taken as Latin-1."""
+    head = content if limit is None else content[: 400 * limit]
+    text = _LINE_END.sub(b"\n", head.removeprefix(b"\xef\xbb\xbf")).decode("latin-1")
+    return text.split("\n")[:limit]
+
+
+def is_number(token: str) -> bool:
+    """Whether `token` is a plain finite decimal number; "1_0", "nan" and "inf" are not."""
+    return bool(_NUMBER.fullmatch(token))
+
+
+def number(name: str, field: str, token: str) -> float:
+    """Return `token` as a float. Raises RecordError naming file and field."""
+    if not is_number(token.strip()):
+        raise RecordError(f"{name}: {field} is {token.strip()!r}, but must be a number.")
+    return float(token)
+
+
+def count(name: str, field: str, token: str) -> int:
+    """Return `token` as a whole number, zero or more. Raises RecordError naming file and field."""
+    value = number(name, field, token)
+    if value < 0 or value != int(min(value, 1e9)):
+        raise RecordError(f"{name}: {field} is {token.strip()!r}, but must be a whole number from 0 to 1e9.")
+    return int(value)
+
+
+def numbers(name: str, text: bytes) -> np.ndarray:
+    """Return the numbers of `text`, separated by blanks and line ends, (n,); RecordError at the first that is none."""
+    if not text.translate(None, _NUMERIC):
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                return np.fromstring(text, sep=" ") if text.strip() else np.empty(0)
+        except (DeprecationWarning, ValueError):
+            pass
+    raise RecordError(f"{name}: {_first_defect(text)}; every sample must be a plain decimal number.")
+
+
+def fixed_width(name: str, rows: list[str], width: int) -> np.ndarray:
+    """Return the numbers of `rows` of fixed columns `width` wide, which may touch, (n,)."""
+    pieces = [row[i : i + width] for row in rows for i in range(0, len(row.rstrip()), width)]
+    return numbers(name, " ".join(pieces).encode("latin-1"))
+
+
+def whole(name: str, values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray, tuple[str, ...]]:
+    """Return `values`, with a warning if there are up to a line more than `declared`.
+
+    Raises RecordError when there are fewer (the file is cut) or many more (something else stands in it).
+    """
+    if values.size == declared:
+        return values, ()
+    said = f"{name}: the header declares {declared} samples, but the file holds {values.size}"
+    if values.size < declared:
+        raise RecordError(
+            f"{said}: it is truncated or its header belongs to another record; fetch the whole file."
+        )
+    if values.size > declared + per_line:
+        raise RecordError(f"{said}: more than one line too many; mend the header or cut the file.")
+    return values, (
+        f"The header declares {declared} samples, but the file holds {values.size}; all are kept.",
+    )
+
+
+def _first_defect(text: bytes) -> str:
+    for i, line in enumerate(lines(text), start=1):
+        for token in line.split():
+            if not is_number(token):
+                return f"line {i} of the samples holds {token[:40]!r}"
+    return "the samples cannot be told apart"

@@ -1,0 +1,117 @@
+"""Read: open the bytes, recognise the format, refuse what is not known, dispatch to one reader."""
+
+import hashlib
+import zlib
+from dataclasses import replace
+from pathlib import Path
+
+from rocking.errors import RecordError, UnknownFormatError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats import FORMATS, Format, Options
+from rocking.records.formats.format import Response
+from rocking.records.gates import pass_limits
+
+LARGEST_FILE = 48 * 2**20
+"""Bytes, unpacked. The largest strong-motion text is a few MB; what is larger is something else."""
+
+_PICKLE = (
+    b"\x80\x02",
+    b"\x80\x03",
+    b"\x80\x04",
+    b"\x80\x05",
+    b"ccopy_reg",
+    b"(iobspy",
+    b"cobspy",
+    b"c__builtin__",
+)
+
+
+def read(
+    path: str | Path,
+    *,
+    unit: str | None = None,
+    time_step: float | None = None,
+    inventory: str | Path | None = None,
+    response: Response = "sensitivity",
+) -> list[Accelerogram]:
+    """Return every channel of acceleration in the file at `path`, in the file's order, in m/s².
+
+    unit, time_step [s]: needed where the file does not declare them; refused where it declares otherwise.
+    inventory: StationXML of a miniSEED file; by default the one beside it that names the same station.
+    response: "sensitivity" divides counts by the overall sensitivity; "full" removes the whole instrument response.
+    Raises UnknownFormatError when no reader recognises the file, RecordError for every other defect.
+    """
+    path = Path(path)
+    raw = bytes_of(path)
+    options = Options(unit, time_step, Path(inventory) if inventory else None, path.parent, response)
+    return read_content(
+        unpacked(raw, path.name), path.name, options, hashlib.sha256(raw).hexdigest(), str(path)
+    )
+
+
+def read_content(
+    content: bytes, name: str, options: Options, sha256: str = "", path: str = ""
+) -> list[Accelerogram]:
+    """Return the channels in `content`, as read() does of a file called `name`."""
+    records = recognise(content, name).read(content, name, options)
+    if not records:
+        raise RecordError(f"{name}: the file holds no channel of acceleration.")
+    return [
+        _signed(record, sha256 or hashlib.sha256(content).hexdigest(), path or name) for record in records
+    ]
+
+
+def recognise(content: bytes, name: str) -> Format:
+    """Return the one format that recognises `content`. Raises UnknownFormatError when none or several do."""
+    if not content.strip(b" \t\r\n\0"):
+        raise RecordError(f"{name}: the file is empty; fetch it again.")
+    if content.startswith(_PICKLE):
+        raise UnknownFormatError(
+            f"{name}: this is a pickled Python object, which could run code; it is never opened."
+        )
+    found = [form for form in FORMATS if form.recognise(content)]
+    if len(found) == 1:
+        return found[0]
+    if found:
+        names = ", ".join(form.name for form in found)
+        raise UnknownFormatError(f"{name}: several readers recognise this file ({names}); none is preferred.")
+    sought = "; ".join(f"{form.name}: no {form.sought}" for form in FORMATS)
+    raise UnknownFormatError(
+        f"{name}: no reader recognises this file. What each looked for and did not find: {sought}."
+    )
+
+
+def unpacked(raw: bytes, name: str) -> bytes:
+    """Return `raw`, unpacked if it is gzip. Raises RecordError when it is damaged or unpacks to too much."""
+    if not raw.startswith(b"\x1f\x8b"):
+        return raw
+    unpacker = zlib.decompressobj(wbits=31)
+    try:
+        content = unpacker.decompress(raw, LARGEST_FILE)
+    except zlib.error as error:
+        raise RecordError(f"{name}: damaged gzip file, {error}; fetch it again.") from None
+    if not unpacker.eof:
+        raise RecordError(f"{name}: the gzip file is truncated or unpacks to more than {LARGEST_FILE} bytes.")
+    return content
+
+
+def bytes_of(path: Path) -> bytes:
+    """Return the bytes of a file. Raises RecordError when it is missing or larger than any accelerogram."""
+    try:
+        with path.open("rb") as stream:
+            raw = stream.read(LARGEST_FILE + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise RecordError(
+            f"{path}: the file cannot be opened, {reason}; give the path of a record."
+        ) from None
+    if len(raw) > LARGEST_FILE:
+        raise RecordError(
+            f"{path.name}: the file is larger than {LARGEST_FILE} bytes, which no accelerogram is."
+        )
+    return raw
+
+
+def _signed(record: Accelerogram, sha256: str, path: str) -> Accelerogram:
+    warnings = record.warnings + pass_limits(record)
+    return replace(record, source=replace(record.source, sha256=sha256, path=path), warnings=warnings)

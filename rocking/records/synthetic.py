@@ -1,0 +1,161 @@
+"""Synthetic near-fault accelerograms: one pulse plus filtered noise, seeded, and plainly called synthetic.
+
+`python -m rocking.records.synthetic FOLDER` writes the bundled files, byte for byte the same each time.
+"""
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from rocking.checks import finite, positive
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+from rocking.units import GRAVITY
+
+PulseShape = Literal["sine", "mavroeidis"]
+
+
+@dataclass(frozen=True)
+class SyntheticRecord:
+    """What a synthetic record is made of.
+
+    pulse_amplitude: peak of the pulse's acceleration, m/s², signed; 0 for none. pulse_period: s. pulse_start: s.
+    pulse_shape: "sine" (one cycle) or "mavroeidis" (Mavroeidis & Papageorgiou 2003 with γ = 2, ν = 0).
+    noise_peak: largest magnitude of the noise, m/s². corner_frequency [Hz] and kappa [s] shape its spectrum.
+    duration, time_step: s. Raises RecordError when a value is out of range.
+    """
+
+    name: str
+    seed: int
+    pulse_amplitude: float
+    pulse_period: float
+    pulse_start: float
+    noise_peak: float
+    duration: float
+    time_step: float
+    pulse_shape: PulseShape = "sine"
+    corner_frequency: float = 0.3
+    kappa: float = 0.04
+
+    def __post_init__(self) -> None:
+        for field in ("pulse_period", "duration", "time_step", "corner_frequency", "kappa"):
+            positive(RecordError, field, getattr(self, field))
+        for field in ("pulse_amplitude", "pulse_start", "noise_peak"):
+            finite(RecordError, field, getattr(self, field))
+        if self.pulse_shape not in ("sine", "mavroeidis"):
+            raise RecordError(f"pulse_shape is {self.pulse_shape!r}, but must be 'sine' or 'mavroeidis'.")
+        if not 16 * self.time_step <= self.duration <= 1e6 * self.time_step:
+            raise RecordError(
+                f"duration is {self.duration!r} s, but must hold 16 to 1e6 time steps of {self.time_step!r} s."
+            )
+
+
+def synthetic_record(recipe: SyntheticRecord) -> Accelerogram:
+    """Return the accelerogram of `recipe`: pulse plus noise, m/s²."""
+    times = np.arange(round(recipe.duration / recipe.time_step)) * recipe.time_step
+    return Accelerogram(
+        pulse(recipe, times) + noise(recipe, times.size),
+        recipe.time_step,
+        component="H1",
+        station=recipe.name,
+        event="Synthetic, not recorded",
+        processed=True,
+    )
+
+
+def pulse(recipe: SyntheticRecord, times: np.ndarray) -> np.ndarray:
+    """Return the pulse's acceleration at `times` (n,) s, m/s²."""
+    since = times - recipe.pulse_start
+    if recipe.pulse_shape == "sine":
+        phase = 2 * np.pi * since / recipe.pulse_period
+        return recipe.pulse_amplitude * np.where((phase >= 0) & (phase <= 2 * np.pi), np.sin(phase), 0)
+    return recipe.pulse_amplitude * _mavroeidis(since, recipe.pulse_period)
+
+
+def _mavroeidis(since: np.ndarray, period: float, gamma: float = 2.0) -> np.ndarray:
+    """d/dt of ½ (1 + cos(2πf t/γ)) cos(2πf t) on |t| ≤ γ/2f (Mavroeidis & Papageorgiou 2003, Eq. 3), scaled to peak 1.
+
+    `since` counts from the start of the pulse, whose length is γ periods.
+    """
+    omega = 2 * np.pi / period
+    t = since - gamma * period / 2
+
+    def slope(t: np.ndarray) -> np.ndarray:
+        carrier, envelope = omega * t, omega * t / gamma
+        return -np.sin(envelope) * np.cos(carrier) / gamma - np.sin(carrier) * (1 + np.cos(envelope))
+
+    peak = np.abs(slope(np.linspace(-gamma * period / 2, gamma * period / 2, 20001))).max()
+    return np.where(np.abs(t) <= gamma * period / 2, slope(t), 0) / peak
+
+
+def noise(recipe: SyntheticRecord, samples: int) -> np.ndarray:
+    """Return stochastic ground acceleration (samples,), m/s², by the method of Boore (2003).
+
+    White noise, windowed (Saragoni & Hart, ε = 0.2, η = 0.05), its spectrum levelled to unit mean power and multiplied
+    by the omega-squared source f²/(1 + (f/f_c)²) and the site's exp(−πκf), then scaled to the peak asked for.
+    """
+    if recipe.noise_peak == 0:
+        return np.zeros(samples)
+    white = _normals(recipe.seed, samples)
+    spectrum = np.fft.rfft(white * _window(samples))
+    spectrum /= np.sqrt(np.mean(np.abs(spectrum) ** 2))
+    frequency = np.fft.rfftfreq(samples, recipe.time_step)
+    source = frequency**2 / (1 + (frequency / recipe.corner_frequency) ** 2)
+    series = np.fft.irfft(spectrum * source * np.exp(-np.pi * recipe.kappa * frequency), samples)
+    return series * (recipe.noise_peak / np.abs(series).max())
+
+
+def _normals(seed: int, samples: int) -> np.ndarray:
+    # The legacy generator is the one whose stream numpy promises never to change: the bundled files depend on it.
+    return np.random.RandomState(seed).standard_normal(samples)
+
+
+def _window(samples: int, epsilon: float = 0.2, eta: float = 0.05) -> np.ndarray:
+    """(t/t_ε)^b exp(b (1 − t/t_ε)): 1 at the share ε of the duration and η at its end (Boore 2003, Eqs. 23-25)."""
+    ratio = np.arange(1, samples + 1) / samples / epsilon
+    b = -epsilon * np.log(eta) / (1 + epsilon * (np.log(epsilon) - 1))
+    return ratio**b * np.exp(b * (1 - ratio))
+
+
+BUNDLED = (
+    SyntheticRecord("synthetic_strong_pulse", 1, 0.55 * GRAVITY, 1.0, 4.0, 0.15 * GRAVITY, 20.0, 0.005),
+    SyntheticRecord(
+        "synthetic_moderate_pulse", 2, -0.35 * GRAVITY, 1.5, 5.0, 0.15 * GRAVITY, 25.0, 0.01, "mavroeidis"
+    ),
+    SyntheticRecord("synthetic_pulse_in_noise", 3, 0.30 * GRAVITY, 0.7, 6.0, 0.30 * GRAVITY, 30.0, 0.01),
+    SyntheticRecord("synthetic_noise_only", 4, 0.0, 1.0, 0.0, 0.40 * GRAVITY, 40.0, 0.01),
+)
+"""The recipes of the accelerograms that come with the project."""
+
+
+def at2_text(recipe: SyntheticRecord) -> str:
+    """Return the record of `recipe` as the text of an AT2 file, in g, five numbers a line."""
+    record = synthetic_record(recipe)
+    values = record.acceleration / GRAVITY
+    rows = ("".join(f"{v:15.7e}" for v in values[i : i + 5]) for i in range(0, values.size, 5))
+    head = (
+        f"SYNTHETIC ACCELEROGRAM, NOT RECORDED; MADE BY rocking.records.synthetic, SEED {recipe.seed}",
+        f"{record.event.split(',')[0]}, 1/1/2000, {recipe.name}, {record.component}",
+        "ACCELERATION TIME SERIES IN UNITS OF G",
+        f"NPTS= {values.size:6d}, DT= {record.time_step:8.5f} SEC",
+    )
+    return "\n".join((*head, *rows)) + "\n"
+
+
+def write_bundled(folder: Path) -> list[Path]:
+    """Write every bundled accelerogram into `folder` and return the paths."""
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = [folder / f"{recipe.name}.AT2" for recipe in BUNDLED]
+    for path, recipe in zip(paths, BUNDLED, strict=True):
+        path.write_bytes(at2_text(recipe).encode("ascii"))
+    return paths
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        raise SystemExit("usage: python -m rocking.records.synthetic FOLDER")
+    for written in write_bundled(Path(sys.argv[1])):
+        print(written)
