@@ -1,0 +1,173 @@
+"""The circular masonry arch that rocks as a four-hinge mechanism (Fig. 5; theory: section 5)."""
+
+import warnings
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.optimize import brentq
+
+from rocking.checks import finite, positive
+from rocking.errors import StructureError, StructureWarning
+from rocking.structures.arch_linkage import Linkage
+from rocking.structures.arch_onset import (
+    NoMechanism,
+    Onset,
+    TooThin,
+    maximum_thickness,
+    minimum_thickness,
+    static_onset,
+)
+from rocking.structures.arch_ring import PATTERN, Ring
+from rocking.structures.mechanism import Mechanism, Side
+from rocking.structures.restitution import (
+    Restitution,
+    check_restitution,
+    momentum_balance,
+    resolve_restitution,
+)
+from rocking.structures.structure import Structure
+
+
+@dataclass(frozen=True)
+class Arch(Structure):
+    """A circular arch of radial joints, its bars exact annular sectors; φ is the rotation of the bar AB
+    (Oppenheim).
+
+    radius: r of the centreline, m. thickness: t, m. embrace_angle: β, rad. voussoirs: how many equal ones,
+    hinges at their joints only; None when a hinge may open anywhere.
+    restitution: η in [0, 1], 0.9 by default as in the paper, or "momentum": the mirrored mechanism's
+    balance. That balance assumes an impulse line inside the ring, which it leaves in every practical case; a
+    StructureWarning says so. Raises StructureError when it cannot stand, or has no four-hinge mechanism; the
+    message names the bound.
+    """
+
+    radius: float
+    thickness: float
+    embrace_angle: float
+    voussoirs: int | None = None
+    restitution: Restitution = None
+
+    def __post_init__(self) -> None:
+        for name, unit in (("radius", "m"), ("thickness", "m"), ("embrace_angle", "rad")):
+            object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), unit))
+        if self.thickness >= 2 * self.radius:
+            raise StructureError(
+                f"thickness is {self.thickness!r} m, but must be less than twice the radius of {self.radius!r} m."
+            )
+        if self.embrace_angle >= 2 * np.pi:
+            raise StructureError(
+                f"embrace_angle is {self.embrace_angle!r} rad, but must be less than a full turn, 6.2832 rad."
+            )
+        object.__setattr__(self, "voussoirs", _voussoirs(self.voussoirs))
+        check_restitution(self.restitution, ("momentum",))
+        self.onset  # noqa: B018  an arch that cannot stand or rock is refused at birth
+
+    @property
+    def ring(self) -> Ring:
+        """The arch with a centreline radius of 1."""
+        return Ring(self.thickness / self.radius, self.embrace_angle, self.voussoirs)
+
+    @cached_property
+    def onset(self) -> Onset:
+        """The uplift multiplier λ and the hinges A, B, C, D (angles from the left springing, rad)."""
+        try:
+            return static_onset(self.ring)
+        except TooThin:
+            bound = minimum_thickness(self.embrace_angle, self.voussoirs) * self.radius
+            raise StructureError(
+                f"{self._sentence} stands only above a thickness of {bound:.9g} m."
+            ) from None
+        except NoMechanism:
+            bound = maximum_thickness(self.embrace_angle, self.voussoirs) * self.radius
+            raise StructureError(
+                f"{self._sentence} has a four-hinge mechanism only below a thickness of {bound:.9g} m; "
+                "make it thinner or the embrace angle larger."
+            ) from None
+
+    @property
+    def _sentence(self) -> str:
+        joints = "" if self.voussoirs is None else f" and {self.voussoirs} voussoirs"
+        return (
+            f"thickness is {self.thickness!r} m, but an arch of radius {self.radius!r} m and embrace_angle "
+            f"{self.embrace_angle:.6g} rad ({np.degrees(self.embrace_angle):.6g}°){joints}"
+        )
+
+    @cached_property
+    def linkage(self) -> Linkage:
+        """The four-bar linkage on the side of positive rotation, with a centreline radius of 1."""
+        sections = self._hinge_sections
+        return Linkage(self.ring.contact_points(sections, PATTERN), self.ring.bars(sections))
+
+    @property
+    def _hinge_sections(self) -> np.ndarray:
+        return self.onset.hinges - self.embrace_angle / 2
+
+    def _build(self) -> Mechanism:
+        """The linkage divided by its mass per t·r and by r; it ends where A, B and C come into line.
+
+        There the left half of the mechanism has snapped through, far below the unstable equilibrium, and the
+        bar CD turns back. All functions are smooth up to that rotation.
+        """
+        linkage, radius = self.linkage, self.radius
+        end = linkage.straightening()
+        if not linkage.gravity(end) < 0:
+            raise StructureError(
+                f"{self._sentence} finds no unstable equilibrium before its hinges come into line."
+            )
+        return Mechanism(
+            Side(
+                inertia=lambda rotation: radius * linkage.inertia(rotation),
+                inertia_slope=lambda rotation: radius * linkage.inertia_slope(rotation),
+                gravity=linkage.gravity,
+                gravity_slope=linkage.gravity_slope,
+                ground=linkage.ground,
+                critical_rotation=float(brentq(linkage.gravity, 0.0, end, xtol=1e-16, rtol=1e-15)),
+                end_rotation=end,
+                restitution=self._resolve_restitution(),
+            )
+        )
+
+    def _resolve_restitution(self) -> float:
+        if self.restitution == "momentum":
+            warnings.warn(
+                "restitution of the arch by momentum balance rests on an impulse line that leaves the ring; "
+                "compare it with a measured value.",
+                StructureWarning,
+                stacklevel=4,
+            )
+        return resolve_restitution(self.restitution, 0.9, {"momentum": self.momentum_balance})
+
+    def momentum_balance(self) -> float:
+        """η = −⟨u, u_m⟩/⟨u_m, u_m⟩ of the two velocity fields of φ' = 1, the mechanism's and its mirror image's."""
+        sections = self._hinge_sections
+        edges = np.unique(
+            np.concatenate([sections, -sections, [self.embrace_angle / 2, -self.embrace_angle / 2]])
+        )
+        edges = edges[np.append(True, np.diff(edges) > 1e-12)]
+        parts = self.ring.bars(edges)
+        middles = (edges[1:] + edges[:-1]) / 2
+        arriving = self._velocities(middles, parts.centroids)
+        mirrored = self._velocities(-middles, -parts.centroids.conj()) * [-1.0, 1.0, -1.0]
+        return momentum_balance(parts.masses, parts.inertias, -arriving, mirrored)
+
+    def _velocities(self, sections: np.ndarray, points: np.ndarray) -> np.ndarray:
+        """(k, 3) velocities (vx, vy, ω) at φ = 0, φ' = 1 of the parts at `sections` with centroids `points`."""
+        motion = self.linkage.motion(0.0)
+        bar = np.searchsorted(self._hinge_sections, sections) - 1
+        moving = (bar >= 0) & (bar <= 2)
+        bar = np.clip(bar, 0, 2)
+        spins = motion.spins[bar]
+        speed = motion.velocities[bar] + 1j * spins * (points - motion.centroids[bar])
+        return np.stack([speed.real, speed.imag, spins], axis=1) * moving[:, None]
+
+
+def _voussoirs(value: int | None) -> int | None:
+    if value is None:
+        return None
+    count = finite(StructureError, "voussoirs", value)
+    if count != int(count) or count < 3:
+        raise StructureError(
+            f"voussoirs is {value!r}, but must be a whole number of at least 3, or left out."
+        )
+    return int(count)

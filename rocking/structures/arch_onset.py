@@ -1,0 +1,235 @@
+"""Where an arch hinges and at which horizontal multiplier: limit analysis by two routes (theory: section 5).
+
+Inertia forces act to the right. The loads are 1 downwards and λ to the right on each radian of the ring, at
+the radius of an element's centroid.
+
+Static route: λ is the largest multiplier whose thrust line stays inside the ring. With the reaction at the
+left springing u = (M₀, V, H) that is a linear programme in (u, λ), solved by exchange of the four sections
+where the line touches; between joints (a continuous ring) each touching section then slides to where the
+line is tangent. Kinematic route: λ is the smallest multiplier over all four-hinge mechanisms, by virtual
+work.
+"""
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from scipy.optimize import minimize
+
+from rocking.errors import StructureError
+from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Ring
+
+_DOWN = np.array([0.0, 0.0, 0.0, -1.0])
+_ROUNDS = 100
+_CLEARANCE = 1e-12
+"""A gap (of order t/r) that is zero to rounding."""
+_APART = 1e-6
+"""Nearer than this [rad] two hinges are one section, on which the ring would slide."""
+
+
+@dataclass(frozen=True, eq=False)
+class Onset:
+    """The mechanism at which an arch starts to rock.
+
+    multiplier: λ. hinges: (4,) angles of A, B, C, D from the left springing, rad.
+    reaction: (3,) moment about the centre, V and H at the left springing, in units of the ring (r = t·r = 1).
+    """
+
+    multiplier: float
+    hinges: np.ndarray
+    reaction: np.ndarray
+
+
+class TooThin(StructureError):
+    """No thrust line fits inside the ring, even without a horizontal load."""
+
+
+class NoMechanism(StructureError):
+    """No four-hinge mechanism exists: the ring would slide, or carry any horizontal load."""
+
+
+def static_onset(ring: Ring) -> Onset:
+    """Return the largest multiplier whose thrust line stays inside the ring, and where it touches.
+
+    Raises TooThin when no thrust line fits, NoMechanism when no four alternating hinges limit the multiplier.
+    """
+    sections, contacts = np.tile(ring.sections(), 2), np.repeat([INTRADOS, EXTRADOS], ring.sections().size)
+    rows = ring.gaps(sections, contacts)
+    basis = _first_basis(rows)
+    for _ in range(_ROUNDS):
+        basis, unknowns = _exchange(rows, basis)
+        basis = basis[np.argsort(sections[basis])]
+        hinges = sections[basis]
+        if not np.array_equal(contacts[basis], PATTERN):
+            raise NoMechanism
+        if ring.voussoirs is None:
+            hinges, unknowns = _slide_to_tangency(ring, hinges)
+        if np.any(np.diff(hinges) < _APART):
+            raise NoMechanism
+        if ring.voussoirs is not None or (rows @ unknowns).min() > -_CLEARANCE:
+            break
+        basis = sections.size + np.arange(4)
+        sections, contacts = np.append(sections, hinges), np.append(contacts, PATTERN)
+        rows = ring.gaps(sections, contacts)
+    if not unknowns[3] > 0:
+        raise TooThin
+    return Onset(float(unknowns[3]), hinges + ring.embrace_angle / 2, unknowns[:3])
+
+
+def _first_basis(rows: np.ndarray) -> np.ndarray:
+    """Four rows that limit λ at all: hinges I, E, I, E on a coarse choice of sections."""
+    count = len(rows) // 2
+    last = count - 1
+    tries = sorted({0, 1, 2, 3, *(round(last * share / 12) for share in range(1, 12))} & set(range(last)))
+    for first in tries[: len(tries) // 2 + 1]:
+        for second, third in combinations([k for k in reversed(tries) if k > first], 2):
+            basis = np.array([first, count + third, second, count + last])
+            if _multipliers(rows, basis).min() >= 0:
+                return basis
+    raise NoMechanism
+
+
+def _multipliers(rows: np.ndarray, basis: np.ndarray) -> np.ndarray:
+    """Lagrange multipliers of four touching rows: the relative rotations of the hinges, up to a factor."""
+    try:
+        return np.linalg.solve(rows[basis, :4].T, _DOWN)
+    except np.linalg.LinAlgError:
+        return np.full(4, -np.inf)
+
+
+def _touching_line(rows: np.ndarray) -> np.ndarray:
+    """The thrust line that touches four contacts: (M₀, V, H, λ, 1)."""
+    try:
+        return np.append(np.linalg.solve(rows[:, :4], -rows[:, 4]), 1.0)
+    except np.linalg.LinAlgError:
+        raise NoMechanism from None
+
+
+def _exchange(rows: np.ndarray, basis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Dual simplex: let the row most violated replace one of the basis until none is. Returns (basis, unknowns)."""
+    basis = basis.copy()
+    for _ in range(_ROUNDS):
+        touching = rows[basis]
+        unknowns = _touching_line(touching)
+        gaps = rows @ unknowns
+        entering = int(np.argmin(gaps))
+        if gaps[entering] > -_CLEARANCE or entering in basis:
+            return basis, unknowns
+        columns = np.stack([_DOWN, rows[entering, :4]], axis=1)
+        multipliers, change = np.linalg.solve(touching[:, :4].T, columns).T
+        if not (change > 0).any():
+            raise TooThin
+        ratios = np.where(change > 0, multipliers / np.where(change > 0, change, 1.0), np.inf)
+        basis[int(np.argmin(ratios))] = entering
+    raise NoMechanism
+
+
+def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Newton's method on the sections where the gap of a continuous ring is smallest. Returns (hinges, unknowns)."""
+    edge, spacing = ring.embrace_angle / 2, ring.embrace_angle / (CONTINUOUS_SECTIONS - 1)
+    hinges = hinges + spacing / 2 * (
+        np.diff(hinges, prepend=-np.inf) <= 0
+    )  # two on one section would be singular
+    for _ in range(_ROUNDS):
+        rows = ring.gaps(hinges, PATTERN)
+        if hinges[1] - hinges[0] < _APART:
+            raise NoMechanism
+        unknowns = _touching_line(rows)
+        slope, curvature = (derivative @ unknowns for derivative in ring.gap_slopes(hinges, PATTERN))
+        step = np.where(
+            curvature > 0, -slope / np.where(curvature > 0, curvature, 1.0), -np.sign(slope) * spacing
+        )
+        moved = np.clip(hinges + np.clip(step, -spacing, spacing), -edge, edge)
+        if np.abs(moved - hinges).max() < 1e-13:
+            break
+        hinges = moved
+    return hinges, unknowns
+
+
+def minimum_thickness(embrace_angle: float, voussoirs: int | None = None) -> float:
+    """Return the smallest t/r at which the ring stands under its own weight (λ = 0), to 1e-13."""
+    return _boundary(embrace_angle, voussoirs, TooThin, below=True)
+
+
+def maximum_thickness(embrace_angle: float, voussoirs: int | None = None) -> float:
+    """Return the largest t/r at which a four-hinge mechanism exists; a thicker ring slides instead, to 1e-13."""
+    return _boundary(embrace_angle, voussoirs, NoMechanism, below=False)
+
+
+def _boundary(
+    embrace_angle: float, voussoirs: int | None, failure: type[StructureError], below: bool
+) -> float:
+    """Bisect the t/r at which static_onset starts (below) or stops (above) to fail in one way."""
+
+    def fails(thickness: float) -> bool:
+        try:
+            static_onset(Ring(thickness, embrace_angle, voussoirs))
+        except (TooThin, NoMechanism) as reason:
+            return isinstance(reason, failure)
+        return False
+
+    low, high = 0.0, 2.0
+    while high - low > 1e-13:
+        middle = (low + high) / 2
+        low, high = (middle, high) if fails(middle) == below else (low, middle)
+    return (low + high) / 2
+
+
+def kinematic_onset(ring: Ring) -> Onset:
+    """Return the smallest multiplier over all admissible mechanisms with D at the right springing.
+
+    The reaction is not a kinematic quantity and is left nan. Raises NoMechanism when no mechanism is
+    admissible.
+    """
+    sections = ring.sections()
+    hinges = np.array([(*triple, sections.size - 1) for triple in combinations(range(sections.size - 1), 3)])
+    hinges = sections[hinges]
+    multipliers = mechanism_multiplier(ring, hinges)
+    best = int(np.argmin(multipliers))
+    multiplier, found = float(multipliers[best]), hinges[best]
+    if not np.isfinite(multiplier):
+        raise NoMechanism
+    if ring.voussoirs is None:
+        multiplier, found = _slide_to_minimum(ring, found)
+    return Onset(multiplier, found + ring.embrace_angle / 2, np.full(3, np.nan))
+
+
+def _slide_to_minimum(ring: Ring, hinges: np.ndarray) -> tuple[float, np.ndarray]:
+    """Minimise the multiplier over A, B and C from a first guess."""
+    edge = ring.embrace_angle / 2
+    result = minimize(
+        lambda free: mechanism_multiplier(ring, np.append(free, edge)),
+        hinges[:3],
+        jac="3-point",
+        method="L-BFGS-B",
+        bounds=[(-edge, edge)] * 3,
+        options={"ftol": 1e-16, "gtol": 1e-10},
+    )
+    return float(result.fun), np.append(result.x, edge)
+
+
+def mechanism_multiplier(ring: Ring, hinges: np.ndarray) -> np.ndarray:
+    """Return λ of the mechanism with hinges A, B, C, D at sections `hinges` (..., 4): shape (...), inf if
+    inadmissible.
+
+    Virtual work of the three bars for ω₁ = −1: λ = Σ m v_y / Σ m v_x.
+    """
+    points = ring.contact_points(hinges, PATTERN)
+    bars = np.diff(points, axis=-1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        second = _cross(bars[..., 0], bars[..., 2]) / _cross(bars[..., 1], bars[..., 2])
+        third = _cross(bars[..., 0], bars[..., 1]) / _cross(bars[..., 2], bars[..., 1])
+    spins = np.stack([-np.ones_like(second), second, third], axis=-1)
+    masses = np.diff(hinges, axis=-1)
+    moments = -ring.centroid_radius * np.diff(np.exp(-1j * hinges), axis=-1)
+    pivots = points[..., [0, 1, 3]]
+    hinge_speed = np.zeros_like(pivots)
+    hinge_speed[..., 1] = -1j * bars[..., 0]
+    speed = (1j * spins * (moments - masses * pivots) + masses * hinge_speed).sum(axis=-1)
+    opening = PATTERN * np.diff(spins, axis=-1, prepend=0, append=0)
+    admissible = (opening <= 0).all(axis=-1) & (speed.real > 0)
+    return np.where(admissible, speed.imag / np.where(admissible, speed.real, 1.0), np.inf)
+
+
+def _cross(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    return one.real * other.imag - one.imag * other.real
