@@ -1,0 +1,213 @@
+"""Figures of the ground motion and of the responses to it."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rocking.pulses.pulse import Pulse
+from rocking.records.accelerogram import Accelerogram
+from rocking.reports.style import elided, new_figure, plain_logarithmic, styled, thinned
+
+_PANEL_COLUMNS = 3
+_PANEL_HEIGHT = 27.0
+_MARGIN_HEIGHT = 9.0
+_STILL = 0.01
+"""Share of the largest rotation below which a history is cut from the figure."""
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """One response as a panel shows it: rotation over critical rotation against time, and what was predicted.
+
+    times: (k,) s. ratio: (k,) signed; both empty where there is no uplift. predicted: largest rotation ratio of the
+    closed form (inf if it overturns, nan if there is none). overturns: whether the integration does.
+    """
+
+    label: str
+    times: np.ndarray
+    ratio: np.ndarray
+    predicted: float
+    overturns: bool
+    remark: str = ""
+
+
+@styled
+def ground_motion(
+    accelerogram: Accelerogram,
+    velocity: np.ndarray,
+    displacement: np.ndarray,
+    pulse: Pulse | None,
+    uplift: Sequence[float],
+) -> Figure:
+    """Draw acceleration with pulse and uplift accelerations [m/s²], residual, velocity and displacement."""
+    figure = new_figure(112)
+    axes = figure.subplots(4, 1, sharex=True, height_ratios=[1.5, 1, 1, 1])
+    times = accelerogram.times
+    residual = (
+        accelerogram.acceleration if pulse is None else accelerogram.acceleration - pulse.acceleration(times)
+    )
+    traces = (accelerogram.acceleration, residual, velocity, displacement)
+    labels = ("acceleration\n[m/s²]", "residual\n[m/s²]", "velocity\n[m/s]", "displacement\n[m]")
+    for panel, trace, label in zip(axes, traces, labels, strict=True):
+        panel.plot(*thinned(times, trace), color="0.35", linewidth=0.5, label="record")
+        panel.axhline(0, color="0.6", linewidth=0.3)
+        panel.set_ylabel(label)
+        panel.set_xlim(0, accelerogram.duration)
+    if pulse is not None:
+        _pulse_over(axes, accelerogram, velocity, displacement, pulse)
+    _uplift_lines(axes[0], uplift, accelerogram.peak_acceleration)
+    axes[1].set_ylim(axes[0].get_ylim())
+    axes[0].legend(loc="upper right", ncols=3)
+    axes[-1].set_xlabel("time after the first sample [s]")
+    figure.align_ylabels(axes)
+    return figure
+
+
+def _pulse_over(
+    axes: Sequence[Axes],
+    accelerogram: Accelerogram,
+    velocity: np.ndarray,
+    displacement: np.ndarray,
+    pulse: Pulse,
+) -> None:
+    times = np.linspace(pulse.start_time, pulse.end_time, 121)
+    after, omega = times - pulse.start_time, pulse.circular_frequency
+    start_velocity = np.interp(pulse.start_time, accelerogram.times, velocity)
+    start_displacement = np.interp(pulse.start_time, accelerogram.times, displacement)
+    drift = pulse.amplitude / omega
+    curves = {
+        0: pulse.amplitude * np.sin(omega * after),
+        2: start_velocity + drift * (1 - np.cos(omega * after)),
+        3: start_displacement + (start_velocity + drift) * after - drift / omega * np.sin(omega * after),
+    }
+    for panel, curve in curves.items():
+        axes[panel].plot(times, curve, color="#D55E00", linewidth=1.5, label="dominant pulse")
+    for panel in axes:
+        panel.axvspan(pulse.start_time, pulse.end_time, color="0.93", linewidth=0, zorder=0)
+
+
+def _uplift_lines(panel: Axes, uplift: Sequence[float], peak: float) -> None:
+    label = "uplift accelerations"
+    for level in sorted({value for value in uplift if value <= 1.3 * peak}):
+        for signed in (level, -level):
+            panel.axhline(signed, color="#0072B2", linewidth=0.5, linestyle=":", label=label)
+            label = "_"
+
+
+@styled
+def response_histories(histories: Sequence[History]) -> Figure:
+    """Draw each response in its own panel: the integration solid, the predicted maximum dash-dot (as Fig. 8)."""
+    columns = min(_PANEL_COLUMNS, len(histories))
+    rows = math.ceil(len(histories) / columns)
+    figure = new_figure(_PANEL_HEIGHT * rows + _MARGIN_HEIGHT)
+    axes = figure.subplots(rows, columns, sharex=True, squeeze=False).ravel()
+    begin, end = _window(histories)
+    for panel, history in zip(axes, histories, strict=False):
+        _history_panel(panel, history)
+        panel.set_xlim(begin, end)
+    for panel in axes[len(histories) :]:
+        panel.remove()
+    for panel in axes[max(0, len(histories) - columns) : len(histories)]:
+        panel.tick_params(labelbottom=True)
+    figure.supxlabel("time after the first sample [s]", fontsize=7.5)
+    figure.supylabel("rotation / critical rotation [-]", fontsize=7.5)
+    return figure
+
+
+def _history_panel(panel: Axes, history: History) -> None:
+    panel.set_title(elided(history.label, 38))
+    panel.axhline(0, color="0.6", linewidth=0.3)
+    if history.times.size:
+        panel.plot(*thinned(history.times, history.ratio, 1500), color="black", linewidth=0.7)
+    if 0 < history.predicted < math.inf:
+        for level in (history.predicted, -history.predicted):
+            panel.axhline(level, color="#0072B2", linewidth=1.0, linestyle="-.")
+    reach = _reach(history)
+    panel.set_ylim(-reach, reach)
+    panel.locator_params(axis="y", nbins=5)
+    if history.remark:
+        panel.text(0.99, 0.02, history.remark, transform=panel.transAxes, ha="right", va="bottom", fontsize=7)
+
+
+def _reach(history: History) -> float:
+    """Half the height of a panel: enough for the response and the prediction, no further than 1.4 φ_cr."""
+    levels = [float(np.abs(history.ratio).max())] if history.ratio.size else []
+    if 0 < history.predicted < math.inf:
+        levels.append(history.predicted)
+    return min(1.25 * max(levels), 1.4) if levels and max(levels) > 0 else 1.0
+
+
+def _window(histories: Sequence[History]) -> tuple[float, float]:
+    """The span of time in which anything moves."""
+    begins, ends = [], []
+    for history in histories:
+        size = np.abs(history.ratio)
+        moving = np.flatnonzero(size > _STILL * size.max()) if size.size else np.empty(0, int)
+        if moving.size:
+            begins.append(history.times[moving[0]])
+            ends.append(history.times[moving[-1]])
+    if not begins:
+        return 0.0, 1.0
+    margin = 0.05 * (max(ends) - min(begins)) + 1e-3
+    return max(0.0, min(begins) - margin), max(ends) + margin
+
+
+@styled
+def rocking_spectrum_figure(
+    frequency_parameters: np.ndarray,
+    uplift_multipliers: np.ndarray,
+    ratios: np.ndarray,
+    structures: Sequence[tuple[str, float, float]],
+) -> Figure:
+    """Draw rotation ratios (m, n) over p (m,) [rad/s] and λ (n,) with structures (label, p, λ) on them."""
+    figure = new_figure(78)
+    panel = figure.subplots()
+    shown = np.where(np.isfinite(ratios), np.minimum(ratios, 1.5), 1.5).T
+    levels = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0]
+    overturned = np.isinf(ratios).T.astype(float)
+    panel.contourf(
+        frequency_parameters,
+        uplift_multipliers,
+        shown,
+        levels=[0, *levels, 1.5],
+        cmap="Greys",
+        vmin=0,
+        vmax=2.2,
+    )
+    lines = panel.contour(
+        frequency_parameters, uplift_multipliers, shown, levels=levels[1:-1], colors="black", linewidths=0.5
+    )
+    panel.clabel(lines, fontsize=7, fmt="%g")
+    if overturned.any():
+        panel.contourf(
+            frequency_parameters,
+            uplift_multipliers,
+            overturned,
+            levels=[0.5, 1.5],
+            colors="none",
+            hatches=["////"],
+        )
+    plain_logarithmic(panel, "x")
+    plain_logarithmic(panel, "y")
+    _place(panel, structures)
+    panel.set_xlabel("frequency parameter p [rad/s]")
+    panel.set_ylabel("uplift acceleration λ [g]")
+    return figure
+
+
+def _place(panel: Axes, structures: Sequence[tuple[str, float, float]]) -> None:
+    for label, frequency_parameter, uplift_multiplier in structures:
+        panel.plot(
+            frequency_parameter, uplift_multiplier, "o", color="white", markeredgecolor="black", markersize=5
+        )
+        panel.annotate(
+            elided(label, 24),
+            (frequency_parameter, uplift_multiplier),
+            xytext=(5, 3),
+            textcoords="offset points",
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85},
+        )

@@ -1,0 +1,45 @@
+"""Figures of the pulse's evidence: where in onset and period the record's energy can be taken out by one sine."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rocking.pulses.pulse import Pulse
+from rocking.reports.style import new_figure, plain_logarithmic, styled
+
+
+@styled
+def energy_map(onsets: np.ndarray, periods: np.ndarray, gains: np.ndarray, pulses: Sequence[Pulse]) -> Figure:
+    """Draw energy gains (n, m) [m²/s³] over onset (n,) [s] and period (m,) [s], with the ranked pulses."""
+    figure = new_figure(62)
+    panel, profile = figure.subplots(1, 2, sharey=True, width_ratios=[4, 1])
+    share = gains / max(float(gains.max()), np.finfo(float).tiny)
+    panel.pcolormesh(
+        onsets, periods, np.sqrt(share).T, cmap="Greys", vmin=0, vmax=1.2, shading="nearest", rasterized=True
+    )
+    _ranks(panel, pulses)
+    plain_logarithmic(panel, "y")
+    panel.set_ylim(periods.min(), periods.max())
+    panel.set_xlim(onsets[0], onsets[-1])
+    panel.set_xlabel("onset of the pulse [s]")
+    panel.set_ylabel("period [s]")
+    profile.plot(share.max(axis=0), periods, color="black")
+    profile.set_xlim(0, 1.05)
+    profile.set_xlabel("gain / largest gain [-]")
+    return figure
+
+
+def _ranks(panel: Axes, pulses: Sequence[Pulse]) -> None:
+    for rank, pulse in enumerate(pulses, start=1):
+        panel.plot(
+            pulse.start_time, pulse.period, "o", color="white", markeredgecolor="#D55E00", markersize=4
+        )
+        panel.annotate(
+            str(rank),
+            (pulse.start_time, pulse.period),
+            xytext=(4, 3),
+            textcoords="offset points",
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85},
+        )

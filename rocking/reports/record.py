@@ -1,0 +1,136 @@
+"""The report of one record: what an engineer hands to a client."""
+
+from collections.abc import Mapping, Sequence
+
+from rocking.records.accelerogram import Accelerogram
+from rocking.reports import printing, record_curves, record_tables
+from rocking.reports.document import compile_document
+from rocking.reports.printing import Row, of_component
+
+Tables = Mapping[str, Sequence[Row]]
+
+
+def record_report(
+    record: str,
+    accelerograms: Sequence[Accelerogram],
+    structures: Mapping[str, object],
+    tables: Tables,
+    settings: Mapping[str, object],
+) -> bytes:
+    """Return the PDF of one record.
+
+    tables: rows of text as read from the CSV files "record", "pulses", "predictions", "responses", "comparison",
+    "structures" and, where something failed, "failures"; every number printed is one of their cells, rounded. Only
+    curves are computed here, from `accelerograms` and the mechanisms of `structures` (by name). settings: at least
+    tolerance, acceleration_scale and fragility_change.
+    """
+    return compile_document("record.typ", record_data(record, accelerograms, structures, tables, settings))
+
+
+def failure_report(record: str, message: str) -> bytes:
+    """Return a one-page PDF that says why `record` gave no result."""
+    data = {"title": f"Rocking assessment: {record}", "message": message or "No reason was given."}
+    return compile_document("failure.typ", data)
+
+
+def record_data(
+    record: str,
+    accelerograms: Sequence[Accelerogram],
+    structures: Mapping[str, object],
+    tables: Tables,
+    settings: Mapping[str, object],
+) -> dict[str, object]:
+    """Return what the template of the record report is given: texts, tables and figures."""
+    numbers = record_tables.structure_numbers(tables)
+    scale_note = record_tables.scale_note(tables["record"])
+    return {
+        "title": f"Rocking assessment: {record}",
+        "subtitle": _subtitle(tables["record"]),
+        "running": f"{record}.{scale_note}" if scale_note else record,
+        "scale-note": scale_note,
+        "notices": record_tables.notices(tables, tables.get("failures", ())),
+        "verdicts": _verdicts(tables, numbers),
+        "identity": record_tables.identity_table(tables["record"]),
+        "pulses": _pulse_parts(tables),
+        "structures": record_tables.structure_table(tables["structures"], numbers),
+        "methods": record_tables.method_table(tables, numbers),
+        **_pictures(accelerograms, structures, tables, numbers, float(settings["tolerance"])),
+        **_assumptions(tables, settings),
+    }
+
+
+def _subtitle(rows: Sequence[Row]) -> str:
+    events = [text for text in printing.distinct(rows, "event") if text]
+    stations = [text for text in printing.distinct(rows, "station") if text]
+    parts = [", ".join(events), ", ".join(f"station {text}" for text in stations)]
+    return " · ".join(part for part in parts if part) or "The file names no event and no station."
+
+
+def _verdicts(tables: Tables, numbers: Mapping[str, str]) -> list[dict[str, object]]:
+    rows = tables["comparison"]
+    note = record_tables.scale_note(tables["record"])
+    return [
+        {
+            "caption": f"Component {printing.words(component)}: largest rotation over critical rotation by the closed "
+            f"form under the dominant pulse and by full integration under the whole record.{note}",
+            "table": record_tables.verdict_table(of_component(rows, component), numbers),
+            "sentences": record_tables.verdict_sentences(of_component(rows, component)),
+        }
+        for component in printing.distinct(rows, "component")
+    ]
+
+
+def _pulse_parts(tables: Tables) -> list[dict[str, object]]:
+    rows = tables["pulses"]
+    return [
+        {
+            "component": printing.words(component),
+            "table": record_tables.pulse_table(of_component(rows, component)),
+            "sentences": record_tables.pulse_sentences(of_component(rows, component)),
+        }
+        for component in printing.distinct(rows, "component")
+    ]
+
+
+def _pictures(
+    accelerograms: Sequence[Accelerogram],
+    structures: Mapping[str, object],
+    tables: Tables,
+    numbers: Mapping[str, str],
+    tolerance: float,
+) -> dict[str, list[dict[str, str]]]:
+    known = set(printing.distinct(tables["record"], "component"))
+    pictures = {"motions": [], "maps": [], "histories": [], "spectra": []}
+    for accelerogram in accelerograms:
+        if accelerogram.component not in known:
+            continue
+        rows = {
+            name: of_component(tables[name], accelerogram.component)
+            for name in ("pulses", "predictions", "comparison")
+        }
+        pictures["motions"].append(
+            record_curves.motion_picture(accelerogram, rows["pulses"], tables["structures"])
+        )
+        pictures["maps"].append(
+            record_curves.map_picture(accelerogram, rows["pulses"]) if rows["pulses"] else None
+        )
+        histories = record_curves.history_picture(
+            accelerogram, structures, rows["comparison"], numbers, tolerance
+        )
+        pictures["histories"].append(histories)
+        pictures["spectra"].append(record_curves.spectrum_picture(accelerogram, rows["predictions"], numbers))
+    found = {name: [picture for picture in many if picture] for name, many in pictures.items()}
+    return found | {"drawings": record_curves.drawing_pictures(structures, numbers)}
+
+
+def _assumptions(tables: Tables, settings: Mapping[str, object]) -> dict[str, object]:
+    hashes = printing.distinct(tables["record"], "record_sha256")
+    change = 100 * float(settings["fragility_change"])
+    return {
+        "tolerance": printing.given(str(settings["tolerance"])),
+        "fragility-change": f"{printing.given(str(change))} %",
+        "acceleration-scale": str(settings["acceleration_scale"]),
+        "vertical-note": "",
+        "warnings": [text for text in printing.distinct(tables["record"], "warnings") if text],
+        "hashes": "; ".join(f"SHA-256 {text}" for text in hashes if text) or "the file's hash is not known.",
+    }

@@ -1,0 +1,191 @@
+"""The figures of a record's report as the template takes them: SVG, alternative text and what the caption adds."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from rocking.pulses.pulse import Pulse
+from rocking.records.accelerogram import Accelerogram
+from rocking.reports import printing
+from rocking.reports.motion_figures import History, ground_motion, response_histories, rocking_spectrum_figure
+from rocking.reports.printing import Row, of_component
+from rocking.reports.pulse_figures import energy_map
+from rocking.reports.structure_figures import structure_drawings
+from rocking.reports.style import svg
+from rocking.units import GRAVITY
+
+Rows = Sequence[Row]
+Tables = Mapping[str, Rows]
+Picture = dict[str, str]
+
+MOST_DRAWN = 15
+"""Structures that are drawn; the tables hold all."""
+MOST_HISTORIES = 12
+"""Responses that are drawn for one component, the most demanding ones; the tables hold all."""
+SPECTRUM_POINTS = 32
+_MAP_COLUMNS = 240
+_MAP_PERIODS = 72
+
+
+def read_number(text: str) -> float:
+    """Return the number in a CSV cell; nan for an empty one."""
+    return float(text) if text.strip() else math.nan
+
+
+def read_pulses(rows: Rows) -> list[Pulse]:
+    """Return the ranked pulses of one component's rows, the dominant one first."""
+    ranked = sorted((row for row in rows if row["kind"] == "alternative"), key=lambda row: int(row["rank"]))
+    columns = ("amplitude_m_s2", "circular_frequency_rad_s", "start_time_s")
+    return [Pulse(*(float(row[column]) for column in columns)) for row in ranked]
+
+
+def motion_picture(accelerogram: Accelerogram, rows: Rows, structures: Rows) -> Picture:
+    """Return acceleration, residual, velocity and displacement of one component."""
+    from rocking.records.processing import displacement, velocity
+
+    pulses = read_pulses(rows)
+    uplift = [GRAVITY * float(row["uplift_multiplier"]) for row in structures]
+    figure = ground_motion(
+        accelerogram,
+        velocity(accelerogram),
+        displacement(accelerogram),
+        pulses[0] if pulses else None,
+        uplift,
+    )
+    component = printing.words(accelerogram.component)
+    alt = f"Time histories of component {component}: acceleration with the dominant pulse, residual, velocity, displacement."
+    return {"component": component, "svg": svg(figure), "alt": alt}
+
+
+def map_picture(accelerogram: Accelerogram, rows: Rows) -> Picture:
+    """Return the energy of a sine pulse over onset and period."""
+    from rocking.pulses.extraction import energy_map as energy_gains
+    from rocking.pulses.extraction import searched_band
+    from rocking.pulses.settings import PulseSettings
+
+    low, high = searched_band(accelerogram, PulseSettings()).limits
+    frequencies = np.geomspace(low, high, _MAP_PERIODS)
+    gains = energy_gains(accelerogram, frequencies)
+    stretch = max(1, gains.shape[0] // _MAP_COLUMNS)
+    starts = np.arange(0, gains.shape[0], stretch)
+    pooled = np.maximum.reduceat(gains, starts, axis=0)
+    figure = energy_map(starts * accelerogram.time_step, 1 / frequencies, pooled, read_pulses(rows))
+    component = printing.words(accelerogram.component)
+    alt = f"Map of the energy that one sine pulse explains in component {component}, over onset and period."
+    return {"component": component, "svg": svg(figure), "alt": alt}
+
+
+def drawing_pictures(structures: Mapping[str, object], numbers: Mapping[str, str]) -> list[Picture]:
+    """Return the drawings of the first structures, or nothing when there is none."""
+    drawn = [(f"{number} {name}", structures[name]) for name, number in numbers.items() if name in structures]
+    shown = drawn[:MOST_DRAWN]
+    if not shown:
+        return []
+    caption = "The structures, each to the scale of its own bar: at rest (dashed) and displaced (grey), hinges as circles."
+    if len(drawn) > len(shown):
+        caption += " The others are like these in kind and stand in the table alone."
+    alt = f"Drawings to scale of {printing.counted(len(shown), 'structure')} at rest and displaced, with hinges."
+    return [{"svg": svg(structure_drawings(shown)), "alt": alt, "caption": caption}]
+
+
+def history_picture(
+    accelerogram: Accelerogram,
+    structures: Mapping[str, object],
+    rows: Rows,
+    numbers: Mapping[str, str],
+    tolerance: float,
+) -> Picture | None:
+    """Return the response histories of one component, the most demanding first chosen; None when nothing moves."""
+    moving = [
+        row
+        for row in rows
+        if read_number(row["integrated_rotation_ratio"]) > 0 and row["structure"] in structures
+    ]
+    chosen = sorted(moving, key=_demand, reverse=True)[:MOST_HISTORIES]
+    chosen = [row for row in rows if row in chosen]
+    if not chosen:
+        return None
+    figure = response_histories(
+        [_history(row, structures[row["structure"]], accelerogram, numbers, tolerance) for row in chosen]
+    )
+    left_out = len(rows) - len(chosen)
+    note = (
+        f" Not drawn: {printing.counted(left_out, 'structure')}, not lifted or less demanding."
+        if left_out
+        else ""
+    )
+    component = printing.words(accelerogram.component)
+    alt = f"Rotation histories of {printing.counted(len(chosen), 'structure')} under component {component}."
+    return {"component": component, "svg": svg(figure), "alt": alt, "note": note}
+
+
+def _demand(row: Row) -> tuple[bool, float]:
+    return row["verdict"] == "unsafe" or row["fragile"] == "true", read_number(
+        row["integrated_rotation_ratio"]
+    )
+
+
+def _history(
+    row: Row, structure, accelerogram: Accelerogram, numbers: Mapping[str, str], tolerance: float
+) -> History:
+    from rocking.motion import integrate
+
+    mechanism = structure.mechanism()
+    response = integrate(mechanism, accelerogram, tolerance=tolerance, history=True)
+    negative = mechanism.negative or mechanism.positive
+    critical = np.where(response.rotation < 0, negative.critical_rotation, mechanism.critical_rotation)
+    overturns = math.isinf(read_number(row["integrated_rotation_ratio"]))
+    return History(
+        label=f"{numbers[row['structure']]} {row['structure']}",
+        times=response.times,
+        ratio=response.rotation / critical,
+        predicted=read_number(row["predicted_rotation_ratio"]),
+        overturns=overturns,
+        remark=_remark(read_number(row["predicted_rotation_ratio"]), overturns),
+    )
+
+
+def _remark(predicted: float, overturns: bool) -> str:
+    said = []
+    if overturns:
+        said.append("overturns")
+    if math.isinf(predicted):
+        said.append("predicted: overturns")
+    elif predicted == 0:
+        said.append("predicted: no uplift")
+    return "; ".join(said)
+
+
+def spectrum_picture(accelerogram: Accelerogram, rows: Rows, numbers: Mapping[str, str]) -> Picture | None:
+    """Return the rocking spectrum with the equivalent blocks of the `predictions` rows on it; None without rows."""
+    from rocking.spectrum import rocking_spectrum
+
+    placed = list(_placed(rows, numbers))
+    if not placed:
+        return None
+    frequency_parameters = _around([place[1] for place in placed])
+    uplift_multipliers = _around([place[2] for place in placed])
+    restitution = sorted((row["restitution"] for row in rows), key=float)[len(rows) // 2]
+    ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, float(restitution))
+    figure = rocking_spectrum_figure(frequency_parameters, uplift_multipliers, np.asarray(ratios), placed)
+    component = printing.words(accelerogram.component)
+    alt = f"Rocking spectrum of component {component} over frequency parameter and uplift acceleration, with the structures."
+    return {
+        "component": component,
+        "svg": svg(figure),
+        "alt": alt,
+        "restitution": printing.number(restitution),
+    }
+
+
+def _placed(rows: Rows, numbers: Mapping[str, str]) -> Iterator[tuple[str, float, float]]:
+    for row in of_component(rows, rows[0]["component"]) if rows else ():
+        if row["method"] == "closed form":
+            place = float(row["frequency_parameter_rad_s"]), float(row["uplift_multiplier"])
+            yield (f"{numbers[row['structure']]}", *place)
+
+
+def _around(values: Sequence[float]) -> np.ndarray:
+    """A grid that holds every value with room to both sides."""
+    return np.geomspace(min(values) / 1.8, max(values) * 1.8, SPECTRUM_POINTS)

@@ -1,0 +1,310 @@
+"""The tables and sentences of a record's report, from the rows of its CSV tables and nothing else."""
+
+from collections.abc import Mapping, Sequence
+
+from rocking.pulses.flags import Flag
+from rocking.reports import printing
+from rocking.reports.printing import Cell, Row, number, of_component, ratio, strong, table, words
+
+Rows = Sequence[Row]
+Tables = Mapping[str, Rows]
+
+_VERDICTS = {
+    "agree": "agrees",
+    "unsafe": "UNSAFE: predicts less",
+    "safe": "safe side: predicts more",
+    "unknown": "unknown",
+}
+
+
+def structure_numbers(tables: Tables) -> dict[str, str]:
+    """Return the number by which each structure is called in the report, from 1, by name."""
+    names = [row["structure"] for row in tables["structures"]]
+    names += [row["structure"] for row in tables["comparison"] if row["structure"] not in names]
+    return {name: str(place) for place, name in enumerate(dict.fromkeys(names), start=1)}
+
+
+def verdict_table(rows: Rows, numbers: Mapping[str, str]) -> dict[str, object]:
+    """Return the first table that a reader sees: one row per structure of one component."""
+    columns = [
+        ("No.", "auto", "r"),
+        ("Structure", "1.5", "l"),
+        ("Light", "auto", "l"),
+        ("Closed form", "auto", "r"),
+        ("Full integration", "0.75", "r"),
+        ("The closed form", "1.0", "l"),
+        ("Regime of the closed form", "1.25", "l"),
+        ("Sensi\u00adtivity", "0.45", "r"),
+        ("Fragile", "auto", "l"),
+    ]
+    return table(columns, [_verdict_row(row, numbers) for row in rows])
+
+
+def _verdict_row(row: Row, numbers: Mapping[str, str]) -> list[Cell]:
+    verdict = _VERDICTS.get(row["verdict"], words(row["verdict"]))
+    return [
+        numbers[row["structure"]],
+        row["structure"],
+        printing.lamp(row["light"]),
+        ratio(row["predicted_rotation_ratio"]),
+        strong(ratio(row["integrated_rotation_ratio"])),
+        strong(verdict) if row["verdict"] == "unsafe" else verdict,
+        words(row["regime"]),
+        number(row["sensitivity"]),
+        strong("YES") if row["fragile"] == "true" else {"false": "no"}.get(row["fragile"], printing.NOTHING),
+    ]
+
+
+def verdict_sentences(rows: Rows) -> list[str]:
+    """Return what the verdict table amounts to, in sentences."""
+    integrated = [ratio(row["integrated_rotation_ratio"]) for row in rows]
+    falling = integrated.count("overturns")
+    still = integrated.count("no uplift")
+    failed = integrated.count(printing.NOTHING)
+    rocking = len(rows) - falling - still - failed
+    parts = [
+        (falling, "overturn"),
+        (rocking, "rock and stay up"),
+        (still, "are not lifted"),
+        (failed, "gave no result"),
+    ]
+    said = [f"{printing.count(many)} {what}" for many, what in parts if many]
+    total = printing.counted(len(rows), "structure")
+    sentences = [printing.sentence(f"of {total} in the full integration: {', '.join(said)}.")] if rows else []
+    return sentences + _doubts(rows)
+
+
+def _doubts(rows: Rows) -> list[str]:
+    unsafe = [row["structure"] for row in rows if row["verdict"] == "unsafe"]
+    fragile = [row["structure"] for row in rows if row["fragile"] == "true"]
+    sentences = []
+    if unsafe:
+        sentences.append(f"The closed form misses what happens to {_listed(unsafe)}.")
+    if fragile:
+        sentences.append(f"Close to a change of verdict, so not decided: {_listed(fragile)}.")
+    return sentences
+
+
+def _listed(names: Sequence[str], most: int = 6) -> str:
+    shown = ", ".join(names[:most])
+    more = len(names) - most
+    return shown if more <= 0 else f"{shown} and {printing.counted(more, 'other')}"
+
+
+def notices(tables: Tables, failures: Rows) -> list[dict[str, object]]:
+    """Return the warnings that stand above everything: scale factor, red light, nothing moves, what failed."""
+    rows = tables["comparison"]
+    red = [row for row in rows if row["light"] == "red"]
+    found = [(True, scale) for scale in [scale_sentence(tables["record"])] if scale]
+    if not rows:
+        found.append((True, "No structure could be assessed under this record."))
+    elif all(ratio(row["integrated_rotation_ratio"]) == "no uplift" for row in rows):
+        found.append(
+            (False, "No structure uplifts: the ground acceleration never reaches an uplift acceleration.")
+        )
+    if red:
+        found.append((True, _red_sentence(red, rows)))
+    if not tables["pulses"]:
+        found.append(
+            (True, "No pulse could be sought in this record, so there is no closed-form prediction.")
+        )
+    found += [(True, f"{row['structure'] or row['component']}: {row['message']}") for row in failures]
+    return [{"strong": loud, "text": text} for loud, text in found]
+
+
+def _red_sentence(red: Rows, rows: Rows) -> str:
+    share = "all" if len(red) == len(rows) else printing.count(len(red))
+    of_all = printing.counted(len(rows), "prediction")
+    return (
+        f"Red light for {share} of {of_all}: one pulse does not stand for this record there, and the closed form then "
+        "mostly predicts too little. Use the full integration."
+    )
+
+
+def scale_sentence(rows: Rows) -> str:
+    """Return the sentence that declares the scale factors, or nothing when every factor is 1."""
+    scaled = [row for row in rows if float(row["scale_factor"] or 1) != 1]
+    if not scaled:
+        return ""
+    named = "; ".join(
+        f"component {words(row['component'])}: × {printing.given(row['scale_factor'])}" for row in scaled
+    )
+    return f"Not the recorded amplitude. The accelerations of the file were multiplied by a declared factor ({named})."
+
+
+def scale_note(rows: Rows) -> str:
+    """Return the short form of the scale sentence for captions and the running head."""
+    factors = dict.fromkeys(
+        printing.given(row["scale_factor"]) for row in rows if float(row["scale_factor"] or 1) != 1
+    )
+    return f" Accelerations × {', '.join(factors)}, declared." if factors else ""
+
+
+def identity_table(rows: Rows) -> dict[str, object]:
+    """Return what was read and done: one column per component, or two columns of facts for a single one."""
+    facts = [[label, *[show(row) for row in rows]] for label, show in _IDENTITY]
+    if len(rows) == 1:
+        half = len(facts) // 2
+        columns = [("", "auto", "l"), ("", "1", "l"), ("", "auto", "l"), ("", "1", "l")]
+        return table(columns, [left + right for left, right in zip(facts[:half], facts[half:], strict=True)])
+    return table(
+        [("", "auto", "l"), *[(f"Component {words(row['component'])}", "1", "l") for row in rows]], facts
+    )
+
+
+def _plain(column: str):
+    return lambda row: words(row[column])
+
+
+def _rounded(column: str, unit: str, digits: int = 4):
+    return lambda row: _with_unit(number(row[column], digits), unit)
+
+
+def _chosen(column: str, unit: str):
+    return lambda row: _with_unit(printing.given(row[column]), unit)
+
+
+def _with_unit(text: str, unit: str) -> str:
+    return text if text == printing.NOTHING or not unit else f"{text} {unit}"
+
+
+_IDENTITY = (
+    ("Event", _plain("event")),
+    ("Station", _plain("station")),
+    ("File", _plain("file")),
+    ("Format", _plain("format")),
+    ("Unit in the file", _plain("unit")),
+    ("Licence", _plain("licence")),
+    ("Declared scale factor", _chosen("scale_factor", "")),
+    ("Samples", lambda row: printing.whole(row["samples"])),
+    ("Time step", _chosen("time_step_s", "s")),
+    ("Duration", _chosen("duration_s", "s")),
+    ("Peak acceleration", _rounded("peak_acceleration_m_s2", "m/s²")),
+    ("Peak velocity", _rounded("peak_velocity_m_s", "m/s")),
+    ("Peak displacement", _rounded("peak_displacement_m", "m")),
+    ("High-pass corner, known", _chosen("high_pass_frequency_hz", "Hz")),
+    ("Processing", _plain("processing")),
+    ("Noticed by the reader", _plain("warnings")),
+)
+
+
+def pulse_table(rows: Rows) -> dict[str, object]:
+    """Return the pulses of one component."""
+    columns = [
+        ("Kind", "auto", "l"),
+        ("Rank", "auto", "r"),
+        ("Amplitude [m/s²]", "1.2", "r"),
+        ("Period [s]", "1.2", "r"),
+        ("Circular frequency [rad/s]", "1.1", "r"),
+        ("Start [s]", "0.7", "r"),
+        ("Gain ratio [-]", "0.7", "r"),
+        ("Explained energy [-]", "0.8", "r"),
+        ("Effective length [m]", "0.8", "r"),
+    ]
+    return table(columns, [_pulse_row(row) for row in rows])
+
+
+def _pulse_row(row: Row) -> list[Cell]:
+    return [
+        row["kind"],
+        printing.whole(row["rank"]),
+        _with_interval(row, "amplitude", "_m_s2"),
+        _with_interval(row, "period", "_s"),
+        number(row["circular_frequency_rad_s"]),
+        number(row["start_time_s"]),
+        number(row["gain_ratio"]),
+        number(row["explained_energy"]),
+        number(row["effective_length_m"]),
+    ]
+
+
+def _with_interval(row: Row, quantity: str, unit: str) -> str:
+    middle = number(row[quantity + unit])
+    low, high = row[f"{quantity}_low{unit}"], row[f"{quantity}_high{unit}"]
+    return f"{middle} [{number(low)}, {number(high)}]" if low and high else middle
+
+
+def pulse_sentences(rows: Rows) -> list[str]:
+    """Return the doubts about the dominant pulse, in sentences."""
+    flags = [flag for row in rows[:1] for flag in row["flags"].split("; ") if flag]
+    known = {flag.value: flag.sentence for flag in Flag}
+    return [known.get(flag, printing.sentence(f"{flag}.")) for flag in flags]
+
+
+def structure_table(rows: Rows, numbers: Mapping[str, str]) -> dict[str, object]:
+    """Return the structures with their equivalent blocks."""
+    columns = [
+        ("No.", "auto", "r"),
+        ("Structure", "1.3", "l"),
+        ("Type and geometry", "1.6", "l"),
+        ("p [rad/s]", "auto", "r"),
+        ("Critical rotation [rad]", "0.7", "r"),
+        ("Uplift λ [g]", "0.55", "r"),
+        ("Scale, linear\u00adised [-]", "0.6", "r"),
+        ("Scale, uplift [-]", "0.55", "r"),
+        ("Linearised λ / λ [-]", "0.75", "r"),
+        ("Resti\u00adtution [-]", "0.55", "r"),
+    ]
+    return table(columns, [_structure_row(row, numbers) for row in rows])
+
+
+def _structure_row(row: Row, numbers: Mapping[str, str]) -> list[Cell]:
+    return [
+        numbers[row["structure"]],
+        row["structure"],
+        f"{words(row['type'])}: {printing.geometry(row['geometry'])}",
+        number(row["frequency_parameter_rad_s"], 4),
+        number(row["critical_rotation_rad"], 4),
+        number(row["uplift_multiplier"], 4),
+        number(row["acceleration_scale_linearised"], 4),
+        number(row["acceleration_scale_uplift"], 4),
+        number(row["linearised_over_true_uplift"], 4),
+        number(row["restitution"], 4),
+    ]
+
+
+def method_table(tables: Tables, numbers: Mapping[str, str]) -> dict[str, object]:
+    """Return every method beside the others, one row per component and structure."""
+    columns = [
+        ("No.", "auto", "r"),
+        ("Comp.", "auto", "l"),
+        ("Eq. 15, printed", "1", "r"),
+        ("Prediction", "1", "r"),
+        ("Range over the interval", "1.3", "r"),
+        ("Mechanism under the pulse", "1", "r"),
+        ("Block under the record", "1", "r"),
+        ("Mechanism under the record", "1", "r"),
+        ("Rotation [rad]", "1", "r"),
+        ("Peak at [s]", "0.7", "r"),
+        ("Im\u00adpacts", "0.6", "r"),
+    ]
+    return table(columns, [_method_row(tables, row, numbers) for row in tables["comparison"]])
+
+
+def _method_row(tables: Tables, row: Row, numbers: Mapping[str, str]) -> list[Cell]:
+    prediction = _of_method(tables["predictions"], row, "closed form")
+    response = _of_method(tables["responses"], row, "mechanism on record")
+    return [
+        numbers[row["structure"]],
+        words(row["component"]),
+        ratio(row["printed_rotation_ratio"]),
+        ratio(row["predicted_rotation_ratio"]),
+        _range(
+            ratio(prediction.get("rotation_ratio_low", "")), ratio(prediction.get("rotation_ratio_high", ""))
+        ),
+        ratio(row["pulse_rotation_ratio"]),
+        ratio(row["block_rotation_ratio"]),
+        strong(ratio(row["integrated_rotation_ratio"], 6)),
+        number(response.get("rotation_rad", ""), 5),
+        number(response.get("peak_time_s", ""), 4),
+        printing.whole(response.get("impacts", "")),
+    ]
+
+
+def _range(low: str, high: str) -> str:
+    return low if low == high else f"{low} to {high}"
+
+
+def _of_method(rows: Rows, case: Row, method: str) -> Row:
+    same = (row for row in of_component(rows, case["component"]) if row["structure"] == case["structure"])
+    return next((row for row in same if row["method"] == method), {})

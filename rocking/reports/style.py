@@ -1,0 +1,82 @@
+"""The one style of every figure, and how a figure becomes bytes."""
+
+import io
+from collections.abc import Callable
+from functools import cache, wraps
+from pathlib import Path
+from typing import ParamSpec, TypeVar
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
+
+TEXT_WIDTH = 170.0
+"""Width of the text on the page, mm; a figure is set at its own size, so its type keeps its size."""
+MAXIMUM_POINTS = 4000
+"""Points of the longest trace that is drawn."""
+LIGHT_COLOURS = {"green": "#009E73", "amber": "#E69F00", "red": "#D55E00"}
+LIGHT_MARKERS = {"green": "o", "amber": "^", "red": "s"}
+"""A light is told by its marker as well as by its colour."""
+_MILLIMETRES_PER_INCH = 25.4
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+@cache
+def _style() -> matplotlib.RcParams:
+    path = Path(__file__).with_name("rocking.mplstyle")
+    return matplotlib.rc_params_from_file(path, use_default_template=False)
+
+
+def styled(function: Callable[P, R]) -> Callable[P, R]:
+    """Draw inside the package's style, whatever the caller's own settings are."""
+
+    @wraps(function)
+    def inside(*args: P.args, **kwargs: P.kwargs) -> R:
+        with matplotlib.rc_context(_style()):
+            return function(*args, **kwargs)
+
+    return inside
+
+
+def new_figure(height: float, width: float = TEXT_WIDTH) -> Figure:
+    """Return an empty figure of `width` by `height` millimetres."""
+    return Figure(figsize=(width / _MILLIMETRES_PER_INCH, height / _MILLIMETRES_PER_INCH))
+
+
+@styled
+def svg(figure: Figure) -> str:
+    """Return the figure as SVG text, the same bytes at every run; its labels stay text."""
+    stream = io.StringIO()
+    figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
+    return stream.getvalue()
+
+
+def thinned(
+    times: np.ndarray, values: np.ndarray, limit: int = MAXIMUM_POINTS
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the envelope of a trace in at most `limit` points: the smallest and the largest of each stretch, in order."""
+    if values.size <= limit:
+        return times, values
+    edges = np.linspace(0, values.size, limit // 2 + 1).astype(int)
+    low = [begin + int(values[begin:end].argmin()) for begin, end in zip(edges[:-1], edges[1:], strict=True)]
+    high = [begin + int(values[begin:end].argmax()) for begin, end in zip(edges[:-1], edges[1:], strict=True)]
+    kept = np.unique(np.concatenate([low, high]))
+    return times[kept], values[kept]
+
+
+def elided(text: str, length: int) -> str:
+    """Return `text` cut to `length` characters, the last one an ellipsis if something was cut."""
+    return text if len(text) <= length else text[: length - 1] + "…"
+
+
+def plain_logarithmic(panel: Axes, which: str) -> None:
+    """Give the x or y axis of `panel` a logarithmic scale with ticks at 1, 2, 5 and plain numbers on them."""
+    axis = panel.xaxis if which == "x" else panel.yaxis
+    panel.set(**{f"{which}scale": "log"})
+    axis.set_major_locator(LogLocator(subs=(1, 2, 3, 5, 7)))
+    axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axis.set_minor_locator(NullLocator())
