@@ -44,7 +44,7 @@ def ground_motion(
     uplift: Sequence[float],
 ) -> Figure:
     """Draw acceleration with pulse and uplift accelerations [m/s²], residual, velocity and displacement."""
-    figure = new_figure(112)
+    figure = new_figure(100)
     axes = figure.subplots(4, 1, sharex=True, height_ratios=[1.5, 1, 1, 1])
     times = accelerogram.times
     residual = (
@@ -119,7 +119,7 @@ def response_histories(histories: Sequence[History]) -> Figure:
 
 
 def _history_panel(panel: Axes, history: History) -> None:
-    panel.set_title(elided(history.label, 38))
+    panel.set_title(elided(history.label, 30))
     panel.axhline(0, color="0.6", linewidth=0.3)
     if history.times.size:
         panel.plot(*thinned(history.times, history.ratio, 1500), color="black", linewidth=0.7)
@@ -164,7 +164,7 @@ def rocking_spectrum_figure(
     structures: Sequence[tuple[str, float, float]],
 ) -> Figure:
     """Draw rotation ratios (m, n) over p (m,) [rad/s] and λ (n,) with structures (label, p, λ) on them."""
-    figure = new_figure(78)
+    figure = new_figure(70)
     panel = figure.subplots()
     shown = np.where(np.isfinite(ratios), np.minimum(ratios, 1.5), 1.5).T
     levels = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0]

@@ -13,7 +13,7 @@ from rocking.reports.style import new_figure, plain_logarithmic, styled
 @styled
 def energy_map(onsets: np.ndarray, periods: np.ndarray, gains: np.ndarray, pulses: Sequence[Pulse]) -> Figure:
     """Draw energy gains (n, m) [m²/s³] over onset (n,) [s] and period (m,) [s], with the ranked pulses."""
-    figure = new_figure(62)
+    figure = new_figure(54)
     panel, profile = figure.subplots(1, 2, sharey=True, width_ratios=[4, 1])
     share = gains / max(float(gains.max()), np.finfo(float).tiny)
     panel.pcolormesh(

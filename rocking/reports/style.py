@@ -1,6 +1,7 @@
 """The one style of every figure, and how a figure becomes bytes."""
 
 import io
+import itertools
 from collections.abc import Callable
 from functools import cache, wraps
 from pathlib import Path
@@ -62,15 +63,20 @@ def thinned(
     if values.size <= limit:
         return times, values
     edges = np.linspace(0, values.size, limit // 2 + 1).astype(int)
-    low = [begin + int(values[begin:end].argmin()) for begin, end in zip(edges[:-1], edges[1:], strict=True)]
-    high = [begin + int(values[begin:end].argmax()) for begin, end in zip(edges[:-1], edges[1:], strict=True)]
+    low = [begin + int(values[begin:end].argmin()) for begin, end in itertools.pairwise(edges)]
+    high = [begin + int(values[begin:end].argmax()) for begin, end in itertools.pairwise(edges)]
     kept = np.unique(np.concatenate([low, high]))
     return times[kept], values[kept]
 
 
-def elided(text: str, length: int) -> str:
-    """Return `text` cut to `length` characters, the last one an ellipsis if something was cut."""
-    return text if len(text) <= length else text[: length - 1] + "…"
+def elided(text: str, length: float) -> str:
+    """Return `text` cut to the width of about `length` small letters, the last one an ellipsis if something was cut."""
+    width = 0.0
+    for place, letter in enumerate(text):
+        width += 1.0 if letter.isascii() and not letter.isupper() else 1.6
+        if width > length:
+            return text[: max(place - 1, 0)] + "…"
+    return text
 
 
 def plain_logarithmic(panel: Axes, which: str) -> None:
