@@ -52,10 +52,18 @@ class Side:
                 f"end_rotation is {self.end_rotation!r} rad, but must exceed critical_rotation = {critical!r} rad."
             )
         object.__setattr__(self, "restitution", within(StructureError, "restitution", self.restitution, 0, 1))
-        for name, at in (("inertia", 0.0), ("inertia", critical), ("gravity", 0.0), ("ground", 0.0), ("ground", critical)):
+        for name, at in (
+            ("inertia", 0.0),
+            ("inertia", critical),
+            ("gravity", 0.0),
+            ("ground", 0.0),
+            ("ground", critical),
+        ):
             value = self.at(name, at)
             if not value > 0:
-                raise StructureError(f"{name} is {value!r} at a rotation of {at!r} rad, but must be positive there.")
+                raise StructureError(
+                    f"{name} is {value!r} at a rotation of {at!r} rad, but must be positive there."
+                )
 
     def at(self, name: str, rotation: float) -> float:
         """Return one of the five functions, by name, at one rotation [rad], as a float."""
@@ -107,7 +115,9 @@ class Mechanism:
 
     def __post_init__(self) -> None:
         if self.one_sided and self.negative is not None:
-            raise StructureError("negative is given, but a one-sided mechanism has the positive side only; leave it out.")
+            raise StructureError(
+                "negative is given, but a one-sided mechanism has the positive side only; leave it out."
+            )
 
     @property
     def symmetric(self) -> bool:
@@ -163,11 +173,17 @@ class EquivalentBlock:
     one_sided: bool = False
 
     def __post_init__(self) -> None:
-        for name, unit in (("frequency_parameter", "rad/s"), ("critical_rotation", "rad"), ("acceleration_scale", "")):
+        for name, unit in (
+            ("frequency_parameter", "rad/s"),
+            ("critical_rotation", "rad"),
+            ("acceleration_scale", ""),
+        ):
             object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), unit))
         object.__setattr__(self, "restitution", within(StructureError, "restitution", self.restitution, 0, 1))
         if self.other_side is not None and (self.one_sided or self.other_side.other_side is not None):
-            raise StructureError("other_side is given, but a one-sided block has none and another side has no further one.")
+            raise StructureError(
+                "other_side is given, but a one-sided block has none and another side has no further one."
+            )
 
     @property
     def uplift_multiplier(self) -> float:
