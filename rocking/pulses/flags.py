@@ -2,6 +2,8 @@
 
 from enum import StrEnum
 
+import numpy as np
+
 from rocking.pulses.pulse import Pulse
 
 AMBIGUOUS_GAIN_RATIO = 0.85
@@ -14,6 +16,8 @@ EDGE_DISTANCE = 0.1
 """Distance from an end of the record, in periods, below which the cycle may have been cut."""
 FILTERED_CYCLES = 0.2
 """Periods beyond this share of the longest period that a high-pass leaves are reduced by it."""
+GAP_DURATION = 1.0
+"""Run of identical samples, s, that looks like a filled gap."""
 
 
 class Flag(StrEnum):
@@ -80,3 +84,9 @@ def mirrored(pulse: Pulse, rival: Pulse, gain_ratio: float) -> bool:
         and abs(rival.period / pulse.period - 1) <= ADJOINING_PERIOD_CHANGE
         and abs(distance / pulse.period - 0.5) <= ADJOINING_GAP / 2
     )
+
+
+def holds_gap(samples: np.ndarray, time_step: float) -> bool:
+    """Whether other samples enclose a run of identical ones longer than a second; padding at the ends is no gap."""
+    changes = np.flatnonzero(np.diff(samples))
+    return bool((np.diff(changes).max(initial=1) - 1) * time_step > GAP_DURATION)

@@ -19,7 +19,7 @@ FLAT_LOSS = 1e-14
 
 @njit(cache=True)
 def energy_gains(samples, time_step, angles, first, last, gains):
-    """Fill gains[first:last, i] with ⟨a, s⟩²/⟨s, s⟩ of the sine of angles[i] rad per sample with onset at each sample.
+    """Fill gains[first:last, i] with ⟨a, s⟩²/⟨s, s⟩ of the sine of angles[i] rad per sample, by onset.
 
     samples: (n,) m/s². gains: (n, m) m²/s³; 0 where the cycle does not fit in the record. S_j = Σ a e^{iω(t − t_j)}
     over the cycle is a difference of cumulative sums, C[j + T] − C[j], turned back by ω t_j; it is carried from one

@@ -1,12 +1,11 @@
 """The dominant pulse of ten real records: values computed once with the same method, by other code."""
 
-import numpy as np
 import pytest
 from scipy import signal
 from scipy.constants import g
 
 from rocking.pulses import PulseSettings, extract_pulses
-from rocking.records.accelerogram import Accelerogram
+from rocking.records import Accelerogram, read
 
 # record, |a_g| [g], T_g [s], t₀ [s], EVa, G₂/G₁; mean of the first 0.5 s removed, acausal 0.05 Hz high-pass, 0.12–5 Hz
 REGRESSION = [
@@ -27,16 +26,14 @@ NESTED_RIVAL = "landers1992_lucerne/RSN879_LANDERS_LCN260.AT2"
 
 
 @pytest.fixture(scope="module")
-def analysis(real_records, manifest):
-    steps = {row["file"]: float(row["dt"]) for row in manifest if row["dt"]}
-
+def analysis(real_records):
     def extract(file):
-        lines = (real_records / file).read_text(encoding="ascii", errors="replace").splitlines()
-        samples, step = np.array(" ".join(lines[4:]).split(), dtype=float) * g, steps[file]
-        samples -= samples[: int(0.5 / step)].mean()
+        (record,) = read(real_records / file)
+        step = record.time_step
+        samples = record.acceleration - record.acceleration[: int(0.5 / step)].mean()
         high_pass = signal.butter(2, 0.05, "highpass", fs=1 / step, output="sos")
-        record = Accelerogram(signal.sosfiltfilt(high_pass, samples), step)
-        return extract_pulses(record, settings=PulseSettings(lowest_frequency=0.12))
+        filtered = Accelerogram(signal.sosfiltfilt(high_pass, samples), step)
+        return extract_pulses(filtered, settings=PulseSettings(lowest_frequency=0.12))
 
     return extract
 
