@@ -1,0 +1,26 @@
+"""Structures: a geometry in, a Mechanism out."""
+
+from rocking.structures.arch import Arch
+from rocking.structures.block import Block
+from rocking.structures.config import load_structures, structure_from_config
+from rocking.structures.frame import Frame
+from rocking.structures.mechanism import EquivalentBlock, Mechanism, Side
+from rocking.structures.rigid_body import RigidBody
+from rocking.structures.spire import Spire
+from rocking.structures.structure import Structure
+from rocking.structures.wall import Wall
+
+__all__ = [
+    "Arch",
+    "Block",
+    "EquivalentBlock",
+    "Frame",
+    "Mechanism",
+    "RigidBody",
+    "Side",
+    "Spire",
+    "Structure",
+    "Wall",
+    "load_structures",
+    "structure_from_config",
+]

@@ -66,7 +66,6 @@ class Block(Structure):
     def _build(self) -> Mechanism:
         balances = {"momentum": self._momentum_balance, "housner": self._momentum_balance}
         side = corner_side(
-            self.semi_diagonal,
             self.slenderness,
             inertia_length=4 * self.semi_diagonal / 3,
             end_rotation=np.pi / 2,  # it lies on its side

@@ -5,10 +5,8 @@ import numpy as np
 from rocking.structures.mechanism import Side
 
 
-def corner_side(
-    semi_diagonal: float, slenderness: float, inertia_length: float, end_rotation: float, restitution: float
-) -> Side:
-    """Return the Side of a body whose centre of mass lies `semi_diagonal` R [m] from the corner.
+def corner_side(slenderness: float, inertia_length: float, end_rotation: float, restitution: float) -> Side:
+    """Return the Side of a body whose centre of mass lies at a distance R from the corner.
 
     slenderness: α, angle between the vertical and the line from the corner to the centre of mass, rad.
     inertia_length: I_O/(mR), m; 4R/3 for a rectangular block.

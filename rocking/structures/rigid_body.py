@@ -1,0 +1,65 @@
+"""Any rigid body that rocks about two corners, its mass off centre if need be (theory: section 2)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rocking.checks import positive
+from rocking.errors import StructureError
+from rocking.structures.mechanism import Mechanism, Side
+from rocking.structures.restitution import (
+    Restitution,
+    check_restitution,
+    momentum_balance,
+    resolve_restitution,
+)
+from rocking.structures.single_body import corner_side
+from rocking.structures.structure import Structure
+
+
+@dataclass(frozen=True)
+class RigidBody(Structure):
+    """A body known by its centre of mass and inertia; it rocks about the right corner on the positive side.
+
+    left, right: horizontal distance of the left and the right corner from the centre of mass, m. centre_height: height
+    of the centre of mass above the corners, m. inertia: about the centre of mass, per mass, m².
+    restitution: η in [0, 1] on both sides, or "momentum" or "housner" (the same balance, the default): angular momentum
+    about the corner to come, which differs from side to side. A one-sided body needs a number.
+    one_sided: it rocks about the right corner only, and is thrown back at every impact.
+    Its outline is not known, so each side is followed until the centre of mass is level with the corner.
+    Raises StructureError when it cannot stand.
+    """
+
+    left: float
+    right: float
+    centre_height: float
+    inertia: float
+    restitution: Restitution = None
+    one_sided: bool = False
+
+    def __post_init__(self) -> None:
+        for name, unit in (("left", "m"), ("right", "m"), ("centre_height", "m"), ("inertia", "m²")):
+            object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), unit))
+        check_restitution(self.restitution, ("momentum", "housner"), self.one_sided)
+
+    def _build(self) -> Mechanism:
+        positive_side = self.side(self.right, self.left)
+        if self.one_sided or self.left == self.right:
+            return Mechanism(positive_side, one_sided=self.one_sided)
+        return Mechanism(positive_side, self.side(self.left, self.right))
+
+    def side(self, corner: float, other: float, end_rotation: float | None = None) -> Side:
+        """Return the Side of rocking about the corner at distance `corner` [m], landing on the one at `other`."""
+        slenderness = float(np.arctan2(corner, self.centre_height))
+        semi_diagonal = float(np.hypot(corner, self.centre_height))
+        balances = {name: lambda: self._momentum_balance(corner, other) for name in ("momentum", "housner")}
+        return corner_side(
+            slenderness,
+            inertia_length=(self.inertia + semi_diagonal**2) / semi_diagonal,
+            end_rotation=slenderness + np.pi / 2 if end_rotation is None else end_rotation,
+            restitution=resolve_restitution(self.restitution, "momentum", balances),
+        )
+
+    def _momentum_balance(self, corner: float, other: float) -> float:
+        up = self.centre_height
+        return momentum_balance([1.0], [self.inertia], [[up, corner, -1.0]], [[up, -other, -1.0]])

@@ -1,0 +1,104 @@
+"""The masonry spire, a cone or pyramid, that cracks at some height and rocks above the crack (theory: section 2)."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+from rocking.checks import finite, positive
+from rocking.errors import StructureError
+from rocking.structures.mechanism import Mechanism
+from rocking.structures.restitution import Restitution, check_restitution
+from rocking.structures.rigid_body import RigidBody
+from rocking.structures.structure import Structure
+
+_SPREAD = {"circular": 3 / 20, "square": 1 / 5}
+"""Mean square of one horizontal coordinate over a solid cone or pyramid, in squares of its half width."""
+
+
+@dataclass(frozen=True)
+class Spire(Structure):
+    """A cone (plan "circular") or a square pyramid ("square") that rocks about the edge of a horizontal crack.
+
+    width: at the base, diameter or side, m. height: of the whole spire, m. wall_thickness: horizontal thickness of a
+    hollow one, m, the inner surface parallel to the outer; None when it is solid. crack_height: above the base, m.
+    restitution, one_sided: as for a RigidBody.
+    Raises StructureError when it cannot stand, or the crack lies outside it.
+    """
+
+    width: float
+    height: float
+    wall_thickness: float | None = None
+    plan: Literal["circular", "square"] = "circular"
+    crack_height: float = 0.0
+    restitution: Restitution = None
+    one_sided: bool = False
+
+    def __post_init__(self) -> None:
+        for name in ("width", "height"):
+            object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), "m"))
+        if self.wall_thickness is not None:
+            self._check_wall()
+        if self.plan not in _SPREAD:
+            raise StructureError(f"plan is {self.plan!r}, but must be one of {', '.join(_SPREAD)}.")
+        crack = finite(StructureError, "crack_height", self.crack_height, "m")
+        if not 0 <= crack < self.height:
+            raise StructureError(
+                f"crack_height is {crack!r} m, but must lie on the spire, "
+                f"from 0 to below its height of {self.height!r} m."
+            )
+        object.__setattr__(self, "crack_height", crack)
+        check_restitution(self.restitution, ("momentum", "housner"), self.one_sided)
+
+    def _check_wall(self) -> None:
+        wall = positive(StructureError, "wall_thickness", self.wall_thickness, "m")
+        if wall >= self.width / 2:
+            raise StructureError(
+                f"wall_thickness is {wall!r} m, but must be less than half the width, {self.width / 2!r} m; "
+                "leave it out for a solid spire."
+            )
+        object.__setattr__(self, "wall_thickness", wall)
+
+    @property
+    def half_width(self) -> float:
+        """Half the width at the crack, m."""
+        return self.width / 2 * (1 - self.crack_height / self.height)
+
+    @cached_property
+    def body(self) -> RigidBody:
+        """What rocks: all above the crack, the outer solid less the similar inner one."""
+        mass, first, second, across = self._solid(self.half_width)
+        if self.wall_thickness is not None:
+            inner = self._solid(max(self.half_width - self.wall_thickness, 0.0))
+            mass, first, second, across = (
+                whole - hole for whole, hole in zip((mass, first, second, across), inner, strict=True)
+            )
+        centre = first / mass
+        inertia = (second + across) / mass - centre**2
+        return RigidBody(self.half_width, self.half_width, centre, inertia, self.restitution, self.one_sided)
+
+    def _solid(self, half_width: float) -> tuple[float, float, float, float]:
+        """Volume and integrals of z, z² and x² of a solid of that half width and this spire's slope, up to a factor."""
+        height = 2 * half_width / self.width * self.height
+        volume = half_width**2 * height
+        return (
+            volume,
+            volume * height / 4,
+            volume * height**2 / 10,
+            volume * _SPREAD[self.plan] * half_width**2,
+        )
+
+    @property
+    def end_rotation(self) -> float:
+        """Rotation at which the flank lies on the ground, π − atan(2 height/width), rad."""
+        return float(np.pi - np.arctan2(2 * self.height, self.width))
+
+    def _build(self) -> Mechanism:
+        side = self.body.side(self.half_width, self.half_width, self.end_rotation)
+        return Mechanism(side, one_sided=self.one_sided)
+
+    def cracked_at(self, crack_heights: Iterable[float]) -> list["Spire"]:
+        """Return this spire with its crack at each of `crack_heights` [m]."""
+        return [replace(self, crack_height=height) for height in crack_heights]
