@@ -1,0 +1,67 @@
+"""The report over all records: what a decision is taken from."""
+
+from collections.abc import Mapping, Sequence
+
+from rocking.reports import printing, summary_tables
+from rocking.reports.document import compile_document
+from rocking.reports.printing import Row
+from rocking.reports.style import svg
+from rocking.reports.summary_figures import prediction_scatter
+
+Tables = Mapping[str, Sequence[Row]]
+
+
+def summary_report(tables: Tables, settings: Mapping[str, object]) -> bytes:
+    """Return the PDF over all records.
+
+    tables: rows of text as read from the CSV files "record", "pulses", "comparison", "maxima", "structures", "failures"
+    and, where they exist, "reliability" and "trade". settings: at least tolerance, acceleration_scale, fragility_change.
+    """
+    return compile_document("summary.typ", summary_data(tables, settings))
+
+
+def summary_data(tables: Tables, settings: Mapping[str, object]) -> dict[str, object]:
+    """Return what the template of the summary is given: texts, tables and figures."""
+    comparison = tables["comparison"]
+    unsafe = [row for row in comparison if row["verdict"] == "unsafe"]
+    fragile = [row for row in comparison if row["fragile"] == "true"]
+    trade = tables.get("trade", ())
+    return {
+        "title": "Rocking assessment: summary",
+        "subtitle": _subtitle(tables),
+        "notices": summary_tables.notices(tables),
+        "sentences": summary_tables.expert_sentences(tables),
+        "scatter": _scatter(comparison),
+        "reliability": summary_tables.reliability_table(tables),
+        "records": summary_tables.record_table(tables),
+        "unsafe": summary_tables.case_table(unsafe),
+        "unsafe-note": summary_tables.unlisted(unsafe),
+        "fragile": summary_tables.case_table(fragile),
+        "fragile-note": summary_tables.unlisted(fragile),
+        "failures": summary_tables.failure_table(tables["failures"]),
+        "trade": summary_tables.plain_table(trade) if trade else None,
+        "tolerance": printing.given(str(settings["tolerance"])),
+        "fragility-change": f"{printing.given(str(100 * float(settings['fragility_change'])))} %",
+        "acceleration-scale": str(settings["acceleration_scale"]),
+    }
+
+
+def _subtitle(tables: Tables) -> str:
+    records = len(printing.distinct(tables["record"], "record"))
+    structures = len(tables["structures"])
+    cases = len(tables["comparison"])
+    parts = [(records, "record"), (structures, "structure"), (cases, "case")]
+    return printing.sentence(", ".join(printing.counted(many, noun) for many, noun in parts)) + "."
+
+
+def _scatter(rows: Sequence[Row]) -> list[dict[str, str]]:
+    columns = ("predicted_rotation_ratio", "integrated_rotation_ratio")
+    cases = [
+        (*(float(row[name]) for name in columns), row["light"])
+        for row in rows
+        if all(row[name] for name in columns)
+    ]
+    if not any(predicted > 0 or integrated > 0 for predicted, integrated, _ in cases):
+        return []
+    alt = "Scatter of predicted against integrated rotation ratio, marked by light, with factor-two lines."
+    return [{"svg": svg(prediction_scatter(cases)), "alt": alt}]

@@ -1,0 +1,218 @@
+"""The tables and sentences of the summary, from the rows of its CSV tables."""
+
+from collections.abc import Mapping, Sequence
+
+from rocking.reports import printing
+from rocking.reports.printing import Cell, Row, number, ratio, strong, table, whole, words
+from rocking.reports.reliability import RELIABILITY, reliability_rows
+from rocking.tables import csv_cells
+
+Rows = Sequence[Row]
+Tables = Mapping[str, Rows]
+
+MOST_LISTED = 40
+"""Rows of the longest list of single cases; the CSV tables hold all."""
+
+
+def reliability(tables: Tables) -> Rows:
+    """Return the reliability rows as text: those of the tables if they are given, else counted from the comparison."""
+    if "reliability" in tables:
+        return tables["reliability"]
+    return [csv_cells(RELIABILITY, row) for row in reliability_rows(tables["comparison"])]
+
+
+def expert_sentences(tables: Tables) -> list[str]:
+    """Return the three sentences that somebody who knows the method would say about this run."""
+    rows = {row["light"]: row for row in reliability(tables)}
+    if int(rows["all"]["cases"]) == 0:
+        return [
+            "There is no case with both a prediction and an integration, so nothing can be said about the closed form."
+        ]
+    return [_trust(rows), _overturning(rows), _undecided(rows)]
+
+
+def _trust(rows: Mapping[str, Row]) -> str:
+    green, every = rows["green"], rows["all"]
+    said = f"One pulse can stand for the record (green) in {green['cases']} of {every['cases']} cases"
+    if int(green["both_rock"]):
+        said += (
+            f"; where both rock there, the closed form is within a factor of two in {green['within_factor_two']} of "
+            f"{green['both_rock']}, with a median ratio of {number(green['median_ratio'])}"
+        )
+    red = rows["red"]
+    if int(red["both_rock"]):
+        said += (
+            f" (red: {red['within_factor_two']} of {red['both_rock']}, median {number(red['median_ratio'])})"
+        )
+    return f"{said}."
+
+
+def _overturning(rows: Mapping[str, Row]) -> str:
+    every, red = rows["all"], rows["red"]
+    if int(every["overturning"]) == 0:
+        return f"Nothing overturns in the full integration; the closed form overturns {every['overturning_false']} cases."
+    return (
+        f"Of {every['overturning']} overturnings in the full integration the closed form finds "
+        f"{every['overturning_found']} and misses {every['overturning_missed']}, {red['overturning_missed']} of these "
+        f"under a red light; it overturns {every['overturning_false']} cases that stay up."
+    )
+
+
+def _undecided(rows: Mapping[str, Row]) -> str:
+    fragile, red = rows["all"]["fragile"], rows["red"]["cases"]
+    return (
+        f"{fragile} verdicts are fragile and must not be used as they stand, and {red} cases have a red light, where "
+        "only the full integration may be used."
+    )
+
+
+def notices(tables: Tables) -> list[dict[str, object]]:
+    """Return the warnings that stand above everything."""
+    found = []
+    if not tables["record"]:
+        found.append("No record could be read, so there is no result; the failures below say why.")
+    elif not tables["comparison"]:
+        found.append("No structure could be assessed under any record; the failures below say why.")
+    elif all(row["integrated_rotation_ratio"] == "0.0" for row in tables["comparison"]):
+        found.append("No structure uplifts under any record.")
+    if tables["failures"]:
+        found.append(
+            f"{printing.sentence(printing.counted(len(tables['failures']), 'failure'))}, listed below."
+        )
+    scaled = sorted({row["record"] for row in tables["record"] if float(row["scale_factor"] or 1) != 1})
+    if scaled:
+        found.append(f"Accelerations multiplied by a declared factor, not as recorded: {', '.join(scaled)}.")
+    return [{"strong": True, "text": text} for text in found]
+
+
+def reliability_table(tables: Tables) -> dict[str, object]:
+    """Return how often the closed form was right, by light."""
+    columns = [
+        ("Light", "1", "l"),
+        ("Records", "0.8", "r"),
+        ("Cases", "0.8", "r"),
+        ("Both rock", "0.8", "r"),
+        ("within factor 2", "0.8", "r"),
+        ("Median ratio [-]", "0.8", "r"),
+        ("Overturn", "0.9", "r"),
+        ("found", "0.7", "r"),
+        ("missed", "0.7", "r"),
+        ("only predicted", "0.9", "r"),
+        ("Fragile", "0.7", "r"),
+    ]
+    return table(columns, [_reliability_row(row) for row in reliability(tables)])
+
+
+def _reliability_row(row: Row) -> list[Cell]:
+    before = ("records", "cases", "both_rock", "within_factor_two")
+    after = ("overturning", "overturning_found", "overturning_missed", "overturning_false", "fragile")
+    cells = [printing.lamp(row["light"]), *(whole(row[name]) for name in before), number(row["median_ratio"])]
+    cells += [whole(row[name]) for name in after]
+    cells[8] = strong(cells[8]) if row["overturning_missed"] not in ("", "0") else cells[8]
+    return cells
+
+
+def record_table(tables: Tables) -> dict[str, object]:
+    """Return the records with their dominant pulses."""
+    columns = [
+        ("Record", "1.6", "l"),
+        ("Comp.", "0.8", "l"),
+        ("Declared factor", "0.7", "r"),
+        ("Peak acceleration [m/s²]", "1", "r"),
+        ("Peak velocity [m/s]", "0.9", "r"),
+        ("Pulse amplitude [m/s²]", "0.9", "r"),
+        ("Pulse period [s]", "0.8", "r"),
+        ("Explained energy [-]", "0.9", "r"),
+        ("Flags", "1.2", "l"),
+    ]
+    dominant = {
+        (row["record"], row["component"]): row
+        for row in tables["pulses"]
+        if row["kind"] == "alternative" and row["rank"] == "1"
+    }
+    return table(
+        columns,
+        [_record_row(row, dominant.get((row["record"], row["component"]), {})) for row in tables["record"]],
+    )
+
+
+def _record_row(row: Row, pulse: Row) -> list[Cell]:
+    factor = printing.given(row["scale_factor"])
+    return [
+        row["record"],
+        words(row["component"]),
+        factor if factor in ("1", printing.NOTHING) else strong(f"× {factor}"),
+        number(row["peak_acceleration_m_s2"]),
+        number(row["peak_velocity_m_s"]),
+        number(pulse.get("amplitude_m_s2", "")),
+        number(pulse.get("period_s", "")),
+        number(pulse.get("explained_energy", "")),
+        words(pulse.get("flags", "")),
+    ]
+
+
+def case_table(rows: Rows) -> dict[str, object]:
+    """Return single cases of the comparison table."""
+    columns = [
+        ("Record", "1.4", "l"),
+        ("Comp.", "0.7", "l"),
+        ("Structure", "1.4", "l"),
+        ("Light", "auto", "l"),
+        ("Closed form", "auto", "r"),
+        ("Full integration", "auto", "r"),
+        ("Regime of the closed form", "1.4", "l"),
+        ("Sensi\u00adtivity", "0.6", "r"),
+        ("Fragile", "auto", "l"),
+    ]
+    return table(columns, [_case_row(row) for row in rows[:MOST_LISTED]])
+
+
+def _case_row(row: Row) -> list[Cell]:
+    return [
+        row["record"],
+        words(row["component"]),
+        row["structure"],
+        printing.lamp(row["light"]),
+        ratio(row["predicted_rotation_ratio"]),
+        strong(ratio(row["integrated_rotation_ratio"])),
+        words(row["regime"]),
+        number(row["sensitivity"]),
+        "YES" if row["fragile"] == "true" else {"false": "no"}.get(row["fragile"], printing.NOTHING),
+    ]
+
+
+def unlisted(rows: Rows) -> str:
+    """Return what a list of cases leaves out, as a sentence or nothing."""
+    more = len(rows) - MOST_LISTED
+    return f" Another {printing.counted(more, 'case')} in comparison.csv." if more > 0 else ""
+
+
+def failure_table(rows: Rows) -> dict[str, object]:
+    """Return what gave no result, and why."""
+    columns = [
+        ("Record", "1", "l"),
+        ("Comp.", "0.5", "l"),
+        ("Structure", "0.8", "l"),
+        ("Stage", "0.6", "l"),
+        ("Why", "3", "l"),
+    ]
+    names = ("record", "component", "structure", "stage", "message")
+    return table(columns, [[words(row[name]) for name in names] for row in rows[:MOST_LISTED]])
+
+
+def plain_table(rows: Rows) -> dict[str, object]:
+    """Return any table as it is, its numbers rounded, its headings the names of its columns."""
+    names = list(rows[0])
+    columns = [(name.replace("_", " "), "1", "r" if _is_number(rows[0][name]) else "l") for name in names]
+    shown = [
+        [number(row[name]) if _is_number(row[name]) else words(row[name]) for name in names] for row in rows
+    ]
+    return table(columns, shown)
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
