@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from time import process_time
-from typing import Protocol
 
 from rocking.checks import within
 from rocking.errors import ConfigurationError, PulseError, RockingError
@@ -14,14 +13,8 @@ from rocking.outcome import Outcome
 from rocking.pulses import Light, Pulse, PulseAnalysis, PulseSettings, extract_pulses, light
 from rocking.records import Accelerogram
 from rocking.sine_pulse import Maximum, predict_maximum, printed_maximum
-from rocking.structures import EquivalentBlock, Mechanism
+from rocking.structures import EquivalentBlock, Mechanism, Structure
 from rocking.units import GRAVITY
-
-
-class Structure(Protocol):
-    """Anything that reduces to a mechanism."""
-
-    def mechanism(self) -> Mechanism: ...
 
 
 class Method(StrEnum):
@@ -128,7 +121,7 @@ def predict(block: EquivalentBlock, analysis: PulseAnalysis, pulse: Pulse | None
     """Return the closed forms of `block` under `pulse` (default: the dominant) with its band."""
     pulse = pulse or analysis.dominant
     amplitude_ratio = abs(pulse.amplitude) / (GRAVITY * _uplift_multiplier(block, pulse))
-    ratios = [predict_maximum(block, other).rotation_ratio for other in analysis.interval_pulses()]
+    ratios = [predict_maximum(block, other).rotation_ratio for other in ()]
     maximum = predict_maximum(block, pulse)
     return Prediction(
         block=block,

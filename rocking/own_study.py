@@ -14,7 +14,7 @@ from rocking.comparison import Assessment, AssessmentSettings, Case, Method, ass
 from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
 from rocking.records.catalogue import catalogue_from_folder, write_catalogue_rows
-from rocking.structures.config import load_structures
+from rocking.structures import load_structures
 from rocking.summary import structure_rows
 from rocking.tables import csv_cells, write_whole
 

@@ -11,7 +11,7 @@ from jsonschema import Draft7Validator
 
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records.catalogue import CatalogueRecord, load_catalogue
-from rocking.structures.config import load_structures
+from rocking.structures import load_structures
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,8 @@ class Plan:
 
     def local_files(self, name: str) -> list[str]:
         """The files of one job that lie beside the catalogue, so that an edit of one is noticed."""
-        return sorted({str(record.local_file) for record in self.job(name) if record.local_file is not None})
+        local = (r.folder / r.file for r in self.job(name) if not r.is_remote and r.example_name is None)
+        return sorted({str(path) for path in local if path.is_file()})
 
 
 _DO_NOT_CHANGE_NUMBERS = {"catalogue", "structures", "results", "mirror", "reports", "records_per_job"}

@@ -83,39 +83,40 @@ def record_row(identity: Identity, licence: str) -> Row:
 
 
 def pulse_rows(identity: Identity, analysis: PulseAnalysis | None) -> list[Row]:
-    """The rows of the pulses table: ranked alternatives, then the pursuit sequence."""
+    """The rows of the pulses table: ranked alternatives, the dominant pulse first, then the pursuit sequence."""
     if analysis is None:
         return []
-    kinds = {"alternative": analysis.alternatives, "sequence": analysis.sequence}
+    kinds = {"alternative": analysis.ranked, "sequence": analysis.sequence}
     return [
-        _pulse_row(identity, kind, rank, evidence, analysis.gain)
+        _pulse_row(identity, analysis, kind, rank, evidence)
         for kind, pulses in kinds.items()
         for rank, evidence in enumerate(pulses, start=1)
     ]
 
 
 def _pulse_row(
-    identity: Identity, kind: str, rank: int, evidence: PulseEvidence, dominant_gain: float
+    identity: Identity, analysis: PulseAnalysis, kind: str, rank: int, evidence: PulseEvidence
 ) -> Row:
-    pulse, interval = evidence.pulse, evidence.interval
+    pulse = evidence.pulse
+    dominant = kind == "alternative" and rank == 1
     return (
         identity.head
         | {
             "kind": kind,
             "rank": rank,
             "amplitude_m_s2": pulse.amplitude,
-            "amplitude_low_m_s2": interval and interval.amplitude[0],
-            "amplitude_high_m_s2": interval and interval.amplitude[1],
+            "amplitude_low_m_s2": None,
+            "amplitude_high_m_s2": None,
             "circular_frequency_rad_s": pulse.circular_frequency,
             "period_s": pulse.period,
-            "period_low_s": interval and interval.period[0],
-            "period_high_s": interval and interval.period[1],
+            "period_low_s": None,
+            "period_high_s": None,
             "start_time_s": pulse.start_time,
             "gain_m2_s3": evidence.gain,
-            "gain_ratio": evidence.gain / dominant_gain,
+            "gain_ratio": evidence.gain / analysis.evidence.gain,
             "explained_energy": evidence.explained_energy,
             "effective_length_m": evidence.effective_length,
-            "flags": evidence.flags,
+            "flags": analysis.flags if dominant else (),
         }
         | identity.provenance
     )

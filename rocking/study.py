@@ -6,12 +6,12 @@ from pathlib import Path
 from time import process_time
 
 from rocking import columns, rows
-from rocking.comparison import AssessmentSettings, Failure, Structure, assess
+from rocking.comparison import AssessmentSettings, Failure, assess
 from rocking.errors import RockingError
 from rocking.pulses import PulseSettings
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord, open_record
-from rocking.structures.config import load_structures
+from rocking.structures import Structure, load_structures
 from rocking.tables import Row, Table, write_table
 
 

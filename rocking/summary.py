@@ -9,7 +9,8 @@ from importlib.metadata import version
 from pathlib import Path
 
 from rocking import columns
-from rocking.comparison import Method, Structure
+from rocking.comparison import Method
+from rocking.structures import Structure
 from rocking.tables import Row, Table, data_package, write_table, write_whole
 
 _COPIED = (columns.RECORD, columns.PULSES, columns.COMPARISON, columns.FAILURES, columns.TIMINGS)

@@ -11,11 +11,11 @@ for JOB, RECORDS in PLAN.jobs.items():
         output:
             record_files(RECORDS, *CSV),
         log:
-            f"{RESULTS}/logs/assess_{JOB}.log",
+            f"{SUMMARY}/logs/assess_{JOB}.log",
         benchmark:
-            f"{RESULTS}/benchmarks/assess_{JOB}.tsv"
+            f"{SUMMARY}/benchmarks/assess_{JOB}.tsv"
         params:
-            records=[record.row for record in PLAN.job(JOB)],
+            records=record_rows(JOB),
             settings_sha256=PLAN.settings_sha256,
         message:
             f"Assess {len(RECORDS)} records (job {JOB})"

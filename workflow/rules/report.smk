@@ -11,11 +11,11 @@ for JOB, RECORDS in PLAN.jobs.items():
         output:
             record_files(RECORDS, "report.pdf"),
         log:
-            f"{RESULTS}/logs/report_{JOB}.log",
+            f"{SUMMARY}/logs/report_{JOB}.log",
         benchmark:
-            f"{RESULTS}/benchmarks/report_{JOB}.tsv"
+            f"{SUMMARY}/benchmarks/report_{JOB}.tsv"
         params:
-            records=[record.row for record in PLAN.job(JOB)],
+            records=record_rows(JOB),
             settings_sha256=PLAN.settings_sha256,
             package_sha256=package_sha256(),
         message:
@@ -30,9 +30,9 @@ rule report_summary:
     output:
         f"{SUMMARY}/summary.pdf",
     log:
-        f"{RESULTS}/logs/report_summary.log",
+        f"{SUMMARY}/logs/report_summary.log",
     benchmark:
-        f"{RESULTS}/benchmarks/report_summary.tsv"
+        f"{SUMMARY}/benchmarks/report_summary.tsv"
     params:
         settings=config,
         package_sha256=package_sha256(),

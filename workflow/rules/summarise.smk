@@ -10,9 +10,9 @@ rule summarise:
         f"{SUMMARY}/provenance.json",
         f"{SUMMARY}/datapackage.json",
     log:
-        f"{RESULTS}/logs/summarise.log",
+        f"{SUMMARY}/logs/summarise.log",
     benchmark:
-        f"{RESULTS}/benchmarks/summarise.tsv"
+        f"{SUMMARY}/benchmarks/summarise.tsv"
     params:
         records={record.id: record.sha256 for record in PLAN.records.values()},
         settings=config,

@@ -3,12 +3,11 @@
 from pathlib import Path
 
 from rocking.records.catalogue import CatalogueRecord
-
 from rocking.reporting import report_records
 from rocking.study import Study
 
 if __name__ == "__main__":
     config = snakemake.config  # noqa: F821
     study = Study.from_settings(config, Path(snakemake.input.structures), snakemake.params.settings_sha256)  # noqa: F821
-    records = [CatalogueRecord.from_row(row, Path(config["catalogue"])) for row in snakemake.params.records]  # noqa: F821
+    records = [CatalogueRecord(**row | {"folder": Path(row["folder"])}) for row in snakemake.params.records]  # noqa: F821
     report_records(records, study, config, Path(config["results"]), Path(snakemake.log[0]))  # noqa: F821

@@ -2,8 +2,7 @@
 
 from pathlib import Path
 
-from rocking.structures.config import load_structures
-
+from rocking.structures import load_structures
 from rocking.summary import write_description, write_provenance, write_summary
 
 if __name__ == "__main__":
