@@ -8,7 +8,6 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.directions import azimuth, is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.sampling import even_step, resampled
 from rocking.records.formats.text import count, is_number, lines, number, numbers, whole
@@ -141,10 +140,15 @@ def _channel(
     unit = options.unit_of(name, _unit(label))
     component = _component(label)
     return accelerogram(
-        name, COLUMNS.name, unit, values if resample is None else resample(values), options.time_step_of(name, step),
-        component=component, processing=told, warnings=told,
-        azimuth=azimuth(component), vertical=is_vertical(component),
-    )  # fmt: skip
+        name,
+        COLUMNS.name,
+        unit,
+        values if resample is None else resample(values),
+        options.time_step_of(name, step),
+        component=component,
+        processing=told,
+        warnings=told,
+    )
 
 
 def _unit(label: str) -> str | None:

@@ -1,7 +1,7 @@
 """Kinemetrics EVT (Altus K2, Etna, Makalu): counts, with full scale and sensitivity in the file itself."""
 
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.format import Format, Options, accelerogram, without_offset
 from rocking.records.formats.waveform import joined, stream
 from rocking.units import GRAVITY
 
@@ -23,15 +23,22 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
 
 def _record(trace, index: int, name: str, options: Options, warnings: tuple[str, ...]) -> Accelerogram:
     stats = trace.stats
-    values = trace.data.astype(float) * stats.calib * (GRAVITY / _OBSPY_G)
-    offset = values.mean()
+    values, offset = without_offset(trace.data.astype(float) * stats.calib * (GRAVITY / _OBSPY_G), "m/s2")
     component = str(stats.kinemetrics_evt.get("chan_id", "")).strip() or _COMPONENTS[index % 3]
     return accelerogram(
-        name, EVT.name, "m/s2", values - offset, options.time_step_of(name, float(stats.delta)),
-        component=component, station=stats.station, event=str(stats.starttime)[:10], start_time=str(stats.starttime),
-        processing=(f"Mean of the whole record removed, {offset:.6g} m/s²: the offset of the recorder.",),
-        warnings=warnings, vertical=component.upper() in ("Z", "V", "UP") or index == 2,
-    )  # fmt: skip
+        name,
+        EVT.name,
+        "m/s2",
+        values,
+        options.time_step_of(name, float(stats.delta)),
+        component=component,
+        station=stats.station,
+        event=str(stats.starttime)[:10],
+        start_time=str(stats.starttime),
+        processing=(offset,),
+        warnings=warnings,
+        vertical=component.upper() in ("Z", "V", "UP") or index == 2,
+    )
 
 
 EVT = Format("Kinemetrics EVT", "KMI mark at the start of the file", _recognise, _read)

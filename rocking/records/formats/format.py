@@ -1,13 +1,16 @@
 """Format: how one kind of file is recognised and read, and the options a caller may declare."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
+
+import numpy as np
 
 from rocking.checks import positive
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram, Source
+from rocking.records.directions import azimuth, is_vertical
 from rocking.units import acceleration_factor
 
 Response = Literal["sensitivity", "full"]
@@ -78,12 +81,22 @@ class Format:
     read: Callable[[bytes, str, Options], list[Accelerogram]]
 
 
-def accelerogram(name: str, form: str, unit: str, values, time_step: float, **fields) -> Accelerogram:
-    """Return an Accelerogram from `values` in `unit` of the file `name` in the format `form`."""
+def accelerogram(name: str, form: str, unit: str, values: np.ndarray, time_step: float, **fields) -> Accelerogram:
+    """Return an Accelerogram from `values` in `unit` of the file `name` in the format `form`.
+
+    fields: of Accelerogram; azimuth and vertical follow from the component's name unless they are given.
+    """
+    component = fields.get("component", "")
+    fields.setdefault("vertical", is_vertical(component))
+    fields.setdefault("azimuth", None if fields["vertical"] else azimuth(component))
     source = Source(path=name, format=form, unit=unit)
     return Accelerogram(values * acceleration_factor(unit), time_step, source=source, **fields)
 
 
-def with_warning(record: Accelerogram, *sentences: str) -> Accelerogram:
-    """Return `record` with more warnings."""
-    return replace(record, warnings=(*record.warnings, *sentences))
+def without_offset(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
+    """Return raw `values` less their mean, which is the offset of the recorder, and the sentence that says so."""
+    offset = values.mean() if values.size else 0.0
+    return (
+        values - offset,
+        f"Mean of the whole record removed, {offset:.6g} {unit}: the offset of the recorder.",
+    )

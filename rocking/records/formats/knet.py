@@ -5,7 +5,6 @@ from datetime import datetime, timedelta
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.directions import azimuth, is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.text import lines, number, numbers
 from rocking.records.gates import agree_with_header
@@ -42,16 +41,23 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         name, 1 / _positive(name, "Sampling Freq(Hz)", fields["Sampling Freq(Hz)"])
     )
     _check_duration(name, fields, counts.size * time_step)
-    values = counts * _scale(name, fields["Scale Factor"])
-    offset = values.mean() if values.size else 0.0
+    values, offset = without_offset(counts * _scale(name, fields["Scale Factor"]), "gal")
     direction = fields["Dir."]
     component = _KIKNET.get(direction, direction)
     record = accelerogram(
-        name, KNET.name, "gal", values - offset, time_step, component=component, station=fields["Station Code"],
-        event=f"{fields['Origin Time']} M{fields['Mag.']}", start_time=_start(fields["Record Time"]),
-        processing=(f"Mean of the whole record removed, {offset / 100:.6g} m/s²: the offset of the recorder.",),
-        network="BO", azimuth=azimuth(component), vertical=is_vertical(component), borehole=direction in _BOREHOLE,
-    )  # fmt: skip
+        name,
+        KNET.name,
+        "gal",
+        values,
+        time_step,
+        component=component,
+        station=fields["Station Code"],
+        event=f"{fields['Origin Time']} M{fields['Mag.']}",
+        start_time=_start(fields["Record Time"]),
+        processing=(offset,),
+        network="BO",
+        borehole=direction in _BOREHOLE,
+    )
     agree_with_header(
         record, number(name, "Max. Acc. (gal)", fields["Max. Acc. (gal)"]), "gal", half_digit=5e-4
     )

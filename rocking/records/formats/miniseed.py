@@ -35,11 +35,24 @@ def _record(trace, inventory, name: str, options: Options, noticed: tuple[str, .
     values, unit, steps = _calibrated(trace, inventory, name, options)
     placed = _orientation(trace, inventory)
     return accelerogram(
-        name, MINISEED.name, unit, values, options.time_step_of(name, float(f"{stats.delta:.9g}")),
-        component=stats.channel, station=stats.station, network=stats.network, start_time=str(stats.starttime),
-        processing=steps, warnings=noticed, vertical=is_vertical(stats.channel),
-        azimuth=None if is_vertical(stats.channel) else placed if placed is not None else azimuth(stats.channel),
-    )  # fmt: skip
+        name,
+        MINISEED.name,
+        unit,
+        values,
+        options.time_step_of(name, float(f"{stats.delta:.9g}")),
+        component=stats.channel,
+        station=stats.station,
+        network=stats.network,
+        start_time=str(stats.starttime),
+        processing=steps,
+        warnings=noticed,
+        vertical=is_vertical(stats.channel),
+        azimuth=None
+        if is_vertical(stats.channel)
+        else placed
+        if placed is not None
+        else azimuth(stats.channel),
+    )
 
 
 def _calibrated(trace, inventory, name: str, options: Options):

@@ -4,7 +4,6 @@ import re
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.directions import azimuth, is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.text import count, lines, number, numbers, whole
 from rocking.records.gates import agree_with_header
@@ -71,11 +70,18 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     values, warnings = whole(name, numbers(name, _body(content, len(head))), declared, per_line=8)
     component = _component(head)
     record = accelerogram(
-        name, PEER_AT2.name, unit, values, time_step,
-        component=component, station=_field(head, -2), event=_field(head, 0),
-        warnings=warnings + _doubled(content), processed=True, high_pass_frequency=_high_pass(head),
-        azimuth=azimuth(component), vertical=is_vertical(component),
-    )  # fmt: skip
+        name,
+        PEER_AT2.name,
+        unit,
+        values,
+        time_step,
+        component=component,
+        station=_field(head, -2),
+        event=_field(head, 0),
+        warnings=warnings + _doubled(content),
+        processed=True,
+        high_pass_frequency=_high_pass(head),
+    )
     peak = _PEAK.search(" ".join(head))
     agree_with_header(record, number(name, "PGA", peak[1]) if peak else None, "g", half_digit=5e-6)
     return [record]

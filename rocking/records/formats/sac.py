@@ -4,7 +4,7 @@ import struct
 
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.directions import azimuth, is_vertical
-from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.format import Format, Options, accelerogram, without_offset
 from rocking.records.formats.waveform import joined, stream
 
 _HEADER = 632
@@ -37,15 +37,22 @@ def _record(trace, name: str, unit: str, options: Options, warnings: tuple[str, 
     azimuth_in_file = float(stats.sac.get("cmpaz", float("nan")))
     known = -360 <= azimuth_in_file <= 360
     vertical = is_vertical(stats.channel)
-    values = trace.data.astype(float) * stats.calib
-    offset = values.mean()
+    values, offset = without_offset(trace.data.astype(float) * stats.calib, unit)
     return accelerogram(
-        name, SAC.name, unit, values - offset, options.time_step_of(name, _step(stats)),
-        component=stats.channel, station=stats.station, network=stats.network, warnings=warnings,
-        start_time=str(stats.starttime), vertical=vertical,
-        processing=(f"Mean of the whole record removed, {offset:.6g} {unit}: the offset of the recorder.",),
+        name,
+        SAC.name,
+        unit,
+        values,
+        options.time_step_of(name, _step(stats)),
+        component=stats.channel,
+        station=stats.station,
+        network=stats.network,
+        warnings=warnings,
+        start_time=str(stats.starttime),
+        vertical=vertical,
+        processing=(offset,),
         azimuth=None if vertical else azimuth_in_file % 360 if known else azimuth(stats.channel),
-    )  # fmt: skip
+    )
 
 
 def _step(stats) -> float:

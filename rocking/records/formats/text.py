@@ -51,10 +51,13 @@ def numbers(name: str, text: bytes) -> np.ndarray:
     raise RecordError(f"{name}: {_first_defect(text)}; every sample must be a plain decimal number.")
 
 
-def fixed_width(name: str, rows: list[str], width: int) -> np.ndarray:
-    """Return the numbers of `rows` of fixed columns `width` wide, which may touch, (n,)."""
-    pieces = [row[i : i + width] for row in rows for i in range(0, len(row.rstrip()), width)]
-    return numbers(name, " ".join(pieces).encode("latin-1"))
+def fields(name: str, rows: list[str], width: int, margin: int = 0) -> np.ndarray:
+    """Return the numbers of `rows`, (n,), apart by blanks; where they touch, by columns of `width` after a `margin`."""
+    try:
+        return numbers(name, "\n".join(rows).encode("latin-1"))
+    except RecordError:
+        pieces = [row[i : i + width] for row in rows for i in range(margin, len(row.rstrip()), width)]
+        return numbers(name, " ".join(pieces).encode("latin-1"))
 
 
 def whole(name: str, values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray, tuple[str, ...]]:

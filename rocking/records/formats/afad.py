@@ -1,0 +1,62 @@
+"""AFAD/NSMN text of Turkey: a header, then three columns named by direction, in gal."""
+
+import re
+
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.directions import azimuth, is_vertical
+from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.header import mapping, numeric, optional_number, starts, valued
+from rocking.records.formats.text import count, lines, numbers, whole
+from rocking.records.gates import agree_with_header
+
+_FIRST = re.compile(r"STRONG GROUND MOTION RECORDS OF T", re.I)
+_HEADER = 40
+
+
+def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    text = lines(content)
+    at = next((i for i, line in enumerate(text[:_HEADER]) if _columns(line)), None)
+    if at is None:
+        raise RecordError(
+            f"{name}: no line names the columns (N-S, E-W, U-D) in the first {_HEADER}; the file is cut."
+        )
+    pairs, columns = mapping(text[:at]), _columns(text[at])
+    values = numbers(name, "\n".join(text[at + 1 :]).encode("latin-1"))
+    if values.size % len(columns):
+        raise RecordError(
+            f"{name}: {values.size} numbers do not fill {len(columns)} columns; the file is truncated."
+        )
+    table = values.reshape(-1, len(columns))
+    declared = count(name, "NUMBER OF DATA", valued(name, pairs, "NUMBER OF DATA"))
+    _, told = whole(name, table[:, 0], declared, per_line=1)
+    return [_record(name, pairs, label, table[:, i], told, options) for i, label in enumerate(columns)]
+
+
+def _columns(line: str) -> list[str]:
+    labels = line.split()
+    return labels if len(labels) > 1 and all(azimuth(x) is not None or is_vertical(x) for x in labels) else []
+
+
+def _record(name: str, pairs: dict[str, str], component: str, values, told, options: Options) -> Accelerogram:
+    peaks = next((key for key in pairs if "PGA" in key), "")
+    record = accelerogram(
+        name,
+        AFAD.name,
+        options.unit_of(name, "gal"),
+        values,
+        options.time_step_of(name, numeric(name, pairs, "SAMPLING INTERVAL (SEC)")),
+        component=component,
+        warnings=told,
+        station=pairs.get("STATION ID", ""),
+        event=pairs.get("EARTHQUAKE DATE", ""),
+        network="TK",
+        processed="RAW" not in peaks,
+    )
+    stated = optional_number(rf"\({re.escape(component)}\)\s*(-?[\d.]+)", pairs.get(peaks, ""))
+    agree_with_header(record, stated, "gal", half_digit=5e-7)
+    return record
+
+
+AFAD = Format("AFAD/NSMN text", "first line STRONG GROUND MOTION RECORDS OF TURKIYE",
+              lambda content: starts(content, _FIRST), _read)  # fmt: skip

@@ -1,0 +1,54 @@
+"""BHRC (Iran) text: Volume 1 blocks of evenly spaced samples in tenths of g."""
+
+import re
+
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.directions import is_vertical
+from rocking.records.formats.format import Format, Options, accelerogram, without_offset
+from rocking.records.formats.header import optional, optional_number, starts
+from rocking.records.formats.text import fields, whole
+from rocking.records.formats.volume1 import Block, channels
+
+_FIRST = re.compile(r"\* VOL1DS FILE:")
+_PER_LINE, _WIDTH = 10, 13
+
+
+def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    return [_record(block, name, options) for block in channels(content, _FIRST, name)]
+
+
+def _record(block: Block, name: str, options: Options) -> Accelerogram:
+    values, told = whole(name, fields(name, block.rows, _WIDTH), block.declared, _PER_LINE)
+    if not values.size:
+        raise RecordError(f"{name}: the block of a channel holds no samples.")
+    unit = options.unit_of(name, "g/10")
+    values, offset = without_offset(values, unit)
+    component = optional(r"^COMP\s+(\S+)", block.head)
+    letter = component[:1].upper()
+    return accelerogram(
+        name,
+        BHRC.name,
+        unit,
+        values,
+        options.time_step_of(name, block.duration / block.declared),
+        component=component,
+        station=optional(r"FILE:\s*(\w+)", block.head),
+        warnings=told,
+        event=_event(block.head),
+        processing=(offset,),
+        vertical=is_vertical(letter),
+        azimuth=_azimuth(block.head, letter),
+    )
+
+
+def _event(head: str) -> str:
+    return optional(r"^Origin Time\s*:\s*(\S+\s+\S+)", head)
+
+
+def _azimuth(head: str, letter: str) -> float | None:
+    """Return the azimuth that the header gives to L or T."""
+    return optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", head) if letter in ("L", "T") else None
+
+
+BHRC = Format("BHRC", "first line * VOL1DS FILE:", lambda content: starts(content, _FIRST), _read)

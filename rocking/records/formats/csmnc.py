@@ -1,0 +1,50 @@
+"""CSMNC (China) text: sixteen header lines, then cm/s²."""
+
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.header import optional, optional_number, required
+from rocking.records.formats.text import count, fields, lines, number, whole
+from rocking.records.gates import agree_with_header
+
+_HEADER, _PER_LINE, _WIDTH = 16, 8, 13
+
+
+def _recognise(content: bytes) -> bool:
+    head = lines(content, _HEADER)
+    return any(x.startswith("NO. OF POINTS:") for x in head) and any(
+        x.startswith("OBSERVING POINT:") for x in head
+    )
+
+
+def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    text = lines(content)
+    head = "\n".join(text[:_HEADER])
+    kind = required(name, "the quantity and its unit", r"^(?:UN)?CORRECTED (\w+)\s+UNIT:\s*(\S+)", head)
+    if kind[1].upper() != "ACCELERATION" or kind[2].upper() not in ("CM/SEC/SEC", "CM/S/S", "GAL"):
+        raise RecordError(
+            f"{name}: the file holds {kind[1]} in {kind[2]}, but must hold ACCELERATION in CM/SEC/SEC."
+        )
+    said = required(
+        name, "points and interval", r"NO\. OF POINTS:\s*(\S+)\s+EQUALLY SPACED INTERVALS OF:\s*(\S+)", head
+    )
+    values = fields(name, [row for row in text[_HEADER:] if row.strip()], _WIDTH)
+    values, told = whole(name, values, count(name, "NO. OF POINTS", said[1]), _PER_LINE)
+    component = optional(r"^COMP\.\s*(\S+)", head)
+    record = accelerogram(
+        name,
+        CSMNC.name,
+        options.unit_of(name, "cm/s2"),
+        values,
+        options.time_step_of(name, number(name, "interval", said[2])),
+        component=component,
+        warnings=told,
+        station=optional(r"^STATION:\s*(\S+)", head),
+        event=text[2].strip()[:60],
+        processed=optional(r"^((?:UN)?CORRECTED) ", head).upper() == "CORRECTED",
+    )
+    agree_with_header(record, optional_number(r"^PEAK VALUE:\s*(-?[\d.]+)", head), "cm/s2", half_digit=5e-4)
+    return [record]
+
+
+CSMNC = Format("CSMNC", "lines OBSERVING POINT: and NO. OF POINTS: in the first 16", _recognise, _read)

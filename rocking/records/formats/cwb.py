@@ -1,0 +1,75 @@
+"""CWB (Taiwan) free-format text: time and three components in columns of 10, gal."""
+
+import re
+
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.header import mapping, numeric, optional, starts, valued
+from rocking.records.formats.sampling import even_step
+from rocking.records.formats.text import fields, is_number, lines
+from rocking.records.gates import agree_with_header
+
+_FIRST = re.compile(r"#Earthquake Information")
+_HEADER, _WIDTH = 60, 10
+
+
+def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    text = lines(content)
+    at = next((i for i, line in enumerate(text[:_HEADER]) if line.startswith("#Data:")), None)
+    if at is None:
+        raise RecordError(f"{name}: no line #Data: in the first {_HEADER}; the file is cut.")
+    pairs = mapping([line.removeprefix("#") for line in text[:at]])
+    unit = valued(name, pairs, "AMPLITUDEUNIT")
+    if not unit.lower().startswith("gal"):
+        raise RecordError(f"{name}: AmplitudeUnit is {unit!r}, but must be gal.")
+    labels = re.findall(r"([A-Z])\(", valued(name, pairs, "DATASEQUENCE"))
+    rows = [row for row in text[at + 1 :] if row.strip()]
+    values = fields(name, rows, _WIDTH)
+    if not labels or not values.size or values.size % (len(labels) + 1):
+        raise RecordError(
+            f"{name}: {values.size} numbers do not fill time and {len(labels)} components; it is truncated."
+        )
+    table = values.reshape(-1, len(labels) + 1)
+    step = _step(name, table[:, 0], pairs)
+    return [_record(name, label, table[:, i], step, pairs, options) for i, label in enumerate(labels, 1)]
+
+
+def _step(name: str, times, pairs: dict[str, str]) -> float:
+    """Return the step of the times, after checking it and the length against the header."""
+    step, rate = even_step(name, times), numeric(name, pairs, "SAMPLERATE(HZ)")
+    if step is None or abs(step * rate - 1) > 1e-3:
+        raise RecordError(
+            f"{name}: SampleRate is {rate:g} Hz, but the times are not spaced so; the file is damaged."
+        )
+    length = numeric(name, pairs, "RECORDLENGTH(SEC)")
+    if abs(times.size * step - length) > 1.5:
+        raise RecordError(
+            f"{name}: RecordLength is {length:g} s, but the samples last {times.size * step:g} s."
+        )
+    return step
+
+
+def _record(
+    name: str, component: str, values, step: float, pairs: dict[str, str], options: Options
+) -> Accelerogram:
+    record = accelerogram(
+        name,
+        CWB.name,
+        options.unit_of(name, "gal"),
+        values,
+        options.time_step_of(name, step),
+        component=component,
+        station=pairs.get("STATIONCODE", ""),
+        event=pairs.get("ORIGIN TIME(GMT+08)", ""),
+        network="TW",
+    )
+    ends = optional(
+        rf"({re.escape(component)}:.*)", "\n".join(f"{k[-1]}:{v}" for k, v in pairs.items() if "MAX" in k)
+    )
+    stated = [abs(float(t)) for t in re.split(r"[~\s:]+", ends)[1:] if is_number(t)]
+    agree_with_header(record, max(stated, default=None), "gal", half_digit=5e-4)
+    return record
+
+
+CWB = Format("CWB", "first line #Earthquake Information", lambda content: starts(content, _FIRST), _read)

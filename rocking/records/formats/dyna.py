@@ -1,0 +1,90 @@
+"""DYNA text: a header of KEY: value lines, then one sample a line. Written by ESM, ITACA and AFAD."""
+
+import re
+
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.header import corner, mapping, numeric, optional_number, valued
+from rocking.records.formats.text import count, lines, numbers, whole
+from rocking.records.gates import agree_with_header
+
+_KEY = re.compile(r"[A-Z][A-Z0-9_/^]*:")
+_LONGEST_HEADER = 100
+_UNITS = {"CM/S^2": "cm/s2", "CM/S2": "cm/s2", "M/S^2": "m/s2", "G": "g", "GAL": "gal"}
+
+
+def _header_length(content: bytes) -> int:
+    """Return the number of KEY: lines at the start."""
+    length = 0
+    for line in lines(content, _LONGEST_HEADER):
+        if not _KEY.match(line):
+            break
+        length += 1
+    return length
+
+
+def _recognise(content: bytes) -> bool:
+    return content.startswith(b"EVENT_NAME:") and b"\nSAMPLING_INTERVAL_S:" in content[:8000].replace(
+        b"\r", b"\n"
+    )
+
+
+def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    length = _header_length(content)
+    text = lines(content)
+    pairs = mapping(text[:length])
+    kind = valued(name, pairs, "DATA_TYPE")
+    if kind.upper() != "ACCELERATION":
+        raise RecordError(
+            f"{name}: DATA_TYPE is {kind!r}, but must be ACCELERATION; use the ACC file of the record."
+        )
+    unit = options.unit_of(name, _unit(name, valued(name, pairs, "UNITS")))
+    declared = count(name, "NDATA", valued(name, pairs, "NDATA"))
+    values, told = whole(
+        name, numbers(name, "\n".join(text[length:]).encode("latin-1")), declared, per_line=1
+    )
+    record = _record(name, pairs, unit, values, told, options)
+    agree_with_header(
+        record, optional_number(r"^\s*(-?[\d.]+)", pairs.get("PGA_CM/S^2", "")), "cm/s2", half_digit=5e-4
+    )
+    return [record]
+
+
+def _record(name: str, pairs: dict[str, str], unit: str, values, told, options: Options) -> Accelerogram:
+    component = pairs.get("STREAM", "")
+    high_pass = corner(optional_number(r"^\s*([\d.]+)", pairs.get("LOW_CUT_FREQUENCY_HZ", "")))
+    return accelerogram(
+        name,
+        DYNA.name,
+        unit,
+        values,
+        options.time_step_of(name, numeric(name, pairs, "SAMPLING_INTERVAL_S")),
+        component=component,
+        station=pairs.get("STATION_CODE", ""),
+        network=pairs.get("NETWORK", ""),
+        warnings=told,
+        event=f"{pairs.get('EVENT_NAME', '')} {pairs.get('EVENT_DATE_YYYYMMDD', '')}".strip(),
+        start_time=_start(pairs),
+        processed=high_pass is not None,
+        high_pass_frequency=high_pass,
+    )
+
+
+def _start(pairs: dict[str, str]) -> str:
+    found = re.fullmatch(
+        r"(\d{4})(\d\d)(\d\d)_(\d\d)(\d\d)(\d\d(?:\.\d+)?)",
+        pairs.get("DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS", ""),
+    )
+    return "{}-{}-{}T{}:{}:{}Z".format(*found.groups()) if found else ""
+
+
+def _unit(name: str, text: str) -> str:
+    if text.upper() not in _UNITS:
+        raise RecordError(f"{name}: UNITS is {text!r}, but must be one of {', '.join(_UNITS)}.")
+    return _UNITS[text.upper()]
+
+
+DYNA = Format(
+    "DYNA (ESM, ITACA, AFAD)", "EVENT_NAME: at the start and SAMPLING_INTERVAL_S: below", _recognise, _read
+)

@@ -1,0 +1,68 @@
+"""Headers: finding what they declare, and saying what is missing."""
+
+import re
+
+from rocking.errors import RecordError
+from rocking.records.formats.text import lines, number
+
+
+def blocks(content: bytes, first_line: re.Pattern[str]) -> list[list[str]]:
+    """Return the lines of each block of a file, a block starting at each line that matches `first_line`."""
+    text = lines(content)
+    starts = [i for i, line in enumerate(text) if first_line.match(line)]
+    return [text[a:b] for a, b in zip(starts, [*starts[1:], len(text)], strict=True)]
+
+
+def starts(content: bytes, pattern: re.Pattern[str]) -> bool:
+    """Whether the first line that is not empty matches `pattern`."""
+    return any(pattern.match(line) for line in [row for row in lines(content, 5) if row.strip()][:1])
+
+
+def required(name: str, what: str, pattern: str, text: str) -> re.Match[str]:
+    """Return the first match of `pattern` in `text`. Raises RecordError saying `what` the header lacks."""
+    found = re.search(pattern, text, re.I | re.M)
+    if not found:
+        raise RecordError(
+            f"{name}: the header does not declare {what}; the file is damaged or not what it seems."
+        )
+    return found
+
+
+def optional(pattern: str, text: str) -> str:
+    """Return the first group of the first match of `pattern` in `text`, stripped, or ""."""
+    found = re.search(pattern, text, re.I | re.M)
+    return found[1].strip() if found else ""
+
+
+def optional_number(pattern: str, text: str) -> float | None:
+    """Return the first group of the first match as a float, or None when there is none or it is no number."""
+    try:
+        return float(optional(pattern, text).replace("_", "?"))
+    except ValueError:
+        return None
+
+
+def mapping(text: list[str]) -> dict[str, str]:
+    """Return the "KEY : value" lines as a mapping, keys stripped and in upper case; the first of a key counts."""
+    pairs: dict[str, str] = {}
+    for key, colon, value in (line.partition(":") for line in text):
+        if colon:
+            pairs.setdefault(key.strip().upper(), value.strip())
+    return pairs
+
+
+def valued(name: str, pairs: dict[str, str], key: str) -> str:
+    """Return the value of `key`. Raises RecordError when it is missing or empty."""
+    if not pairs.get(key):
+        raise RecordError(f"{name}: the header gives no {key}; the file is damaged or not what it seems.")
+    return pairs[key]
+
+
+def numeric(name: str, pairs: dict[str, str], key: str) -> float:
+    """Return the value of `key` as a number. Raises RecordError when it is missing or no number."""
+    return number(name, key, valued(name, pairs, key))
+
+
+def corner(value: float | None) -> float | None:
+    """Return a high-pass corner in Hz, or None where the header says none (0, -999, nothing)."""
+    return value if value is not None and 0 < value < 100 else None

@@ -1,0 +1,47 @@
+"""RENADIC (Chile) text: Volume 1 blocks of (t, a) pairs in seconds and tenths of g."""
+
+import re
+
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.header import optional, optional_number, starts
+from rocking.records.formats.sampling import even_step
+from rocking.records.formats.text import lines
+from rocking.records.formats.volume1 import Block, channels, pairs
+from rocking.records.gates import agree_with_header
+
+_FIRST = re.compile(r"UNCORRECTED ACCELEROGRAM DATA\s+PROCESSED")
+
+
+def _recognise(content: bytes) -> bool:
+    return starts(content, _FIRST) and any("RENADIC" in line.upper() for line in lines(content, 13))
+
+
+def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    return [_record(block, name, options) for block in channels(content, _FIRST, name)]
+
+
+def _record(block: Block, name: str, options: Options) -> Accelerogram:
+    times, values = pairs(block, name, margin=0)
+    step = even_step(name, times)
+    if step is None:
+        raise RecordError(f"{name}: the times are not evenly spaced, but RENADIC's are; the file is damaged.")
+    component = optional(r"^CHAN\s*\d+:\s*(\S+)", block.head)
+    record = accelerogram(
+        name,
+        RENADIC.name,
+        options.unit_of(name, "g/10"),
+        values,
+        options.time_step_of(name, step),
+        component=component,
+        station=optional(r"^(QDR S/N\s*\d+)", block.head),
+        event=optional(r"^([\d/]+ [\d:]+)", block.head),
+    )
+    agree_with_header(record, optional_number(r"MAX\s*=\s*(-?[\d.]+)\s*G", block.head), "g", half_digit=5e-4)
+    return record
+
+
+RENADIC = Format(
+    "RENADIC", "first line UNCORRECTED ACCELEROGRAM DATA PROCESSED with RENADIC below", _recognise, _read
+)

@@ -1,0 +1,88 @@
+"""USGS SMC text: ten header lines, integers, reals, comments, then cm/s² in touching columns."""
+
+import re
+
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.header import corner, optional, starts
+from rocking.records.formats.text import fields, lines, whole
+from rocking.records.gates import agree_with_header
+
+_KINDS = {"0": "unknown", "1": "uncorrected accelerogram", "2": "corrected accelerogram", "3": "velocity",
+          "4": "displacement", "5": "response spectrum", "6": "Fourier spectrum"}  # fmt: skip
+_FIRST = re.compile(
+    r"([0-6]) (UNKNOWN|UNCORRECTED ACC|CORRECTED ACC|VELOCITY|DISPLACEMENT|RESPONSE|FOURIER)", re.I
+)
+_TEXT, _INTEGERS, _REALS = 11, 6, 10
+"""Lines of each part of the header."""
+_COMMENTS, _SAMPLES = 15, 16
+_RATE, _LARGEST, _SMALLEST, _CORNER = 1, 29, 31, 32
+"""Places in the integer and in the real header (USGS Open-File Report 92-429)."""
+_MISSING = 1.69e38
+
+
+def _recognise(content: bytes) -> bool:
+    return starts(content, _FIRST) and len(head := lines(content, 12)) == 12 and len(head[11].split()) == 8
+
+
+def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    text = lines(content)
+    kind = text[0][:1]
+    if kind not in "012":
+        raise RecordError(f"{name}: this SMC file holds {_KINDS.get(kind, kind)}, not acceleration.")
+    integers = fields(name, text[_TEXT : _TEXT + _INTEGERS], 10)
+    reals = fields(name, text[_TEXT + _INTEGERS : _TEXT + _INTEGERS + _REALS], 15)
+    if integers.size < 48 or reals.size < 50:
+        raise RecordError(
+            f"{name}: the SMC header holds {integers.size} integers and {reals.size} reals, not 48 and 50."
+        )
+    first = _TEXT + _INTEGERS + _REALS + _whole(integers[_COMMENTS], name)
+    body = [row for row in text[first:] if row.strip()]
+    width = _width(body[0]) if body else 10
+    values, told = whole(name, fields(name, body, width), _whole(integers[_SAMPLES], name), 80 // width)
+    return [_record("\n".join(text[:_TEXT]), kind, values, told, reals, name, options)]
+
+
+def _record(head: str, kind: str, values, told, reals, name: str, options: Options) -> Accelerogram:
+    if not 0 < reals[_RATE] < 1e6:
+        raise RecordError(
+            f"{name}: samples per second is {reals[_RATE]!r}, but must be greater than 0 and below 1e6."
+        )
+    component = optional(r"component\s*=\s*(\S+)", head)
+    record = accelerogram(
+        name,
+        SMC.name,
+        options.unit_of(name, "cm/s2"),
+        values,
+        options.time_step_of(name, 1 / float(reals[_RATE])),
+        component=component,
+        station=optional(r"station\s*=\s*(.*?)\s*component", head),
+        warnings=told,
+        event=optional(r"^\s+\d{4}\s+\d+\s+\d+\s+\d{4}\s+(.*)$", head),
+        processed=kind == "2",
+        high_pass_frequency=corner(float(reals[_CORNER])),
+    )
+    stated = [abs(v) for v in (reals[_LARGEST], reals[_SMALLEST]) if abs(v) < _MISSING]
+    agree_with_header(record, max(stated, default=None), "cm/s2")
+    return record
+
+
+def _whole(value: float, name: str) -> int:
+    if not 0 <= value < 1e8:
+        raise RecordError(f"{name}: a count in the integer header is {value:g}, but must be from 0 to 1e8.")
+    return int(value)
+
+
+def _width(row: str) -> int:
+    """Return the width of the columns, from the places of the decimal points in the first row."""
+    points = [m.start() for m in re.finditer(r"\.", row)]
+    return points[1] - points[0] if len(points) > 1 else max(1, len(row.rstrip()))
+
+
+SMC = Format(
+    "USGS SMC",
+    "first line like 2 CORRECTED ACCELEROGRAM above ten text lines and integers",
+    _recognise,
+    _read,
+)

@@ -1,0 +1,47 @@
+"""USC Volume 1 text: digitised film, unevenly spaced (t, a) pairs in seconds and tenths of g."""
+
+import re
+
+import numpy as np
+
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.header import optional, starts
+from rocking.records.formats.sampling import even_step
+from rocking.records.formats.volume1 import Block, channels, pairs
+
+_FIRST = re.compile(r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", re.I)
+_STEP = 0.005
+"""s; the even step to which Volume 1 film records are interpolated."""
+
+
+def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    return [_record(block, name, options) for block in channels(content, _FIRST, name)]
+
+
+def _record(block: Block, name: str, options: Options) -> Accelerogram:
+    times, values = pairs(block, name, margin=1)
+    step, told = even_step(name, times), ()
+    if step is None:
+        step, even = _STEP, np.arange(round(times[0] / _STEP), int(times[-1] / _STEP + 1e-6) + 1) * _STEP
+        values = np.interp(even, times, values)
+        told = (
+            f"The {times.size} samples are unevenly spaced; interpolated linearly to {even.size}, {_STEP:g} s apart.",
+        )
+    component = optional(r"^COMP\s+(\S+)", block.head)
+    return accelerogram(
+        name,
+        USC.name,
+        options.unit_of(name, "g/10"),
+        values,
+        options.time_step_of(name, step),
+        component=component,
+        station=optional(r"^STATION\s+(USC#\s*\d+)", block.head),
+        event=block.head.split("\n")[1].strip()[:60],
+        processing=told,
+        warnings=told,
+    )
+
+
+USC = Format("USC Volume 1", "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I",
+             lambda content: starts(content, _FIRST), _read)  # fmt: skip
