@@ -63,8 +63,9 @@ class Maximum:
 
     rotation_ratio: largest φ/φ_cr over both sides, each with its own φ_cr; inf if it overturns, 0 without uplift, nan
     if unresolved. outcome: an Outcome, FAILED only where the regime is unresolved.
-    impacts: how many impacts come before the largest rotation, or before it overturns.
-    peak_side: +1 or −1, the side of the largest rotation or of the overturning; 0 without uplift.
+    impacts: how many impacts come before the largest rotation, or before it overturns; those of a chain that dies out
+    are counted only until it is proved to die out. peak_side: +1 or −1, the side of the largest rotation or of the
+    overturning; 0 without uplift. Of rotations that are equal to within 1e-12 the first counts.
     overturning_margin: smallest 1 − x − x' (x = φ/φ_cr, time p t) at the start of a flight after the pulse; 1 when it
     rests by then, negative when it overturns, −inf when it does so beyond recall during the pulse. 0 is the border.
     """
@@ -190,7 +191,7 @@ class _Course:
         return following, old.restitution * speed * old.velocity_scale / new.velocity_scale
 
     def _record(self, peak: float, index: int) -> None:
-        if self.peak_side is None or peak > self.peak:
+        if self.peak_side is None or peak > self.peak * (1 + 1e-12):
             self.peak, self.peak_impacts, self.peak_side = peak, self.impacts, index
 
     def _after_pulse(self, index: int, end: Landing) -> None:

@@ -49,7 +49,9 @@ def first_and_second(block: EquivalentBlock, pulse: Pulse) -> tuple[Ratios | Non
     Ground that accelerates in the positive direction rocks the block to its negative side.
     """
     positive = ratios(block, pulse)
-    negative = positive if block.other_side is None else ratios(block.other_side, pulse)
-    if block.one_sided:
+    negative: Ratios | None = positive
+    if block.other_side is not None:
+        negative = ratios(block.other_side, pulse)
+    elif block.one_sided:
         negative = None
     return (negative, positive) if pulse.amplitude > 0 else (positive, negative)

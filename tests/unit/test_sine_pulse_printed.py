@@ -1,0 +1,139 @@
+"""Eqs. 15 and 16 and the single flight against 50-digit arithmetic."""
+
+import math
+
+import mpmath as mp
+import numpy as np
+import pytest
+from scipy.constants import g
+
+from rocking.errors import PulseError
+from rocking.pulses.pulse import Pulse
+from rocking.sine_pulse import printed_maximum, pulse_end_energy, pulse_end_measure
+from rocking.sine_pulse.flight import LONGEST_TIME, Flight
+from rocking.structures.mechanism import EquivalentBlock
+
+LARGEST_DOUBLE = mp.mpf(2) ** 1024
+
+BROAD_GRID = [
+    (omega, a)
+    for omega in np.geomspace(1e-3, 1e6, 46)
+    for a in 1 + np.geomspace(1e-12, 1e6 - 1, 37)
+]  # fmt: skip
+RANDOM = np.random.default_rng(20160104)
+RANDOM_POINTS = list(
+    zip(10 ** RANDOM.uniform(-3, 6, 2000), 1 + 10 ** RANDOM.uniform(-12, 6, 2000), strict=True)
+)
+
+
+def exact(omega: float, a: float) -> tuple[mp.mpf, mp.mpf, mp.mpf]:
+    """D₀ as Eq. 16 prints it, 1 − D₀, and the largest term, with digits to spare for every cancellation."""
+    with mp.workdps(60):
+        w, b = mp.mpf(float(omega)), mp.mpf(float(a))
+        s = mp.sqrt(b * b - 1)
+        big = mp.exp((2 * mp.pi - mp.asin(1 / b)) / w)
+        factor = (w / (w * w + 1)) ** 2
+        terms = (w * w, -2 * b * b, mp.mpf(1), (s + w) * b / big, (s - w) * b * big)
+        measure = factor * mp.fsum(terms)
+        return measure, 1 - measure, factor * (s + w) * b * big
+
+
+@pytest.mark.parametrize("points", [BROAD_GRID, RANDOM_POINTS], ids=["grid", "random"])
+def test_pulse_end_measure_and_energy_keep_eleven_digits(points: list[tuple[float, float]]) -> None:
+    """Relative error ≤ 1e-11; beside a zero, where |value| is below 1e-4 of the terms, ≤ 1e-15 of the terms."""
+    beside = 0
+    for omega, a in points:
+        measure, energy, growth = exact(omega, a)
+        for value, truth in ((pulse_end_measure(omega, a), measure), (pulse_end_energy(omega, a), energy)):
+            if abs(truth) >= LARGEST_DOUBLE:
+                assert value == math.copysign(math.inf, truth), (omega, a)
+                continue
+            error = abs(mp.mpf(value) - truth)
+            if error > mp.mpf("1e-11") * abs(truth):
+                beside += 1
+                scale = max(growth, mp.mpf(1)) if abs(truth) < mp.mpf("1e-4") * max(growth, 1) else mp.mpf(0)
+                assert error <= mp.mpf("4e-15") * scale, (omega, a, value, truth)
+    assert beside <= len(points) // 500
+
+
+@pytest.mark.parametrize(("omega", "a"), [(1e-3, 1 + 1e-12), (8e-3, 2.0), (1e-3, 1e6)])
+def test_beyond_the_range_of_doubles_is_infinite_with_the_right_sign(omega: float, a: float) -> None:
+    measure, _, _ = exact(omega, a)
+    assert pulse_end_measure(omega, a) == -pulse_end_energy(omega, a) == math.copysign(math.inf, measure)
+
+
+@pytest.mark.parametrize("eta", [0.0, 0.3, 0.9, 1.0])
+def test_printed_maximum_is_equation_15_or_nan(eta: float) -> None:
+    block = EquivalentBlock(2.0, 0.25, 0.8, eta)
+    refused = 0
+    for omega in np.geomspace(0.1, 1e4, 23):
+        for a in 1 + np.geomspace(1e-3, 30, 19):
+            pulse = Pulse(a * g * block.uplift_multiplier, omega * 2.0)
+            # what the block and the pulse as stored say a and ω are
+            ratio = pulse.amplitude / (g * block.uplift_multiplier)
+            _, energy, _ = exact(pulse.circular_frequency / 2.0, ratio)
+            with mp.workdps(60):
+                radicand = 1 - mp.mpf(eta) ** 2 * energy
+                truth = 1 - mp.sqrt(radicand)
+            value = printed_maximum(block, pulse)
+            refused += math.isnan(value)
+            if radicand < 0 or math.isnan(value):
+                assert radicand < 0, (omega, a)
+                assert math.isnan(value), (omega, a)
+            else:
+                # 1e-10: the division that gives a back loses a digit, and √ loses it again beside a zero radicand
+                assert value == pytest.approx(float(truth), rel=1e-10, abs=0 if eta else 1e-300), (omega, a)
+    assert refused > 0 or eta < 0.9
+
+
+def test_printed_maximum_without_uplift_is_zero() -> None:
+    assert printed_maximum(EquivalentBlock(2.0, 0.25, 0.8, 0.9), Pulse(0.1, 3.0)) == 0.0
+
+
+def precise_flight(omega: mp.mpf, a: mp.mpf):
+    """x(τ) = 1 − a sin(ωτ)/(1+ω²) + A e^τ + B e^−τ from rest at ωτ = asin(1/a), and its derivative."""
+    start = mp.asin(1 / a) / omega
+    c, s = a / (1 + omega**2), mp.sqrt(a * a - 1)
+    level, slope = -1 + c / a, omega * c * s / a
+    up, down = (level + slope) / 2, (level - slope) / 2
+
+    def x(t):
+        return 1 - c * mp.sin(omega * (start + t)) + up * mp.exp(t) + down * mp.exp(-t)
+
+    def velocity(t):
+        return -c * omega * mp.cos(omega * (start + t)) + up * mp.exp(t) - down * mp.exp(-t)
+
+    return x, velocity
+
+
+EXTREMES = [
+    (1.0, 1 + 1e-9), (1e-3, 1 + 1e-7), (1e-3, 1 + 1e-12), (1e4, 1.001), (1e6, 1.2), (30.0, 1.5), (4.0, 1.05),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("omega", "a"), EXTREMES)
+def test_first_flight_keeps_its_digits_when_it_is_tiny(omega: float, a: float) -> None:
+    """Height and landing of the first flight against 60 digits, to 1e-11 of their own size (1e-18 at the least)."""
+    s = math.sqrt((a - 1) * (a + 1))
+    start = math.atan2(1.0, s)
+    landing = Flight(omega, a, start, 0.0, 0.0, s).land(min((2 * math.pi - start) / omega, LONGEST_TIME))
+    assert landing.contact
+    with mp.workdps(60):
+        x, velocity = precise_flight(mp.mpf(omega), mp.mpf(a))
+        time = mp.findroot(x, mp.mpf(landing.time) * mp.mpf("1.0000001"))
+        top = mp.findroot(velocity, mp.mpf(landing.time) * mp.mpf("0.75"))
+        assert 0 < top < time
+        assert landing.time == pytest.approx(float(time), rel=1e-11)
+        assert landing.peak == pytest.approx(float(x(top)), rel=1e-11)
+        assert landing.velocity == pytest.approx(float(velocity(time)), rel=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("omega", "a", "name"),
+    [(0.0, 2.0, "frequency_ratio"), (math.nan, 2.0, "frequency_ratio"), (1.0, 1.0, "amplitude_ratio"),
+     (1.0, math.inf, "amplitude_ratio"), ("1", 2.0, "frequency_ratio")],
+)  # fmt: skip
+def test_bad_ratios_are_refused_by_name(omega: float, a: float, name: str) -> None:
+    for function in (pulse_end_measure, pulse_end_energy):
+        with pytest.raises(PulseError, match=name):
+            function(omega, a)
