@@ -81,7 +81,9 @@ class Format:
     read: Callable[[bytes, str, Options], list[Accelerogram]]
 
 
-def accelerogram(name: str, form: str, unit: str, values: np.ndarray, time_step: float, **fields) -> Accelerogram:
+def accelerogram(
+    name: str, form: str, unit: str, values: np.ndarray, time_step: float, **fields
+) -> Accelerogram:
     """Return an Accelerogram from `values` in `unit` of the file `name` in the format `form`.
 
     fields: of Accelerogram; azimuth and vertical follow from the component's name unless they are given.

@@ -5,7 +5,7 @@ from datetime import datetime, timedelta
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.format import Format, Options, accelerogram, without_offset
 from rocking.records.formats.text import lines, number, numbers
 from rocking.records.gates import agree_with_header
 
