@@ -1,0 +1,191 @@
+"""Processing: what turns recorded numbers into ground acceleration, each step optional and recorded in the result."""
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from rocking.checks import positive, within
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.baseline import adaptive_baseline
+
+Baseline = Literal["none", "linear", "adaptive"]
+_LOW_PASS_SHARE = 0.8
+"""Share of the new Nyquist frequency above which nothing is left before a record is thinned out."""
+
+
+@dataclass(frozen=True)
+class Processing:
+    """Settings, applied in the order they stand here; a step that is None, 0 or "none" is left out.
+
+    pre_event: length [s] of the window at the start whose mean is removed from the whole record.
+    baseline: "linear" subtracts the least-squares line; "adaptive" fits the drift of velocity before and after shaking.
+    taper: share of the record that a cosine taper covers at each end.
+    high_pass, low_pass: corners of acausal Butterworth filters, Hz; order: of each, before it is run both ways.
+    padding: whether zeros of 1.5 order/corner seconds (Boore 2005) are put before and after while filtering.
+    keep_padding: whether those zeros stay, which velocity and displacement need to end at rest.
+    time_step: s, to which the record is resampled at last. Raises RecordError when a setting is out of range.
+    """
+
+    pre_event: float | None = None
+    baseline: Baseline = "none"
+    taper: float = 0.0
+    high_pass: float | None = None
+    low_pass: float | None = None
+    order: int = 4
+    padding: bool = True
+    keep_padding: bool = False
+    time_step: float | None = None
+
+    def __post_init__(self) -> None:
+        for field, unit in (("pre_event", "s"), ("high_pass", "Hz"), ("low_pass", "Hz"), ("time_step", "s")):
+            if getattr(self, field) is not None:
+                positive(RecordError, field, getattr(self, field), unit)
+        within(RecordError, "taper", self.taper, 0, 0.5)
+        if self.baseline not in ("none", "linear", "adaptive"):
+            raise RecordError(f"baseline is {self.baseline!r}, but must be 'none', 'linear' or 'adaptive'.")
+        if isinstance(self.order, bool) or not isinstance(self.order, int) or not 1 <= self.order <= 10:
+            raise RecordError(f"order is {self.order!r}, but must be a whole number from 1 to 10.")
+        if self.high_pass and self.low_pass and self.high_pass >= self.low_pass:
+            raise RecordError(
+                f"high_pass is {self.high_pass!r} Hz, but must be below low_pass = {self.low_pass!r} Hz."
+            )
+
+
+UNPROCESSED_DEFAULT = Processing(pre_event=1.0, baseline="linear", taper=0.02, high_pass=0.1)
+"""What raw records get unless told otherwise."""
+
+
+def process(record: Accelerogram, processing: Processing | None = None) -> Accelerogram:
+    """Return `record` after the steps of `processing`, each told in its `processing` field.
+
+    None: the default for raw records, and nothing for those whose file says they are processed already.
+    Raises RecordError when a corner or a window does not fit the record.
+    """
+    if processing is None:
+        processing = Processing() if record.processed else UNPROCESSED_DEFAULT
+    for step in (_without_pre_event_mean, _on_baseline, _filtered, _resampled):
+        record = step(record, processing)
+    return record
+
+
+def variants(high_pass: float = 0.1) -> dict[str, Processing]:
+    """Return named settings that differ in baseline and corner, to see how much an answer owes to them."""
+    base = Processing(pre_event=1.0, taper=0.02)
+    return {
+        "as read": Processing(),
+        "pre-event mean": Processing(pre_event=1.0),
+        "linear baseline": Processing(pre_event=1.0, baseline="linear"),
+        "adaptive baseline": Processing(pre_event=1.0, baseline="adaptive"),
+    } | {f"high-pass {f * high_pass:g} Hz": replace(base, high_pass=f * high_pass) for f in (0.5, 1.0, 2.0)}
+
+
+def velocity(record: Accelerogram) -> np.ndarray:
+    """Return the velocity (n,) in m/s by the trapezoidal rule, starting from rest."""
+    return _integral(record.acceleration, record.time_step)
+
+
+def displacement(record: Accelerogram) -> np.ndarray:
+    """Return the displacement (n,) in m by the trapezoidal rule twice, starting from rest."""
+    return _integral(velocity(record), record.time_step)
+
+
+def _integral(values: np.ndarray, time_step: float) -> np.ndarray:
+    return time_step * (np.cumsum(values) - (values + values[0]) / 2)
+
+
+def _without_pre_event_mean(record: Accelerogram, processing: Processing) -> Accelerogram:
+    if processing.pre_event is None:
+        return record
+    samples = round(processing.pre_event / record.time_step)
+    if not 1 <= samples < record.acceleration.size:
+        raise RecordError(
+            f"pre_event is {processing.pre_event!r} s, but must hold a sample and end within the record."
+        )
+    mean = record.acceleration[:samples].mean()
+    sentence = f"Mean of the first {processing.pre_event:g} s removed, {mean:.6g} m/s²."
+    return record.processed_by(record.acceleration - mean, sentence)
+
+
+def _on_baseline(record: Accelerogram, processing: Processing) -> Accelerogram:
+    if processing.baseline == "adaptive":
+        return record.processed_by(*adaptive_baseline(record.acceleration, record.time_step))
+    if processing.baseline == "none":
+        return record
+    times = record.times - record.duration / 2
+    slope, mean = times @ record.acceleration / (times @ times), record.acceleration.mean()
+    sentence = f"Least-squares line removed, mean {mean:.6g} m/s² and slope {slope:.6g} m/s³."
+    return record.processed_by(record.acceleration - mean - slope * times, sentence)
+
+
+def _filtered(record: Accelerogram, processing: Processing) -> Accelerogram:
+    values, told = record.acceleration, []
+    if processing.taper:
+        values = values * _cosine_taper(values.size, processing.taper)
+        told.append(f"Cosine taper over {processing.taper:.3g} of the record at each end.")
+    corners = {"highpass": processing.high_pass, "lowpass": processing.low_pass}
+    pad = _padding(record, processing)
+    if pad:
+        values = np.pad(values, pad)
+        told.append(f"{pad} zeros before and after{'' if processing.keep_padding else ' while filtering'}.")
+    for kind, corner in corners.items():
+        if corner is not None:
+            values = _butterworth(values, record.time_step, kind, corner, processing.order)
+            told.append(
+                f"Acausal Butterworth {kind} of order {processing.order}, run both ways, corner {corner:g} Hz."
+            )
+    if pad and not processing.keep_padding:
+        values = values[pad:-pad]
+    if not told:
+        return record
+    highest = max(processing.high_pass or 0, record.high_pass_frequency or 0) or None
+    return record.processed_by(values, " ".join(told), high_pass_frequency=highest)
+
+
+def _padding(record: Accelerogram, processing: Processing) -> int:
+    """Return the zeros to put on each side: 1.5 order/corner seconds of the lowest corner (Boore 2005)."""
+    corner = processing.high_pass or processing.low_pass
+    if not processing.padding or corner is None:
+        return 0
+    return int(np.ceil(min(1.5 * processing.order / corner, 10 * record.duration) / record.time_step))
+
+
+def _butterworth(values: np.ndarray, time_step: float, kind: str, corner: float, order: int) -> np.ndarray:
+    from scipy.signal import butter, sosfiltfilt
+
+    if not corner < 0.5 / time_step:
+        raise RecordError(
+            f"the {kind} corner is {corner!r} Hz, but must be below the Nyquist frequency {0.5 / time_step:g} Hz."
+        )
+    sections = butter(order, corner, kind, fs=1 / time_step, output="sos")
+    return sosfiltfilt(sections, values, padtype=None)
+
+
+def _cosine_taper(samples: int, share: float) -> np.ndarray:
+    length = max(1, int(share * samples))
+    ramp = 0.5 * (1 - np.cos(np.pi * np.arange(length) / length))
+    window = np.ones(samples)
+    window[:length] = ramp
+    window[-length:] = np.minimum(window[-length:], ramp[::-1])
+    return window
+
+
+def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:
+    step = processing.time_step
+    if step is None or abs(step / record.time_step - 1) < 1e-12:
+        return record
+    number = int(record.duration / step * (1 + 1e-12)) + 1
+    if not 2 <= number <= 10_000_000:
+        raise RecordError(f"time_step is {step!r} s, which makes {number} samples; it must make 2 to 1e7.")
+    values, sentence = (
+        record.acceleration,
+        f"Resampled from {record.time_step:g} to {step:g} s, linear between samples.",
+    )
+    if step > record.time_step:
+        corner = _LOW_PASS_SHARE * 0.5 / step
+        values = _butterworth(values, record.time_step, "lowpass", corner, 8)
+        sentence = f"Low-passed at {corner:g} Hz against aliasing. {sentence}"
+    return record.processed_by(
+        np.interp(np.arange(number) * step, record.times, values), sentence, time_step=step
+    )

@@ -1,0 +1,89 @@
+"""Rotation: a pair of horizontal components seen from another direction, and the peaks over all directions."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rocking.checks import finite
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+
+_FLATTEST = np.sin(np.radians(30.0))
+
+
+@dataclass(frozen=True)
+class RotatedPeaks:
+    """Peak accelerations over all directions (Boore 2010), m/s²: median and largest, and the azimuth of the largest.
+
+    azimuth: degrees clockwise from north in [0, 180), or from the first component where azimuths are unknown.
+    """
+
+    rotd50: float
+    rotd100: float
+    azimuth: float
+
+
+def rotate(first: Accelerogram, second: Accelerogram, azimuth: float) -> Accelerogram:
+    """Return the horizontal motion along `azimuth` (degrees clockwise from north), from two components.
+
+    The components need known azimuths at least 30° apart, one time step and one start; the longer is cut to the
+    shorter. They need not be orthogonal.
+    Raises RecordError when they do not fit together.
+    """
+    azimuth = finite(RecordError, "azimuth", azimuth, "degrees")
+    if first.azimuth is None or second.azimuth is None:
+        raise RecordError(
+            "a component has no known azimuth; give one with dataclasses.replace(record, azimuth=...)."
+        )
+    a, b = _paired(first, second)
+    one, two, wanted = np.radians([first.azimuth, second.azimuth, azimuth])
+    base = np.sin(two - one)
+    if abs(base) < _FLATTEST:
+        raise RecordError(
+            f"the azimuths are {first.azimuth:g}° and {second.azimuth:g}°, but must differ by 30° or more."
+        )
+    motion = (a * np.sin(two - wanted) + b * np.sin(wanted - one)) / base
+    sentence = (
+        f"Rotated from {first.azimuth:g}° and {second.azimuth:g}° to {azimuth:g}° clockwise from north."
+    )
+    turned = first.processed_by(motion, sentence, component=f"{azimuth:g}", azimuth=azimuth % 360)
+    return replace(turned, warnings=_together(first, second))
+
+
+def rotated_peaks(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotatedPeaks:
+    """Return RotD50 and RotD100 of peak acceleration over directions `step` degrees apart, for orthogonal components."""
+    if not 0 < step <= 90:
+        raise RecordError(f"step is {step!r} degrees, but must be above 0 and at most 90.")
+    a, b = _paired(first, second)
+    if first.azimuth is not None and second.azimuth is not None:
+        north, east = rotate(first, second, 0.0), rotate(first, second, 90.0)
+        a, b = north.acceleration, east.acceleration
+    angles = np.arange(0.0, 180.0, step)
+    peaks = np.array([np.abs(a * np.cos(t) + b * np.sin(t)).max() for t in np.radians(angles)])
+    return RotatedPeaks(float(np.median(peaks)), float(peaks.max()), float(angles[peaks.argmax()]))
+
+
+def _paired(first: Accelerogram, second: Accelerogram) -> tuple[np.ndarray, np.ndarray]:
+    if abs(first.time_step / second.time_step - 1) > 1e-9:
+        raise RecordError(
+            f"time_step is {first.time_step!r} s and {second.time_step!r} s, but must be one; resample first."
+        )
+    if first.vertical or second.vertical:
+        raise RecordError("a component is vertical, but both must be horizontal.")
+    if first.start_time and second.start_time and first.start_time != second.start_time:
+        raise RecordError(
+            f"the components start at {first.start_time} and {second.start_time}, but must start together."
+        )
+    n = min(first.acceleration.size, second.acceleration.size)
+    return first.acceleration[:n], second.acceleration[:n]
+
+
+def _together(first: Accelerogram, second: Accelerogram) -> tuple[str, ...]:
+    told = tuple(dict.fromkeys((*first.warnings, *second.warnings)))
+    if first.acceleration.size == second.acceleration.size:
+        return told
+    sizes = sorted((first.acceleration.size, second.acceleration.size))
+    return (
+        *told,
+        f"The components hold {sizes[0]} and {sizes[1]} samples; the longer was cut to the shorter.",
+    )
