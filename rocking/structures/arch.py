@@ -3,6 +3,7 @@
 import warnings
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from scipy.optimize import brentq
@@ -17,6 +18,7 @@ from rocking.structures.arch_onset import (
     maximum_thickness,
     minimum_thickness,
     static_onset,
+    thrust_line,
 )
 from rocking.structures.arch_ring import PATTERN, Ring
 from rocking.structures.mechanism import Mechanism, Side
@@ -160,6 +162,36 @@ class Arch(Structure):
         spins = motion.spins[bar]
         speed = motion.velocities[bar] + 1j * spins * (points - motion.centroids[bar])
         return np.stack([speed.real, speed.imag, spins], axis=1) * moving[:, None]
+
+    def _outline(self, rotation: float) -> list[np.ndarray]:
+        """What stays at the springings, the bars, or the voussoirs of both; about the centre of the arch."""
+        motion, hinges = self.linkage.motion(rotation), self._hinge_sections
+        edges = np.unique(np.concatenate([self.ring.sections() if self.voussoirs else self._ends, hinges]))
+        edges = edges[np.append(True, np.diff(edges) > 1e-9)]
+        drawn = []
+        for first, last in pairwise(edges):
+            part = self.ring.sector(first, last)
+            bar = int(np.searchsorted(hinges, (first + last) / 2)) - 1
+            if 0 <= bar <= 2:
+                part = motion.centroids[bar] + np.exp(1j * motion.angles[bar]) * (
+                    part - self.linkage.bars.centroids[bar]
+                )
+            drawn.append(self.radius * np.stack([part.real, part.imag], axis=1))
+        return drawn
+
+    def _hinges(self, rotation: float) -> np.ndarray:
+        """A, B, C and D."""
+        hinges = self.radius * self.linkage.motion(rotation).hinges
+        return np.stack([hinges.real, hinges.imag], axis=1)
+
+    @property
+    def _ends(self) -> np.ndarray:
+        return np.array([-self.embrace_angle / 2, self.embrace_angle / 2])
+
+    def thrust_line(self, count: int = 200) -> np.ndarray:
+        """Return the line of thrust at the onset to the positive side: (count, 2) in m, from springing to springing."""
+        line = thrust_line(self.ring, self.onset, np.linspace(*self._ends, count))
+        return self.radius * np.stack([line.real, line.imag], axis=1)
 
 
 def _voussoirs(value: int | None) -> int | None:

@@ -9,19 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from rocking.structures.arch_ring import Bars
-
-
-@dataclass(frozen=True, eq=False)
-class Motion:
-    """Bars at some rotations, and their first and second derivatives with φ: (3, ...) each; angles counterclockwise."""
-
-    angles: np.ndarray
-    spins: np.ndarray
-    spin_slopes: np.ndarray
-    centroids: np.ndarray
-    velocities: np.ndarray
-    accelerations: np.ndarray
+from rocking.structures.bars import Bars, Motion, cross
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,12 +22,12 @@ class Linkage:
     def motion(self, rotation: np.ndarray) -> Motion:
         """Return the bars at `rotation` [rad], any shape, short of the dead point."""
         ab, bc, cd = self._directions(np.asarray(rotation, dtype=float))
-        closing = _cross(bc, cd)
-        spins = np.stack([-np.ones_like(closing), _cross(ab, cd) / closing, _cross(ab, bc) / -closing])
+        closing = cross(bc, cd)
+        spins = np.stack([-np.ones_like(closing), cross(ab, cd) / closing, cross(ab, bc) / -closing])
         # ω₁ = −1: ω₁ AB + ω₂ BC + ω₃ CD = 0. Once more: Σ (α − i ω²)·bar = 0 with α₁ = 0 gives the slopes.
         residual = -1j * (ab + spins[1] ** 2 * bc + spins[2] ** 2 * cd)
         slopes = np.stack(
-            [np.zeros_like(closing), _cross(residual, cd) / closing, _cross(residual, bc) / -closing]
+            [np.zeros_like(closing), cross(residual, cd) / closing, cross(residual, bc) / -closing]
         )
         turned = np.stack([ab, bc, cd]) / self._at_rest.reshape(3, *[1] * np.ndim(rotation))
         return self._carried(turned, ab, spins, slopes)
@@ -51,7 +39,9 @@ class Linkage:
         pivots = np.stack([self.hinges[0] + zero, self.hinges[0] + ab, self.hinges[3] + zero])
         pivot_velocity = np.stack([zero, -1j * ab, zero])
         pivot_acceleration = np.stack([zero, -ab, zero])
+        end = self.hinges[3] + zero
         return Motion(
+            hinges=np.stack([pivots[0], pivots[1], end - turned[2] * self._at_rest[2], end]),
             angles=np.angle(turned),
             spins=spins,
             spin_slopes=slopes,
@@ -77,7 +67,7 @@ class Linkage:
     @cached_property
     def _branch(self) -> float:
         diagonal = self.hinges[3] - self.hinges[1]
-        return float(np.sign(_cross(diagonal, self._at_rest[1])))
+        return float(np.sign(cross(diagonal, self._at_rest[1])))
 
     def inertia(self, rotation: np.ndarray) -> np.ndarray:
         """I = Σ m|r'|² + I_c ω², shape of `rotation`."""
@@ -118,7 +108,3 @@ class Linkage:
 
 def _sum(weights: np.ndarray, terms: np.ndarray) -> np.ndarray:
     return np.tensordot(weights, terms, axes=1)
-
-
-def _cross(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    return one.real * other.imag - one.imag * other.real

@@ -18,6 +18,7 @@ from scipy.optimize import minimize
 
 from rocking.errors import StructureError
 from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Ring
+from rocking.structures.bars import cross
 
 _DOWN = np.array([0.0, 0.0, 0.0, -1.0])
 _ROUNDS = 100
@@ -146,6 +147,19 @@ def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.n
     return hinges, unknowns
 
 
+def thrust_line(ring: Ring, onset: Onset, sections: np.ndarray) -> np.ndarray:
+    """Return where the thrust of a static onset crosses `sections` (k,): (k,) complex points.
+
+    From the gap at the intrados, the normal force times the distance of the thrust from it.
+    """
+    unknowns = np.array([*onset.reaction, onset.multiplier, 1.0])
+    gap = ring.gaps(sections, np.full(sections.shape, INTRADOS)) @ unknowns
+    _, vertical, horizontal = onset.reaction
+    load = sections + ring.embrace_angle / 2
+    normal = (horizontal + onset.multiplier * load) * np.cos(sections) - (vertical - load) * np.sin(sections)
+    return (ring.contact_radius(np.float64(INTRADOS)) + gap / normal) * 1j * np.exp(-1j * sections)
+
+
 def minimum_thickness(embrace_angle: float, voussoirs: int | None = None) -> float:
     """Return the smallest t/r at which the ring stands under its own weight (λ = 0), to 1e-13."""
     return _boundary(embrace_angle, voussoirs, TooThin, below=True)
@@ -217,8 +231,8 @@ def mechanism_multiplier(ring: Ring, hinges: np.ndarray) -> np.ndarray:
     points = ring.contact_points(hinges, PATTERN)
     bars = np.diff(points, axis=-1)
     with np.errstate(divide="ignore", invalid="ignore"):
-        second = _cross(bars[..., 0], bars[..., 2]) / _cross(bars[..., 1], bars[..., 2])
-        third = _cross(bars[..., 0], bars[..., 1]) / _cross(bars[..., 2], bars[..., 1])
+        second = cross(bars[..., 0], bars[..., 2]) / cross(bars[..., 1], bars[..., 2])
+        third = cross(bars[..., 0], bars[..., 1]) / cross(bars[..., 2], bars[..., 1])
     spins = np.stack([-np.ones_like(second), second, third], axis=-1)
     masses = np.diff(hinges, axis=-1)
     moments = -ring.centroid_radius * np.diff(np.exp(-1j * hinges), axis=-1)
@@ -229,7 +243,3 @@ def mechanism_multiplier(ring: Ring, hinges: np.ndarray) -> np.ndarray:
     opening = PATTERN * np.diff(spins, axis=-1, prepend=0, append=0)
     admissible = (opening <= 0).all(axis=-1) & (speed.real > 0)
     return np.where(admissible, speed.imag / np.where(admissible, speed.real, 1.0), np.inf)
-
-
-def _cross(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    return one.real * other.imag - one.imag * other.real

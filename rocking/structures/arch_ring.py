@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rocking.structures.bars import Bars
+
 INTRADOS, EXTRADOS = 1.0, -1.0
 """Sign of a contact: the thrust line stays above the intrados and below the extrados."""
 
@@ -16,15 +18,6 @@ PATTERN = np.array([INTRADOS, EXTRADOS, INTRADOS, EXTRADOS])
 
 CONTINUOUS_SECTIONS = 49
 """Sections at which a continuous ring is first tried; the tangent sections between them are found exactly."""
-
-
-@dataclass(frozen=True, eq=False)
-class Bars:
-    """Masses, centroids (complex) and inertias about the centroids of some rigid parts: (k,) each."""
-
-    masses: np.ndarray
-    centroids: np.ndarray
-    inertias: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -52,6 +45,14 @@ class Ring:
     def contact_points(self, section: np.ndarray, contact: np.ndarray) -> np.ndarray:
         """The points of the intrados (contact = 1) or extrados (−1) on those sections, complex."""
         return self.contact_radius(contact) * 1j * np.exp(-1j * section)
+
+    def sector(self, first: float, last: float) -> np.ndarray:
+        """The outline of the ring between two sections, complex, an arc of points every two degrees."""
+        sections = np.linspace(first, last, max(2, int((last - first) / np.radians(2)) + 2))
+        inner, outer = (
+            self.contact_points(sections, np.float64(contact)) for contact in (INTRADOS, EXTRADOS)
+        )
+        return np.concatenate([inner, outer[::-1]])
 
     def bars(self, edges: np.ndarray) -> Bars:
         """The annular sectors between successive sections `edges` (k + 1,)."""

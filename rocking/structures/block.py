@@ -14,7 +14,7 @@ from rocking.structures.restitution import (
     resolve_restitution,
 )
 from rocking.structures.single_body import corner_side
-from rocking.structures.structure import Structure
+from rocking.structures.structure import Structure, turned
 
 
 @dataclass(frozen=True)
@@ -72,6 +72,14 @@ class Block(Structure):
             restitution=resolve_restitution(self.restitution, "housner", balances),
         )
         return Mechanism(side, one_sided=self.one_sided)
+
+    def _outline(self, rotation: float) -> list[np.ndarray]:
+        half, height = self.breadth / 2, self.height
+        corners = [[-half, 0.0], [half, 0.0], [half, height], [-half, height]]
+        return [turned(corners, self._hinges(rotation)[0], rotation)]
+
+    def _hinges(self, rotation: float) -> np.ndarray:
+        return np.array([[self.breadth / 2, 0.0]])
 
     def _momentum_balance(self) -> float:
         across, up = np.sin(self.slenderness), np.cos(self.slenderness)

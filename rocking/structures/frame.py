@@ -15,7 +15,7 @@ from rocking.structures.restitution import (
     resolve_restitution,
 )
 from rocking.structures.single_body import corner_side
-from rocking.structures.structure import Structure
+from rocking.structures.structure import Structure, turned
 
 
 @dataclass(frozen=True)
@@ -58,6 +58,31 @@ class Frame(Structure):
                 restitution=resolve_restitution(self.restitution, "momentum", balances),
             )
         )
+
+    def _outline(self, rotation: float) -> list[np.ndarray]:
+        """Columns 0.6 of their height apart, and a beam of their material and breadth as deep as its mass asks."""
+        half, height = self.column.breadth / 2, self.column.height
+        column = np.array([[-half, 0.0], [half, 0.0], [half, height], [-half, height]])
+        drawn = [turned(column + np.array([x, 0.0]), [x + half, 0.0], rotation) for x in self._axes]
+        if self.beam_mass_ratio == 0:
+            return drawn
+        left, right = self._axes[0] - half, self._axes[-1] + half
+        depth = self.beam_mass_ratio * self.columns * 2 * half * height / (right - left)
+        beam = np.array([[left, height], [right, height], [right, height + depth], [left, height + depth]])
+        return [*drawn, beam + self._hinges(rotation)[-1] - [right - 2 * half, height]]
+
+    def _hinges(self, rotation: float) -> np.ndarray:
+        """The right bottom corner and the left top corner of every column, in two runs."""
+        angle = self.column.slenderness - rotation
+        bottom = np.stack([self._axes + self.column.breadth / 2, np.zeros(self.columns)], axis=1)
+        return np.concatenate(
+            [bottom, bottom + 2 * self.column.semi_diagonal * np.array([-np.sin(angle), np.cos(angle)])]
+        )
+
+    @property
+    def _axes(self) -> np.ndarray:
+        spacing = max(0.6 * self.column.height, 2 * self.column.breadth)
+        return spacing * (np.arange(self.columns) - (self.columns - 1) / 2)
 
     def _momentum_balance(self) -> float:
         """One column (R = 1) and its share of the beam, which moves with the tops and does not turn."""

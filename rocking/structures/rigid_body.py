@@ -1,6 +1,6 @@
 """Any rigid body that rocks about two corners, its mass off centre if need be (theory: section 2)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from rocking.structures.restitution import (
     resolve_restitution,
 )
 from rocking.structures.single_body import corner_side
-from rocking.structures.structure import Structure
+from rocking.structures.structure import Structure, turned
 
 
 @dataclass(frozen=True)
@@ -59,6 +59,18 @@ class RigidBody(Structure):
             end_rotation=slenderness + np.pi / 2 if end_rotation is None else end_rotation,
             restitution=resolve_restitution(self.restitution, "momentum", balances),
         )
+
+    def _mirrored(self) -> "RigidBody":
+        return replace(self, left=self.right, right=self.left)
+
+    def _outline(self, rotation: float) -> list[np.ndarray]:
+        """The parallelogram with these corners and this centre of mass, for want of the true outline."""
+        top = 2 * self.centre_height
+        corners = [[-self.left, 0.0], [self.right, 0.0], [self.left, top], [-self.right, top]]
+        return [turned(corners, self._hinges(rotation)[0], rotation)]
+
+    def _hinges(self, rotation: float) -> np.ndarray:
+        return np.array([[self.right, 0.0]])
 
     def _momentum_balance(self, corner: float, other: float) -> float:
         up = self.centre_height

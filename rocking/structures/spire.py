@@ -12,7 +12,7 @@ from rocking.errors import StructureError
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import Restitution, check_restitution
 from rocking.structures.rigid_body import RigidBody
-from rocking.structures.structure import Structure
+from rocking.structures.structure import Structure, turned
 
 _SPREAD = {"circular": 3 / 20, "square": 1 / 5}
 """Mean square of one horizontal coordinate over a solid cone or pyramid, in squares of its half width."""
@@ -99,6 +99,16 @@ class Spire(Structure):
         side = self.body.side(self.half_width, self.half_width, self.end_rotation)
         return Mechanism(side, one_sided=self.one_sided)
 
-    def cracked_at(self, crack_heights: Iterable[float]) -> list["Spire"]:
-        """Return this spire with its crack at each of `crack_heights` [m]."""
-        return [replace(self, crack_height=height) for height in crack_heights]
+    def candidates(self, crack_heights: Iterable[float]) -> dict[float, "Spire"]:
+        """Return this spire with its crack at each of `crack_heights` [m], by height."""
+        return {float(height): replace(self, crack_height=height) for height in crack_heights}
+
+    def _outline(self, rotation: float) -> list[np.ndarray]:
+        half, crack = self.half_width, self.crack_height
+        top = turned([[-half, crack], [half, crack], [0.0, self.height]], self._hinges(rotation)[0], rotation)
+        if crack == 0:
+            return [top]
+        return [np.array([[-self.width / 2, 0.0], [self.width / 2, 0.0], [half, crack], [-half, crack]]), top]
+
+    def _hinges(self, rotation: float) -> np.ndarray:
+        return np.array([[self.half_width, self.crack_height]])

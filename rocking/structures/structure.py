@@ -1,8 +1,12 @@
-"""What every structure offers: its mechanism, computed once."""
+"""What every structure offers: its mechanism, computed once, and its drawing at any rotation."""
 
 from abc import ABC, abstractmethod
 from functools import cached_property
 
+import numpy as np
+
+from rocking.checks import within
+from rocking.errors import StructureError
 from rocking.structures.mechanism import Mechanism
 
 
@@ -13,10 +17,46 @@ class Structure(ABC):
         """Return the structure in standard form; the same object at every call."""
         return self._mechanism
 
+    def outline(self, rotation: float = 0.0) -> list[np.ndarray]:
+        """Return the rigid parts at a signed `rotation` [rad] as polygons (k, 2) in m, x to the right, y up."""
+        return self._on_side(rotation, "_outline")
+
+    def hinges(self, rotation: float = 0.0) -> np.ndarray:
+        """Return the contact points (k, 2) in m at a signed `rotation` [rad]; at rest those of the positive side."""
+        return self._on_side(rotation, "_hinges")
+
     @cached_property
     def _mechanism(self) -> Mechanism:
         return self._build()
 
+    def _on_side(self, rotation: float, drawing: str) -> list[np.ndarray] | np.ndarray:
+        """The drawing of the positive side, or the mirror image of the mirrored structure's for a negative rotation."""
+        sides = self.mechanism().sides
+        lowest = 0.0 if self.mechanism().one_sided else -sides[-1].end_rotation
+        rotation = within(StructureError, "rotation", rotation, lowest, sides[0].end_rotation, "rad")
+        if rotation >= 0:
+            return getattr(self, drawing)(rotation)
+        drawn = getattr(self._mirrored(), drawing)(-rotation)
+        mirror = np.array([-1.0, 1.0])
+        return [part * mirror for part in drawn] if isinstance(drawn, list) else drawn * mirror
+
+    def _mirrored(self) -> "Structure":
+        return self
+
     @abstractmethod
     def _build(self) -> Mechanism:
         """Reduce the geometry to I, J, G, B."""
+
+    @abstractmethod
+    def _outline(self, rotation: float) -> list[np.ndarray]:
+        """The parts at a rotation ≥ 0 on the positive side."""
+
+    @abstractmethod
+    def _hinges(self, rotation: float) -> np.ndarray:
+        """The contacts at a rotation ≥ 0 on the positive side."""
+
+
+def turned(points: np.ndarray, pivot: np.ndarray, rotation: float) -> np.ndarray:
+    """Return `points` (k, 2) turned clockwise by `rotation` [rad] about `pivot` (2,)."""
+    cosine, sine = np.cos(rotation), np.sin(rotation)
+    return (np.asarray(points, dtype=float) - pivot) @ np.array([[cosine, -sine], [sine, cosine]]) + pivot

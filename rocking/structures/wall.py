@@ -1,5 +1,6 @@
 """The masonry wall that bends out of plane about a hinge at any height (Fig. 2; theory: section 4)."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,11 +15,8 @@ from rocking.structures.restitution import (
     momentum_balance,
     resolve_restitution,
 )
-from rocking.structures.structure import Structure
-
-_LINKAGE_MARGIN = 0.9
-"""Share of the reach of the shorter half that the motion may use: the linkage locks at 1, where ψ' is
-infinite, and by 0.9 the hinge has moved so far past the upright position that the wall has fallen."""
+from rocking.structures.structure import Structure, turned
+from rocking.structures.wall_linkage import WallLinkage
 
 
 @dataclass(frozen=True)
@@ -60,7 +58,7 @@ class Wall(Structure):
         return self.lower_height + self.upper_height
 
     def _build(self) -> Mechanism:
-        linkage = self._linkage
+        linkage = self.linkage
         return Mechanism(
             Side(
                 inertia=linkage.inertia,
@@ -77,8 +75,9 @@ class Wall(Structure):
         )
 
     @cached_property
-    def _linkage(self) -> "_Linkage":
-        return _Linkage(self.lower_height, self.upper_height, self.thickness)
+    def linkage(self) -> WallLinkage:
+        """The two blocks as a linkage on the side of positive rotation."""
+        return WallLinkage(self.lower_height, self.upper_height, self.thickness)
 
     def _momentum_balance(self) -> float:
         """Velocities (vx, vy, clockwise ω) at φ = 0; the mirrored mechanism continues the same turn."""
@@ -90,62 +89,23 @@ class Wall(Structure):
         before = np.array([lower, upper])
         return momentum_balance([h1, h2], inertias, before, before * [1.0, -1.0, 1.0])
 
+    def candidates(self, hinge_heights: Iterable[float]) -> dict[float, "Wall"]:
+        """Return this wall hinged at each of `hinge_heights` [m] above the base instead, by height."""
+        return {
+            float(hinge): Wall.hinged_at(self.height, hinge, self.thickness, restitution=self.restitution)
+            for hinge in hinge_heights
+        }
 
-class _Linkage:
-    """I, I', G, G', B of the two blocks, divided by the wall's mass and R₁ (so that G and B are numbers)."""
-
-    def __init__(self, lower_height: float, upper_height: float, thickness: float) -> None:
-        self.lower_diagonal = np.hypot(lower_height, thickness) / 2
-        self.upper_diagonal = np.hypot(upper_height, thickness) / 2
-        self.slenderness = float(np.arctan2(thickness, lower_height))
-        height = lower_height + upper_height
-        self.lower_mass = lower_height / height / self.lower_diagonal
-        self.upper_mass = upper_height / height / self.lower_diagonal
-        reach = min(1.0, self.upper_diagonal / self.lower_diagonal)
-        lying = np.pi / 2
-        self.end_rotation = float(min(lying, self.slenderness + np.arcsin(_LINKAGE_MARGIN * reach)))
-
-    def _position(self, rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """S and C of the lower half diagonal, ψ' and ψ''."""
-        angle = self.slenderness - rotation
-        across = self.lower_diagonal * np.sin(angle)
-        up = self.lower_diagonal * np.cos(angle)
-        upper_up = np.sqrt(self.upper_diagonal**2 - across**2)
-        ratio = up / upper_up
-        return across, up, ratio, across * (1 - ratio**2) / upper_up
-
-    def inertia(self, rotation: np.ndarray) -> np.ndarray:
-        """4/3 m₁R₁² + 1/3 m₂R₂²ψ'² + m₂[C² + S²(2 + ψ')²]."""
-        across, up, ratio, _ = self._position(rotation)
-        spin = 4 / 3 * self.lower_mass * self.lower_diagonal**2
-        return spin + self.upper_mass * (
-            self.upper_diagonal**2 * ratio**2 / 3 + up**2 + (across * (2 + ratio)) ** 2
+    def _outline(self, rotation: float) -> list[np.ndarray]:
+        half, psi = self.thickness / 2, self.linkage.motion(rotation).angles[1]
+        base, hinge, _ = self._hinges(rotation)
+        lower = [[-half, 0.0], [half, 0.0], [half, self.lower_height], [-half, self.lower_height]]
+        upper = hinge + np.array(
+            [[0.0, 0.0], [2 * half, 0.0], [2 * half, self.upper_height], [0.0, self.upper_height]]
         )
+        return [turned(lower, base, rotation), turned(upper, hinge, -psi)]
 
-    def inertia_slope(self, rotation: np.ndarray) -> np.ndarray:
-        """dI/dφ, with S' = −C, C' = S."""
-        across, up, ratio, curvature = self._position(rotation)
-        lift = 2 + ratio
-        return (
-            2
-            * self.upper_mass
-            * (
-                self.upper_diagonal**2 * ratio * curvature / 3
-                + up * across
-                + across * lift * (across * curvature - up * lift)
-            )
-        )
-
-    def gravity(self, rotation: np.ndarray) -> np.ndarray:
-        """S (m₁ + 2m₂ + m₂ψ')."""
-        across, _, ratio, _ = self._position(rotation)
-        return across * (self.lower_mass + self.upper_mass * (2 + ratio))
-
-    def gravity_slope(self, rotation: np.ndarray) -> np.ndarray:
-        """dG/dφ."""
-        across, up, ratio, curvature = self._position(rotation)
-        return self.upper_mass * across * curvature - up * (self.lower_mass + self.upper_mass * (2 + ratio))
-
-    def ground(self, rotation: np.ndarray) -> np.ndarray:
-        """(m₁ + m₂) C."""
-        return (self.lower_mass + self.upper_mass) * self._position(rotation)[1]
+    def _hinges(self, rotation: float) -> np.ndarray:
+        """Right corner of the base, left edge at the hinge, right corner of the top."""
+        hinges = self.linkage.motion(rotation).hinges
+        return np.stack([hinges.real, hinges.imag], axis=1)
