@@ -50,10 +50,15 @@ def read(
 
 
 def read_content(
-    content: bytes, name: str, options: Options, sha256: str = "", path: str = ""
+    content: bytes,
+    name: str,
+    options: Options,
+    sha256: str = "",
+    path: str = "",
+    reader: Format | None = None,
 ) -> list[Accelerogram]:
-    """Return the channels in `content`, as read() does of a file called `name`."""
-    records = recognise(content, name).read(content, name, options)
+    """Return the channels in `content`, as read() does of a file called `name`; `reader` if the format is known."""
+    records = (reader or recognise(content, name)).read(content, name, options)
     if not records:
         raise RecordError(f"{name}: the file holds no channel of acceleration.")
     return [

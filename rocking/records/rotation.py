@@ -51,7 +51,10 @@ def rotate(first: Accelerogram, second: Accelerogram, azimuth: float) -> Acceler
 
 
 def rotated_peaks(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotatedPeaks:
-    """Return RotD50 and RotD100 of peak acceleration over directions `step` degrees apart, for orthogonal components."""
+    """Return RotD50 and RotD100 of peak acceleration over directions `step` degrees apart.
+
+    Components without azimuths are taken as orthogonal.
+    """
     if not 0 < step <= 90:
         raise RecordError(f"step is {step!r} degrees, but must be above 0 and at most 90.")
     a, b = _paired(first, second)

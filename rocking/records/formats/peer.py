@@ -78,7 +78,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         component=component,
         station=_field(head, -2),
         event=_field(head, 0),
-        warnings=warnings + _doubled(content),
+        warnings=warnings + _doubled(content) + _matched(head),
         processed=True,
         high_pass_frequency=_high_pass(head),
     )
@@ -94,6 +94,12 @@ def _body(content: bytes, header_lines: int) -> bytes:
         if not header_lines:
             return content[position:]
     return b""
+
+
+def _matched(head: list[str]) -> tuple[str, ...]:
+    if not re.search(r"\bmatched\b", head[0], re.I):
+        return ()
+    return ("The header says that the record is matched to a spectrum: artificial, not a recorded motion.",)
 
 
 def _doubled(content: bytes) -> tuple[str, ...]:

@@ -1,0 +1,71 @@
+"""Our text formats as obspy waveform plug-ins: `obspy.read("file.AT2")` understands them once we are installed.
+
+obspy finds `is_<name>` and `read_<name>` by the entry points of pyproject.toml. Plain columns are left out: they carry
+no unit, and claiming every file of bare numbers would take other programs' files.
+"""
+
+from functools import partial
+from pathlib import Path
+
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats import FORMATS, Format, Options
+from rocking.records.read import LARGEST_FILE, read_content, unpacked
+
+PLUGINS = {
+    "PEER_AT2": "PEER AT2", "COSMOS_V1V2": "COSMOS V1/V2", "CSMIP_V1V2": "CSMIP V1/V2", "USGS_SMC": "USGS SMC",
+    "USC_V1": "USC Volume 1", "DYNA": "DYNA (ESM, ITACA, AFAD)", "AFAD": "AFAD/NSMN text", "RESORCE": "RESORCE",
+    "GEONET": "GeoNet V1A/V2A", "UNAM": "UNAM/CICESE", "BHRC": "BHRC", "RENADIC": "RENADIC", "CWB": "CWB",
+    "CSMNC": "CSMNC",
+}  # fmt: skip
+"""Name in obspy → name in FORMATS. K-NET, EVT, SAC and miniSEED are obspy's own already."""
+
+_HEAD = 2**16
+
+
+def is_format(form: Format, source) -> bool:
+    """Whether `source`, a path or an open binary file, is of this format; False for whatever cannot be read."""
+    try:
+        return form.recognise(unpacked(_bytes(source, _HEAD), "file"))
+    except Exception:
+        return False
+
+
+def read_format(form: Format, source, **options):
+    """Return obspy's Stream, in m/s², of `source`, a path or an open binary file.
+
+    options: unit and time_step where the file is silent; what obspy adds is ignored. Raises RecordError.
+    """
+    from obspy import Stream
+
+    name = Path(str(source)).name if isinstance(source, str | Path) else "file"
+    content = unpacked(_bytes(source, LARGEST_FILE), name)
+    declared = Options(unit=options.get("unit"), time_step=options.get("time_step"))
+    return Stream([_trace(record) for record in read_content(content, name, declared, reader=form)])
+
+
+def _bytes(source, limit: int) -> bytes:
+    if hasattr(source, "read"):
+        return source.read(limit)
+    with Path(source).open("rb") as stream:
+        return stream.read(limit)
+
+
+def _trace(record: Accelerogram):
+    from obspy import Trace, UTCDateTime
+
+    header = {
+        "delta": record.time_step,
+        "network": record.network,
+        "station": record.station,
+        "channel": record.component,
+        "rocking": {"format": record.source.format, "event": record.event, "warnings": list(record.warnings)},
+    }
+    if record.start_time:
+        header["starttime"] = UTCDateTime(record.start_time)
+    return Trace(record.acceleration.copy(), header=header)
+
+
+_FORMATS = {form.name: form for form in FORMATS}
+for _key, _name in PLUGINS.items():
+    globals()[f"is_{_key.lower()}"] = partial(is_format, _FORMATS[_name])
+    globals()[f"read_{_key.lower()}"] = partial(read_format, _FORMATS[_name])
