@@ -16,6 +16,10 @@ class UnknownFormatError(RecordError):
     """No reader recognises the file; the message says what was looked for."""
 
 
+class UndeclaredError(RecordError):
+    """A unit or a time step that neither the file nor the caller declares."""
+
+
 class PulseError(RockingError):
     """A pulse that cannot exist, or a record in which none can be sought."""
 

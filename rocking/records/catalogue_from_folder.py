@@ -9,7 +9,7 @@ import re
 import sys
 from pathlib import Path
 
-from rocking.errors import RecordError
+from rocking.errors import RecordError, UndeclaredError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import COLUMNS
 from rocking.records.read import read
@@ -22,8 +22,8 @@ def catalogue_from_folder(
 ) -> tuple[list[Row], list[tuple[str, str]]]:
     """Return (rows, unread): a catalogue row for each file under `folder` that reads, (file, reason) for the others.
 
-    unit and time_step [s] are tried only where a file does not declare them. Files whose name starts with a dot are
-    passed over. Raises RecordError when `folder` is no folder.
+    unit and time_step [s] are used only where a file does not declare them. Files whose name starts with a dot are
+    passed over. Paths are relative to `folder`: the catalogue belongs there, or `folder` serves as its mirror. Raises RecordError when `folder` is no folder.
     """
     folder = Path(folder)
     if not folder.is_dir():
@@ -56,17 +56,17 @@ def write_catalogue(rows: list[Row], path: str | Path) -> None:
 
 
 def _read(path: Path, unit: str | None, time_step: float | None) -> tuple[list[Accelerogram], Row]:
-    """Return (channels, the cells that had to be declared)."""
-    try:
-        return read(path), {}
-    except RecordError:
-        if unit is None and time_step is None:
-            raise
-    offers: list[dict] = [{"unit": unit}, {"time_step": time_step}, {"unit": unit, "time_step": time_step}]
+    """Return (channels, the cells that had to be declared), declaring no more than the file leaves out."""
+    offers: tuple[dict, ...] = (
+        {},
+        {"unit": unit},
+        {"time_step": time_step},
+        {"unit": unit, "time_step": time_step},
+    )
     for offer in offers[:-1]:
         try:
             return read(path, **offer), _cells(offer)
-        except RecordError:
+        except UndeclaredError:
             continue
     return read(path, **offers[-1]), _cells(offers[-1])
 

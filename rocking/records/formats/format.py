@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from rocking.checks import positive
-from rocking.errors import RecordError
+from rocking.errors import RecordError, UndeclaredError
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.directions import azimuth, is_vertical
 from rocking.units import acceleration_factor
@@ -56,7 +56,7 @@ class Options:
         """Return the time step [s] the file declares, else the caller's; the two may differ by 0.1 %."""
         step = in_file if in_file is not None else self.time_step
         if step is None:
-            raise RecordError(
+            raise UndeclaredError(
                 f"{name}: time_step is not declared, neither in the file nor by the caller; give time_step=."
             )
         positive(RecordError, f"{name}: time_step", step, "s")
