@@ -20,10 +20,11 @@ Row = dict[str, str]
 def catalogue_from_folder(
     folder: str | Path, *, unit: str | None = None, time_step: float | None = None
 ) -> tuple[list[Row], list[tuple[str, str]]]:
-    """Return (rows, unread): a catalogue row for each file under `folder` that reads, (file, reason) for the others.
+    """Return (rows, unread): a catalogue row for each file under `folder` that reads, (file, reason) for others.
 
     unit and time_step [s] are used only where a file does not declare them. Files whose name starts with a dot are
-    passed over. Paths are relative to `folder`: the catalogue belongs there, or `folder` serves as its mirror. Raises RecordError when `folder` is no folder.
+    passed over. Paths are relative to `folder`: the catalogue belongs there, or `folder` serves as its mirror.
+    Raises RecordError when `folder` is no folder.
     """
     folder = Path(folder)
     if not folder.is_dir():

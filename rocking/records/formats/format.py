@@ -43,7 +43,7 @@ class Options:
         """Return the unit the file declares, else the caller's. Raises RecordError when none or two are declared."""
         unit = in_file or self.unit
         if unit is None:
-            raise RecordError(
+            raise UndeclaredError(
                 f"{name}: unit is not declared, neither in the file nor by the caller; give unit=."
             )
         if self.unit is not None and acceleration_factor(self.unit) != acceleration_factor(unit):
