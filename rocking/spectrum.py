@@ -28,7 +28,7 @@ def rocking_spectrum(
     frequencies = _positive("frequency_parameters", frequency_parameters)
     pushes = 1 / (GRAVITY * _positive("uplift_multipliers", uplift_multipliers))
     restitution = within(MotionError, "restitution", restitution, 0, 1)
-    ground, step = accelerogram.acceleration, accelerogram.time_step
+    ground, step = accelerogram.acceleration.copy(), accelerogram.time_step
     if frequencies.size and frequencies.max() * step > 50:
         raise MotionError(
             f"frequency_parameters reach {frequencies.max()!r} rad/s, but at a time step of {step!r} s must stay below {50 / step:g}."

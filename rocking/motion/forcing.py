@@ -1,0 +1,87 @@
+"""The ground motion as the kernel sees it: samples joined by straight lines, or one exact sine pulse."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rocking.errors import MotionError
+from rocking.pulses.pulse import Pulse
+from rocking.records.accelerogram import Accelerogram
+from rocking.units import GRAVITY
+
+GroundMotion = Accelerogram | Pulse
+
+
+@dataclass(frozen=True, eq=False)
+class Forcing:
+    """ground, gravity, threat: (n,) ü_g, g + ü_v, and the largest |ü_g|/(g + ü_v) from each sample to the end.
+
+    time_step: s, of the samples. frequency: rad/s of a sine pulse, whose period is then time_step and whose amplitude
+    is ground[0]; 0.0 for samples. start_time: s, added to every time of the response.
+    """
+
+    ground: np.ndarray
+    gravity: np.ndarray
+    threat: np.ndarray
+    time_step: float
+    frequency: float = 0.0
+    start_time: float = 0.0
+    vertical: bool = False
+
+    def scaled(self, factor: float) -> "Forcing":
+        """The same motion with its accelerations, vertical one included, multiplied by `factor`."""
+        ground, gravity = self.ground * factor, self.gravity
+        if self.vertical:
+            gravity = GRAVITY + factor * (gravity - GRAVITY)
+        return Forcing(
+            ground,
+            gravity,
+            _threat(ground, gravity),
+            self.time_step,
+            self.frequency,
+            self.start_time,
+            self.vertical,
+        )
+
+
+def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Forcing:
+    """Return what the kernel takes of a record (with its vertical component) or of a pulse.
+
+    Raises MotionError when `motion` is neither, or `vertical` does not fit it sample by sample.
+    """
+    if isinstance(motion, Pulse):
+        if vertical is not None:
+            raise MotionError("vertical is given with a pulse, but needs a record of the same samples; leave it out.")
+        ground, gravity = np.array([motion.amplitude]), np.array([GRAVITY])
+        frequency = motion.circular_frequency
+        threat = _threat(ground, gravity)
+        return Forcing(ground, gravity, threat, motion.period, frequency, motion.start_time)
+    if not isinstance(motion, Accelerogram):
+        raise MotionError(f"the ground motion is a {type(motion).__name__}, but must be an Accelerogram or a Pulse.")
+    ground = motion.acceleration.copy()  # the record's own array is read-only, for which the kernel would compile anew
+    gravity = np.full(ground.size, GRAVITY)
+    if vertical is not None:
+        gravity += _fitting(vertical, motion)
+    return Forcing(ground, gravity, _threat(ground, gravity), motion.time_step, vertical=vertical is not None)
+
+
+def _fitting(vertical: Accelerogram, motion: Accelerogram) -> np.ndarray:
+    if not isinstance(vertical, Accelerogram):
+        raise MotionError(f"vertical is a {type(vertical).__name__}, but must be an Accelerogram.")
+    if vertical.acceleration.size != motion.acceleration.size:
+        raise MotionError(
+            f"vertical has {vertical.acceleration.size} samples, but must have the {motion.acceleration.size} of the "
+            "horizontal component; cut or resample it first."
+        )
+    if abs(vertical.time_step - motion.time_step) > 1e-9 * motion.time_step:
+        raise MotionError(
+            f"vertical has a time step of {vertical.time_step!r} s, but must have the {motion.time_step!r} s of the "
+            "horizontal component; resample it first."
+        )
+    return vertical.acceleration
+
+
+def _threat(ground: np.ndarray, gravity: np.ndarray) -> np.ndarray:
+    largest = np.maximum.accumulate(np.abs(ground[::-1]))[::-1]
+    least = np.minimum.accumulate(gravity[::-1])[::-1]
+    return np.where(least > 0, largest / np.where(least > 0, least, 1.0), np.inf)

@@ -1,0 +1,187 @@
+"""The front door: follow a structure through a ground motion, one case or many."""
+
+import math
+import os
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import replace
+from itertools import chain
+from typing import Protocol
+
+import numpy as np
+
+from rocking.checks import finite, within
+from rocking.errors import MotionError, RockingError
+from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
+from rocking.motion.linear import follow_exactly, solvable_exactly
+from rocking.motion.nonlinear import follow
+from rocking.motion.response import Response
+from rocking.motion.table import linear_table, table_of
+from rocking.outcome import Outcome
+from rocking.records.accelerogram import Accelerogram
+from rocking.structures.mechanism import EquivalentBlock, Mechanism
+
+
+class Structure(Protocol):
+    """Anything that reduces to a Mechanism."""
+
+    def mechanism(self) -> Mechanism: ...
+
+
+Rocking = Mechanism | EquivalentBlock | Structure
+
+TOLERANCES = (1e-13, 0.1)
+"""Smallest and largest relative tolerance."""
+
+_TIGHT = 1e-12
+_NUDGE = 1e-5
+
+
+def integrate(
+    structure: Rocking,
+    motion: GroundMotion,
+    tolerance: float = 1e-6,
+    *,
+    history: bool = False,
+    vertical: Accelerogram | None = None,
+    sensitivity: bool = False,
+    fragility_change: float = 0.01,
+    initial_rotation: float = 0.0,
+    initial_velocity: float = 0.0,
+) -> Response:
+    """Follow `structure` through `motion`, and on over still ground until no larger peak and no overturning can come.
+
+    structure: a Mechanism, an EquivalentBlock, or anything with `.mechanism()`. motion: an Accelerogram, linear between
+    its samples, or a Pulse, exact. An EquivalentBlock under a record is solved exactly and ignores `tolerance`.
+    tolerance: of the largest rotation, relative, in [1e-13, 0.1]. history: keep times, rotation and angular velocity.
+    vertical: ü_v, sample by sample as `motion`; gravity becomes g + ü_v. sensitivity: also compute d ln φ_max / d ln a
+    and whether scaling the motion by 1 ± fragility_change flips the verdict. initial_rotation [rad] and
+    initial_velocity [rad/s], signed: the state when the motion begins, instead of rest.
+
+    Overturning is a rotation past the mechanism's end, or outward motion that the largest acceleration still to come
+    cannot turn back. Rocking ends at an impact that leaves less than 1e-14 of the energy that reaches φ_cr.
+    Raises MotionError for a setting or a forcing outside what is allowed, or a motion of more than 5e7 impacts.
+    """
+    tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
+    start = _start(structure, initial_rotation, initial_velocity)
+    forcing = forcing_of(motion, vertical)
+    reduced = reduce(structure)
+    response = _follow(reduced, forcing, tolerance, start, history)
+    if not sensitivity:
+        return response
+    change = within(MotionError, "fragility_change", fragility_change, 0, 0.5)
+    slope = _sensitivity(reduced, forcing, start) if response.outcome is Outcome.ROCKS else math.nan
+    return replace(
+        response,
+        sensitivity=slope,
+        fragile=_fragile(reduced, forcing, tolerance, start, response.outcome, change),
+    )
+
+
+def integrate_many(
+    structures: Sequence[Rocking],
+    motions: Iterable[GroundMotion],
+    tolerance: float = 1e-6,
+    *,
+    workers: int | None = None,
+    sensitivity: bool = False,
+    fragility_change: float = 0.01,
+) -> Iterator[list[Response]]:
+    """Yield, for each motion in turn, the responses of all structures, on all cores.
+
+    motions may be a generator: only a few are held at a time, so memory does not grow with their number. A case that
+    cannot be integrated becomes a Response with Outcome.FAILED and the reason; the others go on.
+    workers: threads; all cores if None. Raises MotionError for a setting that is wrong for every case.
+    """
+    within(MotionError, "tolerance", tolerance, *TOLERANCES)
+    structures = list(structures)
+    workers = workers or os.cpu_count() or 1
+    size = max(1, min(64, -(-len(structures) // (2 * workers))))
+    chunks = [structures[k : k + size] for k in range(0, len(structures), size)]
+
+    def job(chunk: list[Rocking], motion: GroundMotion) -> list[Response]:
+        settings = {"sensitivity": sensitivity, "fragility_change": fragility_change}
+        return [_one_of_many(structure, motion, tolerance, settings) for structure in chunk]
+
+    def finished(row: list[Future[list[Response]]]) -> list[Response]:
+        return list(chain.from_iterable(future.result() for future in row))
+
+    with ThreadPoolExecutor(workers) as pool:
+        waiting: deque[list[Future[list[Response]]]] = deque()
+        for motion in motions:
+            waiting.append([pool.submit(job, chunk, motion) for chunk in chunks])
+            if len(waiting) > 2 * workers:
+                yield finished(waiting.popleft())
+        while waiting:
+            yield finished(waiting.popleft())
+
+
+def reduce(structure: Rocking) -> Mechanism | EquivalentBlock:
+    """Return the Mechanism or EquivalentBlock of `structure`."""
+    if isinstance(structure, Mechanism | EquivalentBlock):
+        return structure
+    if not hasattr(structure, "mechanism"):
+        raise MotionError(
+            f"the structure is a {type(structure).__name__}, but must be a Mechanism, an EquivalentBlock, "
+            "or have a mechanism() method."
+        )
+    return structure.mechanism()
+
+
+def _one_of_many(structure: Rocking, motion: GroundMotion, tolerance: float, settings: dict) -> Response:
+    try:
+        return integrate(structure, motion, tolerance, **settings)
+    except RockingError as error:
+        return Response(math.nan, Outcome.FAILED, reason=str(error), tolerance=tolerance)
+
+
+def _start(structure: Rocking, rotation: float, velocity: float) -> tuple[float, float, int]:
+    """Magnitude of the rotation, its rate (> 0 outward), and the side; side 0 is rest."""
+    rotation = finite(MotionError, "initial_rotation", rotation, "rad")
+    velocity = finite(MotionError, "initial_velocity", velocity, "rad/s")
+    side = int(np.sign(rotation) or np.sign(velocity))
+    if side < 0 and getattr(structure, "one_sided", False):
+        raise MotionError("the initial state lies on the negative side, but a one-sided structure has only the positive.")
+    return abs(rotation), side * velocity, side
+
+
+def _follow(
+    reduced: Mechanism | EquivalentBlock,
+    forcing: Forcing,
+    tolerance: float,
+    start: tuple[float, float, int],
+    history: bool = False,
+) -> Response:
+    if isinstance(reduced, Mechanism):
+        return follow(table_of(reduced), forcing, tolerance, start, history)
+    if solvable_exactly(reduced, forcing):
+        return follow_exactly(reduced, forcing, start, history)
+    return follow(linear_table(reduced), forcing, tolerance, start, history)
+
+
+def _sensitivity(
+    reduced: Mechanism | EquivalentBlock, forcing: Forcing, start: tuple[float, float, int]
+) -> float:
+    """d ln φ_max / d ln a, by a central difference of two tightly integrated neighbours."""
+    factors = (1 - _NUDGE, 1 + _NUDGE)
+    below, above = (_follow(reduced, forcing.scaled(factor), _TIGHT, start).rotation_ratio for factor in factors)
+    if math.isinf(below) or math.isinf(above):
+        return math.inf
+    if not below > 0 or not above > 0:
+        return math.inf
+    return math.log(above / below) / math.log(factors[1] / factors[0])
+
+
+def _fragile(
+    reduced: Mechanism | EquivalentBlock,
+    forcing: Forcing,
+    tolerance: float,
+    start: tuple[float, float, int],
+    outcome: Outcome,
+    change: float,
+) -> bool:
+    return any(
+        _follow(reduced, forcing.scaled(factor), tolerance, start).outcome is not outcome
+        for factor in (1 - change, 1 + change)
+    )

@@ -1,0 +1,109 @@
+"""The nonlinear response: a table and a forcing handed to the kernel, and what it says turned into a Response."""
+
+import math
+
+import numpy as np
+
+from rocking.errors import MotionError
+from rocking.motion import kernel
+from rocking.motion.forcing import Forcing
+from rocking.motion.response import Response
+from rocking.motion.table import SideTable, Table
+from rocking.outcome import Outcome
+from rocking.units import GRAVITY
+
+OUTCOMES = {0: Outcome.NO_UPLIFT, kernel.ROCKS: Outcome.ROCKS, kernel.OVERTURNS: Outcome.OVERTURNS}
+_NO_LOG = np.empty((0, 3))
+
+
+def follow(
+    table: Table, forcing: Forcing, tolerance: float, start: tuple[float, float, int], history: bool
+) -> Response:
+    """Integrate the table's mechanism through the forcing. start: rotation, rate outward, side (0: at rest)."""
+    pieces, width, lift, hold, critical, end, restitution, reaching, pace = table.arrays
+    rotation, velocity, sign = start
+    side = table.side(sign)
+    if sign and not float(side.arc(np.float64(min(rotation, 1e300)))) < side.end:
+        raise MotionError(f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.")
+    stretch = float(side.stretch(np.float64(rotation)))
+    if forcing.frequency > 0:
+        pace = np.minimum(pace, 1 / forcing.frequency)
+    found, log = logged_run(
+        kernel.rock,
+        (pieces, width, lift, hold, critical, end, restitution, reaching * math.sqrt(kernel.REST_ENERGY), pace)
+        + (table.one_sided, forcing.ground, forcing.gravity, forcing.threat, GRAVITY, forcing.time_step)
+        + (forcing.frequency, float(side.arc(np.float64(rotation))), velocity * stretch, sign, tolerance),
+        forcing.ground.size if history else 0,
+    )
+    status, best, when, impacts, uplift, last_side, steps, _ = found
+    ratios = [_ratio(table.side(1), best[0]), _ratio(table.side(-1), best[1])]
+    response = concluded(status, ratios, when, impacts, uplift, last_side, steps, forcing.start_time, tolerance)
+    return with_history(response, *_states(table, log), forcing.start_time) if history else response
+
+
+def logged_run(run, arguments: tuple, expected: int) -> tuple[tuple, np.ndarray]:
+    """Call the compiled `run` with a log that is large enough; `expected` samples, 0 for no log."""
+    log = np.empty((2 * expected + 1000, 3)) if expected else _NO_LOG
+    found = run(*arguments, log)
+    if found[-1] > log.shape[0] > 0:
+        log = np.empty((found[-1], 3))
+        found = run(*arguments, log)
+    return found, log[: found[-1]]
+
+
+def concluded(
+    status: int,
+    ratios: list[float],
+    when: np.ndarray,
+    impacts: int,
+    uplift: float,
+    last_side: int,
+    steps: int,
+    start_time: float,
+    tolerance: float,
+) -> Response:
+    """The Response of a finished run; raises MotionError for a run that has no answer."""
+    if status == kernel.TOO_MANY_IMPACTS:
+        raise MotionError(
+            f"the structure met {impacts} impacts before the motion ended, but at most {kernel.IMPACT_LIMIT} are followed; "
+            "a restitution below 1 brings it to rest."
+        )
+    if status not in OUTCOMES:
+        raise MotionError("the motion left the range of floating-point numbers; check the record's amplitude.")
+    outcome = OUTCOMES[status]
+    largest = 0 if ratios[0] >= ratios[1] else 1
+    rocks = outcome is Outcome.ROCKS
+    return Response(
+        rotation_ratio=math.inf if outcome is Outcome.OVERTURNS else ratios[largest],
+        outcome=outcome,
+        impacts=impacts,
+        peak_time=start_time + when[largest] if rocks else math.nan,
+        uplift_time=start_time + uplift,
+        peak_side=(1, -1)[largest] if rocks else last_side,
+        steps=steps,
+        tolerance=tolerance,
+    )
+
+
+def with_history(
+    response: Response, times: np.ndarray, rotation: np.ndarray, velocity: np.ndarray, start_time: float
+) -> Response:
+    """The response with its history, times counted from `start_time`."""
+    fields = {name: getattr(response, name) for name in response.__dataclass_fields__}
+    return Response(**fields | {"times": times + start_time, "rotation": rotation, "angular_velocity": velocity})
+
+
+def _ratio(side: SideTable, arc: float) -> float:
+    return float(side.rotation(np.float64(arc))) / side.critical_rotation if arc > 0 else 0.0
+
+
+def _states(table: Table, log: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    times, arcs, speeds = log.T
+    rotation, velocity = np.empty_like(arcs), np.empty_like(arcs)
+    negative = (arcs < 0) | ((arcs == 0) & (speeds < 0))
+    for sign, rows in ((1, ~negative), (-1, negative)):
+        side = table.side(sign)
+        magnitude = side.rotation(np.minimum(np.abs(arcs[rows]), side.end))
+        rotation[rows] = sign * magnitude
+        velocity[rows] = speeds[rows] / side.stretch(magnitude)
+    return times, rotation, velocity
