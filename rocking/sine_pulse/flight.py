@@ -41,24 +41,12 @@ class Landing(NamedTuple):
 class Flight:
     """The motion from φ = 0 at phase θ₀ with velocity v ≥ 0. excess: f₀ − 1. slope: k = a cos θ₀."""
 
-    __slots__ = (
-        "amplitude",
-        "cosine",
-        "excess",
-        "force",
-        "omega",
-        "phase",
-        "share",
-        "sine",
-        "slope",
-        "velocity",
-    )
-
     def __init__(
         self, omega: float, amplitude: float, phase: float, velocity: float, excess: float, slope: float
     ) -> None:
         self.omega, self.amplitude, self.phase, self.velocity = omega, amplitude, phase, velocity
         self.excess, self.force, self.slope = excess, 1 + excess, slope
+        self.series: list[float] = []
         self.share = 1 / (1 + omega * omega)
         self.cosine = (excess - omega * omega) * self.share
         self.sine = velocity + omega * slope * self.share
@@ -77,23 +65,26 @@ class Flight:
         return x, velocity, x - 1 + f0 * (1 - versine) + k * sin
 
     def _series(self, t: float, terms: int) -> tuple[float, float, float]:
-        """Sum the power series: y₁ = v, y₂ = f₀ − 1, y₍ₙ₊₂₎ = yₙ + f⁽ⁿ⁾, which loses no digits for short flights."""
-        x, velocity, acceleration = 0.0, 0.0, 0.0
-        y, following = self.velocity, self.excess
-        even, odd, square = -self.force * self.omega**2, self.slope * self.omega, -self.omega * self.omega
-        before, power, after = 0.0, 1.0, t
+        """Sum the power series and its derivatives (Horner), which loses no digits for short flights."""
+        if len(self.series) < terms:
+            self.series = self._coefficients(terms)
+        x = velocity = half = 0.0
+        for coefficient in reversed(self.series):
+            half = half * t + velocity
+            velocity = velocity * t + x
+            x = x * t + coefficient
+        return x, velocity, 2 * half
+
+    def _coefficients(self, terms: int) -> list[float]:
+        """yₙ/n! with y₀ = 0, y₁ = v, y₂ = f₀ − 1 and y₍ₙ₊₂₎ = yₙ + f⁽ⁿ⁾."""
+        y, following, square, factorial = self.velocity, self.excess, -self.omega * self.omega, 1.0
+        odd, even = self.slope * self.omega, self.force * square
+        series = [0.0]
         for n in range(1, terms):
-            acceleration += y * before
-            velocity += y * power
-            x += y * after
-            before, power, after = power, after, after * t / (n + 1)
-            if n % 2:
-                y, following = following, y + odd
-                odd *= square
-            else:
-                y, following = following, y + even
-                even *= square
-        return x, velocity, acceleration
+            factorial *= n
+            series.append(y / factorial)
+            y, following, odd, even = following, y + odd, even, odd * square
+        return series
 
     def land(self, duration: float) -> Landing:
         """Follow the flight for `duration` (1/p) at most, or to its first contact."""
@@ -117,7 +108,8 @@ class Flight:
         """Follow a short flight whose acceleration is proved negative throughout; None if it cannot be proved.
 
         With d = 1 − f₀ > 0, f changing by at most d/2 and x ≤ d/4 within the time 8v/d, x'' ≤ −d/4 there: the flight
-        lands within that time, and no higher than 2v²/d. The peak is sought only where it can exceed `peak`.
+        lands within that time, no higher than 2v²/d, and is in the air at v/d, since x'' ≥ −3d/2 as well.
+        The peak is sought only where it can exceed `peak`.
         """
         d, v = -self.excess, self.velocity
         if d <= 0 or v * v > d * d / 8:
@@ -125,10 +117,10 @@ class Flight:
         latest = 8 * v / d
         if latest > duration or abs(self.amplitude) * self.omega * latest > d / 2:
             return None
-        top = root(self._velocity, 0.0, latest, v / d)
         if 2 * v * v / d > peak:
-            peak = self.state(top)[0]
-        return self._contact(top, latest, peak, 2 * v / d)
+            peak = self.state(root(self._velocity, 0.0, latest, v / d))[0]
+        bend = 2 * v / (3 * d * d) * (v + self.omega * self.slope)
+        return self._contact(v / d, latest, peak, 2 * v / d * (1 + bend))
 
     def _contact(self, low: float, high: float, peak: float, guess: float | None = None) -> Landing:
         time = root(self._position, low, high, guess)
