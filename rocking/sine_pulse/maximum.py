@@ -87,9 +87,17 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     is below REST_ENERGY.
     """
     first, second = first_and_second(equivalent_block, pulse)
+    return maximum_of(first, second, 1 if pulse.amplitude < 0 else -1, equivalent_block.symmetric)
+
+
+def maximum_of(first: Ratios | None, second: Ratios | None, first_side: int, symmetric: bool) -> Maximum:
+    """Return the maximum from the ratios of the side that the pulse's first half lifts, and of the other one.
+
+    first_side: the sign of the first one's rotation. symmetric: whether the two are alike.
+    """
     course = _Course((first, second))
     course.follow()
-    return course.maximum(1 if pulse.amplitude < 0 else -1, equivalent_block.symmetric)
+    return course.maximum(first_side, symmetric)
 
 
 @dataclass
