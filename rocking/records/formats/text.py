@@ -8,15 +8,18 @@ import numpy as np
 from rocking.errors import RecordError
 
 _NUMERIC = b"0123456789+-.eE \t\n\r"
+_LARGEST = 1e100
+"""What is larger (or, in a header, smaller than its inverse) is damage, and would overflow on the way."""
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
-_LINE_END = re.compile(rb"\r*\n|\r+")
 
 
 def lines(content: bytes, limit: int | None = None) -> list[str]:
     """Return the first `limit` lines (all by default) as text; bytes beyond ASCII are taken as Latin-1."""
     head = content if limit is None else content[: 400 * limit]
-    text = _LINE_END.sub(b"\n", head.removeprefix(b"\xef\xbb\xbf")).decode("latin-1")
-    return text.split("\n")[:limit]
+    text = head.removeprefix(b"\xef\xbb\xbf").decode("latin-1")
+    if "\r" in text:
+        text = text.replace("\r\r\n", "\n").replace("\r\n", "\n").replace("\r", "\n")
+    return text.split("\n", -1 if limit is None else limit)[:limit]
 
 
 def is_number(token: str) -> bool:
@@ -27,15 +30,20 @@ def is_number(token: str) -> bool:
 def number(name: str, field: str, token: str) -> float:
     """Return `token` as a float. Raises RecordError naming file and field."""
     if not is_number(token.strip()):
-        raise RecordError(f"{name}: {field} is {token.strip()!r}, but must be a number.")
-    return float(token)
+        raise RecordError(f"{name}: {field} is {token.strip()[:40]!r}, but must be a number.")
+    value = float(token)
+    if value and not 1 / _LARGEST < abs(value) < _LARGEST:
+        raise RecordError(f"{name}: {field} is {token.strip()[:40]!r}, beyond what any header holds.")
+    return value
 
 
 def count(name: str, field: str, token: str) -> int:
     """Return `token` as a whole number, zero or more. Raises RecordError naming file and field."""
     value = number(name, field, token)
     if value < 0 or value != int(min(value, 1e9)):
-        raise RecordError(f"{name}: {field} is {token.strip()!r}, but must be a whole number from 0 to 1e9.")
+        raise RecordError(
+            f"{name}: {field} is {token.strip()[:40]!r}, but must be a whole number from 0 to 1e9."
+        )
     return int(value)
 
 
@@ -45,9 +53,11 @@ def numbers(name: str, text: bytes) -> np.ndarray:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
-                return np.fromstring(text, sep=" ") if text.strip() else np.empty(0)
+                values = np.fromstring(text, sep=" ") if text.strip() else np.empty(0)
         except (DeprecationWarning, ValueError):
             pass
+        else:
+            return _bounded(name, values)
     raise RecordError(f"{name}: {_first_defect(text)}; every sample must be a plain decimal number.")
 
 
@@ -77,6 +87,13 @@ def whole(name: str, values: np.ndarray, declared: int, per_line: int) -> tuple[
     return values, (
         f"The header declares {declared} samples, but the file holds {values.size}; all are kept.",
     )
+
+
+def _bounded(name: str, values: np.ndarray) -> np.ndarray:
+    if values.size and not np.abs(values).max() < _LARGEST:
+        at = int(np.argmax(~(np.abs(values) < _LARGEST)))
+        raise RecordError(f"{name}: number {at + 1} of the samples is {values[at]:g}, beyond {_LARGEST:g}.")
+    return values
 
 
 def _first_defect(text: bytes) -> str:

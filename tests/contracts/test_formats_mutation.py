@@ -1,0 +1,136 @@
+"""Mutated files: whatever is done to a file, reading it ends in accelerograms or in our own error, and soon."""
+
+import os
+import random
+import re
+import resource
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rocking.errors import RecordError
+from rocking.records.formats import Options
+from rocking.records.read import read_content
+
+SMALL = (
+    "northridge1994_rinaldi/RSN1063_NORTHR_RRS228.AT2",
+    "formats_peer_at2/NIS090.AT2",
+    "kobe1995_takatori/TAK000.AT2",
+    "formats_cosmos/Cosmos12TimeSeriesTest.v1",
+    "formats_cosmos/CE23837.V1C",
+    "formats_csmip/RioDell_CHAN001.V2",
+    "formats_csmip/CE89146.V1",
+    "formats_smc/A-CAT090.AT2.smc",
+    "formats_smc/0111a.smc",
+    "formats_usc/017m30cc.y0a",
+    "formats_knet/AOM0011801241951.EW",
+    "formats_esm_dyna/HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC",
+    "formats_afad/20101114230825_3104_ap_RawAcc_E.asc",
+    "formats_afad/20170720223109_0921.txt",
+    "formats_resorce/16833_H1.cor.acc",
+    "formats_geonet/20161113_110259_WTMC_20.V2A",
+    "formats_unam/ACAC1709.191",
+    "formats_bhrc/5529-1.V1",
+    "formats_renadic/altohospicio0911131.v1",
+    "formats_cwb/1-EAS.dat",
+    "formats_csmnc/ua0001.dat",
+    "formats_evt/BI008_MEMA-04823.evt",
+    "formats_sac/20190706031952.CJ.T001230.HNE.sac",
+    "formats_mseed_stationxml/CI.CLC..HNE.mseed",
+    "formats_csv/sample_acc_3ch.csv",
+    "formats_csv/test_motion_dt0p01.txt",
+    "formats_peer_at2/120111.th",
+)
+"""One or two files of each format."""
+
+LONGEST = 2.0
+"""Seconds one file may take: the limit asked for, a hundred times what the slowest whole file takes."""
+
+_MEMORY = 500 * 2**20
+_TOKENS = (
+    b"nan", b"inf", b"-", b"1_0", b"1e999", b"0", b"-1", b"99999999999999999999", b"1e9", b"\0", b"\xff", b"\r\r\n", b"",
+    b"9" * 400, b".", b"1.2.3", b"1-2", b" ", b",", b":", b"/", b"(", b"-999", b"0.0", b"NaN",
+)  # fmt: skip
+
+
+def mutated(content: bytes, dice: random.Random) -> bytes:
+    """Return `content` with one to four things done to it, mostly in its header."""
+    for _ in range(dice.randint(1, 4)):
+        reach = len(content) if dice.random() < 0.3 else min(len(content), 3000)
+        at = dice.randrange(max(1, reach))
+        content = dice.choice((_flip, _cut, _token, _number, _line, _double))(content, at, dice)
+    return content
+
+
+def _flip(content: bytes, at: int, dice: random.Random) -> bytes:
+    return content[:at] + bytes([dice.randrange(256)]) + content[at + 1 :]
+
+
+def _cut(content: bytes, at: int, dice: random.Random) -> bytes:
+    return content[:at] if dice.random() < 0.2 else content[:at] + content[at + dice.randint(1, 200) :]
+
+
+def _token(content: bytes, at: int, dice: random.Random) -> bytes:
+    return content[:at] + dice.choice(_TOKENS) + content[at:]
+
+
+def _number(content: bytes, at: int, dice: random.Random) -> bytes:
+    """Replace the next number by something else."""
+    found = re.compile(rb"[-+]?[\d.]+").search(content, at)
+    return content if not found else content[: found.start()] + dice.choice(_TOKENS) + content[found.end() :]
+
+
+def _line(content: bytes, at: int, dice: random.Random) -> bytes:
+    """Remove or repeat a line."""
+    start, end = content.rfind(b"\n", 0, at) + 1, content.find(b"\n", at) + 1 or len(content)
+    return content[:start] + content[start:end] * dice.choice((0, 2)) + content[end:]
+
+
+def _double(content: bytes, at: int, dice: random.Random) -> bytes:
+    length = dice.randint(1, 500)
+    return content[:at] + content[at : at + length] * 2 + content[at + length :]
+
+
+def assert_reads_or_refuses(content: bytes, name: str, folder: Path) -> bool:
+    """Read `content`; return whether it was read. Anything but accelerograms or RecordError fails."""
+    started = time.perf_counter()
+    try:
+        records = read_content(content, name, Options(unit=None, time_step=None, folder=folder))
+    except RecordError as error:
+        records = []
+        assert str(error)
+    assert time.perf_counter() - started < LONGEST
+    assert all(np.isfinite(record.acceleration).all() and record.time_step > 0 for record in records)
+    return bool(records)
+
+
+def _run(folder: Path, mutations: int, seed: int) -> None:
+    dice = random.Random(seed)
+    files = {name: (folder / name).read_bytes() for name in SMALL}
+    # Small files more often: a mutation of a header costs the same thought, and a tenth of the time.
+    names = dice.choices(SMALL, [1 / (20_000 + len(files[name])) for name in SMALL], k=mutations)
+    for name, content in files.items():  # what is imported on first use is not the reader's memory
+        assert_reads_or_refuses(content, name, (folder / name).parent)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    read = 0
+    for i, name in enumerate(names):
+        try:
+            read += assert_reads_or_refuses(mutated(files[name], dice), name, (folder / name).parent)
+        except Exception as error:
+            raise AssertionError(f"mutation {i} with seed {seed} of {name} escaped: {error!r}") from error
+    assert 1024 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) < _MEMORY
+    assert 0 < read < mutations
+
+
+@pytest.mark.real_records
+def test_mutations(real_records: Path) -> None:
+    _run(real_records, 2000, seed=1)
+
+
+@pytest.mark.slow
+@pytest.mark.real_records
+@pytest.mark.skipif(not os.environ.get("ROCKING_SLOW"), reason="takes a minute; set ROCKING_SLOW=1 to run it")
+def test_ten_thousand_mutations(real_records: Path) -> None:
+    _run(real_records, 10_000, seed=2)
