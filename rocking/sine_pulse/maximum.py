@@ -87,17 +87,19 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     is below REST_ENERGY.
     """
     first, second = first_and_second(equivalent_block, pulse)
-    return maximum_of(first, second, 1 if pulse.amplitude < 0 else -1, equivalent_block.symmetric)
+    one_shape = equivalent_block.other_side is None and first is not None
+    return maximum_of(first, second, 1 if pulse.amplitude < 0 else -1, one_shape)
 
 
-def maximum_of(first: Ratios | None, second: Ratios | None, first_side: int, symmetric: bool) -> Maximum:
+def maximum_of(first: Ratios | None, second: Ratios | None, first_side: int, one_shape: bool) -> Maximum:
     """Return the maximum from the ratios of the side that the pulse's first half lifts, and of the other one.
 
-    first_side: the sign of the first one's rotation. symmetric: whether the two are alike.
+    first_side: the sign of the first one's rotation. one_shape: whether the pulse's first half lifts the block and what
+    it lands on next is the same again, as Eq. 15 takes for granted.
     """
     course = _Course((first, second))
     course.follow()
-    return course.maximum(first_side, symmetric)
+    return course.maximum(first_side, one_shape)
 
 
 @dataclass
@@ -121,7 +123,7 @@ class _Course:
             rest = self._rock(*start)
             start = None if rest is None else self._next_uplift(rest)
 
-    def maximum(self, first_side: int, symmetric: bool) -> Maximum:
+    def maximum(self, first_side: int, one_shape: bool) -> Maximum:
         """Return what was found; `first_side` is the sign of sides[0]."""
         if self.unresolved:
             return Maximum(math.nan, Outcome.FAILED, Regime.UNRESOLVED, self.impacts, 0, math.nan)
@@ -129,16 +131,16 @@ class _Course:
             return Maximum(0.0, Outcome.NO_UPLIFT, Regime.NO_UPLIFT)
         side = first_side if self.peak_side == 0 else -first_side
         outcome = Outcome.OVERTURNS if self.overturned else Outcome.ROCKS
-        return Maximum(self.peak, outcome, self._regime(symmetric), self.peak_impacts, side, self.margin)
+        return Maximum(self.peak, outcome, self._regime(one_shape), self.peak_impacts, side, self.margin)
 
-    def _regime(self, symmetric: bool) -> Regime:
+    def _regime(self, one_shape: bool) -> Regime:
         if self.overturned:
             return Regime.OVERTURNS_AFTER_IMPACTS if self.peak_impacts else Regime.OVERTURNS_WITHOUT_IMPACT
         if self.contacts_in_pulse:
             return Regime.CONTACT_DURING_PULSE
         if not self.peak_impacts:
             return Regime.BEFORE_FIRST_IMPACT
-        return Regime.PRINTED_EXACT if symmetric else Regime.AFTER_FIRST_IMPACT
+        return Regime.PRINTED_EXACT if one_shape else Regime.AFTER_FIRST_IMPACT
 
     def _next_uplift(self, phase: float) -> tuple[float, int] | None:
         """Return the phase, at or after `phase`, and the index of the side at which a resting block is lifted."""

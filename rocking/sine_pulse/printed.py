@@ -18,7 +18,8 @@ def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     nan where the radicand is negative, which the paper reads as overturning; 0.0 where the pulse lifts nothing
     (a ≤ 1), where Eq. 16 is not defined. It may be negative, and it is wrong outside the regime
     `Regime.PRINTED_EXACT`; `predict_maximum` is not. For a block with two different sides it takes
-    the side that the pulse lifts first, as if the other were the same.
+    the side that the pulse lifts first, as if the other were the same; for a one-sided block its only side, as if the
+    pulse's first half lifted it.
     """
     first, second = first_and_second(equivalent_block, pulse)
     side = first or second

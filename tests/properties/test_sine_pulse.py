@@ -83,6 +83,14 @@ def test_equation_15_holds_to_twelve_digits_over_its_band() -> None:
         )
 
 
+def test_equation_15_holds_for_a_one_sided_block_lifted_by_the_first_half() -> None:
+    """Thrown back or thrown over: the rebound has the same height."""
+    block = replace(BLOCK, one_sided=True)
+    found = predict_maximum(block, on(block, -3.0, 5.0))
+    assert (found.regime, found.peak_side, found.impacts) == (Regime.PRINTED_EXACT, 1, 1)
+    assert printed_maximum(block, on(block, -3.0, 5.0)) == pytest.approx(found.rotation_ratio, rel=1e-12)
+
+
 @given(AMPLITUDES, FREQUENCIES)
 def test_no_restitution_leaves_no_rebound(a: float, omega: float) -> None:
     block = replace(BLOCK, restitution=0.0)
