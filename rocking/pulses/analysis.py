@@ -16,7 +16,8 @@ class PulseEvidence:
 
     gain: ⟨a, s⟩²/⟨s, s⟩, m²/s³, the acceleration energy ∫a² dt that the pulse takes out of the record.
     explained_energy: 1 − ‖a − s‖²/‖a‖² of the record it was sought in.
-    phase: rad in (−π/2, π/2], of the least-squares cosine beside the sine: 0 for a sine, ±π/2 for a cosine.
+    phase: rad in (−π, π], shape of the motion where its envelope at ω_g is largest, within half a cycle of the pulse:
+    0 for a sine, π for its negative, ±π/2 for a cosine.
     """
 
     pulse: Pulse

@@ -12,6 +12,9 @@ from rocking.pulses.search import Band, PulseSearch, scanned_gains, searched_ban
 from rocking.pulses.settings import PulseSettings
 from rocking.records.accelerogram import Accelerogram
 
+NOTHING_LEFT = 1e-20
+"""Share of the record's energy below which what the pursuit leaves is rounding."""
+
 
 def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None = None) -> PulseAnalysis:
     """Return the one-cycle sine pulses of largest energy gain in `accelerogram`.
@@ -54,6 +57,8 @@ def _pursued(
     times = np.arange(samples.size) * search.time_step
     while len(sequence) < search.settings.pursuit:
         residual -= sequence[-1].pulse.acceleration(times)
+        if residual @ residual <= NOTHING_LEFT * (samples @ samples):
+            break
         search.renew(gains, residual, sequence[-1].pulse)
         found = search.best(residual, gains)
         if found is None:
@@ -71,10 +76,12 @@ def _raised(
     pulse, second = ranked[0].pulse, ranked[1] if len(ranked) > 1 else None
     ratio = second.gain / ranked[0].gain if second else 0.0
     frequency = pulse.circular_frequency / (2 * math.pi)
+    strong = rules.OSCILLATION_GAIN_RATIO * ranked[0].gain
     found = {
         Flag.AMBIGUOUS: rules.ambiguous(ratio),
-        Flag.MULTI_CYCLE: len(sequence) > 1 and rules.adjoins(pulse, sequence[1].pulse),
-        Flag.EDGE: rules.at_edge(pulse, accelerogram.duration),
+        Flag.MULTI_CYCLE: (len(sequence) > 1 and rules.adjoins(pulse, sequence[1].pulse))
+        or rules.oscillates(pulse, [other.pulse for other in ranked[1:] if other.gain > strong]),
+        Flag.EDGE: rules.at_edge(pulse, accelerogram.acceleration, accelerogram.time_step),
         Flag.FILTERED: rules.filtered(pulse, accelerogram.high_pass_frequency),
         Flag.SYMMETRIC: second is not None and rules.mirrored(pulse, second.pulse, ratio),
         Flag.BAND_LIMIT: not band.limits[0] * (1 + 1e-9) < frequency < band.limits[1] * (1 - 1e-9),

@@ -12,6 +12,10 @@ ADJOINING_PERIOD_CHANGE = 0.25
 """Relative change of period up to which a neighbouring cycle continues the same oscillation."""
 ADJOINING_GAP = 0.25
 """Distance between the end of one cycle and the start of the next, in periods, up to which they adjoin."""
+OSCILLATION_GAIN_RATIO = 0.7
+"""Gain of the half-shifted twins over that of a cycle amid an oscillation: 1 in two full cycles, 0.25 in one."""
+EDGE_ACCELERATION = 0.3
+"""First or last acceleration over the pulse's amplitude from which the motion was cut, not quiet."""
 EDGE_DISTANCE = 0.1
 """Distance from an end of the record, in periods, below which the cycle may have been cut."""
 FILTERED_CYCLES = 0.2
@@ -64,10 +68,19 @@ def adjoins(pulse: Pulse, neighbour: Pulse) -> bool:
     return change <= ADJOINING_PERIOD_CHANGE and gap <= ADJOINING_GAP * pulse.period
 
 
-def at_edge(pulse: Pulse, duration: float) -> bool:
-    """Whether the cycle starts or ends within a tenth of a period of an end of the record."""
-    margin = EDGE_DISTANCE * pulse.period
-    return pulse.start_time < margin or pulse.end_time > duration - margin
+def oscillates(pulse: Pulse, strong_rivals: list[Pulse]) -> bool:
+    """Whether twins of opposite sign lie half a cycle before and after: the middle cycle of a longer motion."""
+    twins = [rival for rival in strong_rivals if _twin(pulse, rival)]
+    return any(t.start_time < pulse.start_time for t in twins) and any(
+        t.start_time > pulse.start_time for t in twins
+    )
+
+
+def at_edge(pulse: Pulse, samples: np.ndarray, time_step: float) -> bool:
+    """Whether the cycle lies within a tenth of a period of an end, or within one of an end that is not quiet."""
+    rooms = pulse.start_time / pulse.period, ((samples.size - 1) * time_step - pulse.end_time) / pulse.period
+    cut = np.abs(samples[[0, -1]]) > EDGE_ACCELERATION * abs(pulse.amplitude)
+    return any(room < (1.0 if loud else EDGE_DISTANCE) for room, loud in zip(rooms, cut, strict=True))
 
 
 def filtered(pulse: Pulse, high_pass_frequency: float | None) -> bool:
@@ -76,11 +89,14 @@ def filtered(pulse: Pulse, high_pass_frequency: float | None) -> bool:
 
 
 def mirrored(pulse: Pulse, rival: Pulse, gain_ratio: float) -> bool:
-    """Whether `rival` is the twin of `pulse` on a symmetric shape: opposite sign, half a cycle away, as much gain."""
+    """Whether `rival` is the other solution of a symmetric shape: opposite sign, half a cycle away, as much gain."""
+    return gain_ratio > AMBIGUOUS_GAIN_RATIO and _twin(pulse, rival)
+
+
+def _twin(pulse: Pulse, rival: Pulse) -> bool:
     distance = abs(rival.start_time + rival.period / 2 - pulse.start_time - pulse.period / 2)
     return (
-        gain_ratio > AMBIGUOUS_GAIN_RATIO
-        and rival.amplitude * pulse.amplitude < 0
+        rival.amplitude * pulse.amplitude < 0
         and abs(rival.period / pulse.period - 1) <= ADJOINING_PERIOD_CHANGE
         and abs(distance / pulse.period - 0.5) <= ADJOINING_GAP / 2
     )

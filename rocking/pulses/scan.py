@@ -15,6 +15,10 @@ FLAT_STEP = 1e-7
 """Below this step the score no longer resolves an improvement (it is quadratic), so Newton's step is trusted."""
 FLAT_LOSS = 1e-14
 """Loss of score that is rounding when Newton's step is trusted."""
+PROBES = (2.0, 1.0, 0.5)
+"""Samples by which start and end of a refined cycle are moved to look beyond the kinks around it."""
+LEAST_CLIMB = 1e-9
+"""Gain of score for which a climb goes on; smaller ones are rounding at a kink."""
 
 
 @njit(cache=True)
@@ -150,20 +154,20 @@ def _newton_step(sums, damping):
 
 
 @njit(cache=True)
-def refine(samples, onset, angle, lowest, highest, reach):
-    """Climb to the maximum of the energy gain near one scanned maximum, by damped Newton in (ln ω, ω t₀).
+def _allowed(u, v, origin, count, limits):
+    """Clip (ln ω, ω t₀) to the limits of ln ω, to a quarter cycle about the scanned onset and to the record."""
+    u = min(max(u, limits[0]), limits[1])
+    omega = math.exp(u)
+    highest = min(omega * (count - 1 - origin) - 2 * math.pi, math.pi / 2)
+    return u, max(min(v, highest), -omega * origin, -math.pi / 2)
 
-    The amplitude is projected out. angle: rad per sample, held in [lowest, highest] and within `reach` in ln ω;
-    the onset stays within a quarter of a cycle and the whole cycle inside the record.
-    Returns (angle, onset in samples, ⟨a, s⟩, ⟨a, c⟩, ⟨s, s⟩) as sums over samples.
-    """
-    n, origin = samples.size, onset
-    u_low, u_high = math.log(angle) - reach, math.log(angle) + reach
-    u_low, u_high = max(u_low, math.log(lowest)), min(u_high, math.log(highest))
-    u, v, damping = math.log(angle), 0.0, 1e-3
-    sums, trial = np.empty(12), np.empty(12)
+
+@njit(cache=True)
+def _climbed(samples, origin, u, v, limits, sums):
+    """Return (u, v, score) at the end of damped Newton steps from (u, v); `sums` is left there."""
+    trial = np.empty(sums.size)
     _moments(samples, origin, math.exp(u), v, sums)
-    score = _score(sums)
+    score, damping = _score(sums), 1e-3
     for _ in range(MAXIMUM_STEPS):
         solvable, step_u, step_v = _newton_step(sums, damping)
         if not solvable:
@@ -171,19 +175,13 @@ def refine(samples, onset, angle, lowest, highest, reach):
             if damping > 1e12:
                 break
             continue
-        new_u = min(max(u + step_u, u_low), u_high)
-        omega = math.exp(new_u)
-        v_low, v_high = (
-            max(-omega * origin, -math.pi / 2),
-            min(omega * (n - 1 - origin) - 2 * math.pi, math.pi / 2),
-        )
-        new_v = max(min(v + step_v, v_high), v_low)
-        _moments(samples, origin, omega, new_v, trial)
+        new_u, new_v = _allowed(u + step_u, v + step_v, origin, samples.size, limits)
+        _moments(samples, origin, math.exp(new_u), new_v, trial)
         new_score = _score(trial)
         small = abs(new_u - u) + abs(new_v - v) < FLAT_STEP
         if new_score > score or (small and new_score >= score - FLAT_LOSS):
             u, v, score = new_u, new_v, new_score
-            sums, trial = trial, sums
+            sums[:] = trial
             damping = damping / 10 if damping > 1e-12 else 0.0
             if small and damping < 1e-8:
                 break
@@ -191,5 +189,58 @@ def refine(samples, onset, angle, lowest, highest, reach):
             damping = max(5 * damping, 1e-6)
             if damping > 1e14:
                 break
+    return u, v, score
+
+
+@njit(cache=True)
+def refine(samples, onset, angle, lowest, highest, reach):
+    """Climb to the maximum of the energy gain near one scanned maximum, by damped Newton in (ln ω, ω t₀).
+
+    The amplitude is projected out. angle: rad per sample, held in [lowest, highest] and within `reach` in ln ω;
+    the onset stays within a quarter of a cycle and the whole cycle inside the record. The gain has a kink wherever
+    a sample enters or leaves the cycle; so start and end are also moved by samples, and the climb goes on from there.
+    Returns (angle, onset in samples, ⟨a, s⟩, ⟨s, s⟩) as sums over samples.
+    """
+    limits = (max(math.log(angle) - reach, math.log(lowest)), min(math.log(angle) + reach, math.log(highest)))
+    sums, trial = np.empty(12), np.empty(12)
+    u, v, score = _climbed(samples, onset, math.log(angle), 0.0, limits, sums)
+    improved = True
+    while improved:
+        improved = False
+        for probe in range(9 * len(PROBES)):
+            omega, size = math.exp(u), PROBES[probe // 9]
+            start = v / omega + size * (probe % 3 - 1)
+            length = 2 * math.pi / omega + size * ((probe // 3) % 3 - probe % 3)
+            near_u = math.log(2 * math.pi / length)
+            near_u, near_v = _allowed(near_u, start * math.exp(near_u), onset, samples.size, limits)
+            _moments(samples, onset, math.exp(near_u), near_v, trial)
+            if _score(trial) > score + LEAST_CLIMB:
+                u, v, score = _climbed(samples, onset, near_u, near_v, limits, sums)
+                improved = True
     omega = math.exp(u)
-    return omega, origin + v / omega, sums[0], sums[1], sums[5]
+    return omega, onset + v / omega, sums[0], sums[5]
+
+
+@njit(cache=True)
+def envelope_phase(samples, onset, angle):
+    """Return atan2(Re S, Im S) where |S|, S = Σ a e^{iω(t − t_j)} over one cycle, is largest near `onset`.
+
+    Onsets j within half a cycle of `onset` are tried. At the best onset of a sine Re S is zero by optimality; the
+    largest envelope is where sine and cosine together fit best, so there the phase tells them apart.
+    """
+    count = int(2 * math.pi / angle + 1e-9) + 1
+    first = max(0, min(onset - count // 2, samples.size - count))
+    last = max(first, min(onset + count // 2, samples.size - count))
+    turn = complex(math.cos(angle), math.sin(angle))
+    entering = complex(math.cos((count - 1) * angle), math.sin((count - 1) * angle))
+    total = 0j
+    for k in range(min(count, samples.size - first) - 1, -1, -1):
+        total = total * turn + samples[first + k]
+    best, phase = -1.0, 0.0
+    for j in range(first, last + 1):
+        size = total.real * total.real + total.imag * total.imag
+        if size > best:
+            best, phase = size, math.atan2(total.real, total.imag)
+        if j < last:
+            total = (total - samples[j]) * turn.conjugate() + samples[j + count] * entering
+    return phase

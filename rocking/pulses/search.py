@@ -1,7 +1,7 @@
 """The search for pulses in samples: the band that a record can hold, the scan, its best maxima and their refinement."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,6 +20,8 @@ LEAST_SHARE = 0.01
 """Share of the largest gain below which a maximum of the scan is no rival."""
 NEAR_BEST = 0.8
 """Share of the largest scanned gain from which a maximum can still become the best by refinement."""
+NEAR_TIME, NEAR_OCTAVES = 0.5, 0.5
+"""Periods of onset and octaves of frequency within which a pulse is still the same pulse, sought again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,17 +137,34 @@ class PulseSearch:
 
     def refined(self, samples: np.ndarray, energy: float, onset: int, frequency: float) -> PulseEvidence:
         """Return the pulse at the maximum of the gain near one scanned maximum; energy: ∫a² dt, m²/s³."""
-        from rocking.pulses.scan import refine
+        from rocking.pulses.scan import envelope_phase, refine
 
         turn = 2 * math.pi * self.time_step
         lowest, highest = (turn * limit for limit in self.band.limits)
         reach = REFINEMENT_REACH * math.log(2) / self.settings.per_octave
-        angle, start, sine, cosine, norm = refine(samples, onset, turn * frequency, lowest, highest, reach)
+        angle, start, sine, norm = refine(samples, onset, turn * frequency, lowest, highest, reach)
         pulse = Pulse(sine / norm, angle / self.time_step, start * self.time_step)
         gain = sine * sine / norm * self.time_step
-        return PulseEvidence(
-            pulse, gain, gain / energy, math.atan2(math.copysign(cosine, sine * cosine), abs(sine))
-        )
+        return PulseEvidence(pulse, gain, gain / energy, envelope_phase(samples, round(start), angle))
+
+    def window(self, pulse: Pulse, count: int) -> slice:
+        """Return the samples, of `count`, that a pulse like `pulse` can touch: see near()."""
+        first = math.floor((pulse.start_time - NEAR_TIME * pulse.period) / self.time_step)
+        longest = (NEAR_TIME + 2**NEAR_OCTAVES) * pulse.period
+        last = math.ceil((pulse.start_time + longest) / self.time_step) + 2
+        return slice(max(first, 0), min(last, count))
+
+    def near(self, pulse: Pulse, samples: np.ndarray, window: slice) -> Pulse:
+        """Return the best pulse in `samples`, which fill `window`, within half a period and half an octave."""
+        steps = round(NEAR_OCTAVES * self.settings.per_octave)
+        frequencies = 2.0 ** (np.arange(-steps, steps + 1) / self.settings.per_octave) / pulse.period
+        frequencies = np.unique(np.clip(frequencies, *self.band.limits))
+        onsets = math.ceil((pulse.start_time + NEAR_TIME * pulse.period) / self.time_step) + 1 - window.start
+        gains = np.zeros((samples.size, frequencies.size))
+        scanned_gains(samples, self.time_step, frequencies, gains, slice(0, onsets))
+        onset, place = np.unravel_index(np.argmax(gains), gains.shape)
+        found = self.refined(samples, 1.0, int(onset), float(frequencies[place])).pulse
+        return replace(found, start_time=found.start_time + window.start * self.time_step)
 
 
 def shared_time(one: Pulse, other: Pulse) -> float:

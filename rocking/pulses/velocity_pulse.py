@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from scipy import integrate, signal
 
 from rocking.errors import PulseError
 from rocking.pulses.components import same_sampling
@@ -64,6 +63,8 @@ def velocity_pulse(first: Accelerogram, second: Accelerogram) -> VelocityPulse:
 
     Raises PulseError when the components differ in time step or no pulse of the shortest period fits.
     """
+    from scipy import integrate
+
     accelerations = same_sampling(first, second)
     step = first.time_step
     velocities = integrate.cumulative_trapezoid(accelerations, dx=step, initial=0)
@@ -117,6 +118,8 @@ def _wavelet(scale: int) -> np.ndarray:
 
 def _transform(velocities: np.ndarray, scale: int) -> np.ndarray:
     """Coefficient of the wavelet of one scale centred at each sample, along the last axis."""
+    from scipy import signal
+
     wavelet = _wavelet(scale)[::-1]
     full = signal.fftconvolve(
         velocities, np.broadcast_to(wavelet, (*velocities.shape[:-1], wavelet.size)), axes=-1

@@ -1,0 +1,161 @@
+"""extract_pulses: identities of its results, and the sentences it answers bad input with."""
+
+import math
+
+import numpy as np
+import pytest
+
+from rocking.errors import PulseError
+from rocking.pulses import Flag, Pulse, PulseSettings, energy_map, extract_pulses
+from rocking.records.accelerogram import Accelerogram, Source
+
+STEP = 0.01
+TIMES = np.arange(2000) * STEP
+
+
+@pytest.fixture(scope="module")
+def record():
+    rng = np.random.default_rng(11)
+    pulses = Pulse(2.0, 2 * np.pi / 1.3, 6.2).acceleration(TIMES) + Pulse(
+        -1.5, 2 * np.pi / 0.7, 11
+    ).acceleration(TIMES)
+    return Accelerogram(pulses + 0.3 * rng.standard_normal(TIMES.size), STEP)
+
+
+@pytest.fixture(scope="module")
+def found(record):
+    return extract_pulses(record)
+
+
+def test_gain_is_the_energy_taken_out(record, found):
+    energy = np.sum(record.acceleration**2) * STEP
+    left = np.sum(found.residual**2) * STEP
+    # the amplitude is a least-squares one, so the residual is square to the pulse (Pythagoras)
+    assert found.evidence.gain == pytest.approx(energy - left, rel=1e-9)
+    assert found.explained_energy == pytest.approx(1 - left / energy, rel=1e-9)
+
+
+def test_residual_and_pulse_make_the_record(record, found):
+    assert found.residual + found.dominant.acceleration(TIMES) == pytest.approx(
+        record.acceleration, abs=1e-12
+    )
+
+
+def test_every_alternative_has_the_gain_it_says(record, found):
+    energy = np.sum(record.acceleration**2) * STEP
+    assert len(found.ranked) == 5
+    assert [e.gain for e in found.ranked] == sorted((e.gain for e in found.ranked), reverse=True)
+    for evidence in found.ranked:
+        left = np.sum((record.acceleration - evidence.pulse.acceleration(TIMES)) ** 2) * STEP
+        assert energy - left == pytest.approx(evidence.gain, rel=1e-9)
+    assert found.gain_ratio == found.alternatives[0].gain / found.evidence.gain
+
+
+def test_pursuit_takes_energy_step_by_step(record, found):
+    residual = record.acceleration.copy()
+    for evidence in found.sequence:
+        before = np.sum(residual**2) * STEP
+        residual = residual - evidence.pulse.acceleration(TIMES)
+        assert before - np.sum(residual**2) * STEP == pytest.approx(evidence.gain, rel=1e-9)
+    assert found.sequence[0] == found.evidence
+    assert len(found.sequence) == 3
+    assert found.sequence[1].pulse.period == pytest.approx(0.7, rel=0.05)
+
+
+def test_pursuit_equals_a_new_search_of_the_residual(found):
+    again = extract_pulses(Accelerogram(found.residual, STEP))
+    assert found.sequence[1].gain == pytest.approx(again.evidence.gain, rel=1e-6)
+
+
+def test_effective_length_phase_and_interval(found):
+    evidence = found.evidence
+    assert evidence.effective_length == abs(evidence.pulse.amplitude) * evidence.pulse.period**2
+    assert evidence.interval == (evidence.pulse.start_time, evidence.pulse.end_time)
+    assert (
+        abs(evidence.phase) < 0.5
+    )  # a planted sine of positive amplitude; noise of 0.3 m/s² turns it little
+
+
+@pytest.mark.parametrize("turn", [0, 0.5 * np.pi, np.pi, -0.5 * np.pi])
+def test_phase_tells_a_sine_from_a_cosine(turn):
+    cycle = (TIMES >= 5) & (TIMES <= 7)
+    shape = np.sin(np.pi * (TIMES - 5) + turn) * cycle
+    phase = extract_pulses(Accelerogram(shape, STEP)).evidence.phase
+    # told apart means nearer to its own quarter turn than to the next: the best sine of a cosine is shorter than the
+    # cosine's cycle, and the envelope inside is flat. A sine is told to one sample, ω dt
+    limit = np.pi / 4 if turn % np.pi else 1.01 * np.pi * STEP
+    assert abs(math.remainder(phase - turn, 2 * np.pi)) < limit
+
+
+def test_the_energy_map_peaks_at_the_dominant_pulse(record, found):
+    gains, frequencies = energy_map(record)
+    onset, place = np.unravel_index(np.argmax(gains), gains.shape)
+    # one step of the grid: a sample, and 1/24 octave; the ridge of the gain is long in period
+    assert abs(onset * STEP - found.dominant.start_time) < 0.1 * found.dominant.period
+    assert frequencies[place] * found.dominant.period == pytest.approx(1, rel=0.1)
+    assert gains.max() <= found.evidence.gain
+
+
+def test_a_better_pulse_does_not_exist_on_a_brute_force_grid(record, found):
+    best = 0.0
+    for period in np.geomspace(0.2, 6.6, 60):
+        count = int(period / STEP) + 1
+        sine = np.sin(2 * np.pi * np.arange(count) * STEP / period)
+        best = max(best, (np.correlate(record.acceleration, sine) ** 2).max() / (sine @ sine) * STEP)
+    assert found.evidence.gain >= best
+
+
+def test_reports_are_frozen(found):
+    with pytest.raises(ValueError, match="read-only"):
+        found.residual[0] = 1.0
+
+
+@pytest.mark.parametrize("value", [0.0, 0.3])
+def test_a_record_that_does_not_move_is_refused(value):
+    dead = Accelerogram(np.full(1000, value), STEP, source=Source(path="dead.at2"))
+    with pytest.raises(PulseError, match=r"dead\.at2 holds 1000 samples that all equal"):
+        extract_pulses(dead)
+
+
+def test_a_record_shorter_than_the_longest_period_says_so():
+    pulse = Pulse(1.0, 2 * np.pi / 0.8, 0.9)
+    found = extract_pulses(Accelerogram(pulse.acceleration(TIMES[:300]), STEP))
+    assert Flag.SHORT_RECORD in found.flags
+    assert found.band[0] == pytest.approx(1 / 2.99)
+    assert found.dominant.period == pytest.approx(0.8, rel=1e-6)
+
+
+def test_a_record_too_coarse_for_the_upper_frequency_says_so():
+    times = np.arange(400) * 0.1
+    found = extract_pulses(Accelerogram(Pulse(1.0, 2 * np.pi / 2.5, 9.03).acceleration(times), 0.1))
+    assert Flag.COARSE_SAMPLING in found.flags
+    assert found.band[1] == pytest.approx(1.25)  # eight samples in a cycle
+    assert found.dominant.period == pytest.approx(2.5, rel=1e-6)
+
+
+def test_a_record_that_holds_no_period_of_the_band_is_refused():
+    with pytest.raises(PulseError, match=r"lasts 0\.19 s at a time step of 0\.01 s"):
+        extract_pulses(Accelerogram(np.random.default_rng(0).standard_normal(20), STEP))
+
+
+def test_the_sampling_limit_is_a_setting():
+    times = np.arange(400) * 0.1
+    settings = PulseSettings(samples_per_cycle=16)
+    found = extract_pulses(Accelerogram(Pulse(1.0, 2.5, 9.03).acceleration(times), 0.1), settings=settings)
+    assert found.band[1] == pytest.approx(0.625)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"lowest_frequency": 0}, "lowest_frequency is 0"),
+        ({"highest_frequency": 0.1}, "highest_frequency is 0.1 Hz"),
+        ({"per_octave": 2.5}, "per_octave is 2.5"),
+        ({"candidates": 0}, "candidates is 0"),
+        ({"pursuit": True}, "pursuit is True"),
+        ({"overlap": float("nan")}, "overlap is nan"),
+    ],
+)
+def test_impossible_settings_are_refused(change, words):
+    with pytest.raises(PulseError, match=words):
+        PulseSettings(**change)

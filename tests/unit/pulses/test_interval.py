@@ -1,0 +1,50 @@
+"""The bootstrap interval: repeatable, honest at its limits; its coverage stands with the acceptance figures."""
+
+import numpy as np
+import pytest
+
+from rocking.errors import PulseError
+from rocking.pulses import Pulse, extract_pulses, pulse_interval
+from rocking.records.accelerogram import Accelerogram
+
+STEP = 0.01
+TIMES = np.arange(2000) * STEP
+
+
+def noisy(size, seed=5):
+    noise = size * np.random.default_rng(seed).standard_normal(TIMES.size)
+    return extract_pulses(Accelerogram(Pulse(2.0, 2 * np.pi / 1.3, 6.2).acceleration(TIMES) + noise, STEP))
+
+
+def test_the_same_record_gives_the_same_interval():
+    one, two = pulse_interval(noisy(0.5), replicates=40), pulse_interval(noisy(0.5), replicates=40)
+    assert one == two
+    assert one != pulse_interval(noisy(0.5, seed=6), replicates=40)
+
+
+def test_the_interval_narrows_with_the_noise_and_vanishes_without():
+    wide, narrow, none = (pulse_interval(noisy(size), replicates=60) for size in (1.0, 0.1, 0.0))
+    for name in ("amplitude", "period", "start_time"):
+        widths = [high - low for low, high in (getattr(i, name) for i in (wide, narrow, none))]
+        assert widths[0] > widths[1] > widths[2]
+        assert widths[2] == pytest.approx(0, abs=1e-9)
+
+
+def test_a_higher_level_is_wider():
+    analysis = noisy(0.5)
+    inner, outer = (pulse_interval(analysis, level=level) for level in (0.5, 0.95))
+    assert outer.period[0] < inner.period[0] < inner.period[1] < outer.period[1]
+
+
+def test_the_band_of_a_demand_may_be_infinite():
+    interval = pulse_interval(noisy(0.5), replicates=60)
+    assert interval.band(lambda pulse: pulse.amplitude) == interval.amplitude
+    middle = np.median([pulse.period for pulse in interval.pulses])
+    low, high = interval.band(lambda pulse: np.inf if pulse.period > middle else 0.4)
+    assert (low, high) == (0.4, np.inf)
+
+
+@pytest.mark.parametrize("options", [{"level": 1.0}, {"level": 0.0}, {"replicates": 5}])
+def test_impossible_options_are_refused(options):
+    with pytest.raises(PulseError):
+        pulse_interval(noisy(0.5), **options)
