@@ -24,7 +24,10 @@ def samples():
     return np.random.default_rng(7).standard_normal(300)
 
 
-def test_the_map_is_the_plain_sum_at_every_onset(samples):
+@pytest.mark.parametrize(
+    "energy_gains", [energy_gains, energy_gains.py_func], ids=["compiled", "interpreted"]
+)
+def test_the_map_is_the_plain_sum_at_every_onset(samples, energy_gains):
     frequencies = np.array([0.3, 0.71, 2.0, 4.9])
     gains = np.full((300, 4), np.nan)
     energy_gains(samples, STEP, 2 * np.pi * STEP * frequencies, 0, 300, gains)
@@ -45,7 +48,10 @@ def test_a_part_of_the_map_is_renewed_alone(samples):
     assert np.all(part[:40] == -1) and np.all(part[90:] == -1)
 
 
-def test_maxima_are_those_of_a_plain_neighbour_search():
+@pytest.mark.parametrize(
+    "local_maxima", [local_maxima, local_maxima.py_func], ids=["compiled", "interpreted"]
+)
+def test_maxima_are_those_of_a_plain_neighbour_search(local_maxima):
     gains = np.random.default_rng(3).random((40, 12))
     padded = np.pad(gains, 1, constant_values=-1)
     highest = np.max(
