@@ -17,6 +17,8 @@ _FACTORS = {
     1000.0: "mg against g, or mm/s² against m/s²",
     10.0: "g/10 against g",
 }
+_NEAR = 0.02
+"""How close a ratio must come to a factor between units to be explained by it."""
 _PLAUSIBLE = (0.005, 1.5)
 
 
@@ -52,9 +54,10 @@ def pass_limits(record: Accelerogram) -> tuple[str, ...]:
 
 
 def _explain(ratio: float) -> str:
-    for factor, meaning in _FACTORS.items():
-        if abs(ratio / factor - 1) < 0.02 or abs(ratio * factor - 1) < 0.02:
-            return f", a factor {factor:g} ({meaning})"
+    off = {factor: min(abs(ratio / factor - 1), abs(ratio * factor - 1)) for factor in _FACTORS}
+    nearest = min(off, key=off.__getitem__)
+    if off[nearest] < _NEAR:
+        return f", a factor {nearest:g} ({_FACTORS[nearest]})"
     return f", a factor {ratio:.4g} that no unit explains"
 
 

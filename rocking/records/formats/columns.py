@@ -18,6 +18,8 @@ _TIME = re.compile(r"t|time\b.*|seconds?", re.I)
 _UNIT = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
 _HEAD = 12
+_COMMENTED_FORMAT = b"#Earthquake Information"
+"""CWB's header, which looks like comments above columns."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,8 @@ def _whole_lines(content: bytes) -> list[str]:
 
 
 def _recognise(content: bytes) -> bool:
-    return b"\0" not in content[:4096] and _table(content) is not None
+    other = content.startswith(_COMMENTED_FORMAT) or b"\0" in content[:4096]
+    return not other and _table(content) is not None
 
 
 def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:

@@ -1,6 +1,7 @@
 """Headers: finding what they declare, and saying what is missing."""
 
 import re
+from itertools import pairwise
 
 from rocking.errors import RecordError
 from rocking.records.formats.text import lines, number
@@ -10,7 +11,7 @@ def blocks(content: bytes, first_line: re.Pattern[str]) -> list[list[str]]:
     """Return the lines of each block of a file, a block starting at each line that matches `first_line`."""
     text = lines(content)
     starts = [i for i, line in enumerate(text) if first_line.match(line)]
-    return [text[a:b] for a, b in zip(starts, [*starts[1:], len(text)], strict=True)]
+    return [text[a:b] for a, b in pairwise([*starts, len(text)])]
 
 
 def starts(content: bytes, pattern: re.Pattern[str]) -> bool:
