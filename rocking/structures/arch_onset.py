@@ -195,7 +195,7 @@ def kinematic_onset(ring: Ring) -> Onset:
     The reaction is not a kinematic quantity and is left nan. Raises NoMechanism when no mechanism is
     admissible.
     """
-    sections = ring.sections()
+    sections = ring.sections()[:: 1 if ring.voussoirs else 2]
     hinges = np.array([(*triple, sections.size - 1) for triple in combinations(range(sections.size - 1), 3)])
     hinges = sections[hinges]
     multipliers = mechanism_multiplier(ring, hinges)
@@ -204,30 +204,33 @@ def kinematic_onset(ring: Ring) -> Onset:
     if not np.isfinite(multiplier):
         raise NoMechanism
     if ring.voussoirs is None:
-        multiplier, found = _slide_to_minimum(ring, found)
+        multiplier, found = _slide_to_minimum(ring, found, 2 * (sections[1] - sections[0]))
     return Onset(multiplier, found + ring.embrace_angle / 2, np.full(3, np.nan))
 
 
-def _slide_to_minimum(ring: Ring, hinges: np.ndarray) -> tuple[float, np.ndarray]:
-    """Minimise the multiplier over A, B and C from a first guess."""
+def _slide_to_minimum(ring: Ring, hinges: np.ndarray, reach: float) -> tuple[float, np.ndarray]:
+    """Minimise the multiplier over A, B and C within `reach` of a first guess; inadmissible there is no barrier."""
     edge = ring.embrace_angle / 2
     result = minimize(
-        lambda free: mechanism_multiplier(ring, np.append(free, edge)),
+        lambda free: _virtual_work(ring, np.append(free, edge))[0],
         hinges[:3],
         jac="3-point",
         method="L-BFGS-B",
-        bounds=[(-edge, edge)] * 3,
+        bounds=[(max(section - reach, -edge), min(section + reach, edge)) for section in hinges[:3]],
         options={"ftol": 1e-16, "gtol": 1e-10},
     )
-    return float(result.fun), np.append(result.x, edge)
+    found = np.append(result.x, edge)
+    return float(mechanism_multiplier(ring, found)), found
 
 
 def mechanism_multiplier(ring: Ring, hinges: np.ndarray) -> np.ndarray:
-    """Return λ of the mechanism with hinges A, B, C, D at sections `hinges` (..., 4): shape (...), inf if
-    inadmissible.
+    """Return λ of the mechanism with hinges A, B, C, D at sections `hinges` (..., 4): (...), inf if inadmissible."""
+    multiplier, admissible = _virtual_work(ring, hinges)
+    return np.where(admissible, multiplier, np.inf)
 
-    Virtual work of the three bars for ω₁ = −1: λ = Σ m v_y / Σ m v_x.
-    """
+
+def _virtual_work(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """λ = Σ m v_y / Σ m v_x of the three bars for ω₁ = −1, and whether every hinge opens and the load does work."""
     points = ring.contact_points(hinges, PATTERN)
     bars = np.diff(points, axis=-1)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -241,5 +244,6 @@ def mechanism_multiplier(ring: Ring, hinges: np.ndarray) -> np.ndarray:
     hinge_speed[..., 1] = -1j * bars[..., 0]
     speed = (1j * spins * (moments - masses * pivots) + masses * hinge_speed).sum(axis=-1)
     opening = PATTERN * np.diff(spins, axis=-1, prepend=0, append=0)
-    admissible = (opening <= 0).all(axis=-1) & (speed.real > 0)
-    return np.where(admissible, speed.imag / np.where(admissible, speed.real, 1.0), np.inf)
+    works = speed.real != 0
+    multiplier = np.where(works, speed.imag / np.where(works, speed.real, 1.0), np.inf)
+    return multiplier, (opening <= 0).all(axis=-1) & (speed.real > 0)

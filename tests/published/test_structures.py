@@ -5,6 +5,9 @@ import pytest
 
 from rocking.structures.arch import Arch
 from rocking.structures.arch_onset import minimum_thickness
+from rocking.structures.block import Block
+from rocking.structures.frame import Frame
+from rocking.structures.wall import Wall
 from rocking.units import GRAVITY
 
 # Thirty-digit derivation of the four-hinge arch; the last row is Oppenheim's arch (1992), as in DeJong and
@@ -93,3 +96,36 @@ def test_arch_scales_with_its_radius():
     assert large.critical_rotation == pytest.approx(small.critical_rotation, rel=1e-14)
     ratio = small.positive.frequency_parameter / large.positive.frequency_parameter
     assert ratio == pytest.approx(np.sqrt(15), rel=1e-14)
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.5, 2.0, 20.0])
+@pytest.mark.parametrize("slenderness", [0.1, 0.2])
+def test_frame_of_makris_and_vassiliou(slenderness, ratio):
+    """Makris and Vassiliou 2013, Planar rocking response of free-standing columns capped with a rigid beam:
+    p² = (1 + 2γ)/(1 + 3γ) · 3g/4R, λ = tan α, and the ratio of angular velocities
+    (1 − 1.5 sin²α + 3γ cos 2α)/(1 + 3γ)."""
+    mechanism = Frame(Block(2.5, slenderness), 2, ratio).mechanism()
+    squared = (1 + 2 * ratio) / (1 + 3 * ratio) * 3 * GRAVITY / (4 * 2.5)
+    restitution = (1 - 1.5 * np.sin(slenderness) ** 2 + 3 * ratio * np.cos(2 * slenderness)) / (1 + 3 * ratio)
+    assert mechanism.positive.frequency_parameter == pytest.approx(np.sqrt(squared), rel=1e-14)
+    assert mechanism.uplift_multiplier == pytest.approx(np.tan(slenderness), rel=1e-14)
+    assert mechanism.restitution == pytest.approx(restitution, rel=1e-14)
+
+
+def test_wall_of_the_paper_in_its_slender_limit():
+    """DeJong and Dimitrakopoulos, after Eqs. 8 and 11: p = √2 p_block, a_sc = 0.5, λ_lin = 2α;
+    exact at equal heights."""
+    side = Wall(2.0, 2.0, 0.2).mechanism().positive
+    diagonal = np.hypot(2.0, 0.2) / 2
+    assert side.frequency_parameter == pytest.approx(np.sqrt(2 * 3 * GRAVITY / (4 * diagonal)), rel=1e-14)
+    assert side.acceleration_scale == pytest.approx(0.5, rel=1e-14)
+    assert side.critical_rotation / side.acceleration_scale == pytest.approx(2 * np.arctan(0.1), rel=1e-14)
+
+
+def test_frequency_parameter_of_the_wall_grows_with_the_height_of_the_upper_block():
+    """Not largest at h₂/h₁ = 0.74, as the misprinted Eq. 14 has it: at fixed height it only grows."""
+    ratios = np.linspace(0.2, 5.0, 40)
+    found = [
+        Wall(6 / (1 + x), 6 * x / (1 + x), 0.3, 0.9).mechanism().positive.frequency_parameter for x in ratios
+    ]
+    assert (np.diff(found) > 0).all()
