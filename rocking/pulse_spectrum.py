@@ -6,7 +6,7 @@ from rocking.checks import within
 from rocking.errors import PulseError, StructureError
 from rocking.sine_pulse.flight import LONGEST_TIME
 from rocking.sine_pulse.maximum import maximum_of
-from rocking.sine_pulse.ratios import Ratios
+from rocking.sine_pulse.ratios import LARGEST_RATIO, Ratios
 
 
 def pulse_spectrum(
@@ -14,13 +14,14 @@ def pulse_spectrum(
 ) -> np.ndarray:
     """Return φ_max/φ_cr, (m, n), of every symmetric equivalent block under one full sine pulse, exactly.
 
-    frequency_ratios: ω = ω_g/p > 0, (m,). amplitude_ratios: a = |a_g|/(gλ) ≥ 0, (n,). restitution: η in [0, 1].
+    frequency_ratios: ω = ω_g/p in [1e-12, 1e12], (m,). amplitude_ratios: a = |a_g|/(gλ) in [0, 1e12], (n,).
+    restitution: η in [0, 1].
     inf where the block overturns, 0 where it does not lift, nan where `predict_maximum` says it is unresolved.
     A cell whose first flight outlasts the pulse is closed form, all of them at once; the others are followed one
     by one. Raises PulseError or StructureError.
     """
-    frequencies = _axis("frequency_ratios", frequency_ratios, lowest="greater than 0", allowed=np.greater)
-    amplitudes = _axis("amplitude_ratios", amplitude_ratios, lowest="at least 0", allowed=np.greater_equal)
+    frequencies = _axis("frequency_ratios", frequency_ratios, 1 / LARGEST_RATIO)
+    amplitudes = _axis("amplitude_ratios", amplitude_ratios, 0.0)
     eta = within(StructureError, "restitution", restitution, 0, 1)
     omega, a = (axis.ravel() for axis in np.meshgrid(frequencies, amplitudes, indexing="ij"))
     maxima = np.zeros(omega.size)
@@ -109,11 +110,13 @@ class _FirstFlights:
         return self.state(t)[0]
 
 
-def _axis(field: str, values: np.ndarray, lowest: str, allowed: np.ufunc) -> np.ndarray:
+def _axis(field: str, values: np.ndarray, lowest: float) -> np.ndarray:
     array = np.asarray(values, dtype=float)
     if array.ndim != 1 or array.size == 0:
         raise PulseError(f"{field} has the shape {array.shape}, but must be a list of at least one number.")
-    wrong = array[~(np.isfinite(array) & allowed(array, 0))]
+    wrong = array[~((array >= lowest) & (array <= LARGEST_RATIO))]
     if wrong.size:
-        raise PulseError(f"{field} holds {wrong[0]!s}, but every value must be finite and {lowest}.")
+        raise PulseError(
+            f"{field} holds {wrong[0]!s}, but every value must lie between {lowest:g} and {LARGEST_RATIO:g}."
+        )
     return array

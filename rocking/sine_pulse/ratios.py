@@ -3,9 +3,13 @@
 import math
 from dataclasses import dataclass
 
+from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
 from rocking.structures.mechanism import EquivalentBlock
 from rocking.units import GRAVITY
+
+LARGEST_RATIO = 1e12
+"""Beyond this a frequency or amplitude ratio is a mistake of units, and its square leaves no digits for the block."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,12 +18,25 @@ class Ratios:
 
     frequency_ratio: ω = ω_g/p. amplitude_ratio: a = |a_g|/(gλ). restitution: η of the impact that ends rocking here.
     velocity_scale: p φ_cr, rad/s, which turns d(φ/φ_cr)/d(pt) into an angular velocity.
+    Raises PulseError when a ratio lies outside LARGEST_RATIO.
     """
 
     frequency_ratio: float
     amplitude_ratio: float
     restitution: float
     velocity_scale: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not 1 / LARGEST_RATIO <= self.frequency_ratio <= LARGEST_RATIO:
+            raise PulseError(
+                f"ω_g/p, the pulse's circular_frequency over the block's frequency_parameter, is "
+                f"{self.frequency_ratio!r}, but must lie between {1 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}."
+            )
+        if not self.amplitude_ratio <= LARGEST_RATIO:
+            raise PulseError(
+                f"a_g/(gλ), the pulse's amplitude over the block's uplift acceleration, is "
+                f"{self.amplitude_ratio!r}, but must be at most {LARGEST_RATIO:g}."
+            )
 
     @property
     def uplift_slope(self) -> float:

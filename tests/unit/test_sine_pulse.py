@@ -230,3 +230,23 @@ def test_bad_input_is_refused_in_words() -> None:
         predict_maximum(SYMMETRIC, Pulse(1.0, -1.0))
     with pytest.raises(StructureError, match=r"restitution is 1\.1, but must lie between 0 and 1"):
         predict_maximum(EquivalentBlock(2.0, 0.2, 0.8, 1.1), Pulse(1.0, 1.0))
+
+
+def test_ratios_that_no_structure_has_are_refused_with_the_bound() -> None:
+    with pytest.raises(
+        PulseError,
+        match=r"circular_frequency over .* is 500000000000000.0, but must lie between 1e-12 and 1e\+12",
+    ):
+        predict_maximum(SYMMETRIC, Pulse(10.0, 1e15))
+    with pytest.raises(PulseError, match=r"amplitude over .* must be at most 1e\+12"):
+        predict_maximum(SYMMETRIC, Pulse(1e200, 1.0))
+
+
+@pytest.mark.parametrize("eta", [0.0, 1e-9, 0.9, 0.999])
+def test_every_ratio_within_the_bounds_has_an_answer(eta: float) -> None:
+    block = with_restitution(eta)
+    for omega in (1e-11, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e11):
+        for a in (1 + 3e-16, 1 + 1e-12, 1 + 1e-6, 1.3, 10.0, 1e6, 1e11):
+            found = predict_maximum(block, pulse_on(block, a, omega))
+            assert found.rotation_ratio >= 0, (a, omega)
+            assert found.outcome is not Outcome.FAILED, (a, omega)

@@ -48,9 +48,9 @@ def test_very_slow_and_very_fast_pulses_give_no_nan() -> None:
         (
             [1.0, 0.0],
             [2.0],
-            r"frequency_ratios holds 0\.0, but every value must be finite and greater than 0",
+            r"frequency_ratios holds 0\.0, but every value must lie between 1e-12 and 1e.12",
         ),
-        ([1.0], [2.0, -1.0], r"amplitude_ratios holds -1\.0, but every value must be finite and at least 0"),
+        ([1.0], [2.0, -1.0], r"amplitude_ratios holds -1\.0, but every value must lie between 0 and 1e.12"),
         ([1.0], [math.nan], "amplitude_ratios holds nan"),
         ([[1.0]], [1.0], r"frequency_ratios has the shape \(1, 1\)"),
         ([], [1.0], r"frequency_ratios has the shape \(0,\)"),
