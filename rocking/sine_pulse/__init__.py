@@ -1,6 +1,15 @@
-"""The equivalent block under one full sine pulse: exact maximum, its regime, and Eqs. 15 and 16 as printed."""
+"""The equivalent block under one full sine pulse: exact maximum, its regime, its spectrum, and Eqs. 15 and 16 as printed."""
 
 from rocking.sine_pulse.maximum import Maximum, Regime, predict_maximum
 from rocking.sine_pulse.printed import printed_maximum, pulse_end_energy, pulse_end_measure
+from rocking.sine_pulse.spectrum import pulse_spectrum
 
-__all__ = ["Maximum", "Regime", "predict_maximum", "printed_maximum", "pulse_end_energy", "pulse_end_measure"]
+__all__ = [
+    "Maximum",
+    "Regime",
+    "predict_maximum",
+    "printed_maximum",
+    "pulse_end_energy",
+    "pulse_end_measure",
+    "pulse_spectrum",
+]

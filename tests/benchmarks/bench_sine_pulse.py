@@ -11,9 +11,8 @@ import numpy as np
 from scipy.constants import g
 from scipy.integrate import solve_ivp
 
-from rocking.pulse_spectrum import pulse_spectrum
 from rocking.pulses.pulse import Pulse
-from rocking.sine_pulse import Regime, predict_maximum, printed_maximum
+from rocking.sine_pulse import Regime, predict_maximum, printed_maximum, pulse_spectrum
 from rocking.structures.mechanism import EquivalentBlock
 
 ETA = 0.9

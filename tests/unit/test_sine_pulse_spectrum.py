@@ -7,9 +7,8 @@ import pytest
 from scipy.constants import g
 
 from rocking.errors import PulseError, StructureError
-from rocking.pulse_spectrum import pulse_spectrum
 from rocking.pulses.pulse import Pulse
-from rocking.sine_pulse import Regime, predict_maximum
+from rocking.sine_pulse import Regime, predict_maximum, pulse_spectrum
 from rocking.structures.mechanism import EquivalentBlock
 
 
