@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import yaml
-from jsonschema import Draft7Validator
 
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records.catalogue import CatalogueRecord, load_catalogue
@@ -28,6 +27,10 @@ class Plan:
     def job(self, name: str) -> tuple[CatalogueRecord, ...]:
         """The records of one job."""
         return tuple(self.records[identifier] for identifier in self.jobs[name])
+
+    def records_sha256(self, name: str) -> str:
+        """Return one hash for the catalogue rows of one job."""
+        return records_sha256(self.job(name))
 
     def local_files(self, name: str) -> list[str]:
         """The files of one job that lie beside the catalogue, so that an edit of one is noticed."""
@@ -63,6 +66,8 @@ def make_plan(settings: Mapping[str, object], schema: Path) -> Plan:
 
 def check_settings(settings: Mapping[str, object], schema: Path) -> None:
     """Check `settings` against the JSON Schema in a YAML file; all defects in one ConfigurationError."""
+    from jsonschema import Draft7Validator  # here, so that a job that only looks up its records does not pay
+
     validator = Draft7Validator(yaml.safe_load(schema.read_text(encoding="utf-8")))
     errors = sorted(validator.iter_errors(dict(settings)), key=lambda error: list(map(str, error.path)))
     if errors:
@@ -85,6 +90,25 @@ def package_sha256(leave_out: Sequence[str] = ()) -> str:
         if path.suffix in {".py", ".csv", ".typ", ".yaml"} and not name.startswith(tuple(leave_out)):
             digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
+
+
+def records_sha256(records: Iterable[CatalogueRecord]) -> str:
+    """Return one hash for catalogue rows, in their order."""
+    return hashlib.sha256("\n".join(map(repr, records)).encode()).hexdigest()
+
+
+def planned_records(catalogue: Path, identifiers: Sequence[str], sha256: str) -> tuple[CatalogueRecord, ...]:
+    """Return the rows `identifiers` of `catalogue`, which must be those that were planned.
+
+    Raises ConfigurationError when the catalogue was edited since.
+    """
+    rows = {record.id: record for record in load_catalogue(catalogue)}
+    records = tuple(rows[identifier] for identifier in identifiers if identifier in rows)
+    if records_sha256(records) != sha256:
+        raise ConfigurationError(
+            f"{catalogue}: the catalogue changed while the study ran; start the study again."
+        )
+    return records
 
 
 def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, tuple[str, ...]]:

@@ -26,11 +26,18 @@ def write_summary(folders: Iterable[Path], structures: Mapping[str, Structure], 
 
 
 def write_description(folders: Iterable[Path], target: Path) -> None:
-    """Write datapackage.json, which describes every column of every table below `target`'s parent."""
-    paths = [(f"{target.name}/{table.file_name}", table) for table in columns.SUMMARY_TABLES]
-    for folder in folders:
-        paths += [(f"{folder.name}/{table.file_name}", table) for table in columns.RECORD_TABLES]
-    write_whole(target / "datapackage.json", data_package("rocking-study", paths))
+    """Describe every column: datapackage.json in `target` for its tables, one in its parent for those of the records.
+
+    Two, because a data package may not name files outside its own folder.
+    """
+    names = [folder.name for folder in folders]
+    summary = {table.name: (table, table.file_name) for table in columns.SUMMARY_TABLES}
+    records = {
+        table.name: (table, [f"{name}/{table.file_name}" for name in names])
+        for table in columns.RECORD_TABLES
+    }
+    write_whole(target / "datapackage.json", data_package("rocking-study-summary", summary))
+    write_whole(target.parent / "datapackage.json", data_package("rocking-study", records))
 
 
 def write_provenance(

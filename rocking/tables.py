@@ -6,7 +6,7 @@ import json
 import math
 import os
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import Enum
@@ -100,21 +100,21 @@ def _whole(path: Path) -> Iterator[BinaryIO]:
         raise
 
 
-def data_package(name: str, paths: Sequence[tuple[str, Table]]) -> bytes:
-    """Return a Frictionless datapackage.json that describes the tables at `paths` (path, table)."""
-    resources = [_resource(path, table) for path, table in paths]
+def data_package(name: str, tables: Mapping[str, tuple[Table, str | list[str]]]) -> bytes:
+    """Return a Frictionless datapackage.json: for each resource its table and the file, or files, that hold it."""
+    resources = [_resource(resource, table, path) for resource, (table, path) in tables.items()]
     return (
         json.dumps({"profile": "tabular-data-package", "name": name, "resources": resources}, indent=1) + "\n"
     ).encode()
 
 
-def _resource(path: str, table: Table) -> dict[str, object]:
+def _resource(name: str, table: Table, path: str | list[str]) -> dict[str, object]:
     fields = []
     for column in table.columns:
         field = {"name": column.name, "type": column.type, "description": column.description}
         fields.append(field | ({"equation": column.equation} if column.equation else {}))
     return {
-        "name": path.removesuffix(".csv").replace("/", "-").lower(),
+        "name": name,
         "path": path,
         "profile": "tabular-data-resource",
         "description": table.description,

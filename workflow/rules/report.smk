@@ -15,7 +15,8 @@ for JOB, RECORDS in PLAN.jobs.items():
         benchmark:
             f"{SUMMARY}/benchmarks/report_{JOB}.tsv"
         params:
-            records=record_rows(JOB),
+            records=RECORDS,
+            records_sha256=PLAN.records_sha256(JOB),
             settings_sha256=PLAN.settings_sha256,
             package_sha256=package_sha256(),
         message:

@@ -15,10 +15,6 @@ def record_files(records, *names):
     return [f"{RESULTS}/{record}/{name}" for record in records for name in names]
 
 
-def record_rows(job):
-    return [{key: str(value) if key == "folder" else value for key, value in vars(r).items()} for r in PLAN.job(job)]
-
-
 CSV = [f"{table}.csv" for table in TABLES]
 TARGETS = [f"{SUMMARY}/{table}.csv" for table in SUMMARIES]
 TARGETS += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json"]

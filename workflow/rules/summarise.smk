@@ -9,6 +9,7 @@ rule summarise:
         [f"{SUMMARY}/{table}.csv" for table in SUMMARIES],
         f"{SUMMARY}/provenance.json",
         f"{SUMMARY}/datapackage.json",
+        f"{RESULTS}/datapackage.json",
     log:
         f"{SUMMARY}/logs/summarise.log",
     benchmark:
