@@ -194,7 +194,7 @@ def cwb(stated: float = 1.0) -> str:
     gal = 100 * TRUE
     rows = np.column_stack([np.arange(N) * STEP, 0.1 * gal, gal])
     return (
-        f"#Earthquake Information\n#StationCode: EAS\n#RecordLength(sec): {N * STEP:g}\n#SampleRate(Hz): 100\n"
+        f"#Earthquake Information\n#StationCode: EAS\n#RecordLength(sec): {N * STEP:.2f}\n#SampleRate(Hz): 100\n"
         f"#AmplitudeUnit:  gal. DCoffset(corr)\n#AmplitudeMAX. N: {stated * gal.max():.3f}~ {stated * gal.min():.3f}\n"
         "#DataSequence: Time U(+); N(+)\n#Data: 3F10.3\n" + columns(rows.ravel(), 3, "10.3f")
     )  # fmt: skip

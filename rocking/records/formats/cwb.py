@@ -5,7 +5,7 @@ import re
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import mapping, numeric, optional, starts, valued
+from rocking.records.formats.header import check_duration, mapping, numeric, optional, starts, valued
 from rocking.records.formats.sampling import even_step
 from rocking.records.formats.text import fields, is_number, lines
 from rocking.records.gates import agree_with_header
@@ -42,11 +42,7 @@ def _step(name: str, times, pairs: dict[str, str]) -> float:
         raise RecordError(
             f"{name}: SampleRate is {rate:g} Hz, but the times are not spaced so; the file is damaged."
         )
-    length = numeric(name, pairs, "RECORDLENGTH(SEC)")
-    if abs(times.size * step - length) > 1.5:
-        raise RecordError(
-            f"{name}: RecordLength is {length:g} s, but the samples last {times.size * step:g} s."
-        )
+    check_duration(name, "RecordLength(sec)", valued(name, pairs, "RECORDLENGTH(SEC)"), times.size, step)
     return step
 
 

@@ -67,3 +67,17 @@ def numeric(name: str, pairs: dict[str, str], key: str) -> float:
 def corner(value: float | None) -> float | None:
     """Return a high-pass corner in Hz, or None where the header says none (0, -999, nothing)."""
     return value if value is not None and 0 < value < 100 else None
+
+
+def check_duration(name: str, field: str, text: str, samples: int, time_step: float) -> None:
+    """Check `samples` against the duration printed as `text`, s, within a step and half its last digit.
+
+    Raises RecordError when they disagree: the file is cut, or its header belongs to another record.
+    """
+    declared = number(name, field, text)
+    half_digit = 0.5 * 10.0 ** -len(text.strip().partition(".")[2])
+    if abs(samples * time_step - declared) > time_step + half_digit:
+        raise RecordError(
+            f"{name}: {field} is {declared:g} s, but the {samples} samples last {samples * time_step:g} s: "
+            "it is truncated or its header belongs to another record; fetch the whole file."
+        )

@@ -6,6 +6,7 @@ from datetime import datetime, timedelta
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram, without_offset
+from rocking.records.formats.header import check_duration
 from rocking.records.formats.text import lines, number, numbers
 from rocking.records.gates import agree_with_header
 
@@ -40,7 +41,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     time_step = options.time_step_of(
         name, 1 / _positive(name, "Sampling Freq(Hz)", fields["Sampling Freq(Hz)"])
     )
-    _check_duration(name, fields, counts.size * time_step)
+    check_duration(name, "Duration Time(s)", fields["Duration Time(s)"], counts.size, time_step)
     values, offset = without_offset(counts * _scale(name, fields["Scale Factor"]), "gal")
     direction = fields["Dir."]
     component = _KIKNET.get(direction, direction)
@@ -74,14 +75,6 @@ def _positive(name: str, field: str, text: str) -> float:
     if not value > 0:
         raise RecordError(f"{name}: {field} is {text!r}, but must be greater than 0.")
     return value
-
-
-def _check_duration(name: str, fields: dict[str, str], duration: float) -> None:
-    declared = number(name, "Duration Time(s)", fields["Duration Time(s)"])
-    if abs(duration - declared) > 1.0:
-        raise RecordError(
-            f"{name}: the header declares {declared:g} s, but the samples last {duration:g} s; fetch the whole file."
-        )
 
 
 def _scale(name: str, text: str) -> float:

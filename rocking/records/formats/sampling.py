@@ -23,7 +23,8 @@ def even_step(name: str, times: np.ndarray) -> float | None:
     step = (times[-1] - times[0]) / (times.size - 1)
     off = np.abs(times - (times[0] + step * np.arange(times.size))).max()
     quantum = _quantum(times)
-    if off > max(0.01 * step, min(0.51 * quantum, 0.5 * step)) + 1e-9 * abs(times[-1]):
+    # Half a printed digit for the time itself, and as much for the line through the rounded first and last ones.
+    if off > max(0.01 * step, min(1.02 * quantum, 0.5 * step)) + 1e-9 * abs(times[-1]):
         return None
     return _rounded(step, quantum / times.size)
 
@@ -53,9 +54,9 @@ def _quantum(times: np.ndarray) -> float:
 
 
 def _rounded(step: float, uncertainty: float) -> float:
-    """Return the roundest number within the uncertainty of a step that was derived from rounded times."""
-    for digits in range(1, 10):
-        candidate = float(f"{step:.{digits}g}")
-        if abs(candidate - step) <= uncertainty + 1e-12 * step:
-            return candidate
-    return step
+    """Return a step derived from rounded times as a whole rate in Hz, or with few digits, if that is as likely."""
+    allowed = uncertainty + 1e-12 * step
+    rate = round(1 / step)
+    few = (float(f"{step:.{digits}g}") for digits in range(1, 10))
+    candidates = (*([1 / rate] if rate else []), *few)
+    return next((candidate for candidate in candidates if abs(candidate - step) <= allowed), step)

@@ -1,0 +1,177 @@
+"""Reading: the front door, what it refuses, and the plain columns."""
+
+import gzip
+import pickle
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rocking.errors import RecordError, UndeclaredError, UnknownFormatError
+from rocking.records import read
+from rocking.records.formats import FORMATS, Options
+from rocking.records.read import LARGEST_FILE, read_content
+
+
+def at2(values: list[str], npts: int | None = None, dt: str = ".0100", unit: str = "UNITS OF G") -> str:
+    head = f"PEER NGA STRONG MOTION DATABASE RECORD\nQuake, 1/2/1999, Station, 45\nACCELERATION TIME SERIES IN {unit}\n"
+    return f"{head}NPTS= {len(values) if npts is None else npts}, DT= {dt} SEC\n" + " ".join(values) + "\n"
+
+
+def written(tmp_path: Path, text: str | bytes, name: str = "record.AT2") -> Path:
+    path = tmp_path / name
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return path
+
+
+def test_reads_what_is_written(tmp_path: Path) -> None:
+    path = written(tmp_path, at2(["0.1", "-.2E+00", "3e-1"]))
+    (record,) = read(path)
+    assert np.allclose(record.acceleration, np.array([0.1, -0.2, 0.3]) * 9.80665, rtol=1e-15)
+    assert (record.time_step, record.component, record.azimuth, record.station) == (
+        0.01,
+        "45",
+        45.0,
+        "Station",
+    )
+    assert (
+        record.source.path == str(path) and record.source.format == "PEER AT2" and record.source.unit == "g"
+    )
+    assert len(record.source.sha256) == 64 and record.processed
+
+
+def test_gzip_is_unpacked_and_its_own_hash_kept(tmp_path: Path) -> None:
+    plain = written(tmp_path, at2(["0.1", "0.2", "0.3"]))
+    packed = written(tmp_path, gzip.compress(plain.read_bytes(), mtime=0), "record.AT2.gz")
+    (a,), (b,) = read(plain), read(packed)
+    assert np.array_equal(a.acceleration, b.acceleration) and a.source.sha256 != b.source.sha256
+
+
+@pytest.mark.parametrize(("content", "message"), [
+    (b"", "record.AT2: the file is empty"),
+    (b"\n \r\n", "record.AT2: the file is empty"),
+    (b"\x1f\x8b\x08\x00rubbish", "damaged gzip|truncated"),
+    (gzip.compress(b"\0" * (LARGEST_FILE + 10)), "unpacks to more"),
+    (at2(["0.1", "0.2"], npts=500), "declares 500 samples, but the file holds 2"),
+    (at2(["0.1"] * 30, npts=3), "declares 3 samples, but the file holds 30"),
+    (at2(["0.1", "nan"]), "line 1 of the samples holds 'nan'"),
+    (at2(["0.1", "1_0"]), "'1_0'"),
+    (at2(["0.1", "inf"]), "'inf'"),
+    (at2(["0.1", "1e999"]), "number 2 of the samples is inf"),
+    (at2(["0.1", "1.2.3"]), "'1.2.3'"),
+    (at2(["0.1", "0.2"], dt="0.0"), "time_step is 0.0 s, but must be greater than 0"),
+    (at2(["0.1", "0.2"], dt="-.01"), "time_step is -0.01 s, but must be greater than 0"),
+    (at2(["0.1", "0.2"], dt="1.0.1"), "DT is '1.0.1', but must be a number"),
+    (at2(["0.1", "0.2"], unit="UNKNOWN"), "unit is not declared"),
+    (at2(["100", "818"]), "peak acceleration is 818 g.*980.665"),
+    (at2(["0.1"]), "shape"),
+])  # fmt: skip
+def test_bad_files_get_one_sentence_that_names_them(
+    tmp_path: Path, content: str | bytes, message: str
+) -> None:
+    with pytest.raises(RecordError, match=message) as caught:
+        read(written(tmp_path, content))
+    assert str(caught.value).startswith("record.AT2: ") or str(tmp_path) in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_an_unknown_file_is_told_what_was_looked_for(tmp_path: Path) -> None:
+    with pytest.raises(UnknownFormatError) as caught:
+        read(written(tmp_path, "once upon a time\nthere was a record", "tale.txt"))
+    assert all(f"{form.name}: no {form.sought}" in str(caught.value) for form in FORMATS)
+
+
+@pytest.mark.parametrize("path", ["missing.AT2", ".", "nul\0byte"])
+def test_what_cannot_be_opened(tmp_path: Path, path: str) -> None:
+    with pytest.raises(RecordError, match="cannot be opened"):
+        read(tmp_path / path)
+
+
+class _Trap:
+    """Unpickling this appends to the path of modules."""
+
+    def __reduce__(self):
+        return (sys.path.append, ("executed by a pickle",))
+
+
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+@pytest.mark.parametrize("prefix", [b"", b"# obspy.core.stream\n"])
+def test_a_pickle_is_never_opened(tmp_path: Path, protocol: int, prefix: bytes) -> None:
+    payload = prefix + pickle.dumps({"obspy.core.stream": _Trap()}, protocol=protocol)
+    with pytest.raises(RecordError):
+        read(written(tmp_path, payload))
+    with pytest.raises(RecordError):
+        read(written(tmp_path, gzip.compress(payload)))
+    assert "executed by a pickle" not in sys.path
+
+
+def test_time_and_acceleration(tmp_path: Path) -> None:
+    rows = "".join(f"{0.005 * i:.3f}, {0.01 * i:.4f}\n" for i in range(1, 40))
+    (record,) = read(written(tmp_path, rows, "r.csv"), unit="g")
+    assert record.time_step == 0.005 and record.acceleration.size == 39
+    with pytest.raises(UndeclaredError, match="unit"):
+        read(tmp_path / "r.csv")
+    with pytest.raises(RecordError, match=r"time_step is 0\.005 s in the file, but 0\.01 s"):
+        read(tmp_path / "r.csv", unit="g", time_step=0.01)
+
+
+def test_times_rounded_in_print_are_even_and_uneven_ones_are_resampled(tmp_path: Path) -> None:
+    even = "".join(f"{i / 128:.3f} {0.01 * i}\n" for i in range(200))
+    (record,) = read(written(tmp_path, even, "r.txt"), unit="g")
+    assert record.time_step == pytest.approx(1 / 128, rel=1e-4) and not record.warnings
+    times = np.cumsum(np.where(np.arange(200) % 3, 0.01, 0.013))
+    uneven = "".join(f"{t:.4f} {np.sin(t):.6f}\n" for t in times)
+    (record,) = read(written(tmp_path, uneven, "r.txt"), unit="g")
+    assert "unevenly spaced" in record.warnings[0] and record.processing == record.warnings
+    # linear interpolation of sin between points 0.013 s apart errs by h²/8; the print rounds to 5e-7
+    truth = np.sin(times[0] + np.arange(record.acceleration.size) * record.time_step)
+    assert np.abs(record.acceleration / 9.80665 - truth).max() < 0.013**2 / 8 + 1e-6
+
+
+@pytest.mark.parametrize(("text", "message"), [
+    ("0.00 1\n0.01 2\n0.01 3\n0.02 1\n", "times must increase"),
+    ("time,a(g)\n0.00,1\n0.01,\n0.02,3\n", "columns|empty"),
+    ("time,a(g)\n0.00,1\n0.01,2,3\n0.02,3\n", "no reader recognises|columns"),
+    ("1,2,3\n4,5,6\n7,8,9\n1,2\n", "columns"),
+    ("time,a(inches)\n0.00,1\n0.01,2\n0.02,3\n", "unit is not declared"),
+])  # fmt: skip
+def test_bad_tables(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(RecordError, match=message):
+        read(written(tmp_path, text, "r.csv"), time_step=None if "," in text and "time" in text else 0.01)
+
+
+def test_several_named_channels_with_their_units(tmp_path: Path) -> None:
+    text = "t;NS [gal];UD [g]\n" + "".join(f"{0.02 * i:.2f};{i};{i / 1000}\n" for i in range(10))
+    north, vertical = read(written(tmp_path, text, "r.csv"))
+    assert (north.component, north.azimuth, vertical.vertical) == ("NS", 0.0, True)
+    assert north.acceleration[-1] == pytest.approx(0.09) and vertical.acceleration[-1] == pytest.approx(
+        0.009 * 9.80665
+    )
+
+
+def test_wrapped_series_and_single_column(tmp_path: Path) -> None:
+    values = 0.1 * np.sin(np.arange(23))
+    wrapped = "\n".join(" ".join(f"{v:.7E}" for v in values[i : i + 5]) for i in range(0, 23, 5))
+    single = "\n".join(f"{v:.7E}" for v in values)
+    for text in (wrapped, single, "# made\n" + single, "acc\n" + single, "\ufeff" + single):
+        (record,) = read(written(tmp_path, text, "r.txt"), unit="m/s2", time_step=0.01)
+        assert np.allclose(record.acceleration, values, atol=1e-8)
+
+
+def test_declarations_are_checked(tmp_path: Path) -> None:
+    path = written(tmp_path, at2(["0.1", "0.2"]))
+    with pytest.raises(RecordError, match="unit is 'furlong'"):
+        read(path, unit="furlong")
+    with pytest.raises(RecordError, match="unit is 'g' in the file, but 'gal' was declared"):
+        read(path, unit="gal")
+    with pytest.raises(RecordError, match="time_step is -1"):
+        read(path, time_step=-1)
+    with pytest.raises(RecordError, match="response is 'partly'"):
+        read(path, response="partly")  # type: ignore[arg-type]
+    assert read(path, unit="G", time_step=0.01)[0].time_step == 0.01
+
+
+def test_a_table_with_its_own_time_step_uses_it() -> None:
+    content = "\n".join(f"{i / 50:.2f} {i % 7}" for i in range(30)).encode()
+    assert read_content(content, "r", Options(unit="gal"))[0].time_step == 0.02
