@@ -190,7 +190,7 @@ class Arch(Structure):
 
     def thrust_line(self, count: int = 200) -> np.ndarray:
         """Return the line of thrust at the onset to the positive side: (count, 2) in m, from springing to springing."""
-        line = thrust_line(self.ring, self.onset, np.linspace(*self._ends, count))
+        line = thrust_line(self.ring, self.onset, np.linspace(self._ends[0], self._ends[1], count))
         return self.radius * np.stack([line.real, line.imag], axis=1)
 
 

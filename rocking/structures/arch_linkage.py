@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rocking.structures.bars import Bars, Motion, cross
 
@@ -19,7 +20,7 @@ class Linkage:
     hinges: np.ndarray
     bars: Bars
 
-    def motion(self, rotation: np.ndarray) -> Motion:
+    def motion(self, rotation: ArrayLike) -> Motion:
         """Return the bars at `rotation` [rad], any shape, short of the dead point."""
         ab, bc, cd = self._directions(np.asarray(rotation, dtype=float))
         closing = cross(bc, cd)
@@ -69,28 +70,28 @@ class Linkage:
         diagonal = self.hinges[3] - self.hinges[1]
         return float(np.sign(cross(diagonal, self._at_rest[1])))
 
-    def inertia(self, rotation: np.ndarray) -> np.ndarray:
+    def inertia(self, rotation: ArrayLike) -> np.ndarray:
         """I = Σ m|r'|² + I_c ω², shape of `rotation`."""
         motion = self.motion(rotation)
         return _sum(self.bars.masses, np.abs(motion.velocities) ** 2) + _sum(
             self.bars.inertias, motion.spins**2
         )
 
-    def inertia_slope(self, rotation: np.ndarray) -> np.ndarray:
+    def inertia_slope(self, rotation: ArrayLike) -> np.ndarray:
         """dI/dφ = 2 Σ m r'·r'' + I_c ω ω'."""
         motion = self.motion(rotation)
         turning = _sum(self.bars.inertias, motion.spins * motion.spin_slopes)
         return 2 * (_sum(self.bars.masses, (motion.velocities.conj() * motion.accelerations).real) + turning)
 
-    def gravity(self, rotation: np.ndarray) -> np.ndarray:
+    def gravity(self, rotation: ArrayLike) -> np.ndarray:
         """G = Σ m y'."""
         return _sum(self.bars.masses, self.motion(rotation).velocities.imag)
 
-    def gravity_slope(self, rotation: np.ndarray) -> np.ndarray:
+    def gravity_slope(self, rotation: ArrayLike) -> np.ndarray:
         """dG/dφ = Σ m y''."""
         return _sum(self.bars.masses, self.motion(rotation).accelerations.imag)
 
-    def ground(self, rotation: np.ndarray) -> np.ndarray:
+    def ground(self, rotation: ArrayLike) -> np.ndarray:
         """B = Σ m x'."""
         return _sum(self.bars.masses, self.motion(rotation).velocities.real)
 

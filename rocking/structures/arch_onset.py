@@ -157,7 +157,7 @@ def thrust_line(ring: Ring, onset: Onset, sections: np.ndarray) -> np.ndarray:
     _, vertical, horizontal = onset.reaction
     load = sections + ring.embrace_angle / 2
     normal = (horizontal + onset.multiplier * load) * np.cos(sections) - (vertical - load) * np.sin(sections)
-    return (ring.contact_radius(np.float64(INTRADOS)) + gap / normal) * 1j * np.exp(-1j * sections)
+    return (ring.contact_radius(INTRADOS) + gap / normal) * 1j * np.exp(-1j * sections)
 
 
 def minimum_thickness(embrace_angle: float, voussoirs: int | None = None) -> float:

@@ -7,6 +7,7 @@ clockwise, in [−β/2, β/2]. Masses and loads are per t·r. Points are complex
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rocking.structures.bars import Bars
 
@@ -38,20 +39,18 @@ class Ring:
         count = CONTINUOUS_SECTIONS if self.voussoirs is None else self.voussoirs + 1
         return np.linspace(-self.embrace_angle / 2, self.embrace_angle / 2, count)
 
-    def contact_radius(self, contact: np.ndarray) -> np.ndarray:
+    def contact_radius(self, contact: ArrayLike) -> np.ndarray:
         """Radius of the intrados (contact = 1) or extrados (−1)."""
-        return 1 - contact * self.thickness / 2
+        return 1 - np.asarray(contact) * self.thickness / 2
 
-    def contact_points(self, section: np.ndarray, contact: np.ndarray) -> np.ndarray:
+    def contact_points(self, section: np.ndarray, contact: ArrayLike) -> np.ndarray:
         """The points of the intrados (contact = 1) or extrados (−1) on those sections, complex."""
         return self.contact_radius(contact) * 1j * np.exp(-1j * section)
 
     def sector(self, first: float, last: float) -> np.ndarray:
         """The outline of the ring between two sections, complex, an arc of points every two degrees."""
         sections = np.linspace(first, last, max(2, int((last - first) / np.radians(2)) + 2))
-        inner, outer = (
-            self.contact_points(sections, np.float64(contact)) for contact in (INTRADOS, EXTRADOS)
-        )
+        inner, outer = (self.contact_points(sections, contact) for contact in (INTRADOS, EXTRADOS))
         return np.concatenate([inner, outer[::-1]])
 
     def bars(self, edges: np.ndarray) -> Bars:

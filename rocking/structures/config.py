@@ -1,9 +1,10 @@
 """The door through which structures come in from a file: degrees and metres outside, SI and radians inside."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import yaml
@@ -36,7 +37,7 @@ class Form:
         return {**self.required, **self.optional}
 
 
-def _frame(column_breadth: float, column_height: float, **options: object) -> Frame:
+def _frame(column_breadth: float, column_height: float, **options: Any) -> Frame:
     return Frame(Block.of_size(column_breadth, column_height), **options)
 
 
@@ -151,13 +152,13 @@ def _form(kind: str, given: Mapping[str, object]) -> Form:
     return form
 
 
-def _inside(key: str, value: object) -> object:
+def _inside(key: str, value: Any) -> object:
     if key == "one_sided" and not isinstance(value, bool):
         raise ConfigurationError(f"one_sided is {value!r}, but must be true or false.")
     return np.radians(finite(StructureError, key, value, "°")) if key.endswith("_deg") else value
 
 
-def _nearest(word: object, allowed: object) -> str:
+def _nearest(word: object, allowed: Iterable[str]) -> str:
     found = get_close_matches(str(word), list(allowed), n=1, cutoff=0.5)
     return f" (did you mean {found[0]}?)" if found else ""
 
@@ -193,7 +194,7 @@ def load_structures(path: str | Path) -> dict[str, Structure]:
     return structures
 
 
-def _entries(path: Path) -> list[object]:
+def _entries(path: Path) -> list[Any]:
     try:
         entries = yaml.load(path.read_text(encoding="utf-8"), _StrictLoader)
     except OSError as error:

@@ -86,10 +86,11 @@ def contact_forces(
     At rotation 0 the positive side is taken. Tangential forces are positive towards the side it rocks to.
     Raises StructureError for a structure whose contacts are not known (a frame's are statically indeterminate).
     """
-    state = np.broadcast_arrays(rotation, angular_velocity, angular_acceleration, ground, vertical)
-    state = [np.atleast_1d(np.asarray(values, dtype=float)) for values in state]
+    given = np.broadcast_arrays(rotation, angular_velocity, angular_acceleration, ground, vertical)
+    state = [np.atleast_1d(np.asarray(values, dtype=float)) for values in given]
     sign = np.where(state[0] < 0, -1.0, 1.0)
-    return _contacts(structure, sign, *(values * sign for values in state[:4]), state[4])
+    phi, velocity, acceleration, push = (values * sign for values in state[:4])
+    return _contacts(structure, sign, phi, velocity, acceleration, push, state[4])
 
 
 @singledispatch
@@ -113,8 +114,8 @@ def _(structure: RigidBody, sign, rotation, velocity, acceleration, ground, vert
 
 
 @_contacts.register
-def _(structure: Spire, sign, *state) -> Contacts:
-    return _contacts(structure.body, sign, *state)
+def _(structure: Spire, sign, rotation, velocity, acceleration, ground, vertical) -> Contacts:
+    return _contacts(structure.body, sign, rotation, velocity, acceleration, ground, vertical)
 
 
 def _corner(across, up, rotation, velocity, acceleration, ground, vertical) -> Contacts:

@@ -5,6 +5,7 @@ starts; φ = φ₀(1 − u²) or φ = φ_cr u² takes the singularity out, and t
 No time stepping anywhere.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -45,10 +46,6 @@ def measure_equivalence(
     side: Side, amplitudes: Sequence[float], accelerations: Sequence[float]
 ) -> Equivalence:
     """Return the errors of the linearisation of `side`. Raises StructureError for a value out of range."""
-    amplitudes, accelerations = (
-        np.atleast_1d(amplitudes).astype(float),
-        np.atleast_1d(accelerations).astype(float),
-    )
     true_period = np.array([natural_period(side, ratio * side.critical_rotation) for ratio in amplitudes])
     true_time = np.array([overturning_time(side, ratio) for ratio in accelerations])
     linear_time = {
@@ -56,10 +53,10 @@ def measure_equivalence(
         for scale in SCALES
     }
     return Equivalence(
-        amplitudes=amplitudes,
+        amplitudes=np.array(amplitudes, dtype=float),
         period_ratio=np.array([block_period(side, ratio) for ratio in amplitudes]) / true_period,
         uplift_ratio=uplift_ratio(side),
-        accelerations=accelerations,
+        accelerations=np.array(accelerations, dtype=float),
         overturning_ratio={scale: times / true_time for scale, times in linear_time.items()},
     )
 
@@ -79,7 +76,7 @@ def natural_period(side: Side, amplitude: float) -> float:
     def rate(u: float) -> float:
         fallen = amplitude * u**2
         work = _WEIGHTS @ side.gravity(amplitude - fallen * _NODES)  # energy released, per g and per fallen
-        return 2 * np.sqrt(amplitude * side.inertia(np.float64(amplitude - fallen)) / (2 * GRAVITY * work))
+        return 2 * math.sqrt(amplitude * side.at("inertia", amplitude - fallen) / (2 * GRAVITY * work))
 
     return 4 * _integral(rate)
 
@@ -97,13 +94,12 @@ def overturning_time(side: Side, acceleration_ratio: float) -> float:
     critical = side.critical_rotation
 
     def work(u: float) -> float:
+        """Done by the push less taken by gravity, per g and per rotation reached."""
         reached = critical * u**2 * _NODES
-        return _WEIGHTS @ (
-            push * side.ground(reached) - side.gravity(reached)
-        )  # per g and per rotation reached
+        return float(_WEIGHTS @ (push * side.ground(reached) - side.gravity(reached)))
 
     def rate(u: float) -> float:
-        return 2 * np.sqrt(critical * side.inertia(np.float64(critical * u**2)) / (2 * GRAVITY * work(u)))
+        return 2 * math.sqrt(critical * side.at("inertia", critical * u**2) / (2 * GRAVITY * work(u)))
 
     if min(work(u) for u in np.linspace(0.0, 1.0, 33)) <= 0:
         return np.inf

@@ -40,7 +40,7 @@ class Spire(Structure):
         for name in ("width", "height"):
             object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), "m"))
         if self.wall_thickness is not None:
-            self._check_wall()
+            object.__setattr__(self, "wall_thickness", self._checked_wall(self.wall_thickness))
         if self.plan not in _SPREAD:
             raise StructureError(f"plan is {self.plan!r}, but must be one of {', '.join(_SPREAD)}.")
         crack = finite(StructureError, "crack_height", self.crack_height, "m")
@@ -52,14 +52,14 @@ class Spire(Structure):
         object.__setattr__(self, "crack_height", crack)
         check_restitution(self.restitution, ("momentum", "housner"), self.one_sided)
 
-    def _check_wall(self) -> None:
-        wall = positive(StructureError, "wall_thickness", self.wall_thickness, "m")
+    def _checked_wall(self, thickness: float) -> float:
+        wall = positive(StructureError, "wall_thickness", thickness, "m")
         if wall >= self.width / 2:
             raise StructureError(
                 f"wall_thickness is {wall!r} m, but must be less than half the width, {self.width / 2!r} m; "
                 "leave it out for a solid spire."
             )
-        object.__setattr__(self, "wall_thickness", wall)
+        return wall
 
     @property
     def half_width(self) -> float:

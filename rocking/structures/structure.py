@@ -2,8 +2,10 @@
 
 from abc import ABC, abstractmethod
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rocking.checks import within
 from rocking.errors import StructureError
@@ -29,7 +31,7 @@ class Structure(ABC):
     def _mechanism(self) -> Mechanism:
         return self._build()
 
-    def _on_side(self, rotation: float, drawing: str) -> list[np.ndarray] | np.ndarray:
+    def _on_side(self, rotation: float, drawing: str) -> Any:
         """The drawing of the positive side, or the mirror image of the mirrored structure's for a negative rotation."""
         sides = self.mechanism().sides
         lowest = 0.0 if self.mechanism().one_sided else -sides[-1].end_rotation
@@ -56,7 +58,9 @@ class Structure(ABC):
         """The contacts at a rotation ≥ 0 on the positive side."""
 
 
-def turned(points: np.ndarray, pivot: np.ndarray, rotation: float) -> np.ndarray:
+def turned(points: ArrayLike, pivot: ArrayLike, rotation: float) -> np.ndarray:
     """Return `points` (k, 2) turned clockwise by `rotation` [rad] about `pivot` (2,)."""
     cosine, sine = np.cos(rotation), np.sin(rotation)
-    return (np.asarray(points, dtype=float) - pivot) @ np.array([[cosine, -sine], [sine, cosine]]) + pivot
+    return (np.asarray(points, dtype=float) - pivot) @ np.array(
+        [[cosine, -sine], [sine, cosine]]
+    ) + np.asarray(pivot)

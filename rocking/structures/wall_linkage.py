@@ -1,6 +1,7 @@
 """The two blocks of a wall hinged between its supports, with exact derivatives (theory: section 4)."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rocking.structures.bars import Bars, Motion
 
@@ -25,9 +26,9 @@ class WallLinkage:
         lying = np.pi / 2
         self.end_rotation = float(min(lying, self.slenderness + np.arcsin(_LINKAGE_MARGIN * reach)))
 
-    def _position(self, rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    def _position(self, rotation: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """S and C of the lower half diagonal, ψ' and ψ''."""
-        angle = self.slenderness - rotation
+        angle = self.slenderness - np.asarray(rotation)
         across = self.lower_diagonal * np.sin(angle)
         up = self.lower_diagonal * np.cos(angle)
         upper_up = np.sqrt(self.upper_diagonal**2 - across**2)
@@ -39,21 +40,21 @@ class WallLinkage:
         """The lower and the upper block at rest, per mass of the wall."""
         masses = np.array([self.lower_mass, self.upper_mass]) * self.lower_diagonal
         diagonals = np.array([self.lower_diagonal, self.upper_diagonal])
-        return Bars(masses, self.motion(np.float64(0.0)).centroids, masses * diagonals**2 / 3)
+        return Bars(masses, self.motion(0.0).centroids, masses * diagonals**2 / 3)
 
-    def motion(self, rotation: np.ndarray) -> Motion:
+    def motion(self, rotation: ArrayLike) -> Motion:
         """Return the blocks at `rotation` ≥ 0, any shape; hinges at the base, between the blocks and at the top.
 
         The lower block turns clockwise about its right bottom corner, the upper one back about the left edge.
         """
-        across, up, ratio, curvature = self._position(np.asarray(rotation, dtype=float))
+        across, up, ratio, curvature = self._position(rotation)
         lower, upper = -across + 1j * up, across + 1j * np.sqrt(self.upper_diagonal**2 - across**2)
         base = self._half_thickness + np.zeros_like(lower)
         psi = self._upper_slenderness - np.arctan2(upper.real, upper.imag)
         one = np.ones_like(across)
         return Motion(
             hinges=np.stack([base, base + 2 * lower, base + 2 * lower + 2 * upper]),
-            angles=np.stack([-rotation * one, psi]),
+            angles=np.stack([-np.asarray(rotation) * one, psi]),
             spins=np.stack([-one, ratio]),
             spin_slopes=np.stack([0 * one, curvature]),
             centroids=np.stack([base + lower, base + 2 * lower + upper]),
@@ -61,7 +62,7 @@ class WallLinkage:
             accelerations=np.stack([-lower, -2 * lower + (1j * curvature - ratio**2) * upper]),
         )
 
-    def inertia(self, rotation: np.ndarray) -> np.ndarray:
+    def inertia(self, rotation: ArrayLike) -> np.ndarray:
         """4/3 m₁R₁² + 1/3 m₂R₂²ψ'² + m₂[C² + S²(2 + ψ')²]."""
         across, up, ratio, _ = self._position(rotation)
         spin = 4 / 3 * self.lower_mass * self.lower_diagonal**2
@@ -69,7 +70,7 @@ class WallLinkage:
             self.upper_diagonal**2 * ratio**2 / 3 + up**2 + (across * (2 + ratio)) ** 2
         )
 
-    def inertia_slope(self, rotation: np.ndarray) -> np.ndarray:
+    def inertia_slope(self, rotation: ArrayLike) -> np.ndarray:
         """dI/dφ, with S' = −C, C' = S."""
         across, up, ratio, curvature = self._position(rotation)
         lift = 2 + ratio
@@ -83,16 +84,16 @@ class WallLinkage:
             )
         )
 
-    def gravity(self, rotation: np.ndarray) -> np.ndarray:
+    def gravity(self, rotation: ArrayLike) -> np.ndarray:
         """S (m₁ + 2m₂ + m₂ψ')."""
         across, _, ratio, _ = self._position(rotation)
         return across * (self.lower_mass + self.upper_mass * (2 + ratio))
 
-    def gravity_slope(self, rotation: np.ndarray) -> np.ndarray:
+    def gravity_slope(self, rotation: ArrayLike) -> np.ndarray:
         """dG/dφ."""
         across, up, ratio, curvature = self._position(rotation)
         return self.upper_mass * across * curvature - up * (self.lower_mass + self.upper_mass * (2 + ratio))
 
-    def ground(self, rotation: np.ndarray) -> np.ndarray:
+    def ground(self, rotation: ArrayLike) -> np.ndarray:
         """(m₁ + m₂) C."""
         return (self.lower_mass + self.upper_mass) * self._position(rotation)[1]
