@@ -15,6 +15,9 @@ from rocking.units import acceleration_factor
 
 Response = Literal["sensitivity", "full"]
 
+_STEPS = (1e-6, 10.0)
+"""s; a step outside is a misplaced number, not a recorder."""
+
 
 @dataclass(frozen=True)
 class Options:
@@ -60,6 +63,10 @@ class Options:
                 f"{name}: time_step is not declared, neither in the file nor by the caller; give time_step=."
             )
         positive(RecordError, f"{name}: time_step", step, "s")
+        if not _STEPS[0] <= step <= _STEPS[1]:
+            raise RecordError(
+                f"{name}: time_step is {step!r} s, but must be from {_STEPS[0]:g} to {_STEPS[1]:g} s."
+            )
         if self.time_step is not None and abs(self.time_step - step) > 1e-3 * step:
             raise RecordError(
                 f"{name}: time_step is {step!r} s in the file, but {self.time_step!r} s was declared."

@@ -5,6 +5,7 @@ import numpy as np
 from rocking.errors import RecordError
 
 _LARGEST_SERIES = 4_000_000
+_SMALLEST_STEP = 1e-6
 
 
 def even_step(name: str, times: np.ndarray) -> float | None:
@@ -21,6 +22,10 @@ def even_step(name: str, times: np.ndarray) -> float | None:
             f"{name}: time {times[at + 1]:g} s follows {times[at]:g} s, but times must increase."
         )
     step = (times[-1] - times[0]) / (times.size - 1)
+    if step < _SMALLEST_STEP:
+        raise RecordError(
+            f"{name}: the times are {step:g} s apart, less than any recorder's {_SMALLEST_STEP:g} s."
+        )
     off = np.abs(times - (times[0] + step * np.arange(times.size))).max()
     quantum = _quantum(times)
     # Half a printed digit for the time itself, and as much for the line through the rounded first and last ones.

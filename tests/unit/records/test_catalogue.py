@@ -68,7 +68,8 @@ def test_the_vertical_can_be_named(folder: Path) -> None:
 
 def test_all_defects_stand_in_one_message(folder: Path) -> None:
     bad = [
-        row(id="a/b"), row(id="x" * 81), row(id="con"), row(id="same"), row(id="SAME"), row(id="..", scale_factor="1_0"),
+        row(id="a/b"), row(id="x" * 81), row(id="con"), row(id="same"), row(id="SAME"),
+        row(id="..", scale_factor="1_0"),
         row(id="unit", unit="furlong"), row(id="step", time_step_s="0"), row(id="scale", scale_factor="0"),
         row(id="nan", high_pass_hz="nan"), row(id="sha", sha256="ABC"), row(id="out", file="../table.csv"),
         row(id="abs", file="/etc/passwd"), row(id="drive", file="c:\\x"), row(id="none", file=""),

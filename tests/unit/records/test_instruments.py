@@ -1,0 +1,173 @@
+"""Formats that obspy opens for us: miniSEED with StationXML, SAC, EVT; directions, and the obspy plug-ins."""
+
+import io
+from importlib.metadata import entry_points
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rocking.errors import RecordError, UndeclaredError
+from rocking.records import read
+from rocking.records.directions import azimuth, is_vertical
+from rocking.records.formats import FORMATS
+from rocking.records.obspy_plugin import PLUGINS
+from rocking.records.synthetic import BUNDLED, at2_text, synthetic_record
+
+XML = """<?xml version="1.0" encoding="UTF-8"?>
+<FDSNStationXML xmlns="http://www.fdsn.org/xml/station/1" schemaVersion="1.1"><Source>made</Source>
+<Created>2020-01-01T00:00:00</Created><Network code="XX"><Station code="MADE">
+<Latitude>1</Latitude><Longitude>2</Longitude><Elevation>0</Elevation><Site><Name>Made</Name></Site>
+<Channel code="HNE" locationCode="" startDate="2000-01-01T00:00:00"><Latitude>1</Latitude><Longitude>2</Longitude>
+<Elevation>0</Elevation><Depth>0</Depth><Azimuth>72</Azimuth><Dip>0</Dip><SampleRate>100</SampleRate>
+<Response><InstrumentSensitivity><Value>200000</Value><Frequency>1</Frequency><InputUnits><Name>{units}</Name></InputUnits>
+<OutputUnits><Name>COUNTS</Name></OutputUnits></InstrumentSensitivity><Stage number="1"><PolesZeros>
+<InputUnits><Name>{units}</Name></InputUnits><OutputUnits><Name>COUNTS</Name></OutputUnits>
+<PzTransferFunctionType>LAPLACE (RADIANS/SECOND)</PzTransferFunctionType>
+<NormalizationFactor>1</NormalizationFactor><NormalizationFrequency>1</NormalizationFrequency></PolesZeros>
+<StageGain><Value>200000</Value><Frequency>1</Frequency></StageGain></Stage></Response></Channel></Station></Network>
+</FDSNStationXML>"""
+
+COUNTS = np.round(1e5 * np.sin(np.arange(4000) / 30) * np.hanning(4000)).astype(np.int32) + 777
+
+
+def trace(start: str = "2020-01-01", counts: np.ndarray = COUNTS):
+    obspy = pytest.importorskip("obspy")
+    header = {
+        "network": "XX",
+        "station": "MADE",
+        "channel": "HNE",
+        "delta": 0.01,
+        "starttime": obspy.UTCDateTime(start),
+    }
+    return obspy.Trace(counts, header=header)
+
+
+@pytest.fixture
+def miniseed(tmp_path: Path) -> Path:
+    trace().write(str(tmp_path / "record.mseed"), format="MSEED")
+    return tmp_path / "record.mseed"
+
+
+def test_counts_are_divided_by_the_sensitivity_found_beside_them(miniseed: Path) -> None:
+    (miniseed.parent / "other.xml").write_text("<xml/>")
+    (miniseed.parent / "station.xml").write_text(XML.format(units="M/S**2"))
+    (record,) = read(miniseed)
+    assert np.allclose(record.acceleration, (COUNTS - COUNTS.mean()) / 200000, atol=1e-12)
+    assert (record.component, record.azimuth, record.network, record.station) == ("HNE", 72.0, "XX", "MADE")
+    assert "overall sensitivity 200000" in record.processing[0] and record.start_time.startswith("2020-01-01")
+
+
+def test_the_full_response_is_removed_to_acceleration(miniseed: Path) -> None:
+    """A flat accelerometer gives the same either way; a velocity meter's counts are differentiated."""
+    flat = miniseed.parent / "station.xml"
+    flat.write_text(XML.format(units="M/S**2"))
+    (by_sensitivity,), (full,) = read(miniseed), read(miniseed, response="full")
+    middle = slice(500, 3500)
+    # the band's lower edge, 0.05 Hz, is a tenth of the signal's 0.53 Hz
+    assert np.abs(full.acceleration - by_sensitivity.acceleration)[middle].max() < 0.01
+    flat.write_text(XML.format(units="M/S"))
+    (differentiated,) = read(miniseed)
+    assert "full instrument response" in differentiated.processing[0]
+    expected = np.gradient(COUNTS / 200000, 0.01)
+    assert np.abs(differentiated.acceleration - expected)[middle].max() < 0.02 * np.abs(expected).max()
+
+
+def test_counts_without_an_instrument_are_refused(miniseed: Path) -> None:
+    trace(counts=COUNTS // 1000).write(str(miniseed), format="MSEED")
+    with pytest.raises(RecordError, match=r"no single StationXML describes XX\.MADE"):
+        read(miniseed)
+    assert read(miniseed, unit="gal")[0].source.unit == "gal"
+    for name in ("a.xml", "b.xml"):
+        (miniseed.parent / name).write_text(XML.format(units="M/S**2"))
+    with pytest.raises(RecordError, match=r"several do: a\.xml, b\.xml"):
+        read(miniseed)
+    assert read(miniseed, inventory=miniseed.parent / "a.xml")[0].azimuth == 72
+
+
+@pytest.mark.parametrize(("xml", "message"), [
+    ("", "not a plain StationXML"), ("<FDSNStationXML", "damaged"), ('<!DOCTYPE x><FDSNStationXML/>', "not a plain"),
+    (XML.format(units="M/S**2").replace("2000-01-01", "2030-01-01"), "no response of XX.MADE"),
+])  # fmt: skip
+def test_inventories_that_do_not_serve(miniseed: Path, xml: str, message: str) -> None:
+    path = miniseed.parent / "given.xml"
+    path.write_text(xml)
+    with pytest.raises(RecordError, match=message):
+        read(miniseed, inventory=path)
+
+
+def test_a_gap_is_refused_with_its_place(miniseed: Path) -> None:
+    obspy = pytest.importorskip("obspy")
+    stream = obspy.Stream([trace(), trace("2020-01-01T00:01:00")])
+    stream.write(str(miniseed), format="MSEED")
+    with pytest.raises(RecordError, match="has a gap at 40 s"):
+        read(miniseed, unit="gal")
+
+
+def test_sac_needs_a_unit_and_loses_its_offset(tmp_path: Path) -> None:
+    path = tmp_path / "record.sac"
+    trace(counts=(COUNTS / 1e6).astype(np.float32)).write(str(path), format="SAC")
+    with pytest.raises(UndeclaredError, match="unit"):
+        read(path)
+    (record,) = read(path, unit="m/s2")
+    assert record.time_step == 0.01 and abs(record.acceleration.mean()) < 1e-9
+    with pytest.raises(RecordError):
+        path.write_bytes(path.read_bytes()[:-8])
+        read(path, unit="m/s2")
+
+
+def test_obspys_own_records() -> None:
+    """AKT013: the header of the file states 4.383 gal. STNA: 63 365 counts of 2.5 V / 2.5025 V/g / 2²³."""
+    from obspy.core.util.base import get_example_file
+
+    (akita,) = read(get_example_file("test.knet"))
+    assert (akita.station, akita.component, akita.time_step) == ("AKT013", "E-W", 0.01)
+    assert (
+        akita.peak_acceleration == pytest.approx(0.04383, abs=5e-6)
+        and akita.start_time == "1996-08-10T18:12:24Z"
+    )
+    channels = read(get_example_file("STNA.20020722.044649.evt.gz"))
+    assert [(c.component, c.vertical) for c in channels] == [("X", False), ("Y", False), ("Z", True)]
+    stated = 63364.613 * 2.5 / 2.502500057 / 2**23 * 9.80665
+    assert channels[0].peak_acceleration == pytest.approx(stated, rel=1e-6) and channels[0].time_step == 0.004
+
+
+@pytest.mark.parametrize(("name", "degrees", "vertical"), [
+    ("228", 228.0, False), ("360", 0.0, False), ("090", 90.0, False), ("N26W", 334.0, False), ("S62W", 242.0, False),
+    ("N00E", 0.0, False), ("S10E", 170.0, False), ("E-W", 90.0, False), ("NS", 0.0, False), ("HNE", 90.0, False),
+    ("HGZ", None, True), ("-UP", None, True), ("up", None, True), ("U-D", None, True), ("V", None, True),
+    ("T3", None, False), ("Long", None, False), ("", None, False), ("400", None, False), ("HN1", None, False),
+])  # fmt: skip
+def test_directions(name: str, degrees: float | None, vertical: bool) -> None:
+    assert (azimuth(name), is_vertical(name)) == (degrees, vertical)
+
+
+def test_obspy_finds_our_plug_ins(tmp_path: Path) -> None:
+    obspy = pytest.importorskip("obspy")
+    path = tmp_path / "record.at2"
+    path.write_text(at2_text(BUNDLED[0]))
+    (found,) = obspy.read(str(path))
+    assert found.stats._format == "PEER_AT2" and found.stats.delta == 0.005
+    assert np.abs(found.data - synthetic_record(BUNDLED[0]).acceleration).max() < 1e-6
+    (again,) = obspy.read(str(path), format="PEER_AT2")
+    assert np.array_equal(again.data, found.data)
+
+
+def test_every_plug_in_is_declared_and_refuses_quietly(tmp_path: Path) -> None:
+    declared = {
+        point.name for point in entry_points(group="obspy.plugin.waveform") if "rocking" in point.value
+    }
+    assert declared == set(PLUGINS) and set(PLUGINS.values()) <= {form.name for form in FORMATS}
+    rubbish = tmp_path / "rubbish"
+    rubbish.write_bytes(b"\x1f\x8b\xff\x00nonsense")
+
+    class Broken(io.RawIOBase):
+        def read(self, *_: object) -> bytes:
+            raise OSError("gone")
+
+    for name in PLUGINS:
+        group = entry_points(group=f"obspy.plugin.waveform.{name}")
+        is_format = group["isFormat"].load()
+        assert callable(group["readFormat"].load())
+        for source in (str(rubbish), rubbish, io.BytesIO(b""), tmp_path / "none", Broken(), None, 7):
+            assert is_format(source) is False

@@ -1,0 +1,155 @@
+"""Processing: each step against its own mathematics, recorded, off by default for processed records."""
+
+import numpy as np
+import pytest
+
+from rocking.errors import RecordError
+from rocking.records import Accelerogram
+from rocking.records.processing import (
+    UNPROCESSED_DEFAULT,
+    Processing,
+    displacement,
+    process,
+    variants,
+    velocity,
+)
+from rocking.records.synthetic import BUNDLED, synthetic_record
+
+DT = 0.01
+
+
+def record(values: np.ndarray, **fields) -> Accelerogram:
+    return Accelerogram(values, DT, **fields)
+
+
+def sine(frequency: float, seconds: float = 40.0) -> np.ndarray:
+    return np.sin(2 * np.pi * frequency * np.arange(0, seconds, DT))
+
+
+def test_nothing_is_done_to_a_processed_record_unless_asked() -> None:
+    raw, done = record(0.5 + sine(1.0)), record(0.5 + sine(1.0), processed=True)
+    assert process(done) is done
+    treated = process(raw)
+    assert len(treated.processing) == 3 and abs(treated.acceleration.mean()) < 0.01
+    assert np.array_equal(process(done, UNPROCESSED_DEFAULT).acceleration, treated.acceleration)
+    assert process(raw, Processing()) is raw
+
+
+def test_pre_event_mean() -> None:
+    values = np.concatenate([np.full(200, 0.3), 0.3 + sine(1.0)])
+    treated = process(record(values), Processing(pre_event=2.0))
+    assert np.abs(treated.acceleration[:200]).max() < 1e-15
+    assert "0.3 m/s²" in treated.processing[0] and "first 2 s" in treated.processing[0]
+
+
+def test_a_line_is_removed_exactly_and_only_a_line() -> None:
+    t = np.arange(4000) * DT
+    treated = process(record(0.2 - 0.01 * t), Processing(baseline="linear"))
+    assert np.abs(treated.acceleration).max() < 1e-13
+    expected = np.polynomial.Polynomial.fit(t, sine(0.7) ** 3, 1)
+    assert np.allclose(process(record(sine(0.7) ** 3), Processing(baseline="linear")).acceleration,
+                       sine(0.7) ** 3 - expected(t), atol=1e-12)  # fmt: skip
+
+
+@pytest.mark.parametrize(("setting", "passed", "stopped"), [
+    ({"high_pass": 0.5}, 4.0, 0.05), ({"low_pass": 5.0}, 0.5, 40.0),
+])  # fmt: skip
+def test_filters_pass_without_shift_and_halve_at_the_corner(
+    setting: dict, passed: float, stopped: float
+) -> None:
+    """Run both ways a Butterworth filter has gain 1/(1 + (f/f_c)^2n) and no phase: a half at its corner."""
+    middle = slice(1500, 2500)
+    corner = next(iter(setting.values()))
+    order, nyquist = 4, 0.5 / DT
+
+    def warped(f: float) -> float:
+        return np.tan(np.pi * f / (2 * nyquist))  # the bilinear transform bends frequencies so
+
+    for frequency in (passed, corner, stopped):
+        wave = sine(frequency)
+        got = process(record(wave), Processing(**setting)).acceleration[middle]
+        ratio = warped(frequency) / warped(corner)
+        gain = 1 / (1 + (ratio if "low_pass" in setting else 1 / ratio) ** (2 * order))
+        # what the ends of the record leave in its middle after five cycles of the corner
+        assert np.abs(got - gain * wave[middle]).max() < 2e-3
+
+
+def test_padding_is_stripped_unless_kept() -> None:
+    values = sine(1.0)
+    assert process(record(values), Processing(high_pass=0.1)).acceleration.size == values.size
+    kept = process(record(values), Processing(high_pass=0.1, keep_padding=True))
+    assert kept.acceleration.size == values.size + 2 * int(1.5 * 4 / 0.1 / DT)
+    # With its zeros kept a high-passed record ends at rest: 1e-6 of the largest velocity of the wave, 1/(2π) m/s.
+    assert abs(velocity(kept)[-1]) < 1e-3 * 0.16
+    assert kept.high_pass_frequency == 0.1
+
+
+def test_taper() -> None:
+    window = process(record(np.ones(1000)), Processing(taper=0.1)).acceleration
+    assert window[0] == 0 and window[-1] == 0 and np.all(window[100:900] == 1)
+    assert np.allclose(window[:100], 0.5 * (1 - np.cos(np.pi * np.arange(100) / 100)))
+    assert np.array_equal(window, window[::-1])
+
+
+def test_resampling() -> None:
+    wave = record(sine(1.0))
+    finer = process(wave, Processing(time_step=DT / 2))
+    assert np.array_equal(finer.acceleration[::2], wave.acceleration) and finer.time_step == DT / 2
+    coarser = process(record(sine(1.0) + sine(45.0)), Processing(time_step=0.02))
+    middle = slice(500, 1500)
+    # 45 Hz would fold to 5 Hz at full amplitude; the low-pass leaves less than a thousandth
+    assert np.abs(coarser.acceleration[middle] - sine(1.0)[::2][middle]).max() < 1e-3
+    assert "aliasing" in coarser.processing[0]
+
+
+def test_adaptive_baseline_removes_a_step_of_tilt() -> None:
+    """A tilt during shaking shifts the baseline for good: velocity drifts; the adaptive baseline finds it again."""
+    clean = synthetic_record(BUNDLED[0]).acceleration
+    n = clean.size
+    tilted = clean + np.where(np.arange(n) > n // 3, 0.02, 0.0)
+    made = Accelerogram(np.concatenate([np.zeros(400), tilted, np.full(2000, 0.02)]), 0.005)
+    truth = Accelerogram(np.concatenate([np.zeros(400), clean, np.zeros(2000)]), 0.005)
+    treated = process(made, Processing(baseline="adaptive"))
+    drift, left = abs(velocity(made)[-1] - velocity(truth)[-1]), abs(velocity(treated)[-1])
+    assert drift > 0.4 and left < 0.05 * drift
+    assert "drift of velocity fitted before" in treated.processing[0]
+    # the peak is the structure's business: it changes by no more than the offset itself, twice over
+    assert abs(treated.peak_acceleration - truth.peak_acceleration) < 0.04
+
+
+def test_velocity_and_displacement_by_trapezoid() -> None:
+    from scipy.integrate import cumulative_trapezoid
+
+    wave = record(sine(0.8))
+    assert np.allclose(velocity(wave), cumulative_trapezoid(wave.acceleration, dx=DT, initial=0), atol=1e-12)
+    assert np.allclose(displacement(wave), cumulative_trapezoid(velocity(wave), dx=DT, initial=0), atol=1e-12)
+    constant = record(np.full(101, 2.0))
+    assert velocity(constant)[-1] == pytest.approx(2.0) and displacement(constant)[-1] == pytest.approx(1.0)
+
+
+def test_variants_differ_and_all_run() -> None:
+    wave = Accelerogram(
+        np.concatenate([np.zeros(300), synthetic_record(BUNDLED[1]).acceleration + 0.01]), 0.01
+    )
+    results = {name: process(wave, settings) for name, settings in variants().items()}
+    assert {"as read", "adaptive baseline", "high-pass 0.1 Hz"} <= set(results) and len(results) == 7
+    assert len({result.sha256 for result in results.values()}) == 7
+
+
+@pytest.mark.parametrize(("settings", "field"), [
+    ({"pre_event": 0.0}, "pre_event"), ({"high_pass": -1.0}, "high_pass"), ({"low_pass": float("nan")}, "low_pass"),
+    ({"taper": 0.6}, "taper"), ({"order": 0}, "order"), ({"order": 2.5}, "order"), ({"baseline": "magic"}, "baseline"),
+    ({"high_pass": 3.0, "low_pass": 2.0}, "high_pass"), ({"time_step": 0.0}, "time_step"),
+])  # fmt: skip
+def test_settings_out_of_range(settings: dict, field: str) -> None:
+    with pytest.raises(RecordError, match=field):
+        Processing(**settings)
+
+
+@pytest.mark.parametrize(("settings", "message"), [
+    ({"pre_event": 50.0}, "pre_event"), ({"low_pass": 60.0}, "Nyquist"), ({"time_step": 1e-9}, "samples"),
+    ({"time_step": 100.0}, "samples"),
+])  # fmt: skip
+def test_settings_that_do_not_fit_the_record(settings: dict, message: str) -> None:
+    with pytest.raises(RecordError, match=message):
+        process(record(sine(1.0)), Processing(**settings))

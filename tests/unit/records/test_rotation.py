@@ -1,0 +1,65 @@
+"""Rotation: against the vector that was recorded, for any pair of azimuths."""
+
+import numpy as np
+import pytest
+
+from rocking.errors import RecordError
+from rocking.records import Accelerogram
+from rocking.records.rotation import rotate, rotated_peaks
+
+RNG = np.random.default_rng(1)
+NORTH, EAST = RNG.standard_normal(500), RNG.standard_normal(500)
+
+
+def component(azimuth: float | None, n: int = 500, **fields) -> Accelerogram:
+    angle = np.radians(azimuth or 0.0)
+    values = (NORTH * np.cos(angle) + EAST * np.sin(angle))[:n]
+    return Accelerogram(values, 0.01, azimuth=azimuth, **fields)
+
+
+@pytest.mark.parametrize(("one", "two"), [(0, 90), (228, 318), (318, 228), (260, 345), (334, 64), (10, 150)])
+@pytest.mark.parametrize("wanted", [0, 37, 90, 209, 300])
+def test_any_pair_gives_the_same_motion(one: float, two: float, wanted: float) -> None:
+    turned = rotate(component(one), component(two), wanted)
+    assert np.allclose(turned.acceleration, component(wanted).acceleration, atol=1e-12)
+    assert turned.azimuth == wanted and "Rotated from" in turned.processing[-1]
+
+
+def test_unequal_lengths_are_cut_and_told() -> None:
+    turned = rotate(component(0), component(90, n=490), 45)
+    assert turned.acceleration.size == 490 and "490 and 500" in turned.warnings[-1]
+
+
+def test_peaks_over_directions() -> None:
+    # a motion along 60° alone: RotD100 is its peak, and the median over directions that of |cos|, 1/√2
+    wave = np.sin(np.linspace(0, 20, 400))
+    first = Accelerogram(wave * np.cos(np.radians(60)), 0.01, azimuth=0)
+    second = Accelerogram(wave * np.sin(np.radians(60)), 0.01, azimuth=90)
+    peaks = rotated_peaks(first, second)
+    assert peaks.azimuth == 60 and peaks.rotd100 == pytest.approx(np.abs(wave).max())
+    assert peaks.rotd50 == pytest.approx(
+        np.abs(wave).max() / np.sqrt(2), rel=0.01
+    )  # 1° steps: half a degree of slope
+    oblique = rotated_peaks(component(260), component(345))
+    assert oblique.rotd100 == pytest.approx(rotated_peaks(component(0), component(90)).rotd100)
+    assert rotated_peaks(component(None), component(None)).rotd100 > 0
+
+
+@pytest.mark.parametrize(("first", "second", "message"), [
+    (component(0), component(10), "must differ by 30"),
+    (component(0), component(181), "must differ by 30"),
+    (component(None), component(90), "no known azimuth"),
+    (component(0), component(90, vertical=True), "vertical"),
+    (component(0, start_time="a"), component(90, start_time="b"), "must start together"),
+    (component(0), Accelerogram(NORTH, 0.02, azimuth=90), "time_step"),
+])  # fmt: skip
+def test_pairs_that_do_not_fit(first: Accelerogram, second: Accelerogram, message: str) -> None:
+    with pytest.raises(RecordError, match=message):
+        rotate(first, second, 30)
+
+
+def test_a_direction_must_be_a_number() -> None:
+    with pytest.raises(RecordError, match="azimuth is nan"):
+        rotate(component(0), component(90), float("nan"))
+    with pytest.raises(RecordError, match="step is 0"):
+        rotated_peaks(component(0), component(90), step=0)
