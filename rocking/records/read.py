@@ -3,6 +3,8 @@
 import hashlib
 import zlib
 from dataclasses import replace
+from errno import EINVAL
+from os import fstat
 from pathlib import Path
 
 from rocking.errors import RecordError, UnknownFormatError
@@ -101,10 +103,13 @@ def unpacked(raw: bytes, name: str) -> bytes:
 
 
 def bytes_of(path: Path) -> bytes:
-    """Return the bytes of a file. Raises RecordError when it is missing or larger than any accelerogram."""
+    """Return the bytes of a regular file. Raises RecordError when it is missing or larger than any accelerogram."""
     try:
+        if path.exists() and not path.is_file():
+            raise OSError(EINVAL, "it is no regular file")
         with path.open("rb") as stream:
-            raw = stream.read(LARGEST_FILE + 1)
+            size = fstat(stream.fileno()).st_size
+            raw = stream.read(min(size, LARGEST_FILE) + 1)  # a larger limit would be allocated whole
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise RecordError(

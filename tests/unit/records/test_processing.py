@@ -129,7 +129,7 @@ def test_velocity_and_displacement_by_trapezoid() -> None:
 
 def test_variants_differ_and_all_run() -> None:
     wave = Accelerogram(
-        np.concatenate([np.zeros(300), synthetic_record(BUNDLED[1]).acceleration + 0.01]), 0.01
+        np.concatenate([np.zeros(300), synthetic_record(BUNDLED[1]).acceleration]) + 0.01, 0.01
     )
     results = {name: process(wave, settings) for name, settings in variants().items()}
     assert {"as read", "adaptive baseline", "high-pass 0.1 Hz"} <= set(results) and len(results) == 7
