@@ -82,6 +82,16 @@ def _uplift_sine(lift, one_sided, amplitude, omega, gravity, tau):
 
 
 @compiled
+def _place(grid, arc):
+    """Index of the piece that holds an arc, its centre, and the room beyond it."""
+    if arc < grid[0]:
+        j = max(int(arc / grid[1]), 0)
+        return j, (j + 0.5) * grid[1], grid[3]
+    j = int(min((arc - grid[0]) / grid[4], grid[5] - 1))
+    return int(grid[2]) + j, grid[0] + (j + 0.5) * grid[4], grid[6]
+
+
+@compiled
 def _shift(e0, e1, e2, e3, e4, e5, e6, e7, u):
     """Taylor coefficients 0 to 6, about u, of the polynomial with the coefficients e0 to e7 about 0."""
     a0 = e0 + u * (e1 + u * (e2 + u * (e3 + u * (e4 + u * (e5 + u * (e6 + u * e7))))))
@@ -267,13 +277,13 @@ def _write(log, logged, time, arc, speed):
 
 @compiled
 def rock(
-    pieces, width, lift, hold, critical, end, restitution, rest_speed, pace, one_sided,
+    pieces, grid, lift, hold, critical, end, restitution, rest_speed, pace, one_sided,
     ground, gravity, threat, still, time_step, omega, arc, speed, side, tolerance, log,
 ):  # fmt: skip
     """Follow a mechanism through a ground motion and on until no larger peak can come.
 
-    pieces: (k, m, 16), G̃ and B̃ alternating, by power of the distance from the centre of a piece of `width` (k,);
-    lift: (k, 2) G̃(0), B̃(0); hold: (k, m) the ground acceleration, in units of gravity, that cannot bring it back from
+    pieces: (k, m, 16), G̃ and B̃ alternating, by power of the distance from the centre of a piece; grid: (k, 7) end of the
+    inner zone, then width, count and room of the pieces of the inner and of the outer zone; lift: (k, 2) G̃(0), B̃(0); hold: (k, m) the ground acceleration, in units of gravity, that cannot bring it back from
     that piece or beyond; pace: (k,) s, longest step; the rest per side. ground, gravity, threat: (n,) samples of ü_g,
     g + ü_v, and the largest |ü_g|/(g + ü_v) from there on; still: g after the record; with omega > 0 ground[0] is the amplitude of a sine of one
     period time_step. Returns status, peak arcs (2,), their times (2,), impacts, uplift time, last side, steps, logged.
@@ -318,11 +328,11 @@ def rock(
                 a1 = (ground[i + 1] - ground[i]) / time_step
                 g1 = (gravity[i + 1] - gravity[i]) / time_step
                 a0, g0 = ground[i] + tau * a1, gravity[i] + tau * g1
-        j = min(max(int(arc / width[k]), 0), pieces.shape[1] - 1)
-        x = _series(pieces[k, j], arc - (j + 0.5) * width[k], speed, side, a0, a1, g0, g1, square)
+        j, centre, room = _place(grid[k], arc)
+        x = _series(pieces[k, j], arc - centre, speed, side, a0, a1, g0, g1, square)
         if arc == 0 and speed == 0 and x[1] < 0:  # uplift where the acceleration is zero to rounding
             x = (x[0], 0.0, x[2], x[3], x[4], x[5], x[6], x[7])
-        h = _stride(x, min(left, pace[k]), 0.25 * width[k], arc, reach, haste, tolerance)
+        h = _stride(x, min(left, pace[k]), room, arc, reach, haste, tolerance)
         steps += 1
         new, pull = arc + _displacement(x, h), _speed(x, h)
         start = i * time_step + tau
@@ -356,7 +366,7 @@ def rock(
             if keep:
                 logged = _write(log, logged, start + h, side * arc, side * speed)
             if arc > critical[k] and speed > 0:
-                j = min(int(arc / width[k]), pieces.shape[1] - 1)
+                j, _, _ = _place(grid[k], arc)
                 if arc >= end[k] or hold[k, j] > (threat[i] if i < count else 0.0):
                     status = OVERTURNS
                     break

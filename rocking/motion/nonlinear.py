@@ -20,7 +20,7 @@ def follow(
     table: Table, forcing: Forcing, tolerance: float, start: tuple[float, float, int], history: bool
 ) -> Response:
     """Integrate the table's mechanism through the forcing. start: rotation, rate outward, side (0: at rest)."""
-    pieces, width, lift, hold, critical, end, restitution, reaching, pace = table.arrays
+    pieces, grid, lift, hold, critical, end, restitution, reaching, pace = table.arrays
     rotation, velocity, sign = start
     side = table.side(sign)
     if sign and not float(side.arc(np.float64(min(rotation, 1e300)))) < side.end:
@@ -30,7 +30,7 @@ def follow(
         pace = np.minimum(pace, 1 / forcing.frequency)
     found, log = logged_run(
         kernel.rock,
-        (pieces, width, lift, hold, critical, end, restitution, reaching * math.sqrt(kernel.REST_ENERGY), pace)
+        (pieces, grid, lift, hold, critical, end, restitution, reaching * math.sqrt(kernel.REST_ENERGY), pace)
         + (table.one_sided, forcing.ground, forcing.gravity, forcing.threat, GRAVITY, forcing.time_step)
         + (forcing.frequency, float(side.arc(np.float64(rotation))), velocity * stretch, sign, tolerance),
         forcing.ground.size if history else 0,

@@ -1,7 +1,7 @@
 """A Mechanism as the kernel sees it: piecewise polynomials of the arc, one table per side.
 
-The arc q = ∫ √(I(φ)/I(0)) dφ measures rotation so that the kinetic energy is I(0) q'²/2 and the term J φ'² drops out
-of the equation of motion (theory: section 1; J = I'/2). For a rigid body I is constant and q = φ.
+In the arc q the term J φ'² drops out of the equation of motion (J = I'/2), and what is left of it is
+G̃ = G/√(I I(0)) and B̃ = B/√(I I(0)). For a rigid body I is constant and q = φ.
 """
 
 from collections.abc import Callable
@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.polynomial import chebyshev
 
 from rocking.errors import MotionError
+from rocking.motion.arc import arc_of
 from rocking.structures.mechanism import EquivalentBlock, Function, Mechanism, Side
 from rocking.units import GRAVITY
 
@@ -19,39 +19,54 @@ DEGREE = 7
 ACCURACY = 1e-12
 """Largest error of a table, relative to the largest magnitude of the quantity."""
 
-_AIM = 2e-15
+ROOM = 0.25
+"""A piece is accurate up to this share of its width beyond its ends; a step goes no further."""
+
+_AIM = 2e-14
 _MOST_PIECES = 4096
 _NODES = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
-_TO_POWERS = np.linalg.inv(np.vander(_NODES, increasing=True))
-_ENDS = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.4)
-"""Shares of the range that may be cut off its end, where a mechanism locks and its inertia has no bound."""
+_CUTS = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.4)
+"""Shares that may be cut off beyond φ_cr, where a mechanism locks and its inertia has no bound."""
 
 
 @dataclass(frozen=True, eq=False)
 class SideTable:
-    """One side: G̃ and B̃ by powers of the distance from the centre of each of m pieces over [0, end].
+    """One side, in two zones of equal pieces: an inner one up to 2 φ_cr, and an outer one up to the end.
 
-    pieces: (m, 16), G̃ and B̃ alternating. width and end: of a piece and of the table, in arc. lift: G̃(0), B̃(0).
-    hold: (m,) smallest −G/|B| from that piece on: a smaller ground acceleration, in g, cannot bring the side back.
+    pieces: (m, 16) G̃ and B̃ alternating, by power of the distance from the centre of each piece.
+    ratios: (m, 8) φ/q likewise. grid: end of the inner zone; then width, count and room of each zone's pieces.
+    hold: (m,) smallest −G/|B| from each piece on: a smaller ground acceleration, in g, cannot bring the side back.
+    critical, end: in arc. lift: G̃(0), B̃(0). reaching_speed: along the arc at φ = 0, just reaches φ_cr, rad/s.
+    pace: longest step, s. arc and stretch: q and dq/dφ at a rotation.
     """
 
     pieces: np.ndarray
-    width: float
-    end: float
-    critical: float
-    lift: tuple[float, float]
+    ratios: np.ndarray
+    grid: tuple[float, float, float, float, float, float, float]
     hold: np.ndarray
+    critical: float
+    end: float
+    lift: tuple[float, float]
     restitution: float
-    rest_speed_scale: float
-    """Speed along the arc at φ = 0 that just reaches φ_cr, rad/s."""
+    reaching_speed: float
     pace: float
     critical_rotation: float
-    rotation: Function
-    """Rotation [rad] at an arc."""
     arc: Function
-    """Arc at a rotation [rad]."""
     stretch: Function
-    """dq/dφ at a rotation [rad]."""
+
+    def rotation(self, arc: np.ndarray) -> np.ndarray:
+        """Return the rotation [rad] at `arc`, any shape, within the table."""
+        arc = np.asarray(arc, dtype=float)
+        split, inner, inner_count, _, outer, outer_count, _ = self.grid
+        within = np.clip((arc / inner).astype(int), 0, int(inner_count) - 1)
+        beyond = np.clip(((arc - split) / outer).astype(int), 0, int(outer_count) - 1)
+        inside = arc < split
+        centre = np.where(inside, (within + 0.5) * inner, split + (beyond + 0.5) * outer)
+        row = self.ratios[np.where(inside, within, int(inner_count) + beyond)]
+        ratio = row[..., -1]
+        for power in range(DEGREE - 1, -1, -1):
+            ratio = row[..., power] + (arc - centre) * ratio
+        return arc * ratio
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +76,7 @@ class Table:
     sides: tuple[SideTable, ...]
     one_sided: bool
     arrays: tuple[np.ndarray, ...]
-    """pieces, width, lift, hold, critical, end, restitution, speed that reaches φ_cr, pace."""
+    """pieces, grid, lift, hold, critical, end, restitution, reaching_speed, pace."""
 
     def side(self, sign: int) -> SideTable:
         """The table of the side of this sign."""
@@ -83,106 +98,89 @@ def linear_table(block: EquivalentBlock) -> Table:
 
 def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
     most = max(side.pieces.shape[0] for side in sides)
-    pieces = np.zeros((len(sides), most, 2 * DEGREE + 2))
-    hold = np.zeros((len(sides), most))
+    pieces, hold = np.zeros((len(sides), most, 2 * DEGREE + 2)), np.zeros((len(sides), most))
     for k, side in enumerate(sides):
-        count = side.pieces.shape[0]
-        pieces[k, :count], hold[k, :count] = side.pieces, side.hold
-        # Beyond its own last piece a side goes on as that piece does.
-        for j in range(count, most):
-            pieces[k, j], hold[k, j] = _moved(side.pieces[-1], (j - count + 1) * side.width), side.hold[-1]
-    columns = [
-        np.array([getattr(side, name) for side in sides])
-        for name in ("width", "lift", "critical", "end", "restitution", "rest_speed_scale", "pace")
-    ]
-    width, lift, critical, end, restitution, speed, pace = columns
-    return Table(sides, one_sided, (pieces, width, lift, hold, critical, end, restitution, speed, pace))
-
-
-def _moved(piece: np.ndarray, distance: float) -> np.ndarray:
-    moved = np.empty_like(piece)
-    for odd in range(2):
-        polynomial = np.polynomial.Polynomial(piece[odd::2])
-        shifted = polynomial(np.polynomial.Polynomial([distance, 1.0])).coef
-        moved[odd::2] = np.pad(shifted, (0, DEGREE + 1 - shifted.size))
-    return moved
+        pieces[k, : side.hold.size], hold[k, : side.hold.size] = side.pieces, side.hold
+    names = ("grid", "lift", "critical", "end", "restitution", "reaching_speed", "pace")
+    grid, lift, *others = (np.array([getattr(side, name) for side in sides], dtype=float) for name in names)
+    return Table(sides, one_sided, (pieces, grid, lift, hold, *others))
 
 
 def _linear_side(block: EquivalentBlock) -> SideTable:
     square = block.frequency_parameter**2 / GRAVITY
     critical, scale = block.critical_rotation, block.acceleration_scale
-    width, count = critical / 8, 512
-    centres = (np.arange(count) + 0.5) * width
-    pieces = np.zeros((count, 2 * DEGREE + 2))
-    pieces[:, 0], pieces[:, 2], pieces[:, 1] = square * (critical - centres), -square, square * scale
+    width, count = critical / 8, 513  # the last one is the outer zone, which has no end
+    starts = np.arange(count) * width
+    pieces, ratios = np.zeros((count, 2 * DEGREE + 2)), np.zeros((count, DEGREE + 1))
+    pieces[:, 0], pieces[:, 2], pieces[:, 1] = square * (critical - starts - width / 2), -square, square * scale
+    ratios[:, 0] = 1.0
     return SideTable(
         pieces=pieces,
-        width=width,
-        end=np.inf,
+        ratios=ratios,
+        grid=(starts[-1], width, count - 1, np.inf, width, 1, np.inf),
+        hold=(starts - critical) / scale,
         critical=critical,
+        end=np.inf,
         lift=(square * critical, square * scale),
-        hold=(centres - width / 2 - critical) / scale,
         restitution=block.restitution,
-        rest_speed_scale=block.frequency_parameter * critical,
+        reaching_speed=block.frequency_parameter * critical,
         pace=1 / block.frequency_parameter,
         critical_rotation=critical,
-        rotation=np.asarray,
         arc=np.asarray,
         stretch=np.ones_like,
     )
 
 
 def _side_table(side: Side) -> SideTable:
-    for cut in _ENDS:
+    for cut in _CUTS:
         last = side.end_rotation - cut * (side.end_rotation - side.critical_rotation)
         with np.errstate(all="ignore"):
             found = _tabulated(side, last)
         if found is not None:
             return found
     raise MotionError(
-        f"the mechanism's functions cannot be tabulated to {ACCURACY:g} of their maximum up to a rotation of {last!r} rad; "
-        "they must be smooth beyond critical_rotation."
+        f"the mechanism's functions cannot be tabulated to {ACCURACY:g} of their maximum up to a rotation of "
+        f"{last!r} rad; they must be smooth up to there."
     )
 
 
 def _tabulated(side: Side, last: float) -> SideTable | None:
-    """The table over rotations up to `last`, or None where it cannot reach ACCURACY."""
-    rest_inertia = side.at("inertia", 0.0)
-
-    def stretch(rotation: np.ndarray) -> np.ndarray:
-        return np.sqrt(side.inertia(np.asarray(rotation, dtype=float)) / rest_inertia)
-
-    measured = _antiderivative(stretch, last)
-    if measured is None:
+    """The table over the rotations up to `last`, or None where it does not reach ACCURACY."""
+    arc = arc_of(side, last, _AIM)
+    if arc is None:
         return None
-    arc, rotation = measured
+    rest = side.at("inertia", 0.0)
 
-    def functions(rotations: np.ndarray) -> np.ndarray:
-        scale = np.sqrt(side.inertia(rotations) * rest_inertia)
-        return np.stack([side.gravity(rotations) / scale, side.ground(rotations) / scale])
+    def functions(arcs: np.ndarray) -> np.ndarray:
+        rotation = arc.rotation(arcs)
+        scale = np.sqrt(side.inertia(rotation) * rest)
+        return np.stack([side.gravity(rotation) / scale, side.ground(rotation) / scale, rotation / arcs])
 
-    end = float(arc(np.float64(last)))
-    fitted = _fitted(lambda arcs: functions(rotation(arcs)), end)
-    if fitted is None:
+    end, critical = float(arc.at(last)), float(arc.at(side.critical_rotation))
+    split = min(2 * critical, (critical + end) / 2)
+    largest = np.abs(functions(np.linspace(end / 1000, end, 1000))).max(axis=1)
+    inner, outer = _fitted(functions, 0.0, split, largest), _fitted(functions, split, end, largest)
+    if inner is None or outer is None:
         return None
-    pieces, width = fitted
-    critical = float(arc(np.float64(side.critical_rotation)))
-    slope = -side.at("gravity_slope", side.critical_rotation) / side.at("inertia", side.critical_rotation)
-    lift = functions(np.zeros(1))[:, 0]
+    powers = np.concatenate([inner, outer], axis=1)
+    widths, counts = (split / inner.shape[1], (end - split) / outer.shape[1]), (inner.shape[1], outer.shape[1])
+    starts = np.concatenate([np.arange(counts[0]) * widths[0], split + np.arange(counts[1] + 1) * widths[1]])
+    lift = side.at("gravity", 0.0) / rest, side.at("ground", 0.0) / rest
+    steepest = -side.at("gravity_slope", side.critical_rotation) / side.at("inertia", side.critical_rotation)
     return SideTable(
-        pieces=pieces,
-        width=width,
-        end=end,
+        pieces=np.ascontiguousarray(powers[:2].transpose(1, 2, 0).reshape(powers.shape[1], -1)),
+        ratios=np.ascontiguousarray(powers[2]),
+        grid=(split, widths[0], counts[0], ROOM * widths[0], widths[1], counts[1], ROOM * widths[1]),
+        hold=_hold(side, arc.rotation, starts),
         critical=critical,
-        lift=(float(lift[0]), float(lift[1])),
-        hold=_hold(side, rotation, width, pieces.shape[0], end),
+        end=end,
+        lift=lift,
         restitution=side.restitution,
-        rest_speed_scale=_reaching_speed(side, rest_inertia),
-        pace=1 / np.sqrt(GRAVITY * max(slope, lift[0] / critical)),
+        reaching_speed=_reaching_speed(side, rest),
+        pace=1 / np.sqrt(GRAVITY * max(steepest, lift[0] / critical)),
         critical_rotation=side.critical_rotation,
-        rotation=rotation,
-        arc=arc,
-        stretch=stretch,
+        arc=arc.at,
+        stretch=arc.stretch,
     )
 
 
@@ -193,83 +191,52 @@ def _reaching_speed(side: Side, rest_inertia: float) -> float:
     return float(np.sqrt(2 * GRAVITY * half * (weights @ side.gravity(half * (nodes + 1))) / rest_inertia))
 
 
-def _hold(side: Side, rotation: Function, width: float, count: int, end: float) -> np.ndarray:
+def _hold(side: Side, rotation: Function, starts: np.ndarray) -> np.ndarray:
     """(m,) smallest −G/|B| from each piece on, lowered by the largest change between neighbouring samples."""
-    rotations = rotation(np.minimum(np.arange(8 * count + 1) * (width / 8), end))
+    arcs = starts[:-1, None] + np.diff(starts)[:, None] * np.linspace(0, 1, 9)
+    rotations = rotation(arcs)
     balance = -side.gravity(rotations) / np.maximum(np.abs(side.ground(rotations)), 1e-300)
-    lower = np.minimum(balance[:-1], balance[1:]) - np.abs(np.diff(balance))
-    each = lower.reshape(count, 8).min(axis=1)
-    return np.minimum.accumulate(each[::-1])[::-1]
+    steps = np.abs(np.diff(balance, axis=1)).max(axis=1)
+    lowest = balance.min(axis=1) - steps
+    return np.minimum.accumulate(lowest[::-1])[::-1]
 
 
-def _antiderivative(stretch: Function, last: float) -> tuple[Function, Function] | None:
-    """The arc as a function of rotation, and its inverse, from Chebyshev pieces of dq/dφ."""
-    order = 15
-    nodes = chebyshev.chebpts1(order + 1)
-    count = 8
-    while True:
-        half = last / count / 2
-        centres = (2 * np.arange(count) + 1) * half
-        values = stretch(centres[:, None] + half * nodes)
-        if not np.all(np.isfinite(values)):
-            return None
-        coefficients = chebyshev.chebfit(nodes, values.T, order)
-        # The last two coefficients of each piece tell what a longer expansion would add.
-        if np.abs(coefficients[-2:]).max() <= 4 * _AIM * np.abs(values).max():
-            break
-        count *= 2
-        if count > _MOST_PIECES:
-            return None
-    integrals = chebyshev.chebint(coefficients, lbnd=-1) * half
-    starts = np.concatenate([[0.0], np.cumsum(integrals.sum(axis=0))])
+def _fitted(
+    functions: Callable[[np.ndarray], np.ndarray], start: float, end: float, largest: np.ndarray
+) -> np.ndarray | None:
+    """Polynomials (3, m, 8) on m equal pieces of [start, end], each accurate ROOM beyond its ends, or None.
 
-    def arc(rotation: np.ndarray) -> np.ndarray:
-        rotation = np.asarray(rotation, dtype=float)
-        piece = np.clip((rotation / (2 * half)).astype(int), 0, count - 1)
-        place = (rotation - centres[piece]) / half
-        return starts[piece] + _clenshaw(integrals[:, piece], place)
-
-    def rotation_at(arcs: np.ndarray) -> np.ndarray:
-        arcs = np.asarray(arcs, dtype=float)
-        rotation = np.interp(arcs, starts, np.append(centres - half, last))
-        for _ in range(6):
-            rotation = np.clip(rotation - (arc(rotation) - arcs) / stretch(rotation), 0.0, last)
-        return rotation
-
-    return arc, rotation_at
-
-
-def _clenshaw(coefficients: np.ndarray, x: np.ndarray) -> np.ndarray:
-    later = latest = np.zeros_like(x)
-    for c in coefficients[:0:-1]:
-        later, latest = c + 2 * x * later - latest, later
-    return coefficients[0] + x * later - latest
-
-
-def _fitted(functions: Callable[[np.ndarray], np.ndarray], end: float) -> tuple[np.ndarray, float] | None:
-    """Pieces (m, 16) and their width, with errors at most ACCURACY up to a quarter piece beyond each piece."""
-    best, best_error, count = None, np.inf, 16
-    probes = np.concatenate([np.linspace(-1.5, 1.5, 13), [-0.97, 0.97]])
+    Pieces are halved until the error is _AIM of the zone's own maximum, or no longer falls because it is the rounding
+    of the functions themselves; it must then be within ACCURACY of `largest` (3,), the maxima over the whole side.
+    """
+    best, best_error, good, count = None, np.inf, False, 2
     while count <= _MOST_PIECES:
-        half = end / count / 2
-        centres = (2 * np.arange(count) + 1) * half
-        values = functions(centres[:, None] + half * _NODES)
-        if not np.all(np.isfinite(values)):
+        powers, errors, zone = _fit(functions, start, end, count)
+        if not np.all(np.isfinite(errors)):
             return None
-        powers = values @ _TO_POWERS.T
-        arcs = centres[:, None] + half * probes
-        inside = (arcs >= 0) & (arcs <= end)
-        truth = functions(np.where(inside, arcs, 0.0))
-        fit = np.einsum("fmp,qp->fmq", powers, np.vander(probes, DEGREE + 1, increasing=True))
-        error = np.where(inside, np.abs(fit - truth), 0.0).max(axis=(1, 2)) / np.abs(values).max(axis=(1, 2))
-        if error.max() < best_error:
-            best, best_error = (powers / half ** np.arange(DEGREE + 1), 2 * half), error.max()
-        elif best_error <= ACCURACY:
-            break  # more pieces no longer help: the functions' own rounding
+        error = (errors / zone).max()
+        if error < best_error:
+            best, best_error, good = powers, error, bool(np.all(errors <= ACCURACY * largest))
+        elif good:
+            break
         if best_error <= _AIM:
             break
         count *= 2
-    if best is None or best_error > ACCURACY:
-        return None
-    powers, width = best
-    return np.ascontiguousarray(powers.transpose(1, 2, 0).reshape(powers.shape[1], -1)), width
+    return best if good else None
+
+
+def _fit(
+    functions: Callable[[np.ndarray], np.ndarray], start: float, end: float, count: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Interpolate on `count` pieces; also the largest error between the nodes, and the largest value, (3,) each."""
+    half = (end - start) / count / 2
+    centres = start + (2 * np.arange(count)[:, None] + 1) * half
+    low = np.maximum(start - centres, -(1 + 2 * ROOM) * half) / half
+    high = np.minimum(end - centres, (1 + 2 * ROOM) * half) / half
+    places = (low + high) / 2 + (high - low) / 2 * _NODES
+    values = functions(centres + half * places)
+    powers = np.linalg.solve(places[..., None] ** np.arange(DEGREE + 1), values[..., None])[..., 0]
+    probes = (low + high) / 2 + (high - low) / 2 * np.linspace(-0.99, 0.99, 16)
+    fit = np.einsum("fmp,mqp->fmq", powers, probes[..., None] ** np.arange(DEGREE + 1))
+    errors = np.abs(fit - functions(centres + half * probes)).max(axis=(1, 2))
+    return powers / half ** np.arange(DEGREE + 1), errors, np.abs(values).max(axis=(1, 2))
