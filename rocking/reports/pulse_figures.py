@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rocking.pulses.pulse import Pulse
-from rocking.reports.style import new_figure, plain_logarithmic, styled
+from rocking.reports.style import elided, new_figure, plain_logarithmic, styled
 
 
 @styled
@@ -43,3 +43,19 @@ def _ranks(panel: Axes, pulses: Sequence[Pulse]) -> None:
             textcoords="offset points",
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85},
         )
+
+
+@styled
+def orientation(angles: np.ndarray, gains: np.ndarray, best: float, components: tuple[str, str]) -> Figure:
+    """Draw energy gains over the angle [rad] from the first component towards the second, and the best axis."""
+    figure = new_figure(58, 90)
+    panel = figure.add_subplot(projection="polar")
+    panel.plot(angles, gains / max(float(gains.max()), np.finfo(float).tiny), color="black")
+    panel.plot([best, best + np.pi], [1, 1], color="#D55E00", linestyle="-.", linewidth=1.2)
+    one, two = (elided(name, 14) for name in components)
+    labels = [one, "45°", two, "135°", f"−{one}", "225°", f"−{two}", "315°"]
+    panel.set_xticks(np.arange(8) * np.pi / 4, labels)
+    panel.set_rticks([0.5, 1.0], ["0.5", "1"])
+    panel.spines["polar"].set_linewidth(0.4)
+    panel.grid(linewidth=0.3, color="0.8")
+    return figure

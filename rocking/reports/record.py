@@ -120,6 +120,8 @@ def _pictures(
         pictures["histories"].append(histories)
         pictures["spectra"].append(record_curves.spectrum_picture(accelerogram, rows["predictions"], numbers))
     found = {name: [picture for picture in many if picture] for name, many in pictures.items()}
+    oriented = record_curves.orientation_picture([a for a in accelerograms if a.component in known])
+    found["orientations"] = [oriented] if oriented else []
     return found | {"drawings": record_curves.drawing_pictures(structures, numbers)}
 
 

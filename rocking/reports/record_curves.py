@@ -10,7 +10,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
 from rocking.reports.motion_figures import History, ground_motion, response_histories, rocking_spectrum_figure
 from rocking.reports.printing import Row, of_component
-from rocking.reports.pulse_figures import energy_map
+from rocking.reports.pulse_figures import energy_map, orientation
 from rocking.reports.structure_figures import structure_drawings
 from rocking.reports.style import svg
 from rocking.units import GRAVITY
@@ -25,7 +25,6 @@ MOST_HISTORIES = 12
 """Responses that are drawn for one component, the most demanding ones; the tables hold all."""
 SPECTRUM_POINTS = 32
 _MAP_COLUMNS = 240
-_MAP_PERIODS = 72
 
 
 def read_number(text: str) -> float:
@@ -54,19 +53,15 @@ def motion_picture(accelerogram: Accelerogram, rows: Rows, structures: Rows) -> 
         uplift,
     )
     component = printing.words(accelerogram.component)
-    alt = f"Time histories of component {component}: acceleration with the dominant pulse, residual, velocity, displacement."
+    alt = f"Time histories of component {component}: acceleration, pulse, residual, velocity, displacement."
     return {"component": component, "svg": svg(figure), "alt": alt}
 
 
 def map_picture(accelerogram: Accelerogram, rows: Rows) -> Picture:
     """Return the energy of a sine pulse over onset and period."""
     from rocking.pulses.extraction import energy_map as energy_gains
-    from rocking.pulses.extraction import searched_band
-    from rocking.pulses.settings import PulseSettings
 
-    low, high = searched_band(accelerogram, PulseSettings()).limits
-    frequencies = np.geomspace(low, high, _MAP_PERIODS)
-    gains = energy_gains(accelerogram, frequencies)
+    gains, frequencies = energy_gains(accelerogram)
     stretch = max(1, gains.shape[0] // _MAP_COLUMNS)
     starts = np.arange(0, gains.shape[0], stretch)
     pooled = np.maximum.reduceat(gains, starts, axis=0)
@@ -76,13 +71,36 @@ def map_picture(accelerogram: Accelerogram, rows: Rows) -> Picture:
     return {"component": component, "svg": svg(figure), "alt": alt}
 
 
+def orientation_picture(accelerograms: Sequence[Accelerogram]) -> Picture | None:
+    """Return the direction in which the dominant pulse of two horizontal components points; None without two."""
+    from rocking.pulses.orientation import extract_pulses_oriented
+
+    horizontal = [accelerogram for accelerogram in accelerograms if not accelerogram.vertical]
+    if len(horizontal) != 2 or not math.isclose(
+        horizontal[0].time_step, horizontal[1].time_step, rel_tol=1e-9
+    ):
+        return None
+    if not all(np.ptp(accelerogram.acceleration) for accelerogram in horizontal):
+        return None
+    oriented = extract_pulses_oriented(*horizontal)
+    angles = np.linspace(0, 2 * np.pi, 361)
+    names = tuple(printing.words(accelerogram.component) for accelerogram in horizontal)
+    figure = orientation(angles, oriented.gain(angles), oriented.angle, names)
+    alt = f"Polar plot of the energy of the dominant pulse along every axis of components {names[0]}, {names[1]}."
+    return {"svg": svg(figure), "alt": alt}
+
+
 def drawing_pictures(structures: Mapping[str, object], numbers: Mapping[str, str]) -> list[Picture]:
     """Return the drawings of the first structures, or nothing when there is none."""
-    drawn = [(f"{number} {name}", structures[name]) for name, number in numbers.items() if name in structures]
+    drawn = [
+        (f"{number} {name}", structures[name])
+        for name, number in numbers.items()
+        if hasattr(structures.get(name), "outline")
+    ]
     shown = drawn[:MOST_DRAWN]
     if not shown:
         return []
-    caption = "The structures, each to the scale of its own bar: at rest (dashed) and displaced (grey), hinges as circles."
+    caption = "The structures, each to the scale of its own bar: at rest (dashed), displaced (grey), hinges as circles."
     if len(drawn) > len(shown):
         caption += " The others are like these in kind and stand in the table alone."
     alt = f"Drawings to scale of {printing.counted(len(shown), 'structure')} at rest and displaced, with hinges."
@@ -170,7 +188,7 @@ def spectrum_picture(accelerogram: Accelerogram, rows: Rows, numbers: Mapping[st
     ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, float(restitution))
     figure = rocking_spectrum_figure(frequency_parameters, uplift_multipliers, np.asarray(ratios), placed)
     component = printing.words(accelerogram.component)
-    alt = f"Rocking spectrum of component {component} over frequency parameter and uplift acceleration, with the structures."
+    alt = f"Rocking spectrum of component {component} over p and uplift acceleration, with the structures."
     return {
         "component": component,
         "svg": svg(figure),

@@ -46,7 +46,7 @@ def _draw(panel: Axes, structure) -> None:
 
 
 def drawn_rotation(structure) -> float:
-    """Return the rotation of the displaced drawing, rad: a share of φ_cr, or of the end of the geometry if that is too small."""
+    """Return the rotation of the displaced drawing, rad: a share of φ_cr, more where that is hard to see."""
     side = structure.mechanism().positive
     return min(max(_DRAWN_SHARE * side.critical_rotation, _SEEN_ROTATION), 0.8 * side.end_rotation)
 

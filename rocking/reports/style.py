@@ -59,7 +59,7 @@ def svg(figure: Figure) -> str:
 def thinned(
     times: np.ndarray, values: np.ndarray, limit: int = MAXIMUM_POINTS
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the envelope of a trace in at most `limit` points: the smallest and the largest of each stretch, in order."""
+    """Return the envelope of a trace in at most `limit` points: least and largest value of each stretch, in order."""
     if values.size <= limit:
         return times, values
     edges = np.linspace(0, values.size, limit // 2 + 1).astype(int)

@@ -14,8 +14,9 @@ Tables = Mapping[str, Sequence[Row]]
 def summary_report(tables: Tables, settings: Mapping[str, object]) -> bytes:
     """Return the PDF over all records.
 
-    tables: rows of text as read from the CSV files "record", "pulses", "comparison", "maxima", "structures", "failures"
-    and, where they exist, "reliability" and "trade". settings: at least tolerance, acceleration_scale, fragility_change.
+    tables: rows of text as read from the CSV files "record", "pulses", "comparison", "maxima", "structures",
+    "failures" and, where they exist, "reliability" and "trade". settings: at least tolerance, acceleration_scale
+    and fragility_change.
     """
     return compile_document("summary.typ", summary_data(tables, settings))
 

@@ -49,21 +49,26 @@ def _trust(rows: Mapping[str, Row]) -> str:
 
 def _overturning(rows: Mapping[str, Row]) -> str:
     every, red = rows["all"], rows["red"]
+    false = _cases(every["overturning_false"])
     if int(every["overturning"]) == 0:
-        return f"Nothing overturns in the full integration; the closed form overturns {every['overturning_false']} cases."
+        return f"Nothing overturns in the full integration; the closed form overturns {false}."
     return (
         f"Of {every['overturning']} overturnings in the full integration the closed form finds "
         f"{every['overturning_found']} and misses {every['overturning_missed']}, {red['overturning_missed']} of these "
-        f"under a red light; it overturns {every['overturning_false']} cases that stay up."
+        f"under a red light; it overturns {false} that stay up."
     )
 
 
 def _undecided(rows: Mapping[str, Row]) -> str:
     fragile, red = rows["all"]["fragile"], rows["red"]["cases"]
     return (
-        f"{fragile} verdicts are fragile and must not be used as they stand, and {red} cases have a red light, where "
-        "only the full integration may be used."
+        f"{printing.sentence(_cases(fragile, 'verdict'))} stand so close to a change that they are not decided; "
+        f"{_cases(red)} have a red light, where only the full integration may be used."
     )
+
+
+def _cases(many: str, noun: str = "case") -> str:
+    return printing.counted(int(many), noun)
 
 
 def notices(tables: Tables) -> list[dict[str, object]]:
