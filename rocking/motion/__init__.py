@@ -8,7 +8,7 @@ _MODULE_OF = {
     "integrate_many": "rocking.motion.integration",
 }
 
-__all__ = ["Response", "integrate", "integrate_many"]  # noqa: F822
+__all__ = ["Response", "integrate", "integrate_many"]
 
 
 def __getattr__(name: str) -> object:

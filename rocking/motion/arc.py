@@ -1,6 +1,5 @@
 """The arc q = ∫ √(I(φ)/I(0)) dφ: a measure of rotation in which the kinetic energy is I(0) q'²/2."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -78,5 +77,3 @@ def _clenshaw(coefficients: np.ndarray, x: np.ndarray) -> np.ndarray:
     for c in coefficients[:0:-1]:
         later, latest = c + 2 * x * later - latest, later
     return coefficients[0] + x * later - latest
-
-

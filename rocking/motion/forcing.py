@@ -1,6 +1,7 @@
 """The ground motion as the kernel sees it: samples joined by straight lines, or one exact sine pulse."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -44,21 +45,28 @@ class Forcing:
         )
 
 
+@lru_cache(maxsize=4)
 def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Forcing:
-    """Return what the kernel takes of a record (with its vertical component) or of a pulse.
+    """Return what the kernel takes of a record (with its vertical component) or of a pulse; the last few are remembered.
 
     Raises MotionError when `motion` is neither, or `vertical` does not fit it sample by sample.
     """
     if isinstance(motion, Pulse):
         if vertical is not None:
-            raise MotionError("vertical is given with a pulse, but needs a record of the same samples; leave it out.")
+            raise MotionError(
+                "vertical is given with a pulse, but needs a record of the same samples; leave it out."
+            )
         ground, gravity = np.array([motion.amplitude]), np.array([GRAVITY])
         frequency = motion.circular_frequency
         threat = _threat(ground, gravity)
         return Forcing(ground, gravity, threat, motion.period, frequency, motion.start_time)
     if not isinstance(motion, Accelerogram):
-        raise MotionError(f"the ground motion is a {type(motion).__name__}, but must be an Accelerogram or a Pulse.")
-    ground = motion.acceleration.copy()  # the record's own array is read-only, for which the kernel would compile anew
+        raise MotionError(
+            f"the ground motion is a {type(motion).__name__}, but must be an Accelerogram or a Pulse."
+        )
+    ground = (
+        motion.acceleration.copy()
+    )  # the record's own array is read-only, for which the kernel would compile anew
     gravity = np.full(ground.size, GRAVITY)
     if vertical is not None:
         gravity += _fitting(vertical, motion)

@@ -61,7 +61,7 @@ def integrate(
 
     Overturning is a rotation past the mechanism's end, or outward motion that the largest acceleration still to come
     cannot turn back. Rocking ends at an impact that leaves less than 1e-14 of the energy that reaches φ_cr.
-    Raises MotionError for a setting or a forcing outside what is allowed, or a motion of more than 5e7 impacts.
+    Raises MotionError for a setting or a forcing outside what is allowed, or a motion of more than 2e7 impacts.
     """
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
     start = _start(structure, initial_rotation, initial_velocity)
@@ -142,7 +142,9 @@ def _start(structure: Rocking, rotation: float, velocity: float) -> tuple[float,
     velocity = finite(MotionError, "initial_velocity", velocity, "rad/s")
     side = int(np.sign(rotation) or np.sign(velocity))
     if side < 0 and getattr(structure, "one_sided", False):
-        raise MotionError("the initial state lies on the negative side, but a one-sided structure has only the positive.")
+        raise MotionError(
+            "the initial state lies on the negative side, but a one-sided structure has only the positive."
+        )
     return abs(rotation), side * velocity, side
 
 
@@ -165,7 +167,9 @@ def _sensitivity(
 ) -> float:
     """d ln φ_max / d ln a, by a central difference of two tightly integrated neighbours."""
     factors = (1 - _NUDGE, 1 + _NUDGE)
-    below, above = (_follow(reduced, forcing.scaled(factor), _TIGHT, start).rotation_ratio for factor in factors)
+    below, above = (
+        _follow(reduced, forcing.scaled(factor), _TIGHT, start).rotation_ratio for factor in factors
+    )
     if math.isinf(below) or math.isinf(above):
         return math.inf
     if not below > 0 or not above > 0:

@@ -25,7 +25,10 @@ The next flight would rise to about half this share of φ_cr, less than ten roun
 SETTLED, ROUNDING = 1e-15, 1e-12
 """A root is found when its last move is below SETTLED, or below ROUNDING and no longer shrinking; both relative."""
 
-IMPACT_LIMIT = 50_000_000
+IMPACT_LIMIT = 20_000_000
+
+INSTANT = 1e-14
+"""A landing this soon after an uplift, as a share of the sample, is a rounding: the structure rests to its end."""
 
 # Contraction to fused multiply-adds changes roundings only; infinities and NaN keep their meaning.
 compiled = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
@@ -153,14 +156,42 @@ def _series(piece, u, v, side, a0, a1, g0, g1, square):
     p35 = v * p24 + x2 * p23 + x3 * p22
     p44, p45 = p22 * p22, 4 * p33 * x2
     d2 = b1 * x2 + b2 * p22
-    x6 = -(w1 * x4 + w2 * p24 + w3 * p34 + w4 * p44 + r1 * x3 + r2 * p23 + r3 * p33 + s2 * d2 + s3 * d1 + s4 * b0) / 30
+    x6 = (
+        -(
+            w1 * x4
+            + w2 * p24
+            + w3 * p34
+            + w4 * p44
+            + r1 * x3
+            + r2 * p23
+            + r3 * p33
+            + s2 * d2
+            + s3 * d1
+            + s4 * b0
+        )
+        / 30
+    )
     p26 = 2 * (v * x5 + x2 * x4) + x3 * x3
     p36 = v * p25 + x2 * p24 + x3 * p23 + x4 * p22
     p46 = 2 * p22 * p24 + p23 * p23
     p55, p56 = p44 * v, 5 * p44 * x2
     d3 = b1 * x3 + b2 * p23 + b3 * p33
     driven = s2 * d3 + s3 * d2 + s4 * d1 + s5 * b0
-    x7 = -(w1 * x5 + w2 * p25 + w3 * p35 + w4 * p45 + w5 * p55 + r1 * x4 + r2 * p24 + r3 * p34 + r4 * p44 + driven) / 42
+    x7 = (
+        -(
+            w1 * x5
+            + w2 * p25
+            + w3 * p35
+            + w4 * p45
+            + w5 * p55
+            + r1 * x4
+            + r2 * p24
+            + r3 * p34
+            + r4 * p44
+            + driven
+        )
+        / 42
+    )
     d4 = b1 * x4 + b2 * p24 + b3 * p34 + b4 * p44
     driven = s2 * d4 + s3 * d3 + s4 * d2 + s5 * d1 + s6 * b0
     still = w1 * x6 + w2 * p26 + w3 * p36 + w4 * p46 + w5 * p56 + w6 * p33 * p33
@@ -184,7 +215,9 @@ def _speed(x, t):
 @compiled
 def _acceleration(x, t):
     """Acceleration along the arc after the time t."""
-    return 2 * x[1] + t * (6 * x[2] + t * (12 * x[3] + t * (20 * x[4] + t * (30 * x[5] + t * (42 * x[6] + t * 56 * x[7])))))
+    return 2 * x[1] + t * (
+        6 * x[2] + t * (12 * x[3] + t * (20 * x[4] + t * (30 * x[5] + t * (42 * x[6] + t * 56 * x[7]))))
+    )
 
 
 @compiled
@@ -384,6 +417,8 @@ def rock(
         arc, reach, haste = 0.0, 0.0, speed
         if not speed > rest_speed[k]:
             side = 0
+            if landing <= INSTANT * time_step:
+                i, tau = i + 1, 0.0
         elif impacts >= IMPACT_LIMIT:
             status = TOO_MANY_IMPACTS
             break
@@ -507,7 +542,9 @@ def takeback(ground, time_step, frequency, side, out):
 
 
 @compiled
-def _free_linear(x, w, side, k, time, frequency, span, restitution, one_sided, best, when, impacts, log, logged):
+def _free_linear(
+    x, w, side, k, time, frequency, span, restitution, one_sided, best, when, impacts, log, logged
+):
     """Follow the equivalent block over still ground until no larger peak can come, in closed form.
 
     (x − 1)² − w² is constant in each flight. Returns status, impacts, side, logged.
@@ -584,6 +621,10 @@ def rock_linear(
         p, scale, row = frequency[k], side * push[k], 0 if side > 0 else 1
         now = ground[i] + (tau / time_step) * (ground[i + 1] - ground[i])
         y, drive, final = p * left, -1 - scale * now, -1 - scale * ground[i + 1]
+        if x == 0 and w == 0 and drive < 0:  # uplift where the acceleration is zero to rounding
+            drive = 0.0
+        if x == 0 and w == 0:  # uplift where the drive is zero to rounding
+            drive = max(drive, 0.0)
         growth, decay, up, up_end, down, down_end = full[k]
         if tau > 0:
             growth, decay, up, up_end, down, down_end = _weights(y)
@@ -623,6 +664,8 @@ def rock_linear(
             logged = _write(log, logged, i * time_step + tau, 0.0, side * w * span[k] * frequency[k])
         if not w * w > REST_ENERGY or w < 0:
             side = 0
+            if landing <= INSTANT * y:
+                i, tau = i + 1, 0.0
         elif impacts >= IMPACT_LIMIT:
             status = TOO_MANY_IMPACTS
             break

@@ -16,7 +16,9 @@ _LARGEST_GROWTH = 50.0
 def solvable_exactly(block: EquivalentBlock, forcing: Forcing) -> bool:
     """Whether the closed form per sample holds: a sampled record, no vertical component, a sane p Δt."""
     frequency = max(each.frequency_parameter for each in _sides(block))
-    return forcing.frequency == 0 and not forcing.vertical and frequency * forcing.time_step <= _LARGEST_GROWTH
+    return (
+        forcing.frequency == 0 and not forcing.vertical and frequency * forcing.time_step <= _LARGEST_GROWTH
+    )
 
 
 def follow_exactly(

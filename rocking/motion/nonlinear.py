@@ -37,7 +37,9 @@ def follow(
     )
     status, best, when, impacts, uplift, last_side, steps, _ = found
     ratios = [_ratio(table.side(1), best[0]), _ratio(table.side(-1), best[1])]
-    response = concluded(status, ratios, when, impacts, uplift, last_side, steps, forcing.start_time, tolerance)
+    response = concluded(
+        status, ratios, when, impacts, uplift, last_side, steps, forcing.start_time, tolerance
+    )
     return with_history(response, *_states(table, log), forcing.start_time) if history else response
 
 
@@ -69,7 +71,9 @@ def concluded(
             "a restitution below 1 brings it to rest."
         )
     if status not in OUTCOMES:
-        raise MotionError("the motion left the range of floating-point numbers; check the record's amplitude.")
+        raise MotionError(
+            "the motion left the range of floating-point numbers; check the record's amplitude."
+        )
     outcome = OUTCOMES[status]
     largest = 0 if ratios[0] >= ratios[1] else 1
     rocks = outcome is Outcome.ROCKS
@@ -90,7 +94,9 @@ def with_history(
 ) -> Response:
     """The response with its history, times counted from `start_time`."""
     fields = {name: getattr(response, name) for name in response.__dataclass_fields__}
-    return Response(**fields | {"times": times + start_time, "rotation": rotation, "angular_velocity": velocity})
+    return Response(
+        **fields | {"times": times + start_time, "rotation": rotation, "angular_velocity": velocity}
+    )
 
 
 def _ratio(side: SideTable, arc: float) -> float:

@@ -112,7 +112,11 @@ def _linear_side(block: EquivalentBlock) -> SideTable:
     width, count = critical / 8, 513  # the last one is the outer zone, which has no end
     starts = np.arange(count) * width
     pieces, ratios = np.zeros((count, 2 * DEGREE + 2)), np.zeros((count, DEGREE + 1))
-    pieces[:, 0], pieces[:, 2], pieces[:, 1] = square * (critical - starts - width / 2), -square, square * scale
+    pieces[:, 0], pieces[:, 2], pieces[:, 1] = (
+        square * (critical - starts - width / 2),
+        -square,
+        square * scale,
+    )
     ratios[:, 0] = 1.0
     return SideTable(
         pieces=pieces,
@@ -163,7 +167,10 @@ def _tabulated(side: Side, last: float) -> SideTable | None:
     if inner is None or outer is None:
         return None
     powers = np.concatenate([inner, outer], axis=1)
-    widths, counts = (split / inner.shape[1], (end - split) / outer.shape[1]), (inner.shape[1], outer.shape[1])
+    widths, counts = (
+        (split / inner.shape[1], (end - split) / outer.shape[1]),
+        (inner.shape[1], outer.shape[1]),
+    )
     starts = np.concatenate([np.arange(counts[0]) * widths[0], split + np.arange(counts[1] + 1) * widths[1]])
     lift = side.at("gravity", 0.0) / rest, side.at("ground", 0.0) / rest
     steepest = -side.at("gravity_slope", side.critical_rotation) / side.at("inertia", side.critical_rotation)
