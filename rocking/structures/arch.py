@@ -30,6 +30,8 @@ from rocking.structures.restitution import (
 )
 from rocking.structures.structure import Structure
 
+_LARGEST_EMBRACE = 1.5 * np.pi
+
 
 @dataclass(frozen=True)
 class Arch(Structure):
@@ -57,9 +59,10 @@ class Arch(Structure):
             raise StructureError(
                 f"thickness is {self.thickness!r} m, but must be less than twice the radius of {self.radius!r} m."
             )
-        if self.embrace_angle >= 2 * np.pi:
+        if self.embrace_angle > _LARGEST_EMBRACE:
             raise StructureError(
-                f"embrace_angle is {self.embrace_angle!r} rad, but must be less than a full turn, 6.2832 rad."
+                f"embrace_angle is {self.embrace_angle!r} rad ({np.degrees(self.embrace_angle):.6g}°), but must be at "
+                "most 4.7124 rad (270°); a ring closer to full is not described here."
             )
         object.__setattr__(self, "voussoirs", _voussoirs(self.voussoirs))
         check_restitution(self.restitution, ("momentum",))

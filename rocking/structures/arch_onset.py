@@ -117,7 +117,10 @@ def _exchange(rows: np.ndarray, basis: np.ndarray) -> tuple[np.ndarray, np.ndarr
         if gaps[entering] > -_CLEARANCE or entering in basis:
             return basis, unknowns
         columns = np.stack([_DOWN, rows[entering, :4]], axis=1)
-        multipliers, change = np.linalg.solve(touching[:, :4].T, columns).T
+        try:
+            multipliers, change = np.linalg.solve(touching[:, :4].T, columns).T
+        except np.linalg.LinAlgError:
+            raise NoMechanism from None
         if not (change > 0).any():
             raise TooThin
         ratios = np.where(change > 0, multipliers / np.where(change > 0, change, 1.0), np.inf)

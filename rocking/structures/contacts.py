@@ -36,9 +36,10 @@ class Contacts:
 
     @property
     def friction_needed(self) -> np.ndarray:
-        """Smallest friction coefficient that prevents sliding, (h, k); inf where a contact is not pressed."""
+        """Smallest friction coefficient that prevents sliding, (h, k); inf where not pressed, nan where not known."""
         pressed = self.normal > 0
-        return np.where(pressed, np.abs(self.tangential) / np.where(pressed, self.normal, 1.0), np.inf)
+        needed = np.abs(self.tangential) / np.where(pressed, self.normal, 1.0)
+        return np.where(pressed | np.isnan(self.normal), needed, np.inf)
 
     @property
     def opens(self) -> np.ndarray:
@@ -91,6 +92,31 @@ def contact_forces(
     sign = np.where(state[0] < 0, -1.0, 1.0)
     phi, velocity, acceleration, push = (values * sign for values in state[:4])
     return _contacts(structure, sign, phi, velocity, acceleration, push, state[4])
+
+
+def contact_history(
+    structure: Structure,
+    rotation: ArrayLike,
+    angular_velocity: ArrayLike,
+    ground: ArrayLike,
+    vertical: ArrayLike = 0.0,
+) -> Contacts:
+    """Return the contact forces along a response, (k,) each, with φ'' from the structure's own mechanism.
+
+    At rest a single body carries the ground's whole acceleration; the joints of a wall or an arch are then statically
+    indeterminate and their forces nan.
+    """
+    state = np.broadcast_arrays(rotation, angular_velocity, ground, vertical)
+    phi, velocity, push, lift = (np.atleast_1d(np.asarray(values, dtype=float)) for values in state)
+    resting = (phi == 0) & (velocity == 0)
+    acceleration = np.where(
+        resting, 0.0, angular_acceleration(structure.mechanism(), phi, velocity, push, lift)
+    )
+    found = contact_forces(structure, phi, velocity, acceleration, push, lift)
+    if len(found.names) == 1:
+        return found
+    unknown = np.where(resting, np.nan, 0.0)
+    return Contacts(found.names, found.normal + unknown, found.tangential + unknown)
 
 
 @singledispatch

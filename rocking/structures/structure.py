@@ -1,6 +1,7 @@
 """What every structure offers: its mechanism, computed once, and its drawing at any rotation."""
 
 from abc import ABC, abstractmethod
+from dataclasses import fields
 from functools import cached_property
 from typing import Any
 
@@ -18,6 +19,10 @@ class Structure(ABC):
     def mechanism(self) -> Mechanism:
         """Return the structure in standard form; the same object at every call."""
         return self._mechanism
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The fields alone: what is computed from them is computed again after a copy or in another process."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
 
     def outline(self, rotation: float = 0.0) -> list[np.ndarray]:
         """Return the rigid parts at a signed `rotation` [rad] as polygons (k, 2) in m, x to the right, y up."""

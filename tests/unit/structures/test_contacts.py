@@ -5,7 +5,7 @@ import pytest
 
 from rocking.errors import StructureError
 from rocking.structures.block import Block
-from rocking.structures.contacts import Contacts, angular_acceleration, contact_forces
+from rocking.structures.contacts import Contacts, angular_acceleration, contact_forces, contact_history
 from rocking.structures.frame import Frame
 from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
@@ -66,6 +66,23 @@ def test_at_rest_the_base_carries_the_weight_and_needs_the_ground_acceleration_a
     assert found.normal[1, 0] == pytest.approx(GRAVITY / 2, rel=1e-14)
     block = contact_forces(Block(2.0, 0.2), 0.0, 0.0, 0.0, [0.5, -1.0])
     np.testing.assert_allclose(block.friction_needed[0], np.array([0.5, 1.0]) / GRAVITY, rtol=1e-14)
+
+
+@pytest.mark.parametrize("structure", [Block(2.0, 0.2), Wall(1.5, 2.5, 0.4)])
+def test_along_a_response_the_acceleration_is_the_mechanisms(structure):
+    rotation, velocity = np.array([0.0, 0.02, -0.03, 0.0]), np.array([0.0, 0.3, 0.1, 0.2])
+    ground, vertical = np.array([0.4, 1.0, -2.0, 0.7]), np.array([0.0, 0.1, 0.3, -0.2])
+    found = contact_history(structure, rotation, velocity, ground, vertical)
+    acceleration = angular_acceleration(structure.mechanism(), rotation, velocity, ground, vertical)
+    expected = contact_forces(structure, rotation, velocity, acceleration, ground, vertical)
+    np.testing.assert_array_equal(found.normal[:, 1:], expected.normal[:, 1:])
+    np.testing.assert_array_equal(found.tangential[:, 1:], expected.tangential[:, 1:])
+    if isinstance(structure, Block):
+        assert found.friction_needed[0, 0] == pytest.approx(0.4 / GRAVITY, rel=1e-14)
+    else:
+        assert np.isnan(found.friction_needed[:, 0]).all()
+        assert not found.slides(0.5)[:, 0].any()
+        assert not found.opens[:, 0].any()
 
 
 def test_flags():
