@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from rocking.errors import CatalogueError, RecordError, RockingError
 from rocking.records.accelerogram import Accelerogram
@@ -92,13 +93,11 @@ def _rows(path: Path) -> list[tuple[int, dict[str, str]]]:
 
 
 def _record(row: dict[str, str], folder: Path) -> CatalogueRecord:
-    cells = {name: (value or "").strip() for name, value in row.items() if name}
-    numbers = {
-        "time_step": _number(cells.pop("time_step_s", ""), "time_step_s", None),
-        "scale_factor": _number(cells.pop("scale_factor", ""), "scale_factor", 1.0),
-        "high_pass_frequency": _number(cells.pop("high_pass_hz", ""), "high_pass_hz", None),
-    }
-    return CatalogueRecord(**cells, **numbers, folder=folder)
+    cells: dict[str, Any] = {name: (value or "").strip() for name, value in row.items() if name}
+    cells["time_step"] = _number(cells.pop("time_step_s", ""), "time_step_s", None)
+    cells["scale_factor"] = _number(cells.get("scale_factor", ""), "scale_factor", 1.0)
+    cells["high_pass_frequency"] = _number(cells.pop("high_pass_hz", ""), "high_pass_hz", None)
+    return CatalogueRecord(**cells, folder=folder)
 
 
 def _number(cell: str, column: str, default: float | None) -> float | None:

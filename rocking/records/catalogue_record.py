@@ -1,7 +1,7 @@
 """CatalogueRecord: one row of a catalogue, checked at birth."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
@@ -110,28 +110,24 @@ def _source_defects(record: CatalogueRecord) -> Iterable[str]:
 
 
 def _number_defects(record: CatalogueRecord) -> Iterable[str]:
-    def scale(value: float) -> None:
-        if finite(CatalogueError, "scale_factor", value) == 0:
-            raise CatalogueError("scale_factor is 0, but must not be; leave the row out instead.")
-
-    checks = (
-        (lambda: acceleration_factor(record.unit), record.unit),
-        (
-            lambda: positive(CatalogueError, "time_step_s", record.time_step, "s"),
-            record.time_step is not None,
-        ),
-        (lambda: scale(record.scale_factor), True),
-        (
-            lambda: positive(CatalogueError, "high_pass_hz", record.high_pass_frequency, "Hz"),
-            record.high_pass_frequency is not None,
-        ),
-    )
-    for check, wanted in checks:
+    unit, step, corner = record.unit, record.time_step, record.high_pass_frequency
+    checks: list[Callable[[], object]] = [lambda: _scale(record.scale_factor)]
+    if unit:
+        checks.append(lambda: acceleration_factor(unit))
+    if step is not None:
+        checks.append(lambda: positive(CatalogueError, "time_step_s", step, "s"))
+    if corner is not None:
+        checks.append(lambda: positive(CatalogueError, "high_pass_hz", corner, "Hz"))
+    for check in checks:
         try:
-            if wanted:
-                check()
+            check()
         except RockingError as error:
             yield str(error)
+
+
+def _scale(value: float) -> None:
+    if finite(CatalogueError, "scale_factor", value) == 0:
+        raise CatalogueError("scale_factor is 0, but must not be; leave the row out instead.")
 
 
 def _stays_inside(path: str) -> bool:

@@ -21,7 +21,8 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
 
 def _record(block: Block, name: str, options: Options) -> Accelerogram:
     times, values = pairs(block, name, margin=1)
-    step, told = even_step(name, times), ()
+    step = even_step(name, times)
+    told: tuple[str, ...] = ()
     if step is None:
         step, even = _STEP, np.arange(round(times[0] / _STEP), int(times[-1] / _STEP + 1e-6) + 1) * _STEP
         values = np.interp(even, times, values)
