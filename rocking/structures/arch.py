@@ -35,8 +35,7 @@ _LARGEST_EMBRACE = 1.5 * np.pi
 
 @dataclass(frozen=True)
 class Arch(Structure):
-    """A circular arch of radial joints, its bars exact annular sectors; φ is the rotation of the bar AB
-    (Oppenheim).
+    """A circular arch of radial joints, its bars exact annular sectors; φ is the rotation of the bar AB.
 
     radius: r of the centreline, m. thickness: t, m. embrace_angle: β, rad. voussoirs: how many equal ones,
     hinges at their joints only; None when a hinge may open anywhere.

@@ -1,5 +1,4 @@
-"""The four-bar linkage A-B-C-D of a rocking arch, with exact derivatives of its closed loop (theory: section
-5).
+"""The four-bar linkage A-B-C-D of a rocking arch, with exact derivatives of its loop (theory: section 5).
 
 Points are complex numbers x + iy. φ is the clockwise rotation of bar AB about A; A and D follow the ground.
 """

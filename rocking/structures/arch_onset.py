@@ -131,9 +131,8 @@ def _exchange(rows: np.ndarray, basis: np.ndarray) -> tuple[np.ndarray, np.ndarr
 def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Newton's method on the sections where the gap of a continuous ring is smallest. Returns (hinges, unknowns)."""
     edge, spacing = ring.embrace_angle / 2, ring.embrace_angle / (CONTINUOUS_SECTIONS - 1)
-    hinges = hinges + spacing / 2 * (
-        np.diff(hinges, prepend=-np.inf) <= 0
-    )  # two on one section would be singular
+    coincident = np.diff(hinges, prepend=-np.inf) <= 0  # two on one section would be singular
+    hinges = hinges + spacing / 2 * coincident
     for _ in range(_ROUNDS):
         rows = ring.gaps(hinges, PATTERN)
         if hinges[1] - hinges[0] < _APART:

@@ -14,7 +14,7 @@ from rocking.errors import StructureError
 from rocking.structures.arch import Arch
 from rocking.structures.bars import Bars, Motion, cross
 from rocking.structures.block import Block
-from rocking.structures.mechanism import Mechanism, Side
+from rocking.structures.mechanism import Mechanism
 from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
 from rocking.structures.structure import Structure
@@ -64,7 +64,9 @@ def angular_acceleration(
     """
     rotation, velocity, ground, vertical = np.broadcast_arrays(rotation, angular_velocity, ground, vertical)
     result = np.empty(rotation.shape)
-    for sign, side, here in _by_side(mechanism, rotation):
+    signs = _sign(mechanism, rotation, velocity)
+    for sign, side in ((1.0, mechanism.sides[0]), (-1.0, mechanism.sides[-1])):
+        here = signs == sign
         phi = np.abs(rotation[here])
         pull = side.inertia_slope(phi) / 2 * velocity[here] ** 2 + side.gravity(phi) * (
             GRAVITY + vertical[here]
@@ -84,12 +86,12 @@ def contact_forces(
     """Return the contact forces of a structure in motion.
 
     rotation, angular_velocity, angular_acceleration: signed, (k,). ground, vertical: ü_g and ü_v, (k,) m/s².
-    At rotation 0 the positive side is taken. Tangential forces are positive towards the side it rocks to.
+    At rotation 0 the side is that of the velocity. Tangential forces are positive towards the side it rocks to.
     Raises StructureError for a structure whose contacts are not known (a frame's are statically indeterminate).
     """
     given = np.broadcast_arrays(rotation, angular_velocity, angular_acceleration, ground, vertical)
     state = [np.atleast_1d(np.asarray(values, dtype=float)) for values in given]
-    sign = np.where(state[0] < 0, -1.0, 1.0)
+    sign = _sign(structure.mechanism(), state[0], state[1])
     phi, velocity, acceleration, push = (values * sign for values in state[:4])
     return _contacts(structure, sign, phi, velocity, acceleration, push, state[4])
 
@@ -178,9 +180,8 @@ def _(structure: Arch, sign, rotation, velocity, acceleration, ground, vertical)
     a, b, c, _ = motion.hinges
     first = cross(motion.centroids[0] - a, forces[0]) + couples[0]
     second = cross(motion.centroids[1] - c, forces[1]) + couples[1]
-    at_b = ((b - c) * first + (b - a) * second) / cross(
-        b - a, b - c
-    )  # (b − a) × T = first, (b − c) × T = −second
+    # (b − a) × T = first and (b − c) × T = −second
+    at_b = ((b - c) * first + (b - a) * second) / cross(b - a, b - c)
     thrusts = np.stack([at_b - forces[0], at_b, at_b + forces[1], at_b + forces[1] + forces[2]])
     sections = structure.onset.hinges - structure.embrace_angle / 2
     fixed = np.zeros_like(motion.angles[:1])
@@ -207,10 +208,12 @@ def _resolved(names: tuple[str, ...], thrusts: np.ndarray, normals: np.ndarray) 
     return Contacts(names, turned.real, turned.imag)
 
 
-def _by_side(mechanism: Mechanism, rotation: np.ndarray) -> list[tuple[float, Side, np.ndarray]]:
-    negative = rotation < 0
-    if mechanism.one_sided and negative.any():
-        raise StructureError(
-            "rotation is negative, but a one-sided mechanism rocks to the positive side only."
-        )
-    return [(1.0, mechanism.sides[0], ~negative), (-1.0, mechanism.sides[-1], negative)]
+def _sign(mechanism: Mechanism, rotation: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+    """The side of each state: the sign of the rotation, at 0 that of the velocity; positive at rest."""
+    if mechanism.one_sided:
+        if (rotation < 0).any():
+            raise StructureError(
+                "rotation is negative, but a one-sided mechanism rocks to the positive side only."
+            )
+        return np.ones(rotation.shape)
+    return np.where((rotation < 0) | ((rotation == 0) & (velocity < 0)), -1.0, 1.0)

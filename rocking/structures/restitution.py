@@ -52,8 +52,7 @@ def check_restitution(value: Restitution, names: tuple[str, ...], one_sided: boo
 def resolve_restitution(
     value: Restitution, default: float | str, balances: Mapping[str, Callable[[], float]]
 ) -> float:
-    """Return η in [0, 1]: `value`, or `default` when it is None; a name is looked up in `balances` and
-    computed.
+    """Return η in [0, 1]: `value`, or `default` when it is None; a name stands for one of `balances`.
 
     A balance below zero is not physical (the body would not reach the other side): η becomes 0 and a
     StructureWarning says so.

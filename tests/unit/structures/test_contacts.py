@@ -108,6 +108,17 @@ def test_constant_vertical_acceleration_is_scaled_gravity():
         np.testing.assert_allclose(lightened, 0.8 * slowed, rtol=1e-14)
 
 
+def test_at_zero_rotation_the_velocity_chooses_the_side():
+    body = RigidBody(0.3, 0.5, 2.0, 1.4)
+    leaving = angular_acceleration(body.mechanism(), [0.0, 0.0], [0.4, -0.4])
+    inside = angular_acceleration(body.mechanism(), [1e-13, -1e-13], [0.4, -0.4])
+    np.testing.assert_allclose(leaving, inside, rtol=1e-11)
+    found = contact_forces(body, [0.0, 0.0], [0.4, -0.4], leaving)
+    expected = contact_forces(body, [1e-13, -1e-13], [0.4, -0.4], inside)
+    np.testing.assert_allclose(found.normal, expected.normal, rtol=1e-11)
+    np.testing.assert_allclose(found.tangential, expected.tangential, rtol=1e-11)
+
+
 def test_angular_acceleration_mirrors():
     mechanism = Wall(1.5, 2.5, 0.4).mechanism()
     one = angular_acceleration(mechanism, 0.05, 0.3, 2.0, 1.0)
