@@ -31,7 +31,8 @@ def rocking_spectrum(
     ground, step = accelerogram.acceleration.copy(), accelerogram.time_step
     if frequencies.size and frequencies.max() * step > 50:
         raise MotionError(
-            f"frequency_parameters reach {frequencies.max()!r} rad/s, but at a time step of {step!r} s must stay below {50 / step:g}."
+            f"frequency_parameters reach {frequencies.max()!r} rad/s, but at a time step of {step!r} s "
+            f"must stay below {50 / step:g}."
         )
     gravity = np.ones(ground.size)
     ratios = np.empty((frequencies.size, pushes.size))

@@ -47,7 +47,9 @@ class Forcing:
 
 @lru_cache(maxsize=4)
 def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Forcing:
-    """Return what the kernel takes of a record (with its vertical component) or of a pulse; the last few are remembered.
+    """Return what the kernel takes of a record, with its vertical component, or of a pulse.
+
+    The last few are remembered.
 
     Raises MotionError when `motion` is neither, or `vertical` does not fit it sample by sample.
     """

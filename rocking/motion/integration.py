@@ -143,7 +143,7 @@ def _start(structure: Rocking, rotation: float, velocity: float) -> tuple[float,
     side = int(np.sign(rotation) or np.sign(velocity))
     if side < 0 and getattr(structure, "one_sided", False):
         raise MotionError(
-            "the initial state lies on the negative side, but a one-sided structure has only the positive."
+            "the initial state lies on the negative side, but a one-sided structure rocks to the positive only."
         )
     return abs(rotation), side * velocity, side
 

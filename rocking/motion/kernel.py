@@ -315,11 +315,14 @@ def rock(
 ):  # fmt: skip
     """Follow a mechanism through a ground motion and on until no larger peak can come.
 
-    pieces: (k, m, 16), G̃ and B̃ alternating, by power of the distance from the centre of a piece; grid: (k, 7) end of the
-    inner zone, then width, count and room of the pieces of the inner and of the outer zone; lift: (k, 2) G̃(0), B̃(0); hold: (k, m) the ground acceleration, in units of gravity, that cannot bring it back from
-    that piece or beyond; pace: (k,) s, longest step; the rest per side. ground, gravity, threat: (n,) samples of ü_g,
-    g + ü_v, and the largest |ü_g|/(g + ü_v) from there on; still: g after the record; with omega > 0 ground[0] is the amplitude of a sine of one
-    period time_step. Returns status, peak arcs (2,), their times (2,), impacts, uplift time, last side, steps, logged.
+    Per side (k,): pieces (k, m, 16), G̃ and B̃ alternating, by power of the distance from the centre of a piece; grid
+    (k, 7), end of the inner zone, then width, count and room of the pieces of the inner and of the outer zone; lift
+    (k, 2) G̃(0), B̃(0); hold (k, m), the ground acceleration in units of gravity that cannot bring the side back from
+    that piece or beyond; pace, longest step in s; arc of φ_cr and of the end, η, and the speed at which rocking rests.
+    ground, gravity, threat: (n,) ü_g, g + ü_v, and the largest |ü_g|/(g + ü_v) from there on; with omega > 0,
+    ground[0] is the amplitude of a sine of one period time_step. still: g after the record. arc, speed, side: the state
+    at the start, side 0 at rest. log: (m, 3) for the history, or of no rows.
+    Returns status, peak arcs (2,), their times (2,), impacts, uplift time, last side, steps, lines of log.
     """
     count = 1 if omega > 0 else ground.size - 1
     last = pieces.shape[0] - 1

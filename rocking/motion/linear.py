@@ -36,14 +36,25 @@ def follow_exactly(
     rotation, velocity, sign = start
     own = 0 if sign > 0 else -1
     state = (rotation / span[own], velocity / (span[own] * frequency[own]), sign)
+    ground, ones = forcing.ground, np.ones(forcing.ground.size)
     found, log = logged_run(
         kernel.rock_linear,
-        (frequency, push, span, restitution, block.one_sided, forcing.ground, np.ones(forcing.ground.size))
-        + (takeable, forcing.time_step, *state),
+        (
+            frequency,
+            push,
+            span,
+            restitution,
+            block.one_sided,
+            ground,
+            ones,
+            takeable,
+            forcing.time_step,
+            *state,
+        ),
         forcing.ground.size if history else 0,
     )
     status, best, when, impacts, uplift, last_side, steps, _ = found
-    response = concluded(status, list(best), when, impacts, uplift, last_side, steps, 0.0, 0.0)
+    response = concluded(status, best.tolist(), when, impacts, uplift, last_side, steps, 0.0, 0.0)
     return with_history(response, *log.T, 0.0) if history else response
 
 

@@ -13,6 +13,9 @@ from rocking.outcome import Outcome
 from rocking.units import GRAVITY
 
 OUTCOMES = {0: Outcome.NO_UPLIFT, kernel.ROCKS: Outcome.ROCKS, kernel.OVERTURNS: Outcome.OVERTURNS}
+STEP_SHARE = 0.03
+"""Share of the tolerance that one step may spend: each flight amplifies the errors of those before it."""
+
 _NO_LOG = np.empty((0, 3))
 
 
@@ -25,15 +28,15 @@ def follow(
     side = table.side(sign)
     if sign and not float(side.arc(np.float64(min(rotation, 1e300)))) < side.end:
         raise MotionError(f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.")
-    stretch = float(side.stretch(np.float64(rotation)))
+    arc, speed = float(side.arc(np.float64(rotation))), velocity * float(side.stretch(np.float64(rotation)))
     if forcing.frequency > 0:
         pace = np.minimum(pace, 1 / forcing.frequency)
+    rest_speed = reaching * math.sqrt(kernel.REST_ENERGY)
+    mechanism = (pieces, grid, lift, hold, critical, end, restitution, rest_speed, pace, table.one_sided)
+    motion = (forcing.ground, forcing.gravity, forcing.threat, GRAVITY, forcing.time_step, forcing.frequency)
+    state = (arc, speed, sign)
     found, log = logged_run(
-        kernel.rock,
-        (pieces, grid, lift, hold, critical, end, restitution, reaching * math.sqrt(kernel.REST_ENERGY), pace)
-        + (table.one_sided, forcing.ground, forcing.gravity, forcing.threat, GRAVITY, forcing.time_step)
-        + (forcing.frequency, float(side.arc(np.float64(rotation))), velocity * stretch, sign, tolerance),
-        forcing.ground.size if history else 0,
+        kernel.rock, (*mechanism, *motion, *state, STEP_SHARE * tolerance), forcing.ground.size if history else 0
     )
     status, best, when, impacts, uplift, last_side, steps, _ = found
     ratios = [_ratio(table.side(1), best[0]), _ratio(table.side(-1), best[1])]
@@ -67,7 +70,8 @@ def concluded(
     """The Response of a finished run; raises MotionError for a run that has no answer."""
     if status == kernel.TOO_MANY_IMPACTS:
         raise MotionError(
-            f"the structure met {impacts} impacts before the motion ended, but at most {kernel.IMPACT_LIMIT} are followed; "
+            f"the structure met {impacts} impacts before the motion ended, but at most "
+            f"{kernel.IMPACT_LIMIT} are followed; "
             "a restitution below 1 brings it to rest."
         )
     if status not in OUTCOMES:
@@ -81,7 +85,7 @@ def concluded(
         rotation_ratio=math.inf if outcome is Outcome.OVERTURNS else ratios[largest],
         outcome=outcome,
         impacts=impacts,
-        peak_time=start_time + when[largest] if rocks else math.nan,
+        peak_time=start_time + float(when[largest]) if rocks else math.nan,
         uplift_time=start_time + uplift,
         peak_side=(1, -1)[largest] if rocks else last_side,
         steps=steps,
