@@ -18,6 +18,7 @@ _TIME = re.compile(r"t|time\b.*|seconds?", re.I)
 _UNIT = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
 _HEAD = 12
+_BLANK, _LINE_END = 32, 10
 _COMMENTED_FORMAT = b"#Earthquake Information"
 """CWB's header, which looks like comments above columns."""
 
@@ -88,11 +89,9 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
 def _body(content: bytes, start: int) -> bytes:
     content = content.removeprefix(b"\xef\xbb\xbf")
     ends = re.finditer(rb"\r*\n|\r+(?!\n)", content)
-    return (
-        content
-        if start == 0
-        else next((content[m.end() :] for i, m in enumerate(ends, 1) if i == start), b"")
-    )
+    if start == 0:
+        return content
+    return next((content[m.end() :] for i, m in enumerate(ends, 1) if i == start), b"")
 
 
 def _time_first(values: np.ndarray, width: int) -> bool:
@@ -103,12 +102,17 @@ def _time_first(values: np.ndarray, width: int) -> bool:
 
 
 def _rows(name: str, body: bytes, values: np.ndarray, width: int) -> np.ndarray:
-    for i, line in enumerate(lines(body), start=1):
-        filled = len(_cells(line))
-        if filled not in (0, width):
-            raise RecordError(
-                f"{name}: line {i} of the samples has {filled} columns, but the first has {width}."
-            )
+    """Return `values` as rows, after checking that each line that is not empty holds `width` of them."""
+    octets = np.frombuffer(body + b"\n", dtype=np.uint8)
+    apart = (octets <= _BLANK) | (octets == ord(",")) | (octets == ord(";"))
+    first = np.flatnonzero(~apart & np.concatenate([[True], apart[:-1]]))
+    filled = np.diff(np.searchsorted(first, np.flatnonzero(octets == _LINE_END)), prepend=0)
+    wrong = np.flatnonzero((filled != 0) & (filled != width))
+    if wrong.size:
+        at = int(wrong[0])
+        raise RecordError(
+            f"{name}: line {at + 1} of the samples has {filled[at]} columns, but the others have {width}."
+        )
     return values.reshape(-1, width)
 
 

@@ -1,8 +1,11 @@
 """Reading: the front door, what it refuses, and the plain columns."""
 
+import contextlib
 import gzip
 import pickle
+import subprocess
 import sys
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -175,3 +178,38 @@ def test_declarations_are_checked(tmp_path: Path) -> None:
 def test_a_table_with_its_own_time_step_uses_it() -> None:
     content = "\n".join(f"{i / 50:.2f} {i % 7}" for i in range(30)).encode()
     assert read_content(content, "r", Options(unit="gal"))[0].time_step == 0.02
+
+
+def test_reading_at2_needs_no_heavy_library(tmp_path: Path) -> None:
+    path = written(tmp_path, at2(["0.1", "0.2"]))
+    code = (
+        "import sys; from rocking.records import read; read(sys.argv[1]); "
+        "print(*sorted({'obspy', 'pandas', 'numba', 'matplotlib', 'scipy.signal', 'pooch'} & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code, str(path)], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == ""
+
+
+WORST = {
+    "columns": b"12\n" * (LARGEST_FILE // 3),
+    "pairs": b"1 2\n" * (LARGEST_FILE // 4),
+    "one number": b"1" * LARGEST_FILE,
+    "blanks": b"x" + b" " * (LARGEST_FILE - 1),
+    "line ends": b"x" + b"\r" * (LARGEST_FILE - 1),
+    "commas": b"," * LARGEST_FILE,
+    "headers": b"Corrected accelerogram 1\nSite x\n" * (LARGEST_FILE // 35),
+    "announcements": b"Corrected accelerogram 1 Chan 1\n"
+    + b"9 points of accel data equally spaced at 1 sec, in g. (8f10.6)\n" * (LARGEST_FILE // 65),
+}
+
+
+@pytest.mark.parametrize("name", WORST)
+def test_the_worst_content_of_the_largest_size_takes_no_more_than_500_mb(name: str) -> None:
+    tracemalloc.start()
+    try:
+        with contextlib.suppress(RecordError):
+            read_content(WORST[name], name, Options(unit="mg", time_step=0.01))
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 500 * 2**20
