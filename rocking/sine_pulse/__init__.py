@@ -1,4 +1,4 @@
-"""The equivalent block under one full sine pulse: exact maximum, its regime, its spectrum, and Eqs. 15 and 16 as printed."""
+"""The equivalent block under one full sine pulse: exact maximum, regime and spectrum; Eqs. 15 and 16 as printed."""
 
 from rocking.sine_pulse.maximum import Maximum, Regime, predict_maximum
 from rocking.sine_pulse.printed import printed_maximum, pulse_end_energy, pulse_end_measure

@@ -196,6 +196,14 @@ def test_chain_of_impacts_dies_out_during_a_long_pulse_and_the_block_rises_again
     assert found.regime is Regime.CONTACT_DURING_PULSE
 
 
+def test_short_hop_on_a_side_with_a_small_critical_rotation_is_the_largest() -> None:
+    """The pulse lifts only the large side, barely; what is a small hop there is a large share of the other's φ_cr."""
+    small = EquivalentBlock(6.0, 0.008, 0.008 / 8.0, 0.4)
+    block = EquivalentBlock(2.0, 0.3, 1.0, 0.5, other_side=small)
+    found = check(block, pulse_on(block, -1.02, 6.0))
+    assert (found.peak_side, found.impacts) == (-1, 1)
+
+
 def test_beyond_the_critical_rotation_and_back() -> None:
     found = check(SYMMETRIC, pulse_on(SYMMETRIC, 6.5, 5.0))
     assert found.outcome is Outcome.ROCKS
