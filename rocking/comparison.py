@@ -5,15 +5,20 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from time import process_time
+from typing import Literal
 
 from rocking.checks import within
 from rocking.errors import ConfigurationError, PulseError, RockingError
-from rocking.motion import Response, integrate
+from rocking.motion.integration import integrate
+from rocking.motion.response import Response
 from rocking.outcome import Outcome
 from rocking.pulses import Light, Pulse, PulseAnalysis, PulseSettings, extract_pulses, light
+from rocking.pulses.choice import chosen_by_demand
+from rocking.pulses.interval import PulseInterval, pulse_interval
 from rocking.records import Accelerogram
 from rocking.sine_pulse import Maximum, predict_maximum, printed_maximum
 from rocking.structures import EquivalentBlock, Mechanism, Structure
+from rocking.structures.mechanism import Scale
 from rocking.units import GRAVITY
 
 
@@ -33,13 +38,17 @@ class AssessmentSettings:
     """What a comparison is made with.
 
     acceleration_scale: which scale the equivalent block carries. tolerance: of the nonlinear integration.
-    fragility_change: relative change of the ground motion that must not flip a verdict.
+    fragility_change: relative change of the ground motion that must not flip a verdict. bootstrap_replicates: of the
+    interval of the pulse, 0 for none. pulse_choice: the pulse that explains most of the record, or, of its first five,
+    the one that demands most of each structure.
     """
 
-    acceleration_scale: str = "mean"
+    acceleration_scale: Scale = "mean"
     tolerance: float = 1e-6
     fragility_change: float = 0.01
     pulse: PulseSettings = field(default_factory=PulseSettings)
+    bootstrap_replicates: int = 100
+    pulse_choice: Literal["energy", "demand"] = "energy"
 
     def __post_init__(self) -> None:
         within(ConfigurationError, "tolerance", self.tolerance, 1e-13, 0.1)
@@ -48,9 +57,14 @@ class AssessmentSettings:
 
 @dataclass(frozen=True)
 class Prediction:
-    """The closed forms of one structure under the dominant pulse, and how far to trust them."""
+    """The closed forms of one structure under one pulse, and how far to trust them.
+
+    rank: of the pulse among those of the record. low, high: 90 % band from the interval of the pulse, nan without one.
+    """
 
     block: EquivalentBlock
+    pulse: Pulse
+    rank: int
     amplitude_ratio: float
     frequency_ratio: float
     printed: float
@@ -81,10 +95,11 @@ class Failure:
 
 @dataclass(frozen=True)
 class Assessment:
-    """One accelerogram against all structures. analysis is None where no pulse could be sought."""
+    """One accelerogram against all structures. analysis and interval are None where no pulse could be sought."""
 
     accelerogram: Accelerogram
     analysis: PulseAnalysis | None
+    interval: PulseInterval | None
     cases: tuple[Case, ...]
     failures: tuple[Failure, ...]
     durations: Mapping[str, float]
@@ -101,37 +116,59 @@ def assess(
     settings = settings or AssessmentSettings()
     started = process_time()
     failures: list[Failure] = []
-    analysis = None
+    analysis = interval = None
     try:
         analysis = extract_pulses(accelerogram, settings=settings.pulse)
+        interval = _interval(analysis, settings)
     except PulseError as error:
         failures.append(Failure("pulses", "", str(error)))
     extracted = process_time()
     cases = []
     for name, structure in structures.items():
         try:
-            cases.append(_case(name, structure, accelerogram, analysis, settings, vertical))
+            mechanism = structure.mechanism()
+            responses = _responses(mechanism, accelerogram, settings, vertical)
+            prediction = predict(mechanism, analysis, interval, settings) if analysis else None
+            if prediction is not None:
+                responses |= _pulse_responses(mechanism, prediction, settings)
+            cases.append(Case(name, mechanism, prediction, responses))
         except RockingError as error:
             failures.append(Failure("responses", name, str(error)))
     durations = {"pulses": extracted - started, "responses": process_time() - extracted}
-    return Assessment(accelerogram, analysis, tuple(cases), tuple(failures), durations)
+    return Assessment(accelerogram, analysis, interval, tuple(cases), tuple(failures), durations)
 
 
-def predict(block: EquivalentBlock, analysis: PulseAnalysis, pulse: Pulse | None = None) -> Prediction:
-    """Return the closed forms of `block` under `pulse` (default: the dominant) with its band."""
-    pulse = pulse or analysis.dominant
+def predict(
+    mechanism: Mechanism,
+    analysis: PulseAnalysis,
+    interval: PulseInterval | None = None,
+    settings: AssessmentSettings | None = None,
+) -> Prediction:
+    """Return the closed forms of the equivalent block of `mechanism` under the pulse that `settings` choose.
+
+    interval: of the dominant pulse, whose band the prediction then carries; another pulse carries none.
+    """
+    settings = settings or AssessmentSettings()
+    block = mechanism.equivalent_block(settings.acceleration_scale)
+
+    def demand(pulse: Pulse) -> float:
+        return predict_maximum(block, pulse).rotation_ratio
+
+    chosen = chosen_by_demand(analysis, demand) if settings.pulse_choice == "demand" else analysis.evidence
+    pulse, dominant = chosen.pulse, chosen is analysis.evidence
     amplitude_ratio = abs(pulse.amplitude) / (GRAVITY * _uplift_multiplier(block, pulse))
-    ratios = [predict_maximum(block, other).rotation_ratio for other in ()]
-    maximum = predict_maximum(block, pulse)
+    low, high = interval.band(demand) if interval and dominant else (math.nan, math.nan)
     return Prediction(
         block=block,
+        pulse=pulse,
+        rank=analysis.ranked.index(chosen) + 1,
         amplitude_ratio=amplitude_ratio,
         frequency_ratio=pulse.circular_frequency / block.frequency_parameter,
         printed=printed_maximum(block, pulse),
-        maximum=maximum,
-        low=min([maximum.rotation_ratio, *ratios]),
-        high=max([maximum.rotation_ratio, *ratios]),
-        light=light(analysis.explained_energy, amplitude_ratio),
+        maximum=predict_maximum(block, pulse),
+        low=low,
+        high=high,
+        light=light(chosen.explained_energy, amplitude_ratio),
     )
 
 
@@ -150,34 +187,38 @@ def ratio(predicted: float, integrated: float) -> float:
     return predicted / integrated if both_rock else math.nan
 
 
-def _case(
-    name: str,
-    structure: Structure,
+def _interval(analysis: PulseAnalysis, settings: AssessmentSettings) -> PulseInterval | None:
+    if not settings.bootstrap_replicates:
+        return None
+    return pulse_interval(analysis, settings=settings.pulse, replicates=settings.bootstrap_replicates)
+
+
+def _responses(
+    mechanism: Mechanism,
     accelerogram: Accelerogram,
-    analysis: PulseAnalysis | None,
     settings: AssessmentSettings,
     vertical: Accelerogram | None,
-) -> Case:
-    mechanism = structure.mechanism()
+) -> dict[Method, Response]:
     block = mechanism.equivalent_block(settings.acceleration_scale)
-    responses = {
-        Method.MECHANISM_ON_RECORD: integrate(
-            mechanism,
-            accelerogram,
-            tolerance=settings.tolerance,
-            vertical=vertical,
-            sensitivity=True,
-            fragility_change=settings.fragility_change,
-        ),
-        Method.BLOCK_ON_RECORD: integrate(block, accelerogram, vertical=None),
-    }
-    if analysis is None:
-        return Case(name, mechanism, None, responses)
-    responses[Method.MECHANISM_ON_PULSE] = integrate(
-        mechanism, analysis.dominant, tolerance=settings.tolerance
+    whole = integrate(
+        mechanism,
+        accelerogram,
+        tolerance=settings.tolerance,
+        vertical=vertical,
+        sensitivity=True,
+        fragility_change=settings.fragility_change,
     )
-    responses[Method.BLOCK_ON_PULSE] = integrate(block, analysis.dominant)
-    return Case(name, mechanism, predict(block, analysis), responses)
+    on_block = integrate(block, accelerogram, tolerance=settings.tolerance, vertical=vertical)
+    return {Method.MECHANISM_ON_RECORD: whole, Method.BLOCK_ON_RECORD: on_block}
+
+
+def _pulse_responses(
+    mechanism: Mechanism, prediction: Prediction, settings: AssessmentSettings
+) -> dict[Method, Response]:
+    return {
+        Method.MECHANISM_ON_PULSE: integrate(mechanism, prediction.pulse, tolerance=settings.tolerance),
+        Method.BLOCK_ON_PULSE: integrate(prediction.block, prediction.pulse, tolerance=settings.tolerance),
+    }
 
 
 def _uplift_multiplier(block: EquivalentBlock, pulse: Pulse) -> float:

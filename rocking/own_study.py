@@ -13,7 +13,8 @@ from rocking import columns, rows
 from rocking.comparison import Assessment, AssessmentSettings, Case, Method, assess
 from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
-from rocking.records.catalogue import catalogue_from_folder, write_catalogue_rows
+from rocking.records.catalogue_from_folder import catalogue_from_folder
+from rocking.records.catalogue_from_folder import write_catalogue as write_rows
 from rocking.structures import load_structures
 from rocking.summary import structure_rows
 from rocking.tables import csv_cells, write_whole
@@ -64,7 +65,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
 def write_catalogue(folder: Path, target: Path) -> tuple[int, list[tuple[str, str]]]:
     """Write a catalogue of the accelerograms in `folder` to `target`; return their number and what was not read."""
     found, unread = catalogue_from_folder(folder)
-    write_whole(target, write_catalogue_rows(found).encode())
+    write_rows(found, target)
     return len(found), unread
 
 

@@ -5,6 +5,7 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -17,7 +18,7 @@ from rocking.structures import load_structures
 class Plan:
     """What a study will do. records: by identifier, in catalogue order. jobs: identifiers by job."""
 
-    settings: Mapping[str, object]
+    settings: Mapping[str, Any]
     records: Mapping[str, CatalogueRecord]
     jobs: Mapping[str, tuple[str, ...]]
     settings_sha256: str
@@ -41,7 +42,7 @@ class Plan:
 _DO_NOT_CHANGE_NUMBERS = {"catalogue", "structures", "results", "mirror", "reports", "records_per_job"}
 
 
-def make_plan(settings: Mapping[str, object], schema: Path) -> Plan:
+def make_plan(settings: Mapping[str, Any], schema: Path) -> Plan:
     """Check `settings`, the catalogue and the structures they name, and share out the records.
 
     Raises ConfigurationError with every defect of the three in one message.
@@ -64,7 +65,7 @@ def make_plan(settings: Mapping[str, object], schema: Path) -> Plan:
     )
 
 
-def check_settings(settings: Mapping[str, object], schema: Path) -> None:
+def check_settings(settings: Mapping[str, Any], schema: Path) -> None:
     """Check `settings` against the JSON Schema in a YAML file; all defects in one ConfigurationError."""
     from jsonschema import Draft7Validator  # here, so that a job that only looks up its records does not pay
 

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from rocking.comparison import Assessment, Case, Failure, Method, Prediction, ratio, verdict
-from rocking.motion import Response
+from rocking.motion.response import Response
 from rocking.outcome import Outcome
 from rocking.pulses import PulseAnalysis, PulseEvidence
+from rocking.pulses.interval import PulseInterval
 from rocking.records import Accelerogram
 from rocking.records.processing import displacement, velocity
 from rocking.structures import Mechanism
@@ -46,7 +47,7 @@ def all_rows(
     cases = assessment.cases
     return {
         "record": [record_row(identity, licence)],
-        "pulses": pulse_rows(identity, assessment.analysis),
+        "pulses": pulse_rows(identity, assessment.analysis, assessment.interval),
         "predictions": [row for case in cases for row in prediction_rows(identity, case, acceleration_scale)],
         "responses": [row for case in cases for row in response_rows(identity, case)],
         "comparison": [comparison_row(identity, case) for case in cases],
@@ -82,35 +83,43 @@ def record_row(identity: Identity, licence: str) -> Row:
     )
 
 
-def pulse_rows(identity: Identity, analysis: PulseAnalysis | None) -> list[Row]:
+def pulse_rows(
+    identity: Identity, analysis: PulseAnalysis | None, interval: PulseInterval | None
+) -> list[Row]:
     """The rows of the pulses table: ranked alternatives, the dominant pulse first, then the pursuit sequence."""
     if analysis is None:
         return []
     kinds = {"alternative": analysis.ranked, "sequence": analysis.sequence}
     return [
-        _pulse_row(identity, analysis, kind, rank, evidence)
+        _pulse_row(identity, analysis, interval, kind, rank, evidence)
         for kind, pulses in kinds.items()
         for rank, evidence in enumerate(pulses, start=1)
     ]
 
 
 def _pulse_row(
-    identity: Identity, analysis: PulseAnalysis, kind: str, rank: int, evidence: PulseEvidence
+    identity: Identity,
+    analysis: PulseAnalysis,
+    interval: PulseInterval | None,
+    kind: str,
+    rank: int,
+    evidence: PulseEvidence,
 ) -> Row:
     pulse = evidence.pulse
     dominant = kind == "alternative" and rank == 1
+    amplitude, period = (interval.amplitude, interval.period) if dominant and interval else (_NONE, _NONE)
     return (
         identity.head
         | {
             "kind": kind,
             "rank": rank,
             "amplitude_m_s2": pulse.amplitude,
-            "amplitude_low_m_s2": None,
-            "amplitude_high_m_s2": None,
+            "amplitude_low_m_s2": amplitude[0],
+            "amplitude_high_m_s2": amplitude[1],
             "circular_frequency_rad_s": pulse.circular_frequency,
             "period_s": pulse.period,
-            "period_low_s": None,
-            "period_high_s": None,
+            "period_low_s": period[0],
+            "period_high_s": period[1],
             "start_time_s": pulse.start_time,
             "gain_m2_s3": evidence.gain,
             "gain_ratio": evidence.gain / analysis.evidence.gain,
@@ -155,6 +164,7 @@ def _prediction_head(
     return identity.head | {
         "structure": case.structure,
         "method": method,
+        "pulse_rank": prediction.rank,
         "acceleration_scale_choice": acceleration_scale,
         "frequency_parameter_rad_s": block.frequency_parameter,
         "critical_rotation_rad": block.critical_rotation,
@@ -235,7 +245,9 @@ def failure_row(record: str, component: str, failure: Failure) -> Row:
     }
 
 
+_NONE = (math.nan, math.nan)
+
+
 def rotation(mechanism: Mechanism, rotation_ratio: float, side: int) -> float:
     """Return the rotation in rad that `rotation_ratio` means on `side` (+1 or −1) of `mechanism`."""
-    negative = side < 0 and mechanism.negative is not None
-    return rotation_ratio * (mechanism.negative if negative else mechanism.positive).critical_rotation
+    return rotation_ratio * mechanism.sides[0 if side >= 0 else -1].critical_rotation

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from time import process_time
+from typing import Any
 
 from rocking import columns, rows
 from rocking.comparison import AssessmentSettings, Failure, assess
@@ -29,13 +30,15 @@ class Study:
     mirror: Path | None = None
 
     @classmethod
-    def from_settings(cls, settings: Mapping[str, object], structures: Path, sha256: str) -> "Study":
+    def from_settings(cls, settings: Mapping[str, Any], structures: Path, sha256: str) -> "Study":
         """Return the study that checked `settings` and the structure list in `structures` describe."""
         pulse = settings["pulse"]
         assessment = AssessmentSettings(
             acceleration_scale=settings["acceleration_scale"],
             tolerance=settings["tolerance"],
             fragility_change=settings["fragility_change"],
+            bootstrap_replicates=pulse["bootstrap_replicates"],
+            pulse_choice=pulse["choice"],
             pulse=PulseSettings(
                 lowest_frequency=pulse["lowest_frequency_hz"],
                 highest_frequency=pulse["highest_frequency_hz"],

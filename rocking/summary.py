@@ -76,7 +76,7 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[Row]:
         }
 
 
-def _all_rows(folders: Iterable[Path], table: Table) -> Iterator[Row]:
+def _all_rows(folders: Iterable[Path], table: Table) -> Iterator[dict[str, str]]:
     for folder in folders:
         with (folder / table.file_name).open(encoding="utf-8", newline="") as stream:
             yield from csv.DictReader(stream)
