@@ -8,7 +8,7 @@ from rocking.errors import PulseError
 from rocking.pulses import flags as rules
 from rocking.pulses.analysis import PulseAnalysis, PulseEvidence
 from rocking.pulses.flags import Flag
-from rocking.pulses.search import Band, PulseSearch, scanned_gains, searched_band
+from rocking.pulses.search import Band, Maxima, PulseSearch, energy_of, searched_band
 from rocking.pulses.settings import PulseSettings
 from rocking.records.accelerogram import Accelerogram
 
@@ -27,9 +27,9 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
     samples = _varying(accelerogram)
     band = searched_band(accelerogram, settings)
     search = PulseSearch(accelerogram.time_step, band, settings)
-    gains = search.gains(samples)
-    ranked = search.ranked(samples, gains)
-    sequence = _pursued(search, samples, gains, ranked[0])
+    maxima = search.maxima(samples)
+    ranked = search.ranked(samples, maxima)
+    sequence = _pursued(search, samples, maxima, ranked[0])
     residual = samples - ranked[0].pulse.acceleration(accelerogram.times)
     residual.flags.writeable = False
     raised = (*_raised(accelerogram, ranked, sequence, band), *band.flags)
@@ -43,24 +43,25 @@ def energy_map(
 
     frequencies: (m,) Hz, ascending. Where the cycle does not fit in the record the gain is 0.
     """
-    band = searched_band(accelerogram, settings or PulseSettings())
-    return scanned_gains(
-        accelerogram.acceleration, accelerogram.time_step, band.frequencies
-    ), band.frequencies
+    from rocking.pulses.scan import energy_gains
+
+    frequencies = searched_band(accelerogram, settings or PulseSettings()).frequencies
+    angles = 2 * np.pi * accelerogram.time_step * frequencies
+    return energy_gains(accelerogram.acceleration[np.newaxis], accelerogram.time_step, angles), frequencies
 
 
 def _pursued(
-    search: PulseSearch, samples: np.ndarray, gains: np.ndarray, first: PulseEvidence
+    search: PulseSearch, samples: np.ndarray, maxima: Maxima, first: PulseEvidence
 ) -> tuple[PulseEvidence, ...]:
-    """Return `first` and the pulses sought in turn in what the ones before left; `gains` is used up."""
+    """Return `first` and the pulses sought in turn in what the ones before left."""
     sequence, residual = [first], samples.copy()
     times = np.arange(samples.size) * search.time_step
     while len(sequence) < search.settings.pursuit:
         residual -= sequence[-1].pulse.acceleration(times)
-        if residual @ residual <= NOTHING_LEFT * (samples @ samples):
+        if energy_of(residual, search.time_step) <= NOTHING_LEFT * energy_of(samples, search.time_step):
             break
-        search.renew(gains, residual, sequence[-1].pulse)
-        found = search.best(residual, gains)
+        maxima = search.renewed(maxima, residual, sequence[-1].pulse)
+        found = search.best(residual, maxima)
         if found is None:
             break
         sequence.append(found)

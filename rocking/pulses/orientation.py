@@ -55,9 +55,9 @@ def extract_pulses_oriented(
         )
     band = searched_band(rotated(first, second, 0.0), settings)
     search = PulseSearch(first.time_step, band, settings)
-    gains = search.gains(samples[0]) + search.gains(samples[1])
+    maxima = search.maxima(samples)
     best = max(
-        (_settled(search, samples, onset, frequency) for onset, frequency in search.candidates(gains)),
+        (_settled(search, samples, onset, frequency) for onset, frequency in search.candidates(maxima)),
         key=lambda found: found[1],
     )
     record = rotated(first, second, best[0])
@@ -83,7 +83,7 @@ def _settled(search: PulseSearch, samples: np.ndarray, onset: int, frequency: fl
 def _best_angle(samples: np.ndarray, time_step: float, start: float, frequency: float) -> float:
     """Angle of the two least-squares amplitudes of one pulse, in (−π/2, π/2]: an axis has no sense."""
     times = np.arange(samples.shape[1]) * time_step
-    first, second = samples @ Pulse(1.0, 2 * math.pi * frequency, start).acceleration(times)
+    first, second = (samples * Pulse(1.0, 2 * math.pi * frequency, start).acceleration(times)).sum(axis=1)
     return (
         math.atan2(second, first) if first > 0 else math.atan2(-second, -first) if first < 0 else math.pi / 2
     )

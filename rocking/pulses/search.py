@@ -19,7 +19,7 @@ SCANNED_OVERLAP = 0.7
 LEAST_SHARE = 0.01
 """Share of the largest gain below which a maximum of the scan is no rival."""
 NEAR_BEST = 0.8
-"""Share of the largest scanned gain from which a maximum can still become the best by refinement."""
+"""Share of the largest scanned gain from which a maximum is worth a look when only the best is wanted."""
 NEAR_TIME, NEAR_OCTAVES = 0.5, 0.5
 """Periods of onset and octaves of frequency within which a pulse is still the same pulse, sought again."""
 
@@ -58,25 +58,13 @@ def searched_band(accelerogram: Accelerogram, settings: PulseSettings) -> Band:
     return Band(frequencies, tuple(found))
 
 
-def scanned_gains(
-    samples: np.ndarray,
-    time_step: float,
-    frequencies: np.ndarray,
-    into: np.ndarray | None = None,
-    onsets: slice = slice(None),
-) -> np.ndarray:
-    """Return the energy gain, (n, m) m²/s³, of a cycle of each frequency (m,) Hz that starts at each sample (n,).
+@dataclass(frozen=True, eq=False)
+class Maxima:
+    """Local maxima of the energy gain on the grid: onsets (k,) samples, columns (k,) of the frequency, gains (k,)."""
 
-    into: a map to renew at `onsets` only; by default a new one. Where the cycle does not fit the gain is 0.
-    """
-    from rocking.pulses.scan import energy_gains
-
-    gains = np.empty((samples.size, len(frequencies))) if into is None else into
-    first, last, _ = onsets.indices(samples.size)
-    energy_gains(
-        samples, time_step, 2 * np.pi * time_step * np.asarray(frequencies, float), first, last, gains
-    )
-    return gains
+    onsets: np.ndarray
+    columns: np.ndarray
+    gains: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,21 +75,27 @@ class PulseSearch:
     band: Band
     settings: PulseSettings
 
-    def gains(self, samples: np.ndarray) -> np.ndarray:
-        """Return the energy map of `samples`, (n, m) m²/s³."""
-        return scanned_gains(samples, self.time_step, self.band.frequencies)
+    def maxima(self, samples: np.ndarray, onsets: slice = slice(None), share: float = LEAST_SHARE) -> Maxima:
+        """Return the maxima of `samples`, (n,) m/s² or (c, n) of components whose gains are added, at `onsets`."""
+        return _maxima(np.atleast_2d(samples), self.time_step, self.band.frequencies, onsets, share)
 
-    def renew(self, gains: np.ndarray, samples: np.ndarray, changed: Pulse) -> None:
-        """Scan again the onsets whose cycle can meet `changed`, where alone `samples` differ from before."""
-        first = math.floor((changed.start_time - 1 / self.band.limits[0]) / self.time_step) - 1
-        last = math.ceil(changed.end_time / self.time_step) + 1
+    def renewed(self, maxima: Maxima, samples: np.ndarray, changed: Pulse) -> Maxima:
+        """Return `maxima` with those whose cycle can meet `changed`, where alone `samples` differ, sought again."""
+        first = math.floor((changed.start_time - 1 / self.band.limits[0]) / self.time_step) - 2
+        last = math.ceil(changed.end_time / self.time_step) + 2
         onsets = slice(max(first, 0), min(last, samples.size))
-        scanned_gains(samples, self.time_step, self.band.frequencies, gains, onsets)
+        kept = (maxima.onsets < onsets.start) | (maxima.onsets >= onsets.stop)
+        new = self.maxima(samples, onsets)
+        return Maxima(
+            np.concatenate((maxima.onsets[kept], new.onsets)),
+            np.concatenate((maxima.columns[kept], new.columns)),
+            np.concatenate((maxima.gains[kept], new.gains)),
+        )
 
-    def ranked(self, samples: np.ndarray, gains: np.ndarray) -> tuple[PulseEvidence, ...]:
+    def ranked(self, samples: np.ndarray, maxima: Maxima) -> tuple[PulseEvidence, ...]:
         """Return the best pulses that do not cover one another, by refined gain."""
-        energy = float(samples @ samples) * self.time_step
-        refined = [self.refined(samples, energy, *place) for place in self.candidates(gains)]
+        energy = energy_of(samples, self.time_step)
+        refined = [self.refined(samples, energy, *place) for place in self.candidates(maxima)]
         refined.sort(key=lambda evidence: -evidence.gain)
         kept: list[PulseEvidence] = []
         for evidence in refined:
@@ -109,27 +103,22 @@ class PulseSearch:
                 kept.append(evidence)
         return tuple(kept[: self.settings.alternatives])
 
-    def best(self, samples: np.ndarray, gains: np.ndarray) -> PulseEvidence | None:
+    def best(self, samples: np.ndarray, maxima: Maxima) -> PulseEvidence | None:
         """Return the pulse of largest refined gain; None where nothing is left to find."""
-        energy = float(samples @ samples) * self.time_step
-        places = self.candidates(gains, 2, NEAR_BEST)
-        found = [self.refined(samples, energy, *place) for place in places]
+        energy = energy_of(samples, self.time_step)
+        found = [self.refined(samples, energy, *place) for place in self.candidates(maxima, 2)]
         return max(found, key=lambda evidence: evidence.gain, default=None)
 
-    def candidates(
-        self, gains: np.ndarray, count: int | None = None, share: float = LEAST_SHARE
-    ) -> list[tuple[int, float]]:
-        """Return (onset sample, frequency in Hz) of the best scanned maxima that do not cover one another."""
-        from rocking.pulses.scan import local_maxima
-
-        maxima = local_maxima(gains, share * gains.max())
-        maxima = maxima[np.argsort(-gains[maxima[:, 0], maxima[:, 1]], kind="stable")]
-        starts, frequencies = maxima[:, 0] * self.time_step, self.band.frequencies[maxima[:, 1]]
-        ends, free = starts + 1 / frequencies, np.ones(len(maxima), bool)
+    def candidates(self, maxima: Maxima, count: int | None = None) -> list[tuple[int, float]]:
+        """Return (onset sample, frequency in Hz) of the best maxima that do not cover one another."""
+        order = np.argsort(-maxima.gains, kind="stable")
+        onsets, frequencies = maxima.onsets[order], self.band.frequencies[maxima.columns[order]]
+        starts, free = onsets * self.time_step, np.ones(order.size, bool)
+        ends = starts + 1 / frequencies
         kept: list[tuple[int, float]] = []
         while len(kept) < (count or self.settings.candidates) and free.any():
             best = int(np.argmax(free))
-            kept.append((int(maxima[best, 0]), float(frequencies[best])))
+            kept.append((int(onsets[best]), float(frequencies[best])))
             common = np.minimum(ends, ends[best]) - np.maximum(starts, starts[best])
             joint = np.maximum(ends, ends[best]) - np.minimum(starts, starts[best])
             free &= common < SCANNED_OVERLAP * joint
@@ -137,7 +126,8 @@ class PulseSearch:
 
     def refined(self, samples: np.ndarray, energy: float, onset: int, frequency: float) -> PulseEvidence:
         """Return the pulse at the maximum of the gain near one scanned maximum; energy: ∫a² dt, m²/s³."""
-        from rocking.pulses.scan import envelope_phase, refine
+        from rocking.pulses.refinement import refine
+        from rocking.pulses.scan import envelope_phase
 
         turn = 2 * math.pi * self.time_step
         lowest, highest = (turn * limit for limit in self.band.limits)
@@ -160,11 +150,27 @@ class PulseSearch:
         frequencies = 2.0 ** (np.arange(-steps, steps + 1) / self.settings.per_octave) / pulse.period
         frequencies = np.unique(np.clip(frequencies, *self.band.limits))
         onsets = math.ceil((pulse.start_time + NEAR_TIME * pulse.period) / self.time_step) + 1 - window.start
-        gains = np.zeros((samples.size, frequencies.size))
-        scanned_gains(samples, self.time_step, frequencies, gains, slice(0, onsets))
-        onset, place = np.unravel_index(np.argmax(gains), gains.shape)
-        found = self.refined(samples, 1.0, int(onset), float(frequencies[place])).pulse
+        maxima = _maxima(samples[np.newaxis], self.time_step, frequencies, slice(0, onsets), NEAR_BEST)
+        best = np.argmax(maxima.gains)
+        frequency = float(frequencies[maxima.columns[best]])
+        found = self.refined(samples, 1.0, int(maxima.onsets[best]), frequency).pulse
         return replace(found, start_time=found.start_time + window.start * self.time_step)
+
+
+def _maxima(
+    samples: np.ndarray, time_step: float, frequencies: np.ndarray, onsets: slice, share: float
+) -> Maxima:
+    from rocking.pulses.scan import local_maxima
+
+    first, last, _ = onsets.indices(samples.shape[1])
+    places, gains = local_maxima(samples, time_step, 2 * np.pi * time_step * frequencies, first, last, share)
+    kept = gains >= share * gains.max(initial=0.0)
+    return Maxima(places[kept, 0], places[kept, 1], gains[kept])
+
+
+def energy_of(samples: np.ndarray, time_step: float) -> float:
+    """∫a² dt, m²/s³. A plain sum: a dot product of long vectors starts threads and depends on their number."""
+    return float(np.square(samples).sum()) * time_step
 
 
 def shared_time(one: Pulse, other: Pulse) -> float:

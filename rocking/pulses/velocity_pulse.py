@@ -164,7 +164,7 @@ def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, c
 def _at(velocity: np.ndarray, scale: int, column: int) -> float:
     """Coefficient of one wavelet at one sample."""
     begin, end, wavelet = _overlap(velocity.size, scale, column)
-    return float(velocity[begin:end] @ wavelet)
+    return float((velocity[begin:end] * wavelet).sum())
 
 
 def _extracted(velocity: np.ndarray, scale: int, column: int) -> tuple[np.ndarray, int]:

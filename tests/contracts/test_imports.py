@@ -28,7 +28,7 @@ SAME_FLOOR = {
 }
 ONLY_IN = {
     "obspy": ("records/",),
-    "numba": ("motion/kernel.py", "pulses/scan.py"),
+    "numba": ("motion/kernel.py", "pulses/refinement.py", "pulses/scan.py"),
     "matplotlib": ("reports/",),
     "typst": ("reports/",),
     "snakemake": (),
