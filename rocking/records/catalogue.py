@@ -10,16 +10,21 @@ from typing import Any
 
 from rocking.errors import CatalogueError, RecordError, RockingError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.catalogue_record import CatalogueRecord
+from rocking.records.catalogue_record import COLUMNS, CatalogueRecord
 from rocking.records.directions import azimuth, is_vertical
 from rocking.records.fetch import fetch, inventory_of
+from rocking.records.folder import catalogue_from_folder, write_catalogue_rows
 from rocking.records.read import read
 
-COLUMNS = (
-    "id", "file", "source_repository", "source_path", "source_commit", "component", "vertical_component", "unit",
-    "time_step_s", "scale_factor", "event", "station", "licence", "sha256", "inventory", "high_pass_hz", "note",
-)  # fmt: skip
-"""Columns of a catalogue. Required: id, file and sha256; the source columns only for files that are fetched."""
+__all__ = [
+    "COLUMNS",
+    "CatalogueRecord",
+    "catalogue_from_folder",
+    "load_catalogue",
+    "open_record",
+    "vertical_of",
+    "write_catalogue_rows",
+]
 
 _REQUIRED = ("id", "file", "sha256")
 

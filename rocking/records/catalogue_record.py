@@ -9,6 +9,12 @@ from rocking.checks import finite, positive
 from rocking.errors import CatalogueError, RockingError
 from rocking.units import acceleration_factor
 
+COLUMNS = (
+    "id", "file", "source_repository", "source_path", "source_commit", "component", "vertical_component", "unit",
+    "time_step_s", "scale_factor", "event", "station", "licence", "sha256", "inventory", "high_pass_hz", "note",
+)  # fmt: skip
+"""Columns of a catalogue. Required: id, file and sha256; the source columns only for files that are fetched."""
+
 _OBSPY = "obspy:"
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
 _RESERVED = {

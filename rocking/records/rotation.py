@@ -12,7 +12,7 @@ _FLATTEST = np.sin(np.radians(30.0))
 
 
 @dataclass(frozen=True)
-class RotatedPeaks:
+class RotD:
     """Peak accelerations over all directions (Boore 2010), m/s²: median and largest, and the azimuth of the largest.
 
     azimuth: degrees clockwise from north in [0, 180), or from the first component where azimuths are unknown.
@@ -50,7 +50,7 @@ def rotate(first: Accelerogram, second: Accelerogram, azimuth: float) -> Acceler
     return replace(turned, warnings=_together(first, second))
 
 
-def rotated_peaks(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotatedPeaks:
+def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
     """Return RotD50 and RotD100 of peak acceleration over directions `step` degrees apart.
 
     Components without azimuths are taken as orthogonal.
@@ -63,7 +63,7 @@ def rotated_peaks(first: Accelerogram, second: Accelerogram, step: float = 1.0) 
         a, b = north.acceleration, east.acceleration
     angles = np.arange(0.0, 180.0, step)
     peaks = np.array([np.abs(a * np.cos(t) + b * np.sin(t)).max() for t in np.radians(angles)])
-    return RotatedPeaks(float(np.median(peaks)), float(peaks.max()), float(angles[peaks.argmax()]))
+    return RotD(float(np.median(peaks)), float(peaks.max()), float(angles[peaks.argmax()]))
 
 
 def _paired(first: Accelerogram, second: Accelerogram) -> tuple[np.ndarray, np.ndarray]:

@@ -5,7 +5,7 @@ import pytest
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
-from rocking.records.rotation import rotate, rotated_peaks
+from rocking.records.rotation import rotate, rotd
 
 RNG = np.random.default_rng(1)
 NORTH, EAST = RNG.standard_normal(500), RNG.standard_normal(500)
@@ -35,14 +35,14 @@ def test_peaks_over_directions() -> None:
     wave = np.sin(np.linspace(0, 20, 400))
     first = Accelerogram(wave * np.cos(np.radians(60)), 0.01, azimuth=0)
     second = Accelerogram(wave * np.sin(np.radians(60)), 0.01, azimuth=90)
-    peaks = rotated_peaks(first, second)
+    peaks = rotd(first, second)
     assert peaks.azimuth == 60 and peaks.rotd100 == pytest.approx(np.abs(wave).max())
     assert peaks.rotd50 == pytest.approx(
         np.abs(wave).max() / np.sqrt(2), rel=0.01
     )  # 1° steps: half a degree of slope
-    oblique = rotated_peaks(component(260), component(345))
-    assert oblique.rotd100 == pytest.approx(rotated_peaks(component(0), component(90)).rotd100)
-    assert rotated_peaks(component(None), component(None)).rotd100 > 0
+    oblique = rotd(component(260), component(345))
+    assert oblique.rotd100 == pytest.approx(rotd(component(0), component(90)).rotd100)
+    assert rotd(component(None), component(None)).rotd100 > 0
 
 
 @pytest.mark.parametrize(("first", "second", "message"), [
@@ -62,4 +62,4 @@ def test_a_direction_must_be_a_number() -> None:
     with pytest.raises(RecordError, match="azimuth is nan"):
         rotate(component(0), component(90), float("nan"))
     with pytest.raises(RecordError, match="step is 0"):
-        rotated_peaks(component(0), component(90), step=0)
+        rotd(component(0), component(90), step=0)

@@ -1,18 +1,14 @@
-"""A catalogue from a folder of files: every one that reads becomes a row, every other is named with the reason.
+"""A catalogue from a folder of files: every one that reads becomes a row, every other is named with the reason."""
 
-`python -m rocking.records.catalogue_from_folder FOLDER CATALOGUE.csv [--unit g] [--time-step 0.01]`
-"""
-
-import argparse
 import csv
 import re
-import sys
+from io import StringIO
 from pathlib import Path
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.catalogue import COLUMNS
-from rocking.records.read import read
+from rocking.records.catalogue_record import COLUMNS
+from rocking.records.read import bytes_of, read
 
 Row = dict[str, str]
 
@@ -22,16 +18,16 @@ def catalogue_from_folder(
 ) -> tuple[list[Row], list[tuple[str, str]]]:
     """Return (rows, unread): a catalogue row for each file under `folder` that reads, (file, reason) for others.
 
-    unit and time_step [s] are used only where a file does not declare them. Files whose name starts with a dot are
-    passed over. Paths are relative to `folder`: the catalogue belongs there, or `folder` serves as its mirror.
-    Raises RecordError when `folder` is no folder.
+    unit and time_step [s] are used only where a file does not declare them. Catalogues, and files whose name
+    starts with a dot, are passed over. Paths are relative to `folder`: the catalogue belongs there, or `folder`
+    serves as its mirror. Raises RecordError when `folder` is no folder.
     """
     folder = Path(folder)
     if not folder.is_dir():
         raise RecordError(f"{folder}: this is no folder; give the folder that holds the records.")
     rows: list[Row] = []
     unread: list[tuple[str, str]] = []
-    for path in sorted(p for p in folder.rglob("*") if p.is_file() and not p.name.startswith(".")):
+    for path in sorted(p for p in folder.rglob("*") if p.is_file() and not _passed_over(p)):
         file = path.relative_to(folder).as_posix()
         try:
             channels, declared = _read(path, unit, time_step)
@@ -45,15 +41,18 @@ def catalogue_from_folder(
     return rows, unread
 
 
-def write_catalogue(rows: list[Row], path: str | Path) -> None:
-    """Write `rows` as a catalogue, by way of a temporary file so that nothing half-written is left."""
-    path = Path(path)
-    temporary = path.with_name(path.name + ".part")
-    with temporary.open("w", encoding="utf-8", newline="") as stream:
-        writer = csv.DictWriter(stream, COLUMNS, restval="", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    temporary.replace(path)
+def _passed_over(path: Path) -> bool:
+    is_table = path.suffix.lower() == ".csv" and path.stat().st_size > 0
+    return path.name.startswith(".") or (is_table and bytes_of(path).startswith(b"id,file,"))
+
+
+def write_catalogue_rows(rows: list[Row]) -> str:
+    """Return `rows` as the text of a catalogue."""
+    text = StringIO(newline="")
+    writer = csv.DictWriter(text, COLUMNS, restval="", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
 
 
 def _read(path: Path, unit: str | None, time_step: float | None) -> tuple[list[Accelerogram], Row]:
@@ -98,26 +97,3 @@ def _id(file: str, taken: set[str]) -> str:
     while name.lower() in taken:
         name, number = f"{base}_{number}", number + 1
     return name
-
-
-def main(arguments: list[str] | None = None) -> int:
-    """Write the catalogue and name on stderr what could not be read; 0 if at least one record stands in it."""
-    parser = argparse.ArgumentParser(
-        prog="python -m rocking.records.catalogue_from_folder", description=__doc__
-    )
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("catalogue", type=Path)
-    parser.add_argument("--unit", help="unit of files that declare none")
-    parser.add_argument("--time-step", type=float, help="time step in s of files that declare none")
-    given = parser.parse_args(arguments)
-    rows, unread = catalogue_from_folder(given.folder, unit=given.unit, time_step=given.time_step)
-    for file, reason in unread:
-        print(f"not read: {file}: {reason}", file=sys.stderr)
-    print(f"{len(rows)} records written, {len(unread)} files not read.", file=sys.stderr)
-    if rows:
-        write_catalogue(rows, given.catalogue)
-    return 0 if rows else 1
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())
