@@ -36,7 +36,7 @@ def _number(error: type[RockingError], field: str, value: float) -> float:
         raise error(f"{field} is {value!r}, but must be a number.")
     try:
         return float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise error(f"{field} is {value!r}, but must be a number.") from None
 
 

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.optimize import brentq
 
-from rocking.checks import finite, positive
+from rocking.checks import finite
 from rocking.errors import StructureError, StructureWarning
 from rocking.structures.arch_linkage import Linkage
 from rocking.structures.arch_onset import (
@@ -28,9 +28,11 @@ from rocking.structures.restitution import (
     momentum_balance,
     resolve_restitution,
 )
+from rocking.structures.sizes import length
 from rocking.structures.structure import Structure
 
-_LARGEST_EMBRACE = 1.5 * np.pi
+_SMALLEST_EMBRACE, _LARGEST_EMBRACE = np.pi / 36, 1.5 * np.pi
+_MOST_VOUSSOIRS = 1000
 
 
 @dataclass(frozen=True)
@@ -52,16 +54,18 @@ class Arch(Structure):
     restitution: Restitution = None
 
     def __post_init__(self) -> None:
-        for name, unit in (("radius", "m"), ("thickness", "m"), ("embrace_angle", "rad")):
-            object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), unit))
+        for name in ("radius", "thickness"):
+            object.__setattr__(self, name, length(name, getattr(self, name)))
+        embrace = finite(StructureError, "embrace_angle", self.embrace_angle, "rad")
+        object.__setattr__(self, "embrace_angle", embrace)
         if self.thickness >= 2 * self.radius:
             raise StructureError(
                 f"thickness is {self.thickness!r} m, but must be less than twice the radius of {self.radius!r} m."
             )
-        if self.embrace_angle > _LARGEST_EMBRACE:
+        if not _SMALLEST_EMBRACE <= embrace <= _LARGEST_EMBRACE:
             raise StructureError(
-                f"embrace_angle is {self.embrace_angle!r} rad ({np.degrees(self.embrace_angle):.6g}°), but must be at "
-                "most 4.7124 rad (270°); a ring closer to full is not described here."
+                f"embrace_angle is {embrace!r} rad ({np.degrees(embrace):.6g}°), but must lie between "
+                "0.08727 rad (5°), flatter than which is no arch, and 4.7124 rad (270°)."
             )
         object.__setattr__(self, "voussoirs", _voussoirs(self.voussoirs))
         check_restitution(self.restitution, ("momentum",))
@@ -200,8 +204,8 @@ def _voussoirs(value: int | None) -> int | None:
     if value is None:
         return None
     count = finite(StructureError, "voussoirs", value)
-    if count != int(count) or count < 3:
+    if count != int(count) or not 3 <= count <= _MOST_VOUSSOIRS:
         raise StructureError(
-            f"voussoirs is {value!r}, but must be a whole number of at least 3, or left out."
+            f"voussoirs is {value!r}, but must be a whole number from 3 to {_MOST_VOUSSOIRS}, or left out."
         )
     return int(count)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rocking.checks import finite, positive
+from rocking.checks import finite
 from rocking.errors import StructureError
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import (
@@ -14,6 +14,7 @@ from rocking.structures.restitution import (
     resolve_restitution,
 )
 from rocking.structures.single_body import corner_side
+from rocking.structures.sizes import length
 from rocking.structures.structure import Structure, turned
 
 
@@ -34,9 +35,7 @@ class Block(Structure):
     one_sided: bool = False
 
     def __post_init__(self) -> None:
-        object.__setattr__(
-            self, "semi_diagonal", positive(StructureError, "semi_diagonal", self.semi_diagonal, "m")
-        )
+        object.__setattr__(self, "semi_diagonal", length("semi_diagonal", self.semi_diagonal))
         slenderness = finite(StructureError, "slenderness", self.slenderness, "rad")
         if not 0 < slenderness < np.pi / 2:
             raise StructureError(
@@ -49,8 +48,7 @@ class Block(Structure):
     @classmethod
     def of_size(cls, breadth: float, height: float, **options) -> "Block":
         """Return the block of that breadth and height [m]."""
-        breadth = positive(StructureError, "breadth", breadth, "m")
-        height = positive(StructureError, "height", height, "m")
+        breadth, height = length("breadth", breadth), length("height", height)
         return cls(np.hypot(breadth, height) / 2, np.arctan2(breadth, height), **options)
 
     @property

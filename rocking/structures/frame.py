@@ -17,6 +17,8 @@ from rocking.structures.restitution import (
 from rocking.structures.single_body import corner_side
 from rocking.structures.structure import Structure, turned
 
+_MOST_COLUMNS = 1000
+
 
 @dataclass(frozen=True)
 class Frame(Structure):
@@ -37,8 +39,10 @@ class Frame(Structure):
         if not isinstance(self.column, Block) or self.column.one_sided:
             raise StructureError(f"column is {self.column!r}, but must be a Block that rocks to both sides.")
         count = finite(StructureError, "columns", self.columns)
-        if count != int(count) or count < 2:
-            raise StructureError(f"columns is {self.columns!r}, but must be a whole number of at least 2.")
+        if count != int(count) or not 2 <= count <= _MOST_COLUMNS:
+            raise StructureError(
+                f"columns is {self.columns!r}, but must be a whole number from 2 to {_MOST_COLUMNS}."
+            )
         object.__setattr__(self, "columns", int(count))
         ratio = finite(StructureError, "beam_mass_ratio", self.beam_mass_ratio)
         if ratio < 0:

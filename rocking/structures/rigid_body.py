@@ -4,8 +4,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rocking.checks import positive
-from rocking.errors import StructureError
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import (
     Restitution,
@@ -14,6 +12,7 @@ from rocking.structures.restitution import (
     resolve_restitution,
 )
 from rocking.structures.single_body import corner_side
+from rocking.structures.sizes import length, squared_length
 from rocking.structures.structure import Structure, turned
 
 
@@ -38,8 +37,9 @@ class RigidBody(Structure):
     one_sided: bool = False
 
     def __post_init__(self) -> None:
-        for name, unit in (("left", "m"), ("right", "m"), ("centre_height", "m"), ("inertia", "m²")):
-            object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), unit))
+        for name in ("left", "right", "centre_height"):
+            object.__setattr__(self, name, length(name, getattr(self, name)))
+        object.__setattr__(self, "inertia", squared_length("inertia", self.inertia))
         check_restitution(self.restitution, ("momentum", "housner"), self.one_sided)
 
     def _build(self) -> Mechanism:

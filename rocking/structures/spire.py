@@ -7,11 +7,12 @@ from typing import Literal
 
 import numpy as np
 
-from rocking.checks import finite, positive
+from rocking.checks import finite
 from rocking.errors import StructureError
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import Restitution, check_restitution
 from rocking.structures.rigid_body import RigidBody
+from rocking.structures.sizes import length
 from rocking.structures.structure import Structure, turned
 
 _SPREAD = {"circular": 3 / 20, "square": 1 / 5}
@@ -38,10 +39,10 @@ class Spire(Structure):
 
     def __post_init__(self) -> None:
         for name in ("width", "height"):
-            object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), "m"))
+            object.__setattr__(self, name, length(name, getattr(self, name)))
         if self.wall_thickness is not None:
             object.__setattr__(self, "wall_thickness", self._checked_wall(self.wall_thickness))
-        if self.plan not in _SPREAD:
+        if not isinstance(self.plan, str) or self.plan not in _SPREAD:
             raise StructureError(f"plan is {self.plan!r}, but must be one of {', '.join(_SPREAD)}.")
         crack = finite(StructureError, "crack_height", self.crack_height, "m")
         if not 0 <= crack < self.height:
@@ -53,7 +54,7 @@ class Spire(Structure):
         check_restitution(self.restitution, ("momentum", "housner"), self.one_sided)
 
     def _checked_wall(self, thickness: float) -> float:
-        wall = positive(StructureError, "wall_thickness", thickness, "m")
+        wall = length("wall_thickness", thickness)
         if wall >= self.width / 2:
             raise StructureError(
                 f"wall_thickness is {wall!r} m, but must be less than half the width, {self.width / 2!r} m; "

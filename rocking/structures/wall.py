@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from rocking.checks import finite, positive
+from rocking.checks import finite
 from rocking.errors import StructureError
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import (
@@ -15,6 +15,7 @@ from rocking.structures.restitution import (
     momentum_balance,
     resolve_restitution,
 )
+from rocking.structures.sizes import length
 from rocking.structures.structure import Structure, turned
 from rocking.structures.wall_linkage import WallLinkage
 
@@ -37,13 +38,13 @@ class Wall(Structure):
 
     def __post_init__(self) -> None:
         for name in ("lower_height", "upper_height", "thickness"):
-            object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), "m"))
+            object.__setattr__(self, name, length(name, getattr(self, name)))
         check_restitution(self.restitution, ("momentum",))
 
     @classmethod
     def hinged_at(cls, height: float, hinge_height: float, thickness: float, **options) -> "Wall":
         """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
-        height = positive(StructureError, "height", height, "m")
+        height = length("height", height)
         hinge = finite(StructureError, "hinge_height", hinge_height, "m")
         if not 0 < hinge < height:
             raise StructureError(

@@ -20,7 +20,11 @@ class WallLinkage:
         height = lower_height + upper_height
         self.lower_mass = lower_height / height / self.lower_diagonal
         self.upper_mass = upper_height / height / self.lower_diagonal
-        self._half_thickness = thickness / 2
+        self._half_thickness, self._lower_half, self._upper_half = (
+            thickness / 2,
+            lower_height / 2,
+            upper_height / 2,
+        )
         self._upper_slenderness = np.arctan2(thickness, upper_height)
         reach = min(1.0, self.upper_diagonal / self.lower_diagonal)
         lying = np.pi / 2
@@ -28,10 +32,12 @@ class WallLinkage:
 
     def _position(self, rotation: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """S and C of the lower half diagonal, ψ' and ψ''."""
-        angle = self.slenderness - np.asarray(rotation)
-        across = self.lower_diagonal * np.sin(angle)
-        up = self.lower_diagonal * np.cos(angle)
-        upper_up = np.sqrt(self.upper_diagonal**2 - across**2)
+        sine, cosine = np.sin(rotation), np.cos(rotation)
+        across = self._half_thickness * cosine - self._lower_half * sine
+        up = self._lower_half * cosine + self._half_thickness * sine
+        # R₂² − S² = (h₂/2)² + (b − S)(b + S), without the cancellation of a flat upper block
+        moved = 2 * self._half_thickness * np.sin(np.asarray(rotation) / 2) ** 2 + self._lower_half * sine
+        upper_up = np.sqrt(self._upper_half**2 + moved * (self._half_thickness + across))
         ratio = up / upper_up
         return across, up, ratio, across * (1 - ratio**2) / upper_up
 
@@ -48,7 +54,7 @@ class WallLinkage:
         The lower block turns clockwise about its right bottom corner, the upper one back about the left edge.
         """
         across, up, ratio, curvature = self._position(rotation)
-        lower, upper = -across + 1j * up, across + 1j * np.sqrt(self.upper_diagonal**2 - across**2)
+        lower, upper = -across + 1j * up, across + 1j * up / ratio
         base = self._half_thickness + np.zeros_like(lower)
         psi = self._upper_slenderness - np.arctan2(upper.real, upper.imag)
         one = np.ones_like(across)

@@ -5,9 +5,11 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
+from rocking.errors import RockingError
 from rocking.structures.arch import Arch
 from rocking.structures.arch_onset import kinematic_onset, maximum_thickness, minimum_thickness
 from rocking.structures.block import Block
+from rocking.structures.config import FORMS, structure_from_config
 from rocking.structures.frame import Frame
 from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
@@ -15,8 +17,10 @@ from rocking.structures.wall import Wall
 
 LENGTH = st.floats(0.1, 20.0)
 SHARE = st.floats(0.02, 0.98)
-FEW = settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.too_slow])
-MANY = settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+FEW = settings(max_examples=20, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
+MANY = settings(
+    max_examples=50, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+)
 
 
 @st.composite
@@ -26,7 +30,7 @@ def arches(draw):
     voussoirs = draw(st.one_of(st.none(), st.integers(5, 40)))
     least, most = minimum_thickness(embrace, voussoirs), maximum_thickness(embrace, voussoirs)
     assume(least < most)
-    radius = draw(LENGTH)
+    radius = draw(st.floats(5.0, 50.0))
     return Arch(radius, radius * (least + draw(st.floats(1e-4, 0.95)) * (most - least)), embrace, voussoirs)
 
 
@@ -123,3 +127,32 @@ def test_momentum_balance_of_a_body_never_gains_energy(left, right, height, iner
     assert [s.restitution for s in mirrored.sides][::-1] == [
         s.restitution for s in RigidBody(left, right, height, inertia).mechanism().sides
     ] or mirrored.symmetric
+
+
+nasty = st.sampled_from(
+    [None, "", "1", "wide", np.nan, np.inf, -1, 0, True, [], {}, 1e308, 1e-308, 1e20, 10**400, 1j, 1e-4, 1e5]
+)
+values = st.one_of(st.floats(0.05, 60.0), st.integers(1, 9), nasty)
+
+
+@st.composite
+def descriptions(draw):
+    """A mapping with the keys of one form and values good and bad."""
+    kind = draw(st.sampled_from(sorted(FORMS)))
+    form = draw(st.sampled_from(FORMS[kind]))
+    return {"type": kind, **{key: draw(values) for key in form.keys if draw(st.integers(0, 9))}}
+
+
+@settings(max_examples=400, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
+@given(descriptions())
+@pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")
+def test_a_description_makes_a_structure_or_one_sentence(mapping):
+    try:
+        structure = structure_from_config(mapping)
+        mechanism = structure.mechanism()
+    except RockingError as error:
+        assert str(error).endswith(".")
+        assert "\n" not in str(error)
+    else:
+        assert mechanism.uplift_multiplier > 0
+        assert len(structure.outline(0.5 * mechanism.critical_rotation)) > 0

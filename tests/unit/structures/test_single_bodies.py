@@ -144,7 +144,7 @@ def test_a_squat_frame_has_no_physical_momentum_balance():
         ),
         (lambda: Spire(3.0, 12.0, plan="round"), "plan is 'round', but must be one of circular, square"),
         (lambda: Spire(3.0, 12.0, one_sided=True), "one-sided body needs its own number"),
-        (lambda: Frame(Block(1, 0.2), 1, 0.3), "columns is 1, but must be a whole number of at least 2"),
+        (lambda: Frame(Block(1, 0.2), 1, 0.3), "columns is 1, but must be a whole number from 2 to 1000"),
         (lambda: Frame(Block(1, 0.2), 2, -0.3), "beam_mass_ratio is -0.3, but must be 0 or more"),
         (lambda: Frame(2.0, 2, 0.3), "column is 2.0, but must be a Block"),
     ],
