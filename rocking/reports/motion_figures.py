@@ -14,7 +14,7 @@ from rocking.reports.style import elided, new_figure, plain_logarithmic, styled,
 
 _PANEL_COLUMNS = 3
 _PANEL_HEIGHT = 27.0
-_MARGIN_HEIGHT = 9.0
+_MARGIN_HEIGHT = 6.0
 _STILL = 0.01
 """Share of the largest rotation below which a history is cut from the figure."""
 
@@ -44,7 +44,8 @@ def ground_motion(
     uplift: Sequence[float],
 ) -> Figure:
     """Draw acceleration with pulse and uplift accelerations [m/s²], residual, velocity and displacement."""
-    figure = new_figure(100)
+    figure = new_figure(100, margins=(17, 2, 8.5, 5))
+    figure.subplots_adjust(hspace=0.12)
     axes = figure.subplots(4, 1, sharex=True, height_ratios=[1.5, 1, 1, 1])
     times = accelerogram.times
     residual = (
@@ -56,14 +57,14 @@ def ground_motion(
         panel.plot(*thinned(times, trace), color="0.35", linewidth=0.5, label="record")
         panel.axhline(0, color="0.6", linewidth=0.3)
         panel.set_ylabel(label)
+        panel.yaxis.set_label_coords(-0.055, 0.5)
         panel.set_xlim(0, accelerogram.duration)
     if pulse is not None:
         _pulse_over(axes, accelerogram, velocity, displacement, pulse)
     _uplift_lines(axes[0], uplift, accelerogram.peak_acceleration)
     axes[1].set_ylim(axes[0].get_ylim())
-    axes[0].legend(loc="upper right", ncols=3)
+    axes[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3)
     axes[-1].set_xlabel("time after the first sample [s]")
-    figure.align_ylabels(axes)
     return figure
 
 
@@ -103,7 +104,8 @@ def response_histories(histories: Sequence[History]) -> Figure:
     """Draw each response in its own panel: the integration solid, the predicted maximum dash-dot (as Fig. 8)."""
     columns = min(_PANEL_COLUMNS, len(histories))
     rows = math.ceil(len(histories) / columns)
-    figure = new_figure(_PANEL_HEIGHT * rows + _MARGIN_HEIGHT)
+    figure = new_figure(_PANEL_HEIGHT * rows + _MARGIN_HEIGHT, margins=(16, 2, 9.5, 4))
+    figure.subplots_adjust(wspace=0.3, hspace=0.34)
     axes = figure.subplots(rows, columns, sharex=True, squeeze=False).ravel()
     begin, end = _window(histories)
     for panel, history in zip(axes, histories, strict=False):
@@ -113,8 +115,8 @@ def response_histories(histories: Sequence[History]) -> Figure:
         panel.remove()
     for panel in axes[max(0, len(histories) - columns) : len(histories)]:
         panel.tick_params(labelbottom=True)
-    figure.supxlabel("time after the first sample [s]", fontsize=7.5)
-    figure.supylabel("rotation / critical rotation [-]", fontsize=7.5)
+    figure.text(0.5, 0.5 / figure.get_figheight() / 25.4, "time after the first sample [s]", ha="center")
+    figure.text(0.006, 0.5, "rotation / critical rotation [-]", va="center", rotation="vertical")
     return figure
 
 

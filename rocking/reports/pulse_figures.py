@@ -14,6 +14,7 @@ from rocking.reports.style import elided, new_figure, plain_logarithmic, styled
 def energy_map(onsets: np.ndarray, periods: np.ndarray, gains: np.ndarray, pulses: Sequence[Pulse]) -> Figure:
     """Draw energy gains (n, m) [m²/s³] over onset (n,) [s] and period (m,) [s], with the ranked pulses."""
     figure = new_figure(54)
+    figure.subplots_adjust(wspace=0.06)
     panel, profile = figure.subplots(1, 2, sharey=True, width_ratios=[4, 1])
     share = gains / max(float(gains.max()), np.finfo(float).tiny)
     panel.pcolormesh(
@@ -48,7 +49,7 @@ def _ranks(panel: Axes, pulses: Sequence[Pulse]) -> None:
 @styled
 def orientation(angles: np.ndarray, gains: np.ndarray, best: float, components: tuple[str, str]) -> Figure:
     """Draw energy gains over the angle [rad] from the first component towards the second, and the best axis."""
-    figure = new_figure(58, 90)
+    figure = new_figure(58, 90, margins=(10, 10, 8, 8))
     panel = figure.add_subplot(projection="polar")
     panel.plot(angles, gains / max(float(gains.max()), np.finfo(float).tiny), color="black")
     panel.plot([best, best + np.pi], [1, 1], color="#D55E00", linestyle="-.", linewidth=1.2)

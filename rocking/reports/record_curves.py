@@ -92,11 +92,7 @@ def orientation_picture(accelerograms: Sequence[Accelerogram]) -> Picture | None
 
 def drawing_pictures(structures: Mapping[str, object], numbers: Mapping[str, str]) -> list[Picture]:
     """Return the drawings of the first structures, or nothing when there is none."""
-    drawn = [
-        (f"{number} {name}", structures[name])
-        for name, number in numbers.items()
-        if hasattr(structures.get(name), "outline")
-    ]
+    drawn = [(f"{number} {name}", structures[name]) for name, number in numbers.items() if name in structures]
     shown = drawn[:MOST_DRAWN]
     if not shown:
         return []
@@ -165,14 +161,10 @@ def _history(
 
 
 def _remark(predicted: float, overturns: bool) -> str:
-    said = []
-    if overturns:
-        said.append("overturns")
     if math.isinf(predicted):
-        said.append("predicted: overturns")
-    elif predicted == 0:
-        said.append("predicted: no uplift")
-    return "; ".join(said)
+        return "overturns, as predicted" if overturns else "predicted: overturns"
+    said = "predicted: no uplift" if predicted == 0 else ""
+    return "; ".join(text for text in ("overturns" if overturns else "", said) if text)
 
 
 def spectrum_picture(accelerogram: Accelerogram, rows: Rows, numbers: Mapping[str, str]) -> Picture | None:

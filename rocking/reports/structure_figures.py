@@ -7,65 +7,73 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.reports.style import elided, new_figure, styled
+from rocking.reports.style import TEXT_WIDTH, elided, new_figure, styled
+from rocking.structures.structure import Structure
 
 _COLUMNS = 5
+_CELL_HEIGHT = 40.0
+"""Height of one drawing with its title and its scale bar, mm."""
+_DRAWN_WIDTH, _DRAWN_HEIGHT = 29.0, 27.0
+"""Room for the structure itself, mm."""
 _DRAWN_SHARE = 0.6
-"""Share of the critical rotation at which the displaced structure is drawn; magnified where that is hard to see."""
+"""Share of the critical rotation at which the displaced structure is drawn; more where that is hard to see."""
 _SEEN_ROTATION = 0.12
 """Rotation that can be seen at this size, rad."""
 
 
 @styled
-def structure_drawings(structures: Sequence[tuple[str, object]]) -> Figure:
-    """Draw each (label, structure) to its own scale: at rest in outline, displaced in grey, hinges as circles."""
-    columns = min(_COLUMNS, max(len(structures), 3))
-    rows = math.ceil(len(structures) / columns)
-    figure = new_figure(38.0 * rows)
-    axes = figure.subplots(rows, columns, squeeze=False).ravel()
-    for panel, (label, structure) in zip(axes, structures, strict=False):
-        _draw(panel, structure)
-        panel.set_title(elided(label, 22), loc="center")
-    for panel in axes[len(structures) :]:
-        panel.remove()
+def structure_drawings(structures: Sequence[tuple[str, Structure]]) -> Figure:
+    """Draw each (label, structure) to its own scale: at rest dashed, displaced in grey, hinges as circles.
+
+    One panel holds them all, in millimetres of paper.
+    """
+    rows = math.ceil(len(structures) / _COLUMNS)
+    figure = new_figure(_CELL_HEIGHT * rows, margins=(0, 0, 0, 0))
+    panel = figure.subplots()
+    panel.set(xlim=(0, TEXT_WIDTH), ylim=(-_CELL_HEIGHT * rows, 0))
+    panel.axis("off")
+    width = TEXT_WIDTH / _COLUMNS
+    for place, (label, structure) in enumerate(structures):
+        row, column = divmod(place, _COLUMNS)
+        foot = np.array([(column + 0.5) * width, -(row + 1) * _CELL_HEIGHT + 7.0])
+        _draw(panel, structure, foot)
+        panel.text(foot[0], -row * _CELL_HEIGHT - 1, elided(label, 22), ha="center", va="top")
     return figure
 
 
-def _draw(panel: Axes, structure) -> None:
+def _draw(panel: Axes, structure: Structure, foot: np.ndarray) -> None:
+    """Draw one structure with the middle of its lower edge at `foot`, mm of paper."""
     rotation = drawn_rotation(structure)
-    for outline in structure.outline(rotation):
-        panel.fill(*outline.T, facecolor="0.85", edgecolor="0.4", linewidth=0.5)
-    for outline in structure.outline(0.0):
-        panel.fill(*outline.T, facecolor="none", edgecolor="black", linewidth=0.7, linestyle="--")
-    hinges = np.asarray(structure.hinges(rotation))
-    panel.plot(hinges[:, 0], hinges[:, 1], "o", color="white", markeredgecolor="black", markersize=3.5)
-    panel.set_aspect("equal", adjustable="datalim")
-    panel.margins(0.08)
-    panel.axis("off")
-    _scale_bar(panel, structure)
+    displaced, rest = structure.outline(rotation), structure.outline()
+    points = np.vstack([*displaced, *rest])
+    low, high = points.min(axis=0), points.max(axis=0)
+    scale = min(np.array([_DRAWN_WIDTH, _DRAWN_HEIGHT]) / (high - low))
+    origin = np.array([(low[0] + high[0]) / 2, low[1]])
+    for outline in displaced:
+        panel.fill(*_placed(outline, origin, scale, foot), facecolor="0.85", edgecolor="0.4", linewidth=0.5)
+    for outline in rest:
+        panel.fill(*_placed(outline, origin, scale, foot), fill=False, linewidth=0.7, linestyle="--")
+    hinges = _placed(structure.hinges(rotation), origin, scale, foot)
+    panel.plot(*hinges, "o", color="white", markeredgecolor="black", markersize=3.5)
+    _scale_bar(panel, scale, foot)
 
 
-def drawn_rotation(structure) -> float:
+def _placed(points: np.ndarray, origin: np.ndarray, scale: float, foot: np.ndarray) -> np.ndarray:
+    """Points (k, 2) in m as (2, k) in mm of paper."""
+    return ((np.asarray(points) - origin) * scale + foot).T
+
+
+def drawn_rotation(structure: Structure) -> float:
     """Return the rotation of the displaced drawing, rad: a share of φ_cr, more where that is hard to see."""
     side = structure.mechanism().positive
     return min(max(_DRAWN_SHARE * side.critical_rotation, _SEEN_ROTATION), 0.8 * side.end_rotation)
 
 
-def _scale_bar(panel: Axes, structure) -> None:
-    points = np.vstack(structure.outline(0.0))
-    low, high = points.min(axis=0), points.max(axis=0)
-    length = round_length(0.4 * float((high - low).max()))
-    drop = 0.08 * float((high - low).max())
-    middle = (low[0] + high[0]) / 2
-    panel.plot([middle - length / 2, middle + length / 2], [low[1] - drop] * 2, color="black", linewidth=1.5)
-    panel.annotate(
-        f"{length:g} m",
-        (middle, low[1] - drop),
-        xytext=(0, -2),
-        textcoords="offset points",
-        ha="center",
-        va="top",
-    )
+def _scale_bar(panel: Axes, scale: float, foot: np.ndarray) -> None:
+    length = round_length(0.5 * _DRAWN_WIDTH / scale)
+    half = length * scale / 2
+    panel.plot([foot[0] - half, foot[0] + half], [foot[1] - 2] * 2, color="black", linewidth=1.5)
+    panel.text(foot[0], foot[1] - 2.7, f"{length:g} m", ha="center", va="top")
 
 
 def round_length(length: float) -> float:

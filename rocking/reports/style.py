@@ -17,6 +17,9 @@ TEXT_WIDTH = 170.0
 """Width of the text on the page, mm; a figure is set at its own size, so its type keeps its size."""
 MAXIMUM_POINTS = 4000
 """Points of the longest trace that is drawn."""
+Margins = tuple[float, float, float, float]
+MARGINS: Margins = (14.0, 2.0, 8.5, 4.0)
+"""Left, right, bottom, top, mm: room for tick labels and one line of axis label."""
 LIGHT_COLOURS = {"green": "#009E73", "amber": "#E69F00", "red": "#D55E00"}
 LIGHT_MARKERS = {"green": "o", "amber": "^", "red": "s"}
 """A light is told by its marker as well as by its colour."""
@@ -43,9 +46,15 @@ def styled(function: Callable[P, R]) -> Callable[P, R]:
     return inside
 
 
-def new_figure(height: float, width: float = TEXT_WIDTH) -> Figure:
-    """Return an empty figure of `width` by `height` millimetres."""
-    return Figure(figsize=(width / _MILLIMETRES_PER_INCH, height / _MILLIMETRES_PER_INCH))
+def new_figure(height: float, width: float = TEXT_WIDTH, margins: Margins = MARGINS) -> Figure:
+    """Return an empty figure of `width` by `height` mm with the margins left, right, bottom and top of its panels, mm.
+
+    Margins are given, not found: finding them costs more than drawing.
+    """
+    figure = Figure(figsize=(width / _MILLIMETRES_PER_INCH, height / _MILLIMETRES_PER_INCH))
+    left, right, bottom, top = margins
+    figure.subplots_adjust(left / width, bottom / height, 1 - right / width, 1 - top / height)
+    return figure
 
 
 @styled

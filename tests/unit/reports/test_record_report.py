@@ -1,0 +1,179 @@
+"""The report of one record: its numbers, its bytes, and what it says when something is wrong."""
+
+import json
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+from rocking.records.accelerogram import Accelerogram
+from rocking.reports import failure_report, record_report
+from rocking.reports.record import record_data
+from rocking.structures import Block
+
+from .conftest import HOSTILE, SETTINGS, assessed, shaken
+
+NUMBER = re.compile(r"[−-]?\d+(?:\.\d+)?(?: × 10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
+CSV_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+PLAIN = str.maketrans("−⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789")
+TABLES_OF_NUMBERS = ("identity", "structures", "methods")
+
+
+def printed_numbers(text: str) -> list[tuple[float, float]]:
+    """Numbers in a printed text, each with half a unit of its last digit."""
+    found = []
+    for token in NUMBER.findall(text):
+        mantissa, _, exponent = token.translate(PLAIN).partition(" × 10")
+        scale = 10.0 ** int(exponent or 0)
+        decimals = len(mantissa.partition(".")[2])
+        found.append((float(mantissa) * scale, 0.5 * 10.0**-decimals * scale))
+    return found
+
+
+def csv_numbers(tables) -> np.ndarray:
+    """Every number in every cell of the tables."""
+    cells = (cell for rows in tables.values() for row in rows for cell in row.values())
+    return np.array([float(token) for cell in cells for token in CSV_NUMBER.findall(cell)])
+
+
+def shown_tables(data) -> list[dict]:
+    """Every table of numbers in the data of the template."""
+    parts = [part["table"] for name in ("verdicts", "pulses") for part in data[name]]
+    return parts + [data[name] for name in TABLES_OF_NUMBERS]
+
+
+def cell_texts(data) -> list[str]:
+    """The text of every table cell but the running numbers of the structures."""
+    texts = []
+    for table in shown_tables(data):
+        first = 1 if table["heads"][0] == "No." else 0
+        cells = (cell for row in table["rows"] for cell in row[first:])
+        texts += [cell["text"] if isinstance(cell, dict) else cell for cell in cells]
+    return texts
+
+
+def test_every_number_in_a_table_stands_in_a_csv(example):
+    known = csv_numbers(example.tables)
+    texts = [text for text in cell_texts(record_data(*example.arguments)) if text != "Eq. 15 exact"]
+    printed = [number for text in texts for number in printed_numbers(text)]
+    assert len(printed) > 100
+    for value, half in printed:
+        # rounding to the last printed digit, and the rounding of that comparison itself
+        assert np.abs(known - value).min() <= half * (1 + 1e-9), value
+
+
+def test_a_changed_cell_changes_what_is_printed(example):
+    tables = json.loads(json.dumps(example.tables))
+    tables["comparison"][0]["integrated_rotation_ratio"] = "0.123456789"
+    data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
+    assert data["verdicts"][0]["table"]["rows"][0][4] == {"text": "0.123", "strong": True}
+
+
+def test_every_number_in_a_sentence_stands_in_a_csv_or_counts_rows(example):
+    data = record_data(*example.arguments)
+    sentences = [text for part in data["verdicts"] for text in part["sentences"]]
+    assert sentences
+    named = "|".join(map(re.escape, example.structures))
+    assert not [text for text in sentences if printed_numbers(re.sub(named, "", text))]
+
+
+def test_the_same_input_gives_the_same_bytes(example):
+    assert record_report(*example.arguments) == record_report(*example.arguments)
+
+
+def test_the_report_is_a_tagged_archive_document_of_two_to_six_pages(example):
+    document = record_report(*example.arguments)
+    assert document.startswith(b"%PDF-1.7")
+    assert b"<pdfaid:part>2</pdfaid:part>" in document and b"<pdfaid:conformance>A" in document
+    pages = max(int(count) for count in re.findall(rb"/Count (\d+)", document))
+    assert 2 <= pages <= 6
+
+
+def test_every_picture_has_an_alternative_text_and_no_type_under_seven_points(example):
+    data = record_data(*example.arguments)
+    pictures = [
+        picture for many in ("motions", "maps", "drawings", "histories", "spectra") for picture in data[many]
+    ]
+    assert len(pictures) == 5
+    for picture in pictures:
+        assert len(picture["alt"]) > 20
+        # 72 points and 72 SVG units to the inch
+        sizes = [float(size) for size in re.findall(r"font:[^;\"]*?([\d.]+)px", picture["svg"])]
+        sizes += [float(size) for size in re.findall(r"font-size: ?([\d.]+)px", picture["svg"])]
+        assert sizes and min(sizes) >= 7
+
+
+def extracted(document: bytes) -> str:
+    """The text of a PDF, without any white space."""
+    if shutil.which("pdftotext") is None:
+        pytest.skip(
+            "pdftotext (poppler-utils) is not installed; it extracts the text of the PDF for this test"
+        )
+    run = subprocess.run(["pdftotext", "-raw", "-", "-"], input=document, capture_output=True, check=True)
+    return "".join(run.stdout.decode().split())
+
+
+def test_hostile_names_are_printed_as_they_are(hostile):
+    document = record_report(*hostile.arguments)
+    assert record_report(*hostile.arguments) == document
+    text = extracted(document)
+    for name in HOSTILE:
+        assert "".join(name.split()) in text, name
+
+
+def test_the_declared_factor_stands_wherever_numbers_do(hostile):
+    data = record_data(*hostile.arguments)
+    assert "× 12.5" in data["notices"][0]["text"] and data["notices"][0]["strong"]
+    assert "× 12.5" in data["running"]
+    assert all("× 12.5" in part["caption"] for part in data["verdicts"])
+    assert extracted(record_report(*hostile.arguments)).count("×12.5") >= 10
+
+
+def test_red_is_on_the_first_page(example):
+    red = [row for row in example.tables["comparison"] if row["light"] == "red"]
+    data = record_data(*example.arguments)
+    assert red
+    assert any("Red light" in notice["text"] and notice["strong"] for notice in data["notices"])
+    assert sum("■ red" in row for row in data["verdicts"][0]["table"]["rows"]) == len(red)
+
+
+def test_nothing_that_lifts_is_said_first():
+    squat = {"squat": Block.of_size(2.0, 2.0)}
+    data = record_data(*assessed("still", [shaken()], squat).arguments)
+    assert any("No structure uplifts" in notice["text"] for notice in data["notices"])
+    assert data["histories"] == []
+
+
+def test_a_record_without_a_structure_still_gives_a_document():
+    case = assessed("empty", [shaken()], {})
+    assert "No structure could be assessed" in record_data(*case.arguments)["notices"][0]["text"]
+    assert record_report(*case.arguments).startswith(b"%PDF")
+
+
+def test_a_record_without_a_pulse_still_gives_a_document():
+    flat = Accelerogram(np.zeros(400), 0.01, "EW")
+    case = assessed("flat", [flat], {"block": Block.of_size(1.0, 4.0)})
+    data = record_data(*case.arguments)
+    assert any("No pulse could be sought" in notice["text"] for notice in data["notices"])
+    assert record_report(*case.arguments).startswith(b"%PDF")
+
+
+def test_a_hundred_structures_are_all_in_the_first_table_and_few_are_drawn(example):
+    tables = json.loads(json.dumps(example.tables))
+    for name in ("comparison", "structures", "predictions"):
+        first = tables[name][0]
+        tables[name] = [first | {"structure": f"block {place}"} for place in range(100)]
+    structures = {f"block {place}": example.structures["block 4 m"] for place in range(100)}
+    data = record_data(example.record, example.accelerograms, structures, tables, SETTINGS)
+    assert len(data["verdicts"][0]["table"]["rows"]) == 100
+    assert "Of 100 structures" in data["verdicts"][0]["sentences"][0]
+    assert "88 structures" in data["histories"][0]["note"]
+
+
+@pytest.mark.parametrize("message", ["records/x.at2: #panic(1) $x^$ <b>.", "", "W" * 300])
+def test_a_failure_is_one_page_that_says_why(message):
+    document = failure_report("bad #record$", message)
+    assert re.findall(rb"/Count (\d+)", document) == [b"1"]
+    assert "".join(message.split()) in extracted(document)
