@@ -8,8 +8,11 @@ from pathlib import Path
 import matplotlib
 import typst
 
+from rocking.reports.style import glyphs
+
 _FOLDER = Path(__file__).parent
 _STANDARD = "a-2a"
+_FONT_FOLDER = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 
 
 def compile_document(template: str, data: Mapping[str, object]) -> bytes:
@@ -18,12 +21,14 @@ def compile_document(template: str, data: Mapping[str, object]) -> bytes:
     Every text in `data` is printed as it is: it reaches the template as JSON and is never parsed as markup. The date
     of the document is fixed, because PDF/A asks for one and the same input must give the same bytes.
     """
+    text = json.dumps(data, ensure_ascii=False)
+    foreign = not glyphs().issuperset(map(ord, set(text)))
     return typst.compile(
         _FOLDER / template,
         root=_FOLDER,
-        font_paths=_fonts(),
+        font_paths=_fonts(foreign),
         ignore_system_fonts=True,
-        sys_inputs={"data": json.dumps(data, ensure_ascii=False)},
+        sys_inputs={"data": text, "families": json.dumps(_system_families() if foreign else [])},
         pdf_standards=[_STANDARD],
         timestamp=0,
         format="pdf",
@@ -31,7 +36,12 @@ def compile_document(template: str, data: Mapping[str, object]) -> bytes:
 
 
 @cache
-def _fonts() -> typst.Fonts:
-    """The fonts that typst and matplotlib carry, and none of the machine's: pages look alike everywhere."""
-    folder = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
-    return typst.Fonts(include_system_fonts=False, font_paths=[folder])
+def _fonts(system: bool) -> typst.Fonts:
+    """The fonts that typst and matplotlib carry, and the machine's where another script needs them."""
+    return typst.Fonts(include_system_fonts=system, font_paths=[_FONT_FOLDER])
+
+
+@cache
+def _system_families() -> list[str]:
+    carried = set(_fonts(False).families())
+    return [family for family in _fonts(True).families() if family not in carried]

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
-from rocking.reports.style import elided, new_figure, plain_logarithmic, styled, thinned
+from rocking.reports.style import TEXT_WIDTH, elided, new_figure, plain_logarithmic, styled, thinned
 
 _PANEL_COLUMNS = 3
 _PANEL_HEIGHT = 27.0
@@ -164,9 +164,10 @@ def rocking_spectrum_figure(
     uplift_multipliers: np.ndarray,
     ratios: np.ndarray,
     structures: Sequence[tuple[str, float, float]],
+    width: float = TEXT_WIDTH,
 ) -> Figure:
     """Draw rotation ratios (m, n) over p (m,) [rad/s] and λ (n,) with structures (label, p, λ) on them."""
-    figure = new_figure(70)
+    figure = new_figure(70, width)
     panel = figure.subplots()
     shown = np.where(np.isfinite(ratios), np.minimum(ratios, 1.5), 1.5).T
     levels = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0]

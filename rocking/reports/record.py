@@ -6,6 +6,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing, record_curves, record_tables
 from rocking.reports.document import compile_document
 from rocking.reports.printing import Row, of_component
+from rocking.reports.style import TEXT_WIDTH
 
 Tables = Mapping[str, Sequence[Row]]
 
@@ -100,29 +101,25 @@ def _pictures(
     tolerance: float,
 ) -> dict[str, list[dict[str, str]]]:
     known = set(printing.distinct(tables["record"], "component"))
+    used = [accelerogram for accelerogram in accelerograms if accelerogram.component in known]
+    width = TEXT_WIDTH if len(used) == 1 else record_curves.PAIRED_WIDTH
     pictures = {"motions": [], "maps": [], "histories": [], "spectra": []}
-    for accelerogram in accelerograms:
-        if accelerogram.component not in known:
-            continue
-        rows = {
-            name: of_component(tables[name], accelerogram.component)
+    for accelerogram in used:
+        pulses, predictions, cases = (
+            of_component(tables[name], accelerogram.component)
             for name in ("pulses", "predictions", "comparison")
+        )
+        new = {
+            "motions": record_curves.motion_picture(accelerogram, pulses, tables["structures"]),
+            "maps": record_curves.map_picture(accelerogram, pulses) if pulses else None,
+            "histories": record_curves.history_picture(accelerogram, structures, cases, numbers, tolerance),
+            "spectra": record_curves.spectrum_picture(accelerogram, predictions, numbers, width),
         }
-        pictures["motions"].append(
-            record_curves.motion_picture(accelerogram, rows["pulses"], tables["structures"])
-        )
-        pictures["maps"].append(
-            record_curves.map_picture(accelerogram, rows["pulses"]) if rows["pulses"] else None
-        )
-        histories = record_curves.history_picture(
-            accelerogram, structures, rows["comparison"], numbers, tolerance
-        )
-        pictures["histories"].append(histories)
-        pictures["spectra"].append(record_curves.spectrum_picture(accelerogram, rows["predictions"], numbers))
-    found = {name: [picture for picture in many if picture] for name, many in pictures.items()}
-    oriented = record_curves.orientation_picture([a for a in accelerograms if a.component in known])
-    found["orientations"] = [oriented] if oriented else []
-    return found | {"drawings": record_curves.drawing_pictures(structures, numbers)}
+        for name, picture in new.items():
+            pictures[name] += [picture] if picture else []
+    oriented = record_curves.orientation_picture(used)
+    pictures["orientations"] = [oriented] if oriented else []
+    return pictures | {"drawings": record_curves.drawing_pictures(structures, numbers)}
 
 
 def _assumptions(tables: Tables, settings: Mapping[str, object]) -> dict[str, object]:

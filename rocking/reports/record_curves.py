@@ -12,7 +12,7 @@ from rocking.reports.motion_figures import History, ground_motion, response_hist
 from rocking.reports.printing import Row, of_component
 from rocking.reports.pulse_figures import energy_map, orientation
 from rocking.reports.structure_figures import structure_drawings
-from rocking.reports.style import svg
+from rocking.reports.style import TEXT_WIDTH, svg
 from rocking.units import GRAVITY
 
 Rows = Sequence[Row]
@@ -24,6 +24,8 @@ MOST_DRAWN = 15
 MOST_HISTORIES = 12
 """Responses that are drawn for one component, the most demanding ones; the tables hold all."""
 SPECTRUM_POINTS = 32
+PAIRED_WIDTH = 83.0
+"""Width of a figure that stands beside another, mm."""
 _MAP_COLUMNS = 240
 
 
@@ -167,7 +169,9 @@ def _remark(predicted: float, overturns: bool) -> str:
     return "; ".join(text for text in ("overturns" if overturns else "", said) if text)
 
 
-def spectrum_picture(accelerogram: Accelerogram, rows: Rows, numbers: Mapping[str, str]) -> Picture | None:
+def spectrum_picture(
+    accelerogram: Accelerogram, rows: Rows, numbers: Mapping[str, str], width: float = TEXT_WIDTH
+) -> Picture | None:
     """Return the rocking spectrum with the equivalent blocks of the `predictions` rows on it; None without rows."""
     from rocking.spectrum import rocking_spectrum
 
@@ -178,7 +182,7 @@ def spectrum_picture(accelerogram: Accelerogram, rows: Rows, numbers: Mapping[st
     uplift_multipliers = _around([place[2] for place in placed])
     restitution = sorted((row["restitution"] for row in rows), key=float)[len(rows) // 2]
     ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, float(restitution))
-    figure = rocking_spectrum_figure(frequency_parameters, uplift_multipliers, np.asarray(ratios), placed)
+    figure = rocking_spectrum_figure(frequency_parameters, uplift_multipliers, ratios, placed, width)
     component = printing.words(accelerogram.component)
     alt = f"Rocking spectrum of component {component} over p and uplift acceleration, with the structures."
     return {

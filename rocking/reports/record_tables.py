@@ -127,7 +127,7 @@ def scale_sentence(rows: Rows) -> str:
     if not scaled:
         return ""
     named = "; ".join(
-        f"component {words(row['component'])}: × {printing.given(row['scale_factor'])}" for row in scaled
+        f"component {words(row['component'])}: ×\u00a0{printing.given(row['scale_factor'])}" for row in scaled
     )
     return f"Not the recorded amplitude. The accelerations of the file were multiplied by a declared factor ({named})."
 
@@ -137,7 +137,7 @@ def scale_note(rows: Rows) -> str:
     factors = dict.fromkeys(
         printing.given(row["scale_factor"]) for row in rows if float(row["scale_factor"] or 1) != 1
     )
-    return f" Accelerations × {', '.join(factors)}, declared." if factors else ""
+    return f" Accelerations ×\u00a0{', '.join(factors)}, declared." if factors else ""
 
 
 def identity_table(rows: Rows) -> dict[str, object]:

@@ -11,6 +11,7 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.font_manager import get_font
 from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 
 TEXT_WIDTH = 170.0
@@ -78,14 +79,25 @@ def thinned(
     return times[kept], values[kept]
 
 
+@cache
+def glyphs() -> frozenset[int]:
+    """Return the code points that the fonts of the figures and of the page hold."""
+    return frozenset(
+        get_font(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / "DejaVuSans.ttf").get_charmap()
+    )
+
+
 def elided(text: str, length: float) -> str:
-    """Return `text` cut to the width of about `length` small letters, the last one an ellipsis if something was cut."""
+    """Return `text` as a figure can show it: cut to the width of about `length` small letters, the last one an
+    ellipsis if something was cut, and a box for each character that no font of the figure holds.
+    """
     width = 0.0
-    for place, letter in enumerate(text):
+    shown = "".join(letter if ord(letter) in glyphs() else "□" for letter in text)
+    for place, letter in enumerate(shown):
         width += 1.0 if letter.isascii() and not letter.isupper() else 1.6
         if width > length:
-            return text[: max(place - 1, 0)] + "…"
-    return text
+            return shown[: max(place - 1, 0)] + "…"
+    return shown
 
 
 def plain_logarithmic(panel: Axes, which: str) -> None:

@@ -146,7 +146,7 @@ def _record_row(row: Row, pulse: Row) -> list[Cell]:
     return [
         row["record"],
         words(row["component"]),
-        factor if factor in ("1", printing.NOTHING) else strong(f"× {factor}"),
+        factor if factor in ("1", printing.NOTHING) else strong(f"×\u00a0{factor}"),
         number(row["peak_acceleration_m_s2"]),
         number(row["peak_velocity_m_s"]),
         number(pulse.get("amplitude_m_s2", "")),

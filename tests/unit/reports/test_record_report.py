@@ -125,9 +125,9 @@ def test_hostile_names_are_printed_as_they_are(hostile):
 
 def test_the_declared_factor_stands_wherever_numbers_do(hostile):
     data = record_data(*hostile.arguments)
-    assert "× 12.5" in data["notices"][0]["text"] and data["notices"][0]["strong"]
-    assert "× 12.5" in data["running"]
-    assert all("× 12.5" in part["caption"] for part in data["verdicts"])
+    assert "×\u00a012.5" in data["notices"][0]["text"] and data["notices"][0]["strong"]
+    assert "×\u00a012.5" in data["running"]
+    assert all("×\u00a012.5" in part["caption"] for part in data["verdicts"])
     assert extracted(record_report(*hostile.arguments)).count("×12.5") >= 10
 
 
