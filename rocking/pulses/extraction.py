@@ -13,7 +13,9 @@ from rocking.pulses.settings import PulseSettings
 from rocking.records.accelerogram import Accelerogram
 
 NOTHING_LEFT = 1e-20
-"""Share of the record's energy below which what the pursuit leaves is rounding."""
+"""Share of the record's energy below which what the pursuit leaves, or what a cycle gains, is rounding."""
+LEAST_PEAK, GREATEST_PEAK = 1e-100, 1e100
+"""Peak accelerations, m/s², whose squares can be told from zero and from infinity."""
 
 
 def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None = None) -> PulseAnalysis:
@@ -27,7 +29,7 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
     samples = _varying(accelerogram)
     band = searched_band(accelerogram, settings)
     search = PulseSearch(accelerogram.time_step, band, settings)
-    maxima = search.maxima(samples)
+    maxima = _something(accelerogram, search.maxima(samples))
     ranked = search.ranked(samples, maxima)
     sequence = _pursued(search, samples, maxima, ranked[0])
     residual = samples - ranked[0].pulse.acceleration(accelerogram.times)
@@ -92,11 +94,25 @@ def _raised(
 
 
 def _varying(accelerogram: Accelerogram) -> np.ndarray:
-    samples = accelerogram.acceleration
+    samples, name = accelerogram.acceleration, accelerogram.source.path or "The accelerogram"
     if np.ptp(samples) == 0:
         raise PulseError(
-            f"{accelerogram.source.path or 'The accelerogram'} holds {samples.size} samples that all equal "
-            f"{samples[0]:g} m/s², but a pulse can only be sought in a record that moves; "
-            "check the file and its channel."
+            f"{name} holds {samples.size} samples that all equal {samples[0]:g} m/s², but a pulse can only be sought "
+            "in a record that moves; check the file and its channel."
+        )
+    if not LEAST_PEAK < accelerogram.peak_acceleration < GREATEST_PEAK:
+        raise PulseError(
+            f"{name} has a peak of {accelerogram.peak_acceleration:g} m/s², but a peak between {LEAST_PEAK:g} and "
+            f"{GREATEST_PEAK:g} m/s² is needed; check its unit."
         )
     return samples
+
+
+def _something(accelerogram: Accelerogram, maxima: Maxima) -> Maxima:
+    energy = energy_of(accelerogram.acceleration, accelerogram.time_step)
+    if maxima.gains.max(initial=0.0) <= NOTHING_LEFT * energy:
+        raise PulseError(
+            f"{accelerogram.source.path or 'The accelerogram'} holds no motion that a cycle within it could explain; "
+            "its samples differ only at its ends, so check the file."
+        )
+    return maxima

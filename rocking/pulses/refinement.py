@@ -137,7 +137,12 @@ def refine(samples, onset, angle, lowest, highest, reach):
     a sample enters or leaves the cycle; so start and end are also moved by samples, and the climb goes on from there.
     Returns (angle, onset in samples, ⟨a, s⟩, ⟨s, s⟩) as sums over samples.
     """
-    limits = (max(math.log(angle) - reach, math.log(lowest)), min(math.log(angle) + reach, math.log(highest)))
+    last = samples.size - 1
+    longest = (
+        min(last, (last - onset) / 0.75) if onset < last else last
+    )  # with the onset a quarter cycle earlier
+    low = max(math.log(angle) - reach, math.log(lowest), math.log(2 * math.pi / longest))
+    limits = (low, min(math.log(angle) + reach, math.log(highest)))
     u, v, score = _climbed(samples, onset, math.log(angle), 0.0, limits)
     improved = True
     while improved:

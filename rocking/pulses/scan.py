@@ -13,12 +13,13 @@ HELD_ROWS = 64
 def _prepared(samples, time_step, angles, first):
     """Return what carries the scan from one onset to the next, at onset `first`.
 
-    padded: (c, n + longest cycle) samples. counts: (m,) samples of each cycle. turning: (4, m), real and imaginary
-    part of e^{iω dt} and of the e^{iω(t − t_j)} of the sample that enters. sums: (c, 2, m), S_j of each component.
-    weights: (m,) dt/⟨s, s⟩.
+    padded: (c, n + longest cycle) samples. lengths, counts: (m,) of each cycle, in steps and in samples. turning:
+    (4, m), real and imaginary part of e^{iω dt} and of the e^{iω(t − t_j)} of the sample that enters. sums:
+    (c, 2, m), S_j of each component. weights: (m,) dt/⟨s, s⟩.
     """
     m = angles.size
-    counts = (2 * math.pi / angles + 1e-9).astype(np.int64) + 1
+    lengths = 2 * math.pi / angles
+    counts = (lengths + 1e-9).astype(np.int64) + 1
     padded = np.zeros((samples.shape[0], samples.shape[1] + counts.max() + 1))
     padded[:, : samples.shape[1]] = samples
     turning, sums, weights = np.empty((4, m)), np.empty((samples.shape[0], 2, m)), np.empty(m)
@@ -38,14 +39,15 @@ def _prepared(samples, time_step, angles, first):
             for k in range(counts[i] - 1, -1, -1):
                 re, im = re * turn_re - im * turn_im + padded[c, first + k], re * turn_im + im * turn_re
             sums[c, 0, i], sums[c, 1, i] = re, im
-    return padded, counts, turning, sums, weights
+    return padded, lengths, counts, turning, sums, weights
 
 
 @njit(cache=True)
 def _fill_rows(rows, begin, end, first, count, prepared):
     """Fill rows[begin:end] with the gains at onsets from `first`, of `count` samples, and carry the sums past them."""
-    padded, counts, turning, sums, weights = prepared
+    padded, lengths, counts, turning, sums, weights = prepared
     counts, weights = counts.copy(), weights.copy()
+    lengths = np.ceil(lengths - 1e-9)
     turn_re, turn_im = turning[0].copy(), turning[1].copy()
     enter_re, enter_im = turning[2].copy(), turning[3].copy()
     for c in range(padded.shape[0]):
@@ -55,7 +57,7 @@ def _fill_rows(rows, begin, end, first, count, prepared):
             j = first + b - begin
             leaving = samples[j]
             for i in range(counts.size):
-                fits = 1.0 if j + counts[i] <= count else 0.0
+                fits = 1.0 if j + lengths[i] <= count - 1 else 0.0
                 re, im, entering = real[i] - leaving, imaginary[i], samples[j + counts[i]]
                 gain = im * im * weights[i] * fits
                 rows[b, i] = gain if c == 0 else rows[b, i] + gain

@@ -4,6 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 from rocking.errors import PulseError
 from rocking.pulses import Flag, Pulse, PulseSettings, energy_map, extract_pulses
@@ -140,8 +143,8 @@ def test_a_record_that_holds_no_period_of_the_band_is_refused():
 
 def test_the_sampling_limit_is_a_setting():
     times = np.arange(400) * 0.1
-    settings = PulseSettings(samples_per_cycle=16)
-    found = extract_pulses(Accelerogram(Pulse(1.0, 2.5, 9.03).acceleration(times), 0.1), settings=settings)
+    record = Accelerogram(Pulse(1.0, 2.5, 9.03).acceleration(times), 0.1)
+    found = extract_pulses(record, settings=PulseSettings(samples_per_cycle=16))
     assert found.band[1] == pytest.approx(0.625)
 
 
@@ -159,3 +162,39 @@ def test_the_sampling_limit_is_a_setting():
 def test_impossible_settings_are_refused(change, words):
     with pytest.raises(PulseError, match=words):
         PulseSettings(**change)
+
+
+@pytest.mark.parametrize("place", [0, -1])
+def test_a_record_that_moves_at_its_ends_only_is_refused(place):
+    samples = np.zeros(1000)
+    samples[place] = 1.0
+    with pytest.raises(PulseError, match="no motion that a cycle within it could explain"):
+        extract_pulses(Accelerogram(samples, STEP))
+
+
+@pytest.mark.parametrize("size", [1e-200, 1e200])
+def test_a_peak_beyond_numbers_is_refused(record, size):
+    with pytest.raises(PulseError, match="check its unit"):
+        extract_pulses(Accelerogram(record.acceleration * size, STEP))
+
+
+@given(
+    samples=arrays(float, st.integers(30, 120), elements=st.floats(-50, 50, allow_subnormal=False)),
+    step=st.sampled_from([0.005, 0.02, 0.1, 1.0]),
+)
+@settings(deadline=None, max_examples=150)
+def test_any_record_gives_a_pulse_within_it_or_a_sentence(samples, step):
+    record = Accelerogram(samples, step)
+    try:
+        found = extract_pulses(record)
+    except PulseError as error:
+        assert str(error).endswith(".")
+        return
+    energy = np.sum(samples**2) * step
+    for evidence in found.ranked:
+        assert 0 < evidence.gain <= energy * (1 + 1e-9)
+        assert -1e-6 * step <= evidence.pulse.start_time
+        assert evidence.pulse.end_time <= record.duration + 1e-6 * step
+        low, high = found.band
+        assert low * (1 - 1e-9) <= 1 / evidence.pulse.period <= high * (1 + 1e-9)
+    assert np.sum(found.residual**2) * step <= energy * (1 + 1e-9)
