@@ -41,7 +41,8 @@ def read(
     unit, time_step [s]: needed where the file does not declare them; refused where it declares otherwise.
     inventory: StationXML of a miniSEED file; by default the one beside it that names the same station.
     response: "sensitivity" divides counts by the overall sensitivity; "full" removes the whole instrument response.
-    Raises UnknownFormatError when no reader recognises the file, RecordError for every other defect.
+    Raises UnknownFormatError when no reader recognises the file, UndeclaredError when a unit or a time step is declared
+    nowhere, RecordError for every other defect.
     """
     path = Path(path)
     raw = bytes_of(path)

@@ -76,7 +76,7 @@ def pulse(recipe: SyntheticRecord, times: np.ndarray) -> np.ndarray:
 
 
 def _mavroeidis(since: np.ndarray, period: float, gamma: float = 2.0) -> np.ndarray:
-    """d/dt of ½ (1 + cos(2πf t/γ)) cos(2πf t) on |t| ≤ γ/2f (Mavroeidis & Papageorgiou 2003, Eq. 3), scaled to peak 1.
+    """d/dt of ½ (1 + cos(2πf t/γ)) cos(2πf t) on |t| ≤ γ/2f (Mavroeidis & Papageorgiou 2003), scaled to peak 1.
 
     `since` counts from the start of the pulse, whose length is γ periods.
     """
@@ -114,7 +114,7 @@ def _normals(seed: int, samples: int) -> np.ndarray:
 
 
 def _window(samples: int, epsilon: float = 0.2, eta: float = 0.05) -> np.ndarray:
-    """(t/t_ε)^b exp(b (1 − t/t_ε)): 1 at the share ε of the duration and η at its end (Boore 2003, Eqs. 23-25)."""
+    """(t/t_ε)^b exp(b (1 − t/t_ε)): 1 at the share ε of the duration and η at its end (Saragoni & Hart 1974, as in Boore 2003)."""
     ratio = np.arange(1, samples + 1) / samples / epsilon
     b = -epsilon * np.log(eta) / (1 + epsilon * (np.log(epsilon) - 1))
     return ratio**b * np.exp(b * (1 - ratio))

@@ -18,7 +18,7 @@ _DATA = re.compile(
 _REALS = re.compile(r"^\s*(\d+)\s+Real-header values follow on\s+(\d+)\s+lines.*?\d+[FE](\d+)", re.I)
 _UNITS = {"g": "g", "cm/sec2": "cm/s2", "cm/s2": "cm/s2", "cm/sec/sec": "cm/s2", "m/s2": "m/s2", "gal": "gal"}
 _STEP, _PEAK = 33, 63
-"""Places in the real header of the sampling step and of the largest value (COSMOS format 1.20, Table 8)."""
+"""Places in the real header of the sampling step and of the largest value of the COSMOS format 1.20."""
 
 
 def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:

@@ -62,7 +62,7 @@ class Options:
             raise UndeclaredError(
                 f"{name}: time_step is not declared, neither in the file nor by the caller; give time_step=."
             )
-        positive(RecordError, f"{name}: time_step", step, "s")
+        step = positive(RecordError, f"{name}: time_step", float(step), "s")
         if not _STEPS[0] <= step <= _STEPS[1]:
             raise RecordError(
                 f"{name}: time_step is {step!r} s, but must be from {_STEPS[0]:g} to {_STEPS[1]:g} s."

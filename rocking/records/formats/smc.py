@@ -18,7 +18,7 @@ _TEXT, _INTEGERS, _REALS = 11, 6, 10
 """Lines of each part of the header."""
 _COMMENTS, _SAMPLES = 15, 16
 _RATE, _LARGEST, _SMALLEST, _CORNER = 1, 29, 31, 32
-"""Places in the integer and in the real header (USGS Open-File Report 92-429)."""
+"""Places in the integer and in the real header."""
 _MISSING = 1.69e38
 
 
@@ -47,7 +47,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
 def _record(head: str, kind: str, values, told, reals, name: str, options: Options) -> Accelerogram:
     if not 0 < reals[_RATE] < 1e6:
         raise RecordError(
-            f"{name}: samples per second is {reals[_RATE]!r}, but must be greater than 0 and below 1e6."
+            f"{name}: samples per second is {reals[_RATE]:g}, but must be greater than 0 and below 1e6."
         )
     component = optional(r"component\s*=\s*(\S+)", head)
     record = accelerogram(
