@@ -114,7 +114,10 @@ def _normals(seed: int, samples: int) -> np.ndarray:
 
 
 def _window(samples: int, epsilon: float = 0.2, eta: float = 0.05) -> np.ndarray:
-    """(t/t_ε)^b exp(b (1 − t/t_ε)): 1 at the share ε of the duration and η at its end (Saragoni & Hart 1974, as in Boore 2003)."""
+    """(t/t_ε)^b exp(b (1 − t/t_ε)): 1 at the share ε of the duration and η at its end.
+
+    Saragoni & Hart (1974), as in Boore (2003).
+    """
     ratio = np.arange(1, samples + 1) / samples / epsilon
     b = -epsilon * np.log(eta) / (1 + epsilon * (np.log(epsilon) - 1))
     return ratio**b * np.exp(b * (1 - ratio))

@@ -301,3 +301,32 @@ def test_a_peak_that_contradicts_the_header_is_refused(name: str) -> None:
         read_made(name, make(10.0))
     with pytest.raises(RecordError, match="must agree within 1 %"):
         read_made(name, make(1.02))
+
+
+@pytest.mark.parametrize(("name", "old", "new", "word"), [
+    ("PEER AT2", "ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME SERIES IN UNITS OF CM/S", "velocity"),
+    ("PEER AT2", "ACCELERATION TIME SERIES IN UNITS OF G", "DISPLACEMENT TIME SERIES IN UNITS OF CM", "displacement"),
+    ("COSMOS V1/V2", " acceleration pts", " velocity pts", "velocity or displacement only"),
+    ("USGS SMC", "2 CORRECTED ACCELEROGRAM", "3 VELOCITY", "holds velocity"),
+    ("USGS SMC", "2 CORRECTED ACCELEROGRAM", "5 RESPONSE SPECTRUM", "holds response spectrum"),
+    ("DYNA (ESM, ITACA, AFAD)", "DATA_TYPE: ACCELERATION", "DATA_TYPE: VELOCITY", "DATA_TYPE is 'VELOCITY'"),
+    ("RESORCE", "Accelaration time series in m/s/s", "Velocity time series in m/s", "holds velocity"),
+    ("CSMNC", "UNCORRECTED ACCELERATION          UNIT: CM/SEC/SEC", "CORRECTED VELOCITY UNIT: CM/SEC", "VELOCITY"),
+    ("UNAM/CICESE", ": Gal (cm/s/s)", ": cm/s", "UNIDADES DE LOS DATOS is 'cm/s'"),
+    ("CWB", "gal. DCoffset(corr)", "count", "AmplitudeUnit is 'count'"),
+    ("CSMIP V1/V2", "in cm/sec2. (8f10.6)", "in parsecs. (8f10.6)", "'parsecs'"),
+    ("COSMOS V1/V2", "units=cm/sec2(04)", "units=parsecs(99)", "'parsecs'"),
+])  # fmt: skip
+def test_other_quantities_and_units_are_refused_by_name(name: str, old: str, new: str, word: str) -> None:
+    text = MADE[name][0]()
+    assert old in text
+    with pytest.raises(RecordError, match=word):
+        read_made(name, text.replace(old, new))
+
+
+@pytest.mark.parametrize("name", ["COSMOS V1/V2", "CSMIP V1/V2", "GeoNet V1A/V2A", "BHRC", "RENADIC"])
+def test_channels_of_unequal_length_are_all_read(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = MADE[name][0]()
+    monkeypatch.setitem(globals(), "N", 23)
+    monkeypatch.setitem(globals(), "TRUE", TRUE[:23])
+    assert [record.acceleration.size for record in read_made(name, first + MADE[name][0]())] == [40, 23]
