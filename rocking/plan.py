@@ -115,12 +115,14 @@ def planned_records(catalogue: Path, identifiers: Sequence[str], sha256: str) ->
 def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, tuple[str, ...]]:
     """Share out records to jobs by a hash of their identifier, so that adding one record changes one job.
 
-    size: about how many records a job takes; None chooses the square root of their number, at most 32.
+    size: about how many records a job takes; None chooses an eighth of them, but no fewer than the square root of their
+    number, so that starting jobs costs little, and at most 128, so that a job that is lost costs little.
     Returns the identifiers of each job that has any, in their order, by the name of the job.
     """
     identifiers = tuple(identifiers)
-    size = size or min(32, max(1, round(len(identifiers) ** 0.5)))
-    count = 1 << max(0, (-(-len(identifiers) // size) - 1).bit_length())
+    number = len(identifiers)
+    size = size or min(128, max(1, round(number**0.5), round(number / 8)))
+    count = 1 << max(0, (-(-number // size) - 1).bit_length())
     shared: dict[str, list[str]] = {}
     for identifier in identifiers:
         place = int.from_bytes(hashlib.sha256(identifier.encode()).digest()[:4], "big") % count
