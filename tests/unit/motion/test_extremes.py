@@ -1,0 +1,190 @@
+"""The edges of the allowed: each with the reason for the result expected."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.constants import g
+
+from rocking.motion import integrate
+from rocking.outcome import Outcome
+from rocking.pulses.pulse import Pulse
+from rocking.records.accelerogram import Accelerogram
+from rocking.structures import Arch, Block, EquivalentBlock, Wall
+
+SHAPE = np.convolve(np.random.default_rng(0).normal(size=400), np.hanning(15), "same")
+SHAPE = SHAPE / np.abs(SHAPE).max()
+
+BOTH = pytest.mark.parametrize(
+    "structure", [Block(1.0, 0.2).mechanism(), EquivalentBlock(2.7, 0.2, 1.0, 0.9)], ids=["block", "linear"]
+)
+
+
+def shaken(structure, strength=2.0, step=0.01, tolerance=1e-8, count=400):
+    """The response to noise whose peak is `strength` times the uplift acceleration, its time scaled to 1/p."""
+    record = Accelerogram(strength * g * structure.uplift_multiplier * SHAPE[:count], step)
+    return integrate(structure, record, tolerance)
+
+
+def scale_free(alpha):
+    """A slender block approaches its linear block as α → 0 with an error of order α²."""
+    mechanism = Block(1.0, alpha, restitution=0.8).mechanism()
+    block = EquivalentBlock(mechanism.positive.frequency_parameter, alpha, alpha / np.tan(alpha), 0.8)
+    return shaken(mechanism, 1.4), shaken(block, 1.4)
+
+
+def test_slenderness_down_to_one_in_ten_thousand():
+    nonlinear, linear = scale_free(1e-4)
+    assert 0 < linear.rotation_ratio < np.inf
+    assert nonlinear.rotation_ratio == pytest.approx(linear.rotation_ratio, rel=1e-6)  # α² = 1e-8, amplified
+
+
+def test_slenderness_up_to_1_3():
+    """λ = tan 1.3 = 3.6: it needs 3.6 g to lift, and with η = 0.5 it comes to rest."""
+    response = shaken(Block(1.0, 1.3, restitution=0.5).mechanism(), 1.05)
+    assert response.outcome is Outcome.ROCKS
+    assert 0 < response.rotation_ratio < 1
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_size_from_a_millimetre_to_a_kilometre(size):
+    """Similarity: lengths times k, times times √k, give the same φ/φ_cr."""
+    reference = shaken(Block(1.0, 0.2, restitution=0.8).mechanism(), 1.5)
+    scaled = shaken(Block(size, 0.2, restitution=0.8).mechanism(), 1.5, step=0.01 * np.sqrt(size))
+    assert 0 < reference.rotation_ratio < np.inf
+    assert scaled.rotation_ratio == pytest.approx(reference.rotation_ratio, rel=1e-8)
+    assert scaled.impacts == pytest.approx(reference.impacts, abs=3)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1e3])
+def test_size_far_from_the_record(size):
+    """R = 1 mm (p = 86 rad/s) is shaken slowly and falls; R = 1 km (p = 0.09 rad/s) hardly notices."""
+    response = shaken(Block(size, 0.2, restitution=0.8).mechanism(), 2.0, step=0.2 if size < 1 else 0.001)
+    assert response.outcome is (Outcome.OVERTURNS if size < 1 else Outcome.ROCKS)
+    assert size < 1 or response.rotation_ratio < 1e-3
+
+
+@pytest.mark.parametrize("restitution", [0.0, 1e-9, 1.0])
+def test_restitution_from_none_to_all(restitution):
+    """All three stand under so weak a motion; with η = 0 each landing is the end of a flight, not of the motion."""
+    for structure in (
+        Block(1.0, 0.2, restitution=restitution).mechanism(),
+        EquivalentBlock(2.7, 0.2, 1.0, restitution),
+    ):
+        response = shaken(structure, 1.2)
+        assert response.outcome is Outcome.ROCKS
+        assert 0 < response.rotation_ratio < 1
+        assert response.impacts >= 1
+
+
+def test_tiny_restitution_tends_to_none():
+    without, tiny = (shaken(Block(1.0, 0.2, restitution=eta).mechanism(), 1.5) for eta in (0.0, 1e-9))
+    assert tiny.rotation_ratio == pytest.approx(without.rotation_ratio, rel=1e-6)
+
+
+@BOTH
+def test_amplitude_at_the_uplift_acceleration(structure):
+    level = g * structure.uplift_multiplier
+    for motion in (lambda a: Pulse(a, 6.0), lambda a: Accelerogram(a * SHAPE, 0.01)):
+        below, above = (integrate(structure, motion(level * (1 + d))) for d in (-1e-12, 1e-12))
+        assert below.outcome is Outcome.NO_UPLIFT
+        assert below.rotation_ratio == 0
+        assert above.outcome is Outcome.ROCKS
+        assert 0 < above.rotation_ratio < 1e-10
+
+
+@BOTH
+def test_a_thousand_times_the_uplift_acceleration(structure):
+    """Under one slow sine of 200 g nothing slender survives the first quarter cycle."""
+    response = integrate(structure, Pulse(1000 * g * structure.uplift_multiplier, 6.0))
+    assert response.outcome is Outcome.OVERTURNS
+    assert response.rotation_ratio == np.inf
+    assert shaken(structure, 1000).outcome is Outcome.OVERTURNS
+
+
+@pytest.mark.parametrize("step", [1e-5, 1e-3, 0.2])
+def test_time_step_does_not_matter_to_a_straight_line(step):
+    """A triangular pulse is the same forcing however it is sampled."""
+    mechanism = Block(2.0, 0.2, restitution=0.9).mechanism()
+    knots = np.array([0, 0, 0.4, -0.4, 0, 0]) * g
+    times = np.arange(0, 1.0 + step / 2, step)
+    record = Accelerogram(np.interp(times, np.arange(6) * 0.2, knots), step)
+    reference = integrate(mechanism, Accelerogram(knots, 0.2), 1e-12)
+    assert 0 < reference.rotation_ratio < np.inf
+    assert integrate(mechanism, record, 1e-12).rotation_ratio == pytest.approx(
+        reference.rotation_ratio, rel=1e-9
+    )
+
+
+@pytest.mark.slow
+def test_ten_million_samples():
+    """The motion of the first four seconds decides; the rest is silence, and it is walked through once."""
+    mechanism = Block(1.0, 0.2, restitution=0.9).mechanism()
+    samples = np.zeros(10_000_000)
+    samples[:400] = 1.5 * g * mechanism.uplift_multiplier * SHAPE
+    short = shaken(mechanism, 1.5)
+    long = integrate(mechanism, Accelerogram(samples, 0.01), 1e-8)
+    assert long.rotation_ratio == pytest.approx(short.rotation_ratio, rel=1e-9)
+
+
+@BOTH
+def test_alternating_ten_g(structure):
+    """± 10 g at 200 Hz moves the ground by 10 g Δt²/8 = 0.3 mm: a block of two metres rattles and stands."""
+    samples = 10 * g * (-1.0) ** np.arange(2000)
+    response = integrate(structure, Accelerogram(samples, 0.005))
+    assert response.outcome is Outcome.ROCKS
+    assert 0 < response.rotation_ratio < 0.5
+    assert response.impacts > 100
+
+
+def test_arch_just_above_its_minimum_thickness():
+    """λ is nearly nothing, so the weakest motion lifts it; φ_cr is 6e-6 rad, and it is still followed relatively."""
+    mechanism = Arch(10.0, 1.07478038 * 1.0001, np.pi, restitution=0.9).mechanism()
+    assert mechanism.critical_rotation < 1e-5
+    response, tight = (shaken(mechanism, 1.3, tolerance=tolerance) for tolerance in (1e-8, 1e-12))
+    assert response.outcome is tight.outcome
+    assert response.rotation_ratio == pytest.approx(tight.rotation_ratio, rel=1e-7)
+
+
+@pytest.mark.parametrize("ratio", [0.01, 0.1, 1.0, 10.0, 100.0])
+def test_hinge_from_low_to_high(ratio):
+    lower = 3.0 / (1 + ratio)
+    mechanism = Wall(lower, 3.0 - lower, 0.2, restitution=0.8).mechanism()
+    response, tight = (shaken(mechanism, 1.2, tolerance=tolerance) for tolerance in (1e-8, 1e-12))
+    assert response.outcome is tight.outcome
+    assert response.rotation_ratio == pytest.approx(tight.rotation_ratio, rel=1e-7)
+
+
+def test_pulse_shorter_than_a_sample():
+    """A pulse of 2 ms at 30 g gives the ground a velocity and takes it back: small rocking, no overturning."""
+    mechanism = Block(1.0, 0.2, restitution=0.9).mechanism()
+    response = integrate(mechanism, Pulse(30 * g, 2 * np.pi / 0.002))
+    assert response.outcome is Outcome.ROCKS
+    assert 0 < response.rotation_ratio < 0.1
+
+
+@BOTH
+def test_all_zeros(structure):
+    response = integrate(structure, Accelerogram(np.zeros(1000), 0.01), history=True, sensitivity=True)
+    assert response.outcome is Outcome.NO_UPLIFT
+    assert (response.rotation_ratio, response.impacts, response.peak_side) == (0.0, 0, 0)
+    assert response.fragile is False
+    assert np.isnan(response.peak_time) and np.isnan(response.uplift_time) and np.isnan(response.sensitivity)
+
+
+@BOTH
+def test_zeno_chain_of_a_hundred_thousand_impacts_ends_in_rest(structure):
+    """Each impact keeps η² of the energy, E/E_cr ≈ 2 x − x²; rest at 1e-14 of it: ln(E/1e-14)/(−2 ln η) impacts."""
+    start = 0.02
+    linear = isinstance(structure, EquivalentBlock)
+    structure = replace(structure, restitution=0.9999) if linear else structure.with_restitution(0.9999)
+    # Flights last (2/p) acosh(1/(1 − x)); their sum over the chain is finite, and the record outlasts it.
+    record = Accelerogram(np.zeros(200_000), 0.05)
+    response = integrate(structure, record, 1e-6, history=True, initial_rotation=start)
+    ratio = start / 0.2
+    expected = np.log((2 * ratio - ratio**2) / 1e-14) / (-2 * np.log(0.9999))
+    assert response.impacts > 1e5
+    assert response.impacts == pytest.approx(expected, rel=1e-3)
+    assert response.rotation[-1] == 0
+    assert response.times[-1] < record.duration
+    assert response.outcome is Outcome.ROCKS

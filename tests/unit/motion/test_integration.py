@@ -1,0 +1,264 @@
+"""The front door: what it accepts, what it says, what it refuses."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from motion_cases import MECHANISMS, noise
+from scipy.constants import g
+
+from rocking.errors import MotionError, StructureError
+from rocking.motion import integrate, integrate_many
+from rocking.outcome import Outcome
+from rocking.pulses.pulse import Pulse
+from rocking.records.accelerogram import Accelerogram
+from rocking.structures import Block, EquivalentBlock
+from rocking.structures.mechanism import Mechanism
+
+BLOCK = Block(1.0, 0.25, restitution=0.85)
+RECORD = noise(1, 300, 0.01, 1.6 * g * BLOCK.mechanism().uplift_multiplier)
+
+
+def test_a_structure_and_its_mechanism_are_the_same():
+    assert integrate(BLOCK, RECORD).rotation_ratio == integrate(BLOCK.mechanism(), RECORD).rotation_ratio
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 9e-14, 0.11, -1e-6, np.nan, np.inf, "fine", None])
+def test_tolerance_outside_its_bounds_is_refused(tolerance):
+    with pytest.raises(MotionError, match="tolerance is .* but must"):
+        integrate(BLOCK, RECORD, tolerance)
+    with pytest.raises(MotionError, match="tolerance is .* but must"):
+        list(integrate_many([BLOCK], [RECORD], tolerance))
+
+
+@pytest.mark.parametrize("restitution", [-0.1, 1.1, np.nan])
+def test_restitution_outside_its_bounds_is_refused(restitution):
+    with pytest.raises(StructureError, match="restitution"):
+        EquivalentBlock(2.0, 0.2, 1.0, restitution)
+
+
+def test_vertical_of_another_length_or_step_is_refused():
+    still = Accelerogram(np.zeros(299), 0.01)
+    with pytest.raises(MotionError, match="vertical has 299 samples, but must have the 300"):
+        integrate(BLOCK, RECORD, vertical=still)
+    with pytest.raises(MotionError, match=r"vertical has a time step of 0.02 s, but must have the 0.01 s"):
+        integrate(BLOCK, RECORD, vertical=Accelerogram(np.zeros(300), 0.02))
+    with pytest.raises(MotionError, match="vertical is given with a pulse"):
+        integrate(BLOCK, Pulse(3.0, 6.0), vertical=still)
+    with pytest.raises(MotionError, match="vertical is a list"):
+        integrate(BLOCK, RECORD, vertical=[0.0])
+
+
+@pytest.mark.parametrize("field", ["initial_rotation", "initial_velocity"])
+def test_initial_state_must_be_finite_and_possible(field):
+    with pytest.raises(MotionError, match=field):
+        integrate(BLOCK, RECORD, **{field: np.nan})
+    with pytest.raises(MotionError, match="one-sided"):
+        integrate(MECHANISMS["one side"], RECORD, **{field: -0.01})
+    with pytest.raises(MotionError, match="initial_rotation is 2.0 rad, but the mechanism ends"):
+        integrate(BLOCK, RECORD, initial_rotation=2.0)
+
+
+def test_strangers_are_refused():
+    with pytest.raises(MotionError, match="the structure is a str"):
+        integrate("a block", RECORD)
+    with pytest.raises(MotionError, match="the ground motion is a float"):
+        integrate(BLOCK, 3.0)
+    with pytest.raises(MotionError, match="fragility_change"):
+        integrate(BLOCK, RECORD, sensitivity=True, fragility_change=0.9)
+
+
+@pytest.mark.parametrize("name", MECHANISMS)
+@pytest.mark.parametrize("kind", ["mechanism", "equivalent block"])
+def test_history_is_the_motion(name, kind):
+    """An audit of every event: gap never negative, peaks and impacts as counted, energy falling by η² at each impact."""
+    mechanism = MECHANISMS[name]
+    structure = mechanism if kind == "mechanism" else mechanism.equivalent_block()
+    record = noise(5, 400, 0.01, 1.4 * g * max(side.uplift_multiplier for side in mechanism.sides))
+    silent, spoken = integrate(structure, record), integrate(structure, record, history=True)
+    assert (silent.times, silent.rotation_ratio) == (None, spoken.rotation_ratio)
+    times, rotation, velocity = spoken.times, spoken.rotation, spoken.angular_velocity
+    assert np.all(np.diff(times) >= 0)
+    assert np.all(np.isfinite(rotation)) and np.all(np.isfinite(velocity))
+    if mechanism.one_sided:
+        assert rotation.min() >= 0
+    else:
+        assert rotation.min() < 0 < rotation.max()
+
+    landed = np.flatnonzero(
+        (np.diff(times) == 0) & (rotation[1:] == 0) & (rotation[:-1] == 0) & (velocity[:-1] != 0)
+    )
+    assert landed.size == pytest.approx(spoken.impacts, abs=2)  # the last one may be followed by rest
+    before, after = velocity[landed], velocity[landed + 1]
+    eta = np.where(before < 0, mechanism.sides[0].restitution, mechanism.sides[-1].restitution)
+    sign = -1 if mechanism.one_sided else 1
+    assert after == pytest.approx(sign * eta * before, rel=1e-9)
+
+    if spoken.outcome is Outcome.ROCKS:
+        scale = {s: mechanism.sides[0 if s > 0 else -1].critical_rotation for s in (1, -1)}
+        ratios = np.where(rotation >= 0, rotation / scale[1], -rotation / scale[-1])
+        k = np.argmax(ratios)
+        assert ratios[k] == pytest.approx(spoken.rotation_ratio, rel=1e-12)
+        assert times[k] == pytest.approx(spoken.peak_time, abs=1e-12)
+        assert np.sign(rotation[k]) == spoken.peak_side
+        assert velocity[k] == pytest.approx(0, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["block", "two sides", "one side"])
+def test_no_uplift_is_missed(name):
+    """While it rests, the ground acceleration never exceeds λ g to a side that can lift."""
+    mechanism = MECHANISMS[name]
+    for seed in range(5):
+        record = noise(seed, 400, 0.01, 1.2 * g * max(side.uplift_multiplier for side in mechanism.sides))
+        response = integrate(mechanism, record, history=True)
+        lift = {s: g * mechanism.sides[0 if s > 0 else -1].uplift_multiplier for s in (1, -1)}
+        above = record.acceleration > (np.inf if mechanism.one_sided else lift[-1])
+        below = -record.acceleration > lift[1]
+        end = min(response.times[-1], record.duration)
+        for t in record.times[(above | below) & (record.times <= end)]:
+            k = np.searchsorted(response.times, t)
+            moving = np.abs(response.rotation[max(k - 2, 0) : k + 3]) + np.abs(
+                response.angular_velocity[max(k - 2, 0) : k + 3]
+            )
+            assert moving.max() > 0
+
+
+def test_first_uplift_is_where_the_acceleration_crosses():
+    """The straight line between two samples crosses λ g at a place that a hand can compute."""
+    level = g * BLOCK.mechanism().uplift_multiplier
+    record = Accelerogram(np.array([0.0, 0.4, 0.8, 1.6, 0.0, 0.0]) * level, 0.1)
+    for structure in (BLOCK, BLOCK.mechanism().equivalent_block("uplift")):
+        response = integrate(structure, record)
+        assert response.uplift_time == pytest.approx(0.225, rel=1e-12)
+        assert response.peak_side == -1  # thrown back against the ground's acceleration
+
+
+def test_peak_side_and_mirror_of_two_different_sides():
+    sides = MECHANISMS["two sides"]
+    mirrored = Mechanism(sides.negative, sides.positive)
+    record = noise(2, 400, 0.01, 1.4 * g * max(side.uplift_multiplier for side in sides.sides))
+    here, there = integrate(sides, record), integrate(mirrored, record.scaled(-1))
+    assert here.rotation_ratio == pytest.approx(there.rotation_ratio, rel=1e-12)
+    assert here.peak_side == -there.peak_side != 0
+
+
+def test_constant_vertical_acceleration_is_gravity_scaled():
+    """−0.2 g: the block, its horizontal motion divided by 0.8 and time stretched by 1/√0.8 relative to gravity 1."""
+    down = Accelerogram(np.full(300, -0.2 * g), 0.01)
+    light = integrate(BLOCK, RECORD, 1e-11, vertical=down, history=True)
+    stretched = Accelerogram(RECORD.acceleration / 0.8, 0.01 * np.sqrt(0.8))
+    heavy = integrate(BLOCK, stretched, 1e-11, history=True)
+    inside = light.times < RECORD.duration * 0.9
+    rotation = np.interp(light.times[inside] * np.sqrt(0.8), heavy.times, heavy.rotation)
+    samples = np.isclose(light.times[inside] % 0.01, 0, atol=1e-9)
+    assert np.abs(light.rotation).max() > 1e-4
+    assert light.rotation[inside][samples] == pytest.approx(rotation[samples], abs=1e-9)
+
+
+def test_sensitivity_against_a_wide_difference():
+    """d ln φ_max / d ln a from an independent, fourth-order five-point difference of ten times the spacing."""
+    for structure in (BLOCK.mechanism(), BLOCK.mechanism().equivalent_block()):
+        found = integrate(structure, RECORD, sensitivity=True)
+        step = 1e-4
+        logs = [
+            np.log(integrate(structure, RECORD.scaled(np.exp(k * step)), 1e-12).rotation_ratio)
+            for k in (-2, -1, 1, 2)
+        ]
+        truth = (logs[0] - 8 * logs[1] + 8 * logs[2] - logs[3]) / (12 * step)
+        assert found.sensitivity == pytest.approx(truth, rel=1e-3)
+        assert found.fragile is False
+
+
+def test_fragile_verdicts_are_marked():
+    """Half a percent on either side of the threshold found by bisection; two percent away it is not fragile."""
+    pulse = Pulse(g, 6.0)
+
+    def scaled(factor):
+        return Pulse(factor * pulse.amplitude, pulse.circular_frequency)
+
+    low, high = 0.3, 5.0
+    assert integrate(BLOCK, scaled(high)).outcome is Outcome.OVERTURNS
+    while high - low > 1e-9:
+        middle = (low + high) / 2
+        low, high = (
+            (low, middle) if integrate(BLOCK, scaled(middle)).outcome is Outcome.OVERTURNS else (middle, high)
+        )
+    for factor, fragile in ((0.98, False), (0.995, True), (1.005, True)):
+        response = integrate(BLOCK, scaled(low * factor), sensitivity=True)
+        assert response.fragile is fragile
+    assert integrate(BLOCK, scaled(low * 0.98), sensitivity=True, fragility_change=0.03).fragile is True
+    assert integrate(BLOCK, scaled(low)).fragile is None
+
+
+def test_many_at_once_equals_one_by_one():
+    structures = [*MECHANISMS.values(), BLOCK, BLOCK.mechanism().equivalent_block()]
+    motions = [noise(seed, 200, 0.01, 5.0) for seed in range(5)] + [Pulse(4.0, 6.0)]
+    rows = list(integrate_many(structures, (motion for motion in motions), workers=2))
+    assert len(rows) == len(motions)
+    for row, motion in zip(rows, motions, strict=True):
+        for response, structure in zip(row, structures, strict=True):
+            alone = integrate(structure, motion)
+            assert (response.rotation_ratio, response.impacts) == (alone.rotation_ratio, alone.impacts)
+
+
+def test_a_case_that_fails_does_not_stop_the_others():
+    rows = list(integrate_many([BLOCK, "a block"], [RECORD, 3.0]))
+    assert rows[0][0].outcome is Outcome.ROCKS
+    for failed in (rows[0][1], rows[1][0], rows[1][1]):
+        assert failed.outcome is Outcome.FAILED
+        assert np.isnan(failed.rotation_ratio)
+        assert failed.reason.startswith("the ")
+
+
+def test_motions_are_taken_a_few_at_a_time():
+    """Memory stays constant: a generator is never read far ahead of what was yielded."""
+    taken = 0
+
+    def motions():
+        nonlocal taken
+        for _ in range(200):
+            taken += 1
+            yield RECORD
+
+    for done, _ in enumerate(integrate_many([BLOCK], motions(), workers=2), start=1):
+        assert taken - done <= 6
+
+
+_INTERPRETED = """
+import numpy as np
+from rocking.motion import integrate, kernel
+from rocking.structures import Block
+from rocking.pulses.pulse import Pulse
+from rocking.records.accelerogram import Accelerogram
+samples = np.convolve(np.random.default_rng(1).normal(size=150), np.hanning(12), "same")
+record = Accelerogram(3.5 * samples / np.abs(samples).max(), 0.01)
+mechanism = Block(1.0, 0.25, restitution=0.85).mechanism()
+for structure in (mechanism, mechanism.equivalent_block()):
+    for motion in (record, Pulse(3.6, 8.0)):
+        response = integrate(structure, motion, 1e-9)
+        print(repr(float(response.rotation_ratio)), response.outcome)
+print(type(kernel.rock).__name__)
+"""
+
+
+def test_compiled_and_interpreted_agree():
+    """The same source run by Python: only the contraction of multiply-adds differs, a rounding per operation."""
+
+    def run(**environment):
+        command = [sys.executable, "-c", _INTERPRETED]
+        out = subprocess.run(
+            command, env=os.environ | environment, capture_output=True, text=True, check=True
+        ).stdout
+        *rows, kind = out.splitlines()
+        return [row.split(maxsplit=1) for row in rows], kind
+
+    compiled, kind = run(NUMBA_DISABLE_JIT="0")
+    interpreted, other = run(NUMBA_DISABLE_JIT="1")
+    assert (kind, other) == ("CPUDispatcher", "function")
+    assert len(compiled) == 4
+    for (value, outcome), (again, verdict) in zip(compiled, interpreted, strict=True):
+        assert outcome == verdict == "rocks"
+        assert float(value) > 0
+        assert float(again) == pytest.approx(float(value), rel=1e-9)

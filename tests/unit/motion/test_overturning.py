@@ -1,0 +1,149 @@
+"""Where structures overturn: published or closed-form thresholds, and what overturning is not."""
+
+import numpy as np
+import pytest
+from motion_cases import noise
+from oracle import Oracle
+from scipy.constants import g
+from scipy.integrate import cumulative_trapezoid
+
+from rocking.motion import integrate
+from rocking.outcome import Outcome
+from rocking.pulses.pulse import Pulse
+from rocking.records.accelerogram import Accelerogram
+from rocking.structures import Block, EquivalentBlock
+
+
+def overturns(structure, motion, tolerance=1e-10):
+    return integrate(structure, motion, tolerance).outcome is Outcome.OVERTURNS
+
+
+def bisected(low, high, falls):
+    """The value between low and high at which `falls` changes, to rounding of the verdict."""
+    first = falls(low)
+    for _ in range(45):
+        middle = (low + high) / 2
+        low, high = (middle, high) if falls(middle) is first else (low, middle)
+    return (low + high) / 2
+
+
+UNIT = EquivalentBlock(2.0, 0.2, 1.0, 0.9)
+
+
+BOTH = pytest.mark.parametrize(
+    "structure", [UNIT, Block(3 * g / 16, 0.2, restitution=0.9).mechanism()], ids=["linear", "block"]
+)
+
+
+def sine(strength, ratio=5.0):
+    return Pulse(strength * g * UNIT.uplift_multiplier, ratio * UNIT.frequency_parameter)
+
+
+@pytest.mark.parametrize(
+    "stands, falls",
+    [(3.01, 3.02), (6.32, 6.31), (7.16, 7.17)],
+    ids=["first threshold", "safe island begins", "falls for good"],
+)
+def test_one_sine_on_the_linear_block(stands, falls):
+    """η = 0.9, ω/p = 5: overturning is not monotone in amplitude."""
+    assert not overturns(UNIT, sine(stands))
+    assert overturns(UNIT, sine(falls))
+
+
+def test_last_threshold_of_the_linear_block():
+    """Without impact it falls iff D₀ ≤ 0 while rising (Eq. 16): 7.168129 by the closed form."""
+    assert bisected(7.0, 7.3, lambda a: overturns(UNIT, sine(a), 1e-13)) == pytest.approx(7.168129, abs=5e-7)
+
+
+@pytest.mark.parametrize("ratio, threshold", [(1, 1.322397), (3, 2.293872), (6, 3.788155), (10, 5.786522)])
+def test_half_sine_without_impact(ratio, threshold):
+    """Closed form of a block under half a sine from uplift on; a whole sine's second half is cut off here.
+
+    The half sine is sampled so finely that linear interpolation errs by (ω Δt)²/12 < 1e-8.
+    """
+    times = np.linspace(0, np.pi / (ratio * 2.0), 10_001)
+    shape = np.sin(ratio * 2.0 * times) * g * UNIT.uplift_multiplier
+    shape[-1] = 0.0
+
+    def falls(a):
+        return overturns(UNIT, Accelerogram(a * shape, times[1]))
+
+    assert bisected(threshold * 0.95, threshold * 1.05, falls) == pytest.approx(threshold, abs=6e-7)
+
+
+def cosine(strength):
+    times = np.linspace(0, 2, 40_001)
+    return Accelerogram(strength * g * np.cos(np.pi * times), times[1])
+
+
+def test_cosine_pulse_on_the_nonlinear_block():
+    """p = 2, α = 15°, Housner's η, from rest: stands at 0.315 g, overturns at 0.316 g, bisected 0.315034018 g."""
+    mechanism = Block(3 * g / 16, np.deg2rad(15)).mechanism()
+    assert mechanism.positive.frequency_parameter == pytest.approx(2.0, rel=1e-12)
+    assert not overturns(mechanism, cosine(0.315))
+    assert overturns(mechanism, cosine(0.316))
+    # The samples' straight lines weaken the cosine by up to (π Δt)²/8 = 3e-9.
+    found = bisected(0.315, 0.316, lambda a: overturns(mechanism, cosine(a)))
+    assert found == pytest.approx(0.315034018, abs=3e-9)
+
+
+@BOTH
+def test_beyond_the_critical_rotation_is_not_overturning(structure):
+    """A later push in the right direction brings it back: the peak exceeds φ_cr and the structure stands."""
+    ratios = [
+        integrate(structure, Pulse(a * g * structure.uplift_multiplier, 10.0), 1e-9).rotation_ratio
+        for a in np.linspace(1.5, 7.5, 601)
+    ]
+    assert any(1 < ratio < np.inf for ratio in ratios)
+
+
+def test_early_proof_agrees_with_an_oracle_that_follows_to_the_end():
+    """From the moment of the proof on, the record is replaced by the worst it could do: its largest acceleration still to
+    come, pushing back without pause. The oracle knows no proof and waits for the end of the mechanism."""
+    mechanism = Block(3 * g / 16, 0.2, restitution=0.9).mechanism()
+    found = 0
+    for seed in range(12):
+        record = noise(seed, 100, 0.02, 3 * g * mechanism.uplift_multiplier, 15)
+        history = integrate(mechanism, record, 1e-9, history=True)
+        proved = int(np.ceil(history.times[-1] / 0.02 - 1e-9))
+        if history.outcome is not Outcome.OVERTURNS or proved >= 98:
+            continue
+        samples = record.acceleration.copy()
+        samples[proved + 1 :] = history.peak_side * np.abs(samples[proved:]).max()
+        ratio, _ = Oracle(mechanism).run(samples, 0.02, after=3.0)
+        assert ratio == np.inf
+        found += 1
+    assert found >= 3
+
+
+def test_proof_on_the_linear_block_is_exact():
+    """The unstable coordinate, followed by quadrature over the rest of the record, stays positive from the proof on, and
+    would not have from a fifth of a second before on in most cases: the proof is neither wrong nor late."""
+    late = 0
+    for seed in range(40):
+        record = noise(seed, 300, 0.01, 3 * g * UNIT.uplift_multiplier, 15)
+        history = integrate(UNIT, record, history=True)
+        if history.outcome is not Outcome.OVERTURNS or history.times[-1] > 2.9:
+            continue
+        assert follow(record, history, -1).min() > 0
+        late += follow(record, history, np.searchsorted(history.times, history.times[-1] - 0.2)).min() > 0
+    assert late <= 20
+
+
+def follow(record, history, k):
+    """Unstable coordinate x − 1 + x'/p, times exp(−p t), from state k of the history to the end of the record."""
+    p, span, side = UNIT.frequency_parameter, UNIT.critical_rotation, history.peak_side
+    start = side * (history.rotation[k] + history.angular_velocity[k] / p) / span - 1
+    times = np.linspace(history.times[k], record.duration, 20_001)
+    push = side * np.interp(times, record.times, record.acceleration) / (g * UNIT.uplift_multiplier)
+    taken = p * push * np.exp(-p * (times - times[0]))
+    return start - cumulative_trapezoid(taken, times, initial=0)
+
+
+def test_constant_acceleration_just_above_and_below_uplift():
+    """Above λ nothing ever restores it; below λ nothing ever lifts it."""
+    for structure in (UNIT, Block(1.0, 0.2).mechanism()):
+        level = structure.uplift_multiplier * g
+        for factor, outcome in ((1 - 1e-12, Outcome.NO_UPLIFT), (1 + 1e-12, Outcome.OVERTURNS)):
+            record = Accelerogram(np.full(20_000, level * factor), 0.01)
+            assert integrate(structure, record).outcome is outcome

@@ -1,0 +1,100 @@
+"""The table against direct evaluation of the mechanism's own functions."""
+
+import numpy as np
+import pytest
+from motion_cases import MECHANISMS
+from scipy.constants import g
+from scipy.integrate import quad
+
+from rocking.errors import MotionError
+from rocking.motion.kernel import _place
+from rocking.motion.table import ACCURACY, linear_table, table_of
+from rocking.structures import Arch, EquivalentBlock, Wall
+from rocking.structures.mechanism import Mechanism, Side
+
+EXTREMES = {
+    "arch just above its minimum thickness": Arch(
+        10.0, 1.07478038 * 1.0001, np.pi, restitution=0.9
+    ).mechanism(),
+    "wall with a low hinge": Wall(0.03, 3.0, 0.3, restitution=0.8).mechanism(),
+    "wall with a high hinge": Wall(3.0, 0.03, 0.02, restitution=0.8).mechanism(),
+}
+ALL = MECHANISMS | EXTREMES
+
+
+def evaluated(table, k, arc):
+    """G̃ and B̃ of side k at each arc, by the pieces that the kernel would take."""
+    pieces, grid = table.arrays[0], table.arrays[1]
+    values = []
+    for q in arc:
+        j, centre, _ = _place(grid[k], q)
+        powers = (q - centre) ** np.arange(8)
+        values.append((powers @ pieces[k, j, 0::2], powers @ pieces[k, j, 1::2]))
+    return np.array(values).T
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_table_equals_direct_evaluation(name):
+    """G̃ = G/√(I I(0)) and B̃ likewise, to 1e-12 of their maximum: the bound the table promises."""
+    mechanism = ALL[name]
+    table = table_of(mechanism)
+    for k, side in enumerate(mechanism.sides):
+        own = table.sides[k]
+        rotation = np.concatenate([
+            np.linspace(0, side.critical_rotation, 301),
+            np.linspace(0, own.rotation(np.float64(own.end)) * (1 - 1e-12), 301),
+        ])  # fmt: skip
+        found = evaluated(table, k, own.arc(rotation))
+        scale = np.sqrt(side.inertia(rotation) * side.at("inertia", 0.0))
+        for values, function in zip(found, (side.gravity, side.ground), strict=True):
+            truth = function(rotation) / scale
+            assert np.abs(values - truth).max() <= ACCURACY * np.abs(truth).max()
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_arc_is_the_integral_of_the_root_of_the_inertia(name):
+    """q = ∫ √(I/I(0)) dφ by adaptive quadrature, whose own bound is 1e-13 relative."""
+    side = ALL[name].positive
+    own = table_of(ALL[name]).side(1)
+    rest = side.at("inertia", 0.0)
+    for rotation in (1e-9, side.critical_rotation / 3, side.critical_rotation):
+        truth, _ = quad(lambda r: np.sqrt(side.at("inertia", r) / rest), 0, rotation, epsabs=0, epsrel=1e-13)
+        assert float(own.arc(np.float64(rotation))) == pytest.approx(truth, rel=1e-12)
+        assert float(own.rotation(own.arc(np.float64(rotation)))) == pytest.approx(rotation, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_hold_bounds_every_rotation_further_out(name):
+    side, own = ALL[name].positive, table_of(ALL[name]).side(1)
+    rotation = np.linspace(0, float(own.rotation(np.float64(own.end))), 2001)
+    balance = -side.gravity(rotation) / np.abs(side.ground(rotation))
+    grid = table_of(ALL[name]).arrays[1][0]
+    for q, lowest in zip(own.arc(rotation), np.minimum.accumulate(balance[::-1])[::-1], strict=True):
+        j, _, _ = _place(grid, q)
+        assert own.hold[j] <= lowest + 1e-12
+
+
+def test_speed_that_reaches_the_critical_rotation():
+    """½ I(0) φ'² = g ∫ G dφ up to φ_cr; for a block 2 p² (1 − cos α)."""
+    own = table_of(MECHANISMS["block"]).side(1)
+    assert own.reaching_speed**2 == pytest.approx(2 * (3 * g / 4) * (1 - np.cos(0.25)), rel=1e-13)
+
+
+def test_table_of_an_equivalent_block_is_the_straight_line():
+    block = EquivalentBlock(2.0, 0.3, 1.2, 0.9)
+    table = linear_table(block)
+    arc = np.linspace(0, 100.0, 57)
+    gravity, ground = evaluated(table, 0, arc)
+    assert gravity == pytest.approx(4.0 / g * (0.3 - arc), abs=1e-11)
+    assert ground == pytest.approx(np.full(57, 4.0 / g * 1.2), rel=1e-14)
+    assert table.sides[0].end == np.inf
+
+
+def test_functions_with_a_kink_are_refused():
+    def gravity(rotation):
+        return 0.2 - rotation + 0.05 * np.abs(rotation - 0.1)
+
+    ones = np.ones_like
+    side = Side(ones, np.zeros_like, gravity, lambda r: -ones(r), ones, 0.2, 1.0, 0.9)
+    with pytest.raises(MotionError, match="cannot be tabulated"):
+        table_of(Mechanism(side))
