@@ -12,8 +12,10 @@ def same_sampling(first: Accelerogram, second: Accelerogram) -> np.ndarray:
     """Return both accelerations, (2, n) m/s², over the samples they share from the first on.
 
     Components of one recording often differ by a few samples at the end; those are dropped.
-    Raises PulseError when the time steps differ.
+    Raises PulseError when the time steps differ or one is vertical.
     """
+    if first.vertical or second.vertical:
+        raise PulseError("One of the two components is vertical, but a direction needs two horizontal ones.")
     if not math.isclose(first.time_step, second.time_step, rel_tol=1e-9):
         raise PulseError(
             f"The time steps are {first.time_step:g} and {second.time_step:g} s, but two components must share one; "

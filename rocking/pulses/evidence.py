@@ -1,7 +1,10 @@
 """How far a dominant pulse may be trusted: the light of one record × structure, from thresholds that are data."""
 
-from dataclasses import dataclass
+import csv
+from collections.abc import Iterable
+from dataclasses import dataclass, fields
 from enum import StrEnum
+from pathlib import Path
 
 from rocking.checks import finite
 from rocking.errors import PulseError
@@ -37,15 +40,20 @@ class Thresholds:
     evidence: str
 
 
-THRESHOLDS = Thresholds(
-    green_explained_energy=0.35,
-    amber_explained_energy=0.20,
-    amplitude_ratio=1.3,
-    evidence=(
-        "87 horizontal components of recorded earthquakes and synthetic signals: prediction by the pulse within a "
-        "factor 2 of the rotation under the record in 85–96 % (green), 74–83 % (amber), 20 % (red)."
-    ),
+def read_thresholds(lines: Iterable[str]) -> Thresholds:
+    """Return the one row of a CSV text with the columns of Thresholds. Raises PulseError for any defect."""
+    rows = list(csv.DictReader(lines))
+    names = [field.name for field in fields(Thresholds)]
+    if len(rows) != 1 or list(rows[0]) != names:
+        raise PulseError(f"The thresholds must be one row with the columns {', '.join(names)}.")
+    *numbers, evidence = (rows[0][name] for name in names)
+    return Thresholds(*(finite(PulseError, "a threshold", float(number)) for number in numbers), evidence)
+
+
+THRESHOLDS = read_thresholds(
+    Path(__file__).with_name("thresholds.csv").read_text(encoding="utf-8").splitlines()
 )
+"""Made by `snakemake calibrate` from the real records of records/near_fault.csv."""
 
 
 def light(explained_energy: float, amplitude_ratio: float, thresholds: Thresholds = THRESHOLDS) -> Light:

@@ -44,24 +44,26 @@ class PulseInterval:
 def pulse_interval(
     analysis: PulseAnalysis,
     *,
+    pulse: Pulse | None = None,
     settings: PulseSettings | None = None,
     replicates: int = REPLICATES,
     level: float = LEVEL,
 ) -> PulseInterval:
-    """Return the bootstrap interval of the dominant pulse of `analysis`.
+    """Return the bootstrap interval of `pulse`, one of `analysis`; by default of the dominant one.
 
-    Each replicate adds the residual, shifted round the record and with a random sign, to the pulse, and seeks it
-    again within half a period and half an octave. Seeded by the record's sha256, so it is the same in every run.
+    Each replicate adds to the pulse what it leaves of the record, shifted round the record and with a random sign, and
+    seeks it again within half a period and half an octave. Seeded by the record's sha256, so it is the same in every run.
     Raises PulseError when `level` or `replicates` is outside what is allowed.
     """
     level = within(PulseError, "level", level, 0.01, 0.999)
     if replicates < 20:
         raise PulseError(f"replicates is {replicates}, but an interval needs at least 20.")
-    record = analysis.accelerogram
+    record, pulse = analysis.accelerogram, pulse or analysis.dominant
+    residual = record.acceleration - pulse.acceleration(record.times)
     settings = settings or PulseSettings()
     search = PulseSearch(record.time_step, searched_band(record, settings), settings)
     rng = np.random.default_rng(int(record.sha256[:SEED_DIGITS], 16))
-    found = tuple(_replicate(search, analysis, *draw) for draw in _draws(analysis.residual, replicates, rng))
+    found = tuple(_replicate(search, pulse, residual, *draw) for draw in _draws(residual, replicates, rng))
     return PulseInterval(
         level,
         _ends(np.array([pulse.amplitude for pulse in found]), level),
@@ -82,13 +84,12 @@ def _draws(residual: np.ndarray, count: int, rng: np.random.Generator) -> list[t
     return list(zip(drawn.tolist(), rng.choice((-1.0, 1.0), count).tolist(), strict=True))
 
 
-def _replicate(search: PulseSearch, analysis: PulseAnalysis, source: int, sign: float) -> Pulse:
+def _replicate(search: PulseSearch, pulse: Pulse, residual: np.ndarray, source: int, sign: float) -> Pulse:
     """Seek the pulse again in itself plus the residual, shifted so that sample `source` lies under its middle."""
-    pulse, step = analysis.dominant, search.time_step
-    window = search.window(pulse, analysis.residual.size)
+    step, window = search.time_step, search.window(pulse, residual.size)
     at = np.arange(window.start, window.stop)
     middle = round((pulse.start_time + pulse.period / 2) / step)
-    noise = sign * analysis.residual.take(at - middle + source, mode="wrap")
+    noise = sign * residual.take(at - middle + source, mode="wrap")
     return search.near(pulse, pulse.acceleration(at * step) + noise, window)
 
 

@@ -4,6 +4,8 @@ import csv
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
+from functools import lru_cache
+from pathlib import Path
 
 from rocking.checks import finite
 from rocking.errors import PulseError
@@ -41,6 +43,14 @@ def read_reliability(lines: Iterable[str]) -> tuple[Reliability, ...]:
             f"The reliability table has columns {rows.fieldnames}, but must have {', '.join(COLUMNS)}."
         )
     return tuple(_row(number, row) for number, row in enumerate(rows, start=2))
+
+
+@lru_cache(maxsize=1)
+def shipped_reliability() -> tuple[Reliability, ...]:
+    """Return the table that the package ships, made by `snakemake calibrate` from real records."""
+    return read_reliability(
+        Path(__file__).with_name("reliability.csv").read_text(encoding="utf-8").splitlines()
+    )
 
 
 def reliability_of(table: Iterable[Reliability], light: Light, frequency_ratio: float) -> Reliability | None:

@@ -36,6 +36,21 @@ def test_a_higher_level_is_wider():
     assert outer.period[0] < inner.period[0] < inner.period[1] < outer.period[1]
 
 
+def test_a_rival_has_an_interval_of_its_own():
+    samples = Pulse(2.0, 2 * np.pi / 1.3, 4.2).acceleration(TIMES) + Pulse(-1.6, 2 * np.pi, 13).acceleration(
+        TIMES
+    )
+    noise = 0.3 * np.random.default_rng(2).standard_normal(TIMES.size)
+    analysis = extract_pulses(Accelerogram(samples + noise, STEP))
+    rival = next(e.pulse for e in analysis.alternatives if e.pulse.start_time > 10)
+    found = pulse_interval(analysis, pulse=rival, replicates=100)
+    assert found.start_time[0] < 13 < found.start_time[1]
+    assert found.amplitude[0] < -1.6 < found.amplitude[1]
+    assert pulse_interval(analysis, pulse=analysis.dominant, replicates=40) == pulse_interval(
+        analysis, replicates=40
+    )
+
+
 def test_the_band_of_a_demand_may_be_infinite():
     interval = pulse_interval(noisy(0.5), replicates=60)
     assert interval.band(lambda pulse: pulse.amplitude) == interval.amplitude

@@ -68,5 +68,7 @@ def test_components_that_do_not_belong_together_are_refused():
     first, second = pair(0.4)
     with pytest.raises(PulseError, match=r"time steps are 0\.01 and 0\.02 s"):
         extract_pulses_oriented(first, Accelerogram(second.acceleration, 2 * STEP))
+    with pytest.raises(PulseError, match="vertical"):
+        extract_pulses_oriented(first, Accelerogram(second.acceleration, STEP, vertical=True))
     with pytest.raises(PulseError, match="constant"):
         extract_pulses_oriented(Accelerogram(np.zeros(2000), STEP), Accelerogram(np.ones(2000), STEP))
