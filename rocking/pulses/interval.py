@@ -52,7 +52,7 @@ def pulse_interval(
     """Return the bootstrap interval of `pulse`, one of `analysis`; by default of the dominant one.
 
     Each replicate adds to the pulse what it leaves of the record, shifted round the record and with a random sign, and
-    seeks it again within half a period and half an octave. Seeded by the record's sha256, so it is the same in every run.
+    seeks it again within half a period and half an octave. The record's sha256 is the seed, so every run agrees.
     Raises PulseError when `level` or `replicates` is outside what is allowed.
     """
     level = within(PulseError, "level", level, 0.01, 0.999)
