@@ -18,3 +18,4 @@ rule all:
 include: "workflow/rules/assess.smk"
 include: "workflow/rules/summarise.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/calibrate.smk"

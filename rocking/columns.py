@@ -185,6 +185,17 @@ COMPARISON = Table(
         ),
         Column("within_factor_two", "boolean", "Whether that ratio lies between 1/2 and 2, where both rock"),
         Column(
+            "reliability_within_factor_two",
+            "number",
+            "Share of comparisons of this light and frequency ratio within a factor two, from the shipped calibration",
+        ),
+        Column(
+            "reliability_overturnings_found",
+            "number",
+            "Share of overturnings that such predictions found, from the shipped calibration; empty if there were none",
+        ),
+        Column("reliability_records", "integer", "Independent records behind those two shares"),
+        Column(
             "verdict",
             "string",
             "agree, unsafe (overturning or rocking missed) or safe (predicted, did not happen)",

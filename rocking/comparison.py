@@ -43,7 +43,7 @@ class AssessmentSettings:
     the one that demands most of each structure.
     """
 
-    acceleration_scale: Scale = "mean"
+    acceleration_scale: Scale = "uplift"
     tolerance: float = 1e-6
     fragility_change: float = 0.01
     pulse: PulseSettings = field(default_factory=PulseSettings)

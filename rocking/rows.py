@@ -10,6 +10,7 @@ from rocking.motion.response import Response
 from rocking.outcome import Outcome
 from rocking.pulses import PulseAnalysis, PulseEvidence
 from rocking.pulses.interval import PulseInterval
+from rocking.pulses.reliability import reliability_of, shipped_reliability
 from rocking.records import Accelerogram
 from rocking.records.processing import displacement, velocity
 from rocking.structures import Mechanism
@@ -215,6 +216,7 @@ def comparison_row(identity: Identity, case: Case) -> Row:
         identity.head
         | {
             "structure": case.structure,
+            **_reliability(prediction),
             "printed_rotation_ratio": prediction and prediction.printed,
             "predicted_rotation_ratio": predicted,
             "pulse_rotation_ratio": on_pulse and on_pulse.rotation_ratio,
@@ -232,6 +234,19 @@ def comparison_row(identity: Identity, case: Case) -> Row:
         }
         | identity.provenance
     )
+
+
+def _reliability(prediction: Prediction | None) -> dict[str, object]:
+    """What the shipped calibration says of predictions like this one."""
+    row = prediction and reliability_of(shipped_reliability(), prediction.light, prediction.frequency_ratio)
+    overturnings = row.overturnings_found + row.overturnings_missed if row else 0
+    return {
+        "reliability_within_factor_two": row.within_factor_2 if row else math.nan,
+        "reliability_overturnings_found": row.overturnings_found / overturnings
+        if row and overturnings
+        else math.nan,
+        "reliability_records": row.records if row else 0,
+    }
 
 
 def failure_row(record: str, component: str, failure: Failure) -> Row:

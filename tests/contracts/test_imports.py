@@ -13,7 +13,7 @@ FLOORS = [
     {"records", "structures", "pulses"},
     {"sine_pulse", "motion"},
     {"spectrum", "pulse_spectrum", "comparison", "tables", "columns"},
-    {"rows", "plan"},
+    {"rows", "plan", "calibration", "trade", "fidelity"},
     {"summary"},
     {"study", "reports"},
     {"reporting", "own_study"},

@@ -6,8 +6,8 @@ from rocking.plan import planned_records
 from rocking.study import Study, assess_records
 
 if __name__ == "__main__":
-    config = snakemake.config  # noqa: F821
-    study = Study.from_settings(config, Path(snakemake.input.structures), snakemake.params.settings_sha256)  # noqa: F821
-    params = snakemake.params  # noqa: F821
+    config = snakemake.config
+    study = Study.from_settings(config, Path(snakemake.input.structures), snakemake.params.settings_sha256)
+    params = snakemake.params
     records = planned_records(Path(config["catalogue"]), params.records, params.records_sha256)
-    assess_records(records, study, Path(config["results"]), Path(snakemake.log[0]))  # noqa: F821
+    assess_records(records, study, Path(config["results"]), Path(snakemake.log[0]))

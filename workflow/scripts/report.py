@@ -7,8 +7,8 @@ from rocking.reporting import report_records
 from rocking.study import Study
 
 if __name__ == "__main__":
-    config = snakemake.config  # noqa: F821
-    study = Study.from_settings(config, Path(snakemake.input.structures), snakemake.params.settings_sha256)  # noqa: F821
-    params = snakemake.params  # noqa: F821
+    config = snakemake.config
+    study = Study.from_settings(config, Path(snakemake.input.structures), snakemake.params.settings_sha256)
+    params = snakemake.params
     records = planned_records(Path(config["catalogue"]), params.records, params.records_sha256)
-    report_records(records, study, config, Path(config["results"]), Path(snakemake.log[0]))  # noqa: F821
+    report_records(records, study, config, Path(config["results"]), Path(snakemake.log[0]))

@@ -5,4 +5,4 @@ from pathlib import Path
 from rocking.reporting import report_summary
 
 if __name__ == "__main__":
-    report_summary(Path(snakemake.config["results"]) / "summary", snakemake.config)  # noqa: F821
+    report_summary(Path(snakemake.config["results"]) / "summary", snakemake.config)

@@ -6,10 +6,10 @@ from rocking.structures import load_structures
 from rocking.summary import write_description, write_provenance, write_summary
 
 if __name__ == "__main__":
-    params, config = snakemake.params, snakemake.config  # noqa: F821
+    params, config = snakemake.params, snakemake.config
     results = Path(config["results"])
     folders = [results / record for record in params.records]
-    write_summary(folders, load_structures(Path(snakemake.input.structures)), results / "summary")  # noqa: F821
+    write_summary(folders, load_structures(Path(snakemake.input.structures)), results / "summary")
     write_description(folders, results / "summary")
     hashes = {"settings": params.settings_sha256, "package": params.package_sha256}
     write_provenance(params.settings, params.records, hashes, results / "summary")

@@ -1,0 +1,19 @@
+"""Measure how far one pulse may be trusted: thresholds of the lights and the reliability table, from real records."""
+
+
+rule calibrate:
+    input:
+        catalogue=config["calibration_catalogue"],
+        structures=config["structures"],
+    output:
+        [f"{RESULTS}/calibration/{table}.csv" for table in ("comparisons", "thresholds", "reliability")],
+    log:
+        f"{RESULTS}/calibration/calibrate.log",
+    benchmark:
+        f"{RESULTS}/calibration/calibrate.tsv"
+    params:
+        package_sha256=PLAN.package_sha256,
+    message:
+        "Compare predictions with integrations of the real records"
+    script:
+        "../scripts/calibrate.py"
