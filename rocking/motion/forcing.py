@@ -45,37 +45,39 @@ class Forcing:
         )
 
 
-@lru_cache(maxsize=4)
 def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Forcing:
     """Return what the kernel takes of a record, with its vertical component, or of a pulse.
 
     The last few are remembered.
-
     Raises MotionError when `motion` is neither, or `vertical` does not fit it sample by sample.
     """
-    if isinstance(motion, Pulse):
-        if vertical is not None:
-            raise MotionError(
-                "vertical is given with a pulse, but needs a record of the same samples; leave it out."
-            )
-        ground, gravity = np.array([motion.amplitude]), np.array([GRAVITY])
-        frequency = motion.circular_frequency
-        threat = _threat(ground, gravity)
-        return Forcing(ground, gravity, threat, motion.period, frequency, motion.start_time)
-    if not isinstance(motion, Accelerogram):
+    if not isinstance(motion, Accelerogram | Pulse):
         raise MotionError(
             f"the ground motion is a {type(motion).__name__}, but must be an Accelerogram or a Pulse."
         )
-    ground = (
-        motion.acceleration.copy()
-    )  # the record's own array is read-only, for which the kernel would compile anew
-    gravity = np.full(ground.size, GRAVITY)
     if vertical is not None:
-        gravity += _fitting(vertical, motion)
+        _check_fit(vertical, motion)
+    return _forcing(motion, vertical)
+
+
+@lru_cache(maxsize=4)
+def _forcing(motion: GroundMotion, vertical: Accelerogram | None) -> Forcing:
+    if isinstance(motion, Pulse):
+        ground, gravity = np.array([motion.amplitude]), np.array([GRAVITY])
+        threat = _threat(ground, gravity)
+        return Forcing(ground, gravity, threat, motion.period, motion.circular_frequency, motion.start_time)
+    # A copy, because the record's own array is read-only, for which the kernel would compile anew.
+    ground, gravity = motion.acceleration.copy(), np.full(motion.acceleration.size, GRAVITY)
+    if vertical is not None:
+        gravity += vertical.acceleration
     return Forcing(ground, gravity, _threat(ground, gravity), motion.time_step, vertical=vertical is not None)
 
 
-def _fitting(vertical: Accelerogram, motion: Accelerogram) -> np.ndarray:
+def _check_fit(vertical: Accelerogram, motion: GroundMotion) -> None:
+    if isinstance(motion, Pulse):
+        raise MotionError(
+            "vertical is given with a pulse, but needs a record of the same samples; leave it out."
+        )
     if not isinstance(vertical, Accelerogram):
         raise MotionError(f"vertical is a {type(vertical).__name__}, but must be an Accelerogram.")
     if vertical.acceleration.size != motion.acceleration.size:
@@ -88,7 +90,6 @@ def _fitting(vertical: Accelerogram, motion: Accelerogram) -> np.ndarray:
             f"vertical has a time step of {vertical.time_step!r} s, but must have the {motion.time_step!r} s of the "
             "horizontal component; resample it first."
         )
-    return vertical.acceleration
 
 
 def _threat(ground: np.ndarray, gravity: np.ndarray) -> np.ndarray:

@@ -36,7 +36,9 @@ def follow(
     motion = (forcing.ground, forcing.gravity, forcing.threat, GRAVITY, forcing.time_step, forcing.frequency)
     state = (arc, speed, sign)
     found, log = logged_run(
-        kernel.rock, (*mechanism, *motion, *state, STEP_SHARE * tolerance), forcing.ground.size if history else 0
+        kernel.rock,
+        (*mechanism, *motion, *state, STEP_SHARE * tolerance),
+        forcing.ground.size if history else 0,
     )
     status, best, when, impacts, uplift, last_side, steps, _ = found
     ratios = [_ratio(table.side(1), best[0]), _ratio(table.side(-1), best[1])]

@@ -27,9 +27,9 @@ def test_a_structure_and_its_mechanism_are_the_same():
 
 @pytest.mark.parametrize("tolerance", [0.0, 9e-14, 0.11, -1e-6, np.nan, np.inf, "fine", None])
 def test_tolerance_outside_its_bounds_is_refused(tolerance):
-    with pytest.raises(MotionError, match="tolerance is .* but must"):
+    with pytest.raises(MotionError, match=r"tolerance is .* but must"):
         integrate(BLOCK, RECORD, tolerance)
-    with pytest.raises(MotionError, match="tolerance is .* but must"):
+    with pytest.raises(MotionError, match=r"tolerance is .* but must"):
         list(integrate_many([BLOCK], [RECORD], tolerance))
 
 
@@ -57,7 +57,7 @@ def test_initial_state_must_be_finite_and_possible(field):
         integrate(BLOCK, RECORD, **{field: np.nan})
     with pytest.raises(MotionError, match="one-sided"):
         integrate(MECHANISMS["one side"], RECORD, **{field: -0.01})
-    with pytest.raises(MotionError, match="initial_rotation is 2.0 rad, but the mechanism ends"):
+    with pytest.raises(MotionError, match=r"initial_rotation is 2\.0 rad, but the mechanism ends"):
         integrate(BLOCK, RECORD, initial_rotation=2.0)
 
 
@@ -73,7 +73,7 @@ def test_strangers_are_refused():
 @pytest.mark.parametrize("name", MECHANISMS)
 @pytest.mark.parametrize("kind", ["mechanism", "equivalent block"])
 def test_history_is_the_motion(name, kind):
-    """An audit of every event: gap never negative, peaks and impacts as counted, energy falling by η² at each impact."""
+    """An audit of every event: gap never negative, peaks and impacts as counted, η at each impact."""
     mechanism = MECHANISMS[name]
     structure = mechanism if kind == "mechanism" else mechanism.equivalent_block()
     record = noise(5, 400, 0.01, 1.4 * g * max(side.uplift_multiplier for side in mechanism.sides))
@@ -119,9 +119,8 @@ def test_no_uplift_is_missed(name):
         end = min(response.times[-1], record.duration)
         for t in record.times[(above | below) & (record.times <= end)]:
             k = np.searchsorted(response.times, t)
-            moving = np.abs(response.rotation[max(k - 2, 0) : k + 3]) + np.abs(
-                response.angular_velocity[max(k - 2, 0) : k + 3]
-            )
+            near = slice(max(k - 2, 0), k + 3)
+            moving = np.abs(response.rotation[near]) + np.abs(response.angular_velocity[near])
             assert moving.max() > 0
 
 
@@ -236,7 +235,7 @@ samples = np.convolve(np.random.default_rng(1).normal(size=150), np.hanning(12),
 record = Accelerogram(3.5 * samples / np.abs(samples).max(), 0.01)
 mechanism = Block(1.0, 0.25, restitution=0.85).mechanism()
 for structure in (mechanism, mechanism.equivalent_block()):
-    for motion in (record, Pulse(3.6, 8.0)):
+    for motion in (record, Pulse(2.9, 8.0)):
         response = integrate(structure, motion, 1e-9)
         print(repr(float(response.rotation_ratio)), response.outcome)
 print(type(kernel.rock).__name__)
