@@ -152,6 +152,17 @@ RESPONSES = Table(
         _FRAGILE,
         Column("tolerance", "number", "Relative tolerance of the integration; 0 for an exact solution"),
         Column("steps", "integer", "Steps taken"),
+        Column(
+            "friction_needed",
+            "number",
+            "Largest friction coefficient a contact needs while rocking; INF where a contact is not pressed",
+        ),
+        Column(
+            "slides",
+            "boolean",
+            "Whether that exceeds the friction coefficient of the settings: the model does not hold",
+        ),
+        Column("bounces", "boolean", "Whether a contact would have to pull: the model does not hold"),
         Column("reason", "string", "Why it failed, if it did"),
         *_PROVENANCE,
     ),

@@ -7,8 +7,9 @@ from enum import StrEnum
 from time import process_time
 from typing import Literal
 
-from rocking.checks import within
+from rocking.checks import positive, within
 from rocking.errors import ConfigurationError, PulseError, RockingError
+from rocking.model_check import ModelCheck, check_model
 from rocking.motion.integration import integrate
 from rocking.motion.response import Response
 from rocking.outcome import Outcome
@@ -40,7 +41,7 @@ class AssessmentSettings:
     acceleration_scale: which scale the equivalent block carries. tolerance: of the nonlinear integration.
     fragility_change: relative change of the ground motion that must not flip a verdict. bootstrap_replicates: of the
     interval of the pulse, 0 for none. pulse_choice: the pulse that explains most of the record, or, of its first five,
-    the one that demands most of each structure.
+    the one that demands most of each structure. friction_coefficient: beyond which a contact slides.
     """
 
     acceleration_scale: Scale = "uplift"
@@ -48,11 +49,13 @@ class AssessmentSettings:
     fragility_change: float = 0.01
     pulse: PulseSettings = field(default_factory=PulseSettings)
     bootstrap_replicates: int = 100
+    friction_coefficient: float = 0.6
     pulse_choice: Literal["energy", "demand"] = "energy"
 
     def __post_init__(self) -> None:
         within(ConfigurationError, "tolerance", self.tolerance, 1e-13, 0.1)
         within(ConfigurationError, "fragility_change", self.fragility_change, 0, 0.5)
+        positive(ConfigurationError, "friction_coefficient", self.friction_coefficient)
 
 
 @dataclass(frozen=True)
@@ -76,12 +79,16 @@ class Prediction:
 
 @dataclass(frozen=True)
 class Case:
-    """One structure under one accelerogram. prediction is None where the record has no pulse."""
+    """One structure under one accelerogram. prediction is None where the record has no pulse.
+
+    check: whether the model held along the response of the mechanism to the record.
+    """
 
     structure: str
     mechanism: Mechanism
     prediction: Prediction | None
     responses: Mapping[Method, Response]
+    check: ModelCheck
 
 
 @dataclass(frozen=True)
@@ -131,7 +138,8 @@ def assess(
             prediction = predict(mechanism, analysis, interval, settings) if analysis else None
             if prediction is not None:
                 responses |= _pulse_responses(mechanism, prediction, settings)
-            cases.append(Case(name, mechanism, prediction, responses))
+            check = check_model(structure, responses[Method.MECHANISM_ON_RECORD], accelerogram, vertical)
+            cases.append(Case(name, mechanism, prediction, responses, check))
         except RockingError as error:
             failures.append(Failure("responses", name, str(error)))
     durations = {"pulses": extracted - started, "responses": process_time() - extracted}
@@ -204,6 +212,7 @@ def _responses(
         mechanism,
         accelerogram,
         tolerance=settings.tolerance,
+        history=True,
         vertical=vertical,
         sensitivity=True,
         fragility_change=settings.fragility_change,

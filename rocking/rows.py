@@ -5,7 +5,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rocking.comparison import Assessment, Case, Failure, Method, Prediction, ratio, verdict
+from rocking.comparison import (
+    Assessment,
+    AssessmentSettings,
+    Case,
+    Failure,
+    Method,
+    Prediction,
+    ratio,
+    verdict,
+)
+from rocking.model_check import UNKNOWN
 from rocking.motion.response import Response
 from rocking.outcome import Outcome
 from rocking.pulses import PulseAnalysis, PulseEvidence
@@ -41,7 +51,7 @@ class Identity:
 
 
 def all_rows(
-    record: str, assessment: Assessment, acceleration_scale: str, licence: str, settings_sha256: str
+    record: str, assessment: Assessment, settings: AssessmentSettings, licence: str, settings_sha256: str
 ) -> dict[str, list[Row]]:
     """The rows of every table of one record that one component gives, by name of the table."""
     identity = Identity(record, assessment.accelerogram, settings_sha256)
@@ -49,8 +59,12 @@ def all_rows(
     return {
         "record": [record_row(identity, licence)],
         "pulses": pulse_rows(identity, assessment.analysis, assessment.interval),
-        "predictions": [row for case in cases for row in prediction_rows(identity, case, acceleration_scale)],
-        "responses": [row for case in cases for row in response_rows(identity, case)],
+        "predictions": [
+            row for case in cases for row in prediction_rows(identity, case, settings.acceleration_scale)
+        ],
+        "responses": [
+            row for case in cases for row in response_rows(identity, case, settings.friction_coefficient)
+        ],
         "comparison": [comparison_row(identity, case) for case in cases],
         "failures": [
             failure_row(record, assessment.accelerogram.component, failure) for failure in assessment.failures
@@ -177,12 +191,18 @@ def _prediction_head(
     }
 
 
-def response_rows(identity: Identity, case: Case) -> list[Row]:
+def response_rows(identity: Identity, case: Case, friction_coefficient: float) -> list[Row]:
     """The rows of the responses table: one for each integration."""
-    return [_response_row(identity, case, method, response) for method, response in case.responses.items()]
+    return [
+        _response_row(identity, case, method, response, friction_coefficient)
+        for method, response in case.responses.items()
+    ]
 
 
-def _response_row(identity: Identity, case: Case, method: Method, response: Response) -> Row:
+def _response_row(
+    identity: Identity, case: Case, method: Method, response: Response, friction_coefficient: float
+) -> Row:
+    check = case.check if method is Method.MECHANISM_ON_RECORD else UNKNOWN
     return (
         identity.head
         | {
@@ -199,6 +219,9 @@ def _response_row(identity: Identity, case: Case, method: Method, response: Resp
             "fragile": response.fragile,
             "tolerance": response.tolerance,
             "steps": response.steps,
+            "friction_needed": check.friction_needed,
+            "slides": check.slides(friction_coefficient),
+            "bounces": check.bounces,
             "reason": response.reason,
         }
         | identity.provenance

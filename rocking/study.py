@@ -37,6 +37,7 @@ class Study:
             acceleration_scale=settings["acceleration_scale"],
             tolerance=settings["tolerance"],
             fragility_change=settings["fragility_change"],
+            friction_coefficient=settings["friction_coefficient"],
             bootstrap_replicates=pulse["bootstrap_replicates"],
             pulse_choice=pulse["choice"],
             pulse=PulseSettings(
@@ -88,8 +89,7 @@ def _assess_component(
     durations: dict[str, float],
 ) -> None:
     assessment = assess(accelerogram, study.structures, study.settings)
-    scale = study.settings.acceleration_scale
-    made = rows.all_rows(record.id, assessment, scale, record.licence, study.settings_sha256)
+    made = rows.all_rows(record.id, assessment, study.settings, record.licence, study.settings_sha256)
     for name, new in made.items():
         tables[name].extend(new)
     for stage, duration in assessment.durations.items():

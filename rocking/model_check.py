@@ -1,0 +1,55 @@
+"""Whether the model held along a response: no contact slid, none opened."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from rocking.errors import StructureError
+from rocking.motion.response import Response
+from rocking.records import Accelerogram
+from rocking.structures import Structure
+from rocking.structures.contacts import contact_history
+
+
+@dataclass(frozen=True)
+class ModelCheck:
+    """The contacts of a structure along one response, up to its critical rotation.
+
+    friction_needed: largest friction coefficient that any contact needs while it rocks; inf where one is not pressed,
+    nan where the contact forces are not known (a frame) or nothing rocks. bounces: whether a contact would open.
+    """
+
+    friction_needed: float
+    bounces: bool | None
+
+    def slides(self, friction_coefficient: float) -> bool | None:
+        """Whether a contact needs more friction than `friction_coefficient`; None where the forces are not known."""
+        return None if math.isnan(self.friction_needed) else self.friction_needed > friction_coefficient
+
+
+UNKNOWN = ModelCheck(math.nan, None)
+
+
+def check_model(
+    structure: Structure, response: Response, accelerogram: Accelerogram, vertical: Accelerogram | None = None
+) -> ModelCheck:
+    """Return what the contacts of `structure` need along `response`, which must hold its history."""
+    times, rotation, velocity = response.times, response.rotation, response.angular_velocity
+    if times is None or rotation is None or velocity is None:
+        return UNKNOWN
+    rocks = (rotation != 0) & (np.abs(rotation) <= structure.mechanism().critical_rotation)
+    if not rocks.any():
+        return UNKNOWN
+    ground = _at(accelerogram, times[rocks])
+    lift = 0.0 if vertical is None else _at(vertical, times[rocks])
+    try:
+        contacts = contact_history(structure, rotation[rocks], velocity[rocks], ground, lift)
+    except StructureError:
+        return UNKNOWN
+    return ModelCheck(float(np.max(contacts.friction_needed)), bool(contacts.opens.any()))
+
+
+def _at(accelerogram: Accelerogram, times: np.ndarray) -> np.ndarray:
+    """The ground acceleration is linear between samples and zero after the last."""
+    return np.interp(times, accelerogram.times, accelerogram.acceleration, right=0.0)
