@@ -1,5 +1,6 @@
 """Each text format from a small file made here: values, one recogniser, truncation, line ends, foreign characters."""
 
+import re
 from collections.abc import Callable
 
 import numpy as np
@@ -330,3 +331,13 @@ def test_channels_of_unequal_length_are_all_read(name: str, monkeypatch: pytest.
     monkeypatch.setitem(globals(), "N", 23)
     monkeypatch.setitem(globals(), "TRUE", TRUE[:23])
     assert [record.acceleration.size for record in read_made(name, first + MADE[name][0]())] == [40, 23]
+
+
+@pytest.mark.parametrize("name", sorted(set(MADE) - {"K-NET/KiK-net", "CWB", "columns of numbers"}))
+@pytest.mark.parametrize("declared", ["0", "1", "-4", "1e99", "9.5"])
+def test_a_count_that_cannot_be_is_refused(name: str, declared: str) -> None:
+    """The three left out declare a duration, or nothing."""
+    text = MADE[name][0]()
+    at = next(m for m in re.finditer(rf"(?<![\d.-]){N}(?![\d.])", text) if m.start() > 3)
+    with pytest.raises(RecordError):
+        read_made(name, text[: at.start()] + declared + text[at.end() :])

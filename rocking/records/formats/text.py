@@ -75,6 +75,8 @@ def whole(name: str, values: np.ndarray, declared: int, per_line: int) -> tuple[
 
     Raises RecordError when there are fewer (the file is cut) or many more (something else stands in it).
     """
+    if declared < 2:
+        raise RecordError(f"{name}: the header declares {declared} samples, but must declare at least 2.")
     if values.size == declared:
         return values, ()
     said = f"{name}: the header declares {declared} samples, but the file holds {values.size}"
