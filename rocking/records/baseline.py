@@ -18,7 +18,8 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
     """Return (corrected acceleration (n,), the sentence that says what was removed).
 
     Onset and end of shaking are where 0.1 % and 95 % of the squared acceleration have passed; the end is moved among
-    20 places up to 85 % of what remains, each tried with degrees 1 and 2, and the least final drift wins.
+    20 places up to 85 % of what remains, each tried with degrees 1 and 2; the drift that leaves the smallest
+    displacement wins.
     Raises RecordError for fewer than 64 samples or a record without motion.
     """
     if acceleration.size < _FEWEST or not np.any(acceleration):
@@ -33,7 +34,7 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
     ends = np.unique(np.linspace(strong, min(last, acceleration.size - 16), _CANDIDATES).astype(int))
     tried = [(end, degree) for end in ends if end > onset + 8 for degree in _DEGREES]
     drifts = [_drift(velocity, onset, end, degree) for end, degree in tried] or [np.zeros_like(velocity)]
-    best = int(np.argmin([_remaining(velocity - drift, time_step) for drift in drifts]))
+    best = int(np.argmin([_wandering(velocity - drift, time_step) for drift in drifts]))
     if not tried:
         return acceleration, "Adaptive baseline left the record as it is: shaking lasts to its end."
     end, degree = tried[best]
@@ -62,7 +63,6 @@ def _drift(velocity: np.ndarray, onset: int, end: int, degree: int) -> np.ndarra
     return drift
 
 
-def _remaining(velocity: np.ndarray, time_step: float) -> float:
-    """Return how far the displacement still wanders in the last tenth, m: the measure that ranks the candidates."""
-    tail = (time_step * np.cumsum(velocity))[-max(8, velocity.size // 10) :]
-    return float(np.ptp(tail))
+def _wandering(velocity: np.ndarray, time_step: float) -> float:
+    """Return the largest displacement, m: a drift left in the velocity makes it larger than the ground's own."""
+    return float(np.abs(time_step * np.cumsum(velocity)).max())

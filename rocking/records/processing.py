@@ -70,15 +70,21 @@ def process(record: Accelerogram, processing: Processing | None = None) -> Accel
     return record
 
 
-def variants(high_pass: float = 0.1) -> dict[str, Processing]:
-    """Return named settings that differ in baseline and corner, to see how much an answer owes to them."""
-    base = Processing(pre_event=1.0, taper=0.02)
+def variants(high_pass: float = 0.1, pre_event: float | None = None) -> dict[str, Processing]:
+    """Return named settings that differ in baseline and corner, to see how much an answer owes to them.
+
+    high_pass: Hz, tried at half and twice its value too. pre_event: s, for a record known to start before the shaking;
+    its mean is then removed in all of them but the first. A processed record has no such window left.
+    """
+    settled = Processing(pre_event=pre_event)
+    corners = {f"high-pass {f * high_pass:g} Hz": f * high_pass for f in (0.5, 1.0, 2.0)}
     return {
         "as read": Processing(),
-        "pre-event mean": Processing(pre_event=1.0),
-        "linear baseline": Processing(pre_event=1.0, baseline="linear"),
-        "adaptive baseline": Processing(pre_event=1.0, baseline="adaptive"),
-    } | {f"high-pass {f * high_pass:g} Hz": replace(base, high_pass=f * high_pass) for f in (0.5, 1.0, 2.0)}
+        **({"pre-event mean": settled} if pre_event else {}),
+        "linear baseline": replace(settled, baseline="linear"),
+        "adaptive baseline": replace(settled, baseline="adaptive"),
+        **{name: replace(settled, taper=0.02, high_pass=corner) for name, corner in corners.items()},
+    }
 
 
 def velocity(record: Accelerogram) -> np.ndarray:

@@ -131,9 +131,11 @@ def test_variants_differ_and_all_run() -> None:
     wave = Accelerogram(
         np.concatenate([np.zeros(300), synthetic_record(BUNDLED[1]).acceleration]) + 0.01, 0.01
     )
-    results = {name: process(wave, settings) for name, settings in variants().items()}
+    results = {name: process(wave, settings) for name, settings in variants(pre_event=1.0).items()}
     assert {"as read", "adaptive baseline", "high-pass 0.1 Hz"} <= set(results) and len(results) == 7
     assert len({result.sha256 for result in results.values()}) == 7
+    assert set(results) - set(variants()) == {"pre-event mean"}
+    assert all(settings.pre_event is None for settings in variants().values())
 
 
 @pytest.mark.parametrize(("settings", "field"), [
