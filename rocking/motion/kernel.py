@@ -35,12 +35,16 @@ compiled = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract
 
 
 @compiled
+def _margin(lift, push, gravity):
+    """Acceleration along the arc that a push towards a side gives the structure at rest."""
+    return lift[1] * push - lift[0] * gravity
+
+
+@compiled
 def _margins(lift, one_sided, ground, gravity):
     """Acceleration that would lift the structure at rest to the positive and to the negative side."""
-    last = lift.shape[0] - 1
-    positive = -lift[0, 0] * gravity - lift[0, 1] * ground
-    negative = -np.inf if one_sided else lift[last, 1] * ground - lift[last, 0] * gravity
-    return positive, negative
+    negative = -np.inf if one_sided else _margin(lift[lift.shape[0] - 1], ground, gravity)
+    return _margin(lift[0], -ground, gravity), negative
 
 
 @compiled

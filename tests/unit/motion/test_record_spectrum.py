@@ -39,7 +39,7 @@ def test_values_that_are_not_positive_are_refused(values):
 
 
 def test_other_settings_are_refused_with_their_bound():
-    with pytest.raises(MotionError, match="restitution is 1.5, but must lie between 0 and 1"):
+    with pytest.raises(MotionError, match=r"restitution is 1\.5, but must lie between 0 and 1"):
         rocking_spectrum(RECORD, np.array([2.0]), np.array([0.2]), 1.5)
     with pytest.raises(MotionError, match="must stay below 5000"):
         rocking_spectrum(RECORD, np.array([6000.0]), np.array([0.2]), 0.9)
