@@ -1,0 +1,236 @@
+"""A small file of each text format, made here: what its header declares and how its columns stand."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from rocking.records.formats import Options
+
+N = 40
+STEP = 0.01
+TRUE = 0.9 * np.sin(np.arange(N) / 3.0) * np.linspace(1, 0.2, N)
+"""m/s²; what every sample file holds, each in its own unit and number of digits."""
+
+
+def columns(values: np.ndarray, per_line: int, form: str) -> str:
+    rows = (
+        "".join(format(v, form) for v in values[i : i + per_line]) for i in range(0, values.size, per_line)
+    )
+    return "\n".join(rows) + "\n"
+
+
+def peer() -> str:
+    head = "PEER NGA STRONG MOTION DATABASE RECORD\nQuake, 1/2/1999, Station, 45\n"
+    head += "ACCELERATION TIME SERIES IN UNITS OF G\n"
+    return f"{head}NPTS= {N}, DT= {STEP} SEC\n" + columns(TRUE / 9.80665, 5, "15.7E")
+
+
+def peer_2008() -> str:
+    head = "PEER NGA STRONG MOTION DATABASE RECORD\nQUAKE, 1/2/99, STATION, 045\n"
+    head += "ACCELERATION TIME HISTORY IN UNITS OF G\n"
+    return f"{head}{N}    {STEP}    NPTS, DT\n" + columns(TRUE / 9.80665, 5, "15.7E")
+
+
+def cosmos(stated: float = 1.0) -> str:
+    reals = np.full(100, -999.0)
+    gal = 100 * TRUE
+    reals[33], reals[63] = STEP, stated * gal[np.abs(gal).argmax()]
+    return (
+        "Corrected acceleration    (Format v01.20 with 13 text lines) Src: made.txt\nRcrd of Some Day\n"
+        "Hypocenter:\nOrigin:\nStatn No: 01-1  Code:CE-J1  Made\nCoords:\nRecorder:\nRcrd start time:\n"
+        "Sta Chan  1: 45 deg (Rcrdr Chan  1) Location:\nRaw record length\nProcessed:\n"
+        "Record filtered below 0.30  Hz (periods over 3 secs)\nValues used when unknown: -999\n"
+        " 100 Integer-header values follow on  10 lines, Format= (10I8)\n" + columns(np.full(100, -999), 10, "8d")
+        + " 100 Real-header values follow on  17 lines, Format= (6F13.6)\n" + columns(reals, 6, "13.6f")
+        + '  1 Comment line(s) follow, each starting with a "|":\n| made\n'
+        + f"   {N} acceleration pts, approx 1 secs, units=cm/sec2(04),Format=(8F10.5)\n" + columns(gal, 8, "10.5f")
+        + "End-of-data for Chan  1 acceleration\n"
+    )  # fmt: skip
+
+
+def csmip(stated: float = 1.0) -> str:
+    peak = stated * np.abs(TRUE).max() * 100
+    return (
+        "Corrected accelerogram   1-2-3       Chan  1: 45 Deg     from\n"
+        "Uncorrected Accelerogram Data   Processed: 1/1/12\nStation No. 89146   40.9N, 123.6W\nChan  1: 45 Deg\n"
+        "Accelerogram bandpass filtered with 3 dB pts at   .30 and 40.00\n"
+        f"Peak acceleration = {peak:9.3f}    cm/sec/sec  at  1.0 sec.\n"
+        f" {N} points of accel data equally spaced at  .010 sec, in cm/sec2. (8f10.6)\n"
+        + columns(100 * TRUE, 8, "10.5f")
+        + "/&  ----------  End of data for channel  1  ----------\n"
+    )  # fmt: skip
+
+
+def smc(stated: float = 1.0) -> str:
+    integers, reals = np.full(48, -32768), np.full(50, 1.7e38)
+    integers[15], integers[16] = 1, N
+    reals[1], reals[29], reals[31], reals[32] = (
+        1 / STEP,
+        stated * 100 * TRUE.max(),
+        stated * 100 * TRUE.min(),
+        0.1,
+    )
+    text = (
+        "2 CORRECTED ACCELEROGRAM\n*\nMADE\n     1989  10  18    0004 Quake\n*\nstation = Made     component=     45\n"
+        + "*\n" * 5
+    )
+    # Two digits of exponent and a sign in front: the columns touch, as they do in the real files.
+    return (
+        text
+        + columns(integers, 8, "10d")
+        + columns(reals, 5, "15.7E")
+        + "| one\n"
+        + columns(100 * TRUE, 8, "10.3E")
+    )
+
+
+def volume1(first: str, chan: str, units: str, last: str) -> str:
+    return (
+        f"{first}\nQUAKE\n1/2/99\n1\n{chan}\nUNIVERSIDAD DE CHILE - RENADIC\nx\nx\nx\nINSTR PERIOD\n"
+        f"NO. OF POINTS =   {N}  RECORD LENGTH = {N * STEP:.3f} SEC\n{units}\nRMS\n"
+        + columns(np.zeros(100, int), 16, "5d") + columns(np.zeros(50), 8, "10.3f") + "{}" + last
+    )  # fmt: skip
+
+
+def pairs() -> np.ndarray:
+    return np.column_stack([np.arange(N) * STEP, TRUE / 0.980665]).ravel()
+
+
+def usc() -> str:
+    head = volume1(
+        "FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:", "COMP N45E", "UNITS ARE SEC AND G/10", ""
+    )
+    body = columns(pairs(), 10, "7.3f").replace("\n", "\n ")
+    return head.format(" " + body[:-1])
+
+
+def renadic(stated: float = 1.0) -> str:
+    peak = stated * np.abs(TRUE).max() / 9.80665
+    units = f"UNITS OF UNCOR ACCEL ARE SEC AND G/10.     MAX  = {peak:6.3f} G, AT   1 SEC"
+    first = "UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 1/1/11"
+    return volume1(first, "CHAN  1: EW       (STA CHN:  1)", units, "/&  END OF DATA\n").format(
+        columns(pairs(), 10, "7.3f")
+    )
+
+
+def bhrc() -> str:
+    head = volume1("* VOL1DS FILE:  1/01", "COMP L1", "UNITS ARE SECONDS AND G/10", "/&\n")
+    head = head.replace("RECORD LENGTH =", "DURATION =").replace(
+        "1/2/99\n1\n", "1/2/99\nAzimuth L 45 T 135\n"
+    )
+    return head.format(columns(TRUE / 0.980665, 10, "13.6E"))
+
+
+def knet(stated: float = 1.0) -> str:
+    keys = ("Origin Time", "Lat.", "Long.", "Depth. (km)", "Mag.", "Station Code", "Station Lat.", "Station Long.",
+            "Station Height(m)", "Record Time", "Sampling Freq(Hz)", "Duration Time(s)", "Dir.", "Scale Factor",
+            "Max. Acc. (gal)", "Last Correction", "Memo.")  # fmt: skip
+    gal = 100 * (TRUE - TRUE.mean())
+    peak = f"{stated * np.abs(gal).max():.3f}"
+    values = ("2018/01/24 19:51:00", "41", "142", "30", "6.2", "MADE01", "41", "140", "39", "2018/01/24 19:51:43",
+              "100Hz",
+              f"{N * STEP:g}", "E-W", "2000(gal)/8388608", peak, "2018/01/24 19:51:43", "")  # fmt: skip
+    head = "".join(f"{key:<18}{value}\n" for key, value in zip(keys, values, strict=True))
+    return head + columns(np.round(gal * 8388608 / 2000).astype(int), 8, "9d")
+
+
+def dyna(stated: float = 1.0) -> str:
+    values = 100 * TRUE
+    pairs = {"EVENT_NAME": "MADE", "STATION_CODE": "X", "SAMPLING_INTERVAL_S": STEP, "NDATA": N, "STREAM": "HNE",
+             "UNITS": "cm/s^2", "PGA_CM/S^2": f"{stated * np.abs(values).max():.6f}", "LOW_CUT_FREQUENCY_HZ": "0.1",
+             "DATA_TYPE": "ACCELERATION", "USER1": ""}  # fmt: skip
+    return "".join(f"{key}: {value}\n" for key, value in pairs.items()) + columns(values, 1, ".6f")
+
+
+def afad(stated: float = 1.0) -> str:
+    gal = np.column_stack([100 * TRUE, -50 * TRUE, 10 * TRUE])
+    peaks = " ".join(
+        f"({n}) {p:.6f}" for n, p in zip(("N-S", "E-W", "U-D"), stated * np.abs(gal).max(axis=0), strict=True)
+    )
+    return (
+        f"STRONG GROUND MOTION RECORDS OF TURKIYE\nSTATION ID              : 0921\nNUMBER OF DATA          : {N}\n"
+        f"SAMPLING INTERVAL (sec) : {STEP}\nRAW PGA VALUES (gal)    : {peaks}\nCopyright\n   N-S   E-W   U-D\n"
+        + columns(gal.ravel(), 3, "14.6f")
+    )  # fmt: skip
+
+
+def resorce(stated: float = 1.0) -> str:
+    return (
+        f"Event Date & Time             : 2009-04-06 01:32:39\nOrientation                   : NS\n"
+        f"Filter Cut-off Frequency (Hz) : 0.100 - 50.000\nTime Increment (s)            : {STEP}\n"
+        f"Number of Data                : {N}\nPGA (m/s/s)                   : {stated * np.abs(TRUE).max():.7E}\n"
+        "Accelaration time series in m/s/s\n" + columns(TRUE, 5, "14.7E")
+    )  # fmt: skip
+
+
+def geonet(stated: float = 1.0) -> str:
+    return (
+        "Uncorrected accelerogram 1 GNS Science\nSite WTMC      42 37 10S\n"
+        + "x\n" * 7 + f"Number of points  {N}    Duration\n"
+        f"Raw readings in units of 1.00 mm/s/s  at intervals of {STEP:.3f} s\nData is unfiltered\nComponent N45E\n"
+        f"Acceleration:  Peak {stated * np.abs(TRUE).max() * 1000:.1f} mm/s/s at 1 s\nVelocity\nDisplacement\n"
+        + columns(np.zeros(40, int), 10, "8d") + columns(np.zeros(60), 10, "8.3f") + columns(1000 * TRUE, 10, "8.1f")
+    )  # fmt: skip
+
+
+def unam(stated: float = 1.0) -> str:
+    gal = np.column_stack([100 * TRUE, 50 * TRUE])
+    peak = stated * np.abs(gal).max()
+    return (
+        "*****\nARCHIVO ESTANDAR DE ACELERACION:\nCLAVE DE LA ESTACION                   : ACAC\n"
+        "ORIENTACION C1-C6 (rumbo;orientacion)  : /N45E/V\nINTERVALO DE MUESTREO, C1-C6 (s)       : /0.01/0.01\n"
+        f"NUM. TOTAL DE MUESTRAS, C1-C6          : /{N}/{N}\n"
+        f"ACEL. MAX.(Gal), C1-C6                 : /{peak:.4f}/{peak / 2:.4f}\n"
+        "UNIDADES DE LOS DATOS                  : Gal (cm/s/s)\nFORMATO DATOS (FORTRAN,10 campos/dato) : 2F10.4\n"
+        f"DATOS DE ACELERACION:\n{'-' * 79}\n CANAL-1 CANAL-2\n N45E V\n{'-' * 79}\n" + columns(gal.ravel(), 2, "10.4f")
+    )  # fmt: skip
+
+
+def cwb(stated: float = 1.0) -> str:
+    gal = 100 * TRUE
+    rows = np.column_stack([np.arange(N) * STEP, 0.1 * gal, gal])
+    return (
+        f"#Earthquake Information\n#StationCode: EAS\n#RecordLength(sec): {N * STEP:.2f}\n#SampleRate(Hz): 100\n"
+        f"#AmplitudeUnit:  gal. DCoffset(corr)\n#AmplitudeMAX. N: {stated * gal.max():.3f}~ {stated * gal.min():.3f}\n"
+        "#DataSequence: Time U(+); N(+)\n#Data: 3F10.3\n" + columns(rows.ravel(), 3, "10.3f")
+    )  # fmt: skip
+
+
+def csmnc(stated: float = 1.0) -> str:
+    head = ["065JZC", "01", "QUAKE", "EPICENTER", "MAGNITUDE", "STATION: 65JZC", "SITE", "INSTRUMENT",
+            "OBSERVING POINT: GROUND", "COMP. EW", "UNCORRECTED ACCELERATION          UNIT: CM/SEC/SEC",
+            f"NO. OF POINTS:  {N}  EQUALLY SPACED INTERVALS OF:  {STEP}  SEC",
+            f"PEAK VALUE: {stated * 100 * np.abs(TRUE).max():.3f}   AT 1 SEC", "PRE-EVENT", "CSMNC", ""]  # fmt: skip
+    return "\n".join(head) + "\n" + columns(100 * TRUE, 8, "14.6E")
+
+
+def titled() -> str:
+    return f"made\n{N} {STEP}\n" + columns(TRUE, 1, ".6E")
+
+
+def table() -> str:
+    rows = (f"{i * STEP:.2f},{v:.7f},{2 * v:.7f}\n" for i, v in enumerate(TRUE))
+    return "time,acc_NS(m/s2),acc_EW(m/s2)\n" + "".join(rows)
+
+
+MADE: dict[str, tuple[Callable[..., str], float, Options]] = {
+    "PEER AT2": (peer, 1e-7, Options()),
+    "PEER AT2 ": (peer_2008, 1e-7, Options()),
+    "COSMOS V1/V2": (cosmos, 1e-7, Options()),
+    "CSMIP V1/V2": (csmip, 1e-7, Options()),
+    "USGS SMC": (smc, 5e-4, Options()),
+    "USC Volume 1": (usc, 5e-4, Options()),
+    "RENADIC": (renadic, 5e-4, Options()),
+    "BHRC": (bhrc, 1e-6, Options()),
+    "K-NET/KiK-net": (knet, 2e-6, Options()),
+    "DYNA (ESM, ITACA, AFAD)": (dyna, 1e-8, Options()),
+    "AFAD/NSMN text": (afad, 1e-8, Options()),
+    "RESORCE": (resorce, 1e-7, Options()),
+    "GeoNet V1A/V2A": (geonet, 5e-5, Options()),
+    "UNAM/CICESE": (unam, 5e-7, Options()),
+    "CWB": (cwb, 5e-6, Options()),
+    "CSMNC": (csmnc, 1e-6, Options()),
+    "titled column": (titled, 1e-6, Options(unit="m/s2")),
+    "columns of numbers": (table, 5e-8, Options()),
+}
+"""Format → (text of a small file, half a unit of the last digit it prints in m/s², what the caller declares)."""
