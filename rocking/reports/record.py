@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from rocking.records.accelerogram import Accelerogram
-from rocking.reports import printing, record_curves, record_tables
+from rocking.reports import printing, record_curves, record_tables, record_verdict
 from rocking.reports.document import compile_document
 from rocking.reports.printing import Row, of_component
 from rocking.reports.style import TEXT_WIDTH
@@ -43,18 +43,19 @@ def record_data(
 ) -> dict[str, object]:
     """Return what the template of the record report is given: texts, tables and figures."""
     numbers = record_tables.structure_numbers(tables)
-    scale_note = record_tables.scale_note(tables["record"])
+    scale_note = record_verdict.scale_note(tables["record"])
     return {
         "title": f"Rocking assessment: {record}",
         "subtitle": _subtitle(tables["record"]),
         "running": f"{record}.{scale_note}" if scale_note else record,
         "scale-note": scale_note,
-        "notices": record_tables.notices(tables, tables.get("failures", ())),
+        "notices": record_verdict.notices(tables, tables.get("failures", ())),
         "verdicts": _verdicts(tables, numbers),
         "identity": record_tables.identity_table(tables["record"]),
         "pulses": _pulse_parts(tables),
         "structures": record_tables.structure_table(tables["structures"], numbers),
         "methods": record_tables.method_table(tables, numbers),
+        "trust": record_tables.trust_table(tables, numbers),
         **_pictures(accelerograms, structures, tables, numbers, float(settings["tolerance"])),
         **_assumptions(tables, settings),
     }
@@ -69,13 +70,13 @@ def _subtitle(rows: Sequence[Row]) -> str:
 
 def _verdicts(tables: Tables, numbers: Mapping[str, str]) -> list[dict[str, object]]:
     rows = tables["comparison"]
-    note = record_tables.scale_note(tables["record"])
+    note = record_verdict.scale_note(tables["record"])
     return [
         {
             "caption": f"Component {printing.words(component)}: largest rotation over critical rotation by the closed "
             f"form under the dominant pulse and by full integration under the whole record.{note}",
-            "table": record_tables.verdict_table(of_component(rows, component), numbers),
-            "sentences": record_tables.verdict_sentences(of_component(rows, component)),
+            "table": record_verdict.verdict_table(of_component(rows, component), numbers),
+            "sentences": record_verdict.verdict_sentences(of_component(rows, component)),
         }
         for component in printing.distinct(rows, "component")
     ]
@@ -129,7 +130,14 @@ def _assumptions(tables: Tables, settings: Mapping[str, object]) -> dict[str, ob
         "tolerance": printing.given(str(settings["tolerance"])),
         "fragility-change": f"{printing.given(str(change))} %",
         "acceleration-scale": str(settings["acceleration_scale"]),
-        "vertical-note": "",
+        "friction": _friction(settings),
         "warnings": [text for text in printing.distinct(tables["record"], "warnings") if text],
         "hashes": "; ".join(f"SHA-256 {text}" for text in hashes if text) or "the file's hash is not known.",
     }
+
+
+def _friction(settings: Mapping[str, object]) -> str:
+    if "friction_coefficient" not in settings:
+        return "Sliding is not checked."
+    coefficient = printing.given(str(settings["friction_coefficient"]))
+    return f"A contact is said to slide where it needs a friction coefficient above {coefficient}."

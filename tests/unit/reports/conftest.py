@@ -1,4 +1,4 @@
-"""One assessed record for every test of the reports: synthetic motion, real computation, rows as the CSV files hold them."""
+"""One assessed record for the tests of the reports: synthetic motion, real computation, rows as CSV files hold."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,10 @@ from rocking.summary import structure_rows
 from rocking.tables import csv_cells
 
 TABLES = {table.name: table for table in (*columns.RECORD_TABLES, columns.FAILURES)}
-SETTINGS = {"tolerance": 1e-6, "acceleration_scale": "mean", "fragility_change": 0.01}
+ASSESSMENT = AssessmentSettings()
+SETTINGS = {
+    name: getattr(ASSESSMENT, name) for name in ("tolerance", "acceleration_scale", "fragility_change")
+}
 HOSTILE = ("$x^$", "#panic(1)", "<b>bold</b>", "W" * 80, "Жёлтый Ω 中文")
 """Names that a template or a figure might take for markup, that no column holds, or that not every font has."""
 
@@ -50,8 +53,8 @@ def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[st
     """Compute every table of `record` and return its rows as text."""
     tables: dict[str, list] = {name: [] for name in TABLES}
     for accelerogram in accelerograms:
-        computed = assess(accelerogram, structures, AssessmentSettings())
-        rows = all_rows(record, computed, "mean", "CC0-1.0", "cd" * 32)
+        computed = assess(accelerogram, structures, ASSESSMENT)
+        rows = all_rows(record, computed, ASSESSMENT, "CC0-1.0", "cd" * 32)
         for name, table in TABLES.items():
             tables[name] += [csv_cells(table, row) for row in rows[name]]
     tables["structures"] = [csv_cells(columns.STRUCTURES, row) for row in structure_rows(structures)]

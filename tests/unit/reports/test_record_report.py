@@ -18,7 +18,7 @@ from .conftest import HOSTILE, SETTINGS, assessed, shaken
 NUMBER = re.compile(r"[−-]?\d+(?:\.\d+)?(?: × 10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
 CSV_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 PLAIN = str.maketrans("−⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789")
-TABLES_OF_NUMBERS = ("identity", "structures", "methods")
+TABLES_OF_NUMBERS = ("identity", "structures", "methods", "trust")
 
 
 def printed_numbers(text: str) -> list[tuple[float, float]]:
@@ -177,3 +177,13 @@ def test_a_failure_is_one_page_that_says_why(message):
     document = failure_report("bad #record$", message)
     assert re.findall(rb"/Count (\d+)", document) == [b"1"]
     assert "".join(message.split()) in extracted(document)
+
+
+def test_a_contact_that_fails_is_said_first(example):
+    tables = json.loads(json.dumps(example.tables))
+    failing = next(row for row in tables["responses"] if row["method"] == "mechanism on record")
+    failing |= {"slides": "true", "bounces": "true"}
+    data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
+    said = f"{failing['structure']} (slides and bounces)"
+    assert any(said in notice["text"] and notice["strong"] for notice in data["notices"])
+    assert data["trust"]["rows"][0][-1] == {"text": "slides and bounces", "strong": True}

@@ -1,0 +1,158 @@
+"""The source paper redrawn: its figures with their data, its equations with the numbers that decide, one document."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from matplotlib.figure import Figure
+
+from rocking.records.accelerogram import Accelerogram
+from rocking.reports import paper_curves as curves
+from rocking.reports import printing
+from rocking.reports.document import compile_document
+from rocking.reports.paper_equations import EQUATIONS, equation_rows
+from rocking.reports.paper_figures import arch_response, panels
+from rocking.reports.paper_response import example_arch, response_curves
+from rocking.reports.style import svg
+from rocking.tables import Column, Row, Table, csv_cells
+
+
+@dataclass(frozen=True, eq=False)
+class PaperFigure:
+    """One figure of the paper, redrawn. name: of its files. table and rows: its data, as a CSV holds them."""
+
+    name: str
+    caption: str
+    figure: Figure
+    table: Table
+    rows: list[Row]
+
+
+def paper_figures(rinaldi: Accelerogram | None) -> list[PaperFigure]:
+    """Return Figs. 3, 4, 6, 7, Figs. 3 and 4 with Eq. 4 as printed, Eq. 14, and, given the Rinaldi record, Fig. 8."""
+    made = [_figure_3(), _figure_4(), _figures_as_printed(), _hinge_heights(), _figure_6(), _figure_7()]
+    return made if rinaldi is None else [*made, _figure_8(rinaldi)]
+
+
+def paper_report(figures: Sequence[PaperFigure], equations: Sequence[Row]) -> bytes:
+    """Return one PDF with `figures` and the table of equations (rows of EQUATIONS)."""
+    data = {
+        "title": "Towards a unified description of rocking structures: figures and equations recomputed",
+        "figures": [{"svg": svg(f.figure), "caption": f.caption, "name": f.name} for f in figures],
+        "equations": equation_table([csv_cells(EQUATIONS, row) for row in equations]),
+    }
+    return compile_document("paper.typ", data)
+
+
+def equation_table(rows: Sequence[printing.Row]) -> dict[str, object]:
+    """Return the equations as the template sets them."""
+    columns = [
+        ("Eq.", "0.45", "l"),
+        ("Printed", "1.2", "l"),
+        ("Corrected", "1.3", "l"),
+        ("What decides", "1.8", "l"),
+        ("Printed gives", "0.7", "r"),
+        ("Corrected gives", "0.75", "r"),
+        ("Decided", "0.7", "r"),
+    ]
+    names = ("printed_number", "corrected_number", "deciding_number")
+    texts = ("equation", "printed", "corrected", "quantity")
+    return printing.table(
+        columns,
+        [[row[name] for name in texts] + [printing.number(row[name], 6) for name in names] for row in rows],
+    )
+
+
+def _made(
+    name: str, caption: str, lines: Sequence[curves.Curve], figure: Figure | None = None
+) -> PaperFigure:
+    return PaperFigure(
+        name, caption, figure or panels(lines), curve_table(name, caption), curves.rows_of(lines)
+    )
+
+
+def curve_table(name: str, caption: str) -> Table:
+    """Return the description of a figure's CSV."""
+    return Table(
+        name,
+        f"The curves of a figure, one row per point. {caption}",
+        (
+            Column("panel", "string", "Panel of the figure"),
+            Column("curve", "string", "Label of the curve in the legend"),
+            Column("x_quantity", "string", "What x is, with its unit"),
+            Column("x", "number", "Abscissa"),
+            Column("y_quantity", "string", "What y is, with its unit"),
+            Column("y", "number", "Ordinate"),
+        ),
+    )
+
+
+def _figure_3() -> PaperFigure:
+    caption = (
+        "Fig. 3. Errors of the linearisation, wall hinged at mid-height: (a) natural period, (b) uplift."
+    )
+    lines = [*curves.period_curves(curves.wall_sides(), "a"), curves.wall_uplift_curve("b")]
+    return _made("figure_3", caption, lines)
+
+
+def _overturning(name: str, caption: str, sides) -> PaperFigure:
+    lines = [
+        *curves.overturning_curves(sides, "linearised", "a"),
+        *curves.overturning_curves(sides, "uplift", "b"),
+    ]
+    return _made(name, caption, lines)
+
+
+def _figure_4() -> PaperFigure:
+    caption = (
+        "Fig. 4. Error of the linearisation in the time to overturn under constant acceleration, wall hinged at "
+        "mid-height: (a) with a_sc, (b) with a_sc,alt."
+    )
+    return _overturning("figure_4", caption, curves.wall_sides())
+
+
+def _figures_as_printed() -> PaperFigure:
+    caption = (
+        "Figs. 3 and 4 as they come out with Eq. 4 as printed, 6R sin² in place of 2R sin²: (a) natural period, "
+        "(b) time to overturn with a_sc. Compare with Figs. 3a and 4a: the misprint makes the stocky wall three times "
+        "as inert in its bending as it is."
+    )
+    sides = curves.printed_wall_sides()
+    lines = [*curves.period_curves(sides, "a"), *curves.overturning_curves(sides, "linearised", "b")]
+    return _made("figures_3_4_equation_4_as_printed", caption, lines)
+
+
+def _hinge_heights() -> PaperFigure:
+    caption = (
+        "Eq. 14 as printed and corrected: frequency parameter of the wall against the height of its hinge, at fixed "
+        "height H, with a thickness of 0.1 H. Only the printed form has a largest value inside."
+    )
+    lines = curves.hinge_height_curves()
+    return _made("equation_14", caption, lines, panels(lines, columns=1))
+
+
+def _figure_6() -> PaperFigure:
+    caption = "Fig. 6. Errors of the linearisation, semicircular arch: (a) natural period, (b) uplift."
+    lines = [*curves.period_curves(curves.arch_sides(), "a"), curves.arch_uplift_curve("b")]
+    return _made("figure_6", caption, lines)
+
+
+def _figure_7() -> PaperFigure:
+    caption = (
+        "Fig. 7. Error of the linearisation in the time to overturn under constant acceleration, semicircular arch: "
+        "(a) with a_sc, (b) with a_sc,alt."
+    )
+    return _overturning("figure_7", caption, curves.arch_sides())
+
+
+def _figure_8(rinaldi: Accelerogram) -> PaperFigure:
+    caption = (
+        "Fig. 8. Arches of 157.5° with a thickness of 0.15 r under the record: (a) the arch of r = 10 m at rest "
+        "(dashed) and displaced, with its thrust line at onset; (b) the record with its dominant pulse; (c, d) full "
+        "integration for r = 10 m and 15 m beside the predicted maximum. A prediction that overturns has no line. "
+        "The block keeps the true uplift acceleration (a_sc,alt)."
+    )
+    lines = response_curves(rinaldi)
+    return _made("figure_8", caption, lines, arch_response(lines, example_arch(10.0)))
+
+
+__all__ = ["EQUATIONS", "PaperFigure", "equation_rows", "paper_figures", "paper_report"]

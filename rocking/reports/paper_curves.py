@@ -1,0 +1,171 @@
+"""The curves of the source paper's figures, computed here; each is a row of data before it is a line on paper."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rocking.structures.arch import Arch
+from rocking.structures.equivalence import (
+    block_overturning_time,
+    block_period,
+    natural_period,
+    overturning_time,
+    uplift_ratio,
+)
+from rocking.structures.mechanism import Scale, Side
+from rocking.structures.wall import Wall
+from rocking.tables import Row
+from rocking.units import GRAVITY
+
+WALL_SLENDERNESS = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3)
+"""α of the walls of Figs. 3 and 4, rad."""
+ARCH_THICKNESS = (0.11, 0.13, 0.16, 0.20, 0.25)
+"""t/r of the semicircular arches of Figs. 6 and 7."""
+AMPLITUDES = np.linspace(0.02, 0.98, 33)
+ACCELERATIONS = np.geomspace(1.1, 10, 17)
+HEIGHT_RATIOS = np.geomspace(0.2, 5, 241)
+"""h₂/h₁ of the curves of Eq. 14."""
+
+AMPLITUDE = "amplitude / critical rotation [-]"
+PERIOD = "period, block / structure [-]"
+UPLIFT = "uplift, linearised / true [-]"
+ACCELERATION = "ground acceleration / uplift acceleration [-]"
+OVERTURNING = "time to overturn, block / structure [-]"
+ROTATION = "rotation / critical rotation [-]"
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """One line of one panel: what x and y are (with unit), and their values (k,). An empty style takes its turn."""
+
+    panel: str
+    label: str
+    x_quantity: str
+    y_quantity: str
+    x: np.ndarray
+    y: np.ndarray
+    style: str = ""
+
+    def rows(self) -> Iterator[Row]:
+        """Return the curve as rows of CURVES."""
+        for x, y in zip(self.x, self.y, strict=True):
+            yield {
+                "panel": self.panel,
+                "curve": self.label,
+                "x_quantity": self.x_quantity,
+                "x": float(x),
+                "y_quantity": self.y_quantity,
+                "y": float(y),
+            }
+
+
+def wall_sides() -> dict[str, Side]:
+    """Return the walls of Figs. 3 and 4, hinged at mid-height, by label."""
+    return {
+        f"α = {slenderness:g} rad": _wall(slenderness).mechanism().positive
+        for slenderness in WALL_SLENDERNESS
+    }
+
+
+def printed_wall_sides() -> dict[str, Side]:
+    """Return the same walls with the inertia of Eq. 4 as printed: 6R sin²(α − φ) where 2R sin²(α − φ) is right."""
+    return {label: with_printed_inertia(side) for label, side in wall_sides().items()}
+
+
+def with_printed_inertia(side: Side) -> Side:
+    """Return the side of an equal-halves wall with I and J of Eq. 4 as printed, divided like the side itself.
+
+    I_O/(2mR) + 2R sin² is I(φ_cr) + (I(φ) − I(φ_cr)); the misprint triples the second part.
+    """
+    critical = side.at("inertia", side.critical_rotation)
+    return replace(
+        side,
+        inertia=lambda rotation: critical + 3 * (side.inertia(rotation) - critical),
+        inertia_slope=lambda rotation: 3 * side.inertia_slope(rotation),
+    )
+
+
+def arch_sides() -> dict[str, Side]:
+    """Return the semicircular arches of Figs. 6 and 7, by label."""
+    return {
+        f"t/r = {thickness:g}": Arch(1.0, thickness, np.pi).mechanism().positive
+        for thickness in ARCH_THICKNESS
+    }
+
+
+def period_curves(sides: dict[str, Side], panel: str) -> list[Curve]:
+    """Return block over true period of free rocking against amplitude (Figs. 3a and 6a)."""
+    return [
+        Curve(
+            panel,
+            label,
+            AMPLITUDE,
+            PERIOD,
+            AMPLITUDES,
+            np.array(
+                [block_period(side, u) / natural_period(side, u * side.critical_rotation) for u in AMPLITUDES]
+            ),
+        )
+        for label, side in sides.items()
+    ]
+
+
+def overturning_curves(sides: dict[str, Side], scale: Scale, panel: str) -> list[Curve]:
+    """Return block over true time to φ_cr under constant acceleration (Figs. 4 and 7)."""
+    curves = []
+    for label, side in sides.items():
+        true = np.array([overturning_time(side, ratio) for ratio in ACCELERATIONS])
+        block = np.array([block_overturning_time(side, ratio, scale) for ratio in ACCELERATIONS])
+        both = np.isfinite(true) & np.isfinite(block)
+        curves.append(
+            Curve(panel, label, ACCELERATION, OVERTURNING, ACCELERATIONS[both], (block / true)[both])
+        )
+    return curves
+
+
+def wall_uplift_curve(panel: str) -> Curve:
+    """Return λ_lin/λ of the wall against its slenderness (Fig. 3b)."""
+    slenderness = np.linspace(0.02, 0.4, 39)
+    ratios = np.array([uplift_ratio(_wall(alpha).mechanism().positive) for alpha in slenderness])
+    return Curve(panel, "wall, hinge at mid-height", "slenderness α [rad]", UPLIFT, slenderness, ratios)
+
+
+def arch_uplift_curve(panel: str) -> Curve:
+    """Return λ_lin/λ of the semicircular arch against its thickness (Fig. 6b)."""
+    thickness = np.linspace(0.109, 0.28, 30)
+    ratios = np.array([uplift_ratio(Arch(1.0, t, np.pi).mechanism().positive) for t in thickness])
+    return Curve(panel, "semicircular arch", "thickness / radius [-]", UPLIFT, thickness, ratios)
+
+
+def hinge_height_curves(thickness_ratio: float = 0.1) -> list[Curve]:
+    """Return p √(H/g) against h₂/h₁ at fixed height H, by Eq. 14 as printed and as corrected."""
+    scale = np.sqrt(1 / GRAVITY)
+    printed = [printed_frequency_parameter(_hinged(x, thickness_ratio)) for x in HEIGHT_RATIOS]
+    right = [_hinged(x, thickness_ratio).mechanism().positive.frequency_parameter for x in HEIGHT_RATIOS]
+    names = ("Eq. 14 as printed", "Eq. 14 corrected")
+    return [
+        Curve("a", name, "h₂/h₁ [-]", "p √(H/g) [-]", HEIGHT_RATIOS, scale * np.array(values), style)
+        for name, values, style in zip(names, (printed, right), ("--", "-"), strict=True)
+    ]
+
+
+def printed_frequency_parameter(wall: Wall) -> float:
+    """p_eq of Eq. 14 exactly as the paper prints it, rad/s."""
+    x = wall.upper_height / wall.lower_height
+    r1, r2 = (np.hypot(height, wall.thickness) / 2 for height in (wall.lower_height, wall.upper_height))
+    return float(np.sqrt(3 * GRAVITY / (4 * r1) * (1 + 2 * x + x * r1 / r2) / (1 + x * (r2 / r1) ** 2)))
+
+
+def _wall(slenderness: float) -> Wall:
+    # restitution plays no part in these figures; a number keeps the squat walls from asking for one
+    return Wall(1.0, 1.0, float(np.tan(slenderness)), restitution=0.9)
+
+
+def _hinged(height_ratio: float, thickness_ratio: float) -> Wall:
+    return Wall.hinged_at(1.0, 1 / (1 + height_ratio), thickness_ratio, restitution=0.9)
+
+
+def rows_of(curves: Sequence[Curve]) -> list[Row]:
+    """Return all points of all curves."""
+    return [row for curve in curves for row in curve.rows()]

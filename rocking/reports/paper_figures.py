@@ -1,0 +1,70 @@
+"""The source paper's figures redrawn: panels of curves in one style, and the structures beside them."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rocking.reports.paper_curves import ROTATION, Curve
+from rocking.reports.style import new_figure, styled
+from rocking.structures.arch import Arch
+
+_PANEL_WIDTH, _PANEL_HEIGHT = 85.0, 62.0
+_LINES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 2)))
+"""Line styles in turn, so that curves are told apart without colour."""
+
+
+@styled
+def panels(curves: Sequence[Curve], columns: int = 2) -> Figure:
+    """Draw each panel's curves, told apart by line style; a curve with its own style keeps it."""
+    names = list(dict.fromkeys(curve.panel for curve in curves))
+    rows = -(-len(names) // columns)
+    figure = new_figure(_PANEL_HEIGHT * rows, _PANEL_WIDTH * columns, margins=(13, 3, 9, 5))
+    figure.subplots_adjust(wspace=0.22, hspace=0.3)
+    axes = figure.subplots(rows, columns, squeeze=False).ravel()
+    for panel, name in zip(axes, names, strict=False):
+        _panel(panel, name, [curve for curve in curves if curve.panel == name])
+    for panel in axes[len(names) :]:
+        panel.remove()
+    return figure
+
+
+def _panel(panel: Axes, name: str, curves: Sequence[Curve]) -> None:
+    for place, curve in enumerate(curves):
+        style = curve.style or _LINES[place % len(_LINES)]
+        panel.plot(curve.x, curve.y, linestyle=style, color=f"C{place % 6}", label=curve.label)
+    panel.set_title(f"({name})")
+    panel.set_xlabel(curves[0].x_quantity)
+    panel.set_ylabel(curves[0].y_quantity)
+    panel.margins(y=0.06)
+    panel.legend(loc="lower right" if curves[0].y_quantity == ROTATION else "best")
+
+
+@styled
+def arch_response(curves: Sequence[Curve], arch: Arch) -> Figure:
+    """Draw Fig. 8: the arch with its thrust line at onset (a), the record (b) and the responses (c, d)."""
+    figure = new_figure(2 * _PANEL_HEIGHT, 2 * _PANEL_WIDTH, margins=(13, 3, 9, 5))
+    figure.subplots_adjust(wspace=0.22, hspace=0.3)
+    axes = figure.subplots(2, 2).ravel()
+    draw_arch(axes[0], arch)
+    axes[0].set_title("(a)")
+    for panel, name in zip(axes[1:], "bcd", strict=True):
+        _panel(panel, name, [curve for curve in curves if curve.panel == name])
+    return figure
+
+
+def draw_arch(panel: Axes, arch: Arch) -> None:
+    """Draw an arch at rest, displaced, its hinges and its thrust line at onset."""
+    rotation = 0.6 * arch.mechanism().critical_rotation
+    for outline in arch.outline(rotation):
+        panel.fill(*outline.T, facecolor="0.88", edgecolor="0.5", linewidth=0.5)
+    for outline in arch.outline():
+        panel.fill(*outline.T, fill=False, linewidth=0.7, linestyle="--")
+    panel.plot(*arch.thrust_line().T, color="#D55E00", linewidth=1.2, label="thrust line at onset")
+    panel.plot(*np.asarray(arch.hinges()).T, "o", color="white", markeredgecolor="black", label="hinges")
+    panel.set_aspect("equal", adjustable="datalim")
+    panel.margins(0.05)
+    panel.set_xlabel("[m]")
+    panel.set_ylabel("[m]")
+    panel.legend(loc="lower center")

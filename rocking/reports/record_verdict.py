@@ -1,0 +1,143 @@
+"""What stands on the first page of a record's report: the verdicts, what they amount to, and the warnings above them."""
+
+from collections.abc import Mapping, Sequence
+
+from rocking.reports import printing
+from rocking.reports.printing import Cell, Row, number, ratio, strong, table, words
+
+Rows = Sequence[Row]
+Tables = Mapping[str, Rows]
+
+_VERDICTS = {
+    "agree": "agrees",
+    "unsafe": "UNSAFE: predicts less",
+    "safe": "safe side: predicts more",
+    "unknown": "unknown",
+}
+
+
+def verdict_table(rows: Rows, numbers: Mapping[str, str]) -> dict[str, object]:
+    """Return the first table that a reader sees: one row per structure of one component."""
+    columns = [
+        ("No.", "auto", "r"),
+        ("Structure", "1.5", "l"),
+        ("Light", "auto", "l"),
+        ("Closed form", "auto", "r"),
+        ("Full integration", "0.75", "r"),
+        ("The closed form", "1.0", "l"),
+        ("Regime of the closed form", "1.25", "l"),
+        ("Sensi\u00adtivity", "0.45", "r"),
+        ("Fragile", "auto", "l"),
+    ]
+    return table(columns, [_verdict_row(row, numbers) for row in rows])
+
+
+def _verdict_row(row: Row, numbers: Mapping[str, str]) -> list[Cell]:
+    verdict = _VERDICTS.get(row["verdict"], words(row["verdict"]))
+    return [
+        numbers[row["structure"]],
+        row["structure"],
+        printing.lamp(row["light"]),
+        ratio(row["predicted_rotation_ratio"]),
+        strong(ratio(row["integrated_rotation_ratio"])),
+        strong(verdict) if row["verdict"] == "unsafe" else verdict,
+        words(row["regime"]),
+        number(row["sensitivity"]),
+        strong("YES") if row["fragile"] == "true" else {"false": "no"}.get(row["fragile"], printing.NOTHING),
+    ]
+
+
+def verdict_sentences(rows: Rows) -> list[str]:
+    """Return what the verdict table amounts to, in sentences."""
+    integrated = [ratio(row["integrated_rotation_ratio"]) for row in rows]
+    falling = integrated.count("overturns")
+    still = integrated.count("no uplift")
+    failed = integrated.count(printing.NOTHING)
+    rocking = len(rows) - falling - still - failed
+    parts = [
+        (falling, "overturn"),
+        (rocking, "rock and stay up"),
+        (still, "are not lifted"),
+        (failed, "gave no result"),
+    ]
+    said = [f"{printing.count(many)} {what}" for many, what in parts if many]
+    total = printing.counted(len(rows), "structure")
+    sentences = [printing.sentence(f"of {total} in the full integration: {', '.join(said)}.")] if rows else []
+    return sentences + _doubts(rows)
+
+
+def _doubts(rows: Rows) -> list[str]:
+    unsafe = [row["structure"] for row in rows if row["verdict"] == "unsafe"]
+    fragile = [row["structure"] for row in rows if row["fragile"] == "true"]
+    sentences = []
+    if unsafe:
+        sentences.append(f"The closed form misses what happens to {_listed(unsafe)}.")
+    if fragile:
+        sentences.append(f"Close to a change of verdict, so not decided: {_listed(fragile)}.")
+    return sentences
+
+
+def _listed(names: Sequence[str], most: int = 6) -> str:
+    shown = ", ".join(names[:most])
+    more = len(names) - most
+    return shown if more <= 0 else f"{shown} and {printing.counted(more, 'other')}"
+
+
+def notices(tables: Tables, failures: Rows) -> list[dict[str, object]]:
+    """Return the warnings that stand above everything: scale factor, red light, nothing moves, what failed."""
+    rows = tables["comparison"]
+    red = [row for row in rows if row["light"] == "red"]
+    found = [(True, scale) for scale in [scale_sentence(tables["record"])] if scale]
+    if not rows:
+        found.append((True, "No structure could be assessed under this record."))
+    elif all(ratio(row["integrated_rotation_ratio"]) == "no uplift" for row in rows):
+        found.append(
+            (False, "No structure uplifts: the ground acceleration never reaches an uplift acceleration.")
+        )
+    if red:
+        found.append((True, _red_sentence(red, rows)))
+    failing = [
+        row for row in tables["responses"] if contact_failure(row) and row["method"] == "mechanism on record"
+    ]
+    if failing:
+        said = dict.fromkeys(f"{row['structure']} ({contact_failure(row)})" for row in failing)
+        found.append((True, f"The model does not hold, because a contact fails, for {_listed(list(said))}."))
+    if not tables["pulses"]:
+        found.append(
+            (True, "No pulse could be sought in this record, so there is no closed-form prediction.")
+        )
+    found += [(True, f"{row['structure'] or row['component']}: {row['message']}") for row in failures]
+    return [{"strong": loud, "text": text} for loud, text in found]
+
+
+def _red_sentence(red: Rows, rows: Rows) -> str:
+    share = "all" if len(red) == len(rows) else printing.count(len(red))
+    of_all = printing.counted(len(rows), "prediction")
+    return (
+        f"Red light for {share} of {of_all}: one pulse does not stand for this record there, and the closed form then "
+        "mostly predicts too little. Use the full integration."
+    )
+
+
+def scale_sentence(rows: Rows) -> str:
+    """Return the sentence that declares the scale factors, or nothing when every factor is 1."""
+    scaled = [row for row in rows if float(row["scale_factor"] or 1) != 1]
+    if not scaled:
+        return ""
+    named = "; ".join(
+        f"component {words(row['component'])}: ×\u00a0{printing.given(row['scale_factor'])}" for row in scaled
+    )
+    return f"Not the recorded amplitude. The accelerations of the file were multiplied by a declared factor ({named})."
+
+
+def scale_note(rows: Rows) -> str:
+    """Return the short form of the scale sentence for captions and the running head."""
+    factors = dict.fromkeys(
+        printing.given(row["scale_factor"]) for row in rows if float(row["scale_factor"] or 1) != 1
+    )
+    return f" Accelerations ×\u00a0{', '.join(factors)}, declared." if factors else ""
+
+
+def contact_failure(response: Row) -> str:
+    """Return how the contacts of a response fail: "slides", "bounces", both, or nothing."""
+    return " and ".join(name for name in ("slides", "bounces") if response.get(name) == "true")

@@ -1,0 +1,74 @@
+"""What a report costs: CPU of one record with ten structures, its parts, and the memory of a hundred reports.
+
+Run: python tests/benchmarks/bench_reports.py [reports]
+"""
+
+import resource
+import statistics
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "unit" / "reports"))
+
+from conftest import Assessed, assessed, shaken
+
+from rocking.reports import record_report, summary_report
+from rocking.reports.document import compile_document
+from rocking.reports.record import record_data
+from rocking.structures import Arch, Block, Wall
+
+
+def ten_structures() -> Assessed:
+    """Blocks, walls and arches under one component."""
+    structures = {f"block {height} m": Block.of_size(0.22 * height, height) for height in (2, 3, 5, 8)}
+    structures |= {
+        f"wall {height} m": Wall(0.5 * height, 0.45 * height, 0.1 * height) for height in (2.5, 3.5, 5)
+    }
+    structures |= {
+        f"arch {radius} m": Arch(radius, 0.15 * radius, np.radians(157.5)) for radius in (5, 10, 15)
+    }
+    return assessed("ten", [shaken(station="STA")], structures)
+
+
+def median_cpu(function, repeats: int = 5) -> float:
+    """Median CPU time of a call after one that warms up, s."""
+    function()
+    spent = []
+    for _ in range(repeats):
+        started = time.process_time()
+        function()
+        spent.append(time.process_time() - started)
+    return statistics.median(spent)
+
+
+def resident() -> float:
+    """Largest resident memory so far, MB."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def main(reports: int) -> None:
+    """Print CPU times, their shares and the growth of memory."""
+    case = ten_structures()
+    tables = case.tables | {"maxima": []}
+    data = record_data(*case.arguments)
+    whole = median_cpu(lambda: record_report(*case.arguments))
+    parts = {
+        "tables and figures": median_cpu(lambda: record_data(*case.arguments)),
+        "document": median_cpu(lambda: compile_document("record.typ", data)),
+    }
+    print(f"record report, 10 structures: {whole:.3f} s CPU (asked for: 1.5 s)")
+    for name, spent in parts.items():
+        print(f"  {name}: {spent:.3f} s, {spent / whole:.0%}")
+    summary = median_cpu(lambda: summary_report(tables, case.arguments[-1]))
+    print(f"summary report: {summary:.3f} s CPU, {summary / whole:.0%} of a record report")
+    before = resident()
+    for _ in range(reports):
+        record_report(*case.arguments)
+    print(f"memory after {reports} more reports: {resident() / before:.3f} of {before:.0f} MB")
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 100)

@@ -1,0 +1,118 @@
+"""The report over all records, and the reliability that is counted for it."""
+
+import json
+import math
+import re
+
+from rocking.reports import summary_report
+from rocking.reports.reliability import RELIABILITY, reliability_rows
+from rocking.reports.summary import summary_data
+from rocking.tables import csv_lines
+
+from .conftest import SETTINGS
+
+
+def case(
+    light: str, predicted: str, integrated: str, record: str = "one", fragile: str = "false"
+) -> dict[str, str]:
+    """One row of the comparison table, as much of it as the summary reads."""
+    both = "INF" not in (predicted, integrated) and float(predicted) > 0 and float(integrated) > 0
+    ratio = float(predicted) / float(integrated) if both else math.nan
+    fell = (predicted == "INF") - (integrated == "INF")
+    return {
+        "record": record,
+        "component": "EW",
+        "structure": "block",
+        "light": light,
+        "predicted_rotation_ratio": predicted,
+        "integrated_rotation_ratio": integrated,
+        "prediction_over_integration": repr(ratio) if both else "",
+        "within_factor_two": str(0.5 <= ratio <= 2).lower() if both else "",
+        "verdict": {-1: "unsafe", 0: "agree", 1: "safe"}[fell],
+        "regime": "Eq. 15 exact",
+        "sensitivity": "2.5",
+        "fragile": fragile,
+    }
+
+
+CASES = [
+    case("green", "0.5", "0.4"),
+    case("green", "INF", "INF"),
+    case("amber", "INF", "0.8", "two"),
+    case("red", "0.1", "INF", "two"),
+    case("red", "0.1", "0.7", "three", "true"),
+]
+
+
+def summary_tables(comparison, **others):
+    return {name: [] for name in ("record", "pulses", "maxima", "structures", "failures")} | {
+        "comparison": comparison,
+        **others,
+    }
+
+
+def test_reliability_counts_each_light_and_all():
+    rows = {row["light"]: row for row in reliability_rows(CASES)}
+    assert [rows[light]["cases"] for light in ("green", "amber", "red", "all")] == [2, 1, 2, 5]
+    assert rows["all"] | {"median_ratio": None} == {
+        "light": "all",
+        "records": 3,
+        "cases": 5,
+        "both_rock": 2,
+        "within_factor_two": 1,
+        "median_ratio": None,
+        "overturning": 2,
+        "overturning_found": 1,
+        "overturning_missed": 1,
+        "overturning_false": 1,
+        "fragile": 1,
+    }
+    assert rows["green"]["median_ratio"] == 1.25
+    assert len(list(csv_lines(RELIABILITY, rows.values()))) == 5
+
+
+def test_the_three_sentences_say_the_counts():
+    sentences = summary_data(summary_tables(CASES), SETTINGS)["sentences"]
+    assert len(sentences) == 3
+    assert "green) in 2 of 5 cases" in sentences[0]
+    assert "Of 2 overturnings" in sentences[1] and "misses 1, 1 of these under a red light" in sentences[1]
+    assert "Two cases have a red light" in sentences[2] or "two cases have a red light" in sentences[2]
+
+
+def test_unsafe_and_fragile_cases_are_listed():
+    data = summary_data(summary_tables(CASES), SETTINGS)
+    assert len(data["unsafe"]["rows"]) == len(data["fragile"]["rows"]) == 1
+    assert data["unsafe"]["rows"][0][5] == {"text": "overturns", "strong": True}
+
+
+def test_a_study_without_a_readable_record_says_so_first():
+    failure = {
+        "record": "bad",
+        "component": "",
+        "structure": "",
+        "stage": "read",
+        "message": "bad.at2: is empty.",
+    }
+    tables = summary_tables([], failures=[failure])
+    assert "No record could be read" in summary_data(tables, SETTINGS)["notices"][0]["text"]
+    assert summary_report(tables, SETTINGS).startswith(b"%PDF")
+
+
+def test_the_summary_of_a_record_is_the_same_twice_and_names_its_factor(hostile):
+    tables = hostile.tables | {"maxima": []}
+    assert summary_report(tables, SETTINGS) == summary_report(tables, SETTINGS)
+    assert any("declared factor" in notice["text"] for notice in summary_data(tables, SETTINGS)["notices"])
+
+
+def test_a_trade_table_is_printed_as_it_is():
+    trade = [{"method": "#panic(1)", "error_relative": "0.0123456", "duration_s": "0.5"}]
+    data = summary_data(summary_tables(CASES, trade=trade), SETTINGS)
+    assert data["trade"]["rows"] == [["#panic(1)", "0.0123", "0.500"]]
+    assert summary_report(summary_tables(CASES, trade=trade), SETTINGS).startswith(b"%PDF")
+
+
+def test_the_scatter_marks_the_lights_by_shape(example):
+    data = summary_data(example.tables | {"maxima": []}, SETTINGS)
+    drawn = data["scatter"][0]["svg"]
+    assert {"green light", "amber light", "red light"} <= set(re.findall(r"\w+ light", drawn))
+    assert json.dumps(data)
