@@ -219,6 +219,49 @@ COMPARISON = Table(
     ),
 )
 
+CANDIDATES = Table(
+    "candidates",
+    "One row per height at which a wall may be hinged or a spire cracked: the governing height is marked",
+    (
+        _RECORD,
+        _COMPONENT,
+        _STRUCTURE,
+        Column("position_m", "number", "Height of the hinge or of the crack above the base"),
+        Column(
+            "predicted_rotation_ratio",
+            "number",
+            "Exact maximum of its equivalent block under the dominant pulse",
+        ),
+        Column("integrated_rotation_ratio", "number", "Its mechanism under the whole record"),
+        Column(
+            "governs_pulse",
+            "boolean",
+            "Whether it rotates most under the pulse; the lowest of those that overturn",
+        ),
+        Column(
+            "governs_record",
+            "boolean",
+            "Whether it rotates most under the record; the lowest of those that overturn",
+        ),
+        *_PROVENANCE,
+    ),
+)
+
+PROCESSING = Table(
+    "processing",
+    "One row per structure and processing of the record: what the answer owes to baseline and corner frequency",
+    (
+        _RECORD,
+        _COMPONENT,
+        _STRUCTURE,
+        Column("processing", "string", "What was done to the record besides what the record table says"),
+        Column("peak_acceleration_m_s2", "number", "Largest magnitude of the acceleration then"),
+        _RATIO,
+        _OUTCOME,
+        *_PROVENANCE,
+    ),
+)
+
 MAXIMA = Table(
     "maxima",
     "One row per record, component, structure and method",
@@ -282,7 +325,22 @@ TIMINGS = Table(
     (_RECORD, Column("stage", "string", "Stage"), Column("duration_s", "number", "CPU time")),
 )
 
-RECORD_TABLES = (RECORD, PULSES, PREDICTIONS, RESPONSES, COMPARISON)
-"""The tables of one record's folder."""
+SPECTRUM = Table(
+    "spectrum",
+    "One row per component and equivalent block under the whole record; written by rocking spectrum",
+    (
+        _COMPONENT,
+        Column("frequency_parameter_rad_s", "number", "p of the equivalent block", "Eq. 11"),
+        Column("uplift_multiplier", "number", "Uplift acceleration of the equivalent block in g", "Eq. 12"),
+        Column("restitution", "number", "Ratio of angular velocities after and before an impact", "Eq. 2"),
+        _RATIO,
+        *_PROVENANCE[:2],
+    ),
+)
+
+RECORD_TABLES = (RECORD, PULSES, PREDICTIONS, RESPONSES, COMPARISON, CANDIDATES, PROCESSING)
+"""The tables of one record's folder that hold results."""
+PER_RECORD = (*RECORD_TABLES, FAILURES, TIMINGS)
+"""Every table of one record's folder."""
 SUMMARY_TABLES = (RECORD, PULSES, COMPARISON, MAXIMA, STRUCTURES, FAILURES, TIMINGS)
 """The tables of the summary folder."""

@@ -1,6 +1,7 @@
 """Rows of the result tables, made from what was computed. The columns stand in rocking.columns."""
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,6 +26,7 @@ from rocking.records import Accelerogram
 from rocking.records.processing import displacement, velocity
 from rocking.structures import Mechanism
 from rocking.tables import Row
+from rocking.variations import Candidate, Variant, governing
 
 
 @dataclass(frozen=True)
@@ -51,10 +53,9 @@ class Identity:
 
 
 def all_rows(
-    record: str, assessment: Assessment, settings: AssessmentSettings, licence: str, settings_sha256: str
+    identity: Identity, assessment: Assessment, settings: AssessmentSettings, licence: str
 ) -> dict[str, list[Row]]:
-    """The rows of every table of one record that one component gives, by name of the table."""
-    identity = Identity(record, assessment.accelerogram, settings_sha256)
+    """The rows that one assessment gives, by name of the table."""
     cases = assessment.cases
     return {
         "record": [record_row(identity, licence)],
@@ -67,7 +68,8 @@ def all_rows(
         ],
         "comparison": [comparison_row(identity, case) for case in cases],
         "failures": [
-            failure_row(record, assessment.accelerogram.component, failure) for failure in assessment.failures
+            failure_row(identity.record, assessment.accelerogram.component, failure)
+            for failure in assessment.failures
         ],
     }
 
@@ -270,6 +272,41 @@ def _reliability(prediction: Prediction | None) -> dict[str, object]:
         else math.nan,
         "reliability_records": row.records if row else 0,
     }
+
+
+def candidate_rows(identity: Identity, structure: str, found: Sequence[Candidate]) -> list[Row]:
+    """The rows of the candidates table of one structure."""
+    on_pulse = governing([candidate.predicted for candidate in found])
+    on_record = governing([candidate.integrated for candidate in found])
+    return [
+        identity.head
+        | {
+            "structure": structure,
+            "position_m": candidate.position,
+            "predicted_rotation_ratio": candidate.predicted,
+            "integrated_rotation_ratio": candidate.integrated,
+            "governs_pulse": place == on_pulse,
+            "governs_record": place == on_record,
+        }
+        | identity.provenance
+        for place, candidate in enumerate(found)
+    ]
+
+
+def processing_rows(identity: Identity, structure: str, found: Iterable[Variant]) -> list[Row]:
+    """The rows of the processing table of one structure."""
+    return [
+        identity.head
+        | {
+            "structure": structure,
+            "processing": variant.processing,
+            "peak_acceleration_m_s2": variant.peak_acceleration,
+            "rotation_ratio": variant.rotation_ratio,
+            "outcome": variant.outcome,
+        }
+        | identity.provenance
+        for variant in found
+    ]
 
 
 def failure_row(record: str, component: str, failure: Failure) -> Row:

@@ -7,13 +7,14 @@ from time import process_time
 from typing import Any
 
 from rocking import columns, rows
-from rocking.comparison import AssessmentSettings, Failure, assess
+from rocking.comparison import Assessment, AssessmentSettings, Failure, assess
 from rocking.errors import RockingError
 from rocking.pulses import PulseSettings
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord, open_record
 from rocking.structures import Structure, load_structures
-from rocking.tables import Row, Table, write_table
+from rocking.tables import Row, write_table
+from rocking.variations import candidates, processed, processed_variants
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,8 @@ class Study:
     """What every record of a study is put through.
 
     structures: by name. mirror: a folder that holds the files of remote records, or None.
+    candidates: heights tried for the hinge of a wall or the crack of a spire, 0 for none.
+    processing_variants: whether every structure also meets the record processed otherwise.
     settings_sha256: names the settings, the structure list and the package in every row.
     """
 
@@ -28,6 +31,8 @@ class Study:
     settings: AssessmentSettings
     settings_sha256: str
     mirror: Path | None = None
+    candidates: int = 19
+    processing_variants: bool = True
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], structures: Path, sha256: str) -> "Study":
@@ -47,7 +52,14 @@ class Study:
             ),
         )
         mirror = settings["mirror"]
-        return cls(load_structures(structures), assessment, sha256, Path(mirror) if mirror else None)
+        return cls(
+            load_structures(structures),
+            assessment,
+            sha256,
+            Path(mirror) if mirror else None,
+            settings["candidates"],
+            settings["processing_variants"],
+        )
 
 
 def assess_records(records: Iterable[CatalogueRecord], study: Study, results: Path, log: Path) -> None:
@@ -64,7 +76,7 @@ def assess_record(record: CatalogueRecord, study: Study, folder: Path) -> list[s
     Returns the sentences of what failed.
     """
     started = process_time()
-    tables: dict[str, list[Row]] = {table.name: [] for table in _PER_RECORD}
+    tables: dict[str, list[Row]] = {table.name: [] for table in columns.PER_RECORD}
     try:
         accelerograms = open_record(record, mirror=study.mirror)
     except RockingError as error:
@@ -76,7 +88,7 @@ def assess_record(record: CatalogueRecord, study: Study, folder: Path) -> list[s
     tables["timings"] = [
         {"record": record.id, "stage": stage, "duration_s": duration} for stage, duration in durations.items()
     ]
-    for table in _PER_RECORD:
+    for table in columns.PER_RECORD:
         write_table(table, tables[table.name], folder / table.file_name)
     return [str(row["message"]) for row in tables["failures"]]
 
@@ -89,13 +101,28 @@ def _assess_component(
     durations: dict[str, float],
 ) -> None:
     assessment = assess(accelerogram, study.structures, study.settings)
-    made = rows.all_rows(record.id, assessment, study.settings, record.licence, study.settings_sha256)
+    identity = rows.Identity(record.id, accelerogram, study.settings_sha256)
+    made = rows.all_rows(identity, assessment, study.settings, record.licence)
     for name, new in made.items():
         tables[name].extend(new)
+    varied = process_time()
+    for name, new in _variations(identity, assessment, study).items():
+        tables[name].extend(new)
+    durations["variations"] = durations.get("variations", 0.0) + process_time() - varied
     for stage, duration in assessment.durations.items():
         durations[stage] = durations.get(stage, 0.0) + duration
 
 
-_PER_RECORD: tuple[Table, ...] = (*columns.RECORD_TABLES, columns.FAILURES, columns.TIMINGS)
-PER_RECORD_FILES = tuple(table.file_name for table in _PER_RECORD)
-"""The files that assess_record writes."""
+def _variations(identity: rows.Identity, assessment: Assessment, study: Study) -> dict[str, list[Row]]:
+    """The rows of candidates and processing, for every structure that gave a result."""
+    record = assessment.accelerogram
+    records = processed(record) if study.processing_variants else {}
+    made: dict[str, list[Row]] = {"candidates": [], "processing": []}
+    for case in assessment.cases:
+        structure = study.structures[case.structure]
+        pulse = case.prediction.pulse if case.prediction else None
+        found = candidates(structure, record, pulse, study.candidates, study.settings)
+        made["candidates"] += rows.candidate_rows(identity, case.structure, found)
+        variants = processed_variants(structure, records, study.settings)
+        made["processing"] += rows.processing_rows(identity, case.structure, variants)
+    return made

@@ -14,10 +14,11 @@ FLOORS = [
     {"sine_pulse", "motion"},
     {"spectrum", "model_check", "tables", "columns"},
     {"comparison"},
-    {"rows", "plan", "calibration", "trade", "fidelity"},
-    {"summary"},
+    {"variations", "plan", "calibration", "trade", "fidelity"},
+    {"rows", "summary"},
     {"study", "reports"},
     {"reporting", "own_study"},
+    {"own_record", "documentation"},
     {"cli"},
 ]
 SAME_FLOOR = {

@@ -2,13 +2,14 @@
 
 from pathlib import Path
 
+from rocking import columns
 from rocking.plan import make_plan, package_sha256
 
 PLAN = make_plan(config, Path(workflow.source_path("../schemas/config.schema.yaml")))
 RESULTS = config["results"]
 SUMMARY = f"{RESULTS}/summary"
-TABLES = ["record", "pulses", "predictions", "responses", "comparison", "failures", "timings"]
-SUMMARIES = ["record", "pulses", "comparison", "maxima", "structures", "failures", "timings"]
+TABLES = [table.name for table in columns.PER_RECORD]
+SUMMARIES = [table.name for table in columns.SUMMARY_TABLES]
 
 
 def record_files(records, *names):
