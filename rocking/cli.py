@@ -4,6 +4,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from shlex import quote
 
 from rocking.errors import RockingError
 from rocking.units import GRAVITY
@@ -13,14 +14,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status: 0, or 1 after a sentence on what is wrong."""
     options = _parser().parse_args(arguments)
     try:
-        options.run(options)
+        return options.run(options) or 0
     except RockingError as error:
         print(f"rocking: {error}", file=sys.stderr)
         return 1
     except OSError as error:
         print(f"rocking: {error.filename or 'file'}: {error.strerror or error}.", file=sys.stderr)
         return 1
-    return 0
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -32,21 +32,27 @@ def _parser() -> argparse.ArgumentParser:
     start.add_argument("folder", type=Path)
     catalogue = _verb(verbs, "catalogue", _catalogue, "write a catalogue of the accelerograms in a folder")
     catalogue.add_argument("folder", type=Path)
-    catalogue.add_argument(
-        "--output", type=Path, help="CSV file to write (default: catalogue.csv in the folder)"
-    )
-    run = _verb(verbs, "run", _run, "run the study in a folder; what follows -- goes to snakemake")
+    catalogue.add_argument("--output", type=Path, help="CSV file to write (default: catalogue.csv in it)")
+    catalogue.add_argument("--replace", action="store_true", help="write over a catalogue that exists")
+    _declarations(catalogue)
+    run = _verb(verbs, "run", _run, "run the study in a folder")
     run.add_argument("folder", type=Path)
-    run.add_argument("snakemake", nargs="*", help="options for snakemake, after --")
+    run.add_argument("snakemake", nargs="*", help="what follows -- goes to snakemake: -- --dry-run")
     _record_verb(verbs, "read", _read, "read a file and say what it is")
-    _record_verb(verbs, "pulse", _pulse, "dominant sine pulse of each component of a file")
-    assess = _record_verb(verbs, "assess", _assess, "assess one structure under one file")
-    assess.add_argument("structures", type=Path, help="YAML file that lists structures")
-    assess.add_argument("name", nargs="?", help="name of one structure in the list (default: all)")
-    assess.add_argument("--report", type=Path, help="PDF file to write")
-    spectrum = _record_verb(verbs, "spectrum", _spectrum, "rocking spectrum of a file as CSV")
-    spectrum.add_argument("--restitution", type=float, default=0.9)
-    spectrum.add_argument("--output", type=Path, default=Path("spectrum.csv"))
+    for name, function, text in (
+        ("pulse", _pulse, "dominant sine pulse of a file"),
+        ("assess", _assess, "assess structures under a file"),
+        ("spectrum", _spectrum, "rocking spectrum of a file as CSV"),
+    ):
+        verb = _record_verb(verbs, name, function, text)
+        verb.add_argument("--component", default="", help="component to use (default: every horizontal one)")
+    _assess_options(verbs.choices["assess"])
+    verbs.choices["spectrum"].add_argument(
+        "--restitution", type=float, default=0.9, help="velocity ratio of an impact, 0 to 1 (default: 0.9)"
+    )
+    verbs.choices["spectrum"].add_argument(
+        "--output", type=Path, default=Path("spectrum.csv"), help="CSV file"
+    )
     return parser
 
 
@@ -59,19 +65,20 @@ def _verb(verbs, name: str, function, text: str) -> argparse.ArgumentParser:
 def _record_verb(verbs, name: str, function, text: str) -> argparse.ArgumentParser:
     parser = _verb(verbs, name, function, text)
     parser.add_argument("file", type=Path, help="accelerogram in any known format")
-    parser.add_argument(
-        "--unit", help="unit of the numbers, where the format does not say it: m/s2, cm/s2, g, ..."
-    )
-    parser.add_argument("--time-step", type=float, help="time step in s, where the file does not say it")
-    parser.add_argument("--scale", type=float, default=1.0, help="factor on the accelerations")
+    parser.add_argument("--scale", type=float, default=1.0, help="factor on the accelerations (default: 1)")
+    _declarations(parser)
     return parser
 
 
-def _accelerograms(options: argparse.Namespace):
-    from rocking.records import read
+def _declarations(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--unit", help="of the numbers, where the file does not say it: m/s2, cm/s2, g, ...")
+    parser.add_argument("--time-step", type=float, help="in s, where the file does not say it")
 
-    accelerograms = read(options.file, unit=options.unit, time_step=options.time_step)
-    return [a if options.scale == 1 else a.scaled(options.scale) for a in accelerograms]
+
+def _assess_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("structures", type=Path, help="YAML file that lists structures")
+    parser.add_argument("name", nargs="?", help="name of one structure in the list (default: all)")
+    parser.add_argument("--output", type=Path, help="folder for report.pdf and the tables behind it")
 
 
 def _start(options: argparse.Namespace) -> None:
@@ -79,35 +86,40 @@ def _start(options: argparse.Namespace) -> None:
 
     for path in start(options.folder):
         print(path)
-    print(
-        f"Put your records into {options.folder / 'records'}, then: rocking catalogue {options.folder / 'records'}"
-    )
-    print(f"Then: rocking run {options.folder}")
+    records = options.folder / "records"
+    print(f"Put your records into {records}, then:")
+    print(f"  rocking catalogue {quote(str(records))}")
+    print(f"  rocking run {quote(str(options.folder))}")
 
 
 def _catalogue(options: argparse.Namespace) -> None:
     from rocking.own_study import write_catalogue
 
     target = options.output or options.folder / "catalogue.csv"
-    count, unread = write_catalogue(options.folder, target)
-    print(f"{target}: {count} records")
+    declared = {"unit": options.unit, "time_step": options.time_step, "replace": options.replace}
+    count, unread = write_catalogue(options.folder, target, **declared)
+    print(f"{target}: {count} record{'' if count == 1 else 's'}")
     for name, reason in unread:
         print(f"not read: {name}: {reason}")
 
 
-def _run(options: argparse.Namespace) -> None:
+def _run(options: argparse.Namespace) -> int:
     from rocking.own_study import run
 
-    raise SystemExit(run(options.folder, options.snakemake))
+    return run(options.folder, options.snakemake)
 
 
 def _read(options: argparse.Namespace) -> None:
-    for accelerogram in _accelerograms(options):
+    from rocking.records import read
+
+    for found in read(options.file, unit=options.unit, time_step=options.time_step):
+        accelerogram = found if options.scale == 1 else found.scaled(options.scale)
+        peak = accelerogram.peak_acceleration
         print(
             f"{accelerogram.source.format}: {accelerogram.event or 'event not named'}, "
             f"{accelerogram.station or 'station not named'}, component {accelerogram.component or 'not named'}: "
             f"{accelerogram.acceleration.size} samples every {accelerogram.time_step:g} s, "
-            f"peak {accelerogram.peak_acceleration:.4f} m/s² = {accelerogram.peak_acceleration / GRAVITY:.4f} g"
+            f"peak {peak:.4g} m/s² = {peak / GRAVITY:.4g} g"
         )
         for sentence in (*accelerogram.processing, *accelerogram.warnings):
             print(f"  {sentence}")
@@ -115,13 +127,14 @@ def _read(options: argparse.Namespace) -> None:
 
 def _pulse(options: argparse.Namespace) -> None:
     from rocking.pulses import extract_pulses
+    from rocking.records import open_record
 
-    for accelerogram in _accelerograms(options):
+    for accelerogram in open_record(_own_record(options)):
         analysis = extract_pulses(accelerogram)
         pulse = analysis.dominant
         print(
-            f"component {accelerogram.component or 'not named'}: amplitude {pulse.amplitude:.4f} m/s² = "
-            f"{pulse.amplitude / GRAVITY:.4f} g, period {pulse.period:.4f} s, start {pulse.start_time:.3f} s, "
+            f"component {accelerogram.component or 'not named'}: amplitude {pulse.amplitude:.4g} m/s² = "
+            f"{pulse.amplitude / GRAVITY:.4g} g, period {pulse.period:.4g} s, start {pulse.start_time:.3f} s, "
             f"explains {analysis.explained_energy:.0%} of the acceleration energy"
         )
         for flag in analysis.flags:
@@ -129,23 +142,28 @@ def _pulse(options: argparse.Namespace) -> None:
 
 
 def _assess(options: argparse.Namespace) -> None:
-    from rocking.own_study import assess_file
+    from rocking.own_record import assess_file
+    from rocking.own_study import default_settings
 
-    lines, report = assess_file(
-        _accelerograms(options), options.structures, options.name, options.report is not None
-    )
-    print("\n".join(lines))
-    if options.report is not None:
-        from rocking.tables import write_whole
-
-        write_whole(options.report, report)
+    record, settings = _own_record(options), default_settings()
+    print("\n".join(assess_file(record, options.structures, options.name, settings, options.output)))
+    if options.output is not None:
+        print(options.output / record.id / "report.pdf")
 
 
 def _spectrum(options: argparse.Namespace) -> None:
-    from rocking.own_study import write_spectrum
+    from rocking.own_record import write_spectrum
+    from rocking.records import open_record
 
-    write_spectrum(_accelerograms(options), options.restitution, options.output)
+    write_spectrum(open_record(_own_record(options)), options.restitution, options.output)
     print(options.output)
+
+
+def _own_record(options: argparse.Namespace):
+    from rocking.own_record import Declared, own_record
+
+    declared = Declared(options.unit, options.time_step, options.scale, options.component)
+    return own_record(options.file, declared)
 
 
 if __name__ == "__main__":
