@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -115,19 +116,23 @@ def planned_records(catalogue: Path, identifiers: Sequence[str], sha256: str) ->
 def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, tuple[str, ...]]:
     """Share out records to jobs by a hash of their identifier, so that adding one record changes one job.
 
-    size: about how many records a job takes; None chooses an eighth of them, but no fewer than the square root of their
-    number, so that starting jobs costs little, and at most 128, so that a job that is lost costs little.
+    size: about how many records a job takes; None chooses about the square root of their number, but more rather than
+    start more than eight jobs, and at most 128, so that neither starting a job nor losing one costs much. The number of
+    jobs is a power of two; only where it doubles, every job changes.
     Returns the identifiers of each job that has any, in their order, by the name of the job.
     """
     identifiers = tuple(identifiers)
     number = len(identifiers)
-    size = size or min(128, max(1, round(number**0.5), round(number / 8)))
-    count = 1 << max(0, (-(-number // size) - 1).bit_length())
+    wanted = number / size if size else max(min(number**0.5, _FEW_JOBS), number / _MANY_RECORDS)
+    count = 1 << max(0, (math.ceil(wanted) - 1).bit_length())
     shared: dict[str, list[str]] = {}
     for identifier in identifiers:
         place = int.from_bytes(hashlib.sha256(identifier.encode()).digest()[:4], "big") % count
         shared.setdefault(f"{place:05d}_of_{count:05d}", []).append(identifier)
     return {name: tuple(shared[name]) for name in sorted(shared)}
+
+
+_FEW_JOBS, _MANY_RECORDS = 8, 128
 
 
 def _collect(defects: list[str], load):
