@@ -3,6 +3,7 @@
 import hashlib
 import json
 import math
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -40,19 +41,24 @@ class Plan:
         return sorted({str(path) for path in local if path.is_file()})
 
 
-_DO_NOT_CHANGE_NUMBERS = {"catalogue", "structures", "results", "mirror", "reports", "records_per_job"}
+_DO_NOT_CHANGE_NUMBERS = {
+    *("catalogue", "calibration_catalogue", "structures", "results", "mirror", "reports", "records_per_job"),
+}
 
 
 def make_plan(settings: Mapping[str, Any], schema: Path) -> Plan:
     """Check `settings`, the catalogue and the structures they name, and share out the records.
 
-    Raises ConfigurationError with every defect of the three in one message.
+    Raises ConfigurationError with every defect of the three, and of the place for the results, in one message.
     """
-    check_settings(settings, schema)
     defects: list[str] = []
-    records = _collect(defects, lambda: load_catalogue(Path(settings["catalogue"])))
-    structures = Path(settings["structures"])
+    _collect(defects, lambda: check_settings(settings, schema))
+    catalogue, structures, results = (
+        Path(str(settings.get(name))) for name in ("catalogue", "structures", "results")
+    )
+    records = _collect(defects, lambda: load_catalogue(catalogue))
     _collect(defects, lambda: load_structures(structures))
+    _collect(defects, lambda: check_writable(results))
     if defects:
         raise ConfigurationError("\n".join(defects))
     package = package_sha256(leave_out=("reports", "cli"))
@@ -77,6 +83,17 @@ def check_settings(settings: Mapping[str, Any], schema: Path) -> None:
         raise ConfigurationError("\n".join(lines))
 
 
+def check_writable(results: Path) -> None:
+    """Raise ConfigurationError when no folder can be made, or nothing be written, at `results`."""
+    there = next(path for path in (results.absolute(), *results.absolute().parents) if path.exists())
+    if not there.is_dir():
+        raise ConfigurationError(f"setting results: {there} is a file, but must be a folder.")
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise ConfigurationError(
+            f"setting results: nothing can be written in {there}; mend its permissions or name another folder."
+        )
+
+
 def settings_sha256(numbers: Mapping[str, object], structures: bytes, package: str) -> str:
     """Return one hash for the settings that change a number, the structure list and the package."""
     text = json.dumps(numbers, sort_keys=True)
@@ -89,7 +106,9 @@ def package_sha256(leave_out: Sequence[str] = ()) -> str:
     digest = hashlib.sha256()
     for path in sorted(root.rglob("*")):
         name = path.relative_to(root).as_posix()
-        if path.suffix in {".py", ".csv", ".typ", ".yaml"} and not name.startswith(tuple(leave_out)):
+        if path.suffix in {".py", ".csv", ".typ", ".yaml", ".mplstyle"} and not name.startswith(
+            tuple(leave_out)
+        ):
             digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
 

@@ -1,6 +1,7 @@
 """The tables a user gets: each column once, with its type, unit and meaning; written whole or not at all."""
 
 import csv
+import glob
 import io
 import json
 import math
@@ -88,16 +89,28 @@ def write_whole(path: Path, content: bytes) -> None:
 @contextmanager
 def _whole(path: Path) -> Iterator[BinaryIO]:
     path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        for left_by_a_kill in path.parent.glob(f".{glob.escape(path.name)}.*.part"):
+            left_by_a_kill.unlink(missing_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
+    except OSError as error:
+        raise _unwritten(path, error) from error
     try:
         with os.fdopen(handle, "wb") as stream:
             yield stream
         os.chmod(temporary, 0o644)
         os.replace(temporary, path)
-    except BaseException:
+    except BaseException as error:
         Path(temporary).unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.filename in (None, temporary):
+            raise _unwritten(path, error) from error
         raise
+
+
+def _unwritten(path: Path, error: OSError) -> RockingError:
+    reason = error.strerror or str(error)
+    return RockingError(f"{path} cannot be written: {reason}; mend that, then start again.")
 
 
 def data_package(name: str, tables: Mapping[str, tuple[Table, str | list[str]]]) -> bytes:
