@@ -13,7 +13,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.reports.style import TEXT_WIDTH, elided, new_figure, plain_logarithmic, styled, thinned
 
 _PANEL_COLUMNS = 3
-_PANEL_HEIGHT = 27.0
+_PANEL_HEIGHT = 25.0
 _MARGIN_HEIGHT = 6.0
 _STILL = 0.01
 """Share of the largest rotation below which a history is cut from the figure."""
@@ -132,7 +132,9 @@ def _history_panel(panel: Axes, history: History) -> None:
     panel.set_ylim(-reach, reach)
     panel.locator_params(axis="y", nbins=5)
     if history.remark:
-        panel.text(0.99, 0.02, history.remark, transform=panel.transAxes, ha="right", va="bottom", fontsize=7)
+        paper = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}
+        place = {"transform": panel.transAxes, "ha": "right", "va": "bottom"}
+        panel.text(0.99, 0.02, history.remark, fontsize=7, bbox=paper, **place)
 
 
 def _reach(history: History) -> float:
@@ -167,7 +169,7 @@ def rocking_spectrum_figure(
     width: float = TEXT_WIDTH,
 ) -> Figure:
     """Draw rotation ratios (m, n) over p (m,) [rad/s] and λ (n,) with structures (label, p, λ) on them."""
-    figure = new_figure(70, width)
+    figure = new_figure(62, width, margins=(14, 2, 8.5, 1))
     panel = figure.subplots()
     shown = np.where(np.isfinite(ratios), np.minimum(ratios, 1.5), 1.5).T
     levels = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0]
@@ -179,7 +181,7 @@ def rocking_spectrum_figure(
         levels=[0, *levels, 1.5],
         cmap="Greys",
         vmin=0,
-        vmax=2.2,
+        vmax=4,
     )
     lines = panel.contour(
         frequency_parameters, uplift_multipliers, shown, levels=levels[1:-1], colors="black", linewidths=0.5
@@ -192,7 +194,7 @@ def rocking_spectrum_figure(
             overturned,
             levels=[0.5, 1.5],
             colors="none",
-            hatches=["////"],
+            hatches=["///"],
         )
     plain_logarithmic(panel, "x")
     plain_logarithmic(panel, "y")

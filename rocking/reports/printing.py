@@ -97,6 +97,13 @@ def counted(many: int, noun: str) -> str:
     return f"{count(many)} {noun}{'' if many == 1 else 's'}"
 
 
+def listed(names: Sequence[str], most: int = 6) -> str:
+    """Return the names in a row, those beyond `most` as a count."""
+    shown = ", ".join(names[:most])
+    more = len(names) - most
+    return shown if more <= 0 else f"{shown} and {counted(more, 'other')}"
+
+
 def sentence(text: str) -> str:
     """Return the text with a capital first letter."""
     return text[:1].upper() + text[1:]

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from rocking.records.accelerogram import Accelerogram
-from rocking.reports import printing, record_curves, record_tables, record_verdict
+from rocking.reports import printing, record_curves, record_tables, record_variations, record_verdict
 from rocking.reports.document import compile_document
 from rocking.reports.printing import Row, of_component
 from rocking.reports.style import TEXT_WIDTH
@@ -21,9 +21,9 @@ def record_report(
     """Return the PDF of one record.
 
     tables: rows of text as read from the CSV files "record", "pulses", "predictions", "responses", "comparison",
-    "structures" and, where something failed, "failures"; every number printed is one of their cells, rounded. Only
-    curves are computed here, from `accelerograms` and the mechanisms of `structures` (by name). settings: at least
-    tolerance, acceleration_scale and fragility_change.
+    "structures" and, where they exist, "candidates", "processing" and "failures"; every number printed is one of
+    their cells, rounded. Only curves are computed here, from `accelerograms` and the mechanisms of `structures` (by
+    name). settings: at least tolerance, acceleration_scale and fragility_change.
     """
     return compile_document("record.typ", record_data(record, accelerograms, structures, tables, settings))
 
@@ -56,6 +56,7 @@ def record_data(
         "structures": record_tables.structure_table(tables["structures"], numbers),
         "methods": record_tables.method_table(tables, numbers),
         "trust": record_tables.trust_table(tables, numbers),
+        **_variations(tables, numbers),
         **_pictures(accelerograms, structures, tables, numbers, float(settings["tolerance"])),
         **_assumptions(tables, settings),
     }
@@ -76,7 +77,8 @@ def _verdicts(tables: Tables, numbers: Mapping[str, str]) -> list[dict[str, obje
             "caption": f"Component {printing.words(component)}: largest rotation over critical rotation by the closed "
             f"form under the dominant pulse and by full integration under the whole record.{note}",
             "table": record_verdict.verdict_table(of_component(rows, component), numbers),
-            "sentences": record_verdict.verdict_sentences(of_component(rows, component)),
+            "sentences": record_verdict.verdict_sentences(of_component(rows, component))
+            + record_variations.processing_sentences(of_component(tables.get("processing", ()), component)),
         }
         for component in printing.distinct(rows, "component")
     ]
@@ -92,6 +94,20 @@ def _pulse_parts(tables: Tables) -> list[dict[str, object]]:
         }
         for component in printing.distinct(rows, "component")
     ]
+
+
+def _variations(tables: Tables, numbers: Mapping[str, str]) -> dict[str, object]:
+    candidates, processing = tables.get("candidates", ()), tables.get("processing", ())
+    return {
+        "candidates": record_variations.candidate_table(candidates, numbers),
+        "processing": [
+            {
+                "component": printing.words(component),
+                "table": record_variations.processing_table(of_component(processing, component), numbers),
+            }
+            for component in printing.distinct(processing, "component")
+        ],
+    }
 
 
 def _pictures(

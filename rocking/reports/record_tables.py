@@ -113,14 +113,14 @@ def structure_table(rows: Rows, numbers: Mapping[str, str]) -> dict[str, object]
     """Return the structures with their equivalent blocks."""
     columns = [
         ("No.", "auto", "r"),
-        ("Structure", "1.3", "l"),
-        ("Type and geometry", "1.6", "l"),
+        ("Structure", "1.2", "l"),
+        ("Type and geometry", "2.4", "l"),
         ("p [rad/s]", "auto", "r"),
         ("Critical rotation [rad]", "0.7", "r"),
         ("Uplift λ [g]", "0.55", "r"),
         ("Scale, linear\u00adised [-]", "0.6", "r"),
         ("Scale, uplift [-]", "0.55", "r"),
-        ("Linearised λ / λ [-]", "0.75", "r"),
+        ("Linear\u00adised λ / λ [-]", "0.6", "r"),
         ("Resti\u00adtution [-]", "0.55", "r"),
     ]
     return table(columns, [_structure_row(row, numbers) for row in rows])

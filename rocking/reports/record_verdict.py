@@ -1,4 +1,4 @@
-"""What stands on the first page of a record's report: the verdicts, what they amount to, and the warnings above them."""
+"""The first page of a record's report: the verdicts, what they amount to, and the warnings above them."""
 
 from collections.abc import Mapping, Sequence
 
@@ -71,16 +71,10 @@ def _doubts(rows: Rows) -> list[str]:
     fragile = [row["structure"] for row in rows if row["fragile"] == "true"]
     sentences = []
     if unsafe:
-        sentences.append(f"The closed form misses what happens to {_listed(unsafe)}.")
+        sentences.append(f"The closed form misses what happens to {printing.listed(unsafe)}.")
     if fragile:
-        sentences.append(f"Close to a change of verdict, so not decided: {_listed(fragile)}.")
+        sentences.append(f"Close to a change of verdict, so not decided: {printing.listed(fragile)}.")
     return sentences
-
-
-def _listed(names: Sequence[str], most: int = 6) -> str:
-    shown = ", ".join(names[:most])
-    more = len(names) - most
-    return shown if more <= 0 else f"{shown} and {printing.counted(more, 'other')}"
 
 
 def notices(tables: Tables, failures: Rows) -> list[dict[str, object]]:
@@ -101,7 +95,9 @@ def notices(tables: Tables, failures: Rows) -> list[dict[str, object]]:
     ]
     if failing:
         said = dict.fromkeys(f"{row['structure']} ({contact_failure(row)})" for row in failing)
-        found.append((True, f"The model does not hold, because a contact fails, for {_listed(list(said))}."))
+        found.append(
+            (True, f"The model does not hold, because a contact fails, for {printing.listed(list(said))}.")
+        )
     if not tables["pulses"]:
         found.append(
             (True, "No pulse could be sought in this record, so there is no closed-form prediction.")

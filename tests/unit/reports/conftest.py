@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from rocking import columns
-from rocking.comparison import AssessmentSettings, assess
+from rocking.comparison import Assessment, AssessmentSettings, assess
 from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram, Source
-from rocking.rows import all_rows
+from rocking.rows import Identity, all_rows, candidate_rows, processing_rows
 from rocking.structures import Arch, Block, Wall
 from rocking.summary import structure_rows
 from rocking.tables import csv_cells
+from rocking.variations import candidates, processed, processed_variants
 
 TABLES = {table.name: table for table in (*columns.RECORD_TABLES, columns.FAILURES)}
 ASSESSMENT = AssessmentSettings()
@@ -54,11 +55,27 @@ def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[st
     tables: dict[str, list] = {name: [] for name in TABLES}
     for accelerogram in accelerograms:
         computed = assess(accelerogram, structures, ASSESSMENT)
-        rows = all_rows(record, computed, ASSESSMENT, "CC0-1.0", "cd" * 32)
+        identity = Identity(record, accelerogram, "cd" * 32)
+        rows = all_rows(identity, computed, ASSESSMENT, "CC0-1.0")
+        rows |= varied(identity, computed, structures)
         for name, table in TABLES.items():
             tables[name] += [csv_cells(table, row) for row in rows[name]]
     tables["structures"] = [csv_cells(columns.STRUCTURES, row) for row in structure_rows(structures)]
     return Assessed(record, accelerograms, structures, tables)
+
+
+def varied(identity: Identity, computed: Assessment, structures: dict[str, object]) -> dict[str, list]:
+    """Return the rows of candidates and processing."""
+    made: dict[str, list] = {"candidates": [], "processing": []}
+    records = processed(identity.accelerogram)
+    pulse = computed.analysis.dominant if computed.analysis else None
+    for name, structure in structures.items():
+        found = candidates(structure, identity.accelerogram, pulse, 7, ASSESSMENT)
+        made["candidates"] += candidate_rows(identity, name, found)
+        made["processing"] += processing_rows(
+            identity, name, processed_variants(structure, records, ASSESSMENT)
+        )
+    return made
 
 
 @pytest.fixture(scope="package")

@@ -18,7 +18,7 @@ from .conftest import HOSTILE, SETTINGS, assessed, shaken
 NUMBER = re.compile(r"[−-]?\d+(?:\.\d+)?(?: × 10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
 CSV_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 PLAIN = str.maketrans("−⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789")
-TABLES_OF_NUMBERS = ("identity", "structures", "methods", "trust")
+TABLES_OF_NUMBERS = ("identity", "structures", "methods", "trust", "candidates")
 
 
 def printed_numbers(text: str) -> list[tuple[float, float]]:
@@ -40,7 +40,7 @@ def csv_numbers(tables) -> np.ndarray:
 
 def shown_tables(data) -> list[dict]:
     """Every table of numbers in the data of the template."""
-    parts = [part["table"] for name in ("verdicts", "pulses") for part in data[name]]
+    parts = [part["table"] for name in ("verdicts", "pulses", "processing") for part in data[name]]
     return parts + [data[name] for name in TABLES_OF_NUMBERS]
 
 
@@ -165,6 +165,7 @@ def test_a_hundred_structures_are_all_in_the_first_table_and_few_are_drawn(examp
     for name in ("comparison", "structures", "predictions"):
         first = tables[name][0]
         tables[name] = [first | {"structure": f"block {place}"} for place in range(100)]
+    tables |= {"candidates": [], "processing": []}
     structures = {f"block {place}": example.structures["block 4 m"] for place in range(100)}
     data = record_data(example.record, example.accelerograms, structures, tables, SETTINGS)
     assert len(data["verdicts"][0]["table"]["rows"]) == 100
@@ -187,3 +188,20 @@ def test_a_contact_that_fails_is_said_first(example):
     said = f"{failing['structure']} (slides and bounces)"
     assert any(said in notice["text"] and notice["strong"] for notice in data["notices"])
     assert data["trust"]["rows"][0][-1] == {"text": "slides and bounces", "strong": True}
+
+
+def test_the_governing_height_is_the_one_that_the_table_marks(example):
+    marked = [row for row in example.tables["candidates"] if row["governs_record"] == "true"]
+    shown = record_data(*example.arguments)["candidates"]["rows"]
+    assert [row[2] for row in shown] == [row["structure"] for row in marked] == ["wall 3 m"]
+    # three significant digits
+    assert float(shown[0][5]) == pytest.approx(float(marked[0]["position_m"]), rel=5e-3)
+
+
+def test_an_outcome_that_processing_decides_is_said(example):
+    tables = json.loads(json.dumps(example.tables))
+    row = next(row for row in tables["processing"] if row["structure"] == "arch 20 m")
+    row["outcome"] = "overturns" if row["outcome"] != "overturns" else "rocks"
+    data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
+    said = [text for text in data["verdicts"][0]["sentences"] if "depends on the processing" in text]
+    assert "arch 20 m" in said[0]
