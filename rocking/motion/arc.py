@@ -18,17 +18,20 @@ class Arc:
     """The arc of one side over the rotations [0, last].
 
     stretch: dq/dφ at a rotation. integrals: Chebyshev coefficients (16, m) of the arc over m equal pieces of rotation,
-    starts: (m + 1,) the arc at their ends.
+    starts: (m + 1,) the arc at their ends. rigid: dq/dφ is 1 throughout, so that q = φ.
     """
 
     stretch: Function
     last: float
     integrals: np.ndarray
     starts: np.ndarray
+    rigid: bool
 
     def at(self, rotation: np.ndarray) -> np.ndarray:
         """Return the arc at `rotation` [rad], any shape; small rotations keep their relative accuracy."""
         rotation = np.asarray(rotation, dtype=float)
+        if self.rigid:
+            return rotation
         count = self.starts.size - 1
         place = np.clip(rotation / self.last * count, 0, count)
         piece = np.minimum(place.astype(int), count - 1)
@@ -43,6 +46,8 @@ class Arc:
     def rotation(self, arc: np.ndarray) -> np.ndarray:
         """Return the rotation [rad] at `arc`, any shape, by Newton's method."""
         arc = np.asarray(arc, dtype=float)
+        if self.rigid:
+            return np.clip(arc, 0.0, self.last)
         rotation = np.interp(arc, self.starts, np.linspace(0.0, self.last, self.starts.size))
         for _ in range(6):
             rotation = np.clip(rotation - (self.at(rotation) - arc) / self.stretch(rotation), 0.0, self.last)
@@ -67,7 +72,7 @@ def arc_of(side: Side, last: float, accuracy: float) -> Arc | None:
         if np.abs(coefficients[-2:]).max() <= accuracy * np.abs(values).max():
             integrals = chebyshev.chebint(coefficients, lbnd=-1) * half
             starts = np.concatenate([[0.0], np.cumsum(integrals.sum(axis=0))])
-            return Arc(stretch, last, integrals, starts)
+            return Arc(stretch, last, integrals, starts, bool(np.all(values == 1)))
         count *= 2
     return None
 

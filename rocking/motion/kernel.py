@@ -99,8 +99,12 @@ def _place(grid, arc):
 
 
 @compiled
-def _shift(e0, e1, e2, e3, e4, e5, e6, e7, u):
-    """Taylor coefficients 0 to 6, about u, of the polynomial with the coefficients e0 to e7 about 0."""
+def _shift(piece, g, b, u):
+    """Taylor coefficients 0 to 6, about the place u of a piece, of g G̃ + b B̃."""
+    e0, e1 = g * piece[0] + b * piece[1], g * piece[2] + b * piece[3]
+    e2, e3 = g * piece[4] + b * piece[5], g * piece[6] + b * piece[7]
+    e4, e5 = g * piece[8] + b * piece[9], g * piece[10] + b * piece[11]
+    e6, e7 = g * piece[12] + b * piece[13], g * piece[14] + b * piece[15]
     a0 = e0 + u * (e1 + u * (e2 + u * (e3 + u * (e4 + u * (e5 + u * (e6 + u * e7))))))
     a1 = e1 + u * (2 * e2 + u * (3 * e3 + u * (4 * e4 + u * (5 * e5 + u * (6 * e6 + u * 7 * e7)))))
     a2 = e2 + u * (3 * e3 + u * (6 * e4 + u * (10 * e5 + u * (15 * e6 + u * 21 * e7))))
@@ -117,34 +121,12 @@ def _series(piece, u, v, side, a0, a1, g0, g1, square):
     Ground acceleration a0 + a1 t (or the sine that starts so, with the squared frequency `square`), gravity g0 + g1 t.
     """
     s0, s1 = side * a0, side * a1
-    w0, w1, w2, w3, w4, w5, w6 = _shift(
-        g0 * piece[0] + s0 * piece[1],
-        g0 * piece[2] + s0 * piece[3],
-        g0 * piece[4] + s0 * piece[5],
-        g0 * piece[6] + s0 * piece[7],
-        g0 * piece[8] + s0 * piece[9],
-        g0 * piece[10] + s0 * piece[11],
-        g0 * piece[12] + s0 * piece[13],
-        g0 * piece[14] + s0 * piece[15],
-        u,
-    )
-    r0, r1, r2, r3, r4, r5, _ = _shift(
-        g1 * piece[0] + s1 * piece[1],
-        g1 * piece[2] + s1 * piece[3],
-        g1 * piece[4] + s1 * piece[5],
-        g1 * piece[6] + s1 * piece[7],
-        g1 * piece[8] + s1 * piece[9],
-        g1 * piece[10] + s1 * piece[11],
-        g1 * piece[12] + s1 * piece[13],
-        g1 * piece[14] + s1 * piece[15],
-        u,
-    )
+    w0, w1, w2, w3, w4, w5, w6 = _shift(piece, g0, s0, u)
+    r0, r1, r2, r3, r4, r5, _ = _shift(piece, g1, s1, u)
     b0 = b1 = b2 = b3 = b4 = 0.0
     s2 = s3 = s4 = s5 = s6 = 0.0
     if square != 0.0:
-        b0, b1, b2, b3, b4, _, _ = _shift(
-            piece[1], piece[3], piece[5], piece[7], piece[9], piece[11], piece[13], piece[15], u
-        )
+        b0, b1, b2, b3, b4, _, _ = _shift(piece, 0.0, 1.0, u)
         s2, s3 = -square * s0 / 2, -square * s1 / 6
         s4, s5, s6 = -square * s2 / 12, -square * s3 / 20, square * square * s2 / 360
     # pkn: coefficient n of the k-th power of the displacement within the step.

@@ -24,17 +24,12 @@ def follow(
 ) -> Response:
     """Integrate the table's mechanism through the forcing. start: rotation, rate outward, side (0: at rest)."""
     pieces, grid, lift, hold, critical, end, restitution, reaching, pace = table.arrays
-    rotation, velocity, sign = start
-    side = table.side(sign)
-    if sign and not float(side.arc(np.float64(min(rotation, 1e300)))) < side.end:
-        raise MotionError(f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.")
-    arc, speed = float(side.arc(np.float64(rotation))), velocity * float(side.stretch(np.float64(rotation)))
+    state = _initial(table, *start) if start[2] else (0.0, 0.0, 0)
     if forcing.frequency > 0:
         pace = np.minimum(pace, 1 / forcing.frequency)
     rest_speed = reaching * math.sqrt(kernel.REST_ENERGY)
     mechanism = (pieces, grid, lift, hold, critical, end, restitution, rest_speed, pace, table.one_sided)
     motion = (forcing.ground, forcing.gravity, forcing.threat, GRAVITY, forcing.time_step, forcing.frequency)
-    state = (arc, speed, sign)
     found, log = logged_run(
         kernel.rock,
         (*mechanism, *motion, *state, STEP_SHARE * tolerance),
@@ -103,6 +98,15 @@ def with_history(
     return Response(
         **fields | {"times": times + start_time, "rotation": rotation, "angular_velocity": velocity}
     )
+
+
+def _initial(table: Table, rotation: float, velocity: float, sign: int) -> tuple[float, float, int]:
+    """The initial state in the arc; raises MotionError beyond the end of the mechanism."""
+    side = table.side(sign)
+    arc = float(side.arc(np.float64(rotation)))
+    if not arc < side.end:
+        raise MotionError(f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.")
+    return arc, velocity * float(side.stretch(np.float64(rotation))), sign
 
 
 def _ratio(side: SideTable, arc: float) -> float:

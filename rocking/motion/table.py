@@ -7,6 +7,7 @@ G̃ = G/√(I I(0)) and B̃ = B/√(I I(0)). For a rigid body I is constant and 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -24,6 +25,7 @@ ROOM = 0.25
 
 _AIM = 2e-14
 _MOST_PIECES = 4096
+_GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(40)
 _NODES = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
 _CUTS = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.4)
 """Shares that may be cut off beyond φ_cr, where a mechanism locks and its inertia has no bound."""
@@ -83,13 +85,22 @@ class Table:
         return self.sides[0 if sign > 0 else -1]
 
 
-@lru_cache(maxsize=256)
+_REMEMBERED: WeakKeyDictionary[Mechanism, Table] = WeakKeyDictionary()
+
+
 def table_of(mechanism: Mechanism) -> Table:
-    """Return the table of a mechanism, remembered per object. Raises MotionError when it cannot be tabulated."""
-    return _stacked(tuple(_side_table(side) for side in mechanism.sides), mechanism.one_sided)
+    """Return the table of a mechanism, remembered as long as the mechanism lives.
+
+    Raises MotionError when it cannot be tabulated.
+    """
+    found = _REMEMBERED.get(mechanism)
+    if found is None:
+        found = _stacked(tuple(_side_table(side) for side in mechanism.sides), mechanism.one_sided)
+        _REMEMBERED[mechanism] = found
+    return found
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=1024)
 def linear_table(block: EquivalentBlock) -> Table:
     """Return the table of an equivalent block: exact, and without an end to its rotation."""
     others = () if block.other_side is None else (block.other_side,)
@@ -193,9 +204,8 @@ def _tabulated(side: Side, last: float) -> SideTable | None:
 
 def _reaching_speed(side: Side, rest_inertia: float) -> float:
     """√(2 g ∫ G dφ / I(0)) from 0 to φ_cr."""
-    nodes, weights = np.polynomial.legendre.leggauss(40)
     half = side.critical_rotation / 2
-    return float(np.sqrt(2 * GRAVITY * half * (weights @ side.gravity(half * (nodes + 1))) / rest_inertia))
+    return float(np.sqrt(2 * GRAVITY * half * (_WEIGHTS @ side.gravity(half * (_GAUSS + 1))) / rest_inertia))
 
 
 def _hold(side: Side, rotation: Function, starts: np.ndarray) -> np.ndarray:

@@ -189,7 +189,7 @@ def test_impact_work_balance(seed):
 
 
 def work_of_ground(side, response, record) -> float:
-    """∫ −B ü_g dφ along the signed path, by the trapezoid over the history, whose steps of 0.5 ms err by about (p Δt)²."""
+    """∫ −B ü_g dφ along the signed path, by the trapezoid over the history, whose 0.5 ms err by about (p Δt)²."""
     acceleration = np.interp(response.times, record.times, record.acceleration, right=0.0)
     force = -np.cos(0.25 - np.abs(response.rotation)) * acceleration
     assert side.at("ground", 0.0) == pytest.approx(np.cos(0.25), rel=1e-12)
