@@ -44,6 +44,8 @@ RECORD = Table(
         Column("format", "string", "Format that recognised the file"),
         Column("unit", "string", "Unit of the numbers in the file"),
         Column("licence", "string", "Licence of the record, as the catalogue declares it"),
+        Column("vertical_component", "string", "Vertical component that acts too; empty where none does"),
+        Column("vertical_peak_acceleration_m_s2", "number", "Largest magnitude of the vertical acceleration"),
         Column("samples", "integer", "Number of samples"),
         Column("time_step_s", "number", "Time step"),
         Column("duration_s", "number", "Time from the first to the last sample"),

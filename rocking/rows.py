@@ -53,12 +53,16 @@ class Identity:
 
 
 def all_rows(
-    identity: Identity, assessment: Assessment, settings: AssessmentSettings, licence: str
+    identity: Identity,
+    assessment: Assessment,
+    settings: AssessmentSettings,
+    licence: str,
+    vertical: Accelerogram | None = None,
 ) -> dict[str, list[Row]]:
     """The rows that one assessment gives, by name of the table."""
     cases = assessment.cases
     return {
-        "record": [record_row(identity, licence)],
+        "record": [record_row(identity, licence, vertical)],
         "pulses": pulse_rows(identity, assessment.analysis, assessment.interval),
         "predictions": [
             row for case in cases for row in prediction_rows(identity, case, settings.acceleration_scale)
@@ -74,7 +78,7 @@ def all_rows(
     }
 
 
-def record_row(identity: Identity, licence: str) -> Row:
+def record_row(identity: Identity, licence: str, vertical: Accelerogram | None = None) -> Row:
     """The row of the record table for one component."""
     accelerogram = identity.accelerogram
     return (
@@ -86,6 +90,8 @@ def record_row(identity: Identity, licence: str) -> Row:
             "format": accelerogram.source.format,
             "unit": accelerogram.source.unit,
             "licence": licence,
+            "vertical_component": vertical.component or "not named" if vertical else None,
+            "vertical_peak_acceleration_m_s2": vertical.peak_acceleration if vertical else None,
             "samples": accelerogram.acceleration.size,
             "time_step_s": accelerogram.time_step,
             "duration_s": accelerogram.duration,

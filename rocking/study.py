@@ -12,6 +12,7 @@ from rocking.errors import RockingError
 from rocking.pulses import PulseSettings
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord, open_record
+from rocking.records.vertical import aligned, open_vertical
 from rocking.structures import Structure, load_structures
 from rocking.tables import Row, write_table
 from rocking.variations import candidates, processed, processed_variants
@@ -24,6 +25,7 @@ class Study:
     structures: by name. mirror: a folder that holds the files of remote records, or None.
     candidates: heights tried for the hinge of a wall or the crack of a spire, 0 for none.
     processing_variants: whether every structure also meets the record processed otherwise.
+    vertical: whether the vertical component acts too, where there is one.
     settings_sha256: names the settings, the structure list and the package in every row.
     """
 
@@ -33,6 +35,19 @@ class Study:
     mirror: Path | None = None
     candidates: int = 19
     processing_variants: bool = True
+    vertical: bool = False
+
+    def open(self, record: CatalogueRecord) -> tuple[list[Accelerogram], Accelerogram | None]:
+        """Return the horizontal components of `record` and, where it is asked for and there is one, its vertical one.
+
+        Raises RecordError naming the record, also when the vertical component does not fit the others.
+        """
+        accelerograms = open_record(record, mirror=self.mirror)
+        vertical = open_vertical(record, mirror=self.mirror) if self.vertical else None
+        if vertical is not None:
+            for accelerogram in accelerograms:
+                aligned(vertical, accelerogram)
+        return accelerograms, vertical
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], structures: Path, sha256: str) -> "Study":
@@ -59,6 +74,7 @@ class Study:
             Path(mirror) if mirror else None,
             settings["candidates"],
             settings["processing_variants"],
+            settings["vertical"],
         )
 
 
@@ -78,13 +94,13 @@ def assess_record(record: CatalogueRecord, study: Study, folder: Path) -> list[s
     started = process_time()
     tables: dict[str, list[Row]] = {table.name: [] for table in columns.PER_RECORD}
     try:
-        accelerograms = open_record(record, mirror=study.mirror)
+        accelerograms, vertical = study.open(record)
     except RockingError as error:
         tables["failures"] = [rows.failure_row(record.id, "", Failure("read", "", str(error)))]
-        accelerograms = []
+        accelerograms, vertical = [], None
     durations = {"read": process_time() - started}
     for accelerogram in accelerograms:
-        _assess_component(record, accelerogram, study, tables, durations)
+        _assess_component(record, accelerogram, vertical, study, tables, durations)
     tables["timings"] = [
         {"record": record.id, "stage": stage, "duration_s": duration} for stage, duration in durations.items()
     ]
@@ -96,13 +112,15 @@ def assess_record(record: CatalogueRecord, study: Study, folder: Path) -> list[s
 def _assess_component(
     record: CatalogueRecord,
     accelerogram: Accelerogram,
+    vertical: Accelerogram | None,
     study: Study,
     tables: dict[str, list[Row]],
     durations: dict[str, float],
 ) -> None:
-    assessment = assess(accelerogram, study.structures, study.settings)
+    beside = None if vertical is None else aligned(vertical, accelerogram)
+    assessment = assess(accelerogram, study.structures, study.settings, beside)
     identity = rows.Identity(record.id, accelerogram, study.settings_sha256)
-    made = rows.all_rows(identity, assessment, study.settings, record.licence)
+    made = rows.all_rows(identity, assessment, study.settings, record.licence, beside)
     for name, new in made.items():
         tables[name].extend(new)
     varied = process_time()

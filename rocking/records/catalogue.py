@@ -59,6 +59,17 @@ def open_record(
     scale_factor, station, event and high_pass_frequency of the row are applied.
     Raises RecordError naming record and file.
     """
+    channels = channels_of(record, mirror, cache)
+    try:
+        return [as_declared(channel, record) for channel in _selected(channels, record)]
+    except RecordError as error:
+        raise type(error)(f"{record.id} ({record.file}): {error}") from error
+
+
+def channels_of(
+    record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None
+) -> list[Accelerogram]:
+    """Return every channel of the record's file as it was read. Raises RecordError naming record and file."""
     path = fetch(record, mirror, cache)
     try:
         channels = read(
@@ -66,7 +77,7 @@ def open_record(
         )
         if channels[0].source.sha256 != record.sha256:
             raise RecordError(f"{path.name}: the file changed while it was read.")
-        return [_as_declared(channel, record) for channel in _selected(channels, record)]
+        return channels
     except RecordError as error:
         raise type(error)(f"{record.id} ({record.file}): {error}") from error
 
@@ -151,7 +162,8 @@ def _named(channel: Accelerogram, component: str) -> Accelerogram:
     return replace(channel, component=component, azimuth=azimuth(component), vertical=is_vertical(component))
 
 
-def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
+def as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
+    """Return a channel with the scale, station, event and corner frequency of its row."""
     channel = channel.scaled(record.scale_factor) if record.scale_factor != 1 else channel
     return replace(
         channel,

@@ -10,7 +10,8 @@ from rocking.errors import CatalogueError, RockingError
 from rocking.units import acceleration_factor
 
 COLUMNS = (
-    "id", "file", "source_repository", "source_path", "source_commit", "component", "vertical_component", "unit",
+    "id", "file", "source_repository", "source_path", "source_commit", "component", "vertical_component",
+    "vertical_file", "vertical_sha256", "unit",
     "time_step_s", "scale_factor", "event", "station", "licence", "sha256", "inventory", "high_pass_hz", "note",
 )  # fmt: skip
 """Columns of a catalogue. Required: id, file and sha256; the source columns only for files that are fetched."""
@@ -25,6 +26,7 @@ _RESERVED = {
     *(f"{port}{i}" for port in ("com", "lpt") for i in range(10)),
     "summary",
 }
+_HASH = re.compile(r"[0-9a-f]{64}")
 _REPOSITORY = re.compile(r"[\w.-]+/[\w.-]+", re.ASCII)
 
 
@@ -34,7 +36,8 @@ class CatalogueRecord:
 
     file: path inside `folder` or a mirror, or "obspy:NAME" for an example file that obspy installs. component: which
     channels to use, separated by ";" (empty: every horizontal one at the surface). vertical_component: the channel that
-    is vertical where the file's own name for it does not say so. unit, time_step [s]: where the file is silent.
+    is vertical where the file's own name for it does not say so. vertical_file, vertical_sha256: another file, beside
+    the catalogue or in a mirror, that holds it. unit, time_step [s]: where the file is silent.
     scale_factor: multiplies the acceleration. inventory: StationXML, a path like `file`. high_pass_frequency: Hz.
     sha256: of the file as it lies on disk. folder: of the catalogue. Raises CatalogueError naming the field.
     """
@@ -47,6 +50,8 @@ class CatalogueRecord:
     source_commit: str = ""
     component: str = ""
     vertical_component: str = ""
+    vertical_file: str = ""
+    vertical_sha256: str = ""
     unit: str = ""
     time_step: float | None = None
     scale_factor: float = 1.0
@@ -92,13 +97,15 @@ def _defects(record: CatalogueRecord) -> Iterable[str]:
     ):
         allowed = "a safe file name: letters, digits, . _ -, at most 80, not a reserved name"
         yield f"id is {record.id!r}, but must be {allowed}."
-    for name in ("file", "inventory"):
+    for name in ("file", "inventory", "vertical_file"):
         if (value := getattr(record, name)) and not _stays_inside(value.removeprefix(_OBSPY)):
             yield f"{name} is {value!r}, but must be a relative path without '..'."
     if not record.file:
         yield "file is missing; give a path beside the catalogue or obspy:NAME."
-    if not re.fullmatch(r"[0-9a-f]{64}", record.sha256):
+    if not _HASH.fullmatch(record.sha256):
         yield f"sha256 is {record.sha256!r}, but must be 64 hexadecimal digits in lower case."
+    if record.vertical_file and not _HASH.fullmatch(record.vertical_sha256):
+        yield f"vertical_sha256 is {record.vertical_sha256!r}, but must be 64 hexadecimal digits in lower case."
     yield from _source_defects(record)
     yield from _number_defects(record)
 
