@@ -18,7 +18,7 @@ _TIME = re.compile(r"t|time\b.*|seconds?", re.I)
 _UNIT = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
 _HEAD = 12
-_BLANK, _LINE_END = 32, 10
+_BLANK, _LINE_END, _RETURN = 32, 10, 13
 _COMMENTED_FORMAT = b"#Earthquake Information"
 """CWB's header, which looks like comments above columns."""
 
@@ -26,7 +26,7 @@ _COMMENTED_FORMAT = b"#Earthquake Information"
 @dataclass(frozen=True)
 class _Table:
     names: tuple[str, ...]
-    widths: tuple[int, ...]
+    width: int
     start: int
     """Number of lines before the first row of numbers."""
 
@@ -56,9 +56,10 @@ def _table(content: bytes) -> _Table | None:
             return None
         else:
             names, start = _names(line), start + 1
-    if len(widths) < 2 or (names and len(names) != widths[0]) or len(set(widths[:-1])) > 1:
+    uneven = len(set(widths[:-1])) > 1 or widths[-1:] > widths[:1]
+    if len(widths) < 2 or uneven or (names and len(names) != widths[0]):
         return None
-    return _Table(names, tuple(widths), start)
+    return _Table(names, widths[0], start)
 
 
 def _whole_lines(content: bytes) -> list[str]:
@@ -76,14 +77,16 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         raise RecordError(
             f"{name}: the file does not hold columns of numbers below at most one row of names."
         )
-    width = max(table.widths)
+    width = table.width
     body = _body(content, table.start)
     if _EMPTY_CELL.search(body):
         raise RecordError(f"{name}: a cell is empty; every column needs a number on every line.")
     values = numbers(name, body.replace(b",", b" ").replace(b";", b" "))
-    if width == 1 or (not table.names and width > 2 and not _time_first(values, width)):
-        return [_series(name, values, options, table.names[0] if width == 1 and table.names else "")]
-    return _channels(name, _rows(name, body, values, width), table.names, options)
+    wrapped = width > 2 and not table.names and not _time_first(values, width)
+    _check_rows(name, body, width, last_may_be_short=wrapped)
+    if width == 1 or wrapped:
+        return [_series(name, values, options, table.names[0] if table.names else "")]
+    return _channels(name, values.reshape(-1, width), table.names, options)
 
 
 def _body(content: bytes, start: int) -> bytes:
@@ -101,19 +104,21 @@ def _time_first(values: np.ndarray, width: int) -> bool:
     return first.size > 2 and first[0] >= 0 and steps.min() > 0 and float(np.ptp(steps)) < 0.01 * steps[0]
 
 
-def _rows(name: str, body: bytes, values: np.ndarray, width: int) -> np.ndarray:
-    """Return `values` as rows, after checking that each line that is not empty holds `width` of them."""
+def _check_rows(name: str, body: bytes, width: int, last_may_be_short: bool) -> None:
+    """Check that each row holds `width` numbers. Raises RecordError naming the first that does not."""
     octets = np.frombuffer(body + b"\n", dtype=np.uint8)
     apart = (octets <= _BLANK) | (octets == ord(",")) | (octets == ord(";"))
     first = np.flatnonzero(~apart & np.concatenate([[True], apart[:-1]]))
-    filled = np.diff(np.searchsorted(first, np.flatnonzero(octets == _LINE_END)), prepend=0)
-    wrong = np.flatnonzero((filled != 0) & (filled != width))
+    ends = np.flatnonzero((octets == _LINE_END) | (octets == _RETURN))
+    filled = np.diff(np.searchsorted(first, ends), prepend=0)
+    rows = filled[filled != 0]
+    wrong = np.flatnonzero(rows != width)
+    if last_may_be_short and wrong.size == 1 and wrong[0] == rows.size - 1 and rows[-1] < width:
+        return
     if wrong.size:
-        at = int(wrong[0])
         raise RecordError(
-            f"{name}: line {at + 1} of the samples has {filled[at]} columns, but the others have {width}."
+            f"{name}: row {wrong[0] + 1} of the samples has {rows[wrong[0]]} columns, but the first has {width}."
         )
-    return values.reshape(-1, width)
 
 
 def _series(name: str, values: np.ndarray, options: Options, label: str) -> Accelerogram:

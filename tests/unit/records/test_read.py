@@ -68,7 +68,7 @@ def test_gzip_is_unpacked_and_its_own_hash_kept(tmp_path: Path) -> None:
     (at2(["0.1", "0.2"], dt="1.0.1"), "DT is '1.0.1', but must be a number"),
     (at2(["0.1", "0.2"], unit="UNKNOWN"), "unit is not declared"),
     (at2(["100", "818"]), "peak acceleration is 818 g.*980.665"),
-    (at2(["0.1"]), "shape"),
+    (at2(["0.1"]), "declares 1 samples, but must declare at least 2"),
 ])  # fmt: skip
 def test_bad_files_get_one_sentence_that_names_them(
     tmp_path: Path, content: str | bytes, message: str
@@ -136,7 +136,10 @@ def test_times_rounded_in_print_are_even_and_uneven_ones_are_resampled(tmp_path:
     ("0.00 1\n0.01 2\n0.01 3\n0.02 1\n", "times must increase"),
     ("time,a(g)\n0.00,1\n0.01,\n0.02,3\n", "columns|empty"),
     ("time,a(g)\n0.00,1\n0.01,2,3\n0.02,3\n", "no reader recognises|columns"),
-    ("1,2,3\n4,5,6\n7,8,9\n1,2\n", "columns"),
+    ("t,NS,EW\n0,5,6\n1,8,9\n2,2\n", "row 3 of the samples has 2 columns, but the first has 3|no reader"),
+    ("E\n7\n9\n1 2\n", "no reader recognises"),
+    ("1\n" * 40 + "1 2\n" + "3\n", "row 41 of the samples has 2 columns, but the first has 1"),
+    ("1 2 3\n" * 40 + "1 2\n" + "3 3 3\n", "row 41 of the samples has 2 columns, but the first has 3"),
     ("time,a(inches)\n0.00,1\n0.01,2\n0.02,3\n", "unit is not declared"),
 ])  # fmt: skip
 def test_bad_tables(tmp_path: Path, text: str, message: str) -> None:

@@ -22,7 +22,12 @@ def _written(folder, name, values):
 def _record(folder, **changes):
     horizontal = _written(folder, "h.txt", VALUES)
     vertical = _written(folder, "v.txt", 0.5 * VALUES[:250])
-    given = {"vertical_file": "v.txt", "vertical_sha256": vertical, "unit": "m/s2", "scale_factor": 2.0} | changes
+    given = {
+        "vertical_file": "v.txt",
+        "vertical_sha256": vertical,
+        "unit": "m/s2",
+        "scale_factor": 2.0,
+    } | changes
     return CatalogueRecord("a", "h.txt", horizontal, folder=folder, **given)
 
 
