@@ -1,0 +1,154 @@
+"""The parts of the pages that the code itself knows: formats, settings, structures, tables, equations, lights."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from rocking import columns
+from rocking.documentation.signatures import python_names
+from rocking.records.formats import FORMATS
+from rocking.tables import Table
+from rocking.units import ACCELERATION_UNITS
+
+
+def formats(_: Path) -> str:
+    """The formats that are read, and what each is recognised by."""
+    return table(("format", "recognised by"), ((form.name, form.sought) for form in FORMATS))
+
+
+def units(_: Path) -> str:
+    """The units that may be declared."""
+    return ", ".join(f"`{unit}`" for unit in ACCELERATION_UNITS) + "."
+
+
+def settings(workflow: Path) -> str:
+    """Every setting with its meaning, what is allowed, and its default."""
+    schema = _yaml(workflow / "schemas" / "config.schema.yaml")
+    defaults = _yaml(workflow / "config.yaml")
+    rows = _setting_rows(schema["properties"], defaults)
+    return table(("setting", "meaning", "allowed", "default"), rows)
+
+
+def structures(workflow: Path) -> str:
+    """The keys of every type of structure."""
+    schema = _yaml(workflow / "schemas" / "structures.schema.yaml")
+    return "\n\n".join(_structure(form, schema["definitions"]) for form in _forms(schema))
+
+
+def tables(_: Path) -> str:
+    """Every column of every table."""
+    known = dict.fromkeys((*columns.RECORD_TABLES, *columns.SUMMARY_TABLES, columns.SPECTRUM))
+    return "\n\n".join(_table_section(described) for described in known)
+
+
+def equations(_: Path) -> str:
+    """The equations that the paper prints with a slip, with the numbers that decide."""
+    from rocking.reports.paper_equations import (
+        equation_rows,  # compiles the integration, which only this needs
+    )
+
+    head = ("Eq.", "printed", "corrected", "quantity", "by the printed", "by the corrected", "decides")
+    names = ("equation", "printed", "corrected", "quantity")
+    numbers = ("printed_number", "corrected_number", "deciding_number")
+    rows = equation_rows()
+    body = (
+        (*(str(row[name]) for name in names), *(f"{float(str(row[name])):.5g}" for name in numbers))
+        for row in rows
+    )
+    return table(head, body)
+
+
+def lights(_: Path) -> str:
+    """The lights, their conditions and what was measured."""
+    from rocking.pulses.evidence import THRESHOLDS, Light
+
+    energy, ratio = THRESHOLDS.green_explained_energy, f"a_g/(g λ) ≥ {THRESHOLDS.amplitude_ratio:g}"
+    amber = f"{THRESHOLDS.amber_explained_energy:g} ≤ explained energy < {energy:g}"
+    conditions = {
+        Light.GREEN: f"{ratio} and explained energy ≥ {energy:g}",
+        Light.AMBER: f"{ratio} and {amber}",
+        Light.RED: "otherwise",
+    }
+    rows = ((light.value, condition, light.sentence) for light, condition in conditions.items())
+    return f"{table(('light', 'condition', 'meaning'), rows)}\n\nMeasured on {THRESHOLDS.evidence}"
+
+
+def regimes(_: Path) -> str:
+    """The regimes of the closed form."""
+    from rocking.sine_pulse import Regime
+
+    return table(("regime", "meaning"), ((regime.value, regime.sentence) for regime in Regime))
+
+
+def api(_: Path) -> str:
+    """Every public name with its signature and docstring."""
+    return python_names()
+
+
+GENERATED: Mapping[str, Callable[[Path], str]] = {
+    part.__name__: part
+    for part in (formats, units, settings, structures, tables, equations, lights, regimes, api)
+}
+"""What may stand behind `generated:` in a page."""
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a Markdown table; a bar inside a cell is escaped."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join(
+        f"| {' | '.join(' '.join(cell.split()).replace('|', '&#124;') for cell in line)} |" for line in lines
+    )
+
+
+def _yaml(path: Path) -> dict[str, Any]:
+    return yaml.safe_load(path.read_text(encoding="utf-8"))
+
+
+def _setting_rows(
+    properties: Mapping[str, Any], defaults: Mapping[str, Any], above: str = ""
+) -> Iterator[Sequence[str]]:
+    for name, schema in properties.items():
+        if "properties" in schema:
+            yield from _setting_rows(schema["properties"], defaults[name], f"{above}{name}.")
+        else:
+            default = "null" if defaults[name] is None else str(defaults[name])
+            yield f"`{above}{name}`", schema.get("description", ""), allowed(schema), f"`{default}`"
+
+
+def allowed(schema: Mapping[str, Any]) -> str:
+    """Return in words what a JSON schema allows of one value."""
+    if "oneOf" in schema:
+        return " or ".join(allowed(choice) for choice in schema["oneOf"])
+    if "enum" in schema:
+        return ", ".join(f"`{value}`" for value in schema["enum"])
+    kinds = schema.get("type", "any")
+    words = " or ".join([kinds] if isinstance(kinds, str) else kinds).replace("string", "text")
+    bounds = {"minimum": "≥", "exclusiveMinimum": ">", "maximum": "≤", "exclusiveMaximum": "<"}
+    limits = [f"{sign} {schema[name]:g}" for name, sign in bounds.items() if name in schema]
+    return f"{words} {' and '.join(limits)}".strip()
+
+
+def _forms(schema: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
+    for reference in schema["items"]["oneOf"]:
+        yield schema["definitions"][reference["$ref"].rsplit("/", 1)[1]]
+
+
+def _structure(form: Mapping[str, Any], definitions: Mapping[str, Any]) -> str:
+    rows = []
+    for key, given in form["properties"].items():
+        schema = definitions[given["$ref"].rsplit("/", 1)[1]] if "$ref" in given else given
+        if key in ("name", "type"):
+            continue
+        needed = "required" if key in form["required"] else "optional"
+        rows.append((f"`{key}`", schema.get("description", ""), allowed(schema), needed))
+    kind = form["properties"]["type"]["const"]
+    body = table(("key", "meaning", "allowed", ""), rows)
+    return f"### `type: {kind}` — {form['description']}\n\n{body}"
+
+
+def _table_section(described: Table) -> str:
+    rows = ((f"`{c.name}`", c.type, c.description, c.equation) for c in described.columns)
+    body = table(("column", "type", "meaning", "equation"), rows)
+    return f"## {described.file_name}\n\n{described.description}.\n\n{body}"
