@@ -92,9 +92,9 @@ def _uplift_sine(lift, one_sided, amplitude, omega, gravity, tau):
 def _place(grid, arc):
     """Index of the piece that holds an arc, its centre, and the room beyond it."""
     if arc < grid[0]:
-        j = max(int(arc / grid[1]), 0)
+        j = max(int(arc * grid[7]), 0)
         return j, (j + 0.5) * grid[1], grid[3]
-    j = int(min((arc - grid[0]) / grid[4], grid[5] - 1))
+    j = int(min((arc - grid[0]) * grid[8], grid[5] - 1))
     return int(grid[2]) + j, grid[0] + (j + 0.5) * grid[4], grid[6]
 
 
@@ -130,58 +130,33 @@ def _series(piece, u, v, side, a0, a1, g0, g1, square):
         s2, s3 = -square * s0 / 2, -square * s1 / 6
         s4, s5, s6 = -square * s2 / 12, -square * s3 / 20, square * square * s2 / 360
     # pkn: coefficient n of the k-th power of the displacement within the step.
-    x2 = -w0 / 2
-    x3 = -(w1 * v + r0) / 6
+    x2 = -0.5 * w0
+    x3 = (w1 * v + r0) * (-1 / 6)
     p22, p23 = v * v, 2 * v * x2
-    x4 = -(w1 * x2 + w2 * p22 + r1 * v + s2 * b0) / 12
+    x4 = (w1 * x2 + w2 * p22 + r1 * v + s2 * b0) * (-1 / 12)
     p24 = 2 * v * x3 + x2 * x2
     p33, p34 = p22 * v, 3 * p22 * x2
     d1 = b1 * v
-    x5 = -(w1 * x3 + w2 * p23 + w3 * p33 + r1 * x2 + r2 * p22 + s2 * d1 + s3 * b0) / 20
+    x5 = (w1 * x3 + w2 * p23 + w3 * p33 + r1 * x2 + r2 * p22 + s2 * d1 + s3 * b0) * (-1 / 20)
     p25 = 2 * (v * x4 + x2 * x3)
     p35 = v * p24 + x2 * p23 + x3 * p22
     p44, p45 = p22 * p22, 4 * p33 * x2
     d2 = b1 * x2 + b2 * p22
-    x6 = (
-        -(
-            w1 * x4
-            + w2 * p24
-            + w3 * p34
-            + w4 * p44
-            + r1 * x3
-            + r2 * p23
-            + r3 * p33
-            + s2 * d2
-            + s3 * d1
-            + s4 * b0
-        )
-        / 30
-    )
+    driven = s2 * d2 + s3 * d1 + s4 * b0
+    still = w1 * x4 + w2 * p24 + w3 * p34 + w4 * p44
+    x6 = (still + r1 * x3 + r2 * p23 + r3 * p33 + driven) * (-1 / 30)
     p26 = 2 * (v * x5 + x2 * x4) + x3 * x3
     p36 = v * p25 + x2 * p24 + x3 * p23 + x4 * p22
     p46 = 2 * p22 * p24 + p23 * p23
     p55, p56 = p44 * v, 5 * p44 * x2
     d3 = b1 * x3 + b2 * p23 + b3 * p33
     driven = s2 * d3 + s3 * d2 + s4 * d1 + s5 * b0
-    x7 = (
-        -(
-            w1 * x5
-            + w2 * p25
-            + w3 * p35
-            + w4 * p45
-            + w5 * p55
-            + r1 * x4
-            + r2 * p24
-            + r3 * p34
-            + r4 * p44
-            + driven
-        )
-        / 42
-    )
+    still = w1 * x5 + w2 * p25 + w3 * p35 + w4 * p45 + w5 * p55
+    x7 = (still + r1 * x4 + r2 * p24 + r3 * p34 + r4 * p44 + driven) * (-1 / 42)
     d4 = b1 * x4 + b2 * p24 + b3 * p34 + b4 * p44
     driven = s2 * d4 + s3 * d3 + s4 * d2 + s5 * d1 + s6 * b0
     still = w1 * x6 + w2 * p26 + w3 * p36 + w4 * p46 + w5 * p56 + w6 * p33 * p33
-    x8 = -(still + r1 * x5 + r2 * p25 + r3 * p35 + r4 * p45 + r5 * p55 + driven) / 56
+    x8 = (still + r1 * x5 + r2 * p25 + r3 * p35 + r4 * p45 + r5 * p55 + driven) * (-1 / 56)
     return v, x2, x3, x4, x5, x6, x7, x8
 
 
@@ -302,16 +277,16 @@ def rock(
     """Follow a mechanism through a ground motion and on until no larger peak can come.
 
     Per side (k,): pieces (k, m, 16), G̃ and B̃ alternating, by power of the distance from the centre of a piece; grid
-    (k, 7), end of the inner zone, then width, count and room of the pieces of the inner and of the outer zone; lift
-    (k, 2) G̃(0), B̃(0); hold (k, m), the ground acceleration in units of gravity that cannot bring the side back from
-    that piece or beyond; pace, longest step in s; arc of φ_cr and of the end, η, and the speed at which rocking rests.
-    ground, gravity, threat: (n,) ü_g, g + ü_v, and the largest |ü_g|/(g + ü_v) from there on; with omega > 0,
-    ground[0] is the amplitude of a sine of one period time_step. still: g after the record. arc, speed, side: the state
-    at the start, side 0 at rest. log: (m, 3) for the history, or of no rows.
+    (k, 9), end of the inner zone, then width, count and room of the pieces of the inner and of the outer zone, then
+    the inverse widths; lift (k, 2) G̃(0), B̃(0); hold (k, m), the ground acceleration in units of gravity that cannot
+    bring the side back from that piece or beyond; pace, longest step in s; arc of φ_cr and of the end, η, and the
+    speed at which rocking rests. ground, gravity, threat: (n,) ü_g, g + ü_v, and the largest |ü_g|/(g + ü_v) from
+    there on; with omega > 0, ground[0] is the amplitude of a sine of one period time_step. still: g after the record.
+    arc, speed, side: the state at the start, side 0 at rest. log: (m, 3) for the history, or of no rows.
     Returns status, peak arcs (2,), their times (2,), impacts, uplift time, last side, steps, lines of log.
     """
     count = 1 if omega > 0 else ground.size - 1
-    last = pieces.shape[0] - 1
+    last, rate = pieces.shape[0] - 1, 1 / time_step
     best, when = np.zeros(2), np.full(2, np.nan)
     i, tau, status, impacts, steps, logged, turns = 0, 0.0, 0, 0, 0, 0, 0
     uplift, reach, haste = np.nan, arc, abs(speed)
@@ -347,8 +322,8 @@ def rock(
                 a0, a1 = ground[0] * math.sin(omega * tau), ground[0] * omega * math.cos(omega * tau)
                 square = omega * omega
             else:
-                a1 = (ground[i + 1] - ground[i]) / time_step
-                g1 = (gravity[i + 1] - gravity[i]) / time_step
+                a1 = (ground[i + 1] - ground[i]) * rate
+                g1 = (gravity[i + 1] - gravity[i]) * rate
                 a0, g0 = ground[i] + tau * a1, gravity[i] + tau * g1
         j, centre, room = _place(grid[k], arc)
         x = _series(pieces[k, j], arc - centre, speed, side, a0, a1, g0, g1, square)
@@ -570,6 +545,38 @@ def _free_linear(
 
 
 @compiled
+def _glide(ground, bound, time_step, p, scale, limit, full, i, tau, x, w, span, log, logged):
+    """Advance from sample to sample, exactly, until one in which something may happen, an overturning, or the end.
+
+    x'' = x + drive in p t, with a drive that is linear within a sample. full: the weights of a whole sample. Returns
+    interval and offset, x and w there, drive there and at the end of the sample, x and w at the end of the sample,
+    whether it overturned, samples passed, lines of log.
+    """
+    growth, decay, up, up_end, down, down_end = full
+    drive = -1 - scale * (ground[i] + (tau / time_step) * (ground[i + 1] - ground[i]))
+    if x == 0 and w == 0:  # uplift where the drive is zero to rounding
+        drive = max(drive, 0.0)
+    if tau > 0:
+        growth, decay, up, up_end, down, down_end = _weights(p * (time_step - tau))
+    q, r, passed = x + w, x - w, 0
+    while True:
+        final = -1 - scale * ground[i + 1]
+        q = growth * q + drive * up + final * up_end
+        r = decay * r - drive * down - final * down_end
+        new, pull = 0.5 * (q + r), 0.5 * (q - r)
+        if not (new > 0 and w * pull > 0 and (x + drive) * (new + final) >= 0):
+            return i, tau, x, w, drive, final, new, pull, False, passed, logged
+        i, tau, x, w, drive = i + 1, 0.0, new, pull, final
+        growth, decay, up, up_end, down, down_end = full
+        passed += 1
+        if log.shape[0] > 0:
+            logged = _write(log, logged, i * time_step, span * x, span * w * p)
+        fallen = q - 1 > limit * bound[i]
+        if fallen or i == ground.size - 1:
+            return i, tau, x, w, drive, final, new, pull, fallen, passed, logged
+
+
+@compiled
 def rock_linear(
     frequency, push, span, restitution, one_sided, ground, gravity, takeable, time_step, x, w, side, log
 ):  # fmt: skip
@@ -580,10 +587,9 @@ def rock_linear(
     """
     count, last = ground.size - 1, frequency.size - 1
     best, when = np.zeros(2), np.full(2, np.nan)
-    lift, full = np.empty((last + 1, 2)), np.empty((last + 1, 6))
-    for k in range(last + 1):
-        lift[k, 0], lift[k, 1] = 1.0, push[k]
-        full[k] = _weights(frequency[k] * time_step)
+    lift = np.ones((last + 1, 2))
+    lift[:, 1] = push
+    whole = _weights(frequency[0] * time_step), _weights(frequency[last] * time_step)
     i, tau, status, impacts, steps, logged, uplift = 0, 0.0, 0, 0, 0, 0, np.nan
     if side != 0:
         status, uplift = ROCKS, 0.0
@@ -603,31 +609,27 @@ def rock_linear(
             if keep:
                 logged = _write(log, logged, i * time_step + tau, 0.0, 0.0)
         k = 0 if side > 0 else last
-        left = time_step - tau
-        if left <= 0:
+        if time_step - tau <= 0:
             i, tau = i + 1, 0.0
             continue
-        p, scale, row = frequency[k], side * push[k], 0 if side > 0 else 1
-        now = ground[i] + (tau / time_step) * (ground[i + 1] - ground[i])
-        y, drive, final = p * left, -1 - scale * now, -1 - scale * ground[i + 1]
-        if x == 0 and w == 0 and drive < 0:  # uplift where the acceleration is zero to rounding
-            drive = 0.0
-        if x == 0 and w == 0:  # uplift where the drive is zero to rounding
-            drive = max(drive, 0.0)
-        growth, decay, up, up_end, down, down_end = full[k]
-        if tau > 0:
-            growth, decay, up, up_end, down, down_end = _weights(y)
-        q = growth * (x + w) + drive * up + final * up_end
-        r = decay * (x - w) - drive * down - final * down_end
-        new, pull = 0.5 * (q + r), 0.5 * (q - r)
+        p, row = frequency[k], 0 if side > 0 else 1
+        i, tau, x, w, drive, final, new, pull, fallen, passed, logged = _glide(
+            ground, takeable[row], time_step, p, side * push[k], push[k] * (1 + 1e-12), whole[k],
+            i, tau, x, w, side * span[k], log, logged,
+        )  # fmt: skip
+        steps += passed
+        if fallen:
+            status = OVERTURNS
+            break
+        if i == count:
+            break
         steps += 1
-        landing = -1.0
-        if not (new > 0 and w * pull > 0 and (x + drive) * (new + final) >= 0):
-            landing, peak, at = _sample_events(x, w, drive, (final - drive) / y, y)
-            if peak > best[row]:
-                best[row], when[row] = peak, i * time_step + tau + at / p
-            if keep and peak > 0:
-                logged = _write(log, logged, i * time_step + tau + at / p, side * peak * span[k], 0.0)
+        y = p * (time_step - tau)
+        landing, peak, at = _sample_events(x, w, drive, (final - drive) / y, y)
+        if peak > best[row]:
+            best[row], when[row] = peak, i * time_step + tau + at / p
+        if keep and peak > 0:
+            logged = _write(log, logged, i * time_step + tau + at / p, side * peak * span[k], 0.0)
         if landing < 0:
             if not abs(new) < np.inf:
                 status = NOT_FINITE
@@ -635,7 +637,7 @@ def rock_linear(
             i, tau, x, w = i + 1, 0.0, new, pull
             if keep:
                 logged = _write(log, logged, i * time_step, side * x * span[k], side * w * span[k] * p)
-            if q - 1 > push[k] * takeable[row, i] * (1 + 1e-12):
+            if x + w - 1 > push[k] * takeable[row, i] * (1 + 1e-12):
                 status = OVERTURNS
                 break
             continue

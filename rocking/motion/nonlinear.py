@@ -110,7 +110,7 @@ def _initial(table: Table, rotation: float, velocity: float, sign: int) -> tuple
 
 
 def _ratio(side: SideTable, arc: float) -> float:
-    return float(side.rotation(np.float64(arc))) / side.critical_rotation if arc > 0 else 0.0
+    return float(side.rotation(arc)) / side.critical_rotation if arc > 0 else 0.0
 
 
 def _states(table: Table, log: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -36,7 +36,8 @@ class SideTable:
     """One side, in two zones of equal pieces: an inner one up to 2 φ_cr, and an outer one up to the end.
 
     pieces: (m, 16) G̃ and B̃ alternating, by power of the distance from the centre of each piece.
-    ratios: (m, 8) φ/q likewise. grid: end of the inner zone; then width, count and room of each zone's pieces.
+    ratios: (m, 8) φ/q likewise. grid: end of the inner zone; width, count and room of each zone's
+    pieces; inverse widths.
     hold: (m,) smallest −G/|B| from each piece on: a smaller ground acceleration, in g, cannot bring the side back.
     critical, end: in arc. lift: G̃(0), B̃(0). reaching_speed: along the arc at φ = 0, just reaches φ_cr, rad/s.
     pace: longest step, s. arc and stretch: q and dq/dφ at a rotation.
@@ -44,7 +45,7 @@ class SideTable:
 
     pieces: np.ndarray
     ratios: np.ndarray
-    grid: tuple[float, float, float, float, float, float, float]
+    grid: tuple[float, ...]
     hold: np.ndarray
     critical: float
     end: float
@@ -59,7 +60,7 @@ class SideTable:
     def rotation(self, arc: np.ndarray) -> np.ndarray:
         """Return the rotation [rad] at `arc`, any shape, within the table."""
         arc = np.asarray(arc, dtype=float)
-        split, inner, inner_count, _, outer, outer_count, _ = self.grid
+        split, inner, inner_count, _, outer, outer_count, *_ = self.grid
         within = np.clip((arc / inner).astype(int), 0, int(inner_count) - 1)
         beyond = np.clip(((arc - split) / outer).astype(int), 0, int(outer_count) - 1)
         inside = arc < split
@@ -132,7 +133,7 @@ def _linear_side(block: EquivalentBlock) -> SideTable:
     return SideTable(
         pieces=pieces,
         ratios=ratios,
-        grid=(starts[-1], width, count - 1, np.inf, width, 1, np.inf),
+        grid=(starts[-1], width, count - 1, np.inf, width, 1, np.inf, 1 / width, 1 / width),
         hold=(starts - critical) / scale,
         critical=critical,
         end=np.inf,
@@ -183,12 +184,15 @@ def _tabulated(side: Side, last: float) -> SideTable | None:
         (inner.shape[1], outer.shape[1]),
     )
     starts = np.concatenate([np.arange(counts[0]) * widths[0], split + np.arange(counts[1] + 1) * widths[1]])
+    zones = [
+        value for width, count in zip(widths, counts, strict=True) for value in (width, count, ROOM * width)
+    ]
     lift = side.at("gravity", 0.0) / rest, side.at("ground", 0.0) / rest
     steepest = -side.at("gravity_slope", side.critical_rotation) / side.at("inertia", side.critical_rotation)
     return SideTable(
         pieces=np.ascontiguousarray(powers[:2].transpose(1, 2, 0).reshape(powers.shape[1], -1)),
         ratios=np.ascontiguousarray(powers[2]),
-        grid=(split, widths[0], counts[0], ROOM * widths[0], widths[1], counts[1], ROOM * widths[1]),
+        grid=(split, *zones, 1 / widths[0], 1 / widths[1]),
         hold=_hold(side, arc.rotation, starts),
         critical=critical,
         end=end,
