@@ -42,9 +42,10 @@ def ground_motion(
     displacement: np.ndarray,
     pulse: Pulse | None,
     uplift: Sequence[float],
+    height: float = 100.0,
 ) -> Figure:
     """Draw acceleration with pulse and uplift accelerations [m/s²], residual, velocity and displacement."""
-    figure = new_figure(100, margins=(17, 2, 8.5, 5))
+    figure = new_figure(height, margins=(17, 2, 8.5, 5))
     figure.subplots_adjust(hspace=0.12)
     axes = figure.subplots(4, 1, sharex=True, height_ratios=[1.5, 1, 1, 1])
     times = accelerogram.times

@@ -100,13 +100,7 @@ def _variations(tables: Tables, numbers: Mapping[str, str]) -> dict[str, object]
     candidates, processing = tables.get("candidates", ()), tables.get("processing", ())
     return {
         "candidates": record_variations.candidate_table(candidates, numbers),
-        "processing": [
-            {
-                "component": printing.words(component),
-                "table": record_variations.processing_table(of_component(processing, component), numbers),
-            }
-            for component in printing.distinct(processing, "component")
-        ],
+        "processing": record_variations.processing_table(processing, numbers),
     }
 
 
@@ -119,7 +113,10 @@ def _pictures(
 ) -> dict[str, list[dict[str, str]]]:
     known = set(printing.distinct(tables["record"], "component"))
     used = [accelerogram for accelerogram in accelerograms if accelerogram.component in known]
-    width = TEXT_WIDTH if len(used) == 1 else record_curves.PAIRED_WIDTH
+    alone = len(used) == 1
+    map_width = TEXT_WIDTH if alone else record_curves.MAP_WIDTH
+    width = TEXT_WIDTH if alone else record_curves.PAIRED_WIDTH
+    height = record_curves.MOTION_HEIGHTS[0 if alone else 1]
     pictures = {"motions": [], "maps": [], "histories": [], "spectra": []}
     for accelerogram in used:
         pulses, predictions, cases = (
@@ -127,8 +124,8 @@ def _pictures(
             for name in ("pulses", "predictions", "comparison")
         )
         new = {
-            "motions": record_curves.motion_picture(accelerogram, pulses, tables["structures"]),
-            "maps": record_curves.map_picture(accelerogram, pulses) if pulses else None,
+            "motions": record_curves.motion_picture(accelerogram, pulses, tables["structures"], height),
+            "maps": record_curves.map_picture(accelerogram, pulses, map_width) if pulses else None,
             "histories": record_curves.history_picture(accelerogram, structures, cases, numbers, tolerance),
             "spectra": record_curves.spectrum_picture(accelerogram, predictions, numbers, width),
         }

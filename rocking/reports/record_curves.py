@@ -24,6 +24,10 @@ MOST_DRAWN = 15
 MOST_HISTORIES = 12
 """Responses that are drawn for one component, the most demanding ones; the tables hold all."""
 SPECTRUM_POINTS = 32
+MOTION_HEIGHTS = (100.0, 82.0)
+"""Height of the time histories of the ground, mm: of a single component, and of each of several."""
+MAP_WIDTH = 58.0
+"""Width of an energy map that stands beside others, mm."""
 PAIRED_WIDTH = 83.0
 """Width of a figure that stands beside another, mm."""
 _MAP_COLUMNS = 240
@@ -41,7 +45,7 @@ def read_pulses(rows: Rows) -> list[Pulse]:
     return [Pulse(*(float(row[column]) for column in columns)) for row in ranked]
 
 
-def motion_picture(accelerogram: Accelerogram, rows: Rows, structures: Rows) -> Picture:
+def motion_picture(accelerogram: Accelerogram, rows: Rows, structures: Rows, height: float) -> Picture:
     """Return acceleration, residual, velocity and displacement of one component."""
     from rocking.records.processing import displacement, velocity
 
@@ -53,13 +57,14 @@ def motion_picture(accelerogram: Accelerogram, rows: Rows, structures: Rows) -> 
         displacement(accelerogram),
         pulses[0] if pulses else None,
         uplift,
+        height,
     )
     component = printing.words(accelerogram.component)
     alt = f"Time histories of component {component}: acceleration, pulse, residual, velocity, displacement."
     return {"component": component, "svg": svg(figure), "alt": alt}
 
 
-def map_picture(accelerogram: Accelerogram, rows: Rows) -> Picture:
+def map_picture(accelerogram: Accelerogram, rows: Rows, width: float = TEXT_WIDTH) -> Picture:
     """Return the energy of a sine pulse over onset and period."""
     from rocking.pulses.extraction import energy_map as energy_gains
 
@@ -67,7 +72,7 @@ def map_picture(accelerogram: Accelerogram, rows: Rows) -> Picture:
     stretch = max(1, gains.shape[0] // _MAP_COLUMNS)
     starts = np.arange(0, gains.shape[0], stretch)
     pooled = np.maximum.reduceat(gains, starts, axis=0)
-    figure = energy_map(starts * accelerogram.time_step, 1 / frequencies, pooled, read_pulses(rows))
+    figure = energy_map(starts * accelerogram.time_step, 1 / frequencies, pooled, read_pulses(rows), width)
     component = printing.words(accelerogram.component)
     alt = f"Map of the energy that one sine pulse explains in component {component}, over onset and period."
     return {"component": component, "svg": svg(figure), "alt": alt}

@@ -148,7 +148,7 @@ def method_table(tables: Tables, numbers: Mapping[str, str]) -> dict[str, object
         ("Comp.", "auto", "l"),
         ("Eq. 15, printed", "1", "r"),
         ("Prediction", "1", "r"),
-        ("Range over the interval", "1.3", "r"),
+        ("Range over the interval", "1.95", "r"),
         ("Mechanism under the pulse", "1", "r"),
         ("Block under the record", "1", "r"),
         ("Mechanism under the record", "1", "r"),

@@ -19,7 +19,7 @@ def candidate_table(rows: Rows, numbers: Mapping[str, str]) -> dict[str, object]
         ("Governing height, record [m]", "1.1", "r"),
         ("Full integration there", "1", "r"),
     ]
-    keys = dict.fromkeys((row["component"], row["structure"]) for row in rows)
+    keys = dict.fromkeys(map(_key, rows))
     return table(columns, [_candidate_row(rows, *key, numbers) for key in keys])
 
 
@@ -39,20 +39,20 @@ def _candidate_row(rows: Rows, component: str, structure: str, numbers: Mapping[
 
 
 def processing_table(rows: Rows, numbers: Mapping[str, str]) -> dict[str, object]:
-    """Return the largest rotation ratio of each structure of one component under each processing."""
+    """Return the largest rotation ratio of each component and structure under each processing."""
     processings = printing.distinct(rows, "processing")
-    columns = [("No.", "auto", "r"), ("Structure", "1.4", "l"), *((name, "1", "r") for name in processings)]
-    found = {(row["structure"], row["processing"]): ratio(row["rotation_ratio"]) for row in rows}
-    structures = printing.distinct(rows, "structure")
+    columns = [("No.", "auto", "r"), ("Comp.", "auto", "l"), *((name, "1", "r") for name in processings)]
+    keys = dict.fromkeys(map(_key, rows))
+    found = {(*_key(row), row["processing"]): ratio(row["rotation_ratio"]) for row in rows}
     shown = [
-        [
-            numbers[name],
-            name,
-            *(found.get((name, processing), printing.NOTHING) for processing in processings),
-        ]
-        for name in structures
+        [numbers[key[1]], words(key[0]), *(found.get((*key, name), printing.NOTHING) for name in processings)]
+        for key in keys
     ]
     return table(columns, shown)
+
+
+def _key(row: Row) -> tuple[str, str]:
+    return row["component"], row["structure"]
 
 
 def processing_sentences(rows: Rows) -> list[str]:

@@ -9,9 +9,9 @@ Rows = Sequence[Row]
 Tables = Mapping[str, Rows]
 
 _VERDICTS = {
-    "agree": "agrees",
-    "unsafe": "UNSAFE: predicts less",
-    "safe": "safe side: predicts more",
+    "agree": "in agreement",
+    "unsafe": "UNSAFE: too low",
+    "safe": "safe: too high",
     "unknown": "unknown",
 }
 
@@ -20,12 +20,12 @@ def verdict_table(rows: Rows, numbers: Mapping[str, str]) -> dict[str, object]:
     """Return the first table that a reader sees: one row per structure of one component."""
     columns = [
         ("No.", "auto", "r"),
-        ("Structure", "1.5", "l"),
+        ("Structure", "1.2", "l"),
         ("Light", "auto", "l"),
-        ("Closed form", "auto", "r"),
-        ("Full integration", "0.75", "r"),
-        ("The closed form", "1.0", "l"),
-        ("Regime of the closed form", "1.25", "l"),
+        ("Closed form", "0.65", "r"),
+        ("Full inte\u00adgration", "0.65", "r"),
+        ("The closed form is", "1.05", "l"),
+        ("Regime of the closed form", "1.5", "l"),
         ("Sensi\u00adtivity", "0.45", "r"),
         ("Fragile", "auto", "l"),
     ]

@@ -11,9 +11,9 @@ from rocking.reports.style import TEXT_WIDTH, elided, new_figure, styled
 from rocking.structures.structure import Structure
 
 _COLUMNS = 5
-_CELL_HEIGHT = 40.0
+_CELL_HEIGHT = 36.0
 """Height of one drawing with its title and its scale bar, mm."""
-_DRAWN_WIDTH, _DRAWN_HEIGHT = 29.0, 27.0
+_DRAWN_WIDTH, _DRAWN_HEIGHT = 29.0, 23.5
 """Room for the structure itself, mm."""
 _DRAWN_SHARE = 0.6
 """Share of the critical rotation at which the displaced structure is drawn; more where that is hard to see."""

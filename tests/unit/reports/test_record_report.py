@@ -18,7 +18,7 @@ from .conftest import HOSTILE, SETTINGS, assessed, shaken
 NUMBER = re.compile(r"[−-]?\d+(?:\.\d+)?(?: × 10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
 CSV_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 PLAIN = str.maketrans("−⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789")
-TABLES_OF_NUMBERS = ("identity", "structures", "methods", "trust", "candidates")
+TABLES_OF_NUMBERS = ("identity", "structures", "methods", "trust", "candidates", "processing")
 
 
 def printed_numbers(text: str) -> list[tuple[float, float]]:
@@ -40,7 +40,7 @@ def csv_numbers(tables) -> np.ndarray:
 
 def shown_tables(data) -> list[dict]:
     """Every table of numbers in the data of the template."""
-    parts = [part["table"] for name in ("verdicts", "pulses", "processing") for part in data[name]]
+    parts = [part["table"] for name in ("verdicts", "pulses") for part in data[name]]
     return parts + [data[name] for name in TABLES_OF_NUMBERS]
 
 
