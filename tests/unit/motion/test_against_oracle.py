@@ -19,14 +19,15 @@ def lifting(mechanism, times):
     return times * g * max(side.uplift_multiplier for side in mechanism.sides)
 
 
-@pytest.mark.parametrize("name", MECHANISMS)
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("name, seed", [(name, 1) for name in MECHANISMS] + [("block", 2), ("wall", 2)])
 def test_records_against_the_oracle(name, seed):
     """Both are run at 1e-12 or tighter; ten flights, each amplifying errors a few times, make 1e-9."""
     mechanism = MECHANISMS[name]
-    record = noise(seed, 40, 0.02, lifting(mechanism, 1.6))
+    # The linkage of the arch costs the oracle a millisecond a call, so its record is short.
+    count, step = (14, 0.05) if name == "arch" else (40, 0.02)
+    record = noise(seed, count, step, lifting(mechanism, 1.6), 6 if name == "arch" else 12)
     ratio, impacts = Oracle(mechanism).run(
-        record.acceleration, 0.02, after=4 / mechanism.positive.frequency_parameter
+        record.acceleration, step, after=4 / mechanism.positive.frequency_parameter
     )
     response = integrate(mechanism, record, 1e-12)
     assert (response.outcome is Outcome.OVERTURNS) == np.isinf(ratio)
