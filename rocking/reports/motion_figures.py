@@ -24,14 +24,13 @@ class History:
     """One response as a panel shows it: rotation over critical rotation against time, and what was predicted.
 
     times: (k,) s. ratio: (k,) signed; both empty where there is no uplift. predicted: largest rotation ratio of the
-    closed form (inf if it overturns, nan if there is none). overturns: whether the integration does.
+    closed form (inf if it overturns, nan if there is none). remark: what the curve does not show.
     """
 
     label: str
     times: np.ndarray
     ratio: np.ndarray
     predicted: float
-    overturns: bool
     remark: str = ""
 
 

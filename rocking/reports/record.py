@@ -17,15 +17,19 @@ def record_report(
     structures: Mapping[str, object],
     tables: Tables,
     settings: Mapping[str, object],
+    vertical: Accelerogram | None = None,
 ) -> bytes:
     """Return the PDF of one record.
 
     tables: rows of text as read from the CSV files "record", "pulses", "predictions", "responses", "comparison",
     "structures" and, where they exist, "candidates", "processing" and "failures"; every number printed is one of
     their cells, rounded. Only curves are computed here, from `accelerograms` and the mechanisms of `structures` (by
-    name). settings: at least tolerance, acceleration_scale and fragility_change.
+    name). settings: at least tolerance, acceleration_scale and fragility_change. vertical: the vertical component, if
+    it acted on the responses of the tables.
     """
-    return compile_document("record.typ", record_data(record, accelerograms, structures, tables, settings))
+    return compile_document(
+        "record.typ", record_data(record, accelerograms, structures, tables, settings, vertical)
+    )
 
 
 def failure_report(record: str, message: str) -> bytes:
@@ -40,6 +44,7 @@ def record_data(
     structures: Mapping[str, object],
     tables: Tables,
     settings: Mapping[str, object],
+    vertical: Accelerogram | None = None,
 ) -> dict[str, object]:
     """Return what the template of the record report is given: texts, tables and figures."""
     numbers = record_tables.structure_numbers(tables)
@@ -57,7 +62,7 @@ def record_data(
         "methods": record_tables.method_table(tables, numbers),
         "trust": record_tables.trust_table(tables, numbers),
         **_variations(tables, numbers),
-        **_pictures(accelerograms, structures, tables, numbers, float(settings["tolerance"])),
+        **_pictures(accelerograms, structures, tables, numbers, float(settings["tolerance"]), vertical),
         **_assumptions(tables, settings),
     }
 
@@ -110,6 +115,7 @@ def _pictures(
     tables: Tables,
     numbers: Mapping[str, str],
     tolerance: float,
+    vertical: Accelerogram | None,
 ) -> dict[str, list[dict[str, str]]]:
     known = set(printing.distinct(tables["record"], "component"))
     used = [accelerogram for accelerogram in accelerograms if accelerogram.component in known]
@@ -126,7 +132,9 @@ def _pictures(
         new = {
             "motions": record_curves.motion_picture(accelerogram, pulses, tables["structures"], height),
             "maps": record_curves.map_picture(accelerogram, pulses, map_width) if pulses else None,
-            "histories": record_curves.history_picture(accelerogram, structures, cases, numbers, tolerance),
+            "histories": record_curves.history_picture(
+                accelerogram, structures, cases, numbers, tolerance, vertical
+            ),
             "spectra": record_curves.spectrum_picture(accelerogram, predictions, numbers, width),
         }
         for name, picture in new.items():
@@ -144,9 +152,17 @@ def _assumptions(tables: Tables, settings: Mapping[str, object]) -> dict[str, ob
         "fragility-change": f"{printing.given(str(change))} %",
         "acceleration-scale": str(settings["acceleration_scale"]),
         "friction": _friction(settings),
+        "vertical": _vertical(tables["record"]),
         "warnings": [text for text in printing.distinct(tables["record"], "warnings") if text],
         "hashes": "; ".join(f"SHA-256 {text}" for text in hashes if text) or "the file's hash is not known.",
     }
+
+
+def _vertical(rows: Sequence[Row]) -> str:
+    named = printing.distinct((row for row in rows if row.get("vertical_component")), "vertical_component")
+    if not named:
+        return "The vertical ground acceleration is left out."
+    return f"The vertical component {', '.join(named)} acts on the integrations, not on the closed form and the spectrum."
 
 
 def _friction(settings: Mapping[str, object]) -> str:

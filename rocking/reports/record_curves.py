@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from rocking.motion.response import Response
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
@@ -13,6 +14,7 @@ from rocking.reports.printing import Row, of_component
 from rocking.reports.pulse_figures import energy_map, orientation
 from rocking.reports.structure_figures import structure_drawings
 from rocking.reports.style import TEXT_WIDTH, svg
+from rocking.structures.mechanism import Mechanism
 from rocking.units import GRAVITY
 
 Rows = Sequence[Row]
@@ -116,8 +118,12 @@ def history_picture(
     rows: Rows,
     numbers: Mapping[str, str],
     tolerance: float,
+    vertical: Accelerogram | None = None,
 ) -> Picture | None:
     """Return the response histories of one component, the most demanding first chosen; None when nothing moves."""
+    from rocking.motion import integrate
+    from rocking.records.vertical import aligned
+
     moving = [
         row
         for row in rows
@@ -127,9 +133,14 @@ def history_picture(
     chosen = [row for row in rows if row in chosen]
     if not chosen:
         return None
-    figure = response_histories(
-        [_history(row, structures[row["structure"]], accelerogram, numbers, tolerance) for row in chosen]
-    )
+    beside = None if vertical is None else aligned(vertical, accelerogram)
+    histories = []
+    for row in chosen:
+        mechanism = structures[row["structure"]].mechanism()
+        response = integrate(mechanism, accelerogram, tolerance, history=True, vertical=beside)
+        label = f"{numbers[row['structure']]} {row['structure']}"
+        histories.append(_history(label, row, mechanism, response))
+    figure = response_histories(histories)
     left_out = len(rows) - len(chosen)
     note = (
         f" Not drawn: {printing.counted(left_out, 'structure')}, not lifted or less demanding."
@@ -147,24 +158,13 @@ def _demand(row: Row) -> tuple[bool, float]:
     )
 
 
-def _history(
-    row: Row, structure, accelerogram: Accelerogram, numbers: Mapping[str, str], tolerance: float
-) -> History:
-    from rocking.motion import integrate
-
-    mechanism = structure.mechanism()
-    response = integrate(mechanism, accelerogram, tolerance=tolerance, history=True)
+def _history(label: str, row: Row, mechanism: Mechanism, response: Response) -> History:
     negative = mechanism.negative or mechanism.positive
     critical = np.where(response.rotation < 0, negative.critical_rotation, mechanism.critical_rotation)
+    predicted = read_number(row["predicted_rotation_ratio"])
     overturns = math.isinf(read_number(row["integrated_rotation_ratio"]))
-    return History(
-        label=f"{numbers[row['structure']]} {row['structure']}",
-        times=response.times,
-        ratio=response.rotation / critical,
-        predicted=read_number(row["predicted_rotation_ratio"]),
-        overturns=overturns,
-        remark=_remark(read_number(row["predicted_rotation_ratio"]), overturns),
-    )
+    remark = _remark(predicted, overturns)
+    return History(label, response.times, response.rotation / critical, predicted, remark)
 
 
 def _remark(predicted: float, overturns: bool) -> str:

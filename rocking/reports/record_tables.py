@@ -53,6 +53,11 @@ _IDENTITY = (
     ("Format", _plain("format")),
     ("Unit in the file", _plain("unit")),
     ("Licence", _plain("licence")),
+    ("Vertical component", lambda row: words(row.get("vertical_component", ""))),
+    (
+        "Vertical peak acceleration",
+        lambda row: _with_unit(number(row.get("vertical_peak_acceleration_m_s2", ""), 4), "m/s²"),
+    ),
     ("Declared scale factor", _chosen("scale_factor", "")),
     ("Samples", lambda row: printing.whole(row["samples"])),
     ("Time step", _chosen("time_step_s", "s")),

@@ -205,3 +205,14 @@ def test_an_outcome_that_processing_decides_is_said(example):
     data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
     said = [text for text in data["verdicts"][0]["sentences"] if "depends on the processing" in text]
     assert "arch 20 m" in said[0]
+
+
+def test_a_vertical_component_is_named_and_changes_the_histories(example):
+    up = Accelerogram(3 * np.sin(np.arange(2000) * 0.1), 0.01, "UP", vertical=True)
+    tables = json.loads(json.dumps(example.tables))
+    tables["record"][0] |= {"vertical_component": "UP", "vertical_peak_acceleration_m_s2": "2.999"}
+    arguments = (example.record, example.accelerograms, example.structures, tables, SETTINGS)
+    still, moved = record_data(*arguments), record_data(*arguments, vertical=up)
+    assert "vertical component UP acts" in still["vertical"]
+    assert still["histories"][0]["svg"] != moved["histories"][0]["svg"]
+    assert record_data(*example.arguments)["vertical"] == "The vertical ground acceleration is left out."
