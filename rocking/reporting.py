@@ -4,12 +4,14 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from rocking import columns
-from rocking.errors import RockingError
-from rocking.records.catalogue import CatalogueRecord, open_record
+from rocking.errors import RecordError, RockingError
+from rocking.records.catalogue import CatalogueRecord, load_catalogue, open_record
 from rocking.reports import failure_report, record_report, summary_report
+from rocking.reports.paper import EQUATIONS, equation_rows, paper_figures, paper_report
+from rocking.reports.style import svg
 from rocking.study import Study
 from rocking.summary import structure_rows
-from rocking.tables import csv_cells, read_rows, write_whole
+from rocking.tables import csv_cells, read_rows, write_table, write_whole
 
 
 def report_records(
@@ -51,3 +53,30 @@ def report_summary(folder: Path, settings: Mapping[str, object]) -> None:
     """Write summary.pdf beside the summary tables in `folder`."""
     tables = {table.name: read_rows(folder / table.file_name) for table in columns.SUMMARY_TABLES}
     write_whole(folder / "summary.pdf", summary_report(tables, settings))
+
+
+EXAMPLE = "RSN1063_NORTHR_RRS228"
+"""The record of the paper's example (Fig. 8), by its identifier in the catalogue of near-fault records."""
+
+
+def write_paper(catalogue: Path, mirror: str | None, folder: Path) -> str:
+    """Write the paper's figures (SVG and CSV), the table of its equations and paper.pdf into `folder`.
+
+    Fig. 8 needs the Rinaldi record, which is not shipped: where it can neither be found in `mirror` nor fetched, the
+    figure is left out. Returns a sentence that says so, or that all figures were drawn.
+    """
+    rinaldi, message = None, "All figures were drawn."
+    try:
+        record = next(record for record in load_catalogue(catalogue) if record.id == EXAMPLE)
+        rinaldi = open_record(record, mirror=mirror)[0]
+    except StopIteration:
+        message = f"Fig. 8 was left out: {catalogue} lists no {EXAMPLE}."
+    except RecordError as error:
+        message = f"Fig. 8 was left out: {error}"
+    figures, equations = paper_figures(rinaldi), equation_rows()
+    for figure in figures:
+        write_table(figure.table, figure.rows, folder / f"{figure.name}.csv")
+        write_whole(folder / f"{figure.name}.svg", svg(figure.figure).encode())
+    write_table(EQUATIONS, equations, folder / EQUATIONS.file_name)
+    write_whole(folder / "paper.pdf", paper_report(figures, equations))
+    return message
