@@ -39,7 +39,7 @@ def structures(workflow: Path) -> str:
 
 def tables(_: Path) -> str:
     """Every column of every table."""
-    known = dict.fromkeys((*columns.RECORD_TABLES, *columns.SUMMARY_TABLES, columns.SPECTRUM))
+    known = dict.fromkeys((*columns.PER_RECORD, *columns.SUMMARY_TABLES, columns.SPECTRUM))
     return "\n\n".join(_table_section(described) for described in known)
 
 
@@ -54,7 +54,7 @@ def equations(_: Path) -> str:
     numbers = ("printed_number", "corrected_number", "deciding_number")
     rows = equation_rows()
     body = (
-        (*(str(row[name]) for name in names), *(f"{float(str(row[name])):.5g}" for name in numbers))
+        (*(str(row[name]) for name in names), *(_figure(float(str(row[name]))) for name in numbers))
         for row in rows
     )
     return table(head, body)
@@ -100,6 +100,10 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "\n".join(
         f"| {' | '.join(' '.join(cell.split()).replace('|', '&#124;') for cell in line)} |" for line in lines
     )
+
+
+def _figure(value: float) -> str:
+    return f"{value:.5g}".replace("inf", "overturns")
 
 
 def _yaml(path: Path) -> dict[str, Any]:

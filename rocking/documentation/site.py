@@ -21,6 +21,7 @@ pre { padding: .7rem 1rem; overflow-x: auto; background: #8881; border-radius: 4
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .92rem; }
 th, td { border-bottom: 1px solid #8884; padding: .3rem .8rem .3rem 0; text-align: left; vertical-align: top; }
+li code { overflow-wrap: anywhere; }
 .docstring { white-space: pre-wrap; border-left: 3px solid #8884; padding-left: 1rem; font-size: .92rem; }
 @media (max-width: 50rem) { body { display: block; } nav { border-right: 0; border-bottom: 1px solid #8884; } }
 """
