@@ -309,6 +309,19 @@ STRUCTURES = Table(
     ),
 )
 
+EQUIVALENCE = Table(
+    "equivalence",
+    "One row per structure, side and measure: what the equivalent block gets wrong, by quadrature",
+    (
+        _STRUCTURE,
+        Column("side", "string", "positive or negative: the side to which it rocks"),
+        Column("measure", "string", "natural period, uplift acceleration or time to overturn"),
+        Column("acceleration_scale_choice", "string", "linearised, uplift or mean, where the measure depends on it"),
+        Column("at", "number", "Rotation amplitude over critical rotation, or constant ground acceleration over uplift acceleration"),
+        Column("block_over_structure", "number", "Equivalent block over structure", "Figs. 3, 4, 6, 7"),
+    ),
+)
+
 FAILURES = Table(
     "failures",
     "One row per record or structure that gave no result, and why",
@@ -344,5 +357,5 @@ RECORD_TABLES = (RECORD, PULSES, PREDICTIONS, RESPONSES, COMPARISON, CANDIDATES,
 """The tables of one record's folder that hold results."""
 PER_RECORD = (*RECORD_TABLES, FAILURES, TIMINGS)
 """Every table of one record's folder."""
-SUMMARY_TABLES = (RECORD, PULSES, COMPARISON, MAXIMA, STRUCTURES, FAILURES, TIMINGS)
+SUMMARY_TABLES = (RECORD, PULSES, COMPARISON, MAXIMA, STRUCTURES, EQUIVALENCE, FAILURES, TIMINGS)
 """The tables of the summary folder."""

@@ -11,6 +11,7 @@ from pathlib import Path
 from rocking import columns
 from rocking.comparison import Method
 from rocking.structures import Structure
+from rocking.structures.equivalence import measure_equivalence
 from rocking.tables import Row, Table, data_package, write_table, write_whole
 
 _COPIED = (columns.RECORD, columns.PULSES, columns.COMPARISON, columns.FAILURES, columns.TIMINGS)
@@ -23,6 +24,7 @@ def write_summary(folders: Iterable[Path], structures: Mapping[str, Structure], 
         write_table(table, _all_rows(folders, table), target / table.file_name)
     write_table(columns.MAXIMA, _maxima(folders), target / columns.MAXIMA.file_name)
     write_table(columns.STRUCTURES, structure_rows(structures), target / columns.STRUCTURES.file_name)
+    write_table(columns.EQUIVALENCE, equivalence_rows(structures), target / columns.EQUIVALENCE.file_name)
 
 
 def write_description(folders: Iterable[Path], target: Path) -> None:
@@ -73,6 +75,39 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[Row]:
             / side.scaled_acceleration("linearised")
             / side.uplift_multiplier,
             "restitution": side.restitution,
+        }
+
+
+AMPLITUDES = (0.1, 0.3, 0.5, 0.7, 0.9)
+"""Rotations over φ_cr at which natural periods are compared."""
+ACCELERATIONS = (1.1, 1.5, 2.0, 5.0)
+"""Constant ground accelerations over that of uplift under which times to overturn are compared."""
+
+
+def equivalence_rows(structures: Mapping[str, Structure]) -> Iterator[Row]:
+    """The rows of the equivalence table: each side of each structure against its linearisation."""
+    for name, structure in structures.items():
+        for which, side in zip(("positive", "negative"), structure.mechanism().sides, strict=False):
+            found = measure_equivalence(side, AMPLITUDES, ACCELERATIONS)
+            head = {"structure": name, "side": which}
+            yield from _measures(head, "natural period", "", AMPLITUDES, found.period_ratio)
+            yield from _measures(
+                head, "uplift acceleration", "linearised", (math.nan,), (found.uplift_ratio,)
+            )
+            for scale, ratios in found.overturning_ratio.items():
+                yield from _measures(head, "time to overturn", scale, ACCELERATIONS, ratios)
+
+
+def _measures(
+    head: Mapping[str, object], measure: str, scale: str, places: Iterable[float], ratios: Iterable[float]
+) -> Iterator[Row]:
+    for place, value in zip(places, ratios, strict=True):
+        yield {
+            **head,
+            "measure": measure,
+            "acceleration_scale_choice": scale,
+            "at": place,
+            "block_over_structure": float(value),
         }
 
 
