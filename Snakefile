@@ -6,6 +6,8 @@ min_version("9.0")
 
 configfile: workflow.source_path("workflow/config.yaml")
 
+report: "workflow/report/study.rst"
+
 include: "workflow/rules/study.smk"
 
 

@@ -9,6 +9,7 @@ from rocking.records.catalogue import CatalogueRecord, load_catalogue, open_reco
 from rocking.reports import failure_report, record_report, summary_report
 from rocking.reports.paper import EQUATIONS, equation_rows, paper_figures, paper_report
 from rocking.reports.style import svg
+from rocking.reports.summary_figures import prediction_scatter
 from rocking.study import Study
 from rocking.summary import structure_rows
 from rocking.tables import csv_cells, read_rows, write_table, write_whole
@@ -53,6 +54,15 @@ def report_summary(folder: Path, settings: Mapping[str, object]) -> None:
     """Write summary.pdf beside the summary tables in `folder`."""
     tables = {table.name: read_rows(folder / table.file_name) for table in columns.SUMMARY_TABLES}
     write_whole(folder / "summary.pdf", summary_report(tables, settings))
+
+
+def draw_summary(comparison: Path, target: Path) -> None:
+    """Draw prediction against integration of every row of the comparison table into the SVG file `target`."""
+    columns_drawn = ("predicted_rotation_ratio", "integrated_rotation_ratio")
+    cases = [
+        (*(float(row[name] or "nan") for name in columns_drawn), row["light"]) for row in read_rows(comparison)
+    ]
+    write_whole(target, svg(prediction_scatter(cases)).encode())
 
 
 EXAMPLE = "RSN1063_NORTHR_RRS228"

@@ -9,7 +9,15 @@ for JOB, RECORDS in PLAN.jobs.items():
             tables=record_files(RECORDS, *CSV),
             structures=config["structures"],
         output:
-            record_files(RECORDS, "report.pdf"),
+            [
+                report(
+                    f"{RESULTS}/{record}/report.pdf",
+                    caption="../report/record.rst",
+                    category="Records",
+                    labels={"record": record, "document": "report"},
+                )
+                for record in RECORDS
+            ],
         log:
             f"{SUMMARY}/logs/report_{JOB}.log",
         benchmark:
@@ -29,7 +37,12 @@ rule report_summary:
     input:
         [f"{SUMMARY}/{table}.csv" for table in SUMMARIES],
     output:
-        f"{SUMMARY}/summary.pdf",
+        report(
+            f"{SUMMARY}/summary.pdf",
+            caption="../report/summary.rst",
+            category="Study",
+            labels={"document": "report on all records"},
+        ),
     log:
         f"{SUMMARY}/logs/report_summary.log",
     benchmark:
@@ -41,3 +54,25 @@ rule report_summary:
         "Report on all records"
     script:
         "../scripts/report_summary.py"
+
+
+rule draw_summary:
+    input:
+        f"{SUMMARY}/comparison.csv",
+    output:
+        report(
+            f"{SUMMARY}/prediction_against_integration.svg",
+            caption="../report/scatter.rst",
+            category="Study",
+            labels={"document": "prediction against integration"},
+        ),
+    log:
+        f"{SUMMARY}/logs/draw_summary.log",
+    benchmark:
+        f"{SUMMARY}/benchmarks/draw_summary.tsv"
+    params:
+        package_sha256=package_sha256(),
+    message:
+        "Draw prediction against integration"
+    script:
+        "../scripts/draw_summary.py"

@@ -21,3 +21,4 @@ TARGETS = [f"{SUMMARY}/{table}.csv" for table in SUMMARIES]
 TARGETS += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json"]
 if config["reports"]:
     TARGETS += record_files(PLAN.records, "report.pdf") + [f"{SUMMARY}/summary.pdf"]
+    TARGETS += [f"{SUMMARY}/prediction_against_integration.svg"]

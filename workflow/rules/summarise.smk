@@ -6,7 +6,15 @@ rule summarise:
         tables=record_files(PLAN.records, *CSV),
         structures=config["structures"],
     output:
-        [f"{SUMMARY}/{table}.csv" for table in SUMMARIES],
+        [
+            report(
+                f"{SUMMARY}/{table.file_name}",
+                caption="../report/table.rst",
+                category="Tables",
+                labels={"table": table.file_name, "content": table.description},
+            )
+            for table in columns.SUMMARY_TABLES
+        ],
         f"{SUMMARY}/provenance.json",
         f"{SUMMARY}/datapackage.json",
         f"{RESULTS}/datapackage.json",
