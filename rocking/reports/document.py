@@ -11,7 +11,6 @@ import typst
 from rocking.reports.style import glyphs
 
 _FOLDER = Path(__file__).parent
-_STANDARD = "a-2a"
 _FONT_FOLDER = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 
 
@@ -29,9 +28,8 @@ def compile_document(template: str, data: Mapping[str, object]) -> bytes:
         font_paths=_fonts(foreign),
         ignore_system_fonts=True,
         sys_inputs={"data": text, "families": json.dumps(_system_families() if foreign else [])},
-        pdf_standards=[_STANDARD],
+        pdf_standards="a-2a",
         timestamp=0,
-        format="pdf",
     )
 
 

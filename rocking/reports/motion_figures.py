@@ -15,6 +15,8 @@ from rocking.reports.style import TEXT_WIDTH, elided, new_figure, plain_logarith
 _PANEL_COLUMNS = 3
 _PANEL_HEIGHT = 25.0
 _MARGIN_HEIGHT = 6.0
+_PAPER = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
+"""Behind a text that lines may cross."""
 _STILL = 0.01
 """Share of the largest rotation below which a history is cut from the figure."""
 
@@ -85,8 +87,8 @@ def _pulse_over(
         2: start_velocity + drift * (1 - np.cos(omega * after)),
         3: start_displacement + (start_velocity + drift) * after - drift / omega * np.sin(omega * after),
     }
-    for panel, curve in curves.items():
-        axes[panel].plot(times, curve, color="#D55E00", linewidth=1.5, label="dominant pulse")
+    for place, curve in curves.items():
+        axes[place].plot(times, curve, color="#D55E00", linewidth=1.5, label="dominant pulse")
     for panel in axes:
         panel.axvspan(pulse.start_time, pulse.end_time, color="0.93", linewidth=0, zorder=0)
 
@@ -132,9 +134,16 @@ def _history_panel(panel: Axes, history: History) -> None:
     panel.set_ylim(-reach, reach)
     panel.locator_params(axis="y", nbins=5)
     if history.remark:
-        paper = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}
-        place = {"transform": panel.transAxes, "ha": "right", "va": "bottom"}
-        panel.text(0.99, 0.02, history.remark, fontsize=7, bbox=paper, **place)
+        panel.text(
+            0.99,
+            0.02,
+            history.remark,
+            transform=panel.transAxes,
+            ha="right",
+            va="bottom",
+            fontsize=7,
+            bbox=_PAPER,
+        )
 
 
 def _reach(history: History) -> float:
@@ -214,5 +223,5 @@ def _place(panel: Axes, structures: Sequence[tuple[str, float, float]]) -> None:
             (frequency_parameter, uplift_multiplier),
             xytext=(5, 3),
             textcoords="offset points",
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85},
+            bbox=_PAPER,
         )

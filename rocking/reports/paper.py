@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from rocking.records.accelerogram import Accelerogram
@@ -10,9 +11,10 @@ from rocking.reports import paper_curves as curves
 from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.paper_equations import EQUATIONS, equation_rows
-from rocking.reports.paper_figures import arch_response, panels
+from rocking.reports.paper_figures import arch_response, panels, pulse_map
 from rocking.reports.paper_response import example_arch, response_curves
 from rocking.reports.style import svg
+from rocking.sine_pulse import pulse_spectrum
 from rocking.tables import Column, Row, Table, csv_cells
 
 
@@ -28,8 +30,11 @@ class PaperFigure:
 
 
 def paper_figures(rinaldi: Accelerogram | None) -> list[PaperFigure]:
-    """Return Figs. 3, 4, 6, 7, Figs. 3 and 4 with Eq. 4 as printed, Eq. 14, and, given the Rinaldi record, Fig. 8."""
-    made = [_figure_3(), _figure_4(), _figures_as_printed(), _hinge_heights(), _figure_6(), _figure_7()]
+    """Return Figs. 3, 4, 6 and 7, Figs. 3 and 4 with Eq. 4 as printed, the curves of Eq. 14, the spectrum of one sine
+    pulse and, given the Rinaldi record, Fig. 8.
+    """
+    wall = [_figure_3(), _figure_4(), _figures_as_printed(), _hinge_heights()]
+    made = [*wall, _figure_6(), _figure_7(), _pulse_spectrum()]
     return made if rinaldi is None else [*made, _figure_8(rinaldi)]
 
 
@@ -142,6 +147,41 @@ def _figure_7() -> PaperFigure:
         "(a) with a_sc, (b) with a_sc,alt."
     )
     return _overturning("figure_7", caption, curves.arch_sides())
+
+
+def _pulse_spectrum() -> PaperFigure:
+    caption = (
+        "Spectrum of one full sine pulse, η = 0.9: largest rotation over critical rotation of the equivalent block "
+        "(numbers on the lines), and where it overturns (hatched). White areas above a hatched one are safe islands."
+    )
+    frequencies, amplitudes = np.geomspace(0.5, 12, 90), np.geomspace(1.01, 20, 90)
+    ratios = pulse_spectrum(frequencies, amplitudes, 0.9)
+    rows: list[Row] = [
+        {"frequency_ratio": float(omega), "amplitude_ratio": float(a), "rotation_ratio": float(ratios[i, j])}
+        for i, omega in enumerate(frequencies)
+        for j, a in enumerate(amplitudes)
+    ]
+    figure = pulse_map(frequencies, amplitudes, ratios)
+    return PaperFigure("pulse_spectrum", caption, figure, _pulse_spectrum_table(caption), rows)
+
+
+def _pulse_spectrum_table(caption: str) -> Table:
+    return Table(
+        "pulse_spectrum",
+        f"One row per point of the spectrum. {caption}",
+        (
+            Column(
+                "frequency_ratio",
+                "number",
+                "Circular frequency of the pulse over frequency parameter",
+                "Eq. 16",
+            ),
+            Column("amplitude_ratio", "number", "a = a_g / (g times uplift multiplier)", "Eq. 16"),
+            Column(
+                "rotation_ratio", "number", "Largest rotation over critical rotation; INF if it overturns"
+            ),
+        ),
+    )
 
 
 def _figure_8(rinaldi: Accelerogram) -> PaperFigure:

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from rocking.motion import integrate
+from rocking.motion.integration import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.reports.paper_curves import HEIGHT_RATIOS, hinge_height_curves, printed_frequency_parameter
 from rocking.sine_pulse import predict_maximum, printed_maximum

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rocking.reports.paper_curves import ROTATION, Curve
-from rocking.reports.style import new_figure, styled
+from rocking.reports.style import new_figure, plain_logarithmic, styled
 from rocking.structures.arch import Arch
 
 _PANEL_WIDTH, _PANEL_HEIGHT = 85.0, 62.0
@@ -68,3 +68,26 @@ def draw_arch(panel: Axes, arch: Arch) -> None:
     panel.set_xlabel("[m]")
     panel.set_ylabel("[m]")
     panel.legend(loc="lower center")
+
+
+@styled
+def pulse_map(frequency_ratios: np.ndarray, amplitude_ratios: np.ndarray, ratios: np.ndarray) -> Figure:
+    """Draw φ_max/φ_cr (m, n) under one sine over ω (m,) and a (n,): lines, and hatching where the block overturns."""
+    figure = new_figure(90, 120)
+    panel = figure.subplots()
+    overturns = np.isinf(ratios)
+    shown = np.where(overturns, np.nan, ratios).T
+    levels = [0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9]
+    lines = panel.contour(
+        frequency_ratios, amplitude_ratios, shown, levels=levels, colors="black", linewidths=0.5
+    )
+    panel.clabel(lines, fontsize=7, fmt="%g")
+    field = overturns.T.astype(float)
+    panel.contourf(
+        frequency_ratios, amplitude_ratios, field, levels=[0.5, 1.5], colors="0.85", hatches=["///"]
+    )
+    plain_logarithmic(panel, "x")
+    plain_logarithmic(panel, "y")
+    panel.set_xlabel("ω = pulse frequency / frequency parameter [-]")
+    panel.set_ylabel("a = pulse amplitude / uplift acceleration [-]")
+    return figure

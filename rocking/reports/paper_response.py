@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from rocking.motion import integrate
+from rocking.motion.integration import integrate
 from rocking.pulses import Pulse, extract_pulses
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports.paper_curves import ROTATION, Curve
@@ -40,6 +40,7 @@ def response_curves(accelerogram: Accelerogram) -> list[Curve]:
 def _arch_curves(panel: str, radius: float, accelerogram: Accelerogram, pulse: Pulse) -> list[Curve]:
     mechanism = example_arch(radius).mechanism()
     response = integrate(mechanism, accelerogram, history=True)
+    assert response.times is not None and response.rotation is not None  # asked for
     size = np.abs(response.rotation)
     moving = np.flatnonzero(size > 0.01 * size.max())
     used = slice(max(int(moving[0]) - 1, 0), int(moving[-1]) + 1)

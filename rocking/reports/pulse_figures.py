@@ -40,8 +40,10 @@ def _map(
     panel: Axes, onsets: np.ndarray, periods: np.ndarray, share: np.ndarray, pulses: Sequence[Pulse]
 ) -> None:
     # the root lifts the weaker maxima out of the white
-    shade = {"cmap": "Greys", "vmin": 0, "vmax": 1.2, "shading": "nearest", "rasterized": True}
-    panel.pcolormesh(onsets, periods, np.sqrt(share).T, **shade)
+    drawn = panel.pcolormesh(
+        onsets, periods, np.sqrt(share).T, cmap="Greys", vmin=0, vmax=1.2, shading="nearest"
+    )
+    drawn.set_rasterized(True)
     _ranks(panel, pulses)
     plain_logarithmic(panel, "y")
     panel.set_ylim(periods.min(), periods.max())
@@ -74,7 +76,7 @@ def orientation(angles: np.ndarray, gains: np.ndarray, best: float, components: 
     one, two = (elided(name, 8) for name in components)
     labels = [one, "45°", two, "135°", f"−{one}", "225°", f"−{two}", "315°"]
     panel.set_xticks(np.arange(8) * np.pi / 4, labels)
-    panel.set_rticks([0.5, 1.0], ["0.5", "1"])
+    panel.set_yticks([0.5, 1.0], ["0.5", "1"])
     panel.spines["polar"].set_linewidth(0.4)
     panel.grid(linewidth=0.3, color="0.8")
     return figure

@@ -1,12 +1,14 @@
 """The report of one record: what an engineer hands to a client."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing, record_curves, record_tables, record_variations, record_verdict
 from rocking.reports.document import compile_document
 from rocking.reports.printing import Row, of_component
 from rocking.reports.style import TEXT_WIDTH
+from rocking.structures.structure import Structure
 
 Tables = Mapping[str, Sequence[Row]]
 
@@ -14,9 +16,9 @@ Tables = Mapping[str, Sequence[Row]]
 def record_report(
     record: str,
     accelerograms: Sequence[Accelerogram],
-    structures: Mapping[str, object],
+    structures: Mapping[str, Structure],
     tables: Tables,
-    settings: Mapping[str, object],
+    settings: Mapping[str, Any],
     vertical: Accelerogram | None = None,
 ) -> bytes:
     """Return the PDF of one record.
@@ -41,9 +43,9 @@ def failure_report(record: str, message: str) -> bytes:
 def record_data(
     record: str,
     accelerograms: Sequence[Accelerogram],
-    structures: Mapping[str, object],
+    structures: Mapping[str, Structure],
     tables: Tables,
-    settings: Mapping[str, object],
+    settings: Mapping[str, Any],
     vertical: Accelerogram | None = None,
 ) -> dict[str, object]:
     """Return what the template of the record report is given: texts, tables and figures."""
@@ -111,7 +113,7 @@ def _variations(tables: Tables, numbers: Mapping[str, str]) -> dict[str, object]
 
 def _pictures(
     accelerograms: Sequence[Accelerogram],
-    structures: Mapping[str, object],
+    structures: Mapping[str, Structure],
     tables: Tables,
     numbers: Mapping[str, str],
     tolerance: float,
@@ -123,7 +125,7 @@ def _pictures(
     map_width = TEXT_WIDTH if alone else record_curves.MAP_WIDTH
     width = TEXT_WIDTH if alone else record_curves.PAIRED_WIDTH
     height = record_curves.MOTION_HEIGHTS[0 if alone else 1]
-    pictures = {"motions": [], "maps": [], "histories": [], "spectra": []}
+    pictures: dict[str, list[dict[str, str]]] = {"motions": [], "maps": [], "histories": [], "spectra": []}
     for accelerogram in used:
         pulses, predictions, cases = (
             of_component(tables[name], accelerogram.component)
@@ -144,7 +146,7 @@ def _pictures(
     return pictures | {"drawings": record_curves.drawing_pictures(structures, numbers)}
 
 
-def _assumptions(tables: Tables, settings: Mapping[str, object]) -> dict[str, object]:
+def _assumptions(tables: Tables, settings: Mapping[str, Any]) -> dict[str, object]:
     hashes = printing.distinct(tables["record"], "record_sha256")
     change = 100 * float(settings["fragility_change"])
     return {
@@ -162,10 +164,11 @@ def _vertical(rows: Sequence[Row]) -> str:
     named = printing.distinct((row for row in rows if row.get("vertical_component")), "vertical_component")
     if not named:
         return "The vertical ground acceleration is left out."
-    return f"The vertical component {', '.join(named)} acts on the integrations, not on the closed form and the spectrum."
+    component = ", ".join(named)
+    return f"The vertical component {component} acts on the integrations, not on the closed form and the spectrum."
 
 
-def _friction(settings: Mapping[str, object]) -> str:
+def _friction(settings: Mapping[str, Any]) -> str:
     if "friction_coefficient" not in settings:
         return "Sliding is not checked."
     coefficient = printing.given(str(settings["friction_coefficient"]))

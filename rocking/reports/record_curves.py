@@ -15,6 +15,7 @@ from rocking.reports.pulse_figures import energy_map, orientation
 from rocking.reports.structure_figures import structure_drawings
 from rocking.reports.style import TEXT_WIDTH, svg
 from rocking.structures.mechanism import Mechanism
+from rocking.structures.structure import Structure
 from rocking.units import GRAVITY
 
 Rows = Sequence[Row]
@@ -93,13 +94,13 @@ def orientation_picture(accelerograms: Sequence[Accelerogram]) -> Picture | None
         return None
     oriented = extract_pulses_oriented(*horizontal)
     angles = np.linspace(0, 2 * np.pi, 361)
-    names = tuple(printing.words(accelerogram.component) for accelerogram in horizontal)
+    names = printing.words(horizontal[0].component), printing.words(horizontal[1].component)
     figure = orientation(angles, oriented.gain(angles), oriented.angle, names)
     alt = f"Polar plot of the energy of the dominant pulse along every axis of components {names[0]}, {names[1]}."
     return {"svg": svg(figure), "alt": alt}
 
 
-def drawing_pictures(structures: Mapping[str, object], numbers: Mapping[str, str]) -> list[Picture]:
+def drawing_pictures(structures: Mapping[str, Structure], numbers: Mapping[str, str]) -> list[Picture]:
     """Return the drawings of the first structures, or nothing when there is none."""
     drawn = [(f"{number} {name}", structures[name]) for name, number in numbers.items() if name in structures]
     shown = drawn[:MOST_DRAWN]
@@ -114,14 +115,14 @@ def drawing_pictures(structures: Mapping[str, object], numbers: Mapping[str, str
 
 def history_picture(
     accelerogram: Accelerogram,
-    structures: Mapping[str, object],
+    structures: Mapping[str, Structure],
     rows: Rows,
     numbers: Mapping[str, str],
     tolerance: float,
     vertical: Accelerogram | None = None,
 ) -> Picture | None:
     """Return the response histories of one component, the most demanding first chosen; None when nothing moves."""
-    from rocking.motion import integrate
+    from rocking.motion.integration import integrate
     from rocking.records.vertical import aligned
 
     moving = [
@@ -159,6 +160,7 @@ def _demand(row: Row) -> tuple[bool, float]:
 
 
 def _history(label: str, row: Row, mechanism: Mechanism, response: Response) -> History:
+    assert response.times is not None and response.rotation is not None  # asked for
     negative = mechanism.negative or mechanism.positive
     critical = np.where(response.rotation < 0, negative.critical_rotation, mechanism.critical_rotation)
     predicted = read_number(row["predicted_rotation_ratio"])

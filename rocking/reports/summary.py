@@ -1,6 +1,7 @@
 """The report over all records: what a decision is taken from."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from rocking.reports import printing, summary_tables
 from rocking.reports.document import compile_document
@@ -11,7 +12,7 @@ from rocking.reports.summary_figures import prediction_scatter
 Tables = Mapping[str, Sequence[Row]]
 
 
-def summary_report(tables: Tables, settings: Mapping[str, object]) -> bytes:
+def summary_report(tables: Tables, settings: Mapping[str, Any]) -> bytes:
     """Return the PDF over all records.
 
     tables: rows of text as read from the CSV files "record", "pulses", "comparison", "maxima", "structures",
@@ -21,7 +22,7 @@ def summary_report(tables: Tables, settings: Mapping[str, object]) -> bytes:
     return compile_document("summary.typ", summary_data(tables, settings))
 
 
-def summary_data(tables: Tables, settings: Mapping[str, object]) -> dict[str, object]:
+def summary_data(tables: Tables, settings: Mapping[str, Any]) -> dict[str, object]:
     """Return what the template of the summary is given: texts, tables and figures."""
     comparison = tables["comparison"]
     unsafe = [row for row in comparison if row["verdict"] == "unsafe"]
@@ -56,13 +57,13 @@ def _subtitle(tables: Tables) -> str:
 
 
 def _scatter(rows: Sequence[Row]) -> list[dict[str, str]]:
-    columns = ("predicted_rotation_ratio", "integrated_rotation_ratio")
+    predicted, integrated = "predicted_rotation_ratio", "integrated_rotation_ratio"
     cases = [
-        (*(float(row[name]) for name in columns), row["light"])
+        (float(row[predicted]), float(row[integrated]), row["light"])
         for row in rows
-        if all(row[name] for name in columns)
+        if row[predicted] and row[integrated]
     ]
-    if not any(predicted > 0 or integrated > 0 for predicted, integrated, _ in cases):
+    if not any(before > 0 or after > 0 for before, after, _ in cases):
         return []
     alt = "Scatter of predicted against integrated rotation ratio, marked by light, with factor-two lines."
     return [{"svg": svg(prediction_scatter(cases)), "alt": alt}]

@@ -111,9 +111,11 @@ def reliability_table(tables: Tables) -> dict[str, object]:
 def _reliability_row(row: Row) -> list[Cell]:
     before = ("records", "cases", "both_rock", "within_factor_two")
     after = ("overturning", "overturning_found", "overturning_missed", "overturning_false", "fragile")
-    cells = [printing.lamp(row["light"]), *(whole(row[name]) for name in before), number(row["median_ratio"])]
-    cells += [whole(row[name]) for name in after]
-    cells[8] = strong(cells[8]) if row["overturning_missed"] not in ("", "0") else cells[8]
+    cells: list[Cell] = [printing.lamp(row["light"]), *(whole(row[name]) for name in before)]
+    cells += [number(row["median_ratio"]), *(whole(row[name]) for name in after)]
+    cells[8] = (
+        strong(whole(row["overturning_missed"])) if row["overturning_missed"] not in ("", "0") else cells[8]
+    )
     return cells
 
 
