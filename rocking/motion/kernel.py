@@ -22,8 +22,8 @@ REST_ENERGY = 1e-14
 
 The next flight would rise to about half this share of φ_cr, less than ten roundings of φ_cr."""
 
-SETTLED, ROUNDING = 1e-15, 1e-12
-"""A root is found when its last move is below SETTLED, or below ROUNDING and no longer shrinking; both relative."""
+SETTLED = 1e-10
+"""A root is found by Newton's method when its last move is below this share: the next would be its square."""
 
 IMPACT_LIMIT = 20_000_000
 
@@ -222,7 +222,7 @@ def _stride(x, h, room, arc, reach, haste, tolerance):
 def _turning(x, h):
     """The zero of the speed within the step, to rounding."""
     low, high, end = 0.0, h, _speed(x, h)
-    t, last = h * x[0] / (x[0] - end), np.inf
+    t = h * x[0] / (x[0] - end)
     for _ in range(100):
         speed = _speed(x, t)
         if (speed > 0) == (end > 0):
@@ -232,18 +232,16 @@ def _turning(x, h):
         new = t - speed / _acceleration(x, t)
         if not low <= new <= high:
             new = 0.5 * (low + high)
-        move = abs(new - t)
-        if move <= SETTLED * t or (move >= 0.5 * last and move <= ROUNDING * t):
+        move, t = abs(new - t), new
+        if move <= SETTLED * t:
             break
-        last = move
-        t = new
     return t
 
 
 @compiled
 def _landing(x, arc, low, high):
     """The zero of the arc between the times low (above zero) and high (at or below), to rounding."""
-    t, last = high, np.inf
+    t = high
     for _ in range(100):
         height = arc + _displacement(x, t)
         if height > 0:
@@ -253,11 +251,9 @@ def _landing(x, arc, low, high):
         new = t - height / _speed(x, t)
         if not low <= new <= high:
             new = 0.5 * (low + high)
-        move = abs(new - t)
-        if move <= SETTLED * t or (move >= 0.5 * last and move <= ROUNDING * t):
+        move, t = abs(new - t), new
+        if move <= SETTLED * t:
             break
-        last = move
-        t = new
     return t
 
 
@@ -395,10 +391,13 @@ def _hyperbolic(y):
     if y > 1:
         return math.cosh(y) - 1, math.sinh(y) - y
     z = y * y
-    even = 1 + z / 90 * (1 + z / 132 * (1 + z / 182 * (1 + z / 240 * (1 + z / 306))))
-    odd = 1 + z / 110 * (1 + z / 156 * (1 + z / 210 * (1 + z / 272 * (1 + z / 342))))
-    even = 0.5 * z * (1 + z / 12 * (1 + z / 30 * (1 + z / 56 * even)))
-    return even, y * z / 6 * (1 + z / 20 * (1 + z / 42 * (1 + z / 72 * odd)))
+    even = odd = 1.0
+    if y > 0.1:
+        even += z * (1 / 132) * (1 + z * (1 / 182) * (1 + z * (1 / 240) * (1 + z * (1 / 306))))
+        odd += z * (1 / 156) * (1 + z * (1 / 210) * (1 + z * (1 / 272) * (1 + z * (1 / 342))))
+    even = 1 + z * (1 / 12) * (1 + z * (1 / 30) * (1 + z * (1 / 56) * (1 + z * (1 / 90) * even)))
+    odd = 1 + z * (1 / 20) * (1 + z * (1 / 42) * (1 + z * (1 / 72) * (1 + z * (1 / 110) * odd)))
+    return 0.5 * z * even, y * z * (1 / 6) * odd
 
 
 @compiled
@@ -430,26 +429,22 @@ def _exact(x, w, drive, ramp, y):
 
 
 @compiled
-def _exact_root(x, w, drive, ramp, low, high, of_velocity):
-    """The zero of w (or of x) between two scaled times between which it is monotone, to rounding."""
-    a, b, c = _exact(x, w, drive, ramp, high)
-    rising = b > 0 if of_velocity else a > 0
-    y, last = high, np.inf
+def _exact_root(x, w, drive, ramp, low, high, first, last, of_velocity):
+    """The zero of w (or of x) between two scaled times where it is `first` and `last`, to rounding."""
+    y = low + (high - low) * (first / (first - last))
     for _ in range(100):
         a, b, c = _exact(x, w, drive, ramp, y)
         value, slope = (b, c) if of_velocity else (a, b)
-        if (value > 0) == rising:
+        if (value > 0) == (last > 0):
             high = y
         else:
             low = y
         new = y - value / slope
         if not low <= new <= high:
             new = 0.5 * (low + high)
-        move = abs(new - y)
-        if move <= SETTLED * y or (move >= 0.5 * last and move <= ROUNDING * y):
+        move, y = abs(new - y), new
+        if move <= SETTLED * y:
             break
-        last = move
-        y = new
     return y
 
 
@@ -458,10 +453,9 @@ def _sample_events(x, w, drive, ramp, span):
     """First landing within the scaled time span (−1 if none), and the largest peak before it with its time."""
     bound, peak, at = span, -1.0, 0.0
     force = x + drive
-    ratio = -force / (w + ramp)
-    if 0 < ratio < math.tanh(span):
-        bound = min(math.atanh(ratio), span)
-    low, speed = 0.0, w
+    if force * (_exact(x, w, drive, ramp, span)[2]) < 0:  # the velocity has an extreme, its only one
+        bound = min(math.atanh(min(-force / (w + ramp), 1 - 1e-16)), span)
+    low, floor, speed = 0.0, x, w
     for part in range(2):
         if part == 1:
             if bound == span:
@@ -469,19 +463,19 @@ def _sample_events(x, w, drive, ramp, span):
             bound = span
         height, end, _ = _exact(x, w, drive, ramp, bound)
         if speed > 0 >= end:
-            turn = _exact_root(x, w, drive, ramp, low, bound, True)
-            top, _, _ = _exact(x, w, drive, ramp, turn)
-            if top > peak:
-                peak, at = top, turn
+            turn = _exact_root(x, w, drive, ramp, low, bound, speed, end, True)
+            floor, _, _ = _exact(x, w, drive, ramp, turn)
+            if floor > peak:
+                peak, at = floor, turn
             low = turn
         elif speed < 0 <= end:
-            turn = _exact_root(x, w, drive, ramp, low, bound, True)
+            turn = _exact_root(x, w, drive, ramp, low, bound, speed, end, True)
             bottom, _, _ = _exact(x, w, drive, ramp, turn)
             if bottom <= 0:
-                return _exact_root(x, w, drive, ramp, low, turn, False), peak, at
+                return _exact_root(x, w, drive, ramp, low, turn, floor, bottom, False), peak, at
         if height <= 0 and end < 0:
-            return _exact_root(x, w, drive, ramp, low, bound, False), peak, at
-        low, speed = bound, end
+            return _exact_root(x, w, drive, ramp, low, bound, floor, height, False), peak, at
+        low, floor, speed = bound, height, end
     return -1.0, peak, at
 
 
@@ -556,18 +550,23 @@ def _glide(ground, bound, time_step, p, scale, limit, full, i, tau, x, w, span, 
     drive = -1 - scale * (ground[i] + (tau / time_step) * (ground[i + 1] - ground[i]))
     if x == 0 and w == 0:  # uplift where the drive is zero to rounding
         drive = max(drive, 0.0)
+    width = p * (time_step - tau)
     if tau > 0:
-        growth, decay, up, up_end, down, down_end = _weights(p * (time_step - tau))
+        growth, decay, up, up_end, down, down_end = _weights(width)
     q, r, passed = x + w, x - w, 0
     while True:
         final = -1 - scale * ground[i + 1]
         q = growth * q + drive * up + final * up_end
         r = decay * r - drive * down - final * down_end
         new, pull = 0.5 * (q + r), 0.5 * (q - r)
-        if not (new > 0 and w * pull > 0 and (x + drive) * (new + final) >= 0):
+        force, later = x + drive, new + final
+        # |x''| is largest at an end of the sample, so a velocity beyond y |x''| has no zero within it.
+        same = force * later >= 0 or abs(w) > width * max(abs(force), abs(later))
+        if not (new > 0 and w * pull > 0 and same):
             return i, tau, x, w, drive, final, new, pull, False, passed, logged
         i, tau, x, w, drive = i + 1, 0.0, new, pull, final
         growth, decay, up, up_end, down, down_end = full
+        width = p * time_step
         passed += 1
         if log.shape[0] > 0:
             logged = _write(log, logged, i * time_step, span * x, span * w * p)
