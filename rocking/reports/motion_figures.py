@@ -133,6 +133,7 @@ def _history_panel(panel: Axes, history: History) -> None:
     reach = _reach(history)
     panel.set_ylim(-reach, reach)
     panel.locator_params(axis="y", nbins=5)
+    panel.ticklabel_format(axis="y", style="plain", useOffset=False)
     if history.remark:
         panel.text(
             0.99,

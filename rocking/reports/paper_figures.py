@@ -38,7 +38,8 @@ def _panel(panel: Axes, name: str, curves: Sequence[Curve]) -> None:
     panel.set_xlabel(curves[0].x_quantity)
     panel.set_ylabel(curves[0].y_quantity)
     panel.margins(y=0.06)
-    panel.legend(loc="lower right" if curves[0].y_quantity == ROTATION else "best")
+    corner = "lower right" if curves[0].y_quantity == ROTATION else "best"
+    panel.legend(loc=corner, frameon=True, facecolor="white", framealpha=0.85, edgecolor="none")
 
 
 @styled
@@ -81,7 +82,7 @@ def pulse_map(frequency_ratios: np.ndarray, amplitude_ratios: np.ndarray, ratios
     lines = panel.contour(
         frequency_ratios, amplitude_ratios, shown, levels=levels, colors="black", linewidths=0.5
     )
-    panel.clabel(lines, fontsize=7, fmt="%g")
+    panel.clabel(lines, levels[1::2], fontsize=7, fmt="%g")
     field = overturns.T.astype(float)
     panel.contourf(
         frequency_ratios, amplitude_ratios, field, levels=[0.5, 1.5], colors="0.85", hatches=["///"]

@@ -26,6 +26,8 @@ _WORDS = [
 ]
 _LENGTHS = ["diagonal", "height", "thickness", "radius", "breadth", "width", "diameter", "depth", "length"]
 _UNITS = dict.fromkeys(_LENGTHS, " m") | dict.fromkeys(("slenderness", "angle"), " rad")
+_LARGEST_PLAIN = 1e6
+"""Numbers up to here are printed without a power of ten."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 LIGHT_SYMBOLS = {"green": "● green", "amber": "▲ amber", "red": "■ red"}
 
@@ -37,6 +39,8 @@ def number(text: str, digits: int = 3) -> str:
     value = float(text)
     if math.isinf(value):
         return "∞" if value > 0 else "−∞"
+    if 10**digits <= abs(value) < _LARGEST_PLAIN:
+        return _typeset(f"{value:.0f}")
     return _typeset(f"{value:#.{digits}g}".rstrip("."))
 
 
@@ -135,4 +139,4 @@ def _typeset(text: str) -> str:
     mantissa = mantissa.replace("-", "−")
     if not exponent:
         return mantissa
-    return f"{mantissa} × 10{str(int(exponent)).translate(_SUPERSCRIPTS)}"
+    return f"{mantissa}×10{str(int(exponent)).translate(_SUPERSCRIPTS)}"

@@ -24,6 +24,8 @@ Picture = dict[str, str]
 
 MOST_DRAWN = 15
 """Structures that are drawn; the tables hold all."""
+SMALLEST_DRAWN = 1e-3
+"""Rotation ratio below which a response is a tremor that no panel shows."""
 MOST_HISTORIES = 12
 """Responses that are drawn for one component, the most demanding ones; the tables hold all."""
 SPECTRUM_POINTS = 32
@@ -128,7 +130,7 @@ def history_picture(
     moving = [
         row
         for row in rows
-        if read_number(row["integrated_rotation_ratio"]) > 0 and row["structure"] in structures
+        if read_number(row["integrated_rotation_ratio"]) > SMALLEST_DRAWN and row["structure"] in structures
     ]
     chosen = sorted(moving, key=_demand, reverse=True)[:MOST_HISTORIES]
     chosen = [row for row in rows if row in chosen]
@@ -144,7 +146,7 @@ def history_picture(
     figure = response_histories(histories)
     left_out = len(rows) - len(chosen)
     note = (
-        f" Not drawn: {printing.counted(left_out, 'structure')}, not lifted or less demanding."
+        f" Not drawn: {printing.counted(left_out, 'structure')}, not lifted or hardly so, or less demanding."
         if left_out
         else ""
     )

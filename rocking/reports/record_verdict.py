@@ -67,7 +67,10 @@ def verdict_sentences(rows: Rows) -> list[str]:
 
 
 def _doubts(rows: Rows) -> list[str]:
-    unsafe = [row["structure"] for row in rows if row["verdict"] == "unsafe"]
+    missed = [row for row in rows if row["verdict"] == "unsafe"]
+    unsafe = [
+        row["structure"] for row in sorted(missed, key=lambda row: -float(row["integrated_rotation_ratio"]))
+    ]
     fragile = [row["structure"] for row in rows if row["fragile"] == "true"]
     sentences = []
     if unsafe:

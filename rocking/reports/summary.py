@@ -25,7 +25,10 @@ def summary_report(tables: Tables, settings: Mapping[str, Any]) -> bytes:
 def summary_data(tables: Tables, settings: Mapping[str, Any]) -> dict[str, object]:
     """Return what the template of the summary is given: texts, tables and figures."""
     comparison = tables["comparison"]
-    unsafe = [row for row in comparison if row["verdict"] == "unsafe"]
+    unsafe = sorted(
+        (row for row in comparison if row["verdict"] == "unsafe"),
+        key=lambda row: -float(row["integrated_rotation_ratio"]),
+    )
     fragile = [row for row in comparison if row["fragile"] == "true"]
     trade = tables.get("trade", ())
     return {

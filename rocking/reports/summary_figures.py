@@ -18,7 +18,7 @@ _FALLEN = 1.6
 @styled
 def prediction_scatter(cases: Sequence[tuple[float, float, str]]) -> Figure:
     """Draw predicted against integrated rotation ratio for (predicted, integrated, light), with factor-two lines."""
-    figure = new_figure(105, 125, margins=(20, 3, 13, 3))
+    figure = new_figure(95, 115, margins=(20, 3, 13, 3))
     panel = figure.subplots()
     span = np.array([_SMALLEST, 1.0])
     panel.plot(span, span, color="black", linewidth=0.7)

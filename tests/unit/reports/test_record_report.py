@@ -15,7 +15,7 @@ from rocking.structures import Block
 
 from .conftest import HOSTILE, SETTINGS, assessed, shaken
 
-NUMBER = re.compile(r"[−-]?\d+(?:\.\d+)?(?: × 10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
+NUMBER = re.compile(r"[−-]?\d+(?:\.\d+)?(?:×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
 CSV_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 PLAIN = str.maketrans("−⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789")
 TABLES_OF_NUMBERS = ("identity", "structures", "methods", "trust", "candidates", "processing")
@@ -25,7 +25,7 @@ def printed_numbers(text: str) -> list[tuple[float, float]]:
     """Numbers in a printed text, each with half a unit of its last digit."""
     found = []
     for token in NUMBER.findall(text):
-        mantissa, _, exponent = token.translate(PLAIN).partition(" × 10")
+        mantissa, _, exponent = token.translate(PLAIN).partition("×10")
         scale = 10.0 ** int(exponent or 0)
         decimals = len(mantissa.partition(".")[2])
         found.append((float(mantissa) * scale, 0.5 * 10.0**-decimals * scale))
