@@ -38,8 +38,9 @@ def _panel(panel: Axes, name: str, curves: Sequence[Curve]) -> None:
     panel.set_xlabel(curves[0].x_quantity)
     panel.set_ylabel(curves[0].y_quantity)
     panel.margins(y=0.06)
-    corner = "lower right" if curves[0].y_quantity == ROTATION else "best"
-    panel.legend(loc=corner, frameon=True, facecolor="white", framealpha=0.85, edgecolor="none")
+    legend = panel.legend(loc="lower right" if curves[0].y_quantity == ROTATION else "best")
+    legend.set_frame_on(True)
+    legend.get_frame().set(facecolor="white", edgecolor="none", alpha=0.85)
 
 
 @styled

@@ -21,7 +21,9 @@ def structure_numbers(tables: Tables) -> dict[str, str]:
 def identity_table(rows: Rows) -> dict[str, object]:
     """Return what was read and done: one column per component, or two columns of facts for a single one."""
     facts = [[label, *[show(row) for row in rows]] for label, show in _IDENTITY]
+    facts = [fact for fact in facts if set(fact[1:]) != {printing.NOTHING}]
     if len(rows) == 1:
+        facts += [["", ""]] * (len(facts) % 2)
         half = len(facts) // 2
         columns = [("", "auto", "l"), ("", "1", "l"), ("", "auto", "l"), ("", "1", "l")]
         return table(columns, [left + right for left, right in zip(facts[:half], facts[half:], strict=True)])
@@ -66,7 +68,7 @@ _IDENTITY = (
     ("Peak velocity", _rounded("peak_velocity_m_s", "m/s")),
     ("Peak displacement", _rounded("peak_displacement_m", "m")),
     ("High-pass corner, known", _chosen("high_pass_frequency_hz", "Hz")),
-    ("Processing", _plain("processing")),
+    ("Processing", lambda row: row["processing"] or "none"),
     ("Noticed by the reader", _plain("warnings")),
 )
 
