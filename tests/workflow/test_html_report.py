@@ -1,0 +1,143 @@
+"""snakemake --report: one page that a browser opens without a network, with every result under its category."""
+
+import base64
+import csv
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from urllib.parse import unquote
+
+import pytest
+
+import rocking
+from rocking import columns
+from rocking.cli import main
+
+ROOT = Path(rocking.__file__).parents[1]
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+CATEGORIES = {
+    "Study": {"prediction against integration", "report on all records"},
+    "Records": {"synthetic_strong_pulse"},
+    "Tables": {table.file_name for table in columns.SUMMARY_TABLES},
+}
+"""What must stand under each category, by the first label of each result."""
+PATIENCE = 20
+"""s; a loaded machine, not the page, is what takes so long."""
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory) -> Path:
+    """A study of one record and one structure that was run, with its page in report.html."""
+    folder = tmp_path_factory.mktemp("html") / "my study"
+    assert main(["start", str(folder)]) == 0
+    config = folder / "config.yaml"
+    fast = config.read_text(encoding="utf-8").replace("bootstrap_replicates: 100", "bootstrap_replicates: 0")
+    config.write_text(fast, encoding="utf-8")
+    pier = "- {name: pier, type: block, breadth_m: 2.0, height_m: 9.0}\n"
+    (folder / "structures.yaml").write_text(pier, encoding="utf-8")
+    shutil.copy(ROOT / "records" / "synthetic_strong_pulse.AT2", folder / "records")
+    assert main(["catalogue", str(folder / "records")]) == 0
+    assert main(["run", str(folder), "--", "--cores", "1", "--quiet"]) == 0
+    assert main(["run", str(folder), "--", "--report", "report.html"]) == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator:
+    """A headless Chromium that can reach no host."""
+    webdriver = pytest.importorskip(
+        "selenium.webdriver", reason="the page is opened by selenium, of the extra test"
+    )
+    binary = next(filter(None, map(shutil.which, BROWSERS)), None)
+    driver = shutil.which("chromedriver")
+    if binary is None or driver is None:
+        pytest.skip("Chromium and chromedriver are not installed; install them to open the page in a browser")
+    options = webdriver.ChromeOptions()
+    options.binary_location = binary
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1400,1000"):
+        options.add_argument(argument)
+    options.add_argument("--host-resolver-rules=MAP * ~NOTFOUND")
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    opened = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
+    yield opened
+    opened.quit()
+
+
+@pytest.fixture
+def page(study, browser) -> Callable:
+    """The page, freshly opened; call it with an XPath to wait for what stands there."""
+    from selenium.webdriver.support.ui import WebDriverWait
+
+    browser.get((study / "report.html").as_uri())
+    return lambda path: WebDriverWait(browser, PATIENCE).until(lambda at: at.find_elements("xpath", path))
+
+
+def open_result(page: Callable, category: str, label: str, button: int) -> None:
+    """Click the category, then the eye (0) or the information (1) of the result with that label."""
+    page(f"//a[normalize-space()='{category}']")[0].click()
+    page(f"//tr[td[normalize-space()='{label}']]//a[@type='button']")[button].click()
+
+
+def test_the_first_page_says_what_was_studied(page, browser):
+    assert page("//h1[contains(., 'Rocking of structures')]")
+    text = browser.find_element("tag name", "body").text
+    assert "structures.yaml" in text and "records/catalogue.csv" in text
+    assert "by 1 % flips it" in text
+
+
+@pytest.mark.parametrize("category", CATEGORIES)
+def test_every_result_stands_in_its_category(page, category):
+    page(f"//a[normalize-space()='{category}']")[0].click()
+    assert {row.text for row in page("//tr/td[1]")} == CATEGORIES[category]
+
+
+def test_the_figure_is_drawn(page, browser):
+    open_result(page, "Study", "prediction against integration", 0)
+    (image,) = page("//img[contains(@src, 'prediction_against')]")
+    assert browser.execute_script("return arguments[0].complete && arguments[0].naturalWidth", image) > 100
+
+
+@pytest.mark.parametrize(
+    ("category", "label"), [("Study", "report on all records"), ("Records", "synthetic_strong_pulse")]
+)
+def test_the_reports_are_shown(page, category, label):
+    open_result(page, category, label, 0)
+    (frame,) = page("//iframe")
+    assert frame.get_attribute("src").startswith("data:application/pdf")
+    assert frame.size["height"] > 300
+
+
+def test_a_table_in_the_page_is_the_file(page, study):
+    """The page offers the table as a download that carries its bytes."""
+    page("//a[normalize-space()='Tables']")[0].click()
+    link = page("//tr[td[normalize-space()='comparison.csv']]//a[@type='button']")[0].get_attribute("href")
+    assert link.startswith("data:text/csv")
+    content = base64.b64decode(unquote(link.partition("base64,")[2]))
+    assert content == (study / "results" / "summary" / "comparison.csv").read_bytes()
+    assert [row["structure"] for row in csv.DictReader(content.decode().splitlines())] == ["pier"]
+
+
+@pytest.mark.parametrize(
+    ("category", "label", "begins"),
+    [
+        (
+            "Study",
+            "prediction against integration",
+            "Largest rotation over critical rotation: the closed form",
+        ),
+        ("Study", "report on all records", "Report on all records: what an expert would say"),
+        ("Records", "synthetic_strong_pulse", "Report of one record: what was read"),
+        ("Tables", "maxima.csv", "Columns end in their unit."),
+    ],
+)
+def test_a_result_has_its_caption(page, browser, category, label, begins):
+    open_result(page, category, label, 1)
+    (caption,) = page(f"//p[starts-with(normalize-space(), '{begins}')]")
+    assert caption.is_displayed()
+
+
+def test_the_browser_had_nothing_to_complain_about(page, browser):
+    page("//h1")
+    assert [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"] == []
