@@ -58,9 +58,13 @@ def report_summary(folder: Path, settings: Mapping[str, object]) -> None:
 
 def draw_summary(comparison: Path, target: Path) -> None:
     """Draw prediction against integration of every row of the comparison table into the SVG file `target`."""
-    columns_drawn = ("predicted_rotation_ratio", "integrated_rotation_ratio")
     cases = [
-        (*(float(row[name] or "nan") for name in columns_drawn), row["light"]) for row in read_rows(comparison)
+        (
+            float(row["predicted_rotation_ratio"] or "nan"),
+            float(row["integrated_rotation_ratio"] or "nan"),
+            row["light"],
+        )
+        for row in read_rows(comparison)
     ]
     write_whole(target, svg(prediction_scatter(cases)).encode())
 

@@ -1,7 +1,9 @@
 """The documentation: its examples run, it leaves nothing of the code out, and it opens without a network."""
 
+import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from html import unescape
@@ -60,6 +62,26 @@ def test_the_examples_of_a_page_run(page, tmp_path):
     command = [sys.executable, "-W", "error", "-W", ignored, str(script)]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.slow
+def test_the_readme_leads_to_the_report_of_an_own_record(tmp_path):
+    """Its commands as they stand, in an empty folder with one accelerogram."""
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"^```sh\n(.*?)^```$", readme, re.M | re.S)
+    commands = "\n".join(line for line in block.splitlines() if not line.startswith("source "))
+    shutil.copy(ROOT / "records" / "synthetic_strong_pulse.AT2", tmp_path / "own.AT2")
+    environment = os.environ | {"PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+    done = subprocess.run(
+        ["bash", "-e", "-c", commands],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert (tmp_path / "my_study" / "results" / "own" / "report.pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_pages_have_examples():
