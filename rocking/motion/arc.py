@@ -27,7 +27,7 @@ class Arc:
     starts: np.ndarray
     rigid: bool
 
-    def at(self, rotation: np.ndarray) -> np.ndarray:
+    def at(self, rotation: np.ndarray | float) -> np.ndarray:
         """Return the arc at `rotation` [rad], any shape; small rotations keep their relative accuracy."""
         rotation = np.asarray(rotation, dtype=float)
         if self.rigid:

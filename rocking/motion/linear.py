@@ -55,7 +55,7 @@ def follow_exactly(
     )
     status, best, when, impacts, uplift, last_side, steps, _ = found
     response = concluded(status, best.tolist(), when, impacts, uplift, last_side, steps, 0.0, 0.0)
-    return with_history(response, *log.T, 0.0) if history else response
+    return with_history(response, log[:, 0], log[:, 1], log[:, 2], 0.0) if history else response
 
 
 def _sides(block: EquivalentBlock) -> tuple[EquivalentBlock, ...]:

@@ -103,10 +103,10 @@ def with_history(
 def _initial(table: Table, rotation: float, velocity: float, sign: int) -> tuple[float, float, int]:
     """The initial state in the arc; raises MotionError beyond the end of the mechanism."""
     side = table.side(sign)
-    arc = float(side.arc(np.float64(rotation)))
+    arc = float(side.arc(np.array(rotation)))
     if not arc < side.end:
         raise MotionError(f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.")
-    return arc, velocity * float(side.stretch(np.float64(rotation))), sign
+    return arc, velocity * float(side.stretch(np.array(rotation))), sign
 
 
 def _ratio(side: SideTable, arc: float) -> float:

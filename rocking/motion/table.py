@@ -57,7 +57,7 @@ class SideTable:
     arc: Function
     stretch: Function
 
-    def rotation(self, arc: np.ndarray) -> np.ndarray:
+    def rotation(self, arc: np.ndarray | float) -> np.ndarray:
         """Return the rotation [rad] at `arc`, any shape, within the table."""
         arc = np.asarray(arc, dtype=float)
         split, inner, inner_count, _, outer, outer_count, *_ = self.grid
@@ -179,20 +179,13 @@ def _tabulated(side: Side, last: float) -> SideTable | None:
     if inner is None or outer is None:
         return None
     powers = np.concatenate([inner, outer], axis=1)
-    widths, counts = (
-        (split / inner.shape[1], (end - split) / outer.shape[1]),
-        (inner.shape[1], outer.shape[1]),
-    )
-    starts = np.concatenate([np.arange(counts[0]) * widths[0], split + np.arange(counts[1] + 1) * widths[1]])
-    zones = [
-        value for width, count in zip(widths, counts, strict=True) for value in (width, count, ROOM * width)
-    ]
+    grid, starts = _grid(split, end, inner.shape[1], outer.shape[1])
     lift = side.at("gravity", 0.0) / rest, side.at("ground", 0.0) / rest
     steepest = -side.at("gravity_slope", side.critical_rotation) / side.at("inertia", side.critical_rotation)
     return SideTable(
         pieces=np.ascontiguousarray(powers[:2].transpose(1, 2, 0).reshape(powers.shape[1], -1)),
         ratios=np.ascontiguousarray(powers[2]),
-        grid=(split, *zones, 1 / widths[0], 1 / widths[1]),
+        grid=grid,
         hold=_hold(side, arc.rotation, starts),
         critical=critical,
         end=end,
@@ -204,6 +197,14 @@ def _tabulated(side: Side, last: float) -> SideTable | None:
         arc=arc.at,
         stretch=arc.stretch,
     )
+
+
+def _grid(split: float, end: float, inner: int, outer: int) -> tuple[tuple[float, ...], np.ndarray]:
+    """The grid of a SideTable with so many pieces in its zones, and where its pieces start (with the end)."""
+    width, further = split / inner, (end - split) / outer
+    starts = np.concatenate([np.arange(inner) * width, split + np.arange(outer + 1) * further])
+    zones = (width, inner, ROOM * width, further, outer, ROOM * further)
+    return (split, *zones, 1 / width, 1 / further), starts
 
 
 def _reaching_speed(side: Side, rest_inertia: float) -> float:
