@@ -17,15 +17,19 @@ _FALLEN = 1.6
 
 @styled
 def prediction_scatter(cases: Sequence[tuple[float, float, str]]) -> Figure:
-    """Draw predicted against integrated rotation ratio for (predicted, integrated, light), with factor-two lines."""
+    """Draw predicted against integrated rotation ratio for (predicted, integrated, light), with factor-two lines.
+
+    A case with a nan is left out.
+    """
     figure = new_figure(95, 115, margins=(20, 3, 13, 3))
     panel = figure.subplots()
     span = np.array([_SMALLEST, 1.0])
     panel.plot(span, span, color="black", linewidth=0.7)
     for factor in (0.5, 2.0):
         panel.plot(span, factor * span, color="black", linewidth=0.6, linestyle="--")
+    known = [case for case in cases if not math.isnan(case[0] + case[1])]
     for light, colour in LIGHT_COLOURS.items():
-        points = [(_place(i), _place(p)) for p, i, of in cases if of == light and (p > 0 or i > 0)]
+        points = [(_place(i), _place(p)) for p, i, of in known if of == light and (p > 0 or i > 0)]
         x, y = zip(*points, strict=True) if points else ((), ())
         panel.plot(
             x,

@@ -7,6 +7,7 @@ import re
 from rocking.reports import summary_report
 from rocking.reports.reliability import RELIABILITY, reliability_rows
 from rocking.reports.summary import summary_data
+from rocking.reports.summary_figures import prediction_scatter
 from rocking.tables import csv_lines
 
 from .conftest import SETTINGS
@@ -116,3 +117,9 @@ def test_the_scatter_marks_the_lights_by_shape(example):
     drawn = data["scatter"][0]["svg"]
     assert {"green light", "amber light", "red light"} <= set(re.findall(r"\w+ light", drawn))
     assert json.dumps(data)
+
+
+def test_a_case_without_a_prediction_is_not_counted_in_the_scatter():
+    figure = prediction_scatter([(math.nan, 0.5, "green"), (0.4, 0.5, "green"), (math.inf, 0.5, "red")])
+    labels = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    assert labels == ["green light (1)", "amber light (0)", "red light (1)"]
