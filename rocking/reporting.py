@@ -43,11 +43,11 @@ def _report(
     if not tables["comparison"]:
         return failure_report(record.id, " ".join(row["message"] for row in failures))
     try:
-        accelerograms = open_record(record, mirror=study.mirror)
+        accelerograms, vertical = study.open(record)
     except RockingError as error:
         return failure_report(record.id, str(error))
     tables |= {"structures": structures, "failures": failures}
-    return record_report(record.id, accelerograms, study.structures, tables, settings)
+    return record_report(record.id, accelerograms, study.structures, tables, settings, vertical)
 
 
 def report_summary(folder: Path, settings: Mapping[str, object]) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from time import process_time
-from typing import Any
+from typing import Any, Literal
 
 from rocking import columns, rows
 from rocking.comparison import Assessment, AssessmentSettings, Failure, assess
@@ -12,6 +12,7 @@ from rocking.errors import RockingError
 from rocking.pulses import PulseSettings
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord, open_record
+from rocking.records.processing import UNPROCESSED_DEFAULT, Processing, process
 from rocking.records.vertical import aligned, open_vertical
 from rocking.structures import Structure, load_structures
 from rocking.tables import Row, write_table
@@ -26,6 +27,7 @@ class Study:
     candidates: heights tried for the hinge of a wall or the crack of a spire, 0 for none.
     processing_variants: whether every structure also meets the record processed otherwise.
     vertical: whether the vertical component acts too, where there is one.
+    process: which records are processed: those whose file says they are raw, all, or none; processing: how.
     settings_sha256: names the settings, the structure list and the package in every row.
     """
 
@@ -36,18 +38,25 @@ class Study:
     candidates: int = 19
     processing_variants: bool = True
     vertical: bool = False
+    process: Literal["raw", "always", "never"] = "raw"
+    processing: Processing = UNPROCESSED_DEFAULT
 
     def open(self, record: CatalogueRecord) -> tuple[list[Accelerogram], Accelerogram | None]:
         """Return the horizontal components of `record` and, where it is asked for and there is one, its vertical one.
 
         Raises RecordError naming the record, also when the vertical component does not fit the others.
         """
-        accelerograms = open_record(record, mirror=self.mirror)
+        accelerograms = [self._processed(a) for a in open_record(record, mirror=self.mirror)]
         vertical = open_vertical(record, mirror=self.mirror) if self.vertical else None
+        vertical = None if vertical is None else self._processed(vertical)
         if vertical is not None:
             for accelerogram in accelerograms:
                 aligned(vertical, accelerogram)
         return accelerograms, vertical
+
+    def _processed(self, accelerogram: Accelerogram) -> Accelerogram:
+        raw = accelerogram.processed is False or (self.process == "always")
+        return process(accelerogram, self.processing) if raw and self.process != "never" else accelerogram
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], structures: Path, sha256: str) -> "Study":
@@ -75,7 +84,19 @@ class Study:
             settings["candidates"],
             settings["processing_variants"],
             settings["vertical"],
+            settings["processing"]["apply"],
+            _processing(settings["processing"]),
         )
+
+
+def _processing(settings: Mapping[str, Any]) -> Processing:
+    return Processing(
+        pre_event=settings["pre_event_s"],
+        baseline=settings["baseline"],
+        taper=settings["taper"],
+        high_pass=settings["high_pass_hz"],
+        low_pass=settings["low_pass_hz"],
+    )
 
 
 def assess_records(records: Iterable[CatalogueRecord], study: Study, results: Path, log: Path) -> None:

@@ -46,8 +46,8 @@ def read_thresholds(lines: Iterable[str]) -> Thresholds:
     names = [field.name for field in fields(Thresholds)]
     if len(rows) != 1 or list(rows[0]) != names:
         raise PulseError(f"The thresholds must be one row with the columns {', '.join(names)}.")
-    *numbers, evidence = (rows[0][name] for name in names)
-    return Thresholds(*(finite(PulseError, "a threshold", float(number)) for number in numbers), evidence)
+    numbers = [finite(PulseError, name, float(rows[0][name])) for name in names[:3]]
+    return Thresholds(numbers[0], numbers[1], numbers[2], rows[0]["evidence"])
 
 
 THRESHOLDS = read_thresholds(

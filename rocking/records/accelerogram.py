@@ -50,8 +50,8 @@ class Accelerogram:
     """Direction of positive acceleration, degrees clockwise from north; None if unknown."""
     vertical: bool = False
     borehole: bool = False
-    processed: bool = False
-    """Whether the file says that its numbers are already corrected."""
+    processed: bool | None = False
+    """Whether the file says that its numbers are already corrected; None where it cannot say."""
 
     def __post_init__(self) -> None:
         name = self.source.path or "acceleration"

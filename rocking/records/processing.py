@@ -60,11 +60,11 @@ UNPROCESSED_DEFAULT = Processing(pre_event=1.0, baseline="linear", taper=0.02, h
 def process(record: Accelerogram, processing: Processing | None = None) -> Accelerogram:
     """Return `record` after the steps of `processing`, each told in its `processing` field.
 
-    None: the default for raw records, and nothing for those whose file says they are processed already.
+    None: the default for raw records, and nothing for those whose file says they are processed already or cannot say.
     Raises RecordError when a corner or a window does not fit the record.
     """
     if processing is None:
-        processing = Processing() if record.processed else UNPROCESSED_DEFAULT
+        processing = UNPROCESSED_DEFAULT if record.processed is False else Processing()
     for step in (_without_pre_event_mean, _on_baseline, _filtered, _resampled):
         record = step(record, processing)
     return record

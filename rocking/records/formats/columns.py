@@ -124,7 +124,9 @@ def _check_rows(name: str, body: bytes, width: int, last_may_be_short: bool) -> 
 def _series(name: str, values: np.ndarray, options: Options, label: str) -> Accelerogram:
     unit = options.unit_of(name, _unit(label))
     step = options.time_step_of(name, None)
-    return accelerogram(name, COLUMNS.name, unit, values, step, component="" if _unit(label) else label)
+    return accelerogram(
+        name, COLUMNS.name, unit, values, step, component="" if _unit(label) else label, processed=None
+    )
 
 
 def _channels(name: str, rows: np.ndarray, names: tuple[str, ...], options: Options) -> list[Accelerogram]:
@@ -160,6 +162,7 @@ def _channel(
         component=component,
         processing=told,
         warnings=told,
+        processed=None,
     )
 
 
@@ -190,7 +193,7 @@ def _read_titled(content: bytes, name: str, options: Options) -> list[Accelerogr
     values, told = whole(
         name, numbers(name, _body(content, 2)), count(name, "number of samples", found[0]), per_line=1
     )
-    return [accelerogram(name, TITLED.name, options.unit_of(name, None), values, step, warnings=told)]
+    return [accelerogram(name, TITLED.name, options.unit_of(name, None), values, step, warnings=told, processed=None)]
 
 
 COLUMNS = Format(
