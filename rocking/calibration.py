@@ -255,7 +255,9 @@ def write_calibration(
     Writes comparisons.csv, thresholds.csv and reliability.csv, and returns the thresholds.
     """
     everything = grid_of_blocks() | dict(structures)
-    comparisons = [c for name, record in _distinct(records) for c in compare(name, record, everything)]
+    comparisons = [
+        c for name, record in distinct_components(records) for c in compare(name, record, everything)
+    ]
     thresholds = choose_thresholds(comparisons)
     write_table(COMPARISONS, (asdict(c) for c in comparisons), folder / COMPARISONS.file_name)
     write_table(THRESHOLDS, [asdict(thresholds)], folder / THRESHOLDS.file_name)
@@ -264,8 +266,11 @@ def write_calibration(
     return thresholds
 
 
-def _distinct(records: Iterable[tuple[str, Accelerogram]]) -> Iterator[tuple[str, Accelerogram]]:
-    """Two opposite directions are one component: rocking of a symmetric structure does not tell them apart."""
+def distinct_components(records: Iterable[tuple[str, Accelerogram]]) -> Iterator[tuple[str, Accelerogram]]:
+    """Yield the first record of each component of each site.
+
+    Two opposite directions are one component: rocking of a symmetric structure does not tell them apart.
+    """
     seen = set()
     for name, record in records:
         direction = record.component if record.azimuth is None else round(record.azimuth) % 180

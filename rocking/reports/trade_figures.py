@@ -3,26 +3,44 @@
 import io
 import math
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from statistics import median
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from rocking.reports.style import new_figure, styled
+from rocking.reports.style import new_figure, styled, svg
+from rocking.tables import read_rows, write_whole
 
 SMALLEST_ERROR = 1e-14
 """Smaller errors, down to none at all, are drawn here: they are the rounding of the reference."""
 _LOOKS = {
-    "printed": ("Eq. 15 as printed", "X", "#D55E00"),
-    "closed form": ("closed form, exact", "o", "#E69F00"),
-    "block on record": ("equivalent block on the record", "s", "#0072B2"),
-    "mechanism on record": ("mechanism on the record", "D", "#000000"),
-    "scipy RK45": ("scipy RK45 with events", "^", "#CC79A7"),
-    "scipy DOP853": ("scipy DOP853 with events", "v", "#009E73"),
+    "printed": ("Eq. 15 as printed", "X", "#D55E00", "above"),
+    "closed form": ("closed form, exact", "o", "#E69F00", "right"),
+    "block on record": ("equivalent block on the record", "s", "#0072B2", "right"),
+    "mechanism on record": ("mechanism on the record", "D", "#000000", "right"),
+    "scipy RK45": ("scipy RK45", "^", "#CC79A7", "left"),
+    "scipy DOP853": ("scipy DOP853", "v", "#009E73", "right"),
 }
-"""Name, marker and colour (told apart by colour-blind readers) of each method; the marker alone tells it in print."""
-_TIMES = {1e-6: "1 µs", 1e-5: "10 µs", 1e-4: "0.1 ms", 1e-3: "1 ms", 1e-2: "10 ms", 0.1: "0.1 s", 1: "1 s", 10: "10 s", 100: "100 s"}  # fmt: skip
+"""Name, marker, colour and side of the label of each method; the marker alone tells it in print."""
+_SIDES: dict[str, dict[str, Any]] = {
+    "above": {"xytext": (0, 7), "ha": "center", "va": "bottom"},
+    "right": {"xytext": (7, 0), "ha": "left", "va": "center"},
+    "left": {"xytext": (-7, 0), "ha": "right", "va": "center"},
+}
+_TIMES = {
+    1e-6: "1 µs",
+    1e-5: "10 µs",
+    1e-4: "0.1 ms",
+    1e-3: "1 ms",
+    1e-2: "10 ms",
+    0.1: "0.1 s",
+    1.0: "1 s",
+    10.0: "10 s",
+    100.0: "100 s",
+}
 _ERRORS = {
     1e-14: "≤ 1e-14",
     1e-12: "1e-12",
@@ -34,6 +52,13 @@ _ERRORS = {
 }
 Row = Mapping[str, str]
 """A row of trade.csv as text."""
+
+
+def write_trade_figure(table: Path, *targets: Path) -> None:
+    """Draw `table`, a trade.csv, into each of `targets`, as the PDF or SVG that its name asks for."""
+    figure = trade_figure(read_rows(table))
+    for target in targets:
+        write_whole(target, pdf(figure) if target.suffix == ".pdf" else svg(figure).encode())
 
 
 @styled
@@ -59,7 +84,7 @@ def pdf(figure: Figure) -> bytes:
     return stream.getvalue()
 
 
-def _draw(panel: Axes, rows: list[Row], name: str, marker: str, colour: str) -> None:
+def _draw(panel: Axes, rows: list[Row], name: str, marker: str, colour: str, side: str) -> None:
     medians = []
     for tolerance in dict.fromkeys(row["tolerance"] for row in rows):
         found = [row for row in rows if row["tolerance"] == tolerance and row["error"]]
@@ -70,14 +95,21 @@ def _draw(panel: Axes, rows: list[Row], name: str, marker: str, colour: str) -> 
             medians.append((median(times), median(errors)))
     if not medians:
         return
-    panel.plot(*zip(*medians, strict=True), color=colour, linewidth=1.0)
-    panel.plot(*zip(*medians, strict=True), marker, color=colour, markersize=6, markeredgecolor="white", markeredgewidth=0.6)  # fmt: skip
-    wrong = [row for row in rows if row["verdict_agrees"] == "false"]
-    said = f"\nwrong verdict in {len(wrong)} of {len(rows)} runs" if wrong else ""
+    times, errors = zip(*medians, strict=True)
+    panel.plot(times, errors, color=colour, linewidth=1.0)
+    panel.plot(
+        times, errors, marker, color=colour, markersize=6, markeredgecolor="white", markeredgewidth=0.6
+    )
     place = max(medians, key=lambda point: point[1])
-    panel.annotate(
-        name + said, place, (0, 7), textcoords="offset points", ha="center", va="bottom", color=colour, fontsize=7.5
-    )  # fmt: skip
+    text = _label(name, rows)
+    panel.annotate(text, place, textcoords="offset points", fontsize=7.5, **_SIDES[side])
+
+
+def _label(name: str, rows: list[Row]) -> str:
+    tolerances = sorted({float(row["tolerance"]) for row in rows if row["tolerance"]})
+    spread = f",\ntolerance {tolerances[-1]:.0e} to {tolerances[0]:.0e}" if tolerances else ""
+    wrong = sum(row["verdict_agrees"] == "false" for row in rows)
+    return name + spread + (f",\nwrong verdict in {wrong} of {len(rows)}" if wrong else "")
 
 
 def _frame(panel: Axes, rows: list[Row]) -> None:
@@ -96,5 +128,5 @@ def _frame(panel: Axes, rows: list[Row]) -> None:
     panel.set_ylabel("error of the largest rotation: lower is more accurate")
     cases = len({(row["record"], row["component"], row["structure"]) for row in rows})
     panel.set_title(
-        f"{cases} records and structures: small marks are cases, large ones medians, a line joins the tolerances of a method"
+        f"{cases} cases (small marks) and their medians (large); a line joins the tolerances of a method"
     )

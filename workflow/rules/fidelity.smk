@@ -1,0 +1,19 @@
+"""Find how far the cheap methods may be trusted: limits chosen on half of the real records, held against the other."""
+
+
+rule calibrate_fidelity:
+    input:
+        catalogue=config["calibration_catalogue"],
+        structures=config["structures"],
+    output:
+        [f"{RESULTS}/calibration/{table}.csv" for table in ("fidelity", "fidelity_held_out")],
+    log:
+        f"{RESULTS}/calibration/fidelity.log",
+    benchmark:
+        f"{RESULTS}/calibration/fidelity.tsv"
+    params:
+        package_sha256=PLAN.package_sha256,
+    message:
+        "Try every method on the real records"
+    script:
+        "../scripts/fidelity.py"
