@@ -61,7 +61,7 @@ def integrate(
 
     Overturning is a rotation past the mechanism's end, or outward motion that the largest acceleration still to come
     cannot turn back. Rocking ends at an impact that leaves less than 1e-14 of the energy that reaches φ_cr.
-    Raises MotionError for a setting or a forcing outside what is allowed, or a motion of more than 2e7 impacts.
+    Raises MotionError for a setting or a forcing outside what is allowed, or a motion of more than 5e6 impacts.
     """
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
     start = _start(structure, initial_rotation, initial_velocity)

@@ -25,10 +25,10 @@ The next flight would rise to about half this share of φ_cr, less than ten roun
 SETTLED = 1e-10
 """A root is found by Newton's method when its last move is below this share: the next would be its square."""
 
-IMPACT_LIMIT = 20_000_000
+IMPACT_LIMIT = 5_000_000
 
-INSTANT = 1e-14
-"""A landing this soon after an uplift, as a share of the sample, is a rounding: the structure rests to its end."""
+INSTANT, PAUSE = 1e-14, 1e-9
+"""A landing sooner than INSTANT after an uplift is a rounding: it rests for PAUSE. Both are shares of a sample."""
 
 # Contraction to fused multiply-adds changes roundings only; infinities and NaN keep their meaning.
 compiled = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
@@ -378,8 +378,8 @@ def rock(
         if not speed > rest_speed[k]:
             side = 0
             if landing <= INSTANT * time_step:
-                i, tau = i + 1, 0.0
-        elif impacts >= IMPACT_LIMIT:
+                tau += PAUSE * time_step
+        if impacts >= IMPACT_LIMIT:
             status = TOO_MANY_IMPACTS
             break
     return status, best, when, impacts, uplift, side, steps, logged
@@ -655,8 +655,8 @@ def rock_linear(
         if not w * w > REST_ENERGY or w < 0:
             side = 0
             if landing <= INSTANT * y:
-                i, tau = i + 1, 0.0
-        elif impacts >= IMPACT_LIMIT:
+                tau += PAUSE * time_step
+        if impacts >= IMPACT_LIMIT:
             status = TOO_MANY_IMPACTS
             break
     if side != 0 and status == ROCKS and i >= count:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.constants import g
 
+from rocking.errors import MotionError
 from rocking.motion import integrate
 from rocking.outcome import Outcome
 from rocking.pulses.pulse import Pulse
@@ -188,3 +189,12 @@ def test_zeno_chain_of_a_hundred_thousand_impacts_ends_in_rest(structure):
     assert response.rotation[-1] == 0
     assert response.times[-1] < record.duration
     assert response.outcome is Outcome.ROCKS
+
+
+@BOTH
+def test_rattling_without_loss_is_cut_short_with_a_reason(structure):
+    """η = 1 from 1e-6 rad: flights of 2 ms for a day would be 4e7 impacts; it stops and says so."""
+    linear = isinstance(structure, EquivalentBlock)
+    lossless = replace(structure, restitution=1.0) if linear else structure.with_restitution(1.0)
+    with pytest.raises(MotionError, match="5000000 impacts before the motion ended"):
+        integrate(lossless, Accelerogram(np.zeros(1001), 100.0), initial_rotation=1e-6)
