@@ -192,6 +192,12 @@ COMPARISON = Table(
         Column("block_rotation_ratio", "number", "Equivalent block under the whole record"),
         Column("integrated_rotation_ratio", "number", "Nonlinear mechanism under the whole record"),
         Column(
+            "answer_rotation_ratio",
+            "number",
+            "Of the mechanism under the record, or of the cheapest method that fidelity: auto trusts instead",
+        ),
+        Column("answer_method", "string", "Which method that was"),
+        Column(
             "prediction_over_integration",
             "number",
             "Predicted over integrated rotation ratio, where both rock",
@@ -316,8 +322,16 @@ EQUIVALENCE = Table(
         _STRUCTURE,
         Column("side", "string", "positive or negative: the side to which it rocks"),
         Column("measure", "string", "natural period, uplift acceleration or time to overturn"),
-        Column("acceleration_scale_choice", "string", "linearised, uplift or mean, where the measure depends on it"),
-        Column("at", "number", "Rotation amplitude over critical rotation, or constant ground acceleration over uplift acceleration"),
+        Column(
+            "acceleration_scale_choice",
+            "string",
+            "linearised, uplift or mean, where the measure depends on it",
+        ),
+        Column(
+            "at",
+            "number",
+            "Rotation amplitude over critical rotation, or constant ground acceleration over uplift acceleration",
+        ),
         Column("block_over_structure", "number", "Equivalent block over structure", "Figs. 3, 4, 6, 7"),
     ),
 )

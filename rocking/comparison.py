@@ -9,7 +9,8 @@ from typing import Literal
 
 from rocking.checks import positive, within
 from rocking.errors import ConfigurationError, PulseError, RockingError
-from rocking.model_check import ModelCheck, check_model
+from rocking.fidelity import Answer, Level, cheapest_answer, limits_for
+from rocking.model_check import UNKNOWN, ModelCheck, check_model
 from rocking.motion.integration import integrate
 from rocking.motion.response import Response
 from rocking.outcome import Outcome
@@ -42,6 +43,8 @@ class AssessmentSettings:
     fragility_change: relative change of the ground motion that must not flip a verdict. bootstrap_replicates: of the
     interval of the pulse, 0 for none. pulse_choice: the pulse that explains most of the record, or, of its first five,
     the one that demands most of each structure. friction_coefficient: beyond which a contact slides.
+    fidelity: full: every method, to compare them; auto: the cheapest that rocking.fidelity trusts to be within
+    fidelity_tolerance of the mechanism, and unsafe in at most fidelity_risk of the answers.
     """
 
     acceleration_scale: Scale = "uplift"
@@ -51,11 +54,16 @@ class AssessmentSettings:
     bootstrap_replicates: int = 100
     friction_coefficient: float = 0.6
     pulse_choice: Literal["energy", "demand"] = "energy"
+    fidelity: Literal["full", "auto"] = "full"
+    fidelity_tolerance: float = 0.1
+    fidelity_risk: float = 0.01
 
     def __post_init__(self) -> None:
         within(ConfigurationError, "tolerance", self.tolerance, 1e-13, 0.1)
         within(ConfigurationError, "fragility_change", self.fragility_change, 0, 0.5)
         positive(ConfigurationError, "friction_coefficient", self.friction_coefficient)
+        within(ConfigurationError, "fidelity_tolerance", self.fidelity_tolerance, 0, 1)
+        within(ConfigurationError, "fidelity_risk", self.fidelity_risk, 0, 1)
 
 
 @dataclass(frozen=True)
@@ -81,7 +89,8 @@ class Prediction:
 class Case:
     """One structure under one accelerogram. prediction is None where the record has no pulse.
 
-    check: whether the model held along the response of the mechanism to the record.
+    check: whether the model held along the response of the mechanism to the record. answer: of the mechanism on the
+    record, or of the cheapest method that is trusted in its stead.
     """
 
     structure: str
@@ -89,6 +98,7 @@ class Case:
     prediction: Prediction | None
     responses: Mapping[Method, Response]
     check: ModelCheck
+    answer: Answer
 
 
 @dataclass(frozen=True)
@@ -133,13 +143,7 @@ def assess(
     cases = []
     for name, structure in structures.items():
         try:
-            mechanism = structure.mechanism()
-            responses = _responses(mechanism, accelerogram, settings, vertical)
-            prediction = predict(mechanism, analysis, interval, settings) if analysis else None
-            if prediction is not None:
-                responses |= _pulse_responses(mechanism, prediction, settings)
-            check = check_model(structure, responses[Method.MECHANISM_ON_RECORD], accelerogram, vertical)
-            cases.append(Case(name, mechanism, prediction, responses, check))
+            cases.append(_case(name, structure, analysis, interval, accelerogram, settings, vertical))
         except RockingError as error:
             failures.append(Failure("responses", name, str(error)))
     durations = {"pulses": extracted - started, "responses": process_time() - extracted}
@@ -199,6 +203,51 @@ def _interval(analysis: PulseAnalysis, settings: AssessmentSettings) -> PulseInt
     if not settings.bootstrap_replicates:
         return None
     return pulse_interval(analysis, settings=settings.pulse, replicates=settings.bootstrap_replicates)
+
+
+def _case(
+    name: str,
+    structure: Structure,
+    analysis: PulseAnalysis | None,
+    interval: PulseInterval | None,
+    accelerogram: Accelerogram,
+    settings: AssessmentSettings,
+    vertical: Accelerogram | None,
+) -> Case:
+    mechanism, full = structure.mechanism(), settings.fidelity == "full"
+    prediction = predict(mechanism, analysis, interval if full else None, settings) if analysis else None
+    if full:
+        responses = _responses(mechanism, accelerogram, settings, vertical)
+        whole = responses[Method.MECHANISM_ON_RECORD]
+        answer = Answer(Level.MECHANISM, whole.rotation_ratio, whole.outcome, whole)
+        if prediction is not None:
+            responses |= _pulse_responses(mechanism, prediction, settings)
+    else:
+        answer = _cheapest(mechanism, prediction, accelerogram, settings, vertical)
+        method = Method.BLOCK_ON_RECORD if answer.level is Level.BLOCK else Method.MECHANISM_ON_RECORD
+        responses = {} if answer.response is None else {method: answer.response}
+    on_record = responses.get(Method.MECHANISM_ON_RECORD)
+    check = check_model(structure, on_record, accelerogram, vertical) if on_record else UNKNOWN
+    return Case(name, mechanism, prediction, responses, check, answer)
+
+
+def _cheapest(
+    mechanism: Mechanism,
+    prediction: Prediction | None,
+    accelerogram: Accelerogram,
+    settings: AssessmentSettings,
+    vertical: Accelerogram | None,
+) -> Answer:
+    return cheapest_answer(
+        mechanism,
+        mechanism.equivalent_block(settings.acceleration_scale),
+        accelerogram,
+        (prediction.light, prediction.maximum) if prediction else None,
+        limits_for(settings.fidelity_tolerance, settings.fidelity_risk),
+        integration_tolerance=settings.tolerance,
+        fragility_change=settings.fragility_change,
+        vertical=vertical,
+    )
 
 
 def _responses(

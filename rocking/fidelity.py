@@ -23,6 +23,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from enum import StrEnum
 from pathlib import Path
+from typing import Any
 
 from rocking.errors import ConfigurationError
 from rocking.motion.forcing import forcing_of
@@ -74,10 +75,11 @@ def read_limits(lines: Iterable[str]) -> tuple[Limits, ...]:
     names = [field.name for field in fields(Limits)]
     if reader.fieldnames != names:
         raise ConfigurationError(f"The limits must have the columns {', '.join(names)}.")
-    kinds = [int if field.name == "answers" else float for field in fields(Limits)]
-    return tuple(
-        Limits(*(kind(row[name]) for name, kind in zip(names, kinds, strict=True))) for row in reader
-    )
+    return tuple(_limits({name: float(text) for name, text in row.items()}) for row in reader)
+
+
+def _limits(row: dict[str, Any]) -> Limits:
+    return Limits(**row | {"answers": int(row["answers"])})
 
 
 LIMITS = read_limits(Path(__file__).with_suffix(".csv").read_text(encoding="utf-8").splitlines())
@@ -149,8 +151,8 @@ def cheapest_answer(
     """Return the answer of the cheapest method that `limits` trust; of the mechanism where they trust none.
 
     closed_form: light and exact maximum of `block` under the dominant pulse, None without a pulse. limits: None trusts
-    nothing but rest. The response of the mechanism carries its sensitivity, and whether `fragility_change` of the
-    ground motion flips its verdict; so does that of a block that rocks, with the larger of it and `NUDGE`.
+    nothing but rest. The response of the mechanism carries its history, its sensitivity, and whether `fragility_change`
+    of the ground motion flips its verdict; so does that of a block that rocks, with the larger of it and `NUDGE`.
     """
     if stays_at_rest(mechanism, accelerogram, vertical):
         return Answer(Level.NOTHING, 0.0, Outcome.NO_UPLIFT, Response(0.0, Outcome.NO_UPLIFT))
@@ -163,6 +165,7 @@ def cheapest_answer(
         mechanism,
         accelerogram,
         integration_tolerance,
+        history=True,
         vertical=vertical,
         sensitivity=True,
         fragility_change=fragility_change,

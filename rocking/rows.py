@@ -238,11 +238,12 @@ def _response_row(
 
 def comparison_row(identity: Identity, case: Case) -> Row:
     """The row of the comparison table: the closed form beside the integration of the whole record."""
-    reference = case.responses[Method.MECHANISM_ON_RECORD]
-    prediction = case.prediction
+    reference = case.responses.get(Method.MECHANISM_ON_RECORD, _NOT_RUN)
+    prediction, answer = case.prediction, case.answer
     predicted = prediction.maximum.rotation_ratio if prediction else math.nan
     error_ratio = ratio(predicted, reference.rotation_ratio)
     on_pulse = case.responses.get(Method.MECHANISM_ON_PULSE)
+    on_block = case.responses.get(Method.BLOCK_ON_RECORD)
     return (
         identity.head
         | {
@@ -251,8 +252,10 @@ def comparison_row(identity: Identity, case: Case) -> Row:
             "printed_rotation_ratio": prediction and prediction.printed,
             "predicted_rotation_ratio": predicted,
             "pulse_rotation_ratio": on_pulse and on_pulse.rotation_ratio,
-            "block_rotation_ratio": case.responses[Method.BLOCK_ON_RECORD].rotation_ratio,
+            "block_rotation_ratio": on_block and on_block.rotation_ratio,
             "integrated_rotation_ratio": reference.rotation_ratio,
+            "answer_rotation_ratio": answer.rotation_ratio,
+            "answer_method": answer.level,
             "prediction_over_integration": error_ratio,
             "within_factor_two": None if math.isnan(error_ratio) else 0.5 <= error_ratio <= 2,
             "verdict": verdict(
@@ -327,6 +330,7 @@ def failure_row(record: str, component: str, failure: Failure) -> Row:
 
 
 _NONE = (math.nan, math.nan)
+_NOT_RUN = Response(math.nan, Outcome.FAILED)
 
 
 def rotation(mechanism: Mechanism, rotation_ratio: float, side: int) -> float:
