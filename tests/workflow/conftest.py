@@ -1,0 +1,154 @@
+"""Small studies that are run by snakemake itself, each in a folder of its own."""
+
+import csv
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+import yaml
+
+from rocking.records.synthetic import SyntheticRecord, at2_text
+
+ROOT = Path(__file__).parents[2]
+PROFILE = ROOT / "workflow" / "profiles" / "default"
+MEASURED = {"timings.csv", "trade.csv"}
+"""The tables whose bytes may differ between two runs of the same input."""
+
+STRUCTURES = [
+    {"name": "block", "type": "block", "breadth_m": 0.5, "height_m": 3.0},
+    {"name": "wall", "type": "wall", "height_m": 3.2, "hinge_height_m": 1.6, "thickness_m": 0.25},
+]
+
+
+@dataclass(frozen=True)
+class SmallStudy:
+    """A study in `folder`: config.yaml, structures.yaml, records/ and what a run makes of them."""
+
+    folder: Path
+
+    @property
+    def results(self) -> Path:
+        return self.folder / "results"
+
+    def add(self, identifier: str, content: bytes, **cells: str) -> None:
+        """Add a file of `content` and its row of the catalogue, of which `cells` change what is not as usual."""
+        file = f"{identifier}.txt"
+        (self.folder / "records" / file).write_bytes(content)
+        row = {
+            "id": identifier,
+            "file": file,
+            "sha256": hashlib.sha256(content).hexdigest(),
+            "unit": "g",
+        } | cells
+        self.write_catalogue([*self.rows(), row])
+
+    def add_synthetic(self, identifier: str, seed: int) -> None:
+        """Add a short synthetic record."""
+        recipe = SyntheticRecord(f"made_{seed}", seed, 4.0, 0.5 + 0.1 * seed, 1.0, 1.0, 6.0, 0.01)
+        self.add(identifier, at2_text(recipe).encode())
+
+    def rows(self) -> list[dict[str, str]]:
+        path = self.folder / "records" / "catalogue.csv"
+        if not path.exists():
+            return []
+        with path.open(encoding="utf-8", newline="") as stream:
+            return list(csv.DictReader(stream))
+
+    def write_catalogue(self, rows: Sequence[dict[str, str]]) -> None:
+        names = ["id", "file", "sha256", "unit", "component", "time_step_s"]
+        with (self.folder / "records" / "catalogue.csv").open("w", encoding="utf-8", newline="") as stream:
+            writer = csv.DictWriter(stream, names, restval="")
+            writer.writeheader()
+            writer.writerows(rows)
+
+    def command(self, *options: str) -> list[str]:
+        return [
+            *(sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--cores", "2"),
+            *("--directory", str(self.folder), "--configfile", str(self.folder / "config.yaml")),
+            *("--workflow-profile", str(PROFILE), "--nocolor", *options),
+        ]
+
+    def run(self, *options: str, package: Path | None = None) -> subprocess.CompletedProcess[str]:
+        """Run snakemake on this study, with the package in the folder `package` if given; its output as one text."""
+        return subprocess.run(
+            self.command(*options),
+            env=os.environ | ({"PYTHONPATH": str(package)} if package else {}),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=300,
+            check=False,
+        )
+
+    def tables(self) -> dict[str, bytes]:
+        """The bytes of every file of the results that must not differ between runs, by path."""
+        return {
+            path.relative_to(self.results).as_posix(): path.read_bytes()
+            for path in sorted(self.results.rglob("*"))
+            if path.is_file() and path.suffix in {".csv", ".json"} and path.name not in MEASURED
+        }
+
+    def unfinished(self) -> list[Path]:
+        """Temporary files that somebody left behind."""
+        return list(self.results.rglob("*.part"))
+
+    def copy_to(self, folder: Path) -> "SmallStudy":
+        shutil.copytree(self.folder, folder)
+        return SmallStudy(folder)
+
+
+def new_study(folder: Path) -> SmallStudy:
+    """A study without records: two structures, no reports, one record a job."""
+    (folder / "records").mkdir(parents=True)
+    settings = yaml.safe_load((ROOT / "workflow" / "config.yaml").read_text(encoding="utf-8"))
+    settings |= {"structures": "structures.yaml", "reports": False, "records_per_job": 1}
+    (folder / "config.yaml").write_text(yaml.safe_dump(settings), encoding="utf-8")
+    (folder / "structures.yaml").write_text(yaml.safe_dump(STRUCTURES), encoding="utf-8")
+    return SmallStudy(folder)
+
+
+@pytest.fixture(scope="session")
+def start(tmp_path_factory: pytest.TempPathFactory) -> SmallStudy:
+    """A study of three good records that has not been run; copy it before use."""
+    study = new_study(tmp_path_factory.mktemp("start") / "study")
+    for number in (1, 2, 3):
+        study.add_synthetic(f"good_{number}", number)
+    return study
+
+
+@pytest.fixture(scope="session")
+def finished(start: SmallStudy, tmp_path_factory: pytest.TempPathFactory) -> SmallStudy:
+    """The same study after an undisturbed run; copy it before changing anything."""
+    study = start.copy_to(tmp_path_factory.mktemp("finished") / "study")
+    done = study.run()
+    assert done.returncode == 0, done.stdout
+    return study
+
+
+@pytest.fixture
+def small_disk() -> Callable[[Path, str], AbstractContextManager[Callable[[str], None]]]:
+    """Mount a small disk in memory on a folder; what is handed back enlarges it. Skips where that is not allowed."""
+
+    @contextmanager
+    def mounted(folder: Path, size: str) -> Iterator[Callable[[str], None]]:
+        mount = ["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(folder)]
+        if (
+            shutil.which("mount") is None
+            or subprocess.run(mount, capture_output=True, check=False).returncode
+        ):
+            pytest.skip("a disk can only be mounted by root")
+        try:
+            yield lambda size: subprocess.run(
+                ["mount", "-o", f"remount,size={size}", str(folder)], check=True, capture_output=True
+            )
+        finally:
+            subprocess.run(["umount", str(folder)], check=True, capture_output=True)
+
+    return mounted

@@ -1,0 +1,160 @@
+"""What goes wrong: broken records, bad input, a folder that cannot be written, kills, and two runs at once."""
+
+import csv
+import os
+import random
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+KILLS = int(os.environ.get("ROCKING_KILLS", "2"))
+"""How many runs are killed; ROCKING_KILLS=20 takes some minutes."""
+
+HEAD = "MADE FOR A TEST\nNowhere, 1/1/2000, A, H1\nACCELERATION TIME SERIES IN UNITS OF G\n"
+
+
+def _at2(line: str, values: str) -> bytes:
+    return f"{HEAD}{line}\n{values}\n".encode()
+
+
+GOOD_VALUES = "0.01 -0.02 0.03 -0.01 0.0 " * 20
+BROKEN = {
+    "unknown_format": ({"content": b"Dear colleague,\nhere is the record you asked for.\n"}, "format"),
+    "empty_file": ({"content": b""}, "empty"),
+    "cut_off": ({"content": _at2("NPTS=   200, DT= 0.01 SEC", GOOD_VALUES)}, "200"),
+    "not_a_number": ({"content": _at2("NPTS=   100, DT= 0.01 SEC", "NaN " + GOOD_VALUES[5:])}, "NaN"),
+    "time_stands_still": ({"content": _at2("NPTS=   100, DT= 0.00 SEC", GOOD_VALUES)}, "time_step is 0"),
+    "no_unit": ({"content": b"0.00 0.1\n0.01 0.2\n0.02 -0.1\n" * 1 + b"0.03 0.1\n", "unit": ""}, "unit"),
+    "another_version": (
+        {"content": _at2("NPTS=   100, DT= 0.01 SEC", GOOD_VALUES), "sha256": "0" * 64},
+        "sha256",
+    ),
+    "lost_file": ({"content": b"", "file": "nobody_has_it.AT2"}, "nobody_has_it"),
+    "no_such_component": (
+        {"content": _at2("NPTS=   100, DT= 0.01 SEC", GOOD_VALUES), "component": "X;Y"},
+        "component",
+    ),
+    "pickle": ({"content": b"\x80\x04\x95\x1b\x00\x00\x00obspy.core.stream\x94\x8c\x06Stream"}, "format"),
+}
+
+
+@pytest.fixture(scope="module")
+def with_broken(start, tmp_path_factory: pytest.TempPathFactory):
+    """The study of three good records and ten broken ones, after its run."""
+    study = start.copy_to(tmp_path_factory.mktemp("broken") / "study")
+    for name, (cells, _) in BROKEN.items():
+        study.add(name, **cells)
+    done = study.run("--config", "records_per_job=4")
+    assert done.returncode == 0, done.stdout
+    return study
+
+
+def test_each_broken_record_is_one_row_that_says_why(with_broken) -> None:
+    with (with_broken.results / "summary" / "failures.csv").open(newline="") as stream:
+        rows = {row["record"]: row for row in csv.DictReader(stream)}
+    assert set(rows) == set(BROKEN)
+    for name, (_, word) in BROKEN.items():
+        message = rows[name]["message"]
+        assert rows[name]["stage"] == "read"
+        assert any(part.lower() in message.lower() for part in word.split("|")), message
+        assert "Traceback" not in message and "\n" not in message
+
+
+def test_broken_records_change_no_byte_of_the_good_ones(with_broken, finished) -> None:
+    """The good records also shared their jobs with broken ones, four to a job instead of one."""
+    expected = {path: data for path, data in finished.tables().items() if path.startswith("good_")}
+    assert len(expected) > 15
+    assert {path: data for path, data in with_broken.tables().items() if path.startswith("good_")} == expected
+
+
+def test_bad_input_is_refused_at_once_before_anything_is_written(start, tmp_path: Path) -> None:
+    study = start.copy_to(tmp_path / "study")
+    rows = study.rows()
+    study.write_catalogue([*rows, rows[0], rows[1] | {"id": "../outside"}, rows[2] | {"id": "a/b"}])
+    structures = study.folder / "structures.yaml"
+    structures.write_text(structures.read_text().replace("thickness_m", "thicknes_m"))
+    with (study.folder / "config.yaml").open("a") as stream:
+        stream.write("tollerance: 1.0e-5\n")
+    done = study.run()
+    assert done.returncode != 0
+    for named in ("good_1", "../outside", "a/b", "thicknes_m", "thickness_m", "tollerance"):
+        assert named in done.stdout, f"{named} is not named in\n{done.stdout}"
+    assert not study.results.exists()
+    assert not (tmp_path / "outside").exists()
+
+
+def test_a_full_disk_is_said_and_leaves_nothing_half_written(
+    finished, start, tmp_path: Path, small_disk
+) -> None:
+    study = start.copy_to(tmp_path / "study")
+    study.results.mkdir()
+    with small_disk(study.results, "24k") as enlarge:
+        done = study.run()
+        assert done.returncode != 0
+        assert "No space left on device; mend that, then start again." in done.stdout
+        assert not study.unfinished()
+        expected = finished.tables()
+        assert {path: expected[path] for path in study.tables()} == study.tables()
+        enlarge("50m")
+        done = study.run()
+        assert done.returncode == 0, done.stdout
+        assert study.tables() == expected
+
+
+def test_of_two_runs_at_once_one_works_and_the_other_says_why_not(finished, start, tmp_path: Path) -> None:
+    study = start.copy_to(tmp_path / "study")
+    first = _started(study)
+    try:
+        _wait(lambda: any((study.folder / ".snakemake" / "locks").glob("*")), first)
+        second = study.run()
+        assert second.returncode != 0
+        assert "--unlock" in second.stdout
+        assert first.wait(timeout=200) == 0
+    finally:
+        _kill(first)
+    assert study.tables() == finished.tables()
+
+
+def test_killed_runs_are_resumed_to_the_same_bytes(finished, start, tmp_path: Path) -> None:
+    """Each run is killed with all its children at a random moment of its jobs, and resumed as the profile says."""
+    moment = random.Random(8)
+    for number in range(KILLS):
+        study = start.copy_to(tmp_path / f"study_{number}")
+        process = _started(study)
+        try:
+            _wait(lambda study=study: any((study.folder / ".snakemake" / "incomplete").glob("*")), process)
+            time.sleep(moment.uniform(0, 5))
+        finally:
+            _kill(process)
+        expected = finished.tables()
+        assert {path: expected[path] for path in study.tables()} == study.tables(), "half-written"
+        resumed = study.run()
+        if resumed.returncode != 0:
+            assert "--unlock" in resumed.stdout, resumed.stdout
+            assert study.run("--unlock").returncode == 0
+            resumed = study.run()
+        assert resumed.returncode == 0, resumed.stdout
+        assert study.tables() == expected
+        assert not study.unfinished()
+
+
+def _started(study) -> subprocess.Popen[bytes]:
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    return subprocess.Popen(study.command(), start_new_session=True, **quiet)
+
+
+def _wait(condition, process: subprocess.Popen[bytes]) -> None:
+    deadline = time.monotonic() + 100
+    while not condition():
+        assert process.poll() is None, "the run ended before it could be disturbed"
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+
+
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    if process.poll() is None:
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait(timeout=20)

@@ -1,0 +1,81 @@
+"""The workflow as a user meets it: a whole run, a second one, an edit, a record more."""
+
+import csv
+import json
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from rocking import columns
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_a_run_makes_every_table_of_every_record(finished) -> None:
+    for number in (1, 2, 3):
+        for table in columns.PER_RECORD:
+            assert (finished.results / f"good_{number}" / table.file_name).is_file()
+    with (finished.results / "summary" / "maxima.csv").open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert {row["record"] for row in rows} == {"good_1", "good_2", "good_3"}
+    assert {row["structure"] for row in rows} == {"block", "wall"}
+    assert (finished.results / "summary" / "failures.csv").read_text().count("\n") == 1, "only the head"
+    assert not finished.unfinished()
+
+
+def test_every_described_file_stands_and_has_the_described_columns(finished) -> None:
+    for folder in (finished.results, finished.results / "summary"):
+        package = json.loads((folder / "datapackage.json").read_text())
+        for resource in package["resources"]:
+            paths = resource["path"] if isinstance(resource["path"], list) else [resource["path"]]
+            names = [field["name"] for field in resource["schema"]["fields"]]
+            for path in paths:
+                with (folder / path).open(newline="") as stream:
+                    assert next(csv.reader(stream)) == names, path
+
+
+def test_a_second_run_does_nothing(finished) -> None:
+    before = {path: path.stat().st_mtime_ns for path in finished.results.rglob("*")}
+    done = finished.run()
+    assert done.returncode == 0
+    assert "Nothing to be done" in done.stdout
+    assert before == {path: path.stat().st_mtime_ns for path in finished.results.rglob("*")}
+
+
+@pytest.mark.parametrize(
+    ("edited", "again"),
+    [("motion/kernel.py", ["assess"] * 3 + ["summarise"]), ("reports/record.py", [])],
+    ids=["numbers", "appearance"],
+)
+def test_an_edit_of_the_package_runs_again_what_depends_on_it(
+    finished, tmp_path: Path, edited: str, again: list[str]
+) -> None:
+    package = tmp_path / "package"
+    shutil.copytree(ROOT / "rocking", package / "rocking", ignore=shutil.ignore_patterns("__pycache__"))
+    with (package / "rocking" / edited).open("a", encoding="utf-8") as stream:
+        stream.write("# edited\n")
+    done = finished.run("--dry-run", package=package)
+    assert done.returncode == 0, done.stdout
+    assert _jobs(done.stdout) == again
+
+
+def test_a_record_more_computes_its_own_job_only(finished, tmp_path: Path) -> None:
+    study = finished.copy_to(tmp_path / "study")
+    before = study.tables()
+    study.add_synthetic("good_4", 4)
+    done = study.run()
+    assert done.returncode == 0, done.stdout
+    assert _jobs(done.stdout) == ["assess", "summarise"]
+    after = study.tables()
+    assert {path: after[path] for path in before if path.startswith("good_")} == {
+        path: content for path, content in before.items() if path.startswith("good_")
+    }
+    assert b"good_4" in after["summary/maxima.csv"]
+
+
+def _jobs(output: str) -> list[str]:
+    """The kinds of jobs in the table that snakemake prints before a run, without the target."""
+    kinds = re.findall(r"(?m)^(assess|summarise|report)(?:_\w+)? +\d+$", output.partition("Job stats:")[2])
+    return sorted(kinds)

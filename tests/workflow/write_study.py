@@ -1,0 +1,54 @@
+"""Write a study of synthetic records: python write_study.py FOLDER RECORDS [DURATION_S]. Used by scripts and benchmarks."""
+
+import csv
+import hashlib
+import sys
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+from rocking.records.synthetic import SyntheticRecord, at2_text
+from rocking.units import GRAVITY
+
+ROOT = Path(__file__).parents[2]
+
+
+def recipe(number: int, duration: float) -> SyntheticRecord:
+    """The recipe of one record: pulse of 0.1 to 0.6 g and 0.4 to 2 s in noise of 0.2 g, drawn by its number."""
+    amplitude, period = np.random.RandomState(number).uniform((0.1, 0.4), (0.6, 2.0))
+    return SyntheticRecord(
+        name=f"synthetic_{number:05d}",
+        seed=number,
+        pulse_amplitude=amplitude * GRAVITY,
+        pulse_period=period,
+        pulse_start=0.2 * duration,
+        noise_peak=0.2 * GRAVITY,
+        duration=duration,
+        time_step=0.01,
+    )
+
+
+def write_study(folder: Path, records: int, duration: float, **settings: object) -> None:
+    """Write a study of `records` records of `duration` s with the shipped structures; no reports unless asked for."""
+    (folder / "records").mkdir(parents=True)
+    rows = []
+    for number in range(records):
+        made = recipe(number, duration)
+        content = at2_text(made).encode()
+        (folder / "records" / f"{made.name}.AT2").write_bytes(content)
+        rows.append((made.name, f"{made.name}.AT2", "g", hashlib.sha256(content).hexdigest()))
+    with (folder / "records" / "catalogue.csv").open("w", encoding="utf-8", newline="") as stream:
+        csv.writer(stream).writerows([("id", "file", "unit", "sha256"), *rows])
+    shipped = yaml.safe_load((ROOT / "workflow" / "config.yaml").read_text(encoding="utf-8"))
+    changed = {"structures": "structures.yaml", "reports": False} | settings
+    (folder / "config.yaml").write_text(yaml.safe_dump(shipped | changed), encoding="utf-8")
+    (folder / "structures.yaml").write_bytes((ROOT / "workflow" / "structures.yaml").read_bytes())
+
+
+if __name__ == "__main__":
+    if len(sys.argv) not in (3, 4):
+        raise SystemExit("usage: python write_study.py FOLDER RECORDS [DURATION_S]")
+    write_study(
+        Path(sys.argv[1]), int(sys.argv[2]), *([float(sys.argv[3])] if len(sys.argv) == 4 else [20.0])
+    )
