@@ -42,7 +42,16 @@ class Plan:
 
 
 _DO_NOT_CHANGE_NUMBERS = {
-    *("catalogue", "calibration_catalogue", "structures", "results", "mirror", "reports", "records_per_job"),
+    *(
+        "catalogue",
+        "calibration_catalogue",
+        "structures",
+        "results",
+        "mirror",
+        "reports",
+        "records_per_job",
+        "trade",
+    ),
 }
 
 
