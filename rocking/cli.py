@@ -18,6 +18,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except RockingError as error:
         print(f"rocking: {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print("rocking: stopped.", file=sys.stderr)
+        return 130
     except OSError as error:
         print(f"rocking: {error.filename or 'file'}: {error.strerror or error}.", file=sys.stderr)
         return 1
