@@ -15,6 +15,8 @@ from rocking.reports.style import TEXT_WIDTH, elided, new_figure, plain_logarith
 _PANEL_COLUMNS = 3
 _PANEL_HEIGHT = 25.0
 _MARGIN_HEIGHT = 6.0
+_LEVELS = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0)
+"""Rotation ratios of the lines of a spectrum."""
 _PAPER = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
 """Behind a text that lines may cross."""
 _STILL = 0.01
@@ -182,19 +184,18 @@ def rocking_spectrum_figure(
     figure = new_figure(62, width, margins=(14, 2, 8.5, 1))
     panel = figure.subplots()
     shown = np.where(np.isfinite(ratios), np.minimum(ratios, 1.5), 1.5).T
-    levels = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0]
     overturned = np.isinf(ratios).T.astype(float)
     panel.contourf(
         frequency_parameters,
         uplift_multipliers,
         shown,
-        levels=[0, *levels, 1.5],
+        levels=[0, *_LEVELS, 1.5],
         cmap="Greys",
         vmin=0,
         vmax=4,
     )
     lines = panel.contour(
-        frequency_parameters, uplift_multipliers, shown, levels=levels[1:-1], colors="black", linewidths=0.5
+        frequency_parameters, uplift_multipliers, shown, levels=_LEVELS[1:-1], colors="black", linewidths=0.5
     )
     panel.clabel(lines, fontsize=7, fmt="%g")
     if overturned.any():
