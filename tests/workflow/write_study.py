@@ -1,4 +1,4 @@
-"""Write a study of synthetic records: python write_study.py FOLDER RECORDS [DURATION_S]. Used by scripts and benchmarks."""
+"""Write a study of synthetic records: python write_study.py FOLDER RECORDS [DURATION_S]."""
 
 import csv
 import hashlib
@@ -29,8 +29,8 @@ def recipe(number: int, duration: float) -> SyntheticRecord:
     )
 
 
-def write_study(folder: Path, records: int, duration: float, **settings: object) -> None:
-    """Write a study of `records` records of `duration` s with the shipped structures; no reports unless asked for."""
+def write_study(folder: Path, records: int, duration: float = 20.0) -> None:
+    """Write a study of `records` records of `duration` s with the shipped settings and structures, without reports."""
     (folder / "records").mkdir(parents=True)
     rows = []
     for number in range(records):
@@ -41,7 +41,7 @@ def write_study(folder: Path, records: int, duration: float, **settings: object)
     with (folder / "records" / "catalogue.csv").open("w", encoding="utf-8", newline="") as stream:
         csv.writer(stream).writerows([("id", "file", "unit", "sha256"), *rows])
     shipped = yaml.safe_load((ROOT / "workflow" / "config.yaml").read_text(encoding="utf-8"))
-    changed = {"structures": "structures.yaml", "reports": False} | settings
+    changed = {"structures": "structures.yaml", "reports": False}
     (folder / "config.yaml").write_text(yaml.safe_dump(shipped | changed), encoding="utf-8")
     (folder / "structures.yaml").write_bytes((ROOT / "workflow" / "structures.yaml").read_bytes())
 
