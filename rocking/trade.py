@@ -195,7 +195,9 @@ def _closed_forms(case: TradeCase, scale: Scale, settings: PulseSettings) -> Ite
             yield Timed(method, math.nan, math.nan, reason=str(error))
         return
     once = perf_counter() - started
-    yield _timed(Method.PRINTED, math.nan, lambda: printed_maximum(block, pulse), once)
+    printed = _timed(Method.PRINTED, math.nan, lambda: printed_maximum(block, pulse), once)
+    overturns = math.isnan(printed.rotation_ratio)  # a negative radicand, which the paper reads so
+    yield replace(printed, rotation_ratio=math.inf) if overturns else printed
     yield _timed(Method.CLOSED_FORM, math.nan, lambda: predict_maximum(block, pulse).rotation_ratio, once)
 
 

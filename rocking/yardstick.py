@@ -19,7 +19,7 @@ from rocking.units import GRAVITY
 Scipy = Literal["RK45", "DOP853"]
 
 REFERENCE_TOLERANCE = 1e-12
-STEPS_PER_SAMPLE = 4
+STEPS_PER_SAMPLE = 2
 """Least steps between two samples of the reference, so that no hop hides inside a step."""
 REST_SPEED = 1e-7
 """An impact that leaves less than this, in units of p φ_cr, leaves the structure at rest."""

@@ -70,8 +70,12 @@ def trade_figure(rows: Iterable[Row]) -> Figure:
     rows = [row for row in rows if row["duration_s"]]
     figure = new_figure(118, 170, margins=(19, 5, 12, 5))
     panel = figure.subplots()
+    unplaced = []
     for method, look in _LOOKS.items():
-        _draw(panel, [row for row in rows if row["method"] == method], *look)
+        of_method = [row for row in rows if row["method"] == method]
+        if of_method and not _draw(panel, of_method, *look):
+            unplaced.append(_label(look[0], of_method).replace("\n", " "))
+    panel.text(0.99, 0.01, "\n".join(unplaced), transform=panel.transAxes, ha="right", va="bottom")
     _frame(panel, rows)
     return figure
 
@@ -84,7 +88,8 @@ def pdf(figure: Figure) -> bytes:
     return stream.getvalue()
 
 
-def _draw(panel: Axes, rows: list[Row], name: str, marker: str, colour: str, side: str) -> None:
+def _draw(panel: Axes, rows: list[Row], name: str, marker: str, colour: str, side: str) -> bool:
+    """Draw one method and say whether it has an error to draw."""
     medians = []
     for tolerance in dict.fromkeys(row["tolerance"] for row in rows):
         found = [row for row in rows if row["tolerance"] == tolerance and row["error"]]
@@ -94,7 +99,7 @@ def _draw(panel: Axes, rows: list[Row], name: str, marker: str, colour: str, sid
             panel.plot(times, errors, marker, color=colour, markersize=2.2, alpha=0.35, markeredgewidth=0)
             medians.append((median(times), median(errors)))
     if not medians:
-        return
+        return False
     times, errors = zip(*medians, strict=True)
     panel.plot(times, errors, color=colour, linewidth=1.0)
     panel.plot(
@@ -103,6 +108,7 @@ def _draw(panel: Axes, rows: list[Row], name: str, marker: str, colour: str, sid
     place = max(medians, key=lambda point: point[1])
     text = _label(name, rows)
     panel.annotate(text, place, textcoords="offset points", fontsize=7.5, **_SIDES[side])
+    return True
 
 
 def _label(name: str, rows: list[Row]) -> str:
