@@ -336,6 +336,26 @@ EQUIVALENCE = Table(
     ),
 )
 
+AGREEMENT = Table(
+    "agreement",
+    "One row per light and one for all: the closed form under the dominant pulse against the full integration",
+    (
+        Column("light", "string", "green, amber or red; all for their sum"),
+        Column("records", "integer", "Records behind the row"),
+        Column("cases", "integer", "Component and structure pairs with both a prediction and an integration"),
+        Column("both_rock", "integer", "Cases in which both rock and stay up"),
+        Column(
+            "within_factor_two", "integer", "Those whose predicted over integrated rotation lies in [1/2, 2]"
+        ),
+        Column("median_ratio", "number", "Median of predicted over integrated rotation where both rock"),
+        Column("overturning", "integer", "Cases that overturn in the integration"),
+        Column("overturning_found", "integer", "Those in which the closed form overturns too"),
+        Column("overturning_missed", "integer", "Those in which it does not"),
+        Column("overturning_false", "integer", "Cases in which the closed form alone overturns"),
+        Column("fragile", "integer", "Cases whose verdict the stated change of amplitude flips"),
+    ),
+)
+
 FAILURES = Table(
     "failures",
     "One row per record or structure that gave no result, and why",
@@ -371,5 +391,5 @@ RECORD_TABLES = (RECORD, PULSES, PREDICTIONS, RESPONSES, COMPARISON, CANDIDATES,
 """The tables of one record's folder that hold results."""
 PER_RECORD = (*RECORD_TABLES, FAILURES, TIMINGS)
 """Every table of one record's folder."""
-SUMMARY_TABLES = (RECORD, PULSES, COMPARISON, MAXIMA, STRUCTURES, EQUIVALENCE, FAILURES, TIMINGS)
+SUMMARY_TABLES = (RECORD, PULSES, COMPARISON, AGREEMENT, MAXIMA, STRUCTURES, EQUIVALENCE, FAILURES, TIMINGS)
 """The tables of the summary folder."""

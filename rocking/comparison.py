@@ -13,7 +13,6 @@ from rocking.fidelity import Answer, Level, cheapest_answer, limits_for
 from rocking.model_check import UNKNOWN, ModelCheck, check_model
 from rocking.motion.integration import integrate
 from rocking.motion.response import Response
-from rocking.outcome import Outcome
 from rocking.pulses import Light, Pulse, PulseAnalysis, PulseSettings, extract_pulses, light
 from rocking.pulses.choice import chosen_by_demand
 from rocking.pulses.interval import PulseInterval, pulse_interval
@@ -184,13 +183,24 @@ def predict(
     )
 
 
-def verdict(predicted: Outcome, integrated: Outcome) -> str:
-    """Say whether a prediction errs: agree, unsafe (it says less than happens) or safe (it says more)."""
-    order = [Outcome.NO_UPLIFT, Outcome.ROCKS, Outcome.OVERTURNS]
-    if predicted not in order or integrated not in order:
+NEGLIGIBLE = 1e-3
+"""Rotation ratio below which a structure that rocks is not told from one that rests, when verdicts are compared."""
+
+
+def verdict(predicted: float, integrated: float) -> str:
+    """Say whether a predicted rotation ratio errs against the integrated one.
+
+    "agree": both rest, rock or overturn; "unsafe": the prediction says less than happens; "safe": it says more;
+    "unknown" where one of them is nan.
+    """
+    if math.isnan(predicted) or math.isnan(integrated):
         return "unknown"
-    difference = order.index(predicted) - order.index(integrated)
+    difference = _severity(predicted) - _severity(integrated)
     return "agree" if difference == 0 else "safe" if difference > 0 else "unsafe"
+
+
+def _severity(rotation_ratio: float) -> int:
+    return 2 if math.isinf(rotation_ratio) else int(rotation_ratio > NEGLIGIBLE)
 
 
 def ratio(predicted: float, integrated: float) -> float:

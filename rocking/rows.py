@@ -258,9 +258,7 @@ def comparison_row(identity: Identity, case: Case) -> Row:
             "answer_method": answer.level,
             "prediction_over_integration": error_ratio,
             "within_factor_two": None if math.isnan(error_ratio) else 0.5 <= error_ratio <= 2,
-            "verdict": verdict(
-                prediction.maximum.outcome if prediction else Outcome.FAILED, reference.outcome
-            ),
+            "verdict": verdict(predicted, reference.rotation_ratio),
             "regime": prediction and prediction.maximum.regime,
             "light": prediction and prediction.light,
             "sensitivity": reference.sensitivity,

@@ -9,6 +9,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from rocking import columns
+from rocking.agreement import agreement_rows
 from rocking.comparison import Method
 from rocking.structures import Structure
 from rocking.structures.equivalence import measure_equivalence
@@ -22,6 +23,8 @@ def write_summary(folders: Iterable[Path], structures: Mapping[str, Structure], 
     folders = tuple(folders)
     for table in _COPIED:
         write_table(table, _all_rows(folders, table), target / table.file_name)
+    counted = agreement_rows(_all_rows(folders, columns.COMPARISON))
+    write_table(columns.AGREEMENT, counted, target / columns.AGREEMENT.file_name)
     write_table(columns.MAXIMA, _maxima(folders), target / columns.MAXIMA.file_name)
     write_table(columns.STRUCTURES, structure_rows(structures), target / columns.STRUCTURES.file_name)
     write_table(columns.EQUIVALENCE, equivalence_rows(structures), target / columns.EQUIVALENCE.file_name)

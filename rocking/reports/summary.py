@@ -16,7 +16,7 @@ def summary_report(tables: Tables, settings: Mapping[str, Any]) -> bytes:
     """Return the PDF over all records.
 
     tables: rows of text as read from the CSV files "record", "pulses", "comparison", "maxima", "structures",
-    "failures" and, where they exist, "reliability" and "trade". settings: at least tolerance, acceleration_scale
+    "agreement", "failures" and, where it exists, "trade". settings: at least tolerance, acceleration_scale
     and fragility_change.
     """
     return compile_document("summary.typ", summary_data(tables, settings))
@@ -37,7 +37,7 @@ def summary_data(tables: Tables, settings: Mapping[str, Any]) -> dict[str, objec
         "notices": summary_tables.notices(tables),
         "sentences": summary_tables.expert_sentences(tables),
         "scatter": _scatter(comparison),
-        "reliability": summary_tables.reliability_table(tables),
+        "agreement": summary_tables.agreement_table(tables),
         "records": summary_tables.record_table(tables),
         "unsafe": summary_tables.case_table(unsafe),
         "unsafe-note": summary_tables.unlisted(unsafe),

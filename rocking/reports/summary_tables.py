@@ -4,8 +4,6 @@ from collections.abc import Mapping, Sequence
 
 from rocking.reports import printing
 from rocking.reports.printing import Cell, Row, number, ratio, strong, table, whole, words
-from rocking.reports.reliability import RELIABILITY, reliability_rows
-from rocking.tables import csv_cells
 
 Rows = Sequence[Row]
 Tables = Mapping[str, Rows]
@@ -14,16 +12,9 @@ MOST_LISTED = 40
 """Rows of the longest list of single cases; the CSV tables hold all."""
 
 
-def reliability(tables: Tables) -> Rows:
-    """Return the reliability rows as text: those of the tables if they are given, else counted from the comparison."""
-    if "reliability" in tables:
-        return tables["reliability"]
-    return [csv_cells(RELIABILITY, row) for row in reliability_rows(tables["comparison"])]
-
-
 def expert_sentences(tables: Tables) -> list[str]:
     """Return the three sentences that somebody who knows the method would say about this run."""
-    rows = {row["light"]: row for row in reliability(tables)}
+    rows = {row["light"]: row for row in tables["agreement"]}
     if int(rows["all"]["cases"]) == 0:
         return [
             "There is no case with both a prediction and an integration, so nothing can be said about the closed form."
@@ -90,7 +81,7 @@ def notices(tables: Tables) -> list[dict[str, object]]:
     return [{"strong": True, "text": text} for text in found]
 
 
-def reliability_table(tables: Tables) -> dict[str, object]:
+def agreement_table(tables: Tables) -> dict[str, object]:
     """Return how often the closed form was right, by light."""
     columns = [
         ("Light", "1", "l"),
@@ -105,10 +96,10 @@ def reliability_table(tables: Tables) -> dict[str, object]:
         ("only predicted", "0.9", "r"),
         ("Fragile", "0.7", "r"),
     ]
-    return table(columns, [_reliability_row(row) for row in reliability(tables)])
+    return table(columns, [_agreement_row(row) for row in tables["agreement"]])
 
 
-def _reliability_row(row: Row) -> list[Cell]:
+def _agreement_row(row: Row) -> list[Cell]:
     before = ("records", "cases", "both_rock", "within_factor_two")
     after = ("overturning", "overturning_found", "overturning_missed", "overturning_false", "fragile")
     cells: list[Cell] = [printing.lamp(row["light"]), *(whole(row[name]) for name in before)]

@@ -12,7 +12,7 @@ FLOORS = [
     {"errors", "checks", "units", "outcome"},
     {"records", "structures", "pulses"},
     {"sine_pulse", "motion"},
-    {"spectrum", "model_check", "tables", "columns", "fidelity", "yardstick"},
+    {"spectrum", "model_check", "tables", "columns", "agreement", "fidelity", "yardstick"},
     {"comparison"},
     {"variations", "plan", "calibration", "trade", "fidelity_trials"},
     {"rows", "summary", "fidelity_calibration"},
@@ -26,6 +26,7 @@ SAME_FLOOR = {
     ("units", "errors"),
     ("pulses", "records"),
     ("columns", "tables"),
+    ("agreement", "tables"),
     ("reporting", "study"),
 }
 ONLY_IN = {

@@ -97,11 +97,12 @@ def test_a_steady_vertical_acceleration_scales_gravity():
 @pytest.mark.parametrize(
     ("predicted", "integrated", "expected"),
     [
-        (Outcome.OVERTURNS, Outcome.OVERTURNS, "agree"),
-        (Outcome.ROCKS, Outcome.OVERTURNS, "unsafe"),
-        (Outcome.NO_UPLIFT, Outcome.ROCKS, "unsafe"),
-        (Outcome.OVERTURNS, Outcome.ROCKS, "safe"),
-        (Outcome.FAILED, Outcome.ROCKS, "unknown"),
+        (math.inf, math.inf, "agree"),
+        (0.9, math.inf, "unsafe"),
+        (0.0, 0.1, "unsafe"),
+        (0.0, 1e-6, "agree"),
+        (math.inf, 0.4, "safe"),
+        (math.nan, 0.4, "unknown"),
     ],
 )
 def test_verdict(predicted, integrated, expected):

@@ -1,14 +1,15 @@
-"""The report over all records, and the reliability that is counted for it."""
+"""The report over all records, and the agreement that is counted for it."""
 
 import json
 import math
 import re
 
+from rocking.agreement import agreement_rows
+from rocking.columns import AGREEMENT
 from rocking.reports import summary_report
-from rocking.reports.reliability import RELIABILITY, reliability_rows
 from rocking.reports.summary import summary_data
 from rocking.reports.summary_figures import prediction_scatter
-from rocking.tables import csv_lines
+from rocking.tables import csv_cells, csv_lines
 
 from .conftest import SETTINGS
 
@@ -48,12 +49,18 @@ CASES = [
 def summary_tables(comparison, **others):
     return {name: [] for name in ("record", "pulses", "maxima", "structures", "failures")} | {
         "comparison": comparison,
+        "agreement": [csv_cells(AGREEMENT, row) for row in agreement_rows(comparison)],
         **others,
     }
 
 
-def test_reliability_counts_each_light_and_all():
-    rows = {row["light"]: row for row in reliability_rows(CASES)}
+def _summarised(tables):
+    counted = [csv_cells(AGREEMENT, row) for row in agreement_rows(tables["comparison"])]
+    return tables | {"maxima": [], "agreement": counted}
+
+
+def test_agreement_counts_each_light_and_all():
+    rows = {row["light"]: row for row in agreement_rows(CASES)}
     assert [rows[light]["cases"] for light in ("green", "amber", "red", "all")] == [2, 1, 2, 5]
     assert rows["all"] | {"median_ratio": None} == {
         "light": "all",
@@ -69,7 +76,7 @@ def test_reliability_counts_each_light_and_all():
         "fragile": 1,
     }
     assert rows["green"]["median_ratio"] == 1.25
-    assert len(list(csv_lines(RELIABILITY, rows.values()))) == 5
+    assert len(list(csv_lines(AGREEMENT, rows.values()))) == 5
 
 
 def test_the_three_sentences_say_the_counts():
@@ -100,7 +107,7 @@ def test_a_study_without_a_readable_record_says_so_first():
 
 
 def test_the_summary_of_a_record_is_the_same_twice_and_names_its_factor(hostile):
-    tables = hostile.tables | {"maxima": []}
+    tables = _summarised(hostile.tables)
     assert summary_report(tables, SETTINGS) == summary_report(tables, SETTINGS)
     assert any("declared factor" in notice["text"] for notice in summary_data(tables, SETTINGS)["notices"])
 
@@ -113,7 +120,7 @@ def test_a_trade_table_is_printed_as_it_is():
 
 
 def test_the_scatter_marks_the_lights_by_shape(example):
-    data = summary_data(example.tables | {"maxima": []}, SETTINGS)
+    data = summary_data(_summarised(example.tables), SETTINGS)
     drawn = data["scatter"][0]["svg"]
     assert {"green light", "amber light", "red light"} <= set(re.findall(r"\w+ light", drawn))
     assert json.dumps(data)
