@@ -37,11 +37,17 @@ rule report_summary:
     input:
         [f"{SUMMARY}/{table}.csv" for table in SUMMARIES],
     output:
-        report(
+        document=report(
             f"{SUMMARY}/summary.pdf",
             caption="../report/summary.rst",
             category="Study",
             labels={"document": "report on all records"},
+        ),
+        figure=report(
+            f"{SUMMARY}/prediction_against_integration.svg",
+            caption="../report/scatter.rst",
+            category="Study",
+            labels={"document": "prediction against integration"},
         ),
     log:
         f"{SUMMARY}/logs/report_summary.log",
@@ -54,25 +60,3 @@ rule report_summary:
         "Report on all records"
     script:
         "../scripts/report_summary.py"
-
-
-rule draw_summary:
-    input:
-        f"{SUMMARY}/comparison.csv",
-    output:
-        report(
-            f"{SUMMARY}/prediction_against_integration.svg",
-            caption="../report/scatter.rst",
-            category="Study",
-            labels={"document": "prediction against integration"},
-        ),
-    log:
-        f"{SUMMARY}/logs/draw_summary.log",
-    benchmark:
-        f"{SUMMARY}/benchmarks/draw_summary.tsv"
-    params:
-        package_sha256=package_sha256(),
-    message:
-        "Draw prediction against integration"
-    script:
-        "../scripts/draw_summary.py"

@@ -1,8 +1,10 @@
-"""Set the PDF of the whole study: snakemake.* onto rocking.reporting."""
+"""Set the PDF of the whole study and draw its figure: snakemake.* onto rocking.reporting."""
 
 from pathlib import Path
 
-from rocking.reporting import report_summary
+from rocking.reporting import draw_summary, report_summary
 
 if __name__ == "__main__":
-    report_summary(Path(snakemake.config["results"]) / "summary", snakemake.config)
+    folder = Path(snakemake.output.document).parent
+    report_summary(folder, snakemake.config)
+    draw_summary(folder / "comparison.csv", Path(snakemake.output.figure))
