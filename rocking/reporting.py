@@ -52,7 +52,10 @@ def _report(
 
 def report_summary(folder: Path, settings: Mapping[str, object]) -> None:
     """Write summary.pdf beside the summary tables in `folder`."""
-    tables = {table.name: read_rows(folder / table.file_name) for table in columns.SUMMARY_TABLES}
+    used = (table for table in columns.SUMMARY_TABLES if table not in (columns.MAXIMA, columns.TIMINGS))
+    tables = {
+        table.name: read_rows(folder / table.file_name) for table in used
+    }  # the two left out are the longest
     write_whole(folder / "summary.pdf", summary_report(tables, settings))
 
 

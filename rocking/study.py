@@ -7,7 +7,7 @@ from time import process_time
 from typing import Any, Literal
 
 from rocking import columns, rows
-from rocking.comparison import Assessment, AssessmentSettings, Failure, assess
+from rocking.comparison import Assessment, AssessmentSettings, Case, Failure, assess
 from rocking.errors import RockingError
 from rocking.pulses import PulseSettings
 from rocking.records import Accelerogram
@@ -156,15 +156,29 @@ def _assess_component(
 
 
 def _variations(identity: rows.Identity, assessment: Assessment, study: Study) -> dict[str, list[Row]]:
-    """The rows of candidates and processing, for every structure that gave a result."""
+    """The rows of candidates and processing, for every structure that gave a result, and of what failed among them."""
     record = assessment.accelerogram
     records = processed(record) if study.processing_variants else {}
-    made: dict[str, list[Row]] = {"candidates": [], "processing": []}
+    made: dict[str, list[Row]] = {"candidates": [], "processing": [], "failures": []}
     for case in assessment.cases:
-        structure = study.structures[case.structure]
-        pulse = case.prediction.pulse if case.prediction else None
-        found = candidates(structure, record, pulse, study.candidates, study.settings)
-        made["candidates"] += rows.candidate_rows(identity, case.structure, found)
-        variants = processed_variants(structure, records, study.settings)
-        made["processing"] += rows.processing_rows(identity, case.structure, variants)
+        try:
+            _vary(identity, case, records, study, made)
+        except RockingError as error:
+            failure = Failure("variations", case.structure, str(error))
+            made["failures"].append(rows.failure_row(identity.record, record.component, failure))
     return made
+
+
+def _vary(
+    identity: rows.Identity,
+    case: Case,
+    records: Mapping[str, Accelerogram],
+    study: Study,
+    made: dict[str, list[Row]],
+) -> None:
+    structure = study.structures[case.structure]
+    pulse = case.prediction.pulse if case.prediction else None
+    found = candidates(structure, identity.accelerogram, pulse, study.candidates, study.settings)
+    made["candidates"] += rows.candidate_rows(identity, case.structure, found)
+    variants = processed_variants(structure, records, study.settings)
+    made["processing"] += rows.processing_rows(identity, case.structure, variants)
