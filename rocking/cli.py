@@ -130,9 +130,8 @@ def _read(options: argparse.Namespace) -> None:
 
 def _pulse(options: argparse.Namespace) -> None:
     from rocking.pulses import extract_pulses
-    from rocking.records import open_record
 
-    for accelerogram in open_record(_own_record(options)):
+    for accelerogram in _accelerograms(options):
         analysis = extract_pulses(accelerogram)
         pulse = analysis.dominant
         print(
@@ -140,8 +139,8 @@ def _pulse(options: argparse.Namespace) -> None:
             f"{pulse.amplitude / GRAVITY:.4g} g, period {pulse.period:.4g} s, start {pulse.start_time:.3f} s, "
             f"explains {analysis.explained_energy:.0%} of the acceleration energy"
         )
-        for flag in analysis.flags:
-            print(f"  {flag}")
+        for sentence in (*analysis.flags, *accelerogram.processing):
+            print(f"  {sentence}")
 
 
 def _assess(options: argparse.Namespace) -> None:
@@ -156,10 +155,17 @@ def _assess(options: argparse.Namespace) -> None:
 
 def _spectrum(options: argparse.Namespace) -> None:
     from rocking.own_record import write_spectrum
-    from rocking.records import open_record
 
-    write_spectrum(open_record(_own_record(options)), options.restitution, options.output)
+    write_spectrum(_accelerograms(options), options.restitution, options.output)
     print(options.output)
+
+
+def _accelerograms(options: argparse.Namespace):
+    from rocking.own_record import open_as_in_a_study
+    from rocking.own_study import default_settings, workflow_folder
+
+    structures = workflow_folder() / "workflow" / "structures.yaml"
+    return open_as_in_a_study(_own_record(options), structures, default_settings())
 
 
 def _own_record(options: argparse.Namespace):

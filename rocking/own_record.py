@@ -15,7 +15,7 @@ from rocking import columns
 from rocking.errors import ConfigurationError
 from rocking.plan import package_sha256, settings_sha256
 from rocking.records import Accelerogram
-from rocking.records.catalogue import CatalogueRecord, open_record
+from rocking.records.catalogue import CatalogueRecord
 from rocking.records.read import bytes_of
 from rocking.spectrum import rocking_spectrum
 from rocking.study import Study, assess_records
@@ -54,6 +54,14 @@ def own_record(path: Path, declared: Declared) -> CatalogueRecord:
     )
 
 
+def open_as_in_a_study(
+    record: CatalogueRecord, structures: Path, settings: dict[str, Any]
+) -> list[Accelerogram]:
+    """Return the horizontal components of `record`, processed as a study with `settings` would. Raises RecordError."""
+    accelerograms, _ = Study.from_settings(settings, structures, "").open(record)
+    return accelerograms
+
+
 def assess_file(
     record: CatalogueRecord, structures: Path, name: str | None, settings: dict[str, Any], output: Path | None
 ) -> list[str]:
@@ -64,9 +72,7 @@ def assess_file(
     """
     sha256 = settings_sha256(settings, structures.read_bytes(), package_sha256())
     study = _narrowed(Study.from_settings(settings, structures, sha256), name, structures)
-    open_record(
-        record
-    )  # a file that cannot be read is an error here, where a study goes on to its other records
+    study.open(record)  # a file that cannot be read is an error here, where a study goes on to its others
     with TemporaryDirectory() as temporary:
         folder = output or Path(temporary)
         assess_records([record], study, folder, Path(os.devnull))
