@@ -39,7 +39,7 @@ def _verdict_row(row: Row, numbers: Mapping[str, str]) -> list[Cell]:
         row["structure"],
         printing.lamp(row["light"]),
         ratio(row["predicted_rotation_ratio"]),
-        strong(ratio(row["integrated_rotation_ratio"])),
+        strong(_answer(row)),
         strong(verdict) if row["verdict"] == "unsafe" else verdict,
         words(row["regime"]),
         number(row["sensitivity"]),
@@ -49,7 +49,7 @@ def _verdict_row(row: Row, numbers: Mapping[str, str]) -> list[Cell]:
 
 def verdict_sentences(rows: Rows) -> list[str]:
     """Return what the verdict table amounts to, in sentences."""
-    integrated = [ratio(row["integrated_rotation_ratio"]) for row in rows]
+    integrated = [ratio(_found(row)) for row in rows]
     falling = integrated.count("overturns")
     still = integrated.count("no uplift")
     failed = integrated.count(printing.NOTHING)
@@ -62,8 +62,23 @@ def verdict_sentences(rows: Rows) -> list[str]:
     ]
     said = [f"{printing.count(many)} {what}" for many, what in parts if many]
     total = printing.counted(len(rows), "structure")
-    sentences = [printing.sentence(f"of {total} in the full integration: {', '.join(said)}.")] if rows else []
+    spared = sum(_spared(row) for row in rows)
+    how = "by the cheapest trusted method" if spared else "in the full integration"
+    sentences = [printing.sentence(f"of {total} {how}: {', '.join(said)}.")] if rows else []
     return sentences + _doubts(rows)
+
+
+def _spared(row: Row) -> bool:
+    """Whether a cheaper method than the full integration answered."""
+    return not row["integrated_rotation_ratio"] and bool(row.get("answer_rotation_ratio"))
+
+
+def _found(row: Row) -> str:
+    return row["integrated_rotation_ratio"] or row.get("answer_rotation_ratio", "")
+
+
+def _answer(row: Row) -> str:
+    return ratio(_found(row)) + (f" ({row['answer_method']})" if _spared(row) else "")
 
 
 def _doubts(rows: Rows) -> list[str]:
@@ -87,7 +102,7 @@ def notices(tables: Tables, failures: Rows) -> list[dict[str, object]]:
     found = [(True, scale) for scale in [scale_sentence(tables["record"])] if scale]
     if not rows:
         found.append((True, "No structure could be assessed under this record."))
-    elif all(ratio(row["integrated_rotation_ratio"]) == "no uplift" for row in rows):
+    elif all(ratio(_found(row)) == "no uplift" for row in rows):
         found.append(
             (False, "No structure uplifts: the ground acceleration never reaches an uplift acceleration.")
         )

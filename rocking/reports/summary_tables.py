@@ -71,6 +71,16 @@ def notices(tables: Tables) -> list[dict[str, object]]:
         found.append("No structure could be assessed under any record; the failures below say why.")
     elif all(row["integrated_rotation_ratio"] == "0.0" for row in tables["comparison"]):
         found.append("No structure uplifts under any record.")
+    spared = [
+        row
+        for row in tables["comparison"]
+        if not row["integrated_rotation_ratio"] and row.get("answer_rotation_ratio")
+    ]
+    if spared:
+        found.append(
+            f"{printing.sentence(printing.counted(len(spared), 'case'))} answered by a cheaper method than the full "
+            "integration and left out of what compares the two; see answer_method in comparison.csv."
+        )
     if tables["failures"]:
         found.append(
             f"{printing.sentence(printing.counted(len(tables['failures']), 'failure'))}, listed below."

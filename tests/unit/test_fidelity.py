@@ -10,6 +10,7 @@ import pytest
 from scipy.constants import g
 
 from rocking.calibration import distinct_components, grid_of_blocks
+from rocking.columns import COMPARISON
 from rocking.comparison import AssessmentSettings, Method, assess
 from rocking.errors import ConfigurationError
 from rocking.fidelity import (
@@ -40,9 +41,11 @@ from rocking.motion.integration import integrate
 from rocking.outcome import Outcome
 from rocking.pulses import Light
 from rocking.records import Accelerogram, load_catalogue, open_record
+from rocking.reports.record_verdict import verdict_sentences, verdict_table
+from rocking.rows import Identity, comparison_row
 from rocking.sine_pulse import Maximum, Regime
 from rocking.structures import Arch, Block
-from rocking.tables import read_rows
+from rocking.tables import csv_cells, read_rows
 
 STEP = 0.01
 TIMES = np.arange(400) * STEP
@@ -286,6 +289,20 @@ def test_a_study_answers_with_the_cheapest():
     (whole,) = assess(record(1.5), {"block": BLOCK}, replace(settings, fidelity="full")).cases
     assert whole.answer.level is Level.MECHANISM
     assert case.answer.rotation_ratio == pytest.approx(whole.answer.rotation_ratio, rel=0.1)
+
+
+def test_a_report_says_what_answered():
+    """A cheap method says that the block overturns, and the report must not call that nothing."""
+    settings = AssessmentSettings(fidelity="auto", bootstrap_replicates=0)
+    assessment = assess(record(12.0), {"block": BLOCK}, settings)
+    assert assessment.cases[0].answer.level in (Level.CLOSED_FORM, Level.BLOCK)
+    identity = Identity("r", assessment.accelerogram, "")
+    rows = [csv_cells(COMPARISON, comparison_row(identity, case)) for case in assessment.cases]
+    assert rows[0]["integrated_rotation_ratio"] == ""
+    assert rows[0]["answer_rotation_ratio"] == "INF"
+    (sentence,) = verdict_sentences(rows)
+    assert sentence == "Of one structure by the cheapest trusted method: one overturn."
+    assert "block" in str(verdict_table(rows, {"block": "1"}))
 
 
 @pytest.fixture(scope="module")
