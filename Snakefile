@@ -17,6 +17,7 @@ rule all:
     default_target: True
 
 
+include: "workflow/rules/compile.smk"
 include: "workflow/rules/assess.smk"
 include: "workflow/rules/summarise.smk"
 include: "workflow/rules/report.smk"

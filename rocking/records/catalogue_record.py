@@ -98,7 +98,7 @@ def _defects(record: CatalogueRecord) -> Iterable[str]:
         allowed = "a safe file name: letters, digits, . _ -, at most 80, not a reserved name"
         yield f"id is {record.id!r}, but must be {allowed}."
     for name in ("file", "inventory", "vertical_file"):
-        if (value := getattr(record, name)) and not _stays_inside(value.removeprefix(_OBSPY)):
+        if (value := getattr(record, name)) and not stays_inside(value.removeprefix(_OBSPY)):
             yield f"{name} is {value!r}, but must be a relative path without '..'."
     if not record.file:
         yield "file is missing; give a path beside the catalogue or obspy:NAME."
@@ -116,7 +116,7 @@ def _source_defects(record: CatalogueRecord) -> Iterable[str]:
         return
     if not _REPOSITORY.fullmatch(record.source_repository):
         yield f"source_repository is {record.source_repository!r}, but must be owner/name."
-    if not record.source_path or not _stays_inside(record.source_path):
+    if not record.source_path or not stays_inside(record.source_path):
         yield f"source_path is {record.source_path!r}, but must be a relative path without '..'."
     if not re.fullmatch(r"[0-9a-f]{40}", record.source_commit):
         yield f"source_commit is {record.source_commit!r}, but must be 40 hexadecimal digits."
@@ -143,7 +143,8 @@ def _scale(value: float) -> None:
         raise CatalogueError("scale_factor is 0, but must not be; leave the row out instead.")
 
 
-def _stays_inside(path: str) -> bool:
+def stays_inside(path: str) -> bool:
+    """Whether `path` is relative, plain, and never leads out of the folder it starts from."""
     parts = PurePosixPath(path).parts
     plain = not re.search(r"[\\:\0]|[\x00-\x1f]", path)
     return bool(parts) and plain and not path.startswith("/") and ".." not in parts

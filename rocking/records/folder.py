@@ -7,7 +7,7 @@ from pathlib import Path
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.catalogue_record import COLUMNS
+from rocking.records.catalogue_record import COLUMNS, stays_inside
 from rocking.records.read import bytes_of, read
 
 Row = dict[str, str]
@@ -33,6 +33,9 @@ def catalogue_from_folder(
             channels, declared = _read(path, unit, time_step)
         except RecordError as error:
             unread.append((file, str(error)))
+            continue
+        if not stays_inside(file):
+            unread.append((file, "its name holds a character that a catalogue does not allow; rename it."))
             continue
         if not any(not c.vertical and not c.borehole for c in channels):
             unread.append((file, "it holds no horizontal component at the surface."))

@@ -79,7 +79,7 @@ def variants(high_pass: float = 0.1, pre_event: float | None = None) -> dict[str
     settled = Processing(pre_event=pre_event)
     corners = {f"high-pass {f * high_pass:g} Hz": f * high_pass for f in (0.5, 1.0, 2.0)}
     return {
-        "as read": Processing(),
+        "unchanged": Processing(),
         **({"pre-event mean": settled} if pre_event else {}),
         "linear baseline": replace(settled, baseline="linear"),
         "adaptive baseline": replace(settled, baseline="adaptive"),

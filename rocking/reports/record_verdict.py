@@ -55,12 +55,12 @@ def verdict_sentences(rows: Rows) -> list[str]:
     failed = integrated.count(printing.NOTHING)
     rocking = len(rows) - falling - still - failed
     parts = [
-        (falling, "overturn"),
-        (rocking, "rock and stay up"),
-        (still, "are not lifted"),
-        (failed, "gave no result"),
+        (falling, "overturns", "overturn"),
+        (rocking, "rocks and stays up", "rock and stay up"),
+        (still, "is not lifted", "are not lifted"),
+        (failed, "gave no result", "gave no result"),
     ]
-    said = [f"{printing.count(many)} {what}" for many, what in parts if many]
+    said = [f"{printing.count(many)} {one if many == 1 else more}" for many, one, more in parts if many]
     total = printing.counted(len(rows), "structure")
     spared = sum(_spared(row) for row in rows)
     how = "by the cheapest trusted method" if spared else "in the full integration"

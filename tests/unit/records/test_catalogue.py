@@ -227,3 +227,11 @@ def test_a_catalogue_from_a_folder(folder: Path) -> None:
     assert catalogue_from_folder(folder, unit="g", time_step=0.02) == (rows, unread)  # not its own catalogue
     with pytest.raises(RecordError, match="no folder"):
         catalogue_from_folder(folder / "none")
+
+
+def test_a_file_name_that_a_catalogue_would_refuse_is_named_as_unread(tmp_path):
+    (tmp_path / "a:b.txt").write_text("\n".join(f"{i * 0.01:.2f} {i % 7}" for i in range(100)))
+    rows, unread = catalogue_from_folder(tmp_path, unit="m/s2")
+    assert rows == []
+    assert [name for name, _ in unread] == ["a:b.txt"]
+    assert "rename" in unread[0][1]
