@@ -7,7 +7,7 @@ wrong and too low: overturning or uplift missed, or a rotation too small by more
 import itertools
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from rocking.calibration import distinct_components, grid_of_blocks
@@ -76,12 +76,21 @@ HELD_OUT = Table(
     "One row per tolerance, risk and half of the sites: what the choice did; times differ between runs",
     tuple(Column(name, "string" if name == "half" else "number", text) for name, text in _MEANINGS.items()),
 )
+_LIMIT_MEANINGS = {
+    "tolerance": "Relative error of the rotation that counts as right",
+    "risk": "Largest share of unsafe answers",
+    "closed_form_margin": "Least overturning margin, negated, at which the closed form may say overturns; INF: never",
+    "known_error": "Largest known error of an equivalent block that may answer; 0: none may",
+    "rotation_ratio": "Largest rotation over critical rotation that a block may answer; 0: overturning only",
+    "sensitivity": "Largest magnitude of its d ln(largest rotation) / d ln(ground acceleration)",
+    "answers": "Answers of the closed form and the block on the half of the sites that the limits were chosen on",
+    "right": "Share of them that were right",
+    "unsafe": "Share of them that were unsafe",
+}
 LIMITS_TABLE = Table(
     "fidelity",
     "One row per tolerance and risk: how far the cheap methods are trusted",
-    tuple(
-        Column(field.name, "number", f"{field.name} of rocking.fidelity.Limits") for field in fields(Limits)
-    ),
+    tuple(Column(name, "number", text) for name, text in _LIMIT_MEANINGS.items()),
 )
 
 

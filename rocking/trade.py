@@ -24,7 +24,7 @@ from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures import Mechanism, Structure
 from rocking.structures.mechanism import Scale
-from rocking.tables import Column, Row, Table, write_table
+from rocking.tables import Column, Row, Table, data_package, write_table, write_whole
 from rocking.yardstick import REFERENCE_TOLERANCE, Scipy, event_maximum, reference_maximum
 
 TOLERANCES = tuple(10.0**-power for power in range(2, 11))
@@ -111,7 +111,10 @@ def write_trade(
     table: Path,
     log: Path,
 ) -> None:
-    """Write the table of cases chosen among `records`, each given by what opens it, and a line for each into `log`."""
+    """Write the table of cases chosen among `records`, each given by what opens it, and a line for each into `log`.
+
+    Beside the table comes its description, a Frictionless data package of the same name.
+    """
     with log.open("w", encoding="utf-8") as stream:
 
         def motions() -> Iterator[tuple[str, Accelerogram]]:
@@ -130,6 +133,7 @@ def write_trade(
                 yield from found
 
         write_table(TRADE, rows(), table)
+    write_whole(table.with_suffix(".json"), data_package("rocking-trade", {TRADE.name: (TRADE, table.name)}))
 
 
 def strongest_stretch(accelerogram: Accelerogram, samples: int) -> Accelerogram:

@@ -130,7 +130,7 @@ def _frame(panel: Axes, rows: list[Row]) -> None:
     panel.yaxis.set_minor_locator(NullLocator())
     panel.grid(True)
     panel.set_axisbelow(True)
-    panel.set_xlabel("time of one response: to the left is faster")
+    panel.set_xlabel("time of one response, with the pulse and the tables at hand: to the left is faster")
     panel.set_ylabel("error of the largest rotation: lower is more accurate")
     cases = len({(row["record"], row["component"], row["structure"]) for row in rows})
     panel.set_title(

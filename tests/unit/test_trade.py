@@ -1,5 +1,6 @@
 """Error against time: which cases are tried, what a row says, and what the figure shows."""
 
+import json
 import math
 
 import numpy as np
@@ -134,6 +135,8 @@ def test_a_record_that_cannot_be_read_costs_no_other(tmp_path):
     written = read_rows(table)
     assert list(written[0]) == list(TRADE.column_names)
     assert {row["record"] for row in written} == {"a"}
+    described = json.loads(table.with_suffix(".json").read_text(encoding="utf-8"))["resources"][0]
+    assert [field["name"] for field in described["schema"]["fields"]] == list(written[0])
 
     figures = [tmp_path / "trade.pdf", tmp_path / "trade.svg"]
     write_trade_figure(table, *figures)

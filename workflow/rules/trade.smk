@@ -8,6 +8,7 @@ rule trade:
         files=[file for job in PLAN.jobs for file in PLAN.local_files(job)],
     output:
         table=f"{SUMMARY}/trade.csv",
+        description=f"{SUMMARY}/trade.json",
         pdf=f"{SUMMARY}/trade.pdf",
         svg=f"{SUMMARY}/trade.svg",
     log:
