@@ -163,10 +163,11 @@ def _named(channel: Accelerogram, component: str) -> Accelerogram:
 
 
 def as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
-    """Return a channel with the scale, station, event and corner frequency of its row."""
+    """Return a channel with the file name, scale, station, event and corner frequency of its row."""
     channel = channel.scaled(record.scale_factor) if record.scale_factor != 1 else channel
     return replace(
         channel,
+        source=replace(channel.source, path=record.file),
         station=record.station or channel.station,
         event=record.event or channel.event,
         high_pass_frequency=record.high_pass_frequency or channel.high_pass_frequency,

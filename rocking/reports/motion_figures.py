@@ -96,11 +96,15 @@ def _pulse_over(
 
 
 def _uplift_lines(panel: Axes, uplift: Sequence[float], peak: float) -> None:
-    label = "uplift accelerations"
-    for level in sorted({value for value in uplift if value <= 1.3 * peak}):
+    """Draw the outermost across the panel, those between as marks at its ends: many lines would hide the record."""
+    levels = sorted({value for value in uplift if value <= 1.3 * peak})
+    for place, level in enumerate(levels):
+        outermost = place in (0, len(levels) - 1)
         for signed in (level, -level):
-            panel.axhline(signed, color="#0072B2", linewidth=0.5, linestyle=":", label=label)
-            label = "_"
+            label = "uplift accelerations" if place == 0 and signed > 0 else "_"
+            style = {"color": "#0072B2", "linewidth": 0.6}
+            for ends in [(0, 1)] if outermost else [(0, 0.012), (0.988, 1)]:
+                panel.axhline(signed, *ends, linestyle=":" if outermost else "-", label=label, **style)
 
 
 @styled
