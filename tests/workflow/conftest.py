@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 import yaml
@@ -17,7 +18,6 @@ import yaml
 from rocking.records.synthetic import SyntheticRecord, at2_text
 
 ROOT = Path(__file__).parents[2]
-PROFILE = ROOT / "workflow" / "profiles" / "default"
 MEASURED = {"timings.csv", "trade.csv"}
 """The tables whose bytes may differ between two runs of the same input."""
 
@@ -29,9 +29,13 @@ STRUCTURES = [
 
 @dataclass(frozen=True)
 class SmallStudy:
-    """A study in `folder`: config.yaml, structures.yaml, records/ and what a run makes of them."""
+    """A study in `folder`: config.yaml, structures.yaml, records/ and what a run makes of them.
+
+    tree: a copy of this project, whose workflow and package make it.
+    """
 
     folder: Path
+    tree: Path
 
     @property
     def results(self) -> Path:
@@ -70,21 +74,21 @@ class SmallStudy:
 
     def command(self, *options: str) -> list[str]:
         return [
-            *(sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--cores", "2"),
+            *(sys.executable, "-m", "snakemake", "--snakefile", str(self.tree / "Snakefile"), "--cores", "2"),
             *("--directory", str(self.folder), "--configfile", str(self.folder / "config.yaml")),
-            *("--workflow-profile", str(PROFILE), "--nocolor", *options),
+            *("--workflow-profile", str(self.tree / "workflow/profiles/default"), "--nocolor", *options),
         ]
 
-    def run(self, *options: str, package: Path | None = None) -> subprocess.CompletedProcess[str]:
-        """Run snakemake on this study, with the package in the folder `package` if given; its output as one text."""
+    @property
+    def surroundings(self) -> dict[str, Any]:
+        """How a process is started: python -m looks for the package in the folder it stands in, then in PYTHONPATH."""
+        return {"cwd": self.folder, "env": os.environ | {"PYTHONPATH": str(self.tree)}}
+
+    def run(self, *options: str) -> subprocess.CompletedProcess[str]:
+        """Run snakemake on this study; its output and errors as one text."""
+        streams: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
         return subprocess.run(
-            self.command(*options),
-            env=os.environ | ({"PYTHONPATH": str(package)} if package else {}),
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            timeout=300,
-            check=False,
+            self.command(*options), timeout=300, check=False, **streams, **self.surroundings
         )
 
     def tables(self) -> dict[str, bytes]:
@@ -101,23 +105,33 @@ class SmallStudy:
 
     def copy_to(self, folder: Path) -> "SmallStudy":
         shutil.copytree(self.folder, folder)
-        return SmallStudy(folder)
+        return SmallStudy(folder, self.tree)
 
 
-def new_study(folder: Path) -> SmallStudy:
+def new_study(folder: Path, tree: Path) -> SmallStudy:
     """A study without records: two structures, no reports, one record a job."""
     (folder / "records").mkdir(parents=True)
     settings = yaml.safe_load((ROOT / "workflow" / "config.yaml").read_text(encoding="utf-8"))
     settings |= {"structures": "structures.yaml", "reports": False, "records_per_job": 1}
     (folder / "config.yaml").write_text(yaml.safe_dump(settings), encoding="utf-8")
     (folder / "structures.yaml").write_text(yaml.safe_dump(STRUCTURES), encoding="utf-8")
-    return SmallStudy(folder)
+    return SmallStudy(folder, tree)
 
 
 @pytest.fixture(scope="session")
-def start(tmp_path_factory: pytest.TempPathFactory) -> SmallStudy:
+def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy of the workflow and the package, with what is compiled already, which a test may edit."""
+    folder = tmp_path_factory.mktemp("tree")
+    shutil.copy2(ROOT / "Snakefile", folder)
+    for name in ("workflow", "rocking"):
+        shutil.copytree(ROOT / name, folder / name)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def start(tree: Path, tmp_path_factory: pytest.TempPathFactory) -> SmallStudy:
     """A study of three good records that has not been run; copy it before use."""
-    study = new_study(tmp_path_factory.mktemp("start") / "study")
+    study = new_study(tmp_path_factory.mktemp("start") / "study", tree)
     for number in (1, 2, 3):
         study.add_synthetic(f"good_{number}", number)
     return study

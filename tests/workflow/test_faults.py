@@ -143,7 +143,7 @@ def test_killed_runs_are_resumed_to_the_same_bytes(finished, start, tmp_path: Pa
 
 def _started(study) -> subprocess.Popen[bytes]:
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    return subprocess.Popen(study.command(), start_new_session=True, **quiet)
+    return subprocess.Popen(study.command(), start_new_session=True, **quiet, **study.surroundings)
 
 
 def _wait(condition, process: subprocess.Popen[bytes]) -> None:

@@ -7,7 +7,7 @@ for JOB, RECORDS in PLAN.jobs.items():
             f"assess_{JOB}"
         input:
             structures=config["structures"],
-            compiled=ancient(COMPILED),
+            compiled=COMPILED,
             files=PLAN.local_files(JOB),
         output:
             record_files(RECORDS, *CSV),
