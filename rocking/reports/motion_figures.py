@@ -56,7 +56,7 @@ def ground_motion(
         accelerogram.acceleration if pulse is None else accelerogram.acceleration - pulse.acceleration(times)
     )
     traces = (accelerogram.acceleration, residual, velocity, displacement)
-    labels = ("acceleration\n[m/s²]", "residual\n[m/s²]", "velocity\n[m/s]", "displacement\n[m]")
+    labels = ("acceleration\n[m/s²]", "residual\n[m/s²]", "velocity\n[m/s]", "displ.\n[m]")
     for panel, trace, label in zip(axes, traces, labels, strict=True):
         panel.plot(*thinned(times, trace), color="0.35", linewidth=0.5, label="record")
         panel.axhline(0, color="0.6", linewidth=0.3)
@@ -185,7 +185,7 @@ def rocking_spectrum_figure(
     width: float = TEXT_WIDTH,
 ) -> Figure:
     """Draw rotation ratios (m, n) over p (m,) [rad/s] and λ (n,) with structures (label, p, λ) on them."""
-    figure = new_figure(62, width, margins=(14, 2, 8.5, 1))
+    figure = new_figure(54, width, margins=(14, 2, 8.5, 1))
     panel = figure.subplots()
     shown = np.where(np.isfinite(ratios), np.minimum(ratios, 1.5), 1.5).T
     overturned = np.isinf(ratios).T.astype(float)

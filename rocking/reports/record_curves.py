@@ -29,7 +29,7 @@ SMALLEST_DRAWN = 1e-3
 MOST_HISTORIES = 12
 """Responses that are drawn for one component, the most demanding ones; the tables hold all."""
 SPECTRUM_POINTS = 32
-MOTION_HEIGHTS = (100.0, 82.0)
+MOTION_HEIGHTS = (100.0, 74.0)
 """Height of the time histories of the ground, mm: of a single component, and of each of several."""
 MAP_WIDTH = 58.0
 """Width of an energy map that stands beside others, mm."""
