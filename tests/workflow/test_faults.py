@@ -37,7 +37,10 @@ BROKEN = {
         {"content": _at2("NPTS=   100, DT= 0.01 SEC", GOOD_VALUES), "component": "X;Y"},
         "component",
     ),
-    "pickle": ({"content": b"\x80\x04\x95\x1b\x00\x00\x00obspy.core.stream\x94\x8c\x06Stream"}, "format"),
+    "pickle": (
+        {"content": b"\x80\x04\x95\x1b\x00\x00\x00obspy.core.stream\x94\x8c\x06Stream"},
+        "never opened",
+    ),
 }
 
 
