@@ -100,11 +100,12 @@ def _uplift_lines(panel: Axes, uplift: Sequence[float], peak: float) -> None:
     levels = sorted({value for value in uplift if value <= 1.3 * peak})
     for place, level in enumerate(levels):
         outermost = place in (0, len(levels) - 1)
+        spans = [(0.0, 1.0)] if outermost else [(0.0, 0.012), (0.988, 1.0)]
         for signed in (level, -level):
             label = "uplift accelerations" if place == 0 and signed > 0 else "_"
-            style = {"color": "#0072B2", "linewidth": 0.6}
-            for ends in [(0, 1)] if outermost else [(0, 0.012), (0.988, 1)]:
-                panel.axhline(signed, *ends, linestyle=":" if outermost else "-", label=label, **style)
+            for left, right in spans:
+                line = panel.axhline(signed, left, right, color="#0072B2", linewidth=0.6, label=label)
+                line.set_linestyle(":" if outermost else "-")
 
 
 @styled
