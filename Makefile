@@ -9,7 +9,7 @@ STAMP := $(VENV)/.installed
 all: run
 
 run: setup
-	$(BIN)/snakemake --cores all
+	$(BIN)/snakemake --workflow-profile workflow/profiles/default
 
 setup: $(STAMP)
 
@@ -31,7 +31,7 @@ check: setup
 	$(BIN)/mypy rocking
 
 paper: setup
-	$(BIN)/snakemake --cores all paper
+	$(BIN)/snakemake --workflow-profile workflow/profiles/default paper
 
 lock:
 	uv pip compile pyproject.toml --all-extras --universal --python-version 3.11 \

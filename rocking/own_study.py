@@ -93,8 +93,18 @@ def run(folder: Path, options: Sequence[str]) -> int:
         )
     _check_catalogue(folder, config)
     cores = [] if any(_CORES.fullmatch(option) for option in options) else ["--cores", "all"]
-    command = [sys.executable, "-m", "snakemake", "--snakefile", str(workflow_folder() / "Snakefile")]
-    command += ["--directory", str(folder), "--configfile", str(config), *cores, *options]
+    home = workflow_folder()
+    command = [sys.executable, "-m", "snakemake", "--snakefile", str(home / "Snakefile")]
+    command += [
+        "--workflow-profile",
+        str(home / "workflow" / "profiles" / "default"),
+        "--directory",
+        str(folder),
+        "--configfile",
+        str(config),
+        *cores,
+        *options,
+    ]
     return subprocess.run(command, check=False).returncode
 
 
