@@ -33,7 +33,9 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
 
     def marked(outcome: str) -> int:
         reports = terminalreporter.stats.get(outcome, [])
-        return sum(1 for r in reports if "real_records" in getattr(r, "keywords", {}) and r.when in ("call", "setup"))
+        return sum(
+            1 for r in reports if "real_records" in getattr(r, "keywords", {}) and r.when in ("call", "setup")
+        )
 
     used, skipped = marked("passed") + marked("failed"), marked("skipped")
     terminalreporter.write_line(f"real records: used by {used} tests, {skipped} skipped without them")

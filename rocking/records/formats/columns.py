@@ -193,7 +193,11 @@ def _read_titled(content: bytes, name: str, options: Options) -> list[Accelerogr
     values, told = whole(
         name, numbers(name, _body(content, 2)), count(name, "number of samples", found[0]), per_line=1
     )
-    return [accelerogram(name, TITLED.name, options.unit_of(name, None), values, step, warnings=told, processed=None)]
+    return [
+        accelerogram(
+            name, TITLED.name, options.unit_of(name, None), values, step, warnings=told, processed=None
+        )
+    ]
 
 
 COLUMNS = Format(
