@@ -3,13 +3,13 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from enum import StrEnum
 from time import process_time
 from typing import Literal
 
 from rocking.checks import positive, within
 from rocking.errors import ConfigurationError, PulseError, RockingError
 from rocking.fidelity import Answer, Level, cheapest_answer, limits_for
+from rocking.method import Method
 from rocking.model_check import UNKNOWN, ModelCheck, check_model
 from rocking.motion.integration import integrate
 from rocking.motion.response import Response
@@ -21,17 +21,6 @@ from rocking.sine_pulse import Maximum, predict_maximum, printed_maximum
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 from rocking.structures.mechanism import Scale
 from rocking.units import GRAVITY
-
-
-class Method(StrEnum):
-    """How a largest rotation was computed."""
-
-    PRINTED = "printed"
-    CLOSED_FORM = "closed form"
-    BLOCK_ON_PULSE = "block on pulse"
-    BLOCK_ON_RECORD = "block on record"
-    MECHANISM_ON_PULSE = "mechanism on pulse"
-    MECHANISM_ON_RECORD = "mechanism on record"
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,6 @@ from rocking import columns
 from rocking.errors import RecordError, RockingError
 from rocking.records.catalogue import CatalogueRecord, load_catalogue, open_record
 from rocking.reports import failure_report, record_report, summary_report
-from rocking.reports.paper import EQUATIONS, equation_rows, paper_figures, paper_report
 from rocking.reports.style import svg
 from rocking.reports.summary_figures import prediction_scatter
 from rocking.study import Study
@@ -82,6 +81,13 @@ def write_paper(catalogue: Path, mirror: str | None, folder: Path) -> str:
     Fig. 8 needs the Rinaldi record, which is not shipped: where it can neither be found in `mirror` nor fetched, the
     figure is left out. Returns a sentence that says so, or that all figures were drawn.
     """
+    from rocking.reports.paper import (  # a sixth of a second
+        EQUATIONS,
+        equation_rows,
+        paper_figures,
+        paper_report,
+    )
+
     rinaldi, message = None, "All figures were drawn."
     try:
         record = next(record for record in load_catalogue(catalogue) if record.id == EXAMPLE)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from rocking import columns
 from rocking.agreement import agreement_rows
-from rocking.comparison import Method
+from rocking.method import Method
 from rocking.structures import Structure
 from rocking.structures.equivalence import measure_equivalence
 from rocking.tables import Row, Table, data_package, write_table, write_whole

@@ -15,8 +15,9 @@ from time import perf_counter
 import numpy as np
 
 from rocking.checks import within
-from rocking.comparison import AssessmentSettings, Method
+from rocking.comparison import AssessmentSettings
 from rocking.errors import ConfigurationError, MotionError, PulseError, RockingError
+from rocking.method import Method
 from rocking.motion.integration import integrate
 from rocking.motion.table import table_of
 from rocking.pulses import PulseSettings, extract_pulses

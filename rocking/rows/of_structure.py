@@ -2,7 +2,8 @@
 
 import math
 
-from rocking.comparison import Case, Method, Prediction, ratio, verdict
+from rocking.comparison import Case, Prediction, ratio, verdict
+from rocking.method import Method
 from rocking.model_check import UNKNOWN
 from rocking.motion.response import Response
 from rocking.outcome import Outcome

@@ -6,7 +6,6 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from scipy.optimize import brentq
 
 from rocking.checks import finite
 from rocking.errors import StructureError, StructureWarning
@@ -117,6 +116,8 @@ class Arch(Structure):
         There the left half of the mechanism has snapped through, far below the unstable equilibrium, and the
         bar CD turns back. All functions are smooth up to that rotation.
         """
+        from scipy.optimize import brentq  # slow to import, and needed by arches only
+
         linkage, radius = self.linkage, self.radius
         end = linkage.straightening()
         if not linkage.gravity(end) < 0:

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-from scipy.optimize import minimize
 
 from rocking.errors import StructureError
 from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Ring
@@ -212,6 +211,8 @@ def kinematic_onset(ring: Ring) -> Onset:
 
 def _slide_to_minimum(ring: Ring, hinges: np.ndarray, reach: float) -> tuple[float, np.ndarray]:
     """Minimise the multiplier over A, B and C within `reach` of a first guess; inadmissible there is no barrier."""
+    from scipy.optimize import minimize  # slow to import, and needed by arches only
+
     edge = ring.embrace_angle / 2
     result = minimize(
         lambda free: _virtual_work(ring, np.append(free, edge))[0],

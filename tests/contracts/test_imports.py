@@ -9,7 +9,7 @@ import rocking
 
 PACKAGE = Path(rocking.__file__).parent
 FLOORS = [
-    {"errors", "checks", "units", "outcome"},
+    {"errors", "checks", "units", "outcome", "method"},
     {"records", "structures", "pulses"},
     {"sine_pulse", "motion"},
     {"spectrum", "model_check", "tables", "columns", "agreement", "fidelity", "yardstick"},

@@ -1,0 +1,14 @@
+"""Method: how a largest rotation was computed."""
+
+from enum import StrEnum
+
+
+class Method(StrEnum):
+    """How a largest rotation was computed."""
+
+    PRINTED = "printed"
+    CLOSED_FORM = "closed form"
+    BLOCK_ON_PULSE = "block on pulse"
+    BLOCK_ON_RECORD = "block on record"
+    MECHANISM_ON_PULSE = "mechanism on pulse"
+    MECHANISM_ON_RECORD = "mechanism on record"
