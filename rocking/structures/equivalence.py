@@ -10,7 +10,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import quad
 
 from rocking.checks import within
 from rocking.errors import StructureError
@@ -115,6 +114,8 @@ def block_overturning_time(side: Side, acceleration_ratio: float, scale: Scale =
 
 
 def _integral(rate: Callable[[float], float]) -> float:
+    from scipy.integrate import quad  # slow to import, and needed by this measure only
+
     return float(quad(rate, 0.0, 1.0, epsabs=0.0, epsrel=_TOLERANCE, limit=200)[0])
 
 
