@@ -96,7 +96,8 @@ def _narrowed(study: Study, name: str | None, structures: Path) -> Study:
 
 
 def _write_report(record: CatalogueRecord, study: Study, settings: dict[str, Any], output: Path) -> None:
-    from rocking.reporting import report_records  # matplotlib and typst, for those who ask for a report
+    # Matplotlib and typst take a second to import: only for those who ask for a report.
+    from rocking.reporting.records import report_records
 
     report_records([record], study, settings, output, Path(os.devnull))
     write_table(

@@ -70,7 +70,7 @@ def make_plan(settings: Mapping[str, Any], schema: Path) -> Plan:
     _collect(defects, lambda: check_writable(results))
     if defects:
         raise ConfigurationError("\n".join(defects))
-    package = package_sha256(leave_out=("reports", "cli", "own_", "documentation"))
+    package = package_sha256(leave_out=("report", "cli", "own_", "documentation"))
     numbers = {name: value for name, value in settings.items() if name not in _DO_NOT_CHANGE_NUMBERS}
     return Plan(
         settings=settings,

@@ -228,8 +228,9 @@ def _fitted(
 ) -> np.ndarray | None:
     """Polynomials (3, m, 8) on m equal pieces of [start, end], each accurate ROOM beyond its ends, or None.
 
-    Pieces are halved until the error is _AIM of the zone's own maximum, or no longer falls because it is the rounding
-    of the functions themselves; it must then be within ACCURACY of `largest` (3,), the maxima over the whole side.
+    Pieces are halved, as often at once as the order of the error, DEGREE + 1, says is surely needed, until the error is
+    _AIM of the zone's own maximum, or no longer falls because it is the rounding of the functions themselves; it must
+    then be within ACCURACY of `largest` (3,), the maxima over the whole side.
     """
     best, best_error, good, count = None, np.inf, False, 2
     while count <= _MOST_PIECES:
@@ -243,7 +244,7 @@ def _fitted(
             break
         if best_error <= _AIM:
             break
-        count *= 2
+        count <<= max(1, int(np.log2(error / _AIM) / (DEGREE + 1)))
     return best if good else None
 
 
@@ -257,7 +258,8 @@ def _fit(
     high = np.minimum(end - centres, (1 + 2 * ROOM) * half) / half
     places = (low + high) / 2 + (high - low) / 2 * _NODES
     values = functions(centres + half * places)
-    powers = np.linalg.solve(places[..., None] ** np.arange(DEGREE + 1), values[..., None])[..., 0]
+    powers = np.linalg.solve(places[..., None] ** np.arange(DEGREE + 1), np.moveaxis(values, 0, -1))
+    powers = np.moveaxis(powers, -1, 0)
     probes = (low + high) / 2 + (high - low) / 2 * np.linspace(-0.99, 0.99, 16)
     fit = np.einsum("fmp,mqp->fmq", powers, probes[..., None] ** np.arange(DEGREE + 1))
     errors = np.abs(fit - functions(centres + half * probes)).max(axis=(1, 2))

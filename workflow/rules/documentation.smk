@@ -16,7 +16,7 @@ rule documentation:
     log:
         f"{RESULTS}/documentation/log.txt",
     params:
-        package_sha256=package_sha256(),
+        package_sha256=PACKAGE,
     message:
         "Set the documentation"
     script:

@@ -11,7 +11,7 @@ rule paper:
     benchmark:
         f"{SUMMARY}/benchmarks/paper.tsv"
     params:
-        package_sha256=package_sha256(),
+        package_sha256=PACKAGE,
     message:
         "Redraw the figures of the paper"
     script:

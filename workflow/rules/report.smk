@@ -26,7 +26,7 @@ for JOB, RECORDS in PLAN.jobs.items():
             records=RECORDS,
             records_sha256=PLAN.records_sha256(JOB),
             settings_sha256=PLAN.settings_sha256,
-            package_sha256=package_sha256(),
+            package_sha256=PACKAGE,
         message:
             f"Report {len(RECORDS)} records (job {JOB})"
         script:
@@ -55,7 +55,7 @@ rule report_summary:
         f"{SUMMARY}/benchmarks/report_summary.tsv"
     params:
         settings=config,
-        package_sha256=package_sha256(),
+        package_sha256=PACKAGE,
     message:
         "Report on all records"
     script:

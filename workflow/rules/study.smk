@@ -6,6 +6,7 @@ from rocking import columns
 from rocking.plan import make_plan, package_sha256
 
 PLAN = make_plan(config, Path(workflow.source_path("../schemas/config.schema.yaml")))
+PACKAGE = package_sha256()
 RESULTS = config["results"]
 SUMMARY = f"{RESULTS}/summary"
 TABLES = [table.name for table in columns.PER_RECORD]

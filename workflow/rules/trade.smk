@@ -17,7 +17,7 @@ rule trade:
         f"{SUMMARY}/benchmarks/trade.tsv"
     params:
         settings=config["trade"],
-        package_sha256=package_sha256(),
+        package_sha256=PACKAGE,
     message:
         "Measure the error and the time of every method"
     script:

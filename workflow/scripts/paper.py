@@ -1,8 +1,8 @@
-"""Redraw the figures of the paper: snakemake.* onto rocking.reporting."""
+"""Redraw the figures of the paper: snakemake.* onto rocking.reporting.paper."""
 
 from pathlib import Path
 
-from rocking.reporting import write_paper
+from rocking.reporting.paper import write_paper
 
 if __name__ == "__main__":
     files, mirror = snakemake.input, snakemake.config["mirror"]

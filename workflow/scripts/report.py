@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from rocking.plan import planned_records
-from rocking.reporting import report_records
+from rocking.reporting.records import report_records
 from rocking.study import Study
 
 if __name__ == "__main__":

@@ -6,8 +6,7 @@ import re
 
 from rocking.agreement import agreement_rows
 from rocking.columns import AGREEMENT
-from rocking.reports import summary_report
-from rocking.reports.summary import summary_data
+from rocking.reports.summary import summary_data, summary_report
 from rocking.reports.summary_figures import prediction_scatter
 from rocking.tables import csv_cells, csv_lines
 
