@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Install Slurm, start it on loopback, run a small study through it, kill one of its jobs, and compare with a local run.
 #
-#   sudo PYTHON=.venv/bin/python tests/workflow/slurm.sh [number of records, default 8]
+#   make slurm && sudo PYTHON=.venv/bin/python tests/workflow/slurm.sh [number of records, default 8]
 #
 # For Debian and Ubuntu, as root, on a machine without a Slurm of its own. Not a part of `make test`.
 # Every daemon it starts is stopped by its process id.
@@ -26,6 +26,7 @@ stop() {
 trap stop EXIT
 
 [[ $(id -u) == 0 ]] || { echo "slurm.sh installs packages and starts daemons: run it as root."; exit 1; }
+"$python" -c "import snakemake_executor_plugin_slurm" || { echo "type make slurm first."; exit 1; }
 [[ ! -e $configuration ]] || { echo "$configuration exists: this machine has a Slurm of its own."; exit 1; }
 
 echo "== install"
