@@ -1,8 +1,9 @@
-"""How the cost of a study grows with its records: python bench_growth.py [10 100 1000 ... [--reports]].
+"""How the cost of a study grows with its records: python bench_growth.py [10 100 1000 ...] [KEY=VALUE ...].
 
 Records of 40 s at 100 Hz made by the seeded generator, with the shipped structures and settings, on two cores. For each
 number of records: CPU per record by stage, the share of everything that is not a stage, the largest process, and the
-time of a second run that has nothing to do.
+time of a second run that has nothing to do. KEY=VALUE changes a setting: reports=True sets the PDFs too, and with
+records_per_job=64 the jobs of few records are as large as those of many.
 """
 
 import csv
@@ -62,13 +63,13 @@ def cpu_of_children() -> float:
     return used.ru_utime + used.ru_stime
 
 
-def measure(folder: Path, records: int, reports: bool) -> Measured:
-    """Run a study of `records` records in `folder`, twice."""
+def measure(folder: Path, records: int, changed: list[str]) -> Measured:
+    """Run a study of `records` records in `folder`, twice, with the settings `changed` ("KEY=VALUE")."""
     subprocess.run(
         [sys.executable, ROOT / "tests" / "workflow" / "write_study.py", folder, str(records), str(DURATION)],
         check=True,
     )
-    options = ["--config", f"reports={reports}"]
+    options = ["--config", "reports=False", *changed]
     started, before = time.perf_counter(), cpu_of_children()
     snakemake(folder, *options)
     wall, cpu = time.perf_counter() - started, cpu_of_children() - before
@@ -93,14 +94,14 @@ def rows(path: Path, delimiter: str) -> list[dict[str, str]]:
 
 def main(arguments: list[str]) -> None:
     """Measure each number of records and print one line for it, in rising order."""
-    reports = "--reports" in arguments
-    numbers = sorted(int(word) for word in arguments if word != "--reports") or [10, 100, 1000]
+    changed = [word for word in arguments if "=" in word]
+    numbers = sorted(int(word) for word in arguments if "=" not in word) or [10, 100, 1000]
     with tempfile.TemporaryDirectory() as folder:
-        measure(Path(folder) / "warm", 2, reports)  # compiles, so that the first number does not pay for it
+        measure(Path(folder) / "warm", 2, changed)  # compiles, so that the first number does not pay for it
         print(f"load of the machine before: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
         previous = None
         for number in numbers:
-            now = measure(Path(folder) / str(number), number, reports)
+            now = measure(Path(folder) / str(number), number, changed)
             report(now, previous)
             previous = now
         print(f"load of the machine after: {os.getloadavg()[0]:.1f}")
