@@ -1,6 +1,5 @@
 """The tables of a whole study, built by streaming the tables of its records."""
 
-import csv
 import json
 import math
 import platform
@@ -13,7 +12,7 @@ from rocking.agreement import agreement_rows
 from rocking.method import Method
 from rocking.structures import Structure
 from rocking.structures.equivalence import measure_equivalence
-from rocking.tables import Row, Table, data_package, write_table, write_whole
+from rocking.tables import Row, StoredRows, Table, data_package, write_table, write_whole
 
 _COPIED = (columns.RECORD, columns.PULSES, columns.COMPARISON, columns.FAILURES, columns.TIMINGS)
 
@@ -116,8 +115,7 @@ def _measures(
 
 def _all_rows(folders: Iterable[Path], table: Table) -> Iterator[dict[str, str]]:
     for folder in folders:
-        with (folder / table.file_name).open(encoding="utf-8", newline="") as stream:
-            yield from csv.DictReader(stream)
+        yield from StoredRows(folder / table.file_name)
 
 
 def _maxima(folders: Iterable[Path]) -> Iterator[Row]:

@@ -69,8 +69,18 @@ def csv_cells(table: Table, row: Row) -> dict[str, str]:
 
 def read_rows(path: Path) -> list[dict[str, str]]:
     """Return the rows of a CSV file as mappings of text, nothing converted."""
-    with Path(path).open(encoding="utf-8", newline="") as stream:
-        return list(csv.DictReader(stream))
+    return list(StoredRows(Path(path)))
+
+
+@dataclass(frozen=True)
+class StoredRows:
+    """The rows of a CSV file as mappings of text, read anew whenever they are gone through: none stays in memory."""
+
+    path: Path
+
+    def __iter__(self) -> Iterator[dict[str, str]]:
+        with self.path.open(encoding="utf-8", newline="") as stream:
+            yield from csv.DictReader(stream)
 
 
 def write_table(table: Table, rows: Iterable[Row], path: Path) -> None:

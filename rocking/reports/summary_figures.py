@@ -1,12 +1,14 @@
 """Figures over many records."""
 
 import math
-from collections.abc import Sequence
+from array import array
+from collections.abc import Iterable
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rocking.reports.printing import Row
 from rocking.reports.style import LIGHT_COLOURS, LIGHT_MARKERS, new_figure, plain_logarithmic, styled
 
 _SMALLEST = 1e-3
@@ -15,11 +17,15 @@ _FALLEN = 1.6
 """Where overturning is set, beyond the critical rotation."""
 
 
-@styled
-def prediction_scatter(cases: Sequence[tuple[float, float, str]]) -> Figure:
-    """Draw predicted against integrated rotation ratio for (predicted, integrated, light), with factor-two lines.
+_MOST_DRAWN = 5000
+"""Points that are drawn as shapes; more become a picture, whose size does not grow with them."""
 
-    A case with a nan is left out.
+
+@styled
+def prediction_scatter(comparison: Iterable[Row]) -> Figure:
+    """Draw predicted against integrated rotation ratio, from the rows of the comparison table, with factor-two lines.
+
+    A case without one of the two is left out, and so is one that neither lifts.
     """
     figure = new_figure(95, 115, margins=(20, 3, 13, 3))
     panel = figure.subplots()
@@ -27,22 +33,36 @@ def prediction_scatter(cases: Sequence[tuple[float, float, str]]) -> Figure:
     panel.plot(span, span, color="black", linewidth=0.7)
     for factor in (0.5, 2.0):
         panel.plot(span, factor * span, color="black", linewidth=0.6, linestyle="--")
-    known = [case for case in cases if not math.isnan(case[0] + case[1])]
+    points = _points(comparison)
+    many = sum(len(integrated) for integrated, _ in points.values()) > _MOST_DRAWN
     for light, colour in LIGHT_COLOURS.items():
-        points = [(_place(i), _place(p)) for p, i, of in known if of == light and (p > 0 or i > 0)]
-        x, y = zip(*points, strict=True) if points else ((), ())
+        integrated, predicted = points[light]
         panel.plot(
-            x,
-            y,
+            integrated,
+            predicted,
             LIGHT_MARKERS[light],
             color="none",
             markeredgecolor=colour,
             markeredgewidth=0.8,
             markersize=4,
-            label=f"{light} light ({len(points)})",
+            rasterized=many,
+            label=f"{light} light ({len(integrated)})",
         )
     _frame(panel)
     return figure
+
+
+def _points(comparison: Iterable[Row]) -> dict[str, tuple[array, array]]:
+    """By light, where the cases stand: integrated and predicted rotation ratio."""
+    points = {light: (array("d"), array("d")) for light in LIGHT_COLOURS}
+    for row in comparison:
+        predicted, integrated = (
+            float(row[name] or "nan") for name in ("predicted_rotation_ratio", "integrated_rotation_ratio")
+        )
+        if max(predicted, integrated) > 0 and not math.isnan(predicted + integrated):
+            points[row["light"]][0].append(_place(integrated))
+            points[row["light"]][1].append(_place(predicted))
+    return points
 
 
 def _place(ratio: float) -> float:

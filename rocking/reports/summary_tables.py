@@ -1,15 +1,40 @@
 """The tables and sentences of the summary, from the rows of its CSV tables."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from itertools import islice
 
 from rocking.reports import printing
 from rocking.reports.printing import Cell, Row, number, ratio, strong, table, whole, words
 
-Rows = Sequence[Row]
+Rows = Iterable[Row]
+"""Rows that can be gone through again and again."""
 Tables = Mapping[str, Rows]
 
 MOST_LISTED = 40
-"""Rows of the longest list of single cases; the CSV tables hold all."""
+"""Rows of the longest list of single cases or failures; the CSV tables hold all."""
+MOST_RECORDS = 200
+"""Rows of the longest list of records."""
+
+
+@dataclass(frozen=True)
+class Listing:
+    """The first of some rows, and how many there are."""
+
+    first: list[Row]
+    total: int
+
+    @classmethod
+    def of(cls, rows: Rows, most: int = MOST_LISTED) -> "Listing":
+        """Go through `rows` once and keep the first ones."""
+        remaining = iter(rows)
+        first = list(islice(remaining, most))
+        return cls(first, len(first) + sum(1 for _ in remaining))
+
+    def rest(self, noun: str, file: str) -> str:
+        """Return what is left out, as a sentence or nothing."""
+        more = self.total - len(self.first)
+        return f" Another {printing.counted(more, noun)} in {file}." if more > 0 else ""
 
 
 def expert_sentences(tables: Tables) -> list[str]:
@@ -62,32 +87,30 @@ def _cases(many: str, noun: str = "case") -> str:
     return printing.counted(int(many), noun)
 
 
-def notices(tables: Tables) -> list[dict[str, object]]:
+def notices(tables: Tables, failures: int) -> list[dict[str, object]]:
     """Return the warnings that stand above everything."""
     found = []
-    if not tables["record"]:
+    if not any(True for _ in tables["record"]):
         found.append("No record could be read, so there is no result; the failures below say why.")
-    elif not tables["comparison"]:
+    elif not any(True for _ in tables["comparison"]):
         found.append("No structure could be assessed under any record; the failures below say why.")
     elif all(row["integrated_rotation_ratio"] == "0.0" for row in tables["comparison"]):
         found.append("No structure uplifts under any record.")
-    spared = [
-        row
+    spared = sum(
+        bool(not row["integrated_rotation_ratio"] and row.get("answer_rotation_ratio"))
         for row in tables["comparison"]
-        if not row["integrated_rotation_ratio"] and row.get("answer_rotation_ratio")
-    ]
+    )
     if spared:
         found.append(
-            f"{printing.sentence(printing.counted(len(spared), 'case'))} answered by a cheaper method than the full "
+            f"{printing.sentence(printing.counted(spared, 'case'))} answered by a cheaper method than the full "
             "integration and left out of what compares the two; see answer_method in comparison.csv."
         )
-    if tables["failures"]:
-        found.append(
-            f"{printing.sentence(printing.counted(len(tables['failures']), 'failure'))}, listed below."
-        )
+    if failures:
+        found.append(f"{printing.sentence(printing.counted(failures, 'failure'))}, listed below.")
     scaled = sorted({row["record"] for row in tables["record"] if float(row["scale_factor"] or 1) != 1})
     if scaled:
-        found.append(f"Accelerations multiplied by a declared factor, not as recorded: {', '.join(scaled)}.")
+        named = printing.listed(scaled, most=20)
+        found.append(f"Accelerations multiplied by a declared factor, not as recorded: {named}.")
     return [{"strong": True, "text": text} for text in found]
 
 
@@ -120,7 +143,12 @@ def _agreement_row(row: Row) -> list[Cell]:
     return cells
 
 
-def record_table(tables: Tables) -> dict[str, object]:
+def record_listing(tables: Tables) -> Listing:
+    """Return the records, one row a component."""
+    return Listing.of(tables["record"], MOST_RECORDS)
+
+
+def record_table(records: Listing, pulses: Rows) -> dict[str, object]:
     """Return the records with their dominant pulses."""
     columns = [
         ("Record", "1.6", "l"),
@@ -133,15 +161,17 @@ def record_table(tables: Tables) -> dict[str, object]:
         ("Explained energy [-]", "0.9", "r"),
         ("Flags", "1.2", "l"),
     ]
+    listed = {_component(row) for row in records.first}
     dominant = {
-        (row["record"], row["component"]): row
-        for row in tables["pulses"]
-        if row["kind"] == "alternative" and row["rank"] == "1"
+        _component(row): row
+        for row in pulses
+        if row["kind"] == "alternative" and row["rank"] == "1" and _component(row) in listed
     }
-    return table(
-        columns,
-        [_record_row(row, dominant.get((row["record"], row["component"]), {})) for row in tables["record"]],
-    )
+    return table(columns, [_record_row(row, dominant.get(_component(row), {})) for row in records.first])
+
+
+def _component(row: Row) -> tuple[str, str]:
+    return row["record"], row["component"]
 
 
 def _record_row(row: Row, pulse: Row) -> list[Cell]:
@@ -159,7 +189,7 @@ def _record_row(row: Row, pulse: Row) -> list[Cell]:
     ]
 
 
-def case_table(rows: Rows) -> dict[str, object]:
+def case_table(cases: Listing) -> dict[str, object]:
     """Return single cases of the comparison table."""
     columns = [
         ("Record", "1.4", "l"),
@@ -172,7 +202,7 @@ def case_table(rows: Rows) -> dict[str, object]:
         ("Sensi\u00adtivity", "0.6", "r"),
         ("Fragile", "auto", "l"),
     ]
-    return table(columns, [_case_row(row) for row in rows[:MOST_LISTED]])
+    return table(columns, [_case_row(row) for row in cases.first])
 
 
 def _case_row(row: Row) -> list[Cell]:
@@ -189,13 +219,7 @@ def _case_row(row: Row) -> list[Cell]:
     ]
 
 
-def unlisted(rows: Rows) -> str:
-    """Return what a list of cases leaves out, as a sentence or nothing."""
-    more = len(rows) - MOST_LISTED
-    return f" Another {printing.counted(more, 'case')} in comparison.csv." if more > 0 else ""
-
-
-def failure_table(rows: Rows) -> dict[str, object]:
+def failure_table(failures: Listing) -> dict[str, object]:
     """Return what gave no result, and why."""
     columns = [
         ("Record", "1", "l"),
@@ -205,22 +229,4 @@ def failure_table(rows: Rows) -> dict[str, object]:
         ("Why", "3", "l"),
     ]
     names = ("record", "component", "structure", "stage", "message")
-    return table(columns, [[words(row[name]) for name in names] for row in rows[:MOST_LISTED]])
-
-
-def plain_table(rows: Rows) -> dict[str, object]:
-    """Return any table as it is, its numbers rounded, its headings the names of its columns."""
-    names = list(rows[0])
-    columns = [(name.replace("_", " "), "1", "r" if _is_number(rows[0][name]) else "l") for name in names]
-    shown = [
-        [number(row[name]) if _is_number(row[name]) else words(row[name]) for name in names] for row in rows
-    ]
-    return table(columns, shown)
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+    return table(columns, [[words(row[name]) for name in names] for row in failures.first])

@@ -33,9 +33,14 @@ for JOB, RECORDS in PLAN.jobs.items():
             "../scripts/report.py"
 
 
+# Measured on demand (snakemake trade), and reported from then on.
+TRADE = f"{SUMMARY}/trade.csv"
+
+
 rule report_summary:
     input:
-        [f"{SUMMARY}/{table}.csv" for table in SUMMARIES],
+        tables=[f"{SUMMARY}/{table}.csv" for table in SUMMARIES],
+        trade=TRADE if Path(TRADE).exists() else [],
     output:
         document=report(
             f"{SUMMARY}/summary.pdf",

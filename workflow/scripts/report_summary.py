@@ -6,5 +6,6 @@ from rocking.reporting.summary import draw_summary, report_summary
 
 if __name__ == "__main__":
     folder = Path(snakemake.output.document).parent
-    report_summary(folder, snakemake.config)
+    trade = Path(snakemake.input.trade) if snakemake.input.trade else None
+    report_summary(folder, snakemake.config, trade)
     draw_summary(folder / "comparison.csv", Path(snakemake.output.figure))

@@ -5,10 +5,11 @@ import math
 import re
 
 from rocking.agreement import agreement_rows
-from rocking.columns import AGREEMENT
+from rocking.columns import AGREEMENT, SUMMARY_TABLES
+from rocking.reports.style import svg
 from rocking.reports.summary import summary_data, summary_report
 from rocking.reports.summary_figures import prediction_scatter
-from rocking.tables import csv_cells, csv_lines
+from rocking.tables import StoredRows, csv_cells, csv_lines, write_table
 
 from .conftest import SETTINGS
 
@@ -111,11 +112,61 @@ def test_the_summary_of_a_record_is_the_same_twice_and_names_its_factor(hostile)
     assert any("declared factor" in notice["text"] for notice in summary_data(tables, SETTINGS)["notices"])
 
 
-def test_a_trade_table_is_printed_as_it_is():
-    trade = [{"method": "#panic(1)", "error_relative": "0.0123456", "duration_s": "0.5"}]
-    data = summary_data(summary_tables(CASES, trade=trade), SETTINGS)
-    assert data["trade"]["rows"] == [["#panic(1)", "0.0123", "0.500"]]
+def test_the_trade_is_drawn_where_it_was_measured():
+    case = {
+        "record": "one",
+        "component": "EW",
+        "structure": "block",
+        "tolerance": "",
+        "verdict_agrees": "true",
+    }
+    trade = [
+        case | {"method": "printed", "error": "0.5", "duration_s": "5e-6"},
+        case | {"method": "block on record", "error": "0.02", "duration_s": "2e-5"},
+    ]
+    (drawn,) = summary_data(summary_tables(CASES, trade=trade), SETTINGS)["trade"]
+    assert "Eq. 15 as printed" in drawn["svg"] and "equivalent block on the record" in drawn["svg"]
+    assert summary_data(summary_tables(CASES), SETTINGS)["trade"] == []
     assert summary_report(summary_tables(CASES, trade=trade), SETTINGS).startswith(b"%PDF")
+
+
+def test_rows_read_anew_from_a_file_give_the_report_of_rows_in_memory(example, tmp_path):
+    tables = _summarised(example.tables)
+    stored = {}
+    for name in ("record", "pulses", "comparison", "failures"):
+        path = tmp_path / f"{name}.csv"
+        table = {table.name: table for table in SUMMARY_TABLES}[name]
+        write_table(table, [dict(row) for row in tables[name]], path)
+        stored[name] = StoredRows(path)
+    assert summary_data(tables | stored, SETTINGS) == summary_data(tables, SETTINGS)
+
+
+def test_long_lists_are_cut_and_say_how_much_was_left_out():
+    unsafe = [case("red", "0.0", f"0.{place:03d}") | {"verdict": "unsafe"} for place in range(1, 101)]
+    fallen = [case("red", "0.1", "INF", "fallen")]
+    records = [
+        {"record": f"r{k}", "component": "EW", "scale_factor": "2"}
+        | dict.fromkeys(("peak_acceleration_m_s2", "peak_velocity_m_s"), "1.0")
+        for k in range(250)
+    ]
+    data = summary_data(summary_tables([*unsafe, *fallen], record=records), SETTINGS)
+    names = [row[0] for row in data["unsafe"]["rows"]]
+    assert names[0] == "fallen" and len(names) == 40
+    assert data["unsafe"]["rows"][1][5] == {"text": "0.100", "strong": True}, "the worst first"
+    assert data["unsafe-note"] == " Another 61 cases in comparison.csv."
+    assert (
+        len(data["records"]["rows"]) == 200
+        and data["records-note"] == " Another 50 components in record.csv."
+    )
+    assert "and 230 others" in data["notices"][-1]["text"]
+
+
+def test_a_scatter_of_many_cases_does_not_grow_with_them():
+    sizes = [
+        len(svg(prediction_scatter([case("red", repr(0.1 + k / number), "0.5") for k in range(number)])))
+        for number in (6000, 60000)
+    ]
+    assert sizes[1] < 1.5 * sizes[0] < 1.5 * 2e5
 
 
 def test_the_scatter_marks_the_lights_by_shape(example):
@@ -126,6 +177,7 @@ def test_the_scatter_marks_the_lights_by_shape(example):
 
 
 def test_a_case_without_a_prediction_is_not_counted_in_the_scatter():
-    figure = prediction_scatter([(math.nan, 0.5, "green"), (0.4, 0.5, "green"), (math.inf, 0.5, "red")])
+    unknown = case("green", "0.5", "0.5") | {"predicted_rotation_ratio": ""}
+    figure = prediction_scatter([unknown, case("green", "0.4", "0.5"), case("red", "INF", "0.5")])
     labels = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     assert labels == ["green light (1)", "amber light (0)", "red light (1)"]
