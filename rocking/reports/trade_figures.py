@@ -26,7 +26,7 @@ _LOOKS = {
 }
 """Name, marker, colour and side of the label of each method; the marker alone tells it in print."""
 _SIDES: dict[str, dict[str, Any]] = {
-    "above": {"xytext": (0, 7), "ha": "center", "va": "bottom"},
+    "above": {"xytext": (-7, 7), "ha": "left", "va": "bottom"},
     "right": {"xytext": (7, 0), "ha": "left", "va": "center"},
     "left": {"xytext": (-7, 0), "ha": "right", "va": "center"},
 }
