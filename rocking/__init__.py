@@ -22,8 +22,8 @@ _PUBLIC = {
     ),
     "rocking.sine_pulse": ("Maximum", "Regime", "predict_maximum", "printed_maximum"),
     "rocking.motion": ("Response", "integrate", "integrate_many"),
-    "rocking.outcome": ("Outcome",),
-    "rocking.spectrum": ("rocking_spectrum",),
+    "rocking.structures.outcome": ("Outcome",),
+    "rocking.motion.spectrum": ("rocking_spectrum",),
     "rocking.errors": (
         "CatalogueError",
         "ConfigurationError",

@@ -6,11 +6,11 @@ from typing import Any
 
 import yaml
 
-from rocking import columns
+from rocking.assessment import columns
 from rocking.documentation.signatures import python_names
+from rocking.quantities import ACCELERATION_UNITS
 from rocking.records.formats import FORMATS
 from rocking.tables import Table
-from rocking.units import ACCELERATION_UNITS
 
 
 def formats(_: Path) -> str:

@@ -7,8 +7,8 @@ import numpy as np
 
 from rocking.errors import MotionError
 from rocking.pulses.pulse import Pulse
+from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
-from rocking.units import GRAVITY
 
 GroundMotion = Accelerogram | Pulse
 

@@ -11,16 +11,16 @@ from typing import Protocol
 
 import numpy as np
 
-from rocking.checks import finite, within
 from rocking.errors import MotionError, RockingError
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.linear import follow_exactly, solvable_exactly
 from rocking.motion.nonlinear import follow
 from rocking.motion.response import Response
 from rocking.motion.table import linear_table, table_of
-from rocking.outcome import Outcome
+from rocking.quantities import finite, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
+from rocking.structures.outcome import Outcome
 
 
 class Structure(Protocol):

@@ -6,8 +6,8 @@ from rocking.motion import kernel
 from rocking.motion.forcing import Forcing
 from rocking.motion.nonlinear import concluded, logged_run, with_history
 from rocking.motion.response import Response
+from rocking.quantities import GRAVITY
 from rocking.structures.mechanism import EquivalentBlock
-from rocking.units import GRAVITY
 
 _LARGEST_GROWTH = 50.0
 """Largest p Δt for which exp(p Δt) leaves the exact update its digits."""

@@ -9,8 +9,8 @@ from rocking.motion import kernel
 from rocking.motion.forcing import Forcing
 from rocking.motion.response import Response
 from rocking.motion.table import SideTable, Table
-from rocking.outcome import Outcome
-from rocking.units import GRAVITY
+from rocking.quantities import GRAVITY
+from rocking.structures.outcome import Outcome
 
 OUTCOMES = {0: Outcome.NO_UPLIFT, kernel.ROCKS: Outcome.ROCKS, kernel.OVERTURNS: Outcome.OVERTURNS}
 STEP_SHARE = 0.03

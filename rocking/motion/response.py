@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rocking.outcome import Outcome
+from rocking.structures.outcome import Outcome
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,8 +13,8 @@ import numpy as np
 
 from rocking.errors import MotionError
 from rocking.motion.arc import arc_of
+from rocking.quantities import GRAVITY
 from rocking.structures.mechanism import EquivalentBlock, Function, Mechanism, Side
-from rocking.units import GRAVITY
 
 DEGREE = 7
 ACCURACY = 1e-12

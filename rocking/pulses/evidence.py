@@ -6,8 +6,8 @@ from dataclasses import dataclass, fields
 from enum import StrEnum
 from pathlib import Path
 
-from rocking.checks import finite
 from rocking.errors import PulseError
+from rocking.quantities import finite
 
 
 class Light(StrEnum):

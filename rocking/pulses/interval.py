@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rocking.checks import within
 from rocking.errors import PulseError
 from rocking.pulses.analysis import PulseAnalysis
 from rocking.pulses.pulse import Pulse
 from rocking.pulses.search import PulseSearch, searched_band
 from rocking.pulses.settings import PulseSettings
+from rocking.quantities import within
 
 REPLICATES = 200
 LEVEL = 0.90

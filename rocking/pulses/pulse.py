@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rocking.checks import finite, positive
 from rocking.errors import PulseError
+from rocking.quantities import finite, positive
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ from dataclasses import dataclass, fields
 from functools import lru_cache
 from pathlib import Path
 
-from rocking.checks import finite
 from rocking.errors import PulseError
 from rocking.pulses.evidence import Light
+from rocking.quantities import finite
 
 
 @dataclass(frozen=True)

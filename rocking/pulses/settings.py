@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from rocking.checks import positive
 from rocking.errors import PulseError
+from rocking.quantities import positive
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
-from rocking.checks import finite, positive
 from rocking.errors import RecordError
+from rocking.quantities import finite, positive
 
 
 @dataclass(frozen=True)

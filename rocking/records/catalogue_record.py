@@ -5,9 +5,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from rocking.checks import finite, positive
 from rocking.errors import CatalogueError, RockingError
-from rocking.units import acceleration_factor
+from rocking.quantities import acceleration_factor, finite, positive
 
 COLUMNS = (
     "id", "file", "source_repository", "source_path", "source_commit", "component", "vertical_component",

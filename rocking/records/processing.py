@@ -5,8 +5,8 @@ from typing import Literal
 
 import numpy as np
 
-from rocking.checks import positive, within
 from rocking.errors import RecordError
+from rocking.quantities import positive, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.baseline import adaptive_baseline
 

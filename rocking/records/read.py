@@ -11,7 +11,7 @@ from rocking.errors import RecordError, UnknownFormatError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response
-from rocking.records.gates import pass_limits
+from rocking.records.plausibility import pass_limits
 
 LARGEST_FILE = 8 * 2**20
 """Bytes, unpacked: three channels of ten minutes at 100 Hz as text; the worst content of that size reads in seconds."""

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rocking.checks import finite
 from rocking.errors import RecordError
+from rocking.quantities import finite
 from rocking.records.accelerogram import Accelerogram
 
 _FLATTEST = np.sin(np.radians(30.0))

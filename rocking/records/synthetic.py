@@ -10,10 +10,9 @@ from typing import Literal
 
 import numpy as np
 
-from rocking.checks import finite, positive
 from rocking.errors import RecordError
+from rocking.quantities import GRAVITY, finite, positive
 from rocking.records.accelerogram import Accelerogram
-from rocking.units import GRAVITY
 
 PulseShape = Literal["sine", "mavroeidis"]
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch
 from rocking.structures.equivalence import (
     block_overturning_time,
@@ -16,7 +17,6 @@ from rocking.structures.equivalence import (
 from rocking.structures.mechanism import Scale, Side
 from rocking.structures.wall import Wall
 from rocking.tables import Row
-from rocking.units import GRAVITY
 
 WALL_SLENDERNESS = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3)
 """α of the walls of Figs. 3 and 4, rad."""

@@ -10,6 +10,7 @@ import numpy as np
 
 from rocking.motion.integration import integrate
 from rocking.pulses.pulse import Pulse
+from rocking.quantities import GRAVITY
 from rocking.reports.paper_curves import HEIGHT_RATIOS, hinge_height_curves, printed_frequency_parameter
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures.block import Block
@@ -17,7 +18,6 @@ from rocking.structures.mechanism import EquivalentBlock
 from rocking.structures.structure import Structure
 from rocking.structures.wall import Wall
 from rocking.tables import Column, Row, Table
-from rocking.units import GRAVITY
 
 EQUATIONS = Table(
     "equations",

@@ -9,11 +9,11 @@ import math
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from rocking.outcome import Outcome
 from rocking.pulses.pulse import Pulse
 from rocking.sine_pulse.flight import LONGEST_TIME, Flight, Landing
 from rocking.sine_pulse.ratios import Ratios, first_and_second
 from rocking.structures.mechanism import EquivalentBlock
+from rocking.structures.outcome import Outcome
 
 _PULSE_END = 2 * math.pi
 

@@ -2,9 +2,9 @@
 
 import math
 
-from rocking.checks import finite, positive
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
+from rocking.quantities import finite, positive
 from rocking.sine_pulse.ratios import Ratios, first_and_second
 from rocking.structures.mechanism import EquivalentBlock
 

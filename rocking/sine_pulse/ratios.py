@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
+from rocking.quantities import GRAVITY
 from rocking.structures.mechanism import EquivalentBlock
-from rocking.units import GRAVITY
 
 LARGEST_RATIO = 1e12
 """Beyond this a frequency or amplitude ratio is a mistake of units, and its square leaves no digits for the block."""

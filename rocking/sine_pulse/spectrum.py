@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from rocking.checks import within
 from rocking.errors import PulseError, StructureError
+from rocking.quantities import within
 from rocking.sine_pulse.flight import LONGEST_TIME
 from rocking.sine_pulse.maximum import maximum_of
 from rocking.sine_pulse.ratios import LARGEST_RATIO, Ratios

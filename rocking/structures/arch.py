@@ -7,8 +7,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from rocking.checks import finite
 from rocking.errors import StructureError, StructureWarning
+from rocking.quantities import finite, length
 from rocking.structures.arch_linkage import Linkage
 from rocking.structures.arch_onset import (
     NoMechanism,
@@ -27,7 +27,6 @@ from rocking.structures.restitution import (
     momentum_balance,
     resolve_restitution,
 )
-from rocking.structures.sizes import length
 from rocking.structures.structure import Structure
 
 _SMALLEST_EMBRACE, _LARGEST_EMBRACE = np.pi / 36, 1.5 * np.pi

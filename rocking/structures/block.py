@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rocking.checks import finite
 from rocking.errors import StructureError
+from rocking.quantities import finite, length
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import (
     Restitution,
@@ -14,7 +14,6 @@ from rocking.structures.restitution import (
     resolve_restitution,
 )
 from rocking.structures.single_body import corner_side
-from rocking.structures.sizes import length
 from rocking.structures.structure import Structure, turned
 
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import yaml
 
-from rocking.checks import finite
 from rocking.errors import ConfigurationError, StructureError
+from rocking.quantities import finite
 from rocking.structures.arch import Arch
 from rocking.structures.block import Block
 from rocking.structures.frame import Frame

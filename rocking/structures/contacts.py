@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
+from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch
 from rocking.structures.bars import Bars, Motion, cross
 from rocking.structures.block import Block
@@ -19,7 +20,6 @@ from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
 from rocking.structures.structure import Structure
 from rocking.structures.wall import Wall
-from rocking.units import GRAVITY
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,10 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rocking.checks import within
 from rocking.errors import StructureError
+from rocking.quantities import GRAVITY, within
 from rocking.structures.mechanism import Scale, Side
-from rocking.units import GRAVITY
 
 SCALES: tuple[Scale, ...] = ("linearised", "uplift", "mean")
 

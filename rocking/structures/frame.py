@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rocking.checks import finite
 from rocking.errors import StructureError
+from rocking.quantities import finite
 from rocking.structures.block import Block
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import (

@@ -15,9 +15,8 @@ from typing import Literal
 
 import numpy as np
 
-from rocking.checks import positive, within
 from rocking.errors import StructureError
-from rocking.units import GRAVITY
+from rocking.quantities import GRAVITY, positive, within
 
 Function = Callable[[np.ndarray], np.ndarray]
 """A function of the rotation φ [rad], any shape in, the same shape out."""

@@ -13,8 +13,8 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.checks import within
 from rocking.errors import StructureError, StructureWarning
+from rocking.quantities import within
 
 Restitution = float | str | None
 """η in [0, 1], the name of a balance, or None for the structure's default."""

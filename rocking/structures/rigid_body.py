@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rocking.quantities import length, squared_length
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import (
     Restitution,
@@ -12,7 +13,6 @@ from rocking.structures.restitution import (
     resolve_restitution,
 )
 from rocking.structures.single_body import corner_side
-from rocking.structures.sizes import length, squared_length
 from rocking.structures.structure import Structure, turned
 
 

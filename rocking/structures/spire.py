@@ -7,12 +7,11 @@ from typing import Literal
 
 import numpy as np
 
-from rocking.checks import finite
 from rocking.errors import StructureError
+from rocking.quantities import finite, length
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import Restitution, check_restitution
 from rocking.structures.rigid_body import RigidBody
-from rocking.structures.sizes import length
 from rocking.structures.structure import Structure, turned
 
 _SPREAD = {"circular": 3 / 20, "square": 1 / 5}

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.checks import within
 from rocking.errors import StructureError
+from rocking.quantities import within
 from rocking.structures.mechanism import Mechanism
 
 

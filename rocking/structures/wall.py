@@ -6,8 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
-from rocking.checks import finite
 from rocking.errors import StructureError
+from rocking.quantities import finite, length
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import (
     Restitution,
@@ -15,7 +15,6 @@ from rocking.structures.restitution import (
     momentum_balance,
     resolve_restitution,
 )
-from rocking.structures.sizes import length
 from rocking.structures.structure import Structure, turned
 from rocking.structures.wall_linkage import WallLinkage
 

@@ -13,12 +13,12 @@ from scipy.integrate import solve_ivp
 
 from rocking.motion import integrate, integrate_many, kernel
 from rocking.motion.forcing import forcing_of
+from rocking.motion.spectrum import rocking_spectrum
 from rocking.motion.table import table_of
+from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
-from rocking.spectrum import rocking_spectrum
 from rocking.structures import Arch, Block
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
-from rocking.units import GRAVITY
 
 STEP = 0.005
 

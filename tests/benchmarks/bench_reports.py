@@ -16,8 +16,8 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "unit" / "reports"))
 from conftest import Assessed, assessed, shaken
 
 from rocking.reports.document import compile_document
-from rocking.reports.record import record_data, record_report
-from rocking.reports.summary import summary_report
+from rocking.reports.record.report import record_data, record_report
+from rocking.reports.summary.report import summary_report
 from rocking.structures import Arch, Block, Wall
 
 

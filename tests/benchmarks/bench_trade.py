@@ -7,9 +7,9 @@ import math
 from pathlib import Path
 from statistics import median
 
+from rocking.calibration.accuracy import TradeSettings, choose_cases, trade_rows
 from rocking.records import load_catalogue, open_record
 from rocking.structures import Block, Wall
-from rocking.trade import TradeSettings, choose_cases, trade_rows
 
 CATALOGUE = Path(__file__).parents[2] / "records" / "catalogue.csv"
 STRUCTURES = {"block": Block(2.0, 0.15), "wall": Wall(1.6, 1.6, 0.25)}

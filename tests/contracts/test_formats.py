@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from rocking.errors import RecordError, UndeclaredError
+from rocking.quantities import GRAVITY
 from rocking.records import read
 from rocking.records.formats import FORMATS
 from rocking.records.processing import displacement, velocity
 from rocking.records.rotation import rotate
-from rocking.units import GRAVITY
 
 pytestmark = pytest.mark.real_records
 

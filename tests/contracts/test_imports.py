@@ -9,26 +9,17 @@ import rocking
 
 PACKAGE = Path(rocking.__file__).parent
 FLOORS = [
-    {"errors", "checks", "units", "outcome", "method"},
-    {"records", "structures", "pulses"},
+    {"errors"},
+    {"quantities"},
+    {"tables"},
+    {"records", "structures"},
+    {"pulses"},
     {"sine_pulse", "motion"},
-    {"spectrum", "model_check", "tables", "columns", "agreement", "fidelity", "yardstick"},
-    {"comparison"},
-    {"variations", "plan", "calibration", "trade", "fidelity_trials"},
-    {"rows", "summary", "fidelity_calibration"},
-    {"study", "reports"},
-    {"reporting", "own_study"},
-    {"own_record", "documentation"},
-    {"cli"},
+    {"assessment"},
+    {"calibration", "reports"},
+    {"study"},
+    {"documentation"},
 ]
-SAME_FLOOR = {
-    ("checks", "errors"),
-    ("units", "errors"),
-    ("pulses", "records"),
-    ("columns", "tables"),
-    ("agreement", "tables"),
-    ("reporting", "study"),
-}
 ONLY_IN = {
     "obspy": ("records/",),
     "numba": ("motion/kernel.py", "pulses/refinement.py", "pulses/scan.py"),
@@ -75,7 +66,7 @@ def test_imports_run_downwards(path):
         if not name.startswith("rocking."):
             continue
         other = name.split(".")[1]
-        allowed = other == part or _floor(other) < _floor(part) or (part, other) in SAME_FLOOR
+        allowed = other == part or _floor(other) < _floor(part)
         assert allowed, f"{part} imports {other}"
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rocking.comparison import AssessmentSettings, Method, assess
+from rocking.assessment.assess import AssessmentSettings, Method, assess
 from rocking.motion import integrate
 from rocking.records import read
 from rocking.structures import Arch

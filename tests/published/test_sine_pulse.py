@@ -7,11 +7,11 @@ import mpmath as mp
 import pytest
 from scipy.constants import g
 
-from rocking.outcome import Outcome
 from rocking.pulses.pulse import Pulse
 from rocking.sine_pulse import Maximum, Regime, predict_maximum, printed_maximum
 from rocking.sine_pulse.flight import Flight
 from rocking.structures.mechanism import EquivalentBlock
+from rocking.structures.outcome import Outcome
 
 BLOCK = EquivalentBlock(2.0, 0.2, 0.8, 0.9)
 

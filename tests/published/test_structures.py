@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
+from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch
 from rocking.structures.arch_onset import minimum_thickness
 from rocking.structures.block import Block
 from rocking.structures.frame import Frame
 from rocking.structures.wall import Wall
-from rocking.units import GRAVITY
 
 # Thirty-digit derivation of the four-hinge arch; the last row is Oppenheim's arch (1992), as in DeJong and
 # Dimitrakopoulos, section 3.2. β and hinges A, B, C in degrees from the left springing; D is the right

@@ -15,13 +15,13 @@ import pytest
 import yaml
 
 import rocking
-from rocking import columns
-from rocking.cli import _parser
+from rocking.assessment import columns
 from rocking.documentation import PAGES, Page, pages, python_blocks, read_page, write_site
 from rocking.documentation.signatures import MODULES
 from rocking.errors import ConfigurationError
 from rocking.records.formats import FORMATS
 from rocking.structures import load_structures
+from rocking.study.cli import _parser
 
 ROOT = Path(rocking.__file__).parents[1]
 WORKFLOW = ROOT / "workflow"

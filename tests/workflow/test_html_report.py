@@ -10,8 +10,8 @@ from urllib.parse import unquote
 import pytest
 
 import rocking
-from rocking import columns
-from rocking.cli import main
+from rocking.assessment import columns
+from rocking.study.cli import main
 
 ROOT = Path(rocking.__file__).parents[1]
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")

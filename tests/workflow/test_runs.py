@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rocking import columns
+from rocking.assessment import columns
 
 
 def test_a_run_makes_every_table_of_every_record(finished) -> None:
@@ -43,7 +43,7 @@ def test_a_second_run_does_nothing(finished) -> None:
 
 @pytest.mark.parametrize(
     ("edited", "again"),
-    [("motion/kernel.py", ["assess"] * 2 + ["summarise"]), ("reports/record.py", [])],
+    [("motion/kernel.py", ["assess"] * 2 + ["summarise"]), ("reports/record/report.py", [])],
     ids=["numbers", "appearance"],
 )
 def test_an_edit_of_the_package_runs_again_what_depends_on_it(

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import yaml
 
+from rocking.quantities import GRAVITY
 from rocking.records.synthetic import SyntheticRecord, at2_text
-from rocking.units import GRAVITY
 
 ROOT = Path(__file__).parents[2]
 

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from rocking import columns
-from rocking.plan import make_plan, package_sha256
+from rocking.assessment import columns
+from rocking.study.plan import make_plan, package_sha256
 
 PLAN = make_plan(config, Path(workflow.source_path("../schemas/config.schema.yaml")))
 PACKAGE = package_sha256()

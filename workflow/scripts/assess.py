@@ -1,9 +1,9 @@
-"""Assess the records of one job: snakemake.* onto rocking.study."""
+"""Assess the records of one job: snakemake.* onto rocking.study.run."""
 
 from pathlib import Path
 
-from rocking.plan import planned_records
-from rocking.study import Study, assess_records
+from rocking.study.plan import planned_records
+from rocking.study.run import Study, assess_records
 
 if __name__ == "__main__":
     config = snakemake.config

@@ -1,8 +1,8 @@
-"""Measure how far one pulse may be trusted: snakemake.* onto rocking.calibration."""
+"""Measure how far one pulse may be trusted: snakemake.* onto rocking.calibration.lights."""
 
 from pathlib import Path
 
-from rocking.calibration import write_calibration
+from rocking.calibration.lights import write_calibration
 from rocking.records import load_catalogue, open_record
 from rocking.structures import load_structures
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rocking.comparison import assess
+from rocking.assessment.assess import assess
 from rocking.records import Accelerogram
 from rocking.structures import Block
 

@@ -1,8 +1,8 @@
-"""Find how far the cheap methods may be trusted: snakemake.* onto rocking.fidelity_calibration."""
+"""Find how far the cheap methods may be trusted: snakemake.* onto rocking.calibration.fidelity."""
 
 from pathlib import Path
 
-from rocking.fidelity_calibration import write_fidelity
+from rocking.calibration.fidelity import write_fidelity
 from rocking.records import load_catalogue, open_record
 from rocking.structures import load_structures
 

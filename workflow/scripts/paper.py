@@ -1,8 +1,8 @@
-"""Redraw the figures of the paper: snakemake.* onto rocking.reporting.paper."""
+"""Redraw the figures of the paper: snakemake.* onto rocking.study.paper."""
 
 from pathlib import Path
 
-from rocking.reporting.paper import write_paper
+from rocking.study.paper import write_paper
 
 if __name__ == "__main__":
     files, mirror = snakemake.input, snakemake.config["mirror"]

@@ -1,10 +1,10 @@
-"""Set the PDFs of one job's records: snakemake.* onto rocking.study."""
+"""Set the PDFs of one job's records: snakemake.* onto rocking.study.run."""
 
 from pathlib import Path
 
-from rocking.plan import planned_records
-from rocking.reporting.records import report_records
-from rocking.study import Study
+from rocking.study.plan import planned_records
+from rocking.study.record_reports import report_records
+from rocking.study.run import Study
 
 if __name__ == "__main__":
     config = snakemake.config

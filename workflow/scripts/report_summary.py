@@ -1,8 +1,8 @@
-"""Set the PDF of the whole study and draw its figure: snakemake.* onto rocking.reporting.summary."""
+"""Set the PDF of the whole study and draw its figure: snakemake.* onto rocking.study.summary_report."""
 
 from pathlib import Path
 
-from rocking.reporting.summary import draw_summary, report_summary
+from rocking.study.summary_report import draw_summary, report_summary
 
 if __name__ == "__main__":
     folder = Path(snakemake.output.document).parent

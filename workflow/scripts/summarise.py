@@ -1,9 +1,9 @@
-"""Gather the tables of all records: snakemake.* onto rocking.summary."""
+"""Gather the tables of all records: snakemake.* onto rocking.study.summary."""
 
 from pathlib import Path
 
 from rocking.structures import load_structures
-from rocking.summary import write_description, write_provenance, write_summary
+from rocking.study.summary import write_description, write_provenance, write_summary
 
 if __name__ == "__main__":
     params, config = snakemake.params, snakemake.config

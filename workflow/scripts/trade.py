@@ -1,11 +1,11 @@
-"""Measure error against time: snakemake.* onto rocking.trade."""
+"""Measure error against time: snakemake.* onto rocking.calibration.accuracy."""
 
 from pathlib import Path
 
+from rocking.calibration.accuracy import TradeSettings, write_trade
 from rocking.records import load_catalogue
-from rocking.reports.trade_figures import write_trade_figure
-from rocking.study import Study
-from rocking.trade import TradeSettings, write_trade
+from rocking.reports.summary.trade_figures import write_trade_figure
+from rocking.study.run import Study
 
 if __name__ == "__main__":
     files, config, output = snakemake.input, snakemake.config, snakemake.output

@@ -8,7 +8,7 @@ from rocking.records.directions import azimuth, is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import mapping, numeric, optional_number, starts, valued
 from rocking.records.formats.text import count, lines, numbers, whole
-from rocking.records.gates import agree_with_header
+from rocking.records.plausibility import agree_with_header
 
 _FIRST = re.compile(r"STRONG GROUND MOTION RECORDS OF T", re.I)
 _HEADER = 40

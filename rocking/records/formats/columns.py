@@ -7,11 +7,11 @@ from functools import partial
 import numpy as np
 
 from rocking.errors import RecordError
+from rocking.quantities import ACCELERATION_UNITS
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.sampling import even_step, resampled
 from rocking.records.formats.text import count, is_number, lines, number, numbers, whole
-from rocking.units import ACCELERATION_UNITS
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _TIME = re.compile(r"t|time\b.*|seconds?", re.I)

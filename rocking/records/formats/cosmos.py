@@ -7,7 +7,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import blocks, corner, optional, optional_number, starts
 from rocking.records.formats.text import count, fields, whole
-from rocking.records.gates import agree_with_header
+from rocking.records.plausibility import agree_with_header
 
 _FIRST = re.compile(r"(Corrected|Uncorrected)\s+(acceleration|velocity|displacement)\s+\(Format v", re.I)
 _DATA = re.compile(

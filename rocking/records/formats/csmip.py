@@ -7,7 +7,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import corner, optional, optional_number, starts
 from rocking.records.formats.text import count, fields, lines, number, whole
-from rocking.records.gates import agree_with_header
+from rocking.records.plausibility import agree_with_header
 
 _VOLUME_1 = re.compile(r"Uncorrected Accelerogram Data\s+Processed")
 _VOLUME_2 = re.compile(r"Corrected accelerogram\s+.*Chan", re.I)

@@ -5,7 +5,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import optional, optional_number, required
 from rocking.records.formats.text import count, fields, lines, number, whole
-from rocking.records.gates import agree_with_header
+from rocking.records.plausibility import agree_with_header
 
 _HEADER, _PER_LINE, _WIDTH = 16, 8, 13
 

@@ -8,7 +8,7 @@ from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import check_duration, mapping, numeric, optional, starts, valued
 from rocking.records.formats.sampling import even_step
 from rocking.records.formats.text import fields, is_number, lines
-from rocking.records.gates import agree_with_header
+from rocking.records.plausibility import agree_with_header
 
 _FIRST = re.compile(r"#Earthquake Information")
 _HEADER, _WIDTH = 60, 10

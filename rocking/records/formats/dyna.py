@@ -7,7 +7,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import corner, mapping, numeric, optional_number, valued
 from rocking.records.formats.text import count, lines, numbers, whole
-from rocking.records.gates import agree_with_header
+from rocking.records.plausibility import agree_with_header
 
 _KEY = re.compile(r"[A-Z][A-Z0-9_/^]*:")
 _LONGEST_HEADER = 100

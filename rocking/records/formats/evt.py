@@ -1,9 +1,9 @@
 """Kinemetrics EVT (Altus K2, Etna, Makalu): counts, with full scale and sensitivity in the file itself."""
 
+from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram, without_offset
 from rocking.records.formats.waveform import joined, stream
-from rocking.units import GRAVITY
 
 _OBSPY_G = 9.81
 """obspy turns the sensitivity in V/g into V/(m/s²) with this g."""

@@ -7,11 +7,10 @@ from typing import Literal
 
 import numpy as np
 
-from rocking.checks import positive
 from rocking.errors import RecordError, UndeclaredError
+from rocking.quantities import acceleration_factor, positive
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.directions import azimuth, is_vertical
-from rocking.units import acceleration_factor
 
 Response = Literal["sensitivity", "full"]
 

@@ -6,7 +6,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import blocks, corner, optional, optional_number, required
 from rocking.records.formats.text import count, fields, lines, number, whole
-from rocking.records.gates import agree_with_header
+from rocking.records.plausibility import agree_with_header
 
 _FIRST = re.compile(r"(Un)?corrected accelerogram\s", re.I)
 _HEADER, _PER_LINE, _WIDTH = 26, 10, 8

@@ -8,7 +8,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram, without_offset
 from rocking.records.formats.header import check_duration
 from rocking.records.formats.text import lines, number, numbers
-from rocking.records.gates import agree_with_header
+from rocking.records.plausibility import agree_with_header
 
 _FIELDS = (
     "Origin Time", "Lat.", "Long.", "Depth. (km)", "Mag.", "Station Code", "Station Lat.", "Station Long.",

@@ -6,7 +6,7 @@ from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.text import count, lines, number, numbers, whole
-from rocking.records.gates import agree_with_header
+from rocking.records.plausibility import agree_with_header
 
 _STEPS = (
     re.compile(r"NPTS\s*=\s*(?P<npts>[^\s,]+)\s*,?\s*DT\s*=\s*(?P<dt>[0-9.+\-]+(E[+-]?\d+)?)", re.I),

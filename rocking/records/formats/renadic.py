@@ -9,7 +9,7 @@ from rocking.records.formats.header import optional, optional_number, starts
 from rocking.records.formats.sampling import even_step
 from rocking.records.formats.text import lines
 from rocking.records.formats.volume1 import Block, channels, pairs
-from rocking.records.gates import agree_with_header
+from rocking.records.plausibility import agree_with_header
 
 _FIRST = re.compile(r"UNCORRECTED ACCELEROGRAM DATA\s+PROCESSED")
 

@@ -7,7 +7,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import corner, mapping, numeric, optional_number, valued
 from rocking.records.formats.text import count, fields, lines, whole
-from rocking.records.gates import agree_with_header
+from rocking.records.plausibility import agree_with_header
 
 _TITLE = re.compile(r"(Acc[a-z]*tion|Velocity|Displacement) time series in (\S+)", re.I)
 _HEADER, _WIDTH, _PER_LINE = 20, 14, 5

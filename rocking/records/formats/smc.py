@@ -7,7 +7,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import corner, optional, starts
 from rocking.records.formats.text import fields, lines, whole
-from rocking.records.gates import agree_with_header
+from rocking.records.plausibility import agree_with_header
 
 _KINDS = {"0": "unknown", "1": "uncorrected accelerogram", "2": "corrected accelerogram", "3": "velocity",
           "4": "displacement", "5": "response spectrum", "6": "Fourier spectrum"}  # fmt: skip

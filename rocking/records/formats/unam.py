@@ -7,7 +7,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import mapping, valued
 from rocking.records.formats.text import count, fields, is_number, lines, number, whole
-from rocking.records.gates import agree_with_header
+from rocking.records.plausibility import agree_with_header
 
 _HEADER = 160
 _DATA = "DATOS DE ACELERACION"

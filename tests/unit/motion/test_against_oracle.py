@@ -8,11 +8,11 @@ from oracle import Oracle
 from scipy.constants import g
 
 from rocking.motion import integrate, kernel
-from rocking.outcome import Outcome
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Block
 from rocking.structures.mechanism import Mechanism
+from rocking.structures.outcome import Outcome
 
 
 def lifting(mechanism, times):

@@ -11,11 +11,11 @@ from scipy.constants import g
 
 from rocking.errors import MotionError, StructureError
 from rocking.motion import integrate, integrate_many
-from rocking.outcome import Outcome
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Block, EquivalentBlock
 from rocking.structures.mechanism import Mechanism
+from rocking.structures.outcome import Outcome
 
 BLOCK = Block(1.0, 0.25, restitution=0.85)
 RECORD = noise(1, 300, 0.01, 1.6 * g * BLOCK.mechanism().uplift_multiplier)

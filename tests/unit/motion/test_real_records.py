@@ -6,10 +6,10 @@ from motion_cases import MECHANISMS
 from scipy.constants import g
 
 from rocking.motion import integrate, integrate_many
-from rocking.outcome import Outcome
 from rocking.records import read
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Arch, Block
+from rocking.structures.outcome import Outcome
 
 pytestmark = pytest.mark.real_records
 RINALDI = "northridge1994_rinaldi/RSN1063_NORTHR_RRS228.AT2"

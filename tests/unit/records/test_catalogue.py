@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from rocking.errors import CatalogueError, RecordError
+from rocking.quantities import GRAVITY
 from rocking.records import CatalogueRecord, load_catalogue, open_record, vertical_of
 from rocking.records.catalogue import COLUMNS, catalogue_from_folder, write_catalogue_rows
 from rocking.records.fetch import source_address
-from rocking.units import GRAVITY
 
 TABLE = "time,NS (gal),EW (gal),UD (gal)\n" + "".join(
     f"{i / 100},{i % 5},{i % 7},{i % 3}\n" for i in range(50)

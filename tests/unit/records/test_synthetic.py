@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from rocking.errors import RecordError
+from rocking.quantities import GRAVITY
 from rocking.records import read
 from rocking.records.synthetic import BUNDLED, SyntheticRecord, noise, pulse, synthetic_record, write_bundled
-from rocking.units import GRAVITY
 
 SHIPPED = Path(__file__).parents[3] / "records"
 

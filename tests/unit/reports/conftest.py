@@ -5,15 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rocking import columns
-from rocking.comparison import Assessment, AssessmentSettings, assess
+from rocking.assessment import columns
+from rocking.assessment.assess import Assessment, AssessmentSettings, assess
+from rocking.assessment.rows import Identity, all_rows, candidate_rows, processing_rows
+from rocking.assessment.variations import candidates, processed, processed_variants
 from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram, Source
-from rocking.rows import Identity, all_rows, candidate_rows, processing_rows
 from rocking.structures import Arch, Block, Wall
-from rocking.summary import structure_rows
+from rocking.study.summary import structure_rows
 from rocking.tables import csv_cells
-from rocking.variations import candidates, processed, processed_variants
 
 TABLES = {table.name: table for table in (*columns.RECORD_TABLES, columns.FAILURES)}
 ASSESSMENT = AssessmentSettings()

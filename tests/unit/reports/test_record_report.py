@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rocking.records.accelerogram import Accelerogram
-from rocking.reports.record import failure_report, record_data, record_report
+from rocking.reports.record.report import failure_report, record_data, record_report
 from rocking.structures import Block
 
 from .conftest import HOSTILE, SETTINGS, assessed, shaken

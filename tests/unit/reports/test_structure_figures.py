@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rocking.reports.structure_figures import drawn_rotation, round_length, structure_drawings
+from rocking.reports.record.structure_figures import drawn_rotation, round_length, structure_drawings
 from rocking.structures import Arch, Block, Wall
 
 STRUCTURES = [

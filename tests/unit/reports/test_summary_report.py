@@ -4,11 +4,11 @@ import json
 import math
 import re
 
-from rocking.agreement import agreement_rows
-from rocking.columns import AGREEMENT, SUMMARY_TABLES
+from rocking.assessment.agreement import agreement_rows
+from rocking.assessment.columns import AGREEMENT, SUMMARY_TABLES
 from rocking.reports.style import svg
-from rocking.reports.summary import summary_data, summary_report
-from rocking.reports.summary_figures import prediction_scatter
+from rocking.reports.summary.figures import prediction_scatter
+from rocking.reports.summary.report import summary_data, summary_report
 from rocking.tables import StoredRows, csv_cells, csv_lines, write_table
 
 from .conftest import SETTINGS

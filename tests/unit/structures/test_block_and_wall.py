@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from rocking.errors import StructureError, StructureWarning
+from rocking.quantities import GRAVITY
 from rocking.structures.block import Block
 from rocking.structures.wall import Wall
-from rocking.units import GRAVITY
 
 WALLS = [(2.0, 2.0, 0.3), (1.0, 3.0, 0.3), (3.0, 1.0, 0.3), (0.7, 4.0, 0.3)]
 

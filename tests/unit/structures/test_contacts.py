@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from rocking.errors import StructureError
+from rocking.quantities import GRAVITY
 from rocking.structures.block import Block
 from rocking.structures.contacts import Contacts, angular_acceleration, contact_forces, contact_history
 from rocking.structures.frame import Frame
 from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
 from rocking.structures.wall import Wall
-from rocking.units import GRAVITY
 
 
 def centroid(polygon):

@@ -6,6 +6,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from rocking.errors import StructureError
+from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch
 from rocking.structures.block import Block
 from rocking.structures.contacts import angular_acceleration
@@ -22,7 +23,6 @@ from rocking.structures.mechanism import Mechanism
 from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
 from rocking.structures.wall import Wall
-from rocking.units import GRAVITY
 
 STRUCTURES = {
     "block": Block(2.0, 0.25),

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from governing import governing_envelope
 
 from rocking.errors import StructureError
-from rocking.structures.governing import governing_envelope
 from rocking.structures.spire import Spire
 from rocking.structures.wall import Wall
 

@@ -5,10 +5,10 @@ import pytest
 from multibody import Bar, Multibody, Pin
 from scipy.integrate import solve_ivp
 
+from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch
 from rocking.structures.contacts import angular_acceleration, contact_forces
 from rocking.structures.wall import Wall
-from rocking.units import GRAVITY
 
 
 def ground(time):

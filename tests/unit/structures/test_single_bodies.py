@@ -5,11 +5,11 @@ import pytest
 from scipy.integrate import dblquad
 
 from rocking.errors import StructureError, StructureWarning
+from rocking.quantities import GRAVITY
 from rocking.structures.block import Block
 from rocking.structures.frame import Frame
 from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
-from rocking.units import GRAVITY
 
 
 def test_a_rigid_body_of_a_blocks_shape_is_the_block():

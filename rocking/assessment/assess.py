@@ -1,0 +1,283 @@
+"""One record against one list of structures: predictions, integrations, and the two side by side."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from time import process_time
+from typing import Literal
+
+from rocking.assessment.fidelity import Answer, Level, cheapest_answer, limits_for
+from rocking.assessment.method import Method
+from rocking.errors import ConfigurationError, PulseError, RockingError
+from rocking.motion.contact_check import UNKNOWN, ModelCheck, check_model
+from rocking.motion.integration import integrate
+from rocking.motion.response import Response
+from rocking.pulses import Light, Pulse, PulseAnalysis, PulseSettings, extract_pulses, light
+from rocking.pulses.choice import chosen_by_demand
+from rocking.pulses.interval import PulseInterval, pulse_interval
+from rocking.quantities import GRAVITY, positive, within
+from rocking.records import Accelerogram
+from rocking.sine_pulse import Maximum, predict_maximum, printed_maximum
+from rocking.structures import EquivalentBlock, Mechanism, Structure
+from rocking.structures.mechanism import Scale
+
+
+@dataclass(frozen=True)
+class AssessmentSettings:
+    """What a comparison is made with.
+
+    acceleration_scale: which scale the equivalent block carries. tolerance: of the nonlinear integration.
+    fragility_change: relative change of the ground motion that must not flip a verdict. bootstrap_replicates: of the
+    interval of the pulse, 0 for none. pulse_choice: the pulse that explains most of the record, or, of its first five,
+    the one that demands most of each structure. friction_coefficient: beyond which a contact slides.
+    fidelity: full: every method, to compare them; auto: the cheapest that rocking.assessment.fidelity trusts to be
+    within fidelity_tolerance of the mechanism, and unsafe in at most fidelity_risk of the answers.
+    """
+
+    acceleration_scale: Scale = "uplift"
+    tolerance: float = 1e-6
+    fragility_change: float = 0.01
+    pulse: PulseSettings = field(default_factory=PulseSettings)
+    bootstrap_replicates: int = 100
+    friction_coefficient: float = 0.6
+    pulse_choice: Literal["energy", "demand"] = "energy"
+    fidelity: Literal["full", "auto"] = "full"
+    fidelity_tolerance: float = 0.1
+    fidelity_risk: float = 0.01
+
+    def __post_init__(self) -> None:
+        within(ConfigurationError, "tolerance", self.tolerance, 1e-13, 0.1)
+        within(ConfigurationError, "fragility_change", self.fragility_change, 0, 0.5)
+        positive(ConfigurationError, "friction_coefficient", self.friction_coefficient)
+        within(ConfigurationError, "fidelity_tolerance", self.fidelity_tolerance, 0, 1)
+        within(ConfigurationError, "fidelity_risk", self.fidelity_risk, 0, 1)
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """The closed forms of one structure under one pulse, and how far to trust them.
+
+    rank: of the pulse among those of the record. low, high: 90 % band from the interval of the pulse, nan without one.
+    """
+
+    block: EquivalentBlock
+    pulse: Pulse
+    rank: int
+    amplitude_ratio: float
+    frequency_ratio: float
+    printed: float
+    maximum: Maximum
+    low: float
+    high: float
+    light: Light
+
+
+@dataclass(frozen=True)
+class Case:
+    """One structure under one accelerogram. prediction is None where the record has no pulse.
+
+    check: whether the model held along the response of the mechanism to the record. answer: of the mechanism on the
+    record, or of the cheapest method that is trusted in its stead.
+    """
+
+    structure: str
+    mechanism: Mechanism
+    prediction: Prediction | None
+    responses: Mapping[Method, Response]
+    check: ModelCheck
+    answer: Answer
+
+
+@dataclass(frozen=True)
+class Failure:
+    """Something that gave no result: at which stage, for which structure ("" for all), and why."""
+
+    stage: str
+    structure: str
+    message: str
+
+
+@dataclass(frozen=True)
+class Assessment:
+    """One accelerogram against all structures. analysis and interval are None where no pulse could be sought."""
+
+    accelerogram: Accelerogram
+    analysis: PulseAnalysis | None
+    interval: PulseInterval | None
+    cases: tuple[Case, ...]
+    failures: tuple[Failure, ...]
+    durations: Mapping[str, float]
+    """CPU time of each stage, s."""
+
+
+def assess(
+    accelerogram: Accelerogram,
+    structures: Mapping[str, Structure],
+    settings: AssessmentSettings | None = None,
+    vertical: Accelerogram | None = None,
+) -> Assessment:
+    """Predict and integrate every structure under `accelerogram`; one that fails costs no other."""
+    settings = settings or AssessmentSettings()
+    started = process_time()
+    failures: list[Failure] = []
+    analysis = interval = None
+    try:
+        analysis = extract_pulses(accelerogram, settings=settings.pulse)
+        interval = _interval(analysis, settings)
+    except PulseError as error:
+        failures.append(Failure("pulses", "", str(error)))
+    extracted = process_time()
+    cases = []
+    for name, structure in structures.items():
+        try:
+            cases.append(_case(name, structure, analysis, interval, accelerogram, settings, vertical))
+        except RockingError as error:
+            failures.append(Failure("responses", name, str(error)))
+    durations = {"pulses": extracted - started, "responses": process_time() - extracted}
+    return Assessment(accelerogram, analysis, interval, tuple(cases), tuple(failures), durations)
+
+
+def predict(
+    mechanism: Mechanism,
+    analysis: PulseAnalysis,
+    interval: PulseInterval | None = None,
+    settings: AssessmentSettings | None = None,
+) -> Prediction:
+    """Return the closed forms of the equivalent block of `mechanism` under the pulse that `settings` choose.
+
+    interval: of the dominant pulse, whose band the prediction then carries; another pulse carries none.
+    """
+    settings = settings or AssessmentSettings()
+    block = mechanism.equivalent_block(settings.acceleration_scale)
+
+    def demand(pulse: Pulse) -> float:
+        return predict_maximum(block, pulse).rotation_ratio
+
+    chosen = chosen_by_demand(analysis, demand) if settings.pulse_choice == "demand" else analysis.evidence
+    pulse, dominant = chosen.pulse, chosen is analysis.evidence
+    amplitude_ratio = abs(pulse.amplitude) / (GRAVITY * _uplift_multiplier(block, pulse))
+    low, high = interval.band(demand) if interval and dominant else (math.nan, math.nan)
+    return Prediction(
+        block=block,
+        pulse=pulse,
+        rank=analysis.ranked.index(chosen) + 1,
+        amplitude_ratio=amplitude_ratio,
+        frequency_ratio=pulse.circular_frequency / block.frequency_parameter,
+        printed=printed_maximum(block, pulse),
+        maximum=predict_maximum(block, pulse),
+        low=low,
+        high=high,
+        light=light(chosen.explained_energy, amplitude_ratio),
+    )
+
+
+NEGLIGIBLE = 1e-3
+"""Rotation ratio below which a structure that rocks is not told from one that rests, when verdicts are compared."""
+
+
+def verdict(predicted: float, integrated: float) -> str:
+    """Say whether a predicted rotation ratio errs against the integrated one.
+
+    "agree": both rest, rock or overturn; "unsafe": the prediction says less than happens; "safe": it says more;
+    "unknown" where one of them is nan.
+    """
+    if math.isnan(predicted) or math.isnan(integrated):
+        return "unknown"
+    difference = _severity(predicted) - _severity(integrated)
+    return "agree" if difference == 0 else "safe" if difference > 0 else "unsafe"
+
+
+def _severity(rotation_ratio: float) -> int:
+    return 2 if math.isinf(rotation_ratio) else int(rotation_ratio > NEGLIGIBLE)
+
+
+def ratio(predicted: float, integrated: float) -> float:
+    """Return predicted over integrated rotation ratio where both rock, else nan."""
+    both_rock = 0 < predicted < math.inf and 0 < integrated < math.inf
+    return predicted / integrated if both_rock else math.nan
+
+
+def _interval(analysis: PulseAnalysis, settings: AssessmentSettings) -> PulseInterval | None:
+    if not settings.bootstrap_replicates:
+        return None
+    return pulse_interval(analysis, settings=settings.pulse, replicates=settings.bootstrap_replicates)
+
+
+def _case(
+    name: str,
+    structure: Structure,
+    analysis: PulseAnalysis | None,
+    interval: PulseInterval | None,
+    accelerogram: Accelerogram,
+    settings: AssessmentSettings,
+    vertical: Accelerogram | None,
+) -> Case:
+    mechanism, full = structure.mechanism(), settings.fidelity == "full"
+    prediction = predict(mechanism, analysis, interval if full else None, settings) if analysis else None
+    if full:
+        responses = _responses(mechanism, accelerogram, settings, vertical)
+        whole = responses[Method.MECHANISM_ON_RECORD]
+        answer = Answer(Level.MECHANISM, whole.rotation_ratio, whole.outcome, whole)
+        if prediction is not None:
+            responses |= _pulse_responses(mechanism, prediction, settings)
+    else:
+        answer = _cheapest(mechanism, prediction, accelerogram, settings, vertical)
+        method = Method.BLOCK_ON_RECORD if answer.level is Level.BLOCK else Method.MECHANISM_ON_RECORD
+        responses = {} if answer.response is None else {method: answer.response}
+    on_record = responses.get(Method.MECHANISM_ON_RECORD)
+    check = check_model(structure, on_record, accelerogram, vertical) if on_record else UNKNOWN
+    return Case(name, mechanism, prediction, responses, check, answer)
+
+
+def _cheapest(
+    mechanism: Mechanism,
+    prediction: Prediction | None,
+    accelerogram: Accelerogram,
+    settings: AssessmentSettings,
+    vertical: Accelerogram | None,
+) -> Answer:
+    return cheapest_answer(
+        mechanism,
+        mechanism.equivalent_block(settings.acceleration_scale),
+        accelerogram,
+        (prediction.light, prediction.maximum) if prediction else None,
+        limits_for(settings.fidelity_tolerance, settings.fidelity_risk),
+        integration_tolerance=settings.tolerance,
+        fragility_change=settings.fragility_change,
+        vertical=vertical,
+    )
+
+
+def _responses(
+    mechanism: Mechanism,
+    accelerogram: Accelerogram,
+    settings: AssessmentSettings,
+    vertical: Accelerogram | None,
+) -> dict[Method, Response]:
+    block = mechanism.equivalent_block(settings.acceleration_scale)
+    whole = integrate(
+        mechanism,
+        accelerogram,
+        tolerance=settings.tolerance,
+        history=True,
+        vertical=vertical,
+        sensitivity=True,
+        fragility_change=settings.fragility_change,
+    )
+    on_block = integrate(block, accelerogram, tolerance=settings.tolerance, vertical=vertical)
+    return {Method.MECHANISM_ON_RECORD: whole, Method.BLOCK_ON_RECORD: on_block}
+
+
+def _pulse_responses(
+    mechanism: Mechanism, prediction: Prediction, settings: AssessmentSettings
+) -> dict[Method, Response]:
+    return {
+        Method.MECHANISM_ON_PULSE: integrate(mechanism, prediction.pulse, tolerance=settings.tolerance),
+        Method.BLOCK_ON_PULSE: integrate(prediction.block, prediction.pulse, tolerance=settings.tolerance),
+    }
+
+
+def _uplift_multiplier(block: EquivalentBlock, pulse: Pulse) -> float:
+    """λ of the side that the pulse lifts first: positive acceleration lifts the negative side."""
+    side = block.other_side if block.other_side is not None and pulse.amplitude > 0 else block
+    return side.uplift_multiplier

@@ -1,0 +1,105 @@
+"""What the answer depends on besides the structure as given: where it cracks, and how the record was processed."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from rocking.assessment.assess import AssessmentSettings
+from rocking.errors import RecordError, RockingError
+from rocking.motion.integration import integrate
+from rocking.pulses import Pulse
+from rocking.records import Accelerogram
+from rocking.records.processing import process, variants
+from rocking.sine_pulse import predict_maximum
+from rocking.structures import Spire, Structure, Wall
+from rocking.structures.outcome import Outcome
+
+HIGHEST_SHARE = 0.95
+"""Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A structure cracked at `position` [m] instead: rotation ratio under the pulse (nan: none) and the record."""
+
+    position: float
+    predicted: float
+    integrated: float
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A structure under the record processed otherwise."""
+
+    processing: str
+    peak_acceleration: float
+    rotation_ratio: float
+    outcome: Outcome
+
+
+def candidates(
+    structure: Structure,
+    accelerogram: Accelerogram,
+    pulse: Pulse | None,
+    count: int,
+    settings: AssessmentSettings,
+) -> list[Candidate]:
+    """Return `count` candidates of a wall over its hinge height or of a spire over its crack height; [] for others."""
+    moved = _moved(structure, count)
+    return [
+        Candidate(
+            position,
+            _predicted(other, pulse, settings),
+            integrate(other, accelerogram, settings.tolerance).rotation_ratio,
+        )
+        for position, other in moved.items()
+    ]
+
+
+def governing(values: list[float]) -> int:
+    """Return the index of the largest of `values`, the first of several that overturn; −1 where none is above 0."""
+    known = np.nan_to_num(np.array(values, dtype=float), nan=0.0, posinf=np.inf)
+    return int(np.argmax(known)) if known.size and known.max() > 0 else -1
+
+
+def processed(accelerogram: Accelerogram) -> dict[str, Accelerogram]:
+    """Return the record as each variant of the processing leaves it, by name; those that do not fit are left out."""
+    records = {}
+    for name, processing in variants().items():
+        with suppress(RecordError):
+            records[name] = process(accelerogram, processing)
+    return records
+
+
+def processed_variants(
+    structure: Structure, records: Mapping[str, Accelerogram], settings: AssessmentSettings
+) -> Iterator[Variant]:
+    """Yield the response of `structure` to each of `records`, which `processed` gives."""
+    for name, record in records.items():
+        with suppress(RockingError):
+            response = integrate(structure, record, settings.tolerance)
+            yield Variant(name, record.peak_acceleration, response.rotation_ratio, response.outcome)
+
+
+@lru_cache(maxsize=64)
+def _moved(structure: Structure, count: int) -> dict[float, Structure]:
+    """All candidates take the restitution of the structure: their own momentum balance may be unphysical."""
+    if isinstance(structure, Wall | Spire):
+        structure = replace(structure, restitution=structure.mechanism().restitution)
+    if isinstance(structure, Wall):
+        return dict(
+            structure.candidates(structure.height * np.linspace(1 - HIGHEST_SHARE, HIGHEST_SHARE, count))
+        )
+    if isinstance(structure, Spire):
+        return dict(structure.candidates(structure.height * np.linspace(0, HIGHEST_SHARE, count)))
+    return {}
+
+
+def _predicted(structure: Structure, pulse: Pulse | None, settings: AssessmentSettings) -> float:
+    if pulse is None:
+        return np.nan
+    block = structure.mechanism().equivalent_block(settings.acceleration_scale)
+    return predict_maximum(block, pulse).rotation_ratio

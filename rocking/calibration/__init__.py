@@ -1,0 +1,1 @@
+"""Calibration: how far each method may be trusted, and what accuracy costs."""

@@ -1,0 +1,185 @@
+"""The yardstick of the trade between error and time: scipy's own integrators on I, J, G and B themselves.
+
+Written from the equation of motion (theory: section 1, "One standard form"); it shares nothing with rocking.motion.
+"""
+
+import math
+from collections.abc import Iterator
+from time import perf_counter
+from typing import Literal
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from rocking.errors import MotionError
+from rocking.quantities import GRAVITY
+from rocking.records import Accelerogram
+from rocking.structures import Mechanism
+
+Scipy = Literal["RK45", "DOP853"]
+
+REFERENCE_TOLERANCE = 1e-12
+STEPS_PER_SAMPLE = 2
+"""Least steps between two samples of the reference, so that no hop hides inside a step."""
+REST_SPEED = 1e-7
+"""An impact that leaves less than this, in units of p φ_cr, leaves the structure at rest."""
+STILL = 20.0
+"""How long still ground is followed after the record, in units of 1/p."""
+STILL_LANDINGS = 3
+"""Landings on still ground after which each side has had its largest flight: impacts only take energy away."""
+
+
+def reference_maximum(mechanism: Mechanism, accelerogram: Accelerogram, budget: float = math.inf) -> float:
+    """Return φ_max/φ_cr by DOP853 at 1e-12, restarted at every sample and every impact; inf if it overturns.
+
+    Raises MotionError once it has taken `budget` seconds.
+    """
+    return _Run(mechanism, accelerogram, "DOP853", REFERENCE_TOLERANCE, budget, restart=True).maximum()
+
+
+def event_maximum(
+    mechanism: Mechanism,
+    accelerogram: Accelerogram,
+    method: Scipy,
+    relative_tolerance: float,
+    budget: float = math.inf,
+) -> float:
+    """Return φ_max/φ_cr as one writes it with `solve_ivp`: the record interpolated, an event at each impact.
+
+    No step is longer than a sample. Overturning is a rotation past the end of the mechanism.
+    Raises MotionError once it has taken `budget` seconds.
+    """
+    return _Run(mechanism, accelerogram, method, relative_tolerance, budget, restart=False).maximum()
+
+
+class _Run:
+    """One mechanism through one record; `sides` holds +1 and −1, or +1 alone for a one-sided structure."""
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        accelerogram: Accelerogram,
+        method: Scipy,
+        tolerance: float,
+        budget: float,
+        restart: bool,
+    ) -> None:
+        self.method, self.tolerance, self.restart = method, tolerance, restart
+        self.budget, self.deadline = budget, perf_counter() + budget
+        self.ground, self.step = accelerogram.acceleration.tolist(), accelerogram.time_step
+        self.duration = accelerogram.duration
+        self.sides = {1: mechanism.positive}
+        if not mechanism.one_sided:
+            self.sides[-1] = mechanism.negative or mechanism.positive
+        self.peak, self.overturned, self.still_landings = 0.0, False, 0
+
+    def maximum(self) -> float:
+        """Follow the motion and return its largest rotation ratio."""
+        now, side, state = 0.0, 0, (0.0, 0.0)
+        for until in self._stops():
+            while now < until:
+                if side == 0:
+                    now, side = self._lift(now, until)
+                    if side == 0:
+                        break
+                now, state, landed = self._fly(side, state, now, until)
+                if self.overturned:
+                    return math.inf
+                if landed:
+                    self.still_landings += until > self.duration
+                    if self.still_landings == STILL_LANDINGS:
+                        return self.peak
+                    side, state = self._impact(side, state[1])
+        return self.peak
+
+    def _stops(self) -> Iterator[float]:
+        if self.restart:
+            yield from (k * self.step for k in range(1, len(self.ground) - 1))
+        yield self.duration
+        yield self.duration + STILL / min(side.frequency_parameter for side in self.sides.values())
+
+    def _acceleration(self, time: float, still: bool) -> float:
+        if still:
+            return 0.0
+        place = min(int(time / self.step), len(self.ground) - 2)
+        before, after = self.ground[place], self.ground[place + 1]
+        return before + (after - before) * (time / self.step - place)
+
+    def _lift(self, now: float, until: float) -> tuple[float, int]:
+        """Return when and to which side the ground lifts a structure at rest; side 0: not before `until`."""
+        if until > self.duration:
+            return until, 0
+        inside = np.arange(math.floor(now / self.step) + 1, math.ceil(until / self.step)) * self.step
+        times = np.concatenate([[now], inside[(inside > now) & (inside < until)], [until]])
+        ground = np.array([self._acceleration(time, False) for time in times])
+        found = []
+        for sign, side in self.sides.items():
+            excess = -sign * ground - side.uplift_multiplier * GRAVITY
+            first = int(np.argmax(excess > 0))
+            if excess[first] > 0:
+                low = max(first - 1, 0)
+                share = 0.0 if first == 0 else excess[low] / (excess[low] - excess[first])
+                found.append((float(times[low] + share * (times[first] - times[low])), sign))
+        return min(found, default=(until, 0))
+
+    def _fly(
+        self, sign: int, state: tuple[float, float], now: float, until: float
+    ) -> tuple[float, tuple[float, float], bool]:
+        """Return time, rotation and rate at the landing, or at `until`, and whether it landed."""
+        side, still = self.sides[sign], until > self.duration
+
+        def slope(time: float, y: np.ndarray) -> list[float]:
+            """φ'' = −(s B ü_g + G g + J φ'²) / I, J = I'/2."""
+            if perf_counter() > self.deadline:
+                raise MotionError(
+                    f"{self.method} took more than the {self.budget:.0f} s that its budget left; allow it more."
+                )
+            rotation, velocity = y
+            push = sign * side.at("ground", rotation) * self._acceleration(time, still)
+            slowing = side.at("inertia_slope", rotation) / 2 * velocity**2
+            pull = push + side.at("gravity", rotation) * GRAVITY + slowing
+            return [velocity, -pull / side.at("inertia", rotation)]
+
+        def landing(time: float, y: np.ndarray) -> float:
+            return y[0] if time > now else side.critical_rotation
+
+        def turn(_: float, y: np.ndarray) -> float:
+            return y[1]
+
+        def end(_: float, y: np.ndarray) -> float:
+            return y[0] - side.end_rotation
+
+        marks = (
+            (landing, "terminal", True),
+            (landing, "direction", -1),
+            (turn, "direction", -1),
+            (end, "terminal", True),
+        )
+        for event, name, value in marks:
+            setattr(event, name, value)
+        span = min(until - now, self.step)
+        size = state[0] + abs(state[1]) * span + 1e-9 * side.critical_rotation
+        solved = solve_ivp(
+            slope,
+            (now, until),
+            state,
+            self.method,
+            events=(landing, turn, end),
+            rtol=self.tolerance,
+            atol=1e-3 * self.tolerance * size * np.array([1, 1 / span]),
+            max_step=self.step / (STEPS_PER_SAMPLE if self.restart else 1),
+        )
+        peaks = [state[0], solved.y[0, -1], *(y[0] for y in solved.y_events[1])]
+        self.peak = max(self.peak, *(peak / side.critical_rotation for peak in peaks))
+        self.overturned = solved.t_events[2].size > 0
+        if not solved.t_events[0].size:
+            return until, (float(solved.y[0, -1]), float(solved.y[1, -1])), False
+        return float(solved.t[-1]), (0.0, float(solved.y[1, -1])), True
+
+    def _impact(self, sign: int, velocity: float) -> tuple[int, tuple[float, float]]:
+        kept = self.sides[sign].restitution * max(-velocity, 0.0)
+        sign = -sign if -sign in self.sides else sign
+        side = self.sides[sign]
+        if kept <= REST_SPEED * side.critical_rotation * side.frequency_parameter:
+            return 0, (0.0, 0.0)
+        return sign, (0.0, kept)

@@ -1,0 +1,94 @@
+"""Quantities: the one g, the doors through which units come in, and checks at birth.
+
+Inside, everything is SI and radians. Each check returns the value as a float or raises one clear sentence.
+"""
+
+import math
+
+from rocking.errors import RecordError, RockingError, StructureError
+
+GRAVITY = 9.80665
+"""scipy.constants.g, m/s². Typed here because importing scipy.constants costs every process a fifth of a second."""
+
+ACCELERATION_UNITS = {
+    "m/s2": 1.0,
+    "cm/s2": 0.01,
+    "mm/s2": 0.001,
+    "gal": 0.01,
+    "g": GRAVITY,
+    "mg": GRAVITY / 1000,
+    "g/10": GRAVITY / 10,
+}
+"""Factor from each unit of acceleration to m/s²; one g = 9.80665 m/s² for units and gravity alike."""
+
+
+def acceleration_factor(unit: str) -> float:
+    """Return the factor from `unit` to m/s². Raises RecordError when the unit is not known."""
+    name = (
+        str(unit)
+        .strip()
+        .lower()
+        .replace("²", "2")
+        .replace("^2", "2")
+        .replace("**2", "2")
+        .replace("/s/s", "/s2")
+    )
+    if name not in ACCELERATION_UNITS:
+        raise RecordError(f"unit is {unit!r}, but must be one of {', '.join(ACCELERATION_UNITS)}.")
+    return ACCELERATION_UNITS[name]
+
+
+def finite(error: type[RockingError], field: str, value: float, unit: str = "") -> float:
+    """Return `value` as a finite float, or raise `error` naming `field`."""
+    number = _number(error, field, value)
+    if not math.isfinite(number):
+        raise error(f"{field} is {value!r}, but must be a finite number{_in(unit)}.")
+    return number
+
+
+def positive(error: type[RockingError], field: str, value: float, unit: str = "") -> float:
+    """Return `value` as a finite float above zero, or raise `error` naming `field`."""
+    number = finite(error, field, value, unit)
+    if number <= 0:
+        raise error(f"{field} is {value!r}{_in(unit)}, but must be greater than 0.")
+    return number
+
+
+def within(
+    error: type[RockingError], field: str, value: float, low: float, high: float, unit: str = ""
+) -> float:
+    """Return `value` as a float in [low, high], or raise `error` naming `field`."""
+    number = finite(error, field, value, unit)
+    if not low <= number <= high:
+        raise error(f"{field} is {value!r}{_in(unit)}, but must lie between {low:g} and {high:g}.")
+    return number
+
+
+_SMALLEST, _LARGEST = 1e-4, 1e5
+"""Lengths from a tenth of a millimetre to a hundred kilometres, m."""
+
+
+def length(field: str, value: float) -> float:
+    """Return `value` as a length in m, or raise StructureError naming `field` and the bounds."""
+    return within(
+        StructureError, field, positive(StructureError, field, value, "m"), _SMALLEST, _LARGEST, "m"
+    )
+
+
+def squared_length(field: str, value: float) -> float:
+    """Return `value` as a squared length in m², or raise StructureError naming `field` and the bounds."""
+    checked = positive(StructureError, field, value, "m²")
+    return within(StructureError, field, checked, _SMALLEST**2, _LARGEST**2, "m²")
+
+
+def _number(error: type[RockingError], field: str, value: float) -> float:
+    if isinstance(value, bool | str | bytes):
+        raise error(f"{field} is {value!r}, but must be a number.")
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise error(f"{field} is {value!r}, but must be a number.") from None
+
+
+def _in(unit: str) -> str:
+    return f" {unit}" if unit else ""

@@ -1,0 +1,75 @@
+"""Gates: a peak that contradicts its own header, or that no ground has, does not pass unseen."""
+
+from rocking.errors import RecordError
+from rocking.quantities import GRAVITY, acceleration_factor
+from rocking.records.accelerogram import Accelerogram
+
+LARGEST_PEAK = 5 * GRAVITY
+"""m/s²; the largest recorded so far is 4.4 g (Iwate-Miyagi 2008, IWTH25), so what is above is a wrong unit."""
+
+SMALLEST_PEAK = 1e-5 * GRAVITY
+"""m/s²; below, a record is noise or has a wrong unit."""
+
+_FACTORS = {
+    980.665: "cm/s² against g",
+    9.80665: "m/s² against g",
+    100.0: "cm/s² against m/s²",
+    1000.0: "mg against g, or mm/s² against m/s²",
+    10.0: "g/10 against g",
+}
+_NEAR = 0.02
+"""How close a ratio must come to a factor between units to be explained by it."""
+_PLAUSIBLE = (0.005, 1.5)
+
+
+def agree_with_header(record: Accelerogram, peak: float | None, unit: str, half_digit: float = 0.0) -> None:
+    """Check the peak of `record` against the one its header states in `unit`, within 1 % or half its last digit.
+
+    Nothing is checked when the header states none or zero. Raises RecordError with the factor that would explain it.
+    """
+    if not peak:
+        return
+    stated = abs(peak) * acceleration_factor(unit)
+    allowed = max(0.01 * stated, half_digit * acceleration_factor(unit))
+    if abs(record.peak_acceleration - stated) > allowed:
+        raise RecordError(
+            f"{record.source.path}: peak acceleration of {record.component or 'the samples'} is "
+            f"{record.peak_acceleration:.6g} m/s², but the file's header states {stated:.6g} m/s²"
+            f"{_explain(record.peak_acceleration / stated)}; the two must agree within 1 %."
+        )
+
+
+def pass_limits(record: Accelerogram) -> tuple[str, ...]:
+    """Return a warning when the peak is below 1e-5 g; raise RecordError when it is above 5 g."""
+    peak = record.peak_acceleration / GRAVITY
+    if record.peak_acceleration > LARGEST_PEAK:
+        raise RecordError(
+            f"{record.source.path}: peak acceleration is {peak:.6g} g read as {record.source.unit or 'm/s2'}, "
+            f"above the 5 g that no ground has reached{_candidates(peak, divide=True)}; declare the true unit."
+        )
+    if record.peak_acceleration >= SMALLEST_PEAK:
+        return ()
+    hint = _candidates(peak, divide=False)
+    return (f"The peak acceleration is {peak:.3g} g, below 1e-5 g: noise, or a wrong unit{hint}.",)
+
+
+def _explain(ratio: float) -> str:
+    off = {factor: min(abs(ratio / factor - 1), abs(ratio * factor - 1)) for factor in _FACTORS}
+    nearest = min(off, key=off.__getitem__)
+    if off[nearest] < _NEAR:
+        return f", a factor {nearest:g} ({_FACTORS[nearest]})"
+    return f", a factor {ratio:.4g} that no unit explains"
+
+
+def _candidates(peak: float, divide: bool) -> str:
+    low, high = _PLAUSIBLE
+    fits = [(f, m) for f, m in _FACTORS.items() if low < (peak / f if divide else peak * f) < high]
+    word = "divided" if divide else "multiplied"
+    if not fits:
+        return (
+            ", and no factor between units explains it: counts without their calibration, perhaps"
+            if divide
+            else ""
+        )
+    told = ", ".join(f"by {f:g} ({m})" for f, m in fits)
+    return f"; {word} {told} it would be plausible"

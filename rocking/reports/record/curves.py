@@ -1,0 +1,219 @@
+"""The figures of a record's report as the template takes them: SVG, alternative text and what the caption adds."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from rocking.motion.response import Response
+from rocking.pulses.pulse import Pulse
+from rocking.quantities import GRAVITY
+from rocking.records.accelerogram import Accelerogram
+from rocking.reports import printing
+from rocking.reports.printing import Row, of_component
+from rocking.reports.record.motion_figures import (
+    History,
+    ground_motion,
+    response_histories,
+    rocking_spectrum_figure,
+)
+from rocking.reports.record.pulse_figures import energy_map, orientation
+from rocking.reports.record.structure_figures import structure_drawings
+from rocking.reports.style import TEXT_WIDTH, svg
+from rocking.structures.mechanism import Mechanism
+from rocking.structures.structure import Structure
+
+Rows = Sequence[Row]
+Tables = Mapping[str, Rows]
+Picture = dict[str, str]
+
+MOST_DRAWN = 15
+"""Structures that are drawn; the tables hold all."""
+SMALLEST_DRAWN = 1e-3
+"""Rotation ratio below which a response is a tremor that no panel shows."""
+MOST_HISTORIES = 12
+"""Responses that are drawn for one component, the most demanding ones; the tables hold all."""
+SPECTRUM_POINTS = 32
+MOTION_HEIGHTS = (100.0, 74.0)
+"""Height of the time histories of the ground, mm: of a single component, and of each of several."""
+MAP_WIDTH = 58.0
+"""Width of an energy map that stands beside others, mm."""
+PAIRED_WIDTH = 83.0
+"""Width of a figure that stands beside another, mm."""
+_MAP_COLUMNS = 240
+
+
+def read_number(text: str) -> float:
+    """Return the number in a CSV cell; nan for an empty one."""
+    return float(text) if text.strip() else math.nan
+
+
+def read_pulses(rows: Rows) -> list[Pulse]:
+    """Return the ranked pulses of one component's rows, the dominant one first."""
+    ranked = sorted((row for row in rows if row["kind"] == "alternative"), key=lambda row: int(row["rank"]))
+    columns = ("amplitude_m_s2", "circular_frequency_rad_s", "start_time_s")
+    return [Pulse(*(float(row[column]) for column in columns)) for row in ranked]
+
+
+def motion_picture(accelerogram: Accelerogram, rows: Rows, structures: Rows, height: float) -> Picture:
+    """Return acceleration, residual, velocity and displacement of one component."""
+    from rocking.records.processing import displacement, velocity
+
+    pulses = read_pulses(rows)
+    uplift = [GRAVITY * float(row["uplift_multiplier"]) for row in structures]
+    figure = ground_motion(
+        accelerogram,
+        velocity(accelerogram),
+        displacement(accelerogram),
+        pulses[0] if pulses else None,
+        uplift,
+        height,
+    )
+    component = printing.words(accelerogram.component)
+    alt = f"Time histories of component {component}: acceleration, pulse, residual, velocity, displacement."
+    return {"component": component, "svg": svg(figure), "alt": alt}
+
+
+def map_picture(accelerogram: Accelerogram, rows: Rows, width: float = TEXT_WIDTH) -> Picture:
+    """Return the energy of a sine pulse over onset and period."""
+    from rocking.pulses.extraction import energy_map as energy_gains
+
+    gains, frequencies = energy_gains(accelerogram)
+    stretch = max(1, gains.shape[0] // _MAP_COLUMNS)
+    starts = np.arange(0, gains.shape[0], stretch)
+    pooled = np.maximum.reduceat(gains, starts, axis=0)
+    figure = energy_map(starts * accelerogram.time_step, 1 / frequencies, pooled, read_pulses(rows), width)
+    component = printing.words(accelerogram.component)
+    alt = f"Map of the energy that one sine pulse explains in component {component}, over onset and period."
+    return {"component": component, "svg": svg(figure), "alt": alt}
+
+
+def orientation_picture(accelerograms: Sequence[Accelerogram]) -> Picture | None:
+    """Return the direction in which the dominant pulse of two horizontal components points; None without two."""
+    from rocking.pulses.orientation import extract_pulses_oriented
+
+    horizontal = [accelerogram for accelerogram in accelerograms if not accelerogram.vertical]
+    if len(horizontal) != 2 or not math.isclose(
+        horizontal[0].time_step, horizontal[1].time_step, rel_tol=1e-9
+    ):
+        return None
+    if not all(np.ptp(accelerogram.acceleration) for accelerogram in horizontal):
+        return None
+    oriented = extract_pulses_oriented(*horizontal)
+    angles = np.linspace(0, 2 * np.pi, 361)
+    names = printing.words(horizontal[0].component), printing.words(horizontal[1].component)
+    figure = orientation(angles, oriented.gain(angles), oriented.angle, names)
+    alt = f"Polar plot of the energy of the dominant pulse along every axis of components {names[0]}, {names[1]}."
+    return {"svg": svg(figure), "alt": alt}
+
+
+def drawing_pictures(structures: Mapping[str, Structure], numbers: Mapping[str, str]) -> list[Picture]:
+    """Return the drawings of the first structures, or nothing when there is none."""
+    drawn = [(f"{number} {name}", structures[name]) for name, number in numbers.items() if name in structures]
+    shown = drawn[:MOST_DRAWN]
+    if not shown:
+        return []
+    caption = "The structures, each to the scale of its own bar: at rest (dashed), displaced (grey), hinges as circles."
+    if len(drawn) > len(shown):
+        caption += " The others are like these in kind and stand in the table alone."
+    alt = f"Drawings to scale of {printing.counted(len(shown), 'structure')} at rest and displaced, with hinges."
+    return [{"svg": svg(structure_drawings(shown)), "alt": alt, "caption": caption}]
+
+
+def history_picture(
+    accelerogram: Accelerogram,
+    structures: Mapping[str, Structure],
+    rows: Rows,
+    numbers: Mapping[str, str],
+    tolerance: float,
+    vertical: Accelerogram | None = None,
+) -> Picture | None:
+    """Return the response histories of one component, the most demanding first chosen; None when nothing moves."""
+    from rocking.motion.integration import integrate
+    from rocking.records.vertical import aligned
+
+    moving = [
+        row
+        for row in rows
+        if read_number(row["integrated_rotation_ratio"]) > SMALLEST_DRAWN and row["structure"] in structures
+    ]
+    chosen = sorted(moving, key=_demand, reverse=True)[:MOST_HISTORIES]
+    chosen = [row for row in rows if row in chosen]
+    if not chosen:
+        return None
+    beside = None if vertical is None else aligned(vertical, accelerogram)
+    histories = []
+    for row in chosen:
+        mechanism = structures[row["structure"]].mechanism()
+        response = integrate(mechanism, accelerogram, tolerance, history=True, vertical=beside)
+        label = f"{numbers[row['structure']]} {row['structure']}"
+        histories.append(_history(label, row, mechanism, response))
+    figure = response_histories(histories)
+    left_out = len(rows) - len(chosen)
+    note = (
+        f" Not drawn: {printing.counted(left_out, 'structure')}, not lifted or hardly so, or less demanding."
+        if left_out
+        else ""
+    )
+    component = printing.words(accelerogram.component)
+    alt = f"Rotation histories of {printing.counted(len(chosen), 'structure')} under component {component}."
+    return {"component": component, "svg": svg(figure), "alt": alt, "note": note}
+
+
+def _demand(row: Row) -> tuple[bool, float]:
+    return row["verdict"] == "unsafe" or row["fragile"] == "true", read_number(
+        row["integrated_rotation_ratio"]
+    )
+
+
+def _history(label: str, row: Row, mechanism: Mechanism, response: Response) -> History:
+    assert response.times is not None and response.rotation is not None  # asked for
+    negative = mechanism.negative or mechanism.positive
+    critical = np.where(response.rotation < 0, negative.critical_rotation, mechanism.critical_rotation)
+    predicted = read_number(row["predicted_rotation_ratio"])
+    overturns = math.isinf(read_number(row["integrated_rotation_ratio"]))
+    remark = _remark(predicted, overturns)
+    return History(label, response.times, response.rotation / critical, predicted, remark)
+
+
+def _remark(predicted: float, overturns: bool) -> str:
+    if math.isinf(predicted):
+        return "overturns, as predicted" if overturns else "predicted: overturns"
+    said = "predicted: no uplift" if predicted == 0 else ""
+    return "; ".join(text for text in ("overturns" if overturns else "", said) if text)
+
+
+def spectrum_picture(
+    accelerogram: Accelerogram, rows: Rows, numbers: Mapping[str, str], width: float = TEXT_WIDTH
+) -> Picture | None:
+    """Return the rocking spectrum with the equivalent blocks of the `predictions` rows on it; None without rows."""
+    from rocking.motion.spectrum import rocking_spectrum
+
+    placed = list(_placed(rows, numbers))
+    if not placed:
+        return None
+    frequency_parameters = _around([place[1] for place in placed])
+    uplift_multipliers = _around([place[2] for place in placed])
+    restitution = sorted((row["restitution"] for row in rows), key=float)[len(rows) // 2]
+    ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, float(restitution))
+    figure = rocking_spectrum_figure(frequency_parameters, uplift_multipliers, ratios, placed, width)
+    component = printing.words(accelerogram.component)
+    alt = f"Rocking spectrum of component {component} over p and uplift acceleration, with the structures."
+    return {
+        "component": component,
+        "svg": svg(figure),
+        "alt": alt,
+        "restitution": printing.number(restitution),
+    }
+
+
+def _placed(rows: Rows, numbers: Mapping[str, str]) -> Iterator[tuple[str, float, float]]:
+    for row in of_component(rows, rows[0]["component"]) if rows else ():
+        if row["method"] == "closed form":
+            place = float(row["frequency_parameter_rad_s"]), float(row["uplift_multiplier"])
+            yield (f"{numbers[row['structure']]}", *place)
+
+
+def _around(values: Sequence[float]) -> np.ndarray:
+    """A grid that holds every value with room to both sides."""
+    return np.geomspace(min(values) / 1.8, max(values) * 1.8, SPECTRUM_POINTS)

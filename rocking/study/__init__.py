@@ -1,0 +1,1 @@
+"""Study: many records against one list of structures, from the settings to the finished folder."""

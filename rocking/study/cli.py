@@ -1,0 +1,179 @@
+"""The `rocking` command: few verbs, each one call of the same functions as the workflow."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from shlex import quote
+
+from rocking.errors import RockingError
+from rocking.quantities import GRAVITY
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit status: 0, or 1 after a sentence on what is wrong."""
+    options = _parser().parse_args(arguments)
+    try:
+        return options.run(options) or 0
+    except RockingError as error:
+        print(f"rocking: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("rocking: stopped.", file=sys.stderr)
+        return 130
+    except OSError as error:
+        print(f"rocking: {error.filename or 'file'}: {error.strerror or error}.", file=sys.stderr)
+        return 1
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="rocking", description="Rocking structures under recorded earthquakes."
+    )
+    verbs = parser.add_subparsers(required=True, metavar="verb")
+    start = _verb(verbs, "start", _start, "start a study in a folder of your own")
+    start.add_argument("folder", type=Path)
+    catalogue = _verb(verbs, "catalogue", _catalogue, "write a catalogue of the accelerograms in a folder")
+    catalogue.add_argument("folder", type=Path)
+    catalogue.add_argument("--output", type=Path, help="CSV file to write (default: catalogue.csv in it)")
+    catalogue.add_argument("--replace", action="store_true", help="write over a catalogue that exists")
+    _declarations(catalogue)
+    run = _verb(verbs, "run", _run, "run the study in a folder")
+    run.add_argument("folder", type=Path)
+    run.add_argument("snakemake", nargs="*", help="what follows -- goes to snakemake: -- --dry-run")
+    _record_verb(verbs, "read", _read, "read a file and say what it is")
+    for name, function, text in (
+        ("pulse", _pulse, "dominant sine pulse of a file"),
+        ("assess", _assess, "assess structures under a file"),
+        ("spectrum", _spectrum, "rocking spectrum of a file as CSV"),
+    ):
+        verb = _record_verb(verbs, name, function, text)
+        verb.add_argument("--component", default="", help="component to use (default: every horizontal one)")
+    _assess_options(verbs.choices["assess"])
+    verbs.choices["spectrum"].add_argument(
+        "--restitution", type=float, default=0.9, help="velocity ratio of an impact, 0 to 1 (default: 0.9)"
+    )
+    verbs.choices["spectrum"].add_argument(
+        "--output", type=Path, default=Path("spectrum.csv"), help="CSV file"
+    )
+    return parser
+
+
+def _verb(verbs, name: str, function, text: str) -> argparse.ArgumentParser:
+    parser = verbs.add_parser(name, help=text, description=text)
+    parser.set_defaults(run=function)
+    return parser
+
+
+def _record_verb(verbs, name: str, function, text: str) -> argparse.ArgumentParser:
+    parser = _verb(verbs, name, function, text)
+    parser.add_argument("file", type=Path, help="accelerogram in any known format")
+    parser.add_argument("--scale", type=float, default=1.0, help="factor on the accelerations (default: 1)")
+    _declarations(parser)
+    return parser
+
+
+def _declarations(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--unit", help="of the numbers, where the file does not say it: m/s2, cm/s2, g, ...")
+    parser.add_argument("--time-step", type=float, help="in s, where the file does not say it")
+
+
+def _assess_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("structures", type=Path, help="YAML file that lists structures")
+    parser.add_argument("name", nargs="?", help="name of one structure in the list (default: all)")
+    parser.add_argument("--output", type=Path, help="folder for report.pdf and the tables behind it")
+
+
+def _start(options: argparse.Namespace) -> None:
+    from rocking.study.workspace import start
+
+    for path in start(options.folder):
+        print(path)
+    records = options.folder / "records"
+    print(f"Put your records into {records}, then:")
+    print(f"  rocking catalogue {quote(str(records))}")
+    print(f"  rocking run {quote(str(options.folder))}")
+
+
+def _catalogue(options: argparse.Namespace) -> None:
+    from rocking.study.workspace import write_catalogue
+
+    target = options.output or options.folder / "catalogue.csv"
+    declared = {"unit": options.unit, "time_step": options.time_step, "replace": options.replace}
+    count, unread = write_catalogue(options.folder, target, **declared)
+    print(f"{target}: {count} record{'' if count == 1 else 's'}")
+    for name, reason in unread:
+        print(f"not read: {name}: {reason}")
+
+
+def _run(options: argparse.Namespace) -> int:
+    from rocking.study.workspace import run
+
+    return run(options.folder, options.snakemake)
+
+
+def _read(options: argparse.Namespace) -> None:
+    from rocking.records import read
+
+    for found in read(options.file, unit=options.unit, time_step=options.time_step):
+        accelerogram = found if options.scale == 1 else found.scaled(options.scale)
+        peak = accelerogram.peak_acceleration
+        print(
+            f"{accelerogram.source.format}: {accelerogram.event or 'event not named'}, "
+            f"{accelerogram.station or 'station not named'}, component {accelerogram.component or 'not named'}: "
+            f"{accelerogram.acceleration.size} samples every {accelerogram.time_step:g} s, "
+            f"peak {peak:.4g} m/s² = {peak / GRAVITY:.4g} g"
+        )
+        for sentence in (*accelerogram.processing, *accelerogram.warnings):
+            print(f"  {sentence}")
+
+
+def _pulse(options: argparse.Namespace) -> None:
+    from rocking.pulses import extract_pulses
+
+    for accelerogram in _accelerograms(options):
+        analysis = extract_pulses(accelerogram)
+        pulse = analysis.dominant
+        print(
+            f"component {accelerogram.component or 'not named'}: amplitude {pulse.amplitude:.4g} m/s² = "
+            f"{pulse.amplitude / GRAVITY:.4g} g, period {pulse.period:.4g} s, start {pulse.start_time:.3f} s, "
+            f"explains {analysis.explained_energy:.0%} of the acceleration energy"
+        )
+        for sentence in (*analysis.flags, *accelerogram.processing):
+            print(f"  {sentence}")
+
+
+def _assess(options: argparse.Namespace) -> None:
+    from rocking.study.single_record import assess_file
+    from rocking.study.workspace import default_settings
+
+    record, settings = _own_record(options), default_settings()
+    print("\n".join(assess_file(record, options.structures, options.name, settings, options.output)))
+    if options.output is not None:
+        print(options.output / record.id / "report.pdf")
+
+
+def _spectrum(options: argparse.Namespace) -> None:
+    from rocking.study.single_record import write_spectrum
+
+    write_spectrum(_accelerograms(options), options.restitution, options.output)
+    print(options.output)
+
+
+def _accelerograms(options: argparse.Namespace):
+    from rocking.study.single_record import open_as_in_a_study
+    from rocking.study.workspace import default_settings, workflow_folder
+
+    structures = workflow_folder() / "workflow" / "structures.yaml"
+    return open_as_in_a_study(_own_record(options), structures, default_settings())
+
+
+def _own_record(options: argparse.Namespace):
+    from rocking.study.single_record import Declared, own_record
+
+    declared = Declared(options.unit, options.time_step, options.scale, options.component)
+    return own_record(options.file, declared)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

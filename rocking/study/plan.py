@@ -1,0 +1,183 @@
+"""The plan of a study before its first job: settings checked, inputs read, jobs shared out."""
+
+import hashlib
+import json
+import math
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from rocking.errors import ConfigurationError, RockingError
+from rocking.records.catalogue import CatalogueRecord, load_catalogue
+from rocking.structures import load_structures
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a study will do. records: by identifier, in catalogue order. jobs: identifiers by job."""
+
+    settings: Mapping[str, Any]
+    records: Mapping[str, CatalogueRecord]
+    jobs: Mapping[str, tuple[str, ...]]
+    settings_sha256: str
+    """Names the settings that change a number, the structure list and the package, in every row."""
+    package_sha256: str
+
+    def job(self, name: str) -> tuple[CatalogueRecord, ...]:
+        """The records of one job."""
+        return tuple(self.records[identifier] for identifier in self.jobs[name])
+
+    def records_sha256(self, name: str) -> str:
+        """Return one hash for the catalogue rows of one job."""
+        return records_sha256(self.job(name))
+
+    def local_files(self, name: str) -> list[str]:
+        """The files of one job that lie beside the catalogue, so that an edit of one is noticed."""
+        local = (r.folder / r.file for r in self.job(name) if not r.is_remote and r.example_name is None)
+        return sorted({str(path) for path in local if path.is_file()})
+
+
+_DO_NOT_CHANGE_NUMBERS = {
+    *(
+        "catalogue",
+        "calibration_catalogue",
+        "structures",
+        "results",
+        "mirror",
+        "reports",
+        "records_per_job",
+        "trade",
+    ),
+}
+
+
+_CHANGE_NO_NUMBER = (
+    "documentation/",
+    "reports/",
+    *(
+        f"study/{name}.py"
+        for name in ("cli", "paper", "record_reports", "single_record", "summary_report", "workspace")
+    ),
+)
+"""Source whose edit leaves every number of a table as it is."""
+
+
+def make_plan(settings: Mapping[str, Any], schema: Path) -> Plan:
+    """Check `settings`, the catalogue and the structures they name, and share out the records.
+
+    Raises ConfigurationError with every defect of the three, and of the place for the results, in one message.
+    """
+    defects: list[str] = []
+    _collect(defects, lambda: check_settings(settings, schema))
+    catalogue, structures, results = (
+        Path(str(settings.get(name))) for name in ("catalogue", "structures", "results")
+    )
+    records = _collect(defects, lambda: load_catalogue(catalogue))
+    _collect(defects, lambda: load_structures(structures))
+    _collect(defects, lambda: check_writable(results))
+    if defects:
+        raise ConfigurationError("\n".join(defects))
+    package = package_sha256(leave_out=_CHANGE_NO_NUMBER)
+    numbers = {name: value for name, value in settings.items() if name not in _DO_NOT_CHANGE_NUMBERS}
+    return Plan(
+        settings=settings,
+        records={record.id: record for record in records},
+        jobs=share_out((record.id for record in records), settings["records_per_job"]),
+        settings_sha256=settings_sha256(numbers, structures.read_bytes(), package),
+        package_sha256=package,
+    )
+
+
+def check_settings(settings: Mapping[str, Any], schema: Path) -> None:
+    """Check `settings` against the JSON Schema in a YAML file; all defects in one ConfigurationError."""
+    from jsonschema import Draft7Validator  # here, so that a job that only looks up its records does not pay
+
+    validator = Draft7Validator(yaml.safe_load(schema.read_text(encoding="utf-8")))
+    errors = sorted(validator.iter_errors(dict(settings)), key=lambda error: list(map(str, error.path)))
+    if errors:
+        lines = (f"setting {'.'.join(map(str, error.path)) or '(top)'}: {error.message}." for error in errors)
+        raise ConfigurationError("\n".join(lines))
+
+
+def check_writable(results: Path) -> None:
+    """Raise ConfigurationError when no folder can be made, or nothing be written, at `results`."""
+    there = next(path for path in (results.absolute(), *results.absolute().parents) if path.exists())
+    if not there.is_dir():
+        raise ConfigurationError(f"setting results: {there} is a file, but must be a folder.")
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise ConfigurationError(
+            f"setting results: nothing can be written in {there}; mend its permissions or name another folder."
+        )
+
+
+def settings_sha256(numbers: Mapping[str, object], structures: bytes, package: str) -> str:
+    """Return one hash for the settings that change a number, the structure list and the package."""
+    text = json.dumps(numbers, sort_keys=True)
+    return hashlib.sha256(b"\0".join((text.encode(), structures, package.encode()))).hexdigest()
+
+
+def package_sha256(leave_out: Sequence[str] = ()) -> str:
+    """Return one hash for the source of this package, without what lies below the names in `leave_out`."""
+    root = Path(__file__).parents[1]
+    digest = hashlib.sha256()
+    for path in sorted(root.rglob("*")):
+        name = path.relative_to(root).as_posix()
+        if path.suffix in {".py", ".csv", ".typ", ".yaml", ".mplstyle"} and not name.startswith(
+            tuple(leave_out)
+        ):
+            digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def records_sha256(records: Iterable[CatalogueRecord]) -> str:
+    """Return one hash for catalogue rows, in their order."""
+    return hashlib.sha256("\n".join(map(repr, records)).encode()).hexdigest()
+
+
+def planned_records(catalogue: Path, identifiers: Sequence[str], sha256: str) -> tuple[CatalogueRecord, ...]:
+    """Return the rows `identifiers` of `catalogue`, which must be those that were planned.
+
+    Raises ConfigurationError when the catalogue was edited since.
+    """
+    rows = {record.id: record for record in load_catalogue(catalogue)}
+    records = tuple(rows[identifier] for identifier in identifiers if identifier in rows)
+    if records_sha256(records) != sha256:
+        raise ConfigurationError(
+            f"{catalogue}: the catalogue changed while the study ran; start the study again."
+        )
+    return records
+
+
+def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, tuple[str, ...]]:
+    """Share out records to jobs by a hash of their identifier, so that adding one record changes one job.
+
+    size: about how many records a job takes; None chooses about the square root of their number, but more rather than
+    start more than eight jobs, and at most 64, so that neither starting a job nor losing one costs much: a job costs as
+    much as a dozen records, and snakemake compares every file of a job with every other. The number of jobs is a power
+    of two; only where it doubles, every job changes.
+    Returns the identifiers of each job that has any, in their order, by the name of the job.
+    """
+    identifiers = tuple(identifiers)
+    number = len(identifiers)
+    wanted = number / size if size else max(min(number**0.5, _FEW_JOBS), number / _MANY_RECORDS)
+    count = 1 << max(0, (math.ceil(wanted) - 1).bit_length())
+    shared: dict[str, list[str]] = {}
+    for identifier in identifiers:
+        place = int.from_bytes(hashlib.sha256(identifier.encode()).digest()[:4], "big") % count
+        shared.setdefault(f"{place:05d}_of_{count:05d}", []).append(identifier)
+    return {name: tuple(shared[name]) for name in sorted(shared)}
+
+
+_FEW_JOBS, _MANY_RECORDS = 8, 64
+
+
+def _collect(defects: list[str], load):
+    try:
+        return load()
+    except RockingError as error:
+        defects.append(str(error))
+        return ()

@@ -1,0 +1,123 @@
+"""A study in a folder of the user's own, apart from this package: start it, catalogue its records, run it."""
+
+import re
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from rocking.errors import ConfigurationError, RecordError
+from rocking.records.catalogue import catalogue_from_folder, write_catalogue_rows
+from rocking.tables import write_whole
+
+_CORES = re.compile(r"(--cores|--jobs)(=.*)?|-[cj]\d*|-[cj]all")
+
+
+def workflow_folder() -> Path:
+    """Return the folder that holds Snakefile and workflow/: inside an installed package, or the clone."""
+    package = Path(__file__).parents[1]
+    return package / "shipped" if (package / "shipped" / "Snakefile").is_file() else package.parent
+
+
+def default_settings() -> dict[str, Any]:
+    """Return the settings of the shipped workflow."""
+    return yaml.safe_load((workflow_folder() / "workflow" / "config.yaml").read_text(encoding="utf-8"))
+
+
+def start(folder: Path) -> list[Path]:
+    """Write config.yaml, structures.yaml and records/ into `folder` and return what was written.
+
+    Raises ConfigurationError, before anything is written, when one of the files stands there already.
+    """
+    contents = _starting_files()
+    for name in contents:
+        if (folder / name).exists():
+            raise ConfigurationError(
+                f"{folder / name} exists already; choose another folder or remove it first."
+            )
+    for name, content in contents.items():
+        write_whole(folder / name, content)
+    return [folder / name for name in contents]
+
+
+def _starting_files() -> Mapping[str, bytes]:
+    workflow, real = workflow_folder() / "workflow", Path("records", "near_fault.csv")
+    config = (workflow / "config.yaml").read_text(encoding="utf-8")
+    here = re.sub(
+        r"(?m)^structures: workflow/structures\.yaml", "structures: structures.yaml         ", config
+    )
+    return {
+        "config.yaml": here.encode(),
+        "structures.yaml": (workflow / "structures.yaml").read_bytes(),
+        str(real): (workflow_folder() / real).read_bytes(),
+    }
+
+
+def write_catalogue(
+    folder: Path,
+    target: Path,
+    *,
+    unit: str | None = None,
+    time_step: float | None = None,
+    replace: bool = False,
+) -> tuple[int, list[tuple[str, str]]]:
+    """Write a catalogue of the accelerograms in `folder` to `target`; return their number and what was not read.
+
+    unit and time_step [s] are for the files that do not declare them. Raises RecordError, and writes nothing, when
+    `target` exists and `replace` is false, or when no file could be read.
+    """
+    if target.exists() and not replace:
+        raise RecordError(
+            f"{target} exists already and may hold your own edits; say --replace to write it anew."
+        )
+    found, unread = catalogue_from_folder(folder, unit=unit, time_step=time_step)
+    if not found:
+        reasons = "; ".join(f"{name}: {reason}" for name, reason in unread) or "it holds no file"
+        raise RecordError(f"{folder}: no accelerogram was read ({reasons}).")
+    write_whole(target, write_catalogue_rows(found).encode())
+    return len(found), unread
+
+
+def run(folder: Path, options: Sequence[str]) -> int:
+    """Run the workflow on the study in `folder`, with further options for snakemake, and return its exit status.
+
+    Raises ConfigurationError, before snakemake starts, when the folder holds no study or the study no catalogue.
+    """
+    config = folder.resolve() / "config.yaml"
+    if not config.is_file():
+        raise ConfigurationError(
+            f"{folder} holds no config.yaml; start a study there first: rocking start {folder}"
+        )
+    _check_catalogue(folder, config)
+    cores = [] if any(_CORES.fullmatch(option) for option in options) else ["--cores", "all"]
+    home = workflow_folder()
+    command = [sys.executable, "-m", "snakemake", "--snakefile", str(home / "Snakefile")]
+    command += [
+        "--workflow-profile",
+        str(home / "workflow" / "profiles" / "default"),
+        "--directory",
+        str(folder),
+        "--configfile",
+        str(config),
+        *cores,
+        *options,
+    ]
+    return subprocess.run(command, check=False).returncode
+
+
+def _check_catalogue(folder: Path, config: Path) -> None:
+    try:
+        settings = yaml.safe_load(config.read_text(encoding="utf-8"))
+        catalogue = folder / settings["catalogue"]
+    except (yaml.YAMLError, UnicodeDecodeError, TypeError, KeyError) as error:
+        reason = " ".join(str(error).split())
+        raise ConfigurationError(
+            f"{config}: this is no YAML mapping with a catalogue ({reason}); mend it."
+        ) from None
+    if not catalogue.is_file():
+        raise ConfigurationError(
+            f"{catalogue}: there is no catalogue yet; put records beside it, then: rocking catalogue {catalogue.parent}"
+        )

@@ -1,0 +1,130 @@
+"""A record against structures: what is compared with what, and what a failure costs."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from rocking.assessment.assess import AssessmentSettings, Method, assess, predict, ratio, verdict
+from rocking.errors import ConfigurationError, StructureError
+from rocking.pulses import Light, Pulse, extract_pulses
+from rocking.records import Accelerogram
+from rocking.structures import Block, Wall
+from rocking.structures.outcome import Outcome
+from rocking.structures.structure import Structure
+
+STEP = 0.01
+PULSE = Pulse(3.0, 2 * np.pi / 0.8, 2.0)
+RECORD = Accelerogram(PULSE.acceleration(np.arange(1000) * STEP), STEP, component="H1")
+BLOCK = Block(2.0, 0.2)
+SETTINGS = AssessmentSettings(bootstrap_replicates=20)
+
+
+@dataclass(frozen=True)
+class Impossible(Structure):
+    """A structure whose mechanism cannot be made."""
+
+    def _build(self):
+        raise StructureError("thickness is 0.1 m, but must be at least 0.2 m.")
+
+    def _outline(self, rotation):
+        return []
+
+    def _hinges(self, rotation):
+        return np.empty((0, 2))
+
+
+@pytest.fixture(scope="module")
+def case():
+    return assess(RECORD, {"block": BLOCK}, SETTINGS).cases[0]
+
+
+def test_a_record_that_is_one_pulse_is_predicted_by_its_pulse(case):
+    # Sampling a sine every T/80 changes it by (π/80)²/2 of its amplitude: 8e-4, times the sensitivity of the response.
+    block = case.responses[Method.BLOCK_ON_RECORD].rotation_ratio
+    assert case.prediction.maximum.rotation_ratio == pytest.approx(block, rel=1e-2)
+    assert case.prediction.light is Light.GREEN
+
+
+def test_block_on_pulse_is_the_closed_form(case):
+    # Both follow the same linear block under the same sine by different routes.
+    on_pulse = case.responses[Method.BLOCK_ON_PULSE].rotation_ratio
+    assert case.prediction.maximum.rotation_ratio == pytest.approx(on_pulse, rel=1e-5)
+
+
+def test_the_band_holds_the_prediction_where_nothing_disturbs_the_pulse(case):
+    predicted = case.prediction.maximum.rotation_ratio
+    assert case.prediction.low <= predicted * (1 + 1e-9)
+    assert case.prediction.high >= predicted * (1 - 1e-9)
+
+
+def test_a_structure_that_fails_costs_no_other_its_result():
+    found = assess(RECORD, {"bad": Impossible(), "block": BLOCK}, SETTINGS)
+    assert [case.structure for case in found.cases] == ["block"]
+    assert [(f.stage, f.structure) for f in found.failures] == [("responses", "bad")]
+    assert "0.2 m" in found.failures[0].message
+
+
+def test_a_record_without_a_pulse_is_integrated_all_the_same():
+    still = Accelerogram(np.zeros(1000), STEP)
+    found = assess(still, {"block": BLOCK}, SETTINGS)
+    assert found.analysis is None
+    assert found.failures[0].stage == "pulses"
+    assert found.cases[0].prediction is None
+    assert found.cases[0].responses[Method.MECHANISM_ON_RECORD].outcome is Outcome.NO_UPLIFT
+
+
+def test_choice_by_demand_never_asks_less_than_choice_by_energy():
+    rng = np.random.default_rng(1)
+    noisy = Accelerogram(RECORD.acceleration + rng.normal(0, 0.8, 1000), STEP)
+    analysis = extract_pulses(noisy)
+    by_energy = predict(BLOCK.mechanism(), analysis)
+    by_demand = predict(BLOCK.mechanism(), analysis, settings=AssessmentSettings(pulse_choice="demand"))
+    assert by_demand.maximum.rotation_ratio >= by_energy.maximum.rotation_ratio
+
+
+def test_a_steady_vertical_acceleration_scales_gravity():
+    # −0.2 g for the whole record: λ and p² fall by a fifth, so what 0.8 of the motion does to a block of 0.8 g is done.
+    vertical = Accelerogram(np.full(1000, -0.2 * 9.80665), STEP)
+    lifted = (
+        assess(RECORD, {"block": BLOCK}, SETTINGS, vertical).cases[0].responses[Method.MECHANISM_ON_RECORD]
+    )
+    plain = assess(RECORD, {"block": BLOCK}, SETTINGS).cases[0].responses[Method.MECHANISM_ON_RECORD]
+    assert lifted.rotation_ratio > plain.rotation_ratio
+
+
+@pytest.mark.parametrize(
+    ("predicted", "integrated", "expected"),
+    [
+        (math.inf, math.inf, "agree"),
+        (0.9, math.inf, "unsafe"),
+        (0.0, 0.1, "unsafe"),
+        (0.0, 1e-6, "agree"),
+        (math.inf, 0.4, "safe"),
+        (math.nan, 0.4, "unknown"),
+    ],
+)
+def test_verdict(predicted, integrated, expected):
+    assert verdict(predicted, integrated) == expected
+
+
+def test_ratio_is_told_only_where_both_rock():
+    assert ratio(0.2, 0.4) == 0.5
+    assert math.isnan(ratio(math.inf, 0.4))
+    assert math.isnan(ratio(0.2, 0.0))
+
+
+@pytest.mark.parametrize("field", ["tolerance", "fragility_change", "friction_coefficient"])
+def test_settings_are_checked_at_birth(field):
+    with pytest.raises(ConfigurationError, match=field):
+        AssessmentSettings(**{field: -1.0})
+
+
+def test_the_wall_rocks_where_its_uplift_multiplier_says():
+    wall = Wall(1.5, 1.5, 0.3)
+    multiplier = wall.mechanism().uplift_multiplier
+    for factor, outcome in ((0.999, Outcome.NO_UPLIFT), (1.001, Outcome.ROCKS)):
+        record = RECORD.scaled(factor * multiplier * 9.80665 / RECORD.peak_acceleration)
+        response = assess(record, {"wall": wall}, SETTINGS).cases[0].responses[Method.MECHANISM_ON_RECORD]
+        assert response.outcome is outcome

@@ -1,0 +1,40 @@
+"""Whether the model held along a response."""
+
+import math
+
+import numpy as np
+import pytest
+
+from rocking.motion import integrate
+from rocking.motion.contact_check import UNKNOWN, check_model
+from rocking.pulses import Pulse
+from rocking.records import Accelerogram
+from rocking.structures import Block, Frame
+
+STEP = 0.005
+RECORD = Accelerogram(Pulse(3.0, 2 * np.pi / 0.8, 1.0).acceleration(np.arange(2000) * STEP), STEP)
+
+
+def _check(structure, record=RECORD):
+    return check_model(structure, integrate(structure, record, history=True), record)
+
+
+@pytest.mark.parametrize("slenderness", [0.1, 0.2, 0.3])
+def test_a_block_needs_at_least_the_friction_that_lifts_it(slenderness):
+    # At uplift the ground pushes with λ m g = tan α · m g and the weight presses with m g, less what the body's own
+    # acceleration takes; as it lifts from rest the ratio is that of a body still at rest: tan α.
+    check = _check(Block(2.0, slenderness), RECORD.scaled(slenderness / 0.2))
+    assert check.friction_needed > 0.5 * math.tan(slenderness)
+    assert check.slides(check.friction_needed * 1.01) is False
+    assert check.slides(check.friction_needed * 0.99) is True
+
+
+def test_nothing_is_claimed_without_motion_or_where_forces_are_not_known():
+    assert _check(Block(2.0, 0.2), RECORD.scaled(0.1)) == UNKNOWN
+    frame = _check(Frame(Block(2.0, 0.2), 3, 0.2))
+    assert math.isnan(frame.friction_needed)
+    assert frame.slides(0.5) is None
+
+
+def test_a_response_without_history_says_nothing():
+    assert check_model(Block(2.0, 0.2), integrate(Block(2.0, 0.2), RECORD), RECORD) == UNKNOWN

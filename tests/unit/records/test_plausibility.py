@@ -1,0 +1,48 @@
+"""The gates: peaks against headers and against what ground can do, with the factor that explains the difference."""
+
+import numpy as np
+import pytest
+
+from rocking.errors import RecordError
+from rocking.quantities import GRAVITY
+from rocking.records import Accelerogram, Source
+from rocking.records.plausibility import agree_with_header, pass_limits
+
+
+def record(peak: float) -> Accelerogram:
+    """A record whose peak is `peak` m/s²."""
+    return Accelerogram(
+        np.array([0.0, peak, -peak / 2]), 0.01, component="NS", source=Source(path="file.x", unit="g")
+    )
+
+
+def test_the_header_is_believed_within_one_percent() -> None:
+    agree_with_header(record(1.0), 1.0099 / GRAVITY, "g")
+    agree_with_header(record(1.0), -99.1, "gal")
+    agree_with_header(record(1.0), None, "g")
+    agree_with_header(record(1.0), 0.0, "g")
+    agree_with_header(record(0.0014), 0.001, "m/s2", half_digit=5e-4)
+    with pytest.raises(RecordError, match=r"file\.x: peak acceleration of NS is 1 m/s².* states 1\.02 m/s²"):
+        agree_with_header(record(1.0), 1.02, "m/s2")
+
+
+@pytest.mark.parametrize(("ratio", "told"), [
+    (980.665, r"factor 980\.665 \(cm/s² against g\)"), (1 / 980.665, r"factor 980\.665"),
+    (9.80665, r"factor 9\.80665 \(m/s² against g\)"), (100.0, r"factor 100 \(cm/s² against m/s²\)"),
+    (10.0, r"factor 10 \(g/10 against g\)"), (1000.0, "factor 1000"), (3.7, r"factor 3\.7 that no unit explains"),
+])  # fmt: skip
+def test_the_factor_is_explained(ratio: float, told: str) -> None:
+    with pytest.raises(RecordError, match=told):
+        agree_with_header(record(ratio), 1.0, "m/s2")
+
+
+def test_limits() -> None:
+    assert pass_limits(record(4.99 * GRAVITY)) == () == pass_limits(record(1.01e-5 * GRAVITY))
+    with pytest.raises(RecordError, match=r"818 g read as g, above the 5 g .*divided by 980\.665"):
+        pass_limits(record(818 * GRAVITY))
+    with pytest.raises(RecordError, match="counts without their calibration"):
+        pass_limits(record(5e6 * GRAVITY))
+    (told,) = pass_limits(record(8e-6 * GRAVITY))
+    assert "8e-06 g, below 1e-5 g" in told and "multiplied by 980.665" in told
+    (told,) = pass_limits(record(0.0))
+    assert "noise" in told

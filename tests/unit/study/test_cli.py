@@ -1,0 +1,239 @@
+"""The rocking command: every verb does its work, and refuses bad input in one sentence without leaving a trace."""
+
+import csv
+import math
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+import rocking
+from rocking.study.cli import main
+from rocking.study.workspace import workflow_folder
+
+ROOT = Path(rocking.__file__).parents[1]
+PERIOD, STEP = 1.0, 0.01
+BLOCKS = """
+- {name: slender, type: block, breadth_m: 0.5, height_m: 3.0}
+- {name: squat, type: block, breadth_m: 3.0, height_m: 3.0}
+"""
+
+
+def sine_file(path, amplitude=0.5):
+    """One full sine cycle of acceleration in g, with still ground before and after it."""
+    times = np.arange(0, 10 + STEP / 2, STEP)
+    cycle = np.where((times >= 3) & (times <= 3 + PERIOD), np.sin(2 * np.pi * (times - 3) / PERIOD), 0)
+    lines = [f"{time:.2f} {amplitude * value:.9f}" for time, value in zip(times, cycle, strict=True)]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def record(tmp_path):
+    return sine_file(tmp_path / "own record.txt")
+
+
+@pytest.fixture
+def blocks(tmp_path):
+    path = tmp_path / "blocks.yaml"
+    path.write_text(BLOCKS, encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def study(tmp_path):
+    """A study with one record and one structure in a folder whose name holds a space."""
+    folder = tmp_path / "my study"
+    assert main(["start", str(folder)]) == 0
+    (folder / "structures.yaml").write_text(BLOCKS, encoding="utf-8")
+    sine_file(folder / "records" / "own record.txt")
+    assert main(["catalogue", str(folder / "records"), "--unit", "g"]) == 0
+    return folder
+
+
+def files(folder):
+    return {path.relative_to(folder) for path in folder.rglob("*")}
+
+
+def rows(path):
+    with path.open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def test_read_says_what_a_file_is(record, capsys):
+    assert main(["read", str(record), "--unit", "g"]) == 0
+    text = capsys.readouterr().out
+    assert "1001 samples every 0.01 s" in text
+    assert f"peak {0.5 * 9.80665:.4g} m/s² = 0.5 g" in text
+
+
+def test_pulse_recovers_the_sine_in_the_file(record, capsys):
+    assert main(["pulse", str(record), "--unit", "g"]) == 0
+    text = capsys.readouterr().out
+    assert "= 0.5 g, period 1 s, start 3.000 s, explains 100%" in text
+
+
+def test_scale_multiplies_the_record(record, capsys):
+    assert main(["pulse", str(record), "--unit", "g", "--scale", "-2"]) == 0
+    assert "= -1 g, period 1 s" in capsys.readouterr().out
+
+
+def test_a_raw_record_is_processed_as_in_a_study_and_says_so(capsys):
+    """The K-NET file that obspy installs holds raw counts."""
+    from obspy.core.util import get_example_file
+
+    assert main(["pulse", get_example_file("test.knet")]) == 0
+    assert "Least-squares line removed" in capsys.readouterr().out
+
+
+def test_assess_tells_overturning_from_no_uplift(record, blocks, capsys):
+    """Peak 0.5 g: below the uplift at tan α = 1 of the squat block, far above that of the slender one (1/6)."""
+    assert main(["assess", str(record), str(blocks), "--unit", "g"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split(": ")[1].split(";")[0] for line in lines] == ["overturns", "no uplift"]
+
+
+def test_assess_writes_report_and_tables_like_a_study(record, blocks, tmp_path, capsys):
+    arguments = ["assess", str(record), str(blocks), "squat", "--unit", "g", "--scale", "1.5"]
+    assert main([*arguments, "--output", str(tmp_path / "out")]) == 0
+    assert "multiplied by 1.5" in capsys.readouterr().out
+    folder = tmp_path / "out" / "own_record"
+    assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
+    comparison = rows(folder / "comparison.csv")
+    assert [row["structure"] for row in comparison] == ["squat"]
+    assert comparison[0]["scale_factor"] == "1.5"
+    assert rows(tmp_path / "out" / "summary" / "structures.csv")[0]["structure"] == "squat"
+
+
+def test_spectrum_agrees_with_the_integration_of_one_block(record, tmp_path):
+    target = tmp_path / "spectrum.csv"
+    assert main(["spectrum", str(record), "--unit", "g", "--output", str(target)]) == 0
+    table = rows(target)
+    assert len(table) == 40 * 40
+    rocks = [row for row in table if 0 < float(row["rotation_ratio"]) < math.inf]
+    chosen = rocks[len(rocks) // 2]
+    p, multiplier = float(chosen["frequency_parameter_rad_s"]), float(chosen["uplift_multiplier"])
+    block = rocking.EquivalentBlock(p, 0.1, 0.1 / multiplier, 0.9)
+    response = rocking.integrate(block, rocking.read(record, unit="g")[0])
+    # both are exact solutions of the same linear equation; only event times are iterated, to rounding
+    assert float(chosen["rotation_ratio"]) == pytest.approx(response.rotation_ratio, rel=1e-9)
+
+
+def test_catalogue_lists_what_reads_and_names_what_does_not(study, capsys):
+    (study / "records" / "letter.txt").write_text("Dear Sir or Madam\n", encoding="utf-8")
+    arguments = ["catalogue", str(study / "records"), "--unit", "g"]
+    assert main([*arguments, "--replace"]) == 0
+    printed = capsys.readouterr().out
+    assert "1 record\n" in printed
+    assert "not read: letter.txt: " in printed
+    assert [row["unit"] for row in rows(study / "records" / "catalogue.csv")] == ["g"]
+
+
+def test_a_catalogue_is_not_written_over_unasked(study, capsys):
+    before = (study / "records" / "catalogue.csv").read_bytes()
+    assert main(["catalogue", str(study / "records"), "--unit", "cm/s2"]) == 1
+    assert "--replace" in capsys.readouterr().err
+    assert (study / "records" / "catalogue.csv").read_bytes() == before
+
+
+def test_start_writes_the_shipped_settings_and_points_to_its_own_structures(tmp_path):
+    assert main(["start", str(tmp_path)]) == 0
+    shipped = yaml.safe_load((workflow_folder() / "workflow" / "config.yaml").read_text(encoding="utf-8"))
+    own = yaml.safe_load((tmp_path / "config.yaml").read_text(encoding="utf-8"))
+    assert own == shipped | {"structures": "structures.yaml"}
+    assert all((tmp_path / own[name]).exists() for name in ("structures", "calibration_catalogue"))
+
+
+def test_start_leaves_a_folder_with_a_study_alone(tmp_path, capsys):
+    (tmp_path / "structures.yaml").write_text("mine", encoding="utf-8")
+    assert main(["start", str(tmp_path)]) == 1
+    assert "exists already" in capsys.readouterr().err
+    assert files(tmp_path) == {Path("structures.yaml")}
+
+
+@pytest.mark.parametrize("relative", [True, False])
+def test_run_plans_a_study_in_its_own_folder(study, relative, monkeypatch, capfd):
+    monkeypatch.chdir(study.parent)
+    folder = study.name if relative else str(study)
+    assert main(["run", folder, "--", "--dry-run"]) == 0
+    told = capfd.readouterr()
+    assert "results/own_record/report.pdf" in told.out + told.err
+    assert not (study / "results").exists()
+
+
+@pytest.mark.slow
+def test_run_writes_the_results_into_the_study(study):
+    assert main(["run", str(study), "--", "--cores", "1", "--quiet"]) == 0
+    assert (study / "results" / "own_record" / "report.pdf").read_bytes().startswith(b"%PDF")
+    assert len(rows(study / "results" / "summary" / "comparison.csv")) == 2
+
+
+def _bad_inputs():
+    yield "no such file", ["read", "absent.AT2"], "absent.AT2"
+    yield "a folder", ["read", "."], "it is no regular file"
+    yield "an empty file", ["read", "empty"], "empty"
+    yield "an unknown format", ["read", "letter"], "no reader recognises"
+    yield "a unit not declared", ["read", "record"], "unit is not declared"
+    yield "an unknown unit", ["read", "record", "--unit", "furlong"], "furlong"
+    yield "a time step that contradicts", ["read", "record", "--unit", "g", "--time-step", "0.02"], "0.02"
+    yield "a scale of nothing", ["pulse", "record", "--unit", "g", "--scale", "0"], "scale_factor"
+    yield "a scale that is no number", ["pulse", "record", "--unit", "g", "--scale", "nan"], "scale_factor"
+    yield "a component that is not there", ["pulse", "two", "--unit", "g", "--component", "X"], "'X'"
+    yield "a list that is not there", ["assess", "record", "absent.yaml", "--unit", "g"], "absent.yaml"
+    yield "a list that is no list", ["assess", "record", "letter", "--unit", "g"], "must hold a list"
+    yield "a structure that is not listed", ["assess", "record", "list", "tower", "--unit", "g"], "'tower'"
+    yield "no record to assess", ["assess", "empty", "list", "--output", "out"], "empty"
+    yield "a restitution above 1", ["spectrum", "record", "--unit", "g", "--restitution", "2"], "restitution"
+    yield "a folder without records", ["catalogue", "nothing"], "no accelerogram was read"
+    yield "no folder", ["catalogue", "absent"], "this is no folder"
+    yield "no study", ["run", "nothing"], "config.yaml"
+    yield "no catalogue", ["run", "started"], "there is no catalogue yet"
+    yield "settings that are no mapping", ["run", "broken"], "no YAML mapping"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"), [case[1:] for case in _bad_inputs()], ids=[case[0] for case in _bad_inputs()]
+)
+def test_bad_input_is_one_sentence_and_nothing_written(arguments, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    sine_file(tmp_path / "record")
+    shutil.copy(ROOT / "records" / "synthetic_strong_pulse.AT2", "two")
+    Path("empty").touch()
+    Path("letter").write_text("Dear Sir or Madam\n", encoding="utf-8")
+    Path("list").write_text(BLOCKS, encoding="utf-8")
+    for name in ("nothing", "started", "broken"):
+        Path(name).mkdir()
+    Path("started/config.yaml").write_text("catalogue: records/catalogue.csv\n", encoding="utf-8")
+    Path("broken/config.yaml").write_text("- catalogue\n", encoding="utf-8")
+    before = files(tmp_path)
+    assert main(arguments) == 1
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert told.err.startswith("rocking: ") and told.err.count("\n") == 1 and said in told.err
+    assert files(tmp_path) == before
+
+
+@pytest.mark.slow
+def test_an_installed_wheel_carries_the_workflow(study, tmp_path):
+    """Built and unpacked away from the clone, the package starts and plans a study from what it carries."""
+    pytest.importorskip("hatchling", reason="the wheel is built with hatchling, of the extra build")
+    pip = [sys.executable, "-m", "pip"]
+    wheels, site = tmp_path / "wheels", tmp_path / "site"
+    build = [*pip, "wheel", str(ROOT), "--no-deps", "--no-build-isolation", "-q", "-w", str(wheels)]
+    subprocess.run(build, check=True)
+    subprocess.run(
+        [*pip, "install", "-q", "--no-deps", "--target", str(site), *wheels.glob("*.whl")], check=True
+    )
+    rocking_command = [sys.executable, "-m", "rocking.study.cli"]
+    environment = os.environ | {"PYTHONPATH": str(site)}
+    fresh = tmp_path / "fresh"
+    subprocess.run([*rocking_command, "start", str(fresh)], check=True, env=environment, cwd=tmp_path)
+    assert (fresh / "config.yaml").read_bytes() == (study / "config.yaml").read_bytes()
+    run = [*rocking_command, "run", str(study), "--", "--dry-run"]
+    told = subprocess.run(run, check=True, env=environment, cwd=tmp_path, capture_output=True, text=True)
+    assert f"Snakefile: {site}" in told.stdout + told.stderr

@@ -1,0 +1,186 @@
+"""A study of records: what fails becomes a row, and costs neither its record nor the others."""
+
+import hashlib
+import pickle
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+import yaml
+
+from rocking.assessment import columns
+from rocking.errors import StructureError
+from rocking.records.catalogue import CatalogueRecord
+from rocking.records.synthetic import SyntheticRecord, at2_text
+from rocking.structures import Block
+from rocking.study.run import Study, assess_record, assess_records
+from rocking.study.summary import structure_rows, write_summary
+from rocking.tables import read_rows
+
+ROOT = Path(__file__).parents[3]
+CONTENT = at2_text(SyntheticRecord("made", 1, 4.0, 0.6, 1.0, 1.0, 6.0, 0.01)).encode()
+
+
+@dataclass(frozen=True)
+class Impossible:
+    """A structure that cannot be described."""
+
+    def mechanism(self) -> None:
+        raise StructureError("it cannot stand.")
+
+
+def _study(**structures: object) -> Study:
+    settings = yaml.safe_load((ROOT / "workflow" / "config.yaml").read_text(encoding="utf-8"))
+    settings |= {"candidates": 0, "processing_variants": False}
+    made = Study.from_settings(settings, ROOT / "workflow" / "structures.yaml", "made")
+    object.__setattr__(made, "structures", structures or {"block": Block.of_size(0.5, 3.0)})
+    return made
+
+
+def _record(
+    folder: Path, identifier: str = "made", content: bytes = CONTENT, **cells: object
+) -> CatalogueRecord:
+    (folder / f"{identifier}.AT2").write_bytes(content)
+    made = {"sha256": hashlib.sha256(content).hexdigest(), "unit": "g", "folder": folder} | cells
+    return CatalogueRecord(identifier, f"{identifier}.AT2", **made)
+
+
+def test_a_structure_that_fails_does_not_take_the_record_with_it(tmp_path: Path) -> None:
+    study = _study(impossible=Impossible(), block=Block.of_size(0.5, 3.0))
+    assert assess_record(_record(tmp_path), study, tmp_path / "out") == ["it cannot stand."]
+    (failure,) = read_rows(tmp_path / "out" / "failures.csv")
+    assert (failure["structure"], failure["stage"]) == ("impossible", "responses")
+    alone = assess_record(_record(tmp_path), _study(), tmp_path / "alone")
+    assert alone == []
+    for name in ("responses.csv", "comparison.csv", "pulses.csv"):
+        assert (tmp_path / "out" / name).read_bytes() == (tmp_path / "alone" / name).read_bytes()
+
+
+def test_a_record_that_fails_has_all_its_tables_and_says_why(tmp_path: Path) -> None:
+    record = _record(tmp_path, content=b"not a record")
+    (sentence,) = assess_record(record, _study(), tmp_path / "out")
+    assert "made.AT2" in sentence
+    for table in columns.PER_RECORD:
+        rows = read_rows(tmp_path / "out" / table.file_name)
+        assert len(rows) == (1 if table.name in ("failures", "timings") else 0), table.name
+
+
+def test_a_file_is_not_read_before_its_hash_is_checked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import rocking.records.catalogue as catalogue
+
+    monkeypatch.setattr(catalogue, "read", lambda *_, **__: pytest.fail("read before its hash was checked"))
+    (sentence,) = assess_record(_record(tmp_path, sha256="0" * 64), _study(), tmp_path / "out")
+    assert "sha256" in sentence
+
+
+class _Trap:
+    def __reduce__(self) -> tuple[object, tuple[str]]:
+        return Path.touch, (Path("/tmp/rocking_ran_a_pickle"),)
+
+
+@pytest.mark.parametrize("head", [b"", b"obspy.core.stream"])
+def test_a_pickle_is_never_opened(tmp_path: Path, head: bytes) -> None:
+    """obspy.read would: it unpickles whatever says obspy.core.stream in its first 100 bytes."""
+    trap = Path("/tmp/rocking_ran_a_pickle")
+    content = pickle.dumps((head.decode(), _Trap()), protocol=0)
+    (sentence,) = assess_record(_record(tmp_path, content=content), _study(), tmp_path / "out")
+    assert not trap.exists()
+    assert "made.AT2" in sentence
+
+
+def test_no_source_loads_more_than_data() -> None:
+    """No pickle, no YAML loader but a safe one, no eval: neither in the package nor in the workflow."""
+    forbidden = (
+        "import pickle",
+        "pickle.load",
+        "allow_pickle=True",
+        "yaml.unsafe_load",
+        "yaml.full_load",
+        "yaml.Loader",
+    )
+    forbidden += ("yaml.FullLoader", "yaml.UnsafeLoader", " eval(", " exec(", "os.system(", "shell=True")
+    sources = [*(ROOT / "rocking").rglob("*.py"), *(ROOT / "workflow").rglob("*.py"), ROOT / "Snakefile"]
+    sources += (ROOT / "workflow").rglob("*.smk")
+    assert len(sources) > 50
+    found = [
+        (path.name, word)
+        for path in sources
+        for word in forbidden
+        if word in path.read_text(encoding="utf-8")
+    ]
+    assert not found
+    loads = [
+        line
+        for path in sources
+        for line in path.read_text(encoding="utf-8").splitlines()
+        if "yaml.load(" in line
+    ]
+    assert all("_StrictLoader" in line for line in loads), "a subclass of SafeLoader, tested with the plan"
+
+
+def test_the_log_has_a_line_for_each_record(tmp_path: Path) -> None:
+    records = [_record(tmp_path, "good"), _record(tmp_path, "bad", b"no record")]
+    assess_records(records, _study(), tmp_path / "out", tmp_path / "log")
+    good, bad = (tmp_path / "log").read_text().splitlines()
+    assert good == "good: assessed"
+    assert bad.startswith("bad: ") and "bad.AT2" in bad
+
+
+def test_two_assessments_of_the_same_record_are_equal_byte_for_byte(tmp_path: Path) -> None:
+    for name in ("one", "two"):
+        assess_record(_record(tmp_path), _study(), tmp_path / name)
+    for path in (tmp_path / "one").iterdir():
+        if path.name != "timings.csv":
+            assert path.read_bytes() == (tmp_path / "two" / path.name).read_bytes()
+
+
+def test_the_summary_holds_every_row_of_every_record(tmp_path: Path) -> None:
+    study = _study()
+    folders = []
+    for number in (1, 2):
+        folders.append(tmp_path / f"record_{number}")
+        assess_record(_record(tmp_path, f"record_{number}"), study, folders[-1])
+    write_summary(folders, study.structures, tmp_path / "summary")
+    for name in ("pulses", "comparison", "failures"):
+        parts = [row for folder in folders for row in read_rows(folder / f"{name}.csv")]
+        assert read_rows(tmp_path / "summary" / f"{name}.csv") == parts
+    maxima = read_rows(tmp_path / "summary" / "maxima.csv")
+    wanted = [
+        (row["record"], row["method"], row["rotation_ratio"])
+        for folder in folders
+        for name in ("predictions", "responses")
+        for row in read_rows(folder / f"{name}.csv")
+    ]
+    assert [(row["record"], row["method"], row["rotation_ratio"]) for row in maxima] == wanted
+
+
+def test_the_error_of_each_method_is_against_the_mechanism_on_the_record(tmp_path: Path) -> None:
+    study = _study(stout=Block.of_size(1.0, 3.0))
+    assess_record(_record(tmp_path), study, tmp_path / "made")
+    write_summary([tmp_path / "made"], study.structures, tmp_path / "summary")
+    maxima = {row["method"]: row for row in read_rows(tmp_path / "summary" / "maxima.csv")}
+    reference = float(maxima["mechanism on record"]["rotation_ratio"])
+    assert 0 < reference < 1, "the record was made so that the block rocks"
+    assert maxima["mechanism on record"]["error"] == ""
+    for method, row in maxima.items():
+        if row["error"]:
+            assert method != "mechanism on record"
+            assert float(row["error"]) == pytest.approx(
+                float(row["rotation_ratio"]) / reference - 1, rel=1e-12
+            )
+    assert maxima["closed form"]["error"] or float(maxima["closed form"]["rotation_ratio"]) in (
+        0,
+        float("inf"),
+    )
+
+
+def test_the_structures_table_carries_the_block_of_the_closed_form() -> None:
+    """λ = tan α, φ_cr = α and p² = 3g/4R of a single block, in numbers that were worked out by hand."""
+    (row,) = structure_rows({"block": Block.of_size(0.5, 3.0)})
+    assert row["uplift_multiplier"] == pytest.approx(0.5 / 3.0, rel=1e-14)
+    assert row["critical_rotation_rad"] == pytest.approx(0.16514867741462683, rel=1e-14)
+    assert row["frequency_parameter_rad_s"] == pytest.approx(
+        (0.75 * 9.80665 / 1.5206906325745548) ** 0.5, rel=1e-14
+    )

@@ -1,0 +1,24 @@
+"""The one g, and the doors of units."""
+
+import pytest
+from scipy.constants import g
+
+from rocking.errors import RecordError
+from rocking.quantities import GRAVITY, acceleration_factor
+
+
+def test_gravity_is_the_standard_one():
+    assert g == GRAVITY
+
+
+@pytest.mark.parametrize(
+    ("unit", "factor"),
+    [("g", g), ("cm/s²", 0.01), ("cm/s/s", 0.01), ("GAL", 0.01), ("m/s**2", 1.0), ("mg", g / 1000)],
+)
+def test_spellings(unit, factor):
+    assert acceleration_factor(unit) == factor
+
+
+def test_an_unknown_unit_is_refused_with_the_known_ones():
+    with pytest.raises(RecordError, match=r"furlong.*gal"):
+        acceleration_factor("furlong")
