@@ -14,16 +14,17 @@ _FOLDER = Path(__file__).parent
 _FONT_FOLDER = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 
 
-def compile_document(template: str, data: Mapping[str, object]) -> bytes:
-    """Set `template` (a .typ file of this package) with `data` and return the PDF.
+def compile_document(template: str | Path, data: Mapping[str, object]) -> bytes:
+    """Set `template` with `data` and return the PDF. template: a .typ file of this folder, by its name; or a path
+    anywhere else, whose content then stands as if it were in this folder.
 
     Every text in `data` is printed as it is: it reaches the template as JSON and is never parsed as markup. The date
     of the document is fixed, because PDF/A asks for one and the same input must give the same bytes.
     """
     text = json.dumps(data, ensure_ascii=False)
     foreign = not glyphs().issuperset(map(ord, set(text)))
-    return typst.compile(
-        _FOLDER / template,
+    return typst.compile(  # type: ignore[call-overload,no-any-return]  # its stub wants input and root of one type
+        template.read_bytes() if isinstance(template, Path) else _FOLDER / template,
         root=_FOLDER,
         font_paths=_fonts(foreign),
         ignore_system_fonts=True,

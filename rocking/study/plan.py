@@ -56,11 +56,10 @@ _DO_NOT_CHANGE_NUMBERS = {
 
 
 _CHANGE_NO_NUMBER = (
-    "documentation/",
     "reports/",
     *(
         f"study/{name}.py"
-        for name in ("cli", "paper", "record_reports", "single_record", "summary_report", "workspace")
+        for name in ("cli", "record_reports", "single_record", "summary_report", "workspace")
     ),
 )
 """Source whose edit leaves every number of a table as it is."""

@@ -18,7 +18,6 @@ FLOORS = [
     {"assessment"},
     {"calibration", "reports"},
     {"study"},
-    {"documentation"},
 ]
 ONLY_IN = {
     "obspy": ("records/",),

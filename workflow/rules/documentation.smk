@@ -1,21 +1,24 @@
 """Set the documentation, filled from the code it describes: snakemake documentation."""
 
-from rocking.documentation import PAGES
-
 
 rule documentation:
     input:
-        pages=[str(page.path) for page in PAGES],
+        pages=sorted(
+            str(path)
+            for path in Path(workflow.basedir, "docs").rglob("*")
+            if path.suffix in (".md", ".py", ".typ")
+        ),
         schemas=[
             f"{workflow.basedir}/workflow/schemas/{name}.schema.yaml"
             for name in ("config", "structures")
         ],
         settings=f"{workflow.basedir}/workflow/config.yaml",
     output:
-        [f"{RESULTS}/documentation/{page.name}.html" for page in PAGES],
+        directory(f"{RESULTS}/documentation"),
     log:
-        f"{RESULTS}/documentation/log.txt",
+        f"{SUMMARY}/logs/documentation.log",
     params:
+        home=workflow.basedir,
         package_sha256=PACKAGE,
     message:
         "Set the documentation"

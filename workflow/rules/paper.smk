@@ -4,6 +4,11 @@
 rule paper:
     input:
         catalogue=config["calibration_catalogue"],
+        source=sorted(
+            str(path)
+            for path in Path(workflow.basedir, "docs", "paper").iterdir()
+            if path.is_file()
+        ),
     output:
         directory(f"{RESULTS}/paper"),
     log:
@@ -11,6 +16,7 @@ rule paper:
     benchmark:
         f"{SUMMARY}/benchmarks/paper.tsv"
     params:
+        home=workflow.basedir,
         package_sha256=PACKAGE,
     message:
         "Redraw the figures of the paper"

@@ -1,10 +1,12 @@
-"""Set the documentation: snakemake.* onto rocking.documentation."""
+"""Set the documentation: snakemake.* onto docs.site."""
 
+import sys
 from pathlib import Path
 
-from rocking.documentation import write_site
-
 if __name__ == "__main__":
+    sys.path.append(snakemake.params.home)
+    from docs.site import write_site
+
     workflow_folder = Path(snakemake.input.settings).parent
-    written = write_site(Path(snakemake.output[0]).parent, workflow_folder)
+    written = write_site(Path(snakemake.output[0]), workflow_folder)
     Path(snakemake.log[0]).write_text("\n".join(map(str, written)) + "\n", encoding="utf-8")

@@ -1,10 +1,12 @@
-"""Redraw the figures of the paper: snakemake.* onto rocking.study.paper."""
+"""Redraw the figures of the paper: snakemake.* onto docs.paper."""
 
+import sys
 from pathlib import Path
 
-from rocking.study.paper import write_paper
-
 if __name__ == "__main__":
+    sys.path.append(snakemake.params.home)
+    from docs.paper.write import write_paper
+
     files, mirror = snakemake.input, snakemake.config["mirror"]
     message = write_paper(Path(files.catalogue), mirror, Path(snakemake.output[0]))
     Path(snakemake.log[0]).write_text(f"{message}\n", encoding="utf-8")

@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from rocking.documentation.generated import GENERATED
+from docs.site.generated import GENERATED
 from rocking.errors import ConfigurationError
 
 _GENERATED = re.compile(r"^<!-- generated: (\w+) -->$", re.M)
@@ -20,8 +20,8 @@ class Page:
 
     @property
     def path(self) -> Path:
-        """The Markdown file, inside the package."""
-        return Path(__file__).parent / f"{self.name}.md"
+        """The Markdown file."""
+        return Path(__file__).parents[1] / "pages" / f"{self.name}.md"
 
 
 PAGES = (

@@ -6,8 +6,8 @@ from typing import Any
 
 import yaml
 
+from docs.site.signatures import python_names
 from rocking.assessment import columns
-from rocking.documentation.signatures import python_names
 from rocking.quantities import ACCELERATION_UNITS
 from rocking.records.formats import FORMATS
 from rocking.tables import Table
@@ -45,7 +45,7 @@ def tables(_: Path) -> str:
 
 def equations(_: Path) -> str:
     """The equations that the paper prints with a slip, with the numbers that decide."""
-    from rocking.reports.paper_equations import (
+    from docs.paper.equations import (
         equation_rows,  # compiles the integration, which only this needs
     )
 

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from docs.paper.curves import ROTATION, Curve
 from rocking.motion.integration import integrate
 from rocking.pulses import Pulse, extract_pulses
 from rocking.records.accelerogram import Accelerogram
-from rocking.reports.paper_curves import ROTATION, Curve
 from rocking.reports.style import thinned
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures.arch import Arch

@@ -2,17 +2,18 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from docs.paper import curves
+from docs.paper.equations import EQUATIONS, equation_rows
+from docs.paper.figures import arch_response, panels, pulse_map
+from docs.paper.response import example_arch, response_curves
 from rocking.records.accelerogram import Accelerogram
-from rocking.reports import paper_curves as curves
 from rocking.reports import printing
 from rocking.reports.document import compile_document
-from rocking.reports.paper_equations import EQUATIONS, equation_rows
-from rocking.reports.paper_figures import arch_response, panels, pulse_map
-from rocking.reports.paper_response import example_arch, response_curves
 from rocking.reports.style import svg
 from rocking.sine_pulse import pulse_spectrum
 from rocking.tables import Column, Row, Table, csv_cells
@@ -45,7 +46,7 @@ def paper_report(figures: Sequence[PaperFigure], equations: Sequence[Row]) -> by
         "figures": [{"svg": svg(f.figure), "caption": f.caption, "name": f.name} for f in figures],
         "equations": equation_table([csv_cells(EQUATIONS, row) for row in equations]),
     }
-    return compile_document("paper.typ", data)
+    return compile_document(Path(__file__).with_name("paper.typ"), data)
 
 
 def equation_table(rows: Sequence[printing.Row]) -> dict[str, object]:

@@ -15,9 +15,9 @@ import pytest
 import yaml
 
 import rocking
+from docs.site import PAGES, Page, pages, python_blocks, read_page, write_site
+from docs.site.signatures import MODULES
 from rocking.assessment import columns
-from rocking.documentation import PAGES, Page, pages, python_blocks, read_page, write_site
-from rocking.documentation.signatures import MODULES
 from rocking.errors import ConfigurationError
 from rocking.records.formats import FORMATS
 from rocking.structures import load_structures
@@ -161,7 +161,7 @@ def test_the_site_leaves_nothing_of_the_code_out(site):
 
 
 def test_the_table_of_equations_is_that_of_the_code(site):
-    from rocking.reports.paper_equations import equation_rows
+    from docs.paper.equations import equation_rows
 
     cells = re.findall(r"<td>(.*?)</td>", site["theory.html"])
     for row in equation_rows():
@@ -185,7 +185,7 @@ def test_a_missing_package_is_said_in_one_sentence(tmp_path, monkeypatch):
 
 
 def test_a_bar_in_a_cell_does_not_split_it():
-    from rocking.documentation.generated import table
+    from docs.site.generated import table
 
     assert table(("a",), [("float | None",)]).splitlines()[2] == "| float &#124; None |"
 

@@ -3,7 +3,7 @@
 A line `<!-- generated: NAME -->` in a page is replaced by what the function NAME of `generated` returns.
 """
 
-from rocking.documentation.pages import PAGES, Page, python_blocks, read_page
-from rocking.documentation.site import write_site
+from docs.site.pages import PAGES, Page, python_blocks, read_page
+from docs.site.site import write_site
 
 __all__ = ["PAGES", "Page", "python_blocks", "read_page", "write_site"]

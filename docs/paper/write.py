@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
+from docs.paper.report import EQUATIONS, equation_rows, paper_figures, paper_report
 from rocking.errors import RecordError
 from rocking.records.catalogue import load_catalogue, open_record
-from rocking.reports.paper import EQUATIONS, equation_rows, paper_figures, paper_report
 from rocking.reports.style import svg
 from rocking.tables import write_table, write_whole
 

@@ -6,11 +6,11 @@ import math
 import numpy as np
 import pytest
 
+from docs.paper import curves as paper_curves
+from docs.paper.equations import drawn_gravity, drawn_ground, drawn_inertia
+from docs.paper.report import EQUATIONS, equation_rows, paper_figures, paper_report
+from docs.paper.response import RADII, example_arch, response_curves
 from rocking.records import read
-from rocking.reports import paper_curves
-from rocking.reports.paper import EQUATIONS, equation_rows, paper_figures, paper_report
-from rocking.reports.paper_equations import drawn_gravity, drawn_ground, drawn_inertia
-from rocking.reports.paper_response import RADII, example_arch, response_curves
 from rocking.structures import Block
 from rocking.tables import csv_lines
 

@@ -3,7 +3,7 @@
 from html import escape
 from pathlib import Path
 
-from rocking.documentation.pages import PAGES, Page, read_page
+from docs.site.pages import PAGES, Page, read_page
 from rocking.errors import ConfigurationError
 from rocking.tables import write_whole
 

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.reports.paper_curves import ROTATION, Curve
+from docs.paper.curves import ROTATION, Curve
 from rocking.reports.style import new_figure, plain_logarithmic, styled
 from rocking.structures.arch import Arch
 

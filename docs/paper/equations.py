@@ -8,10 +8,10 @@ import math
 
 import numpy as np
 
+from docs.paper.curves import HEIGHT_RATIOS, hinge_height_curves, printed_frequency_parameter
 from rocking.motion.integration import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY
-from rocking.reports.paper_curves import HEIGHT_RATIOS, hinge_height_curves, printed_frequency_parameter
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures.block import Block
 from rocking.structures.mechanism import EquivalentBlock
