@@ -1,7 +1,7 @@
 """One record against one list of structures: predictions, integrations, and the two side by side."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from time import process_time
 from typing import Literal
@@ -12,8 +12,18 @@ from rocking.errors import ConfigurationError, PulseError, RockingError
 from rocking.motion.contact_check import UNKNOWN, ModelCheck, check_model
 from rocking.motion.integration import integrate
 from rocking.motion.response import Response
-from rocking.pulses import Light, Pulse, PulseAnalysis, PulseSettings, extract_pulses, light
-from rocking.pulses.choice import chosen_by_demand
+from rocking.pulses import (
+    DEFAULT_PULSE_METHOD,
+    PULSE_METHODS,
+    Light,
+    Pulse,
+    PulseAnalysis,
+    PulseEvidence,
+    PulseSettings,
+    extract_pulses,
+    light,
+    predicting_pulse,
+)
 from rocking.pulses.interval import PulseInterval, pulse_interval
 from rocking.quantities import GRAVITY, positive, within
 from rocking.records import Accelerogram
@@ -28,8 +38,8 @@ class AssessmentSettings:
 
     acceleration_scale: which scale the equivalent block carries. tolerance: of the nonlinear integration.
     fragility_change: relative change of the ground motion that must not flip a verdict. bootstrap_replicates: of the
-    interval of the pulse, 0 for none. pulse_choice: the pulse that explains most of the record, or, of its first five,
-    the one that demands most of each structure. friction_coefficient: beyond which a contact slides.
+    interval of the pulse, 0 for none. pulse_choice: name of the pulse method, one of PULSE_METHODS.
+    friction_coefficient: beyond which a contact slides.
     fidelity: full: every method, to compare them; auto: the cheapest that rocking.assessment.fidelity trusts to be
     within fidelity_tolerance of the mechanism, and unsafe in at most fidelity_risk of the answers.
     """
@@ -38,9 +48,9 @@ class AssessmentSettings:
     tolerance: float = 1e-6
     fragility_change: float = 0.01
     pulse: PulseSettings = field(default_factory=PulseSettings)
-    bootstrap_replicates: int = 100
+    bootstrap_replicates: int = 0
     friction_coefficient: float = 0.6
-    pulse_choice: Literal["energy", "demand"] = "energy"
+    pulse_choice: str = DEFAULT_PULSE_METHOD
     fidelity: Literal["full", "auto"] = "full"
     fidelity_tolerance: float = 0.1
     fidelity_risk: float = 0.01
@@ -51,13 +61,18 @@ class AssessmentSettings:
         positive(ConfigurationError, "friction_coefficient", self.friction_coefficient)
         within(ConfigurationError, "fidelity_tolerance", self.fidelity_tolerance, 0, 1)
         within(ConfigurationError, "fidelity_risk", self.fidelity_risk, 0, 1)
+        if self.pulse_choice not in PULSE_METHODS:
+            raise ConfigurationError(
+                f"pulse_choice is {self.pulse_choice!r}, but must be one of {', '.join(PULSE_METHODS)}."
+            )
 
 
 @dataclass(frozen=True)
 class Prediction:
     """The closed forms of one structure under one pulse, and how far to trust them.
 
-    rank: of the pulse among those of the record. low, high: 90 % band from the interval of the pulse, nan without one.
+    rank: of the pulse among those that its method offers. low, high: 90 % band from the interval of the pulse, nan
+    without one.
     """
 
     block: EquivalentBlock
@@ -99,11 +114,15 @@ class Failure:
 
 @dataclass(frozen=True)
 class Assessment:
-    """One accelerogram against all structures. analysis and interval are None where no pulse could be sought."""
+    """One accelerogram against all structures. analysis and interval are None where no pulse could be sought.
+
+    candidates: the pulses that the chosen method offers for prediction, none where it fails.
+    """
 
     accelerogram: Accelerogram
     analysis: PulseAnalysis | None
     interval: PulseInterval | None
+    candidates: tuple[PulseEvidence, ...]
     cases: tuple[Case, ...]
     failures: tuple[Failure, ...]
     durations: Mapping[str, float]
@@ -121,31 +140,34 @@ def assess(
     started = process_time()
     failures: list[Failure] = []
     analysis = interval = None
+    candidates: tuple[PulseEvidence, ...] = ()
     try:
         analysis = extract_pulses(accelerogram, settings=settings.pulse)
         interval = _interval(analysis, settings)
+        candidates = PULSE_METHODS[settings.pulse_choice].candidates(analysis)
     except PulseError as error:
         failures.append(Failure("pulses", "", str(error)))
     extracted = process_time()
     cases = []
     for name, structure in structures.items():
         try:
-            cases.append(_case(name, structure, analysis, interval, accelerogram, settings, vertical))
+            cases.append(_case(name, structure, candidates, interval, accelerogram, settings, vertical))
         except RockingError as error:
             failures.append(Failure("responses", name, str(error)))
     durations = {"pulses": extracted - started, "responses": process_time() - extracted}
-    return Assessment(accelerogram, analysis, interval, tuple(cases), tuple(failures), durations)
+    return Assessment(accelerogram, analysis, interval, candidates, tuple(cases), tuple(failures), durations)
 
 
 def predict(
     mechanism: Mechanism,
-    analysis: PulseAnalysis,
+    candidates: Sequence[PulseEvidence],
     interval: PulseInterval | None = None,
     settings: AssessmentSettings | None = None,
 ) -> Prediction:
-    """Return the closed forms of the equivalent block of `mechanism` under the pulse that `settings` choose.
+    """Return the closed forms of the equivalent block of `mechanism` under the candidate of largest demand.
 
-    interval: of the dominant pulse, whose band the prediction then carries; another pulse carries none.
+    candidates: as a pulse method offers them. interval: of one pulse, whose band its prediction then carries; another
+    pulse carries none.
     """
     settings = settings or AssessmentSettings()
     block = mechanism.equivalent_block(settings.acceleration_scale)
@@ -153,14 +175,14 @@ def predict(
     def demand(pulse: Pulse) -> float:
         return predict_maximum(block, pulse).rotation_ratio
 
-    chosen = chosen_by_demand(analysis, demand) if settings.pulse_choice == "demand" else analysis.evidence
-    pulse, dominant = chosen.pulse, chosen is analysis.evidence
+    chosen = predicting_pulse(candidates, demand)
+    pulse = chosen.pulse
     amplitude_ratio = abs(pulse.amplitude) / (GRAVITY * _uplift_multiplier(block, pulse))
-    low, high = interval.band(demand) if interval and dominant else (math.nan, math.nan)
+    low, high = interval.band(demand) if interval and interval.pulse == pulse else (math.nan, math.nan)
     return Prediction(
         block=block,
         pulse=pulse,
-        rank=analysis.ranked.index(chosen) + 1,
+        rank=candidates.index(chosen) + 1,
         amplitude_ratio=amplitude_ratio,
         frequency_ratio=pulse.circular_frequency / block.frequency_parameter,
         printed=printed_maximum(block, pulse),
@@ -206,14 +228,14 @@ def _interval(analysis: PulseAnalysis, settings: AssessmentSettings) -> PulseInt
 def _case(
     name: str,
     structure: Structure,
-    analysis: PulseAnalysis | None,
+    candidates: Sequence[PulseEvidence],
     interval: PulseInterval | None,
     accelerogram: Accelerogram,
     settings: AssessmentSettings,
     vertical: Accelerogram | None,
 ) -> Case:
     mechanism, full = structure.mechanism(), settings.fidelity == "full"
-    prediction = predict(mechanism, analysis, interval if full else None, settings) if analysis else None
+    prediction = predict(mechanism, candidates, interval if full else None, settings) if candidates else None
     if full:
         responses = _responses(mechanism, accelerogram, settings, vertical)
         whole = responses[Method.MECHANISM_ON_RECORD]

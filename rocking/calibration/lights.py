@@ -15,7 +15,7 @@ import numpy as np
 from rocking.assessment.assess import AssessmentSettings, predict
 from rocking.errors import PulseError
 from rocking.motion.integration import integrate
-from rocking.pulses import Light, PulseAnalysis, extract_pulses, light
+from rocking.pulses import Light, PulseAnalysis, extract_pulses, light, pulse_method
 from rocking.pulses.evidence import Thresholds
 from rocking.pulses.reliability import Reliability
 from rocking.records import Accelerogram
@@ -137,7 +137,9 @@ def compare(
     for scale, (name, structure) in itertools.product(SCALES, structures.items()):
         mechanism, scaled = structure.mechanism(), accelerogram.scaled(scale)
         analysed: PulseAnalysis = analysis if scale == 1 else extract_pulses(scaled, settings=settings.pulse)
-        prediction = predict(mechanism, analysed, None, settings)
+        prediction = predict(
+            mechanism, pulse_method(settings.pulse_choice).candidates(analysed), None, settings
+        )
         yield Comparison(
             record,
             site,

@@ -17,7 +17,7 @@ from rocking.assessment.fidelity import (
     stays_at_rest,
 )
 from rocking.motion.integration import integrate
-from rocking.pulses import Light, PulseAnalysis, extract_pulses
+from rocking.pulses import Light, PulseAnalysis, extract_pulses, pulse_method
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import Mechanism, Structure
@@ -104,7 +104,7 @@ def trials(
 def _measured(
     mechanism: Mechanism, accelerogram: Accelerogram, analysis: PulseAnalysis, settings: AssessmentSettings
 ) -> dict:
-    prediction = predict(mechanism, analysis, None, settings)
+    prediction = predict(mechanism, pulse_method(settings.pulse_choice).candidates(analysis), None, settings)
     block = prediction.block
     whole = integrate(
         mechanism, accelerogram, settings.tolerance

@@ -1,17 +1,20 @@
 """The dominant sine pulse of a record, its rivals, and the evidence to trust or refuse it."""
 
 from rocking.pulses.analysis import PulseAnalysis, PulseEvidence
-from rocking.pulses.choice import chosen_by_demand
 from rocking.pulses.evidence import THRESHOLDS, Light, Thresholds, light
 from rocking.pulses.extraction import energy_map, extract_pulses
 from rocking.pulses.flags import Flag
 from rocking.pulses.interval import PulseInterval, pulse_interval
+from rocking.pulses.method import PulseMethod, predicting_pulse
+from rocking.pulses.methods import DEFAULT_PULSE_METHOD, PULSE_METHODS, pulse_method
 from rocking.pulses.orientation import OrientedAnalysis, extract_pulses_oriented
 from rocking.pulses.pulse import Pulse
 from rocking.pulses.settings import PulseSettings
 from rocking.pulses.velocity_pulse import VelocityPulse, velocity_pulse
 
 __all__ = [
+    "DEFAULT_PULSE_METHOD",
+    "PULSE_METHODS",
     "THRESHOLDS",
     "Flag",
     "Light",
@@ -20,14 +23,16 @@ __all__ = [
     "PulseAnalysis",
     "PulseEvidence",
     "PulseInterval",
+    "PulseMethod",
     "PulseSettings",
     "Thresholds",
     "VelocityPulse",
-    "chosen_by_demand",
     "energy_map",
     "extract_pulses",
     "extract_pulses_oriented",
     "light",
+    "predicting_pulse",
     "pulse_interval",
+    "pulse_method",
     "velocity_pulse",
 ]

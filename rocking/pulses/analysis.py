@@ -14,7 +14,8 @@ from rocking.records.accelerogram import Accelerogram
 class PulseEvidence:
     """One pulse and what the record says for it.
 
-    gain: ⟨a, s⟩²/⟨s, s⟩, m²/s³, the acceleration energy ∫a² dt that the pulse takes out of the record.
+    gain: ‖a‖² − ‖a − s‖², m²/s³, the acceleration energy ∫a² dt that the pulse takes out of the record; ⟨a, s⟩²/⟨s, s⟩
+    at the amplitude of least squares.
     explained_energy: 1 − ‖a − s‖²/‖a‖² of the record it was sought in.
     phase: rad in (−π, π], shape of the motion where its envelope at ω_g is largest, within half a cycle of the pulse:
     0 for a sine, π for its negative, ±π/2 for a cosine.
@@ -34,6 +35,17 @@ class PulseEvidence:
     def interval(self) -> tuple[float, float]:
         """Times at which the cycle starts and ends, s."""
         return self.pulse.start_time, self.pulse.end_time
+
+
+def evidence_of(pulse: Pulse, accelerogram: Accelerogram) -> PulseEvidence:
+    """Return what the record says for any pulse, also one that was not fitted to it; its gain may then be negative."""
+    from rocking.pulses.scan import envelope_phase
+
+    samples, step = accelerogram.acceleration, accelerogram.time_step
+    left = samples - pulse.acceleration(accelerogram.times)
+    energy, gain = float(np.square(samples).sum()), float((np.square(samples) - np.square(left)).sum())
+    phase = envelope_phase(samples, round(pulse.start_time / step), pulse.circular_frequency * step)
+    return PulseEvidence(pulse, gain * step, gain / energy, phase)
 
 
 @dataclass(frozen=True, eq=False)

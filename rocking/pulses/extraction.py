@@ -15,7 +15,7 @@ from rocking.records.accelerogram import Accelerogram
 NOTHING_LEFT = 1e-20
 """Share of the record's energy below which what the pursuit leaves, or what a cycle gains, is rounding."""
 LEAST_PEAK, GREATEST_PEAK = 1e-100, 1e100
-"""Peak accelerations, m/s², whose squares can be told from zero and from infinity."""
+"""Peak accelerations, m/s², whose squares neither vanish nor overflow."""
 
 
 def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None = None) -> PulseAnalysis:

@@ -26,10 +26,12 @@ SEED_DIGITS = 16
 class PulseInterval:
     """The interval of one pulse: each pair holds the lower and upper end at `level`, of that quantity alone.
 
-    amplitude: m/s². period: s. start_time: s. pulses: the replicates, for what depends on all three at once.
+    pulse: whose interval it is. amplitude: m/s². period: s. start_time: s. pulses: the replicates, for what depends on
+    all three at once.
     It says how well this pulse is fixed, not whether another one should stand for the record.
     """
 
+    pulse: Pulse
     level: float
     amplitude: tuple[float, float]
     period: tuple[float, float]
@@ -65,6 +67,7 @@ def pulse_interval(
     rng = np.random.default_rng(int(record.sha256[:SEED_DIGITS], 16))
     found = tuple(_replicate(search, pulse, residual, *draw) for draw in _draws(residual, replicates, rng))
     return PulseInterval(
+        pulse,
         level,
         _ends(np.array([pulse.amplitude for pulse in found]), level),
         _ends(np.array([pulse.period for pulse in found]), level),

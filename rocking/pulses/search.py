@@ -145,12 +145,20 @@ class PulseSearch:
         return slice(max(first, 0), min(last, count))
 
     def near(self, pulse: Pulse, samples: np.ndarray, window: slice) -> Pulse:
-        """Return the best pulse in `samples`, which fill `window`, within half a period and half an octave."""
+        """Return the best pulse in `samples`, which fill `window`, within half a period and half an octave.
+
+        Raises PulseError where no such cycle lies in the window or the samples there are still.
+        """
         steps = round(NEAR_OCTAVES * self.settings.per_octave)
         frequencies = 2.0 ** (np.arange(-steps, steps + 1) / self.settings.per_octave) / pulse.period
         frequencies = np.unique(np.clip(frequencies, *self.band.limits))
         onsets = math.ceil((pulse.start_time + NEAR_TIME * pulse.period) / self.time_step) + 1 - window.start
         maxima = _maxima(samples[np.newaxis], self.time_step, frequencies, slice(0, onsets), NEAR_BEST)
+        if not maxima.gains.size:
+            raise PulseError(
+                f"No sine of about {pulse.period:.3g} s lies within the record near {pulse.start_time:.3g} s; "
+                "give a longer record or another pulse method."
+            )
         best = np.argmax(maxima.gains)
         frequency = float(frequencies[maxima.columns[best]])
         found = self.refined(samples, 1.0, int(maxima.onsets[best]), frequency).pulse

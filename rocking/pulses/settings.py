@@ -1,4 +1,4 @@
-"""PulseSettings: the band that is searched and how many pulses are told."""
+"""PulseSettings: the band that is searched and how many pulses are reported."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ class PulseSettings:
     """What is searched in a record, and how much of it is reported.
 
     lowest_frequency, highest_frequency: Hz, the band of 1/T. per_octave: frequencies scanned in one octave.
-    candidates: maxima of the scan that are refined. alternatives: pulses told, the dominant one among them.
+    candidates: maxima of the scan that are refined. alternatives: pulses reported, the dominant one among them.
     pursuit: pulses of the pursuit sequence. overlap: two pulses whose common time divided by their joint time
     reaches this count as one. samples_per_cycle: the fewest samples that can carry one cycle.
     Raises PulseError when a value is outside what is allowed.

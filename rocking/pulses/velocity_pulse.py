@@ -63,18 +63,33 @@ def velocity_pulse(first: Accelerogram, second: Accelerogram) -> VelocityPulse:
 
     Raises PulseError when the components differ in time step or no pulse of the shortest period fits.
     """
-    from scipy import integrate
-
-    accelerations = same_sampling(first, second)
     step = first.time_step
-    velocities = integrate.cumulative_trapezoid(accelerations, dx=step, initial=0)
-    if not np.any(velocities):
-        raise PulseError(
-            "Both components are zero throughout, but a velocity pulse needs motion; check the file."
-        )
+    velocities = _velocities(same_sampling(first, second), step)
     scales = searched_scales(step, velocities.shape[1])
     judged = [_judged(velocities, step, scales, row, column) for row, column in _largest(velocities, scales)]
     return next((pulse for pulse in judged if pulse.pulse_like), judged[0])
+
+
+def largest_velocity_pulse(accelerogram: Accelerogram) -> tuple[float, float]:
+    """Return (T_p, centre) in s of the largest velocity pulse of one component, whether or not it is pulse-like.
+
+    Raises PulseError when the record is still or too short for a pulse.
+    """
+    step = accelerogram.time_step
+    velocities = _velocities(accelerogram.acceleration[np.newaxis], step)
+    scales = searched_scales(step, velocities.shape[1])
+    row, column = _largest(velocities, scales, 1)[0]
+    return PERIOD_OF_SCALE * _refined_scale(velocities[0], scales, row, column) * step, column * step
+
+
+def _velocities(accelerations: np.ndarray, step: float) -> np.ndarray:
+    from scipy import integrate
+
+    if not np.any(accelerations):
+        raise PulseError(
+            "The motion is zero throughout, but a velocity pulse needs one that moves; check the file."
+        )
+    return integrate.cumulative_trapezoid(accelerations, dx=step, initial=0)
 
 
 def pulse_indicator(peak_ratio: float, energy_ratio: float, peak_velocity: float) -> float:
@@ -128,11 +143,13 @@ def _transform(velocities: np.ndarray, scale: int) -> np.ndarray:
     return full[..., half : half + velocities.shape[-1]]
 
 
-def _largest(velocities: np.ndarray, scales: np.ndarray) -> list[tuple[int, int]]:
+def _largest(
+    velocities: np.ndarray, scales: np.ndarray, count: int = POTENTIAL_PULSES
+) -> list[tuple[int, int]]:
     """(scale index, sample) of the largest coefficients over all orientations, c₁² + c₂², each keeping its room."""
     squares = np.array([(_transform(velocities, int(scale)) ** 2).sum(axis=0) for scale in scales])
     found = []
-    for _ in range(POTENTIAL_PULSES):
+    for _ in range(count):
         row, column = np.unravel_index(np.argmax(squares), squares.shape)
         found.append((int(row), int(column)))
         room = NEIGHBOURHOOD * scales[row]
@@ -145,8 +162,7 @@ def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, c
     first, second = (_at(velocity, int(scales[row]), column) for velocity in velocities)
     orientation = math.atan(second / first) if first else math.pi / 2
     velocity = velocities[0] * math.cos(orientation) + velocities[1] * math.sin(orientation)
-    finer = range(int(scales[max(row - 1, 0)]), int(scales[min(row + 1, len(scales) - 1)]) + 1)
-    scale = max(finer, key=lambda candidate: abs(_at(velocity, candidate, column)))
+    scale = _refined_scale(velocity, scales, row, column)
     pulse, centre = _extracted(velocity, scale, column)
     peak, left = np.abs(velocity).max(), np.abs(velocity - pulse).max()
     energy = ((velocity - pulse) ** 2).sum() / (velocity**2).sum()
@@ -159,6 +175,12 @@ def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, c
         late=_late(velocity, pulse),
         centre_time=centre * step,
     )
+
+
+def _refined_scale(velocity: np.ndarray, scales: np.ndarray, row: int, column: int) -> int:
+    """Scale, to one sample, of the largest coefficient between the neighbours of one scale of the first search."""
+    finer = range(int(scales[max(row - 1, 0)]), int(scales[min(row + 1, len(scales) - 1)]) + 1)
+    return max(finer, key=lambda candidate: abs(_at(velocity, candidate, column)))
 
 
 def _at(velocity: np.ndarray, scale: int, column: int) -> float:

@@ -82,11 +82,11 @@ def _paired(first: Accelerogram, second: Accelerogram) -> tuple[np.ndarray, np.n
 
 
 def _together(first: Accelerogram, second: Accelerogram) -> tuple[str, ...]:
-    told = tuple(dict.fromkeys((*first.warnings, *second.warnings)))
+    warnings = tuple(dict.fromkeys((*first.warnings, *second.warnings)))
     if first.acceleration.size == second.acceleration.size:
-        return told
+        return warnings
     sizes = sorted((first.acceleration.size, second.acceleration.size))
     return (
-        *told,
+        *warnings,
         f"The components hold {sizes[0]} and {sizes[1]} samples; the longer was cut to the shorter.",
     )

@@ -1,10 +1,10 @@
-"""What the extractor owes: exact on its own shape, invariant where physics is, robust to noise and bursts."""
+"""What every pulse method owes, and the extractor: exact on its own shape, invariant where physics is, robust."""
 
 import numpy as np
 import pytest
 from scipy import signal
 
-from rocking.pulses import PulseSettings, extract_pulses, pulse_interval
+from rocking.pulses import PULSE_METHODS, PulseSettings, extract_pulses, predicting_pulse, pulse_interval
 from rocking.records.accelerogram import Accelerogram
 
 SEEDS = 200
@@ -122,6 +122,54 @@ def test_invariance_to_scale_sign_shift_and_padding(seed):
     same(extract_pulses(Accelerogram(-samples, 0.01)), reference, amplitude=-1)
     same(extract_pulses(Accelerogram(np.pad(samples, (311, 0)), 0.01)), reference, delay=3.11)
     same(extract_pulses(Accelerogram(np.pad(samples, (0, 777)), 0.01)), reference)
+
+
+def quiet_ended(seed, step=0.01, count=4000):
+    """A pulse in noise whose velocity is zero at both ends, so that zeros may be appended: (n,) m/s²."""
+    samples = planted(seed, 0.5, count, step, shortest=0.6)[0]
+    velocity = np.cumsum(samples) * step * signal.windows.tukey(count, 0.2)
+    return np.convolve(np.pad(velocity, 2), [0.5 / step, 0, -0.5 / step], "same")
+
+
+def predicted(name, samples, step=0.01):
+    """The pulse that predicts by a method, under a demand that grows with the length scale of the pulse."""
+    analysis = extract_pulses(Accelerogram(samples, step))
+    return predicting_pulse(
+        PULSE_METHODS[name].candidates(analysis), lambda p: abs(p.amplitude) * p.period**2
+    )
+
+
+def alike(found, reference, amplitude=1.0, delay=0.0):
+    pulse, other = found.pulse, reference.pulse
+    assert pulse.amplitude == pytest.approx(amplitude * other.amplitude, rel=1e-9)
+    assert pulse.period == pytest.approx(other.period, rel=1e-9)
+    assert pulse.start_time == pytest.approx(other.start_time + delay, abs=1e-9 * other.period)
+    assert found.gain == pytest.approx(amplitude**2 * reference.gain, rel=1e-9)
+    assert found.explained_energy == pytest.approx(reference.explained_energy, rel=1e-9)
+    assert np.cos(found.phase - reference.phase) == pytest.approx(np.sign(amplitude), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", PULSE_METHODS)
+@pytest.mark.parametrize("seed", range(4))
+def test_every_method_is_invariant_to_scale_sign_shift_and_padding(name, seed):
+    samples = quiet_ended(seed)
+    reference = predicted(name, samples)
+    alike(predicted(name, 37.3 * samples), reference, amplitude=37.3)
+    alike(predicted(name, -samples), reference, amplitude=-1.0)
+    alike(predicted(name, np.pad(samples, (311, 0))), reference, delay=3.11)
+    alike(predicted(name, np.pad(samples, (0, 777))), reference)
+
+
+@pytest.mark.parametrize("name", PULSE_METHODS)
+@pytest.mark.parametrize(("period", "sign"), [(0.7, -1), (1.9, 1)])
+def test_every_method_finds_a_sine_that_stands_alone(name, period, sign):
+    analysis = extract_pulses(
+        Accelerogram(sine_cycle(np.arange(4000) * 0.01, sign * 3.1, period, 12.003), 0.01)
+    )
+    found = predicting_pulse(PULSE_METHODS[name].candidates(analysis), lambda p: abs(p.amplitude)).pulse
+    assert found.amplitude == pytest.approx(sign * 3.1, rel=1e-6)
+    assert found.period == pytest.approx(period, rel=1e-6)
+    assert found.start_time == pytest.approx(12.003, abs=1e-6 * period)
 
 
 @pytest.mark.parametrize("seed", range(10))

@@ -25,7 +25,7 @@ PREDICTIONS = Table(
         COMPONENT_COLUMN,
         STRUCTURE_COLUMN,
         METHOD_COLUMN,
-        Column("pulse_rank", "integer", "Rank of the pulse among the record's alternatives"),
+        Column("pulse_rank", "integer", "Rank of the pulse among those that its method offers"),
         Column("acceleration_scale_choice", "string", "linearised (a_sc), uplift (a_sc,alt) or their mean"),
         Column("frequency_parameter_rad_s", "number", "p of the equivalent block", "Eq. 11"),
         Column("critical_rotation_rad", "number", "Critical rotation"),

@@ -39,7 +39,8 @@ PULSES = Table(
         Column(
             "kind",
             "string",
-            "alternative: ranked on the record; sequence: pursued on the residual of the pulses before it",
+            "alternative: ranked on the record; sequence: pursued on the residual of the pulses before it; "
+            "predicting: the pulse that predicts, where it is no alternative",
         ),
         Column("rank", "integer", "Place in its kind, from 1"),
         Column("amplitude_m_s2", "number", "Signed amplitude a_g"),

@@ -34,7 +34,7 @@ def all_rows(
     cases = assessment.cases
     return {
         "record": [record_row(identity, licence, vertical)],
-        "pulses": pulse_rows(identity, assessment.analysis, assessment.interval),
+        "pulses": pulse_rows(identity, assessment.analysis, assessment.interval, assessment.candidates),
         "predictions": [
             row for case in cases for row in prediction_rows(identity, case, settings.acceleration_scale)
         ],

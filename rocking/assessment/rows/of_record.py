@@ -1,6 +1,7 @@
 """Rows about a record: what was read, its pulses, and what failed."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -44,12 +45,19 @@ def record_row(identity: Identity, licence: str, vertical: Accelerogram | None =
 
 
 def pulse_rows(
-    identity: Identity, analysis: PulseAnalysis | None, interval: PulseInterval | None
+    identity: Identity,
+    analysis: PulseAnalysis | None,
+    interval: PulseInterval | None,
+    candidates: Sequence[PulseEvidence] = (),
 ) -> list[Row]:
-    """The rows of the pulses table: ranked alternatives, the dominant pulse first, then the pursuit sequence."""
+    """The rows of the pulses table: ranked alternatives, the dominant pulse first, then the pursuit sequence.
+
+    candidates: the pulses that predict; those that are not among the alternatives follow.
+    """
     if analysis is None:
         return []
-    kinds = {"alternative": analysis.ranked, "sequence": analysis.sequence}
+    others = [evidence for evidence in candidates if evidence not in analysis.ranked]
+    kinds = {"alternative": analysis.ranked, "sequence": analysis.sequence, "predicting": others}
     return [
         _pulse_row(identity, analysis, interval, kind, rank, evidence)
         for kind, pulses in kinds.items()

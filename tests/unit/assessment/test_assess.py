@@ -8,7 +8,7 @@ import pytest
 
 from rocking.assessment.assess import AssessmentSettings, Method, assess, predict, ratio, verdict
 from rocking.errors import ConfigurationError, StructureError
-from rocking.pulses import Light, Pulse, extract_pulses
+from rocking.pulses import PULSE_METHODS, Light, Pulse, extract_pulses
 from rocking.records import Accelerogram
 from rocking.structures import Block, Wall
 from rocking.structures.outcome import Outcome
@@ -79,9 +79,31 @@ def test_choice_by_demand_never_asks_less_than_choice_by_energy():
     rng = np.random.default_rng(1)
     noisy = Accelerogram(RECORD.acceleration + rng.normal(0, 0.8, 1000), STEP)
     analysis = extract_pulses(noisy)
-    by_energy = predict(BLOCK.mechanism(), analysis)
-    by_demand = predict(BLOCK.mechanism(), analysis, settings=AssessmentSettings(pulse_choice="demand"))
+    by_energy, by_demand = (
+        predict(BLOCK.mechanism(), PULSE_METHODS[name].candidates(analysis)) for name in ("energy", "demand")
+    )
     assert by_demand.maximum.rotation_ratio >= by_energy.maximum.rotation_ratio
+
+
+@pytest.mark.parametrize("name", PULSE_METHODS)
+def test_every_pulse_method_predicts(name):
+    found = assess(RECORD, {"block": BLOCK}, AssessmentSettings(pulse_choice=name))
+    assert not found.failures
+    assert found.cases[0].prediction.pulse == found.candidates[found.cases[0].prediction.rank - 1].pulse
+
+
+def test_a_pulse_method_that_finds_nothing_costs_no_integration():
+    # 1.1 s of record hold a sine of 0.5 s, but no wavelet of T_p = 0.24 s, which is 1.19 s long
+    short = Accelerogram(Pulse(3.0, 4 * np.pi, 0.3).acceleration(np.arange(110) * STEP), STEP)
+    found = assess(short, {"block": BLOCK}, AssessmentSettings(pulse_choice="velocity"))
+    assert [failure.stage for failure in found.failures] == ["pulses"]
+    assert found.cases[0].prediction is None and found.analysis is not None
+    assert found.cases[0].responses[Method.MECHANISM_ON_RECORD].rotation_ratio > 0
+
+
+def test_an_unknown_pulse_method_is_refused_with_those_there_are():
+    with pytest.raises(ConfigurationError, match="'best', but must be one of energy, demand, velocity"):
+        AssessmentSettings(pulse_choice="best")
 
 
 def test_a_steady_vertical_acceleration_scales_gravity():

@@ -1,0 +1,67 @@
+"""The pulse methods: what each offers, what is chosen of it, and that the setting knows them all."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from rocking.errors import PulseError
+from rocking.pulses import PULSE_METHODS, Pulse, extract_pulses, predicting_pulse, pulse_method
+from rocking.records.accelerogram import Accelerogram
+
+SCHEMA = Path(__file__).parents[3] / "workflow" / "schemas" / "config.schema.yaml"
+TIMES = np.arange(3000) * 0.01
+SHORT, LONG = Pulse(3, 2 * np.pi / 0.6, 5), Pulse(1, 2 * np.pi / 3, 15)
+ANALYSIS = extract_pulses(Accelerogram(SHORT.acceleration(TIMES) + LONG.acceleration(TIMES), 0.01))
+
+
+def chosen(name, demand):
+    return predicting_pulse(PULSE_METHODS[name].candidates(ANALYSIS), demand)
+
+
+def test_by_energy_no_demand_is_asked():
+    found = chosen("energy", lambda pulse: pytest.fail("asked"))
+    assert found is ANALYSIS.evidence and found.pulse.period == pytest.approx(0.6, rel=1e-6)
+
+
+def test_by_demand_the_pulse_of_largest_demand_is_chosen():
+    assert chosen("demand", lambda p: abs(p.amplitude) * p.period**2).pulse.period == pytest.approx(
+        3, rel=1e-6
+    )
+
+
+def test_of_equal_demands_the_better_ranked_is_chosen():
+    assert chosen("demand", lambda pulse: 0.0) is ANALYSIS.evidence
+    assert chosen("demand", lambda pulse: np.inf) is ANALYSIS.evidence
+
+
+def test_by_velocity_the_sine_of_largest_velocity_is_found():
+    # peak velocities 2 a/ω: 0.57 m/s of the short sine, 0.95 m/s of the long one, which carries less energy than it
+    found = chosen("velocity", lambda pulse: pytest.fail("asked"))
+    assert found.pulse.period == pytest.approx(3, rel=1e-6)
+    assert found.pulse.amplitude == pytest.approx(1, rel=1e-6)
+    assert found.gain == pytest.approx(LONG.amplitude**2 * LONG.period / 2, rel=1e-4)
+
+
+def test_a_record_without_room_for_a_velocity_pulse_is_refused():
+    times = np.arange(110) * 0.01
+    short = extract_pulses(Accelerogram(Pulse(3.0, 4 * np.pi, 0.3).acceleration(times), 0.01))
+    with pytest.raises(PulseError, match="110 samples"):
+        PULSE_METHODS["velocity"].candidates(short)
+
+
+def test_a_method_is_called_by_its_name():
+    assert all(pulse_method(name).name == name for name in PULSE_METHODS)
+    with pytest.raises(PulseError, match="'loudest', but must be one of energy"):
+        pulse_method("loudest")
+
+
+def test_nothing_to_choose_from_is_refused():
+    with pytest.raises(PulseError, match="no pulse to predict with"):
+        predicting_pulse((), lambda pulse: 0.0)
+
+
+def test_the_setting_allows_the_methods_of_the_registry():
+    settings = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))["properties"]["pulse"]["properties"]
+    assert settings["choice"]["enum"] == list(PULSE_METHODS)
