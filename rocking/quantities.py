@@ -81,6 +81,16 @@ def squared_length(field: str, value: float) -> float:
     return within(StructureError, field, checked, _SMALLEST**2, _LARGEST**2, "m²")
 
 
+def shown(value: float, unit: str = "") -> str:
+    """Return `value` to four digits with its unit, as a reader wants it."""
+    return f"{value:.4g}{_in(unit)}"
+
+
+def counted(number: int, name: str) -> str:
+    """Return "1 impact", "2 impacts"."""
+    return f"{number} {name}" if number == 1 else f"{number} {name}s"
+
+
 def _number(error: type[RockingError], field: str, value: float) -> float:
     if isinstance(value, bool | str | bytes):
         raise error(f"{field} is {value!r}, but must be a number.")

@@ -1,18 +1,8 @@
-"""Motion: a structure followed through a ground motion, exactly or to a tolerance."""
+"""Motion: a structure followed through a ground motion, exactly or to a tolerance.
 
-from importlib import import_module
+The names stand in `__init__.pyi` and are imported when they are first used: only some need the compiled kernel.
+"""
 
-_MODULE_OF = {
-    "Response": "rocking.motion.response",
-    "integrate": "rocking.motion.integration",
-    "integrate_many": "rocking.motion.integration",
-}
+import lazy_loader
 
-__all__ = ["Response", "integrate", "integrate_many"]
-
-
-def __getattr__(name: str) -> object:
-    """Import a public name when it is first used: only `integrate` needs the compiled kernel."""
-    if name not in _MODULE_OF:
-        raise AttributeError(f"module 'rocking.motion' has no attribute {name!r}")
-    return getattr(import_module(_MODULE_OF[name]), name)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rocking.quantities import counted, shown
 from rocking.structures.outcome import Outcome
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Response:
     """Largest rotation of a structure under a ground motion, and what is needed to trust it.
 
@@ -37,3 +38,15 @@ class Response:
     times: np.ndarray | None = None
     rotation: np.ndarray | None = None
     angular_velocity: np.ndarray | None = None
+
+    def __repr__(self) -> str:
+        if self.outcome is Outcome.FAILED:
+            return f"Response(failed: {self.reason})"
+        said = [self.outcome.of(self.rotation_ratio)]
+        if self.outcome is Outcome.ROCKS:
+            said.append(f"largest at {shown(self.peak_time, 's')}")
+        if self.outcome is not Outcome.NO_UPLIFT:
+            said.append(counted(self.impacts, "impact"))
+        if self.times is not None:
+            said.append(f"history of {counted(self.times.size, 'step')}")
+        return f"Response({', '.join(said)})"

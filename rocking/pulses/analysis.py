@@ -7,6 +7,7 @@ import numpy as np
 from rocking.errors import PulseError
 from rocking.pulses.flags import Flag
 from rocking.pulses.pulse import Pulse
+from rocking.quantities import counted
 from rocking.records.accelerogram import Accelerogram
 
 
@@ -48,7 +49,7 @@ def evidence_of(pulse: Pulse, accelerogram: Accelerogram) -> PulseEvidence:
     return PulseEvidence(pulse, gain * step, gain / energy, phase)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PulseAnalysis:
     """The pulses of one record.
 
@@ -70,6 +71,12 @@ class PulseAnalysis:
     def __post_init__(self) -> None:
         if not self.ranked:
             raise PulseError("ranked is empty, but must hold at least the dominant pulse.")
+
+    def __repr__(self) -> str:
+        share = f"explains {100 * self.explained_energy:.0f} % of the energy"
+        flags = [f"flags: {', '.join(self.flags)}"] if self.flags else []
+        rivals = counted(len(self.alternatives), "alternative")
+        return f"PulseAnalysis({', '.join([f'dominant {self.dominant!r}', share, rivals, *flags])})"
 
     @property
     def dominant(self) -> Pulse:

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from rocking.errors import PulseError
-from rocking.quantities import finite, positive
+from rocking.quantities import GRAVITY, finite, positive, shown
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Pulse:
     """a(t) = amplitude · sin(circular_frequency · (t − start_time)) for one period, zero outside.
 
@@ -25,6 +25,10 @@ class Pulse:
         frequency = positive(PulseError, "circular_frequency", self.circular_frequency, "rad/s")
         object.__setattr__(self, "circular_frequency", frequency)
         object.__setattr__(self, "start_time", finite(PulseError, "start_time", self.start_time, "s"))
+
+    def __repr__(self) -> str:
+        size = f"{shown(self.amplitude, 'm/s²')} = {shown(self.amplitude / GRAVITY, 'g')}"
+        return f"Pulse({size}, period {shown(self.period, 's')}, start {shown(self.start_time, 's')})"
 
     @property
     def period(self) -> float:

@@ -3,11 +3,12 @@
 import hashlib
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import TypedDict, Unpack
 
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.quantities import finite, positive
+from rocking.quantities import GRAVITY, finite, positive, shown
 
 
 @dataclass(frozen=True)
@@ -21,7 +22,16 @@ class Source:
     """Unit of the numbers in the file, as declared or as the format defines it."""
 
 
-@dataclass(frozen=True, eq=False)
+class Changes(TypedDict, total=False):
+    """What a processing step may change beside the samples, as the fields of an Accelerogram."""
+
+    component: str
+    time_step: float
+    azimuth: float | None
+    high_pass_frequency: float | None
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Accelerogram:
     """One component of ground acceleration, uniformly sampled, in m/s².
 
@@ -64,6 +74,14 @@ class Accelerogram:
             self, "scale_factor", finite(RecordError, f"{name}: scale_factor", self.scale_factor)
         )
 
+    def __repr__(self) -> str:
+        names = [name for name in (self.component, self.station, self.event) if name]
+        size = f"{self.acceleration.size} samples at {shown(self.time_step, 's')}"
+        peak = (
+            f"peak {shown(self.peak_acceleration, 'm/s²')} = {shown(self.peak_acceleration / GRAVITY, 'g')}"
+        )
+        return f"Accelerogram({', '.join([*names, size, peak])})"
+
     @property
     def times(self) -> np.ndarray:
         """(n,) s, from 0."""
@@ -89,7 +107,7 @@ class Accelerogram:
         factor = finite(RecordError, "factor", factor)
         return replace(self, acceleration=self.acceleration * factor, scale_factor=self.scale_factor * factor)
 
-    def processed_by(self, acceleration: np.ndarray, step: str, **changes) -> "Accelerogram":
+    def processed_by(self, acceleration: np.ndarray, step: str, **changes: Unpack[Changes]) -> "Accelerogram":
         """Return a copy with new samples and one more processing sentence."""
         return replace(self, acceleration=acceleration, processing=(*self.processing, step), **changes)
 

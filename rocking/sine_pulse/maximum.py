@@ -57,7 +57,7 @@ _SENTENCES = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Maximum:
     """Largest rotation of an equivalent block under a pulse.
 
@@ -76,6 +76,9 @@ class Maximum:
     impacts: int = 0
     peak_side: int = 0
     overturning_margin: float = 1.0
+
+    def __repr__(self) -> str:
+        return f"Maximum({self.outcome.of(self.rotation_ratio)}, regime: {self.regime})"
 
 
 def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:

@@ -45,10 +45,12 @@ class Block(Structure):
         check_restitution(self.restitution, ("momentum", "housner"), self.one_sided)
 
     @classmethod
-    def of_size(cls, breadth: float, height: float, **options) -> "Block":
+    def of_size(
+        cls, breadth: float, height: float, restitution: Restitution = None, one_sided: bool = False
+    ) -> "Block":
         """Return the block of that breadth and height [m]."""
         breadth, height = length("breadth", breadth), length("height", height)
-        return cls(np.hypot(breadth, height) / 2, np.arctan2(breadth, height), **options)
+        return cls(np.hypot(breadth, height) / 2, np.arctan2(breadth, height), restitution, one_sided)
 
     @property
     def breadth(self) -> float:

@@ -16,7 +16,7 @@ from typing import Literal
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.quantities import GRAVITY, positive, within
+from rocking.quantities import GRAVITY, positive, shown, within
 
 Function = Callable[[np.ndarray], np.ndarray]
 """A function of the rotation φ [rad], any shape in, the same shape out."""
@@ -25,7 +25,7 @@ Scale = Literal["linearised", "uplift", "mean"]
 """Which acceleration scale an equivalent block carries: a_sc, a_sc,alt = φ_cr/λ, or their mean."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Side:
     """One direction of rocking: I [m], I' [m/rad], G [-], G' [1/rad], B [-] as functions of φ on [0, end_rotation].
 
@@ -64,6 +64,20 @@ class Side:
                     f"{name} is {value!r} at a rotation of {at!r} rad, but must be positive there."
                 )
 
+    def __repr__(self) -> str:
+        return f"Side({self.described})"
+
+    @property
+    def described(self) -> str:
+        """Its four numbers, for a reader."""
+        numbers = {
+            "λ": shown(self.uplift_multiplier),
+            "φ_cr": shown(self.critical_rotation, "rad"),
+            "p": shown(self.frequency_parameter, "rad/s"),
+            "η": shown(self.restitution),
+        }
+        return ", ".join(f"{name} = {number}" for name, number in numbers.items())
+
     def at(self, name: str, rotation: float) -> float:
         """Return one of the five functions, by name, at one rotation [rad], as a float."""
         return float(getattr(self, name)(np.float64(rotation)))
@@ -98,7 +112,7 @@ class Side:
         return scales[scale]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Mechanism:
     """A structure as the motion sees it: a Side for each direction of rocking.
 
@@ -117,6 +131,11 @@ class Mechanism:
             raise StructureError(
                 "negative is given, but a one-sided mechanism has the positive side only; leave it out."
             )
+
+    def __repr__(self) -> str:
+        if self.negative is not None:
+            return f"Mechanism(positive side: {self.positive.described}; negative side: {self.negative.described})"
+        return f"Mechanism({self.positive.described}{', one-sided' if self.one_sided else ''})"
 
     @property
     def symmetric(self) -> bool:

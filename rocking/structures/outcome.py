@@ -16,6 +16,10 @@ class Outcome(StrEnum):
         """One sentence for the reader."""
         return _SENTENCES[self]
 
+    def of(self, rotation_ratio: float) -> str:
+        """The outcome in a few words; one that rocks with its largest rotation over φ_cr."""
+        return f"rocks to {rotation_ratio:.4g} φ_cr" if self is Outcome.ROCKS else str(self)
+
 
 _SENTENCES = {
     Outcome.NO_UPLIFT: "The ground acceleration never reaches the uplift acceleration.",

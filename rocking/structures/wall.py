@@ -41,7 +41,9 @@ class Wall(Structure):
         check_restitution(self.restitution, ("momentum",))
 
     @classmethod
-    def hinged_at(cls, height: float, hinge_height: float, thickness: float, **options) -> "Wall":
+    def hinged_at(
+        cls, height: float, hinge_height: float, thickness: float, restitution: Restitution = None
+    ) -> "Wall":
         """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
         height = length("height", height)
         hinge = finite(StructureError, "hinge_height", hinge_height, "m")
@@ -50,7 +52,7 @@ class Wall(Structure):
                 f"hinge_height is {hinge!r} m, but must lie inside the wall, "
                 f"between 0 and its height of {height!r} m."
             )
-        return cls(hinge, height - hinge, thickness, **options)
+        return cls(hinge, height - hinge, thickness, restitution)
 
     @property
     def height(self) -> float:

@@ -1,0 +1,172 @@
+"""The public names carry their types, are as cheap to import as promised, and can be read when they are printed."""
+
+import inspect
+import math
+import os
+import re
+import subprocess
+import sys
+from enum import Enum
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rocking
+
+ROOT = Path(rocking.__file__).parents[1]
+
+USER_SCRIPT = """
+import math
+import rocking
+from rocking.motion import integrate
+
+(record,) = rocking.read("record.AT2", unit="g")
+wall = rocking.Wall(1.6, 1.6, 0.25)
+analysis = rocking.extract_pulses(record)
+block = wall.mechanism().equivalent_block("uplift")
+largest: list[float] = [
+    rocking.predict_maximum(block, analysis.dominant).rotation_ratio,
+    rocking.integrate(wall, record, history=True).rotation_ratio,
+    rocking.integrate(block, analysis.dominant, 1e-9).rotation_ratio,
+]
+if any(math.isinf(ratio) for ratio in largest):
+    raise rocking.RockingError("it overturns")
+reveal_type(record)
+reveal_type(analysis.dominant.period)
+reveal_type(rocking.predict_maximum(block, analysis.dominant).outcome)
+reveal_type(rocking.integrate(wall, record))
+reveal_type(integrate(wall, record).impacts)
+reveal_type(rocking.Outcome.ROCKS)
+"""
+
+REVEALED = [
+    "rocking.records.accelerogram.Accelerogram",
+    "float",
+    "rocking.structures.outcome.Outcome",
+    "rocking.motion.response.Response",
+    "int",
+    "Literal[rocking.structures.outcome.Outcome.ROCKS]?",
+]
+
+ARRAY = re.compile(r"numpy\.ndarray\[tuple\[Any, \.\.\.\], numpy\.dtype\[Any\]\]")
+"""How an array is shown; its shape and its number type are said by the docstring."""
+
+
+def members() -> list[str]:
+    """Every public name, and every public attribute of the classes among them, as an expression."""
+    found = []
+    for name in rocking.__all__:
+        value = getattr(rocking, name)
+        found.append(f"rocking.{name}")
+        if inspect.isclass(value) and not issubclass(value, Exception | Enum):
+            own = (
+                name for base in value.__mro__ if base.__module__.startswith("rocking") for name in vars(base)
+            )
+            found += [
+                f"rocking.{name}.{member}" for member in dict.fromkeys(own) if not member.startswith("_")
+            ]
+    return found
+
+
+def reveals(output: str) -> dict[int, str]:
+    """The revealed types by line."""
+    return {
+        int(line): kind for line, kind in re.findall(r'\.py:(\d+): note: Revealed type is "(.*)"', output)
+    }
+
+
+def strictly_checked(script: Path, cache: Path) -> tuple[int, str]:
+    pytest.importorskip("mypy", reason="mypy checks the types, of the extra test")
+    command = [
+        sys.executable,
+        "-m",
+        "mypy",
+        "--strict",
+        "--config-file=",
+        f"--cache-dir={cache}",
+        str(script),
+    ]
+    done = subprocess.run(
+        command, cwd=script.parent, env=os.environ | {"MYPYPATH": str(ROOT)}, capture_output=True, text=True
+    )
+    return done.returncode, done.stdout + done.stderr
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory) -> Path:
+    return tmp_path_factory.mktemp("mypy")
+
+
+def test_a_typed_script_passes_strictly_and_knows_what_it_gets(tmp_path, cache):
+    script = tmp_path / "user.py"
+    script.write_text(USER_SCRIPT, encoding="utf-8")
+    status, output = strictly_checked(script, cache)
+    assert status == 0, output
+    assert list(reveals(output).values()) == REVEALED
+
+
+def test_no_public_name_is_untyped(tmp_path, cache):
+    script = tmp_path / "surface.py"
+    expressions = members()
+    script.write_text("\n".join(["import rocking", *(f"reveal_type({name})" for name in expressions)]))
+    _, output = strictly_checked(script, cache)
+    found = reveals(output)
+    untyped = {
+        name: found.get(line)
+        for line, name in enumerate(expressions, start=2)
+        if line not in found or re.search(r"\bAny\b", ARRAY.sub("array", found[line]))
+    }
+    assert not untyped
+
+
+def test_every_name_of_the_stub_is_there():
+    assert len(rocking.__all__) > 30
+    for name in rocking.__all__:
+        assert getattr(rocking, name).__doc__, name
+    with pytest.raises(AttributeError):
+        _ = rocking.nonsense
+
+
+def test_importing_the_package_imports_nothing_heavy():
+    """What costs time: numpy a tenth of a second, numba and obspy several."""
+    heavy = ("numpy", "scipy", "obspy", "numba", "matplotlib", "pandas", "typst")
+    code = f"import sys, rocking; print([name for name in {heavy!r} if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def results() -> dict[str, object]:
+    """One of each thing that a notebook shows."""
+    arch = rocking.Arch(15.0, 2.25, math.radians(157.5), restitution=0.9)
+    mechanism = arch.mechanism()
+    pulse = rocking.Pulse(0.67 * 9.80665, 2 * math.pi / 0.81, 2.05)
+    record = rocking.Accelerogram(pulse.acceleration(np.arange(4000) * 0.005), 0.005, "NS", "Rinaldi")
+    maximum = rocking.predict_maximum(mechanism.equivalent_block("uplift"), pulse)
+    response = rocking.integrate(mechanism, record, history=True)
+    unlike = rocking.RigidBody(left=0.3, right=0.5, centre_height=1.5, inertia=1.0, restitution=0.9)
+    analysis = rocking.extract_pulses(record)
+    one_sided = rocking.Block.of_size(0.5, 3.0, 0.4, True)
+    sides = (mechanism.positive, mechanism, unlike.mechanism(), one_sided.mechanism())
+    shown = [record, pulse, analysis, *sides, maximum, response, rocking.integrate(arch, record.scaled(1e-3))]
+    return {f"{type(value).__name__} {place}": value for place, value in enumerate(shown)}
+
+
+def test_a_person_can_read_what_a_notebook_shows():
+    """No function, no object address, no array, no digits that nobody can use; one or two lines."""
+    for name, value in results().items():
+        text = repr(value)
+        assert text.startswith(f"{type(value).__name__}("), name
+        assert len(text) < 200 and "\n" not in text, text
+        for unreadable in ("lambda", "<", " at 0x", "array", "..."):
+            assert unreadable not in text, text
+        assert not re.search(r"\d\.\d{6,}", text), text
+
+
+def test_what_is_shown_is_what_is_there():
+    record, pulse, analysis, _, mechanism, *_ = results().values()
+    assert repr(pulse) == "Pulse(6.57 m/s² = 0.67 g, period 0.81 s, start 2.05 s)"
+    assert repr(record) == "Accelerogram(NS, Rinaldi, 4000 samples at 0.005 s, peak 6.569 m/s² = 0.6699 g)"
+    assert repr(analysis.dominant) in repr(analysis) and "100 % of the energy" in repr(analysis)
+    for number in (mechanism.uplift_multiplier, mechanism.critical_rotation):
+        assert f"{number:.4g}" in repr(mechanism)
