@@ -1,0 +1,105 @@
+"""The recipes of CONTRIBUTING.md, followed to the letter in a copy of the tree."""
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+
+import rocking
+
+ROOT = Path(rocking.__file__).parents[1]
+_RECIPE = re.compile(r"^### ([^\n]*)\n(.*?)(?=^#|\Z)", re.M | re.S)
+_BLOCK = re.compile(r"^( *)```(python|diff|sh)\n(.*?)^ *```$", re.M | re.S)
+RECIPES = dict(_RECIPE.findall((ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")))
+LEFT_OUT = {".git", ".venv", "results", ".snakemake"}
+
+
+def blocks(recipe: str) -> list[tuple[str, str]]:
+    """The blocks of a recipe in their order: language and text."""
+    return [(language, textwrap.dedent(text)) for _, language, text in _BLOCK.findall(recipe)]
+
+
+def own(tree: Path, place: str) -> Path:
+    """Return the file at `place` in `tree`, to be written: the folders that lead to it are no longer links."""
+    path, original = tree, ROOT
+    for part in Path(place).parts:
+        if path.is_symlink():
+            path.unlink()
+            path.mkdir()
+            for entry in original.iterdir():
+                (path / entry.name).symlink_to(entry)
+        path, original = path / part, original / part
+    if path.is_symlink():
+        text = path.read_text(encoding="utf-8")
+        path.unlink()
+        path.write_text(text, encoding="utf-8")
+    return path
+
+
+def change(path: Path, text: str) -> None:
+    """Change a file as a diff says, whose lines without a sign stand there already, once."""
+    lines = text.splitlines()
+    before = "\n".join(line[1:] for line in lines if line[:1] != "+")
+    after = "\n".join(line[1:] for line in lines if line[:1] != "-")
+    content = path.read_text(encoding="utf-8")
+    assert content.count(before) == 1, f"{path.name} holds {content.count(before)} times:\n{before}"
+    path.write_text(content.replace(before, after), encoding="utf-8")
+
+
+def follow(tree: Path, language: str, text: str) -> None:
+    """Do what one block says."""
+    if language == "sh":
+        command = [sys.executable, "-m", *shlex.split(text), "-q", "-p", "no:cacheprovider"]
+        environment = os.environ | {"PYTHONPATH": str(tree)}
+        done = subprocess.run(command, cwd=tree, env=environment, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout[-3000:] + done.stderr
+        assert not re.search(r"\b0 passed|no tests ran", done.stdout), done.stdout
+        return
+    head, _, body = text.partition("\n")
+    path = own(tree, head.removeprefix("# "))
+    if language == "diff":
+        change(path, body.rstrip("\n"))
+    else:
+        assert not path.exists(), f"{path.name} is there already"
+        path.write_text(body, encoding="utf-8")
+
+
+@pytest.fixture
+def tree(tmp_path) -> Path:
+    """The repository as links, so that what is compiled is found and nothing of it is changed."""
+    for entry in ROOT.iterdir():
+        if entry.name not in LEFT_OUT:
+            (tmp_path / entry.name).symlink_to(entry)
+    return tmp_path
+
+
+@pytest.mark.parametrize("name", RECIPES)
+def test_a_recipe_can_be_followed_to_the_letter(tree, name):
+    steps = blocks(RECIPES[name])
+    assert {language for language, _ in steps} == {"python", "diff", "sh"}
+    for language, text in steps:
+        follow(tree, language, text)
+    written = [own(tree, text.partition("\n")[0][2:]) for language, text in steps if language == "python"]
+    check = subprocess.run(
+        [sys.executable, "-m", "ruff", "check", *map(str, written)],
+        cwd=tree,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert check.returncode == 0, check.stdout
+
+
+def test_the_map_names_every_wing():
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    drawn = text.partition("## The map of the house")[2].partition("```text\n")[2].partition("```")[0]
+    wings = {path.stem for path in (ROOT / "rocking").iterdir() if path.suffix in ("", ".py")} - {
+        "__init__",
+        "__pycache__",
+    }
+    assert wings - {"shipped"} <= set(re.findall(r"\w+", drawn))
