@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from numba import njit
+from numba import njit, types
 
 MAXIMUM_STEPS = 60
 """Newton steps of one refinement; ten are usual, the rest serve maxima that sit on a sample's kink."""
@@ -20,8 +20,12 @@ LEAST_CLIMB = 1e-9
 HIGHEST_DAMPING = 1e10
 """Damping at which a climb ends: its step is then below the rounding of the score, at a kink as elsewhere."""
 
+_REAL, _WHOLE, _PAIR = types.float64, types.int64, types.UniTuple(types.float64, 2)
+_SUMS = types.UniTuple(types.float64, 12)
+_SAMPLES = types.Array(types.float64, 1, "C", readonly=True)
 
-@njit(cache=True)
+
+@njit(types.Tuple((_WHOLE, _WHOLE, _REAL))(_WHOLE, _WHOLE, _REAL, _REAL), cache=True)
 def _cycle(count, origin, angle, shift):
     """Return (first sample, end, phase θ there) of the cycle θ = angle (k − origin) − shift in [0, 2π]."""
     begin = max(origin + math.ceil(shift / angle), 0)
@@ -29,20 +33,30 @@ def _cycle(count, origin, angle, shift):
     return begin, end, angle * (begin - origin) - shift
 
 
-@njit(cache=True)
+@njit(_REAL(_SAMPLES, _WHOLE, _REAL, _REAL), cache=True)
 def _score(samples, origin, angle, shift):
     """ln(⟨a, s⟩²/⟨s, s⟩) over the cycle, the logarithm of the energy gain per time step."""
     begin, end, theta = _cycle(samples.size, origin, angle, shift)
-    s, c, turn_s, turn_c = math.sin(theta), math.cos(theta), math.sin(angle), math.cos(angle)
-    p = q = 0.0
-    for k in range(begin, end):
+    count = max(end - begin, 0)
+    # even and odd samples apart: two recurrences that the processor runs side by side
+    turn_s, turn_c = math.sin(2 * angle), math.cos(2 * angle)
+    s, c, odd_s, odd_c = math.sin(theta), math.cos(theta), math.sin(theta + angle), math.cos(theta + angle)
+    p = odd_p = 0.0
+    for k in range(begin, end - 1, 2):
         p += samples[k] * s
-        q += s * s
+        odd_p += samples[k + 1] * odd_s
         s, c = s * turn_c + c * turn_s, c * turn_c - s * turn_s
+        odd_s, odd_c = odd_s * turn_c + odd_c * turn_s, odd_c * turn_c - odd_s * turn_s
+    if count % 2 == 1:
+        p += samples[end - 1] * s
+    p += odd_p
+    q = count / 2 - math.sin(count * angle) * math.cos(2 * theta + (count - 1) * angle) / (
+        2 * math.sin(angle)
+    )
     return 2 * math.log(abs(p)) - math.log(q) if p != 0.0 and q != 0.0 else -np.inf
 
 
-@njit(cache=True)
+@njit(_SUMS(_SAMPLES, _WHOLE, _REAL, _REAL), cache=True)
 def _moments(samples, origin, angle, shift):
     """Return sums over the cycle, with φ = θ + shift, that its score and the score's derivatives are made of.
 
@@ -69,7 +83,7 @@ def _moments(samples, origin, angle, shift):
     return m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11
 
 
-@njit(cache=True)
+@njit(types.Tuple((types.boolean, _REAL, _REAL))(_SUMS, _REAL), cache=True)
 def _newton_step(sums, damping):
     """Return (solvable, step in ln ω, step in ω t₀) of the damped Newton iteration on the score."""
     p, q = sums[0], sums[5]
@@ -93,7 +107,7 @@ def _newton_step(sums, damping):
     )
 
 
-@njit(cache=True)
+@njit(_PAIR(_REAL, _REAL, _WHOLE, _WHOLE, _PAIR), cache=True)
 def _allowed(u, v, origin, count, limits):
     """Clip (ln ω, ω t₀) to the limits of ln ω, to a quarter cycle about the scanned onset and to the record."""
     u = min(max(u, limits[0]), limits[1])
@@ -102,7 +116,7 @@ def _allowed(u, v, origin, count, limits):
     return u, max(min(v, highest), -omega * origin, -math.pi / 2)
 
 
-@njit(cache=True)
+@njit(types.UniTuple(_REAL, 3)(_SAMPLES, _WHOLE, _REAL, _REAL, _PAIR), cache=True)
 def _climbed(samples, origin, u, v, limits):
     """Return (u, v, score) at the end of damped Newton steps from (u, v)."""
     score, damping = _score(samples, origin, math.exp(u), v), 1e-3
@@ -128,7 +142,7 @@ def _climbed(samples, origin, u, v, limits):
     return u, v, score
 
 
-@njit(cache=True)
+@njit(types.UniTuple(_REAL, 4)(_SAMPLES, _WHOLE, _REAL, _REAL, _REAL, _REAL), cache=True)
 def refine(samples, onset, angle, lowest, highest, reach):
     """Climb to the maximum of the energy gain near one scanned maximum, by damped Newton in (ln ω, ω t₀).
 
