@@ -25,8 +25,8 @@ class _Scan(NamedTuple):
     """What carries the scan from one onset to the next.
 
     padded: (c, n + longest cycle) samples. counts: (m,) samples of each cycle. last_onsets: (m,) samples, at which the
-    cycle still fits. turning: (4, m), real and imaginary part of e^{iω dt} and of the e^{iω(t − t_j)} of the sample that
-    enters. weights: (m,) dt/⟨s, s⟩. sums: (c, 2, m), S_j of each component.
+    cycle still fits. turning: (4, m), real and imaginary part of e^{iω dt} and of the e^{iω(t − t_j)} of the sample
+    that enters. weights: (m,) dt/⟨s, s⟩. sums: (c, 2, m), S_j of each component.
     """
 
     padded: np.ndarray
@@ -105,9 +105,9 @@ def _fill_rows(rows, begin, end, first, padded, counts, last_onsets, turning, we
 def energy_gains(samples: np.ndarray, time_step: float, angles: np.ndarray) -> np.ndarray:
     """Return ⟨a, s⟩²/⟨s, s⟩, (n, m) m²/s³, of the sine of angles[i] rad per sample with onset at each sample.
 
-    samples: (c, n) m/s²; the gains of c components are added. angles: (m,) ascending. 0 where the cycle does not fit in
-    the record. S_j = Σ a e^{iω(t − t_j)} over the cycle is a difference of cumulative sums, C[j + T] − C[j], turned back
-    by ω t_j; it is carried from one onset to the next, which is the same sum without the large common part.
+    samples: (c, n) m/s²; the gains of c components are added. angles: (m,) ascending. 0 where the cycle does not fit
+    in the record. S_j = Σ a e^{iω(t − t_j)} over the cycle is a difference of cumulative sums, C[j + T] − C[j], turned
+    back by ω t_j; it is carried from one onset to the next, which is the same sum without the large common part.
     """
     gains = np.empty((samples.shape[1], angles.size))
     _fill_rows(gains, 0, samples.shape[1], 0, *_prepared(samples, time_step, angles, 0))
