@@ -1,9 +1,6 @@
-"""Documentation: Markdown pages, filled from the code they describe, and the site they make.
+"""The documentation as a site: Markdown pages, filled from the code they describe, and set by MkDocs."""
 
-A line `<!-- generated: NAME -->` in a page is replaced by what the function NAME of `generated` returns.
-"""
+from docs.site.build import write_site
+from docs.site.pages import filled, python_blocks, written_pages
 
-from docs.site.pages import PAGES, Page, python_blocks, read_page
-from docs.site.site import write_site
-
-__all__ = ["PAGES", "Page", "python_blocks", "read_page", "write_site"]
+__all__ = ["filled", "python_blocks", "write_site", "written_pages"]

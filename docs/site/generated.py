@@ -6,7 +6,7 @@ from typing import Any
 
 import yaml
 
-from docs.site.signatures import python_names
+import rocking
 from rocking.assessment import columns
 from rocking.quantities import ACCELERATION_UNITS
 from rocking.records.formats import FORMATS
@@ -49,8 +49,8 @@ def equations(_: Path) -> str:
         equation_rows,  # compiles the integration, which only this needs
     )
 
-    head = ("Eq.", "printed", "corrected", "quantity", "by the printed", "by the corrected", "decides")
-    names = ("equation", "printed", "corrected", "quantity")
+    head = ("Eq.", "quantity", "by the printed form", "by the corrected form", "decides")
+    names = ("equation", "quantity")
     numbers = ("printed_number", "corrected_number", "deciding_number")
     rows = equation_rows()
     body = (
@@ -82,9 +82,30 @@ def regimes(_: Path) -> str:
     return table(("regime", "meaning"), ((regime.value, regime.sentence) for regime in Regime))
 
 
+WINGS = {
+    "records": "Records",
+    "structures": "Structures",
+    "pulses": "Pulses",
+    "sine_pulse": "Closed form under one sine pulse",
+    "motion": "Integration",
+    "assessment": "Assessment",
+    "errors": "Errors",
+}
+"""Part of the package: heading under which its public names stand."""
+
+
 def api(_: Path) -> str:
-    """Every public name with its signature and docstring."""
-    return python_names()
+    """Every public name, by the part of the package it comes from, for mkdocstrings to describe."""
+    names: dict[str, list[str]] = {wing: [] for wing in WINGS}
+    for name in rocking.__all__:
+        module = getattr(rocking, name).__module__
+        names[module.split(".")[1]].append(f"{module}.{name}")
+    sections = (
+        [f"## {heading}", *(f"::: {path}" for path in names[wing])]
+        for wing, heading in WINGS.items()
+        if names[wing]
+    )
+    return "\n\n".join("\n\n".join(section) for section in sections)
 
 
 GENERATED: Mapping[str, Callable[[Path], str]] = {

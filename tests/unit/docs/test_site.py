@@ -7,6 +7,8 @@ import shlex
 import shutil
 import subprocess
 import sys
+import time
+from collections.abc import Iterator
 from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
@@ -15,8 +17,9 @@ import pytest
 import yaml
 
 import rocking
-from docs.site import PAGES, Page, pages, python_blocks, read_page, write_site
-from docs.site.signatures import MODULES
+from docs.site import filled, python_blocks, write_site, written_pages
+from docs.site.generated import table
+from docs.site.pages import FOLDER
 from rocking.assessment import columns
 from rocking.errors import ConfigurationError
 from rocking.records.formats import FORMATS
@@ -25,28 +28,39 @@ from rocking.study.cli import _parser
 
 ROOT = Path(rocking.__file__).parents[1]
 WORKFLOW = ROOT / "workflow"
-WRITTEN = [*(page.path for page in PAGES), ROOT / "README.md"]
+PAGES = written_pages()
+WRITTEN = [*PAGES, ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+
+
+def written(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
-def site(tmp_path_factory) -> dict[str, str]:
-    pytest.importorskip("markdown", reason="the site is set with markdown, of the extra docs")
-    files = write_site(tmp_path_factory.mktemp("site"), WORKFLOW)
-    return {path.name: path.read_text(encoding="utf-8") for path in files}
+def folder(tmp_path_factory) -> Path:
+    """The site, as MkDocs sets it without a complaint."""
+    pytest.importorskip("material", reason="the site is set with mkdocs-material, of the extra docs")
+    return write_site(tmp_path_factory.mktemp("site"), WORKFLOW)[0].parent
+
+
+@pytest.fixture(scope="module")
+def site(folder) -> dict[str, str]:
+    return {path.name: written(path) for path in folder.glob("*.html")}
 
 
 class _Links(HTMLParser):
     def __init__(self) -> None:
         super().__init__()
         self.targets: list[str] = []
+        self.loaded: list[str] = []
         self.anchors: list[str] = []
-        self.tags: list[str] = []
 
     def handle_starttag(self, tag, attributes):
         given = dict(attributes)
-        self.tags.append(tag)
-        self.targets += [given[name] for name in ("href", "src") if name in given]
-        self.anchors += [given["id"]] if "id" in given else []
+        self.targets += [given["href"]] if tag == "a" and given.get("href") else []
+        self.loaded += [given[name] for name in ("src", "href") if tag != "a" and given.get(name)]
+        self.anchors += [given[name] for name in ("id", "name") if given.get(name)]
 
 
 def links(text: str) -> _Links:
@@ -55,11 +69,11 @@ def links(text: str) -> _Links:
     return parser
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if python_blocks(page)], ids=lambda page: page.name)
-def test_the_examples_of_a_page_run(page, tmp_path):
+@pytest.mark.parametrize("path", [p for p in PAGES if python_blocks(written(p))], ids=lambda path: path.stem)
+def test_the_examples_of_a_page_run(path, tmp_path):
     """In a process of their own, as a reader would run them: one after the other, warnings as errors."""
     script = tmp_path / "example.py"
-    script.write_text("\n".join(python_blocks(page)), encoding="utf-8")
+    script.write_text("\n".join(python_blocks(written(path))), encoding="utf-8")
     ignored = "ignore:SelectableGroups dict interface:DeprecationWarning"
     command = [sys.executable, "-W", "error", "-W", ignored, str(script)]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
@@ -69,8 +83,7 @@ def test_the_examples_of_a_page_run(page, tmp_path):
 @pytest.mark.slow
 def test_the_readme_leads_to_the_report_of_an_own_record(tmp_path):
     """Its commands as they stand, in an empty folder with one accelerogram."""
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    (block,) = re.findall(r"^```sh\n(.*?)^```$", readme, re.M | re.S)
+    (block,) = re.findall(r"^```sh\n(.*?)^```$", written(ROOT / "README.md"), re.M | re.S)
     commands = "\n".join(line for line in block.splitlines() if not line.startswith("source "))
     shutil.copy(ROOT / "records" / "synthetic_strong_pulse.AT2", tmp_path / "own.AT2")
     environment = os.environ | {"PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
@@ -106,12 +119,12 @@ def test_the_figure_of_the_readme_shows_what_its_caption_says():
 
 
 def test_pages_have_examples():
-    assert sum(len(python_blocks(page)) for page in PAGES) >= 8
+    assert sum(len(python_blocks(written(path))) for path in PAGES) >= 8
 
 
 @pytest.mark.parametrize("path", WRITTEN, ids=lambda path: path.name)
 def test_the_commands_of_a_page_are_understood(path):
-    text = path.read_text(encoding="utf-8")
+    text = written(path)
     shell = "\n".join(re.findall(r"^```sh\n(.*?)^```$", text, re.M | re.S)).splitlines()
     commands = [line for line in shell if line.startswith("rocking ")]
     commands += [line for line in re.findall(r"`(rocking [a-z]+ [^`]+)`", text) if "FILE" not in line]
@@ -121,74 +134,120 @@ def test_the_commands_of_a_page_are_understood(path):
 
 @pytest.mark.parametrize("path", WRITTEN, ids=lambda path: path.name)
 def test_every_file_that_a_page_links_exists(path):
-    text = path.read_text(encoding="utf-8")
-    for target in re.findall(r"\]\(([^)#]+)", text):
-        assert (path.parent / target).is_file(), target
+    for target in re.findall(r"\]\(([^)#]+)", written(path)):
+        assert target.startswith(("https://", "figures/")) or (path.parent / target).is_file(), target
 
 
-def test_every_test_that_the_theory_names_exists():
-    named = re.findall(r"`(tests/[\w/]+\.py)(?:::(\w+))?`", (PAGES[2].path).read_text(encoding="utf-8"))
+def test_every_test_that_a_page_names_exists():
+    text = "\n".join(map(written, PAGES))
+    named = re.findall(r"`(tests/[\w/]+\.py)(?:::(\w+))?`", text)
     assert len(named) >= 8
     for file, function in named:
-        assert f"def {function}" in (ROOT / file).read_text(encoding="utf-8"), f"{file}::{function}"
+        assert f"def {function}" in written(ROOT / file), f"{file}::{function}"
 
 
-def test_the_site_needs_no_network_and_its_links_lead_somewhere(site):
+def test_every_page_has_its_place_in_the_navigation():
+    configuration = written(FOLDER.parent / "mkdocs.yml")
+    assert {path.name for path in PAGES} == set(re.findall(r": (\w+\.md)$", configuration, re.M))
+
+
+def test_the_site_needs_no_network_and_its_links_lead_somewhere(site, folder):
     for name, text in site.items():
+        if name == "404.html":  # its links start at the root of a server
+            continue
         found = links(text)
-        assert not {"script", "img", "iframe", "link"} & set(found.tags), name
-        assert "@import" not in text and "url(" not in text
+        assert all(
+            (folder / target.split("?")[0]).is_file() for target in found.loaded if target[0] != "#"
+        ), name
         for target in found.targets:
             file, _, anchor = target.partition("#")
-            assert file in site, f"{name}: {target}"
-            assert not anchor or anchor in links(site[file]).anchors, f"{name}: {target}"
+            if file.startswith("https://"):
+                continue
+            assert file in site or (not file) or file == ".", f"{name}: {target}"
+            assert not anchor or anchor in links(site.get(file, text)).anchors, f"{name}: {target}"
+
+
+def test_equations_are_set_before_the_page_is_opened(site):
+    text = site["theory.html"]
+    assert text.count("<math") > 30 and "arithmatex" not in text and "$" not in text
+    assert re.search(
+        r"<mfrac><mrow><mn>3</mn><mi>g</mi></mrow><mrow><mn>4</mn><mi>R</mi></mrow></mfrac>", text
+    )
 
 
 def test_the_site_leaves_nothing_of_the_code_out(site):
     assert "generated:" not in "".join(site.values())
     for form in FORMATS:
         assert f"<td>{form.name}</td>" in unescape(site["formats.html"])
-    for table in (*columns.RECORD_TABLES, *columns.SUMMARY_TABLES, columns.SPECTRUM):
-        for column in table.columns:
+    for described in (*columns.RECORD_TABLES, *columns.SUMMARY_TABLES, columns.SPECTRUM):
+        for column in described.columns:
             assert f"<code>{column.name}</code>" in site["tables.html"]
-    settings = yaml.safe_load((WORKFLOW / "config.yaml").read_text(encoding="utf-8"))
+    settings = yaml.safe_load(written(WORKFLOW / "config.yaml"))
     for name, value in settings.items():
         names = [f"{name}.{inner}" for inner in value] if isinstance(value, dict) else [name]
         assert all(f"<code>{known}</code>" in site["settings.html"] for known in names)
-    for module in MODULES:
-        for name in sys.modules[module].__all__:
-            assert f">{name}</h3>" in site["api.html"], f"{module}.{name}"
+    anchors = links(site["api.html"]).anchors
+    for name in rocking.__all__:
+        value = getattr(rocking, name)
+        assert f"{value.__module__}.{name}" in anchors
 
 
 def test_the_table_of_equations_is_that_of_the_code(site):
     from docs.paper.equations import equation_rows
 
-    cells = re.findall(r"<td>(.*?)</td>", site["theory.html"])
+    cells = re.findall(r"<td>(.*?)</td>", site["equations.html"])
     for row in equation_rows():
         assert row["quantity"] in [unescape(cell) for cell in cells]
         assert f"{row['corrected_number']:.5g}".replace("inf", "overturns") in cells
 
 
-def test_an_unknown_generated_part_is_refused(tmp_path, monkeypatch):
-    page = Page("strange", "Strange")
-    monkeypatch.setattr(Page, "path", tmp_path / "strange.md")
-    page.path.write_text("<!-- generated: nonsense -->\n", encoding="utf-8")
-    with pytest.raises(ConfigurationError, match="'nonsense'"):
-        pages.read_page(page, WORKFLOW)
+def test_an_unknown_generated_part_is_refused():
+    with pytest.raises(ConfigurationError, match=r"^strange.md: .*'nonsense'"):
+        filled("<!-- generated: nonsense -->\n", "strange.md", WORKFLOW)
 
 
 def test_a_missing_package_is_said_in_one_sentence(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "markdown", None)
+    monkeypatch.setitem(sys.modules, "latex2mathml", None)
     with pytest.raises(ConfigurationError, match="extra docs"):
         write_site(tmp_path, WORKFLOW)
     assert not list(tmp_path.iterdir())
 
 
 def test_a_bar_in_a_cell_does_not_split_it():
-    from docs.site.generated import table
-
     assert table(("a",), [("float | None",)]).splitlines()[2] == "| float &#124; None |"
 
 
-def test_read_page_fills_what_is_generated():
-    assert "| PEER AT2 |" in read_page(PAGES[4], WORKFLOW)
+@pytest.fixture(scope="module")
+def browser() -> Iterator:
+    """A headless Chromium that can reach no host."""
+    webdriver = pytest.importorskip(
+        "selenium.webdriver", reason="selenium, of the extra test, opens the site"
+    )
+    binary = next(filter(None, map(shutil.which, BROWSERS)), None)
+    driver = shutil.which("chromedriver")
+    if binary is None or driver is None:
+        pytest.skip("Chromium and chromedriver are not installed; install them to open the site in a browser")
+    options = webdriver.ChromeOptions()
+    options.binary_location = binary
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1400,1000"):
+        options.add_argument(argument)
+    options.add_argument("--host-resolver-rules=MAP * ~NOTFOUND")
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    opened = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
+    yield opened
+    opened.quit()
+
+
+@pytest.mark.slow
+def test_a_word_is_found_in_a_site_opened_from_a_file(browser, folder):
+    browser.get(f"{(folder / 'index.html').as_uri()}?q=Oppenheim")
+    until = time.monotonic() + 20
+    found: list[str] = []
+    while not found and time.monotonic() < until:
+        found = [
+            item.get_attribute("href")
+            for item in browser.find_elements("class name", "md-search-result__link")
+        ]
+        time.sleep(0.1)
+    assert any("theory.html" in target for target in found)
+    assert [entry["message"] for entry in browser.get_log("browser") if entry["level"] == "SEVERE"] == []
