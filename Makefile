@@ -8,7 +8,7 @@ COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --
 EXECUTOR := snakemake-executor-plugin-slurm
 SLURM := workflow/profiles/slurm/requirements.lock
 
-.PHONY: all run setup slurm test bench check paper lock clean
+.PHONY: all run setup slurm test bench check schema paper lock clean
 
 all: run
 
@@ -37,6 +37,11 @@ check: setup
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy rocking
+
+# What the package's own fields say, written where the workflow reads it; a test compares.
+schema: setup
+	$(BIN)/python -c "from rocking.structures.schema import structures_schema_file as text; print(text(), end='')" \
+	  > workflow/schemas/structures.schema.yaml
 
 paper: setup
 	$(BIN)/snakemake --workflow-profile workflow/profiles/default paper

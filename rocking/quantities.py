@@ -64,21 +64,19 @@ def within(
     return number
 
 
-_SMALLEST, _LARGEST = 1e-4, 1e5
-"""Lengths from a tenth of a millimetre to a hundred kilometres, m."""
+LENGTHS = (1e-4, 1e5)
+"""Lengths that are allowed, from a tenth of a millimetre to a hundred kilometres, m."""
 
 
 def length(field: str, value: float) -> float:
     """Return `value` as a length in m, or raise StructureError naming `field` and the bounds."""
-    return within(
-        StructureError, field, positive(StructureError, field, value, "m"), _SMALLEST, _LARGEST, "m"
-    )
+    return within(StructureError, field, positive(StructureError, field, value, "m"), *LENGTHS, "m")
 
 
 def squared_length(field: str, value: float) -> float:
     """Return `value` as a squared length in m², or raise StructureError naming `field` and the bounds."""
     checked = positive(StructureError, field, value, "m²")
-    return within(StructureError, field, checked, _SMALLEST**2, _LARGEST**2, "m²")
+    return within(StructureError, field, checked, LENGTHS[0] ** 2, LENGTHS[1] ** 2, "m²")
 
 
 def shown(value: float, unit: str = "") -> str:

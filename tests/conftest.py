@@ -1,12 +1,15 @@
-"""Fixtures that every test may use, and the count of tests that used real records."""
+"""Fixtures and oracles that every test may use, and the count of tests that used real records."""
 
 import csv
 import os
+import sys
 from pathlib import Path
 
 import pytest
 
 _VARIABLE = "ROCKING_RECORDS"
+
+sys.path.append(str(Path(__file__).parent / "oracles"))  # what several folders of tests compare with
 
 
 @pytest.fixture(scope="session")

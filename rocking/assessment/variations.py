@@ -14,11 +14,8 @@ from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.records.processing import process, variants
 from rocking.sine_pulse import predict_maximum
-from rocking.structures import Spire, Structure, Wall
+from rocking.structures import Structure
 from rocking.structures.outcome import Outcome
-
-HIGHEST_SHARE = 0.95
-"""Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +44,7 @@ def candidates(
     count: int,
     settings: AssessmentSettings,
 ) -> list[Candidate]:
-    """Return `count` candidates of a wall over its hinge height or of a spire over its crack height; [] for others."""
+    """Return `count` candidates of a structure over what it may crack at (its `moved`); [] where nothing is."""
     moved = _moved(structure, count)
     return [
         Candidate(
@@ -87,15 +84,10 @@ def processed_variants(
 @lru_cache(maxsize=64)
 def _moved(structure: Structure, count: int) -> dict[float, Structure]:
     """All candidates take the restitution of the structure: their own momentum balance may be unphysical."""
-    if isinstance(structure, Wall | Spire):
-        structure = replace(structure, restitution=structure.mechanism().restitution)
-    if isinstance(structure, Wall):
-        return dict(
-            structure.candidates(structure.height * np.linspace(1 - HIGHEST_SHARE, HIGHEST_SHARE, count))
-        )
-    if isinstance(structure, Spire):
-        return dict(structure.candidates(structure.height * np.linspace(0, HIGHEST_SHARE, count)))
-    return {}
+    if not structure.moved:
+        return {}
+    fixed = replace(structure, restitution=structure.mechanism().restitution)  # type: ignore[type-var,call-arg]
+    return dict(fixed.candidates(fixed.candidate_positions(count)))
 
 
 def _predicted(structure: Structure, pulse: Pulse | None, settings: AssessmentSettings) -> float:

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rocking.errors import StructureError
 from rocking.motion.response import Response
 from rocking.records import Accelerogram
 from rocking.structures import Structure
-from rocking.structures.contacts import contact_history
+from rocking.structures.contact_forces import contact_history
+from rocking.structures.contacts import UnknownContacts
 
 
 @dataclass(frozen=True)
@@ -17,18 +17,27 @@ class ModelCheck:
     """The contacts of a structure along one response, up to its critical rotation.
 
     friction_needed: largest friction coefficient that any contact needs while it rocks; inf where one is not pressed,
-    nan where the contact forces are not known (a frame) or nothing rocks. bounces: whether a contact would open.
+    nan where `reason` says why nothing is known of it. bounces: whether a contact would open, or None.
+    reason: why nothing is known, in words; "" where it is.
     """
 
     friction_needed: float
     bounces: bool | None
+    reason: str = ""
 
     def slides(self, friction_coefficient: float) -> bool | None:
         """Whether a contact needs more friction than `friction_coefficient`; None where the forces are not known."""
         return None if math.isnan(self.friction_needed) else self.friction_needed > friction_coefficient
 
 
-UNKNOWN = ModelCheck(math.nan, None)
+def unknown(reason: str) -> ModelCheck:
+    """Return the check of which nothing is known, for a `reason`."""
+    return ModelCheck(math.nan, None, reason)
+
+
+UNKNOWN = unknown("contact forces were not asked for")
+_NO_HISTORY = unknown("the response keeps no history")
+_NO_MOTION = unknown("nothing rocks below the critical rotation")
 
 
 def check_model(
@@ -37,16 +46,16 @@ def check_model(
     """Return what the contacts of `structure` need along `response`, which must hold its history."""
     times, rotation, velocity = response.times, response.rotation, response.angular_velocity
     if times is None or rotation is None or velocity is None:
-        return UNKNOWN
+        return _NO_HISTORY
     rocks = (rotation != 0) & (np.abs(rotation) <= structure.mechanism().critical_rotation)
     if not rocks.any():
-        return UNKNOWN
+        return _NO_MOTION
     ground = _at(accelerogram, times[rocks])
     lift = 0.0 if vertical is None else _at(vertical, times[rocks])
     try:
         contacts = contact_history(structure, rotation[rocks], velocity[rocks], ground, lift)
-    except StructureError:
-        return UNKNOWN
+    except UnknownContacts as why:
+        return unknown(str(why))
     return ModelCheck(float(np.max(contacts.friction_needed)), bool(contacts.opens.any()))
 
 

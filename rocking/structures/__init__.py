@@ -2,12 +2,13 @@
 
 from rocking.structures.arch import Arch
 from rocking.structures.block import Block
-from rocking.structures.config import load_structures, structure_from_config
+from rocking.structures.config import structure_from_config
 from rocking.structures.frame import Frame
 from rocking.structures.mechanism import EquivalentBlock, Mechanism, Side
 from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
 from rocking.structures.structure import Structure
+from rocking.structures.structure_list import load_structures
 from rocking.structures.wall import Wall
 
 __all__ = [

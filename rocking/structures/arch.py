@@ -4,8 +4,10 @@ import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError, StructureWarning
 from rocking.quantities import finite, length
@@ -20,6 +22,10 @@ from rocking.structures.arch_onset import (
     thrust_line,
 )
 from rocking.structures.arch_ring import PATTERN, Ring
+from rocking.structures.bars import Bodies, cross
+from rocking.structures.contacts import Contacts, MotionState, dalembert, resolved
+from rocking.structures.drawing import Path, span, swept
+from rocking.structures.fields import Form, angle_field, count_field, length_field, restitution_field
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import (
     Restitution,
@@ -29,7 +35,8 @@ from rocking.structures.restitution import (
 )
 from rocking.structures.structure import Structure
 
-_SMALLEST_EMBRACE, _LARGEST_EMBRACE = np.pi / 36, 1.5 * np.pi
+_EMBRACE_DEG = (5, 270)
+_SMALLEST_EMBRACE, _LARGEST_EMBRACE = np.radians(_EMBRACE_DEG)
 _MOST_VOUSSOIRS = 1000
 
 
@@ -44,6 +51,34 @@ class Arch(Structure):
     StructureWarning says so. Raises StructureError when it cannot stand, or has no four-hinge mechanism; the
     message names the bound.
     """
+
+    type_name: ClassVar[str] = "arch"
+    forms: ClassVar[tuple[Form, ...]] = (
+        Form(
+            "Circular arch with radial joints; radius of the centreline",
+            (
+                length_field("radius_m", "radius", "Radius of the centreline", 10.0, (0.3, 50), "r"),
+                length_field("thickness_m", "thickness", "Radial thickness", 1.5, (0.03, 5), "t"),
+                angle_field(
+                    "embrace_angle_deg",
+                    "embrace_angle",
+                    "Embrace angle",
+                    157.5,
+                    (60, 240),
+                    "β",
+                    {"minimum": _EMBRACE_DEG[0], "maximum": _EMBRACE_DEG[1]},
+                ),
+                count_field(
+                    "voussoirs",
+                    "How many equal voussoirs; left out when hinges may open anywhere",
+                    7,
+                    (3, _MOST_VOUSSOIRS),
+                    required=False,
+                ),
+                restitution_field("momentum"),
+            ),
+        ),
+    )
 
     radius: float
     thickness: float
@@ -169,6 +204,30 @@ class Arch(Structure):
         speed = motion.velocities[bar] + 1j * spins * (points - motion.centroids[bar])
         return np.stack([speed.real, speed.imag, spins], axis=1) * moving[:, None]
 
+    def bodies(self, rotation: ArrayLike) -> Bodies:
+        bars, motion = self.linkage.bars, self.linkage.motion(rotation)
+        return Bodies(
+            bars.masses, bars.inertias * self.radius**2, motion.centroids * self.radius, motion.angles
+        )
+
+    def contacts(self, state: MotionState) -> Contacts:
+        """The thrust at B follows from the moments of AB about A and of BC about C; it runs from left to right."""
+        bars, motion = self.linkage.bars, self.linkage.motion(state.rotation)
+        forces, couples = dalembert(
+            bars, motion, state, state.pull / self.radius
+        )  # the linkage has a radius of 1
+        a, b, c, _ = motion.hinges
+        first = cross(motion.centroids[0] - a, forces[0]) + couples[0]
+        second = cross(motion.centroids[1] - c, forces[1]) + couples[1]
+        # (b − a) × T = first and (b − c) × T = −second
+        at_b = ((b - c) * first + (b - a) * second) / cross(b - a, b - c)
+        thrusts = np.stack([at_b - forces[0], at_b, at_b + forces[1], at_b + forces[1] + forces[2]])
+        fixed = np.zeros_like(motion.angles[:1])
+        faces = np.concatenate([fixed, motion.angles, fixed])
+        tangents = np.exp(1j * ((faces[1:] + faces[:-1]) / 2 - self._hinge_sections[:, None]))
+        mass = self.embrace_angle / self.radius
+        return resolved(("A", "B", "C", "D"), thrusts / mass, tangents)
+
     def _outline(self, rotation: float) -> list[np.ndarray]:
         """What stays at the springings, the bars, or the voussoirs of both; about the centre of the arch."""
         motion, hinges = self.linkage.motion(rotation), self._hinge_sections
@@ -193,6 +252,19 @@ class Arch(Structure):
     @property
     def _ends(self) -> np.ndarray:
         return np.array([-self.embrace_angle / 2, self.embrace_angle / 2])
+
+    def _dimensions(self) -> dict[str, Path]:
+        half, inner, outer = (
+            self.embrace_angle / 2,
+            self.radius - self.thickness / 2,
+            self.radius + self.thickness / 2,
+        )
+        aside = np.array([np.sin(half / 2), np.cos(half / 2)])
+        return {
+            "radius": span([0.0, 0.0], self.radius * aside),
+            "thickness": span([0.0, inner], [0.0, outer]),
+            "embrace_angle": swept([0.0, 0.0], 0.3 * self.radius, -half, half),
+        }
 
     def thrust_line(self, count: int = 200) -> np.ndarray:
         """Return the line of thrust at the onset to the positive side: (count, 2) in m, from springing to springing."""

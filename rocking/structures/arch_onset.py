@@ -1,13 +1,12 @@
-"""Where an arch hinges and at which horizontal multiplier: limit analysis by two routes (theory: section 5).
+"""Where an arch hinges and at which horizontal multiplier: limit analysis by the static theorem (theory: section 5).
 
 Inertia forces act to the right. The loads are 1 downwards and λ to the right on each radian of the ring, at
 the radius of an element's centroid.
 
-Static route: λ is the largest multiplier whose thrust line stays inside the ring. With the reaction at the
-left springing u = (M₀, V, H) that is a linear programme in (u, λ), solved by exchange of the four sections
-where the line touches; between joints (a continuous ring) each touching section then slides to where the
-line is tangent. Kinematic route: λ is the smallest multiplier over all four-hinge mechanisms, by virtual
-work.
+λ is the largest multiplier whose thrust line stays inside the ring. With the reaction at the left springing
+u = (M₀, V, H) that is a linear programme in (u, λ), solved by exchange of the four sections where the line touches;
+between joints (a continuous ring) each touching section then slides to where the line is tangent. The tests compare
+it with the smallest multiplier over all four-hinge mechanisms, by virtual work.
 """
 
 from dataclasses import dataclass
@@ -17,7 +16,6 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Ring
-from rocking.structures.bars import cross
 
 _DOWN = np.array([0.0, 0.0, 0.0, -1.0])
 _ROUNDS = 100
@@ -188,65 +186,3 @@ def _boundary(
         middle = (low + high) / 2
         low, high = (middle, high) if fails(middle) == below else (low, middle)
     return (low + high) / 2
-
-
-def kinematic_onset(ring: Ring) -> Onset:
-    """Return the smallest multiplier over all admissible mechanisms with D at the right springing.
-
-    The reaction is not a kinematic quantity and is left nan. Raises NoMechanism when no mechanism is
-    admissible.
-    """
-    sections = ring.sections()[:: 1 if ring.voussoirs else 2]
-    hinges = np.array([(*triple, sections.size - 1) for triple in combinations(range(sections.size - 1), 3)])
-    hinges = sections[hinges]
-    multipliers = mechanism_multiplier(ring, hinges)
-    best = int(np.argmin(multipliers))
-    multiplier, found = float(multipliers[best]), hinges[best]
-    if not np.isfinite(multiplier):
-        raise NoMechanism
-    if ring.voussoirs is None:
-        multiplier, found = _slide_to_minimum(ring, found, 2 * (sections[1] - sections[0]))
-    return Onset(multiplier, found + ring.embrace_angle / 2, np.full(3, np.nan))
-
-
-def _slide_to_minimum(ring: Ring, hinges: np.ndarray, reach: float) -> tuple[float, np.ndarray]:
-    """Minimise the multiplier over A, B and C within `reach` of a first guess; inadmissible there is no barrier."""
-    from scipy.optimize import minimize  # slow to import, and needed by arches only
-
-    edge = ring.embrace_angle / 2
-    result = minimize(
-        lambda free: _virtual_work(ring, np.append(free, edge))[0],
-        hinges[:3],
-        jac="3-point",
-        method="L-BFGS-B",
-        bounds=[(max(section - reach, -edge), min(section + reach, edge)) for section in hinges[:3]],
-        options={"ftol": 1e-16, "gtol": 1e-10},
-    )
-    found = np.append(result.x, edge)
-    return float(mechanism_multiplier(ring, found)), found
-
-
-def mechanism_multiplier(ring: Ring, hinges: np.ndarray) -> np.ndarray:
-    """Return λ of the mechanism with hinges A, B, C, D at sections `hinges` (..., 4): (...), inf if inadmissible."""
-    multiplier, admissible = _virtual_work(ring, hinges)
-    return np.where(admissible, multiplier, np.inf)
-
-
-def _virtual_work(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """λ = Σ m v_y / Σ m v_x of the three bars for ω₁ = −1, and whether every hinge opens and the load does work."""
-    points = ring.contact_points(hinges, PATTERN)
-    bars = np.diff(points, axis=-1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        second = cross(bars[..., 0], bars[..., 2]) / cross(bars[..., 1], bars[..., 2])
-        third = cross(bars[..., 0], bars[..., 1]) / cross(bars[..., 2], bars[..., 1])
-    spins = np.stack([-np.ones_like(second), second, third], axis=-1)
-    masses = np.diff(hinges, axis=-1)
-    moments = -ring.centroid_radius * np.diff(np.exp(-1j * hinges), axis=-1)
-    pivots = points[..., [0, 1, 3]]
-    hinge_speed = np.zeros_like(pivots)
-    hinge_speed[..., 1] = -1j * bars[..., 0]
-    speed = (1j * spins * (moments - masses * pivots) + masses * hinge_speed).sum(axis=-1)
-    opening = PATTERN * np.diff(spins, axis=-1, prepend=0, append=0)
-    works = speed.real != 0
-    multiplier = np.where(works, speed.imag / np.where(works, speed.real, 1.0), np.inf)
-    return multiplier, (opening <= 0).all(axis=-1) & (speed.real > 0)

@@ -1,17 +1,19 @@
 """Rigid bars that move as one mechanism: what they weigh and how they move with φ. Points are complex, x + iy."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 
 @dataclass(frozen=True, eq=False)
 class Bars:
     """Masses, centroids (complex, at rest) and inertias about the centroids of some rigid parts: (k,) each."""
 
-    masses: np.ndarray
-    centroids: np.ndarray
-    inertias: np.ndarray
+    masses: np.ndarray = field(repr=False)
+    centroids: np.ndarray = field(repr=False)
+    inertias: np.ndarray = field(repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,13 +24,37 @@ class Motion:
     and spin_slopes: its derivatives. centroids, velocities, accelerations: (k, ...) complex, with their derivatives.
     """
 
-    hinges: np.ndarray
-    angles: np.ndarray
-    spins: np.ndarray
-    spin_slopes: np.ndarray
-    centroids: np.ndarray
-    velocities: np.ndarray
-    accelerations: np.ndarray
+    hinges: np.ndarray = field(repr=False)
+    angles: np.ndarray = field(repr=False)
+    spins: np.ndarray = field(repr=False)
+    spin_slopes: np.ndarray = field(repr=False)
+    centroids: np.ndarray = field(repr=False)
+    velocities: np.ndarray = field(repr=False)
+    accelerations: np.ndarray = field(repr=False)
+
+
+class Bodies(NamedTuple):
+    """Moving masses at a rotation (any shape, ...), up to one factor of mass; points complex, m.
+
+    masses, inertias (about each centre of mass): (k,). centres: (k, ...). turns: (k, ...) counterclockwise, rad.
+    """
+
+    masses: np.ndarray
+    inertias: np.ndarray
+    centres: np.ndarray
+    turns: np.ndarray
+
+
+def body_about(corner: float | complex, centre: complex, inertia: float, rotation: ArrayLike) -> Bodies:
+    """Return one body of mass 1 that turns clockwise about `corner`; centre: of mass at rest. inertia: per mass, m²."""
+    turn = -np.asarray(rotation, dtype=float)
+    centres = corner + (centre - corner) * np.exp(1j * turn)
+    return Bodies(np.ones(1), np.array([inertia]), centres[None], turn[None])
+
+
+def bodies_of(bars: Bars, motion: Motion) -> Bodies:
+    """Return the bars of a motion as bodies."""
+    return Bodies(bars.masses, bars.inertias, motion.centroids, motion.angles)
 
 
 def cross(one: np.ndarray, other: np.ndarray) -> np.ndarray:

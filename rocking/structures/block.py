@@ -1,11 +1,17 @@
 """The free-standing rectangular block (Housner 1963)."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import finite, length
+from rocking.structures.bars import Bodies, body_about
+from rocking.structures.contacts import Contacts, MotionState, corner
+from rocking.structures.drawing import Path, rectangle, span, swept, turned
+from rocking.structures.fields import ONE_SIDED, Form, angle_field, length_field, restitution_field
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import (
     Restitution,
@@ -14,7 +20,10 @@ from rocking.structures.restitution import (
     resolve_restitution,
 )
 from rocking.structures.single_body import corner_side
-from rocking.structures.structure import Structure, turned
+from rocking.structures.structure import Structure
+
+SLOPE = {"exclusiveMinimum": 0, "exclusiveMaximum": 90}
+_OPTIONS = (restitution_field("momentum", "housner"), ONE_SIDED)
 
 
 @dataclass(frozen=True)
@@ -27,6 +36,43 @@ class Block(Structure):
     one_sided: it rocks away from what it leans on only, and is thrown back at every impact.
     Raises StructureError when it cannot stand.
     """
+
+    type_name: ClassVar[str] = "block"
+    forms: ClassVar[tuple[Form, ...]] = (
+        Form(
+            "Rectangular block by its size",
+            (
+                length_field("breadth_m", "breadth", "Breadth", 0.6, (0.02, 20), "b"),
+                length_field("height_m", "height", "Height", 4.0, (0.1, 100), "h"),
+                *_OPTIONS,
+            ),
+            make="of_size",
+        ),
+        Form(
+            "Rectangular block by half its diagonal and its slenderness",
+            (
+                length_field(
+                    "semi_diagonal_m",
+                    "semi_diagonal",
+                    "Half the diagonal",
+                    2.0,
+                    (0.05, 50),
+                    "R",
+                    phrase="semi-diagonal {value}",
+                ),
+                angle_field(
+                    "slenderness_deg",
+                    "slenderness",
+                    "Angle between the vertical and the diagonal",
+                    10.0,
+                    (1, 45),
+                    "α",
+                    SLOPE,
+                ),
+                *_OPTIONS,
+            ),
+        ),
+    )
 
     semi_diagonal: float
     slenderness: float
@@ -72,13 +118,30 @@ class Block(Structure):
         )
         return Mechanism(side, one_sided=self.one_sided)
 
+    def bodies(self, rotation: ArrayLike) -> Bodies:
+        return body_about(
+            self.breadth / 2, 0.5j * self.height, (self.breadth**2 + self.height**2) / 12, rotation
+        )
+
+    def contacts(self, state: MotionState) -> Contacts:
+        return corner(self.breadth / 2, self.height / 2, state)
+
     def _outline(self, rotation: float) -> list[np.ndarray]:
-        half, height = self.breadth / 2, self.height
-        corners = [[-half, 0.0], [half, 0.0], [half, height], [-half, height]]
-        return [turned(corners, self._hinges(rotation)[0], rotation)]
+        half = self.breadth / 2
+        return [turned(rectangle(-half, half, 0.0, self.height), self._hinges(rotation)[0], rotation)]
 
     def _hinges(self, rotation: float) -> np.ndarray:
         return np.array([[self.breadth / 2, 0.0]])
+
+    def _dimensions(self) -> dict[str, Path]:
+        half, height, apart = self.breadth / 2, self.height, 0.06 * self.height
+        foot = np.array([half, 0.0])
+        return {
+            "breadth": span([-half, height], [half, height], [0.0, apart]),
+            "height": span([-half, 0.0], [-half, height], [-apart, 0.0]),
+            "semi_diagonal": span(foot, [0.0, height / 2]),
+            "slenderness": swept(foot, 0.7 * self.semi_diagonal, -self.slenderness, 0.0),
+        }
 
     def _momentum_balance(self) -> float:
         across, up = np.sin(self.slenderness), np.cos(self.slenderness)

@@ -1,12 +1,18 @@
 """The symmetric rocking frame of equal columns under a rigid beam (Makris and Vassiliou 2013; theory: section 3)."""
 
 from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import finite
+from rocking.structures.bars import Bodies
 from rocking.structures.block import Block
+from rocking.structures.contacts import Contacts, MotionState, UnknownContacts
+from rocking.structures.drawing import Path, rectangle, span, turned
+from rocking.structures.fields import Field, Form, count_field, length_field, restitution_field
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import (
     Restitution,
@@ -15,7 +21,7 @@ from rocking.structures.restitution import (
     resolve_restitution,
 )
 from rocking.structures.single_body import corner_side
-from rocking.structures.structure import Structure, turned
+from rocking.structures.structure import Structure
 
 _MOST_COLUMNS = 1000
 
@@ -29,6 +35,31 @@ class Frame(Structure):
     columns so slender that the balance is positive. The column's own restitution plays no part.
     The rotation ends when the columns lie. Raises StructureError when it cannot stand.
     """
+
+    type_name: ClassVar[str] = "frame"
+    forms: ClassVar[tuple[Form, ...]] = (
+        Form(
+            "Symmetric frame of equal columns under a rigid beam",
+            (
+                length_field(
+                    "column_breadth_m", "column_breadth", "Breadth of a column", 1.0, (0.05, 10), "b"
+                ),
+                length_field("column_height_m", "column_height", "Height of a column", 8.0, (0.5, 60), "h"),
+                count_field("columns", "How many columns", 4, (2, _MOST_COLUMNS)),
+                Field(
+                    "beam_mass_ratio",
+                    "beam_mass_ratio",
+                    "Mass of the beam over that of all columns",
+                    0.3,
+                    {"type": "number", "minimum": 0},
+                    usual=(0, 20),
+                    letter="γ",
+                ),
+                restitution_field("momentum"),
+            ),
+            make="of_columns",
+        ),
+    )
 
     column: Block
     columns: int
@@ -50,6 +81,21 @@ class Frame(Structure):
         object.__setattr__(self, "beam_mass_ratio", ratio)
         check_restitution(self.restitution, ("momentum",))
 
+    @classmethod
+    def of_columns(cls, column_breadth: float, column_height: float, **options: Any) -> "Frame":
+        """Return the frame whose columns have that breadth and height [m]."""
+        return cls(Block.of_size(column_breadth, column_height), **options)
+
+    @property
+    def column_breadth(self) -> float:
+        """Breadth of a column, m."""
+        return self.column.breadth
+
+    @property
+    def column_height(self) -> float:
+        """Height of a column, m."""
+        return self.column.height
+
     def _build(self) -> Mechanism:
         """I, G and B of one column and its share of the beam, divided by m R (1 + 2γ)."""
         share = (1 + 3 * self.beam_mass_ratio) / (1 + 2 * self.beam_mass_ratio)
@@ -63,16 +109,35 @@ class Frame(Structure):
             )
         )
 
+    def bodies(self, rotation: ArrayLike) -> Bodies:
+        """All columns, and the beam, whose centre is taken on its lower edge: it does not turn."""
+        one = self.column.bodies(rotation)
+        shape = (-1, *[1] * np.ndim(rotation))
+        axes = self._axes.reshape(shape)
+        top = self.column.breadth / 2 + 2 * self.column.semi_diagonal * 1j * np.exp(
+            1j * (self.column.slenderness - np.asarray(rotation, dtype=float))
+        )
+        return Bodies(
+            np.append(np.ones(self.columns), self.columns * self.beam_mass_ratio),
+            np.append(np.full(self.columns, one.inertias[0]), 0.0),
+            np.concatenate([axes + one.centres, top[None]]),
+            np.concatenate([0 * axes + one.turns, 0 * one.turns]),
+        )
+
+    def contacts(self, state: MotionState) -> Contacts:
+        """Not known: each column stands between two contacts that share its load as they like."""
+        raise UnknownContacts("contact forces of a frame are statically indeterminate")
+
     def _outline(self, rotation: float) -> list[np.ndarray]:
         """Columns 0.6 of their height apart, and a beam of their material and breadth as deep as its mass asks."""
         half, height = self.column.breadth / 2, self.column.height
-        column = np.array([[-half, 0.0], [half, 0.0], [half, height], [-half, height]])
+        column = rectangle(-half, half, 0.0, height)
         drawn = [turned(column + np.array([x, 0.0]), [x + half, 0.0], rotation) for x in self._axes]
         if self.beam_mass_ratio == 0:
             return drawn
         left, right = self._axes[0] - half, self._axes[-1] + half
         depth = self.beam_mass_ratio * self.columns * 2 * half * height / (right - left)
-        beam = np.array([[left, height], [right, height], [right, height + depth], [left, height + depth]])
+        beam = rectangle(left, right, height, height + depth)
         return [*drawn, beam + self._hinges(rotation)[-1] - [right - 2 * half, height]]
 
     def _hinges(self, rotation: float) -> np.ndarray:
@@ -82,6 +147,14 @@ class Frame(Structure):
         return np.concatenate(
             [bottom, bottom + 2 * self.column.semi_diagonal * np.array([-np.sin(angle), np.cos(angle)])]
         )
+
+    def _dimensions(self) -> dict[str, Path]:
+        first, half, height = self._axes[0], self.column.breadth / 2, self.column.height
+        apart = 0.06 * height
+        return {
+            "column_breadth": span([first - half, 0.0], [first + half, 0.0], [0.0, -apart]),
+            "column_height": span([first - half, 0.0], [first - half, height], [-apart, 0.0]),
+        }
 
     @property
     def _axes(self) -> np.ndarray:

@@ -1,10 +1,16 @@
 """Any rigid body that rocks about two corners, its mass off centre if need be (theory: section 2)."""
 
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from rocking.quantities import length, squared_length
+from rocking.quantities import LENGTHS, length, squared_length
+from rocking.structures.bars import Bodies, body_about
+from rocking.structures.contacts import Contacts, MotionState, corner
+from rocking.structures.drawing import Path, span, turned
+from rocking.structures.fields import ONE_SIDED, Field, Form, length_field, restitution_field
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import (
     Restitution,
@@ -13,7 +19,7 @@ from rocking.structures.restitution import (
     resolve_restitution,
 )
 from rocking.structures.single_body import corner_side
-from rocking.structures.structure import Structure, turned
+from rocking.structures.structure import Structure
 
 
 @dataclass(frozen=True)
@@ -28,6 +34,31 @@ class RigidBody(Structure):
     Its outline is not known, so each side is followed until the centre of mass is level with the corner.
     Raises StructureError when it cannot stand.
     """
+
+    type_name: ClassVar[str] = "rigid_body"
+    forms: ClassVar[tuple[Form, ...]] = (
+        Form(
+            "Any body by its centre of mass and its inertia about it per mass",
+            (
+                length_field("left_m", "left", "Distance of the left corner", 0.4, (0.01, 20), "l"),
+                length_field("right_m", "right", "Distance of the right corner", 0.6, (0.01, 20), "r"),
+                length_field(
+                    "centre_height_m", "centre_height", "Height of the centre of mass", 2.0, (0.05, 50), "z"
+                ),
+                Field(
+                    "inertia_m2",
+                    "inertia",
+                    "Inertia about the centre of mass per mass",
+                    1.5,
+                    {"type": "number", "minimum": LENGTHS[0] ** 2, "maximum": LENGTHS[1] ** 2},
+                    "m²",
+                    (1e-4, 1e3),
+                ),
+                restitution_field("momentum", "housner"),
+                ONE_SIDED,
+            ),
+        ),
+    )
 
     left: float
     right: float
@@ -63,6 +94,12 @@ class RigidBody(Structure):
     def _mirrored(self) -> "RigidBody":
         return replace(self, left=self.right, right=self.left)
 
+    def bodies(self, rotation: ArrayLike) -> Bodies:
+        return body_about(self.right, 1j * self.centre_height, self.inertia, rotation)
+
+    def contacts(self, state: MotionState) -> Contacts:
+        return corner(np.where(state.sign > 0, self.right, self.left), self.centre_height, state)
+
     def _outline(self, rotation: float) -> list[np.ndarray]:
         """The parallelogram with these corners and this centre of mass, for want of the true outline."""
         top = 2 * self.centre_height
@@ -71,6 +108,14 @@ class RigidBody(Structure):
 
     def _hinges(self, rotation: float) -> np.ndarray:
         return np.array([[self.right, 0.0]])
+
+    def _dimensions(self) -> dict[str, Path]:
+        apart, centre = [0.0, -0.12 * self.centre_height], [0.0, self.centre_height]
+        return {
+            "left": span([-self.left, 0.0], [0.0, 0.0], apart),
+            "right": span([0.0, 0.0], [self.right, 0.0], apart),
+            "centre_height": span([0.0, 0.0], centre),
+        }
 
     def _momentum_balance(self, corner: float, other: float) -> float:
         up = self.centre_height

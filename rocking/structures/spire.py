@@ -3,16 +3,21 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import finite, length
+from rocking.structures.bars import Bodies, body_about
+from rocking.structures.contacts import Contacts, MotionState
+from rocking.structures.drawing import Path, span, turned
+from rocking.structures.fields import ONE_SIDED, Field, Form, length_field, restitution_field
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import Restitution, check_restitution
 from rocking.structures.rigid_body import RigidBody
-from rocking.structures.structure import Structure, turned
+from rocking.structures.structure import HIGHEST_SHARE, Structure
 
 _SPREAD = {"circular": 3 / 20, "square": 1 / 5}
 """Mean square of one horizontal coordinate over a solid cone or pyramid, in squares of its half width."""
@@ -27,6 +32,49 @@ class Spire(Structure):
     restitution, one_sided: as for a RigidBody.
     Raises StructureError when it cannot stand, or the crack lies outside it.
     """
+
+    type_name: ClassVar[str] = "spire"
+    moved: ClassVar[str] = "crack height"
+    forms: ClassVar[tuple[Form, ...]] = (
+        Form(
+            "Cone or square pyramid, solid or hollow, that rocks above a horizontal crack",
+            (
+                length_field("width_m", "width", "Diameter or side at the base", 3.0, (0.2, 20), "b"),
+                length_field("height_m", "height", "Height of the whole spire", 15.0, (0.5, 100), "h"),
+                length_field(
+                    "wall_thickness_m",
+                    "wall_thickness",
+                    "Horizontal thickness of the wall of a hollow one",
+                    0.25,
+                    (0.05, 3),
+                    "t",
+                    required=False,
+                ),
+                Field(
+                    "plan",
+                    "plan",
+                    "Shape of a horizontal section",
+                    "circular",
+                    {"enum": [*_SPREAD]},
+                    phrase="{value} plan",
+                    required=False,
+                ),
+                Field(
+                    "crack_height_m",
+                    "crack_height",
+                    "Height of the crack above the base",
+                    5.0,
+                    {"type": "number", "minimum": 0},
+                    "m",
+                    (0, 95),
+                    "z",
+                    required=False,
+                ),
+                restitution_field("momentum", "housner"),
+                ONE_SIDED,
+            ),
+        ),
+    )
 
     width: float
     height: float
@@ -99,9 +147,20 @@ class Spire(Structure):
         side = self.body.side(self.half_width, self.half_width, self.end_rotation)
         return Mechanism(side, one_sided=self.one_sided)
 
-    def candidates(self, crack_heights: Iterable[float]) -> dict[float, "Spire"]:
-        """Return this spire with its crack at each of `crack_heights` [m], by height."""
-        return {float(height): replace(self, crack_height=height) for height in crack_heights}
+    def bodies(self, rotation: ArrayLike) -> Bodies:
+        centre = 1j * (self.crack_height + self.body.centre_height)
+        return body_about(self.half_width + 1j * self.crack_height, centre, self.body.inertia, rotation)
+
+    def contacts(self, state: MotionState) -> Contacts:
+        return self.body.contacts(state)
+
+    def candidate_positions(self, count: int) -> np.ndarray:
+        """Crack heights from the base to a share of the height."""
+        return self.height * np.linspace(0, HIGHEST_SHARE, count)
+
+    def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
+        """Return this spire with its crack at each of `positions` [m], by height."""
+        return {float(height): replace(self, crack_height=height) for height in positions}
 
     def _outline(self, rotation: float) -> list[np.ndarray]:
         half, crack = self.half_width, self.crack_height
@@ -112,3 +171,15 @@ class Spire(Structure):
 
     def _hinges(self, rotation: float) -> np.ndarray:
         return np.array([[self.half_width, self.crack_height]])
+
+    def _dimensions(self) -> dict[str, Path]:
+        half, apart = self.width / 2, 0.06 * self.height
+        paths = {
+            "width": span([-half, 0.0], [half, 0.0], [0.0, -apart]),
+            "height": span([-half, 0.0], [-half, self.height], [-apart, 0.0]),
+        }
+        if self.crack_height > 0:
+            paths["crack_height"] = span([half, 0.0], [half, self.crack_height], [apart, 0.0])
+        if self.wall_thickness is not None:
+            paths["wall_thickness"] = span([half - self.wall_thickness, 0.0], [half, 0.0])
+        return paths

@@ -1,28 +1,45 @@
-"""What every structure offers: its mechanism, computed once, and its drawing at any rotation."""
+"""What every structure offers: mechanism, bodies, drawing, contacts, candidates, and how a file describes it."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterable
 from dataclasses import fields
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import within
+from rocking.structures.bars import Bodies
+from rocking.structures.contacts import Contacts, MotionState
+from rocking.structures.drawing import Dimension, Path
+from rocking.structures.fields import Field, Form
 from rocking.structures.mechanism import Mechanism
+
+HIGHEST_SHARE = 0.95
+"""Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
 
 
 class Structure(ABC):
-    """A geometry that reduces to a Mechanism. Subclasses are frozen dataclasses checked at birth."""
+    """A geometry that reduces to a Mechanism. Subclasses are frozen dataclasses checked at birth.
+
+    type_name: the `type` in a file. forms: the ways to describe it there, the first one that of a structure made
+    otherwise. moved: what its candidates move ("hinge height"); "" when it has none.
+    """
+
+    type_name: ClassVar[str] = ""
+    forms: ClassVar[tuple[Form, ...]] = ()
+    moved: ClassVar[str] = ""
 
     def mechanism(self) -> Mechanism:
         """Return the structure in standard form; the same object at every call."""
         return self._mechanism
 
     def __getstate__(self) -> dict[str, Any]:
-        """The fields alone: what is computed from them is computed again after a copy or in another process."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
+        """The fields and what was typed: the rest is computed again after a copy or in another process."""
+        state = {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]
+        return state | {name: self.__dict__[name] for name in ("_typed",) if name in self.__dict__}
 
     def outline(self, rotation: float = 0.0) -> list[np.ndarray]:
         """Return the rigid parts at a signed `rotation` [rad] as polygons (k, 2) in m, x to the right, y up."""
@@ -32,9 +49,95 @@ class Structure(ABC):
         """Return the contact points (k, 2) in m at a signed `rotation` [rad]; at rest those of the positive side."""
         return self._on_side(rotation, "_hinges")
 
+    @abstractmethod
+    def bodies(self, rotation: ArrayLike) -> Bodies:
+        """Return the moving masses at `rotation` ≥ 0 [rad], any shape, on the positive side, up to a factor of mass."""
+
+    @abstractmethod
+    def contacts(self, state: MotionState) -> Contacts:
+        """Return the contact forces in a state on its side; raises UnknownContacts, which says why, without them."""
+
+    def dimensions(self) -> tuple[Dimension, ...]:
+        """Return the dimension lines of the sizes it was described by, at rest."""
+        paths = self._dimensions()
+        drawn = [each for each in self.form.fields if each.parameter in paths and each.key in self._values]
+        return tuple(
+            Dimension(each.letter, self._text(each) + each.suffix, *paths[each.parameter]) for each in drawn
+        )
+
+    def candidate_positions(self, count: int) -> np.ndarray:
+        """Return `count` positions [m] over which `candidates` may be spread; (0,) when nothing can be moved."""
+        return np.empty(0)
+
+    def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
+        """Return this structure with what is moved at each of `positions` [m], by position."""
+        return {}
+
+    @property
+    def form(self) -> Form:
+        """The form it was described in, or the first one."""
+        given = self.__dict__.get("_typed", {})
+        return max(self.forms, key=lambda form: len(set(form.required) & given.keys()))
+
+    @property
+    def description(self) -> str:
+        """What it was described by, in words with units: "breadth 0.6 m, height 6.0 m"."""
+        values = self._values
+        return ", ".join(
+            each.said(self._text(each)) for each in self._described() if values[each.key] is not False
+        )
+
+    @property
+    def size(self) -> str:
+        """Its sizes in short, as they were typed: "0.6 × 6.0 m", "10 × 1.5 m, 157.5°"."""
+        parts: dict[str, list[str]] = {}
+        for each in self._described():
+            if each.required and each.unit:
+                parts.setdefault(each.suffix, []).append(self._text(each))
+        return ", ".join(" × ".join(texts) + suffix for suffix, texts in parts.items())
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """A sentence for each size beyond its plausible range."""
+        values = self._values
+        found = (each.remark(self.type_name, values[each.key]) for each in self._described())
+        return tuple(sentence for sentence in found if sentence)
+
+    def as_config(self) -> dict[str, object]:
+        """Return the mapping of a structure list that describes it, without a name."""
+        return {"type": self.type_name, **self._values}
+
+    def typed(self, values: dict[str, object], texts: dict[str, str]) -> None:
+        """Remember the `values` of a file by key, and their `texts` as they were typed; for the loader only."""
+        object.__setattr__(self, "_typed", {key: (values[key], texts[key]) for key in values})
+
     @cached_property
     def _mechanism(self) -> Mechanism:
         return self._build()
+
+    @property
+    def _values(self) -> dict[str, object]:
+        """The values of its form in the units of a file; options that were not given are left out."""
+        given = self.__dict__.get("_typed")
+        if given is not None:
+            return {key: value for key, (value, _) in given.items()}
+        values = [(each, getattr(self, each.parameter)) for each in self.form.fields]
+        return {
+            each.key: each.outward(value)
+            for each, value in values
+            if each.required or (value is not None and value is not False)
+        }
+
+    def _described(self) -> list[Field]:
+        values = self._values
+        return [each for each in self.form.fields if each.key in values]
+
+    def _text(self, each: Field) -> str:
+        given = self.__dict__.get("_typed", {})
+        if each.key in given:
+            return given[each.key][1]
+        value = self._values[each.key]
+        return f"{value:.6g}" if isinstance(value, float) else str(value)
 
     def _on_side(self, rotation: float, drawing: str) -> Any:
         """The drawing of the positive side, or the mirror image of the mirrored structure's for a negative rotation."""
@@ -62,10 +165,6 @@ class Structure(ABC):
     def _hinges(self, rotation: float) -> np.ndarray:
         """The contacts at a rotation ≥ 0 on the positive side."""
 
-
-def turned(points: ArrayLike, pivot: ArrayLike, rotation: float) -> np.ndarray:
-    """Return `points` (k, 2) turned clockwise by `rotation` [rad] about `pivot` (2,)."""
-    cosine, sine = np.cos(rotation), np.sin(rotation)
-    return (np.asarray(points, dtype=float) - pivot) @ np.array(
-        [[cosine, -sine], [sine, cosine]]
-    ) + np.asarray(pivot)
+    def _dimensions(self) -> dict[str, Path]:
+        """The dimension of each parameter that a drawing can show."""
+        return {}

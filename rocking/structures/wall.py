@@ -3,11 +3,17 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import finite, length
+from rocking.structures.bars import Bodies, bodies_of, cross
+from rocking.structures.contacts import Contacts, MotionState, dalembert, resolved
+from rocking.structures.drawing import Path, rectangle, span, turned
+from rocking.structures.fields import Form, length_field, restitution_field
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import (
     Restitution,
@@ -15,8 +21,10 @@ from rocking.structures.restitution import (
     momentum_balance,
     resolve_restitution,
 )
-from rocking.structures.structure import Structure, turned
+from rocking.structures.structure import HIGHEST_SHARE, Structure
 from rocking.structures.wall_linkage import WallLinkage
+
+_THICKNESS = length_field("thickness_m", "thickness", "Thickness", 0.25, (0.05, 5), "t")
 
 
 @dataclass(frozen=True)
@@ -29,6 +37,41 @@ class Wall(Structure):
     reaches 0 at sin²α = 2/9; squatter walls get 0 and a StructureWarning.
     Raises StructureError when it cannot stand.
     """
+
+    type_name: ClassVar[str] = "wall"
+    moved: ClassVar[str] = "hinge height"
+    forms: ClassVar[tuple[Form, ...]] = (
+        Form(
+            "Wall by its height and that of its hinge",
+            (
+                length_field("height_m", "height", "Height between the supports", 3.2, (0.5, 60), "h"),
+                length_field(
+                    "hinge_height_m",
+                    "hinge_height",
+                    "Height of the hinge above the base",
+                    1.6,
+                    (0.2, 57),
+                    "h₁",
+                ),
+                _THICKNESS,
+                restitution_field("momentum"),
+            ),
+            make="hinged_at",
+        ),
+        Form(
+            "Wall by the heights below and above its hinge",
+            (
+                length_field(
+                    "lower_height_m", "lower_height", "Height below the hinge", 2.0, (0.2, 57), "h₁"
+                ),
+                length_field(
+                    "upper_height_m", "upper_height", "Height above the hinge", 1.5, (0.1, 57), "h₂"
+                ),
+                _THICKNESS,
+                restitution_field("momentum"),
+            ),
+        ),
+    )
 
     lower_height: float
     upper_height: float
@@ -58,6 +101,11 @@ class Wall(Structure):
     def height(self) -> float:
         """h₁ + h₂, m."""
         return self.lower_height + self.upper_height
+
+    @property
+    def hinge_height(self) -> float:
+        """h₁, m."""
+        return self.lower_height
 
     def _build(self) -> Mechanism:
         linkage = self.linkage
@@ -91,23 +139,53 @@ class Wall(Structure):
         before = np.array([lower, upper])
         return momentum_balance([h1, h2], inertias, before, before * [1.0, -1.0, 1.0])
 
-    def candidates(self, hinge_heights: Iterable[float]) -> dict[float, "Wall"]:
-        """Return this wall hinged at each of `hinge_heights` [m] above the base instead, by height."""
+    def bodies(self, rotation: ArrayLike) -> Bodies:
+        return bodies_of(self.linkage.bars, self.linkage.motion(rotation))
+
+    def contacts(self, state: MotionState) -> Contacts:
+        """The top support carries no vertical force: the thrust at the hinge follows from the upper block alone."""
+        motion = self.linkage.motion(state.rotation)
+        forces, couples = dalembert(self.linkage.bars, motion, state, state.pull)
+        _, hinge, top = motion.hinges
+        turning = cross(motion.centroids[1] - top, forces[1]) + couples[1]
+        arm = hinge - top
+        across = (arm.real * -forces[1].imag + turning) / arm.imag
+        at_hinge = across - 1j * forces[1].imag
+        joint = 1j * np.exp(1j * (motion.angles[0] + motion.angles[1]) / 2)
+        return resolved(
+            ("base", "hinge"), np.stack([at_hinge - forces[0], at_hinge]), np.stack([1j + 0 * joint, joint])
+        )
+
+    def candidate_positions(self, count: int) -> np.ndarray:
+        """Hinge heights that stay a share of the height away from base and top."""
+        return self.height * np.linspace(1 - HIGHEST_SHARE, HIGHEST_SHARE, count)
+
+    def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
+        """Return this wall hinged at each of `positions` [m] above the base instead, by height."""
         return {
             float(hinge): Wall.hinged_at(self.height, hinge, self.thickness, restitution=self.restitution)
-            for hinge in hinge_heights
+            for hinge in positions
         }
 
     def _outline(self, rotation: float) -> list[np.ndarray]:
         half, psi = self.thickness / 2, self.linkage.motion(rotation).angles[1]
         base, hinge, _ = self._hinges(rotation)
-        lower = [[-half, 0.0], [half, 0.0], [half, self.lower_height], [-half, self.lower_height]]
-        upper = hinge + np.array(
-            [[0.0, 0.0], [2 * half, 0.0], [2 * half, self.upper_height], [0.0, self.upper_height]]
-        )
+        lower = rectangle(-half, half, 0.0, self.lower_height)
+        upper = hinge + rectangle(0.0, 2 * half, 0.0, self.upper_height)
         return [turned(lower, base, rotation), turned(upper, hinge, -psi)]
 
     def _hinges(self, rotation: float) -> np.ndarray:
         """Right corner of the base, left edge at the hinge, right corner of the top."""
         hinges = self.linkage.motion(rotation).hinges
         return np.stack([hinges.real, hinges.imag], axis=1)
+
+    def _dimensions(self) -> dict[str, Path]:
+        half, crack, top, apart = self.thickness / 2, self.lower_height, self.height, 0.06 * self.height
+        left, right = np.array([-apart, 0.0]), np.array([apart, 0.0])
+        return {
+            "height": span([-half, 0.0], [-half, top], left),
+            "hinge_height": span([half, 0.0], [half, crack], right),
+            "lower_height": span([half, 0.0], [half, crack], right),
+            "upper_height": span([half, crack], [half, top], right),
+            "thickness": span([-half, top], [half, top], [0.0, apart]),
+        }

@@ -4,13 +4,15 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
+from kinematic_onset import kinematic_onset
 
 from rocking.errors import RockingError
 from rocking.structures.arch import Arch
-from rocking.structures.arch_onset import kinematic_onset, maximum_thickness, minimum_thickness
+from rocking.structures.arch_onset import maximum_thickness, minimum_thickness
 from rocking.structures.block import Block
-from rocking.structures.config import FORMS, structure_from_config
+from rocking.structures.config import structure_from_config
 from rocking.structures.frame import Frame
+from rocking.structures.registry import TYPES
 from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
 from rocking.structures.wall import Wall
@@ -138,8 +140,8 @@ values = st.one_of(st.floats(0.05, 60.0), st.integers(1, 9), nasty)
 @st.composite
 def descriptions(draw):
     """A mapping with the keys of one form and values good and bad."""
-    kind = draw(st.sampled_from(sorted(FORMS)))
-    form = draw(st.sampled_from(FORMS[kind]))
+    kind = draw(st.sampled_from(sorted(TYPES)))
+    form = draw(st.sampled_from(TYPES[kind].forms))
     return {"type": kind, **{key: draw(values) for key in form.keys if draw(st.integers(0, 9))}}
 
 

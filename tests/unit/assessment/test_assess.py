@@ -28,6 +28,12 @@ class Impossible(Structure):
     def _build(self):
         raise StructureError("thickness is 0.1 m, but must be at least 0.2 m.")
 
+    def bodies(self, rotation):
+        raise NotImplementedError
+
+    def contacts(self, state):
+        raise NotImplementedError
+
     def _outline(self, rotation):
         return []
 

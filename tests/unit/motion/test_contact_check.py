@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rocking.motion import integrate
-from rocking.motion.contact_check import UNKNOWN, check_model
+from rocking.motion.contact_check import check_model
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.structures import Block, Frame
@@ -30,11 +30,15 @@ def test_a_block_needs_at_least_the_friction_that_lifts_it(slenderness):
 
 
 def test_nothing_is_claimed_without_motion_or_where_forces_are_not_known():
-    assert _check(Block(2.0, 0.2), RECORD.scaled(0.1)) == UNKNOWN
+    still = _check(Block(2.0, 0.2), RECORD.scaled(0.1))
+    assert math.isnan(still.friction_needed) and still.bounces is None
+    assert still.reason == "nothing rocks below the critical rotation"
     frame = _check(Frame(Block(2.0, 0.2), 3, 0.2))
     assert math.isnan(frame.friction_needed)
     assert frame.slides(0.5) is None
+    assert frame.reason == "contact forces of a frame are statically indeterminate"
 
 
 def test_a_response_without_history_says_nothing():
-    assert check_model(Block(2.0, 0.2), integrate(Block(2.0, 0.2), RECORD), RECORD) == UNKNOWN
+    check = check_model(Block(2.0, 0.2), integrate(Block(2.0, 0.2), RECORD), RECORD)
+    assert check.reason == "the response keeps no history"

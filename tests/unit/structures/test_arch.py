@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from kinematic_onset import kinematic_onset
 from scipy.optimize import brentq, linprog
 
 from rocking.errors import StructureError, StructureWarning
@@ -11,7 +12,6 @@ from rocking.structures.arch import Arch
 from rocking.structures.arch_onset import (
     NoMechanism,
     TooThin,
-    kinematic_onset,
     maximum_thickness,
     minimum_thickness,
     static_onset,

@@ -1,5 +1,6 @@
 """Structures from mappings and files: degrees at the door, nearest key named, all defects at once."""
 
+import dataclasses
 from pathlib import Path
 
 import jsonschema
@@ -7,7 +8,7 @@ import numpy as np
 import pytest
 import yaml
 
-from rocking.errors import ConfigurationError, StructureError
+from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.structures import (
     Arch,
     Block,
@@ -18,7 +19,8 @@ from rocking.structures import (
     load_structures,
     structure_from_config,
 )
-from rocking.structures.config import FORMS
+from rocking.structures.registry import TYPES
+from rocking.structures.schema import structures_schema, structures_schema_file
 
 WORKFLOW = Path(__file__).parents[3] / "workflow"
 SCHEMA = yaml.safe_load((WORKFLOW / "schemas" / "structures.schema.yaml").read_text(encoding="utf-8"))
@@ -66,23 +68,22 @@ def test_every_form_makes_its_structure(mapping, structure):
     assert structure_from_config(mapping) == structure
 
 
-def test_every_form_is_tested_and_stands_in_the_schema():
-    tried = {frozenset(form.required) for kind in FORMS.values() for form in kind}
+def test_every_form_is_tested():
+    tried = {frozenset(form.required) for each in TYPES.values() for form in each.forms}
     given = [set(mapping) for mapping, _ in CASES]
     assert all(any(keys <= mapping for mapping in given) for keys in tried)
-    objects = [entry for entry in SCHEMA["definitions"].values() if "properties" in entry]
-    in_schema = {
-        (entry["properties"]["type"]["const"], frozenset(entry["required"]), frozenset(entry["properties"]))
-        for entry in objects
-    }
-    always = {"name", "type"}
-    in_code = {
-        (kind, frozenset(form.required) | always, frozenset(form.keys) | always)
-        for kind, forms in FORMS.items()
-        for form in forms
-    }
-    assert in_schema == in_code
-    assert len(SCHEMA["items"]["oneOf"]) == len(objects)
+
+
+def test_the_schema_of_the_workflow_is_the_fields_own():
+    written = (WORKFLOW / "schemas" / "structures.schema.yaml").read_text(encoding="utf-8")
+    assert written == structures_schema_file(), "run `make schema`"
+    assert structures_schema() == SCHEMA
+
+
+def test_the_examples_of_the_schema_pass_it():
+    for entry in SCHEMA["definitions"].values():
+        jsonschema.validate(entry["examples"], SCHEMA)
+        structure_from_config(entry["examples"][0])
 
 
 def test_shipped_structures_stand_and_pass_the_schema():
@@ -153,6 +154,11 @@ def test_all_defects_of_a_list_stand_in_one_message(tmp_path):
         ("a: 1", "must hold a list"),
         ("- {name: a, type: block, height_m: 1, height_m: 4}", "key 'height_m' is given twice"),
         ("- !!python/object/apply:os.getcwd []", "not valid YAML"),
+        ("- &a {name: a, type: block, breadth_m: 1, height_m: 4}", "an anchor or an alias is not read here"),
+        ("a: &a [x]\nb: [*a, *a, *a]", "an anchor or an alias is not read here"),
+        ("[" * 1000 + "]" * 1000, "nested too deeply"),
+        ("# " + "x" * 1_000_000, "larger than 1000000 bytes"),
+        ("- {name: a, type: block, breadth_m: " + "1" * 5000 + ", height_m: 4}", "not valid YAML"),
     ],
 )
 def test_a_file_that_is_no_list_is_refused(tmp_path, text, message):
@@ -160,6 +166,45 @@ def test_a_file_that_is_no_list_is_refused(tmp_path, text, message):
     path.write_text(text, encoding="utf-8")
     with pytest.raises(ConfigurationError, match=message):
         load_structures(path)
+
+
+def test_a_bomb_of_aliases_is_refused_at_its_first_anchor(tmp_path):
+    levels = ["a0: &a0 [x, x]"] + [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]" for n in range(1, 12)]
+    path = tmp_path / "structures.yaml"
+    path.write_text("\n".join(levels), encoding="utf-8")
+    with pytest.raises(ConfigurationError, match="line 1"):
+        load_structures(path)
+
+
+def test_sizes_are_said_as_they_were_typed(tmp_path):
+    path = tmp_path / "structures.yaml"
+    path.write_text(
+        "- {name: f, type: block, breadth_m: 0.60, height_m: 6.0, one_sided: true, restitution: 0.5}\n"
+        "- {name: a, type: arch, radius_m: 10.00, thickness_m: 1.50, embrace_angle_deg: 157.5, voussoirs: 7}\n",
+        encoding="utf-8",
+    )
+    facade, arch = load_structures(path).values()
+    assert facade.description == "breadth 0.60 m, height 6.0 m, restitution 0.5, one-sided"
+    assert facade.size == "0.60 × 6.0 m"
+    assert arch.size == "10.00 × 1.50 m, 157.5°"
+    assert [f"{d.letter} = {d.text}" for d in arch.dimensions()] == [
+        "r = 10.00 m",
+        "t = 1.50 m",
+        "β = 157.5°",
+    ]
+    moved = dataclasses.replace(facade, slenderness=0.2)
+    assert moved.description.startswith("breadth 1.19"), "a copy with other sizes is described anew"
+
+
+def test_what_is_not_usual_is_a_warning_and_not_a_refusal(tmp_path):
+    path = tmp_path / "structures.yaml"
+    path.write_text("- {name: w, type: wall, height_m: 3200, hinge_height_m: 1600, thickness_m: 250}")
+    with pytest.warns(StructureWarning) as caught:
+        assert list(load_structures(path)) == ["w"]
+    assert "structure 1 (w): height_m is 3200 m, but is usually between 0.5 and 60 m" in str(
+        caught[0].message
+    )
+    assert len(caught) == 3
 
 
 def test_a_missing_file_is_refused(tmp_path):

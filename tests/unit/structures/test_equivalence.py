@@ -9,7 +9,7 @@ from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch
 from rocking.structures.block import Block
-from rocking.structures.contacts import angular_acceleration
+from rocking.structures.contact_forces import angular_acceleration
 from rocking.structures.equivalence import (
     block_overturning_time,
     block_period,

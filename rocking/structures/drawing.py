@@ -1,0 +1,50 @@
+"""Pieces of a drawing: points turned, and dimension lines."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+
+@dataclass(frozen=True, eq=False)
+class Dimension:
+    """A dimension line of a structure at rest, in m, x to the right, y up.
+
+    letter: what it is called (h₁). text: its value with unit, as it was given. line: (k, 2) from end to end, straight
+    or an arc. feet: (2, 2) the points it measures, from which extension lines run to its ends.
+    """
+
+    letter: str
+    text: str
+    line: np.ndarray = field(repr=False)
+    feet: np.ndarray = field(repr=False)
+
+
+Path = tuple[np.ndarray, np.ndarray]
+"""The line and the feet of a dimension."""
+
+
+def turned(points: ArrayLike, pivot: ArrayLike, rotation: float) -> np.ndarray:
+    """Return `points` (k, 2) turned clockwise by `rotation` [rad] about `pivot` (2,)."""
+    cosine, sine = np.cos(rotation), np.sin(rotation)
+    return (np.asarray(points, dtype=float) - pivot) @ np.array(
+        [[cosine, -sine], [sine, cosine]]
+    ) + np.asarray(pivot)
+
+
+def span(first: ArrayLike, last: ArrayLike, offset: ArrayLike = (0.0, 0.0)) -> Path:
+    """Return the dimension from `first` (2,) to `last` (2,), its line moved by `offset` (2,)."""
+    feet = np.array([first, last], dtype=float)
+    return feet + np.asarray(offset, dtype=float), feet
+
+
+def swept(centre: ArrayLike, radius: float, start: float, end: float) -> Path:
+    """Return the dimension of the angle from `start` to `end` [rad], clockwise from the vertical, about `centre`."""
+    angles = np.linspace(start, end, 25)
+    line = np.asarray(centre, dtype=float) + radius * np.stack([np.sin(angles), np.cos(angles)], axis=1)
+    return line, line[[0, -1]]
+
+
+def rectangle(left: float, right: float, bottom: float, top: float) -> np.ndarray:
+    """Return the corners (4, 2) of an upright rectangle, counterclockwise."""
+    return np.array([[left, bottom], [right, bottom], [right, top], [left, top]])

@@ -1,0 +1,164 @@
+"""What a structure is described by in a file: keys with unit, bounds, meaning and plausible range.
+
+A structure's file lists its forms; the loader, the JSON schema and the documentation follow from them.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from rocking.errors import ConfigurationError, StructureError
+from rocking.quantities import LENGTHS, finite
+
+_INWARD: dict[str, Callable[[Any], Any]] = {"°": np.radians}
+_OUTWARD: dict[str, Callable[[Any], Any]] = {"°": np.degrees}
+"""From the unit of the file to SI and back; units that are not here are SI."""
+
+PHRASE = "{name} {value}"
+
+
+@dataclass(frozen=True)
+class Field:
+    """One key of a structure in a file.
+
+    key: as in the file, ending in its unit. parameter: of the constructor, and the attribute that gives the value back
+    in SI. meaning: for the documentation. example: a value for a structure that stands. unit: of the file; lengths m,
+    angles °. usual: plausible range in that unit; beyond it a remark, not a refusal. letter: in drawings.
+    phrase: how the description says it, of {name} and {value}, which has its unit.
+    schema: the JSON schema of the value. required: whether the form needs it.
+    """
+
+    key: str
+    parameter: str
+    meaning: str
+    example: object
+    schema: Mapping[str, object] = field(repr=False)
+    unit: str = ""
+    usual: tuple[float, float] | None = None
+    letter: str = ""
+    phrase: str = PHRASE
+    required: bool = True
+
+    def inward(self, value: object) -> object:
+        """Return a value of the file as the constructor takes it: angles in radians, the rest as it is."""
+        if self.schema.get("type") == "boolean" and not isinstance(value, bool):
+            raise ConfigurationError(f"{self.key} is {value!r}, but must be true or false.")
+        if self.unit not in _INWARD:
+            return value
+        return _INWARD[self.unit](finite(StructureError, self.key, value, self.unit))  # type: ignore[arg-type]
+
+    def outward(self, value: object) -> object:
+        """Return an attribute in SI as a file gives it."""
+        return float(_OUTWARD[self.unit](value)) if self.unit in _OUTWARD else value
+
+    def said(self, text: str) -> str:
+        """Return the phrase of the description for the value written `text`."""
+        return self.phrase.format(name=self.parameter.replace("_", " "), value=text + self.suffix)
+
+    @property
+    def suffix(self) -> str:
+        """The unit as it follows a number."""
+        return self.unit if self.unit in ("", "°") else f" {self.unit}"
+
+    def remark(self, kind: str, value: object) -> str:
+        """Return the sentence on a value (of the file) beyond the plausible range, or nothing."""
+        if self.usual is None or not isinstance(value, int | float):
+            return ""
+        low, high = self.usual
+        if low <= value <= high:
+            return ""
+        return (
+            f"{self.key} is {value:.6g}{self.suffix}, but is usually between {low:g} and {high:g}{self.suffix} for "
+            f"{article(kind)}; check the unit."
+        )
+
+
+@dataclass(frozen=True)
+class Form:
+    """One way to describe a structure in a file.
+
+    meaning: for the documentation. fields: its keys. make: name of the class method that takes their parameters as
+    keywords; the class itself when "".
+    """
+
+    meaning: str
+    fields: tuple[Field, ...]
+    make: str = ""
+
+    @property
+    def keys(self) -> dict[str, Field]:
+        """The fields by key."""
+        return {each.key: each for each in self.fields}
+
+    @property
+    def required(self) -> tuple[str, ...]:
+        """The keys that must be given."""
+        return tuple(each.key for each in self.fields if each.required)
+
+
+def length_field(
+    key: str,
+    parameter: str,
+    meaning: str,
+    example: float,
+    usual: tuple[float, float],
+    letter: str = "",
+    required: bool = True,
+    phrase: str = PHRASE,
+) -> Field:
+    """Return the field of a length in m."""
+    schema = {"type": "number", "minimum": LENGTHS[0], "maximum": LENGTHS[1]}
+    return Field(key, parameter, meaning, example, schema, "m", usual, letter, phrase, required)
+
+
+def angle_field(
+    key: str,
+    parameter: str,
+    meaning: str,
+    example: float,
+    usual: tuple[float, float],
+    letter: str,
+    bounds: Mapping[str, float],
+) -> Field:
+    """Return the field of an angle in degrees; bounds: of the JSON schema."""
+    return Field(key, parameter, meaning, example, {"type": "number", **bounds}, "°", usual, letter)
+
+
+def count_field(
+    key: str, meaning: str, example: int, bounds: tuple[int, int], required: bool = True
+) -> Field:
+    """Return the field of a whole number."""
+    schema = {"type": "integer", "minimum": bounds[0], "maximum": bounds[1]}
+    return Field(key, key, meaning, example, schema, usual=bounds, phrase="{value} {name}", required=required)
+
+
+def restitution_field(*balances: str, required: bool = False) -> Field:
+    """Return the field of a restitution: a number, or the name of one of `balances`."""
+    number: dict[str, object] = {"type": "number", "minimum": 0, "maximum": 1}
+    schema = {"oneOf": [number, {"enum": list(balances)}]} if balances else number
+    meaning = "Ratio of angular velocities after and before an impact" + ", or the name of a balance" * bool(
+        balances
+    )
+    return Field(
+        "restitution", "restitution", meaning, 0.9, schema, usual=(0.1, 1), letter="η", required=required
+    )
+
+
+ONE_SIDED = Field(
+    "one_sided",
+    "one_sided",
+    "Rocks away from what it leans on only; needs a restitution number",
+    False,
+    {"type": "boolean"},
+    phrase="one-sided",
+    required=False,
+)
+"""Whether a structure leans on something."""
+
+
+def article(kind: str) -> str:
+    """Return `kind` with its article, in words."""
+    name = kind.replace("_", " ")
+    return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"

@@ -1,0 +1,221 @@
+"""What every registered structure promises: a new type is held to it from the day it is registered."""
+
+import dataclasses
+import pickle
+import tempfile
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+import yaml
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+from rocking.errors import StructureError
+from rocking.motion import integrate
+from rocking.pulses import Pulse
+from rocking.quantities import GRAVITY
+from rocking.structures.config import structure_from_config
+from rocking.structures.contact_forces import contact_history
+from rocking.structures.contacts import UnknownContacts
+from rocking.structures.registry import TYPES
+from rocking.structures.schema import structures_schema
+from rocking.structures.structure_list import load_structures
+
+FEW = settings(
+    max_examples=12,
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],
+)
+REGISTERED = [
+    pytest.param(kind, form, id=f"{kind} {number}")
+    for kind, each in TYPES.items()
+    for number, form in enumerate(each.forms, start=1)
+]
+
+
+@st.composite
+def varied(draw, kind, form):
+    """A structure of a registered form: its examples' numbers changed by up to a fifth, its options there or not."""
+    mapping = {"type": kind}
+    for field in form.fields:
+        if not field.required and draw(st.booleans()):
+            continue
+        value = field.example
+        if isinstance(value, float):
+            value *= draw(st.floats(0.8, 1.25)) if field.key != "restitution" else draw(st.floats(0.8, 1.1))
+        mapping[field.key] = value
+    try:
+        structure = structure_from_config(mapping)
+        structure.mechanism()
+    except StructureError:
+        assume(False)
+    return structure
+
+
+def registered(test):
+    """Run `test(structure)` for random structures of every registered form."""
+
+    @pytest.mark.parametrize(("kind", "form"), REGISTERED)
+    @pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")
+    def run(kind, form):
+        @FEW
+        @given(varied(kind, form))
+        def check(structure):
+            test(structure)
+
+        check()
+
+    run.__doc__, run.__name__ = test.__doc__, test.__name__
+    return run
+
+
+def differentiated(function, at, step):
+    """First derivative by central differences of eighth order."""
+    weights = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
+    return sum(w * (function(at + k * step) - function(at - k * step)) for k, w in weights.items()) / step
+
+
+@registered
+def test_the_standard_form_is_that_of_its_moving_masses(structure):
+    """I, G and B by virtual work of the bodies' own positions, differentiated numerically, up to one factor of mass."""
+    side = structure.mechanism().positive
+    step = 1e-2 * side.critical_rotation
+    at = side.critical_rotation * np.linspace(0.05, 0.95, 9)
+    masses, inertias = structure.bodies(at)[:2]
+    velocity = differentiated(lambda phi: structure.bodies(phi).centres, at, step)
+    spin = differentiated(lambda phi: structure.bodies(phi).turns, at, step)
+    expected = {
+        "inertia": masses @ np.abs(velocity) ** 2 + inertias @ spin**2,
+        "gravity": masses @ velocity.imag,
+        "ground": masses @ velocity.real,
+    }
+    factor = expected["inertia"] / side.inertia(at)
+    # differences of eighth order leave rounding 1e-16 of the positions over the step, and truncation 1e-16
+    np.testing.assert_allclose(factor, factor[0], rtol=1e-9)
+    for name in ("gravity", "ground"):
+        values = getattr(side, name)(at) * factor[0]
+        np.testing.assert_allclose(values, expected[name], rtol=0, atol=1e-9 * np.abs(expected[name]).max())
+
+
+@registered
+def test_slopes_are_derivatives_and_the_potential_is_the_height_of_the_masses(structure):
+    """J = I'/2 needs I' to be the derivative of I; the work of G is what the masses rise."""
+    side = structure.mechanism().positive
+    at = side.critical_rotation * np.linspace(0.05, 0.95, 9)
+    for name in ("inertia", "gravity"):
+        slope = differentiated(getattr(side, name), at, 3e-3 * side.critical_rotation)
+        scale = np.abs(slope).max() + np.abs(getattr(side, name)(at)).max()
+        np.testing.assert_allclose(getattr(side, f"{name}_slope")(at), slope, rtol=0, atol=1e-9 * scale)
+    masses, _, centres, _ = structure.bodies(np.append(0.0, at))
+    risen = masses @ (centres.imag - centres.imag[:, :1])
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    work = at / 2 * (side.gravity(at[:, None] / 2 * (nodes + 1)) @ weights)
+    np.testing.assert_allclose(risen[1:] / work, risen[-1] / work[-1], rtol=1e-9)
+
+
+@pytest.mark.parametrize(("kind", "form"), REGISTERED)
+@pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")
+def test_energy_of_free_rocking_is_kept_until_the_impact(kind, form):
+    """Without forcing, I φ'²/2 + g ∫ G dφ of the integrated flight is the energy it was released with."""
+    structure = structure_from_config({"type": kind, **{each.key: each.example for each in form.fields}})
+    side = structure.mechanism().positive
+    start = 0.5 * side.critical_rotation
+    still = Pulse(1e-9, 20 * np.pi, 0.0)
+    found = integrate(structure, still, 1e-12, history=True, initial_rotation=start)
+    flight = np.arange(np.argmax(found.rotation <= 0))
+    phi, speed = found.rotation[flight], found.angular_velocity[flight]
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    potential = GRAVITY * phi / 2 * (side.gravity(phi[:, None] / 2 * (nodes + 1)) @ weights)
+    energy = side.inertia(phi) * speed**2 / 2 + potential
+    assert len(flight) > 5 and speed[-1] < 0
+    # the pulse of 1e-9 m/s² does work of 1e-10 of that energy
+    np.testing.assert_allclose(energy, energy[0], rtol=1e-9)
+
+
+@registered
+def test_a_drawing_is_finite_closed_and_measured(structure):
+    """Parts are polygons with an area; dimension lines lie near them and say what was given."""
+    critical = structure.mechanism().critical_rotation
+    for rotation in (0.0, critical / 2):
+        for part in structure.outline(rotation):
+            x, y = part.T
+            assert part.shape[0] >= 3 and np.isfinite(part).all()
+            assert abs((x * np.roll(y, -1) - np.roll(x, -1) * y).sum()) > 0
+        assert np.isfinite(structure.hinges(rotation)).all()
+    points = np.vstack(structure.outline())
+    size = np.ptp(points, axis=0).max()
+    dimensions = structure.dimensions()
+    assert len(dimensions) >= 2
+    for dimension in dimensions:
+        assert dimension.letter and any(character.isdigit() for character in dimension.text)
+        assert (dimension.line > points.min(axis=0) - size).all()
+        assert (dimension.line < points.max(axis=0) + size).all()
+    lengths = [d for d in dimensions if d.text.endswith(" m") and len(d.line) == 2]
+    for dimension in lengths:
+        measured = np.linalg.norm(np.subtract(*dimension.feet))
+        assert measured == pytest.approx(float(dimension.text.removesuffix(" m")), rel=1e-5)
+
+
+@registered
+def test_a_description_says_every_value_with_its_unit_and_comes_back(structure):
+    mapping = structure.as_config()
+    again = structure_from_config(mapping)
+    assert again == structure and again.description == structure.description
+    for field in structure.form.fields:
+        value = mapping.get(field.key)
+        if value is not None and not isinstance(value, bool):
+            assert f"{value}{field.suffix}" in structure.description
+    assert structure.size and "=" not in structure.description
+
+
+@registered
+def test_a_file_makes_the_same_structure_and_passes_the_schema(structure):
+    entry = {"name": "one", **structure.as_config()}
+    jsonschema.validate([entry], structures_schema())
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "structures.yaml"
+        path.write_text(yaml.safe_dump([entry], allow_unicode=True), encoding="utf-8")
+        assert load_structures(path) == {"one": structure}
+
+
+@registered
+def test_a_structure_travels_to_another_process(structure):
+    structure.mechanism()
+    copy = pickle.loads(pickle.dumps(structure))
+    assert copy == structure and copy.description == structure.description
+    assert copy.mechanism().uplift_multiplier == structure.mechanism().uplift_multiplier
+
+
+@registered
+def test_a_repr_is_for_a_person(structure):
+    for text in (repr(structure), repr(structure.mechanism())):
+        assert "lambda" not in text and "array" not in text and "function" not in text
+        assert len(text) < 300
+
+
+@registered
+def test_contacts_are_finite_or_refused_in_words(structure):
+    mechanism = structure.mechanism()
+    rotation = mechanism.critical_rotation * np.array([0.2, 0.6])
+    try:
+        found = contact_history(structure, rotation, np.array([0.1, -0.1]), np.array([0.5, -0.5]))
+    except UnknownContacts as why:
+        assert len(str(why).split()) > 4
+    else:
+        assert np.isfinite(found.normal).all() and np.isfinite(found.tangential).all()
+
+
+@registered
+def test_candidates_stand_and_are_of_the_same_kind(structure):
+    fixed = dataclasses.replace(structure, restitution=0.9)
+    positions = fixed.candidate_positions(5)
+    assert (len(positions) > 0) == bool(structure.moved)
+    for position, other in fixed.candidates(positions).items():
+        assert type(other) is type(structure)
+        assert other.mechanism().uplift_multiplier > 0
+        assert fixed.moved.replace(" ", "_") and getattr(
+            other, structure.moved.replace(" ", "_")
+        ) == pytest.approx(position)
