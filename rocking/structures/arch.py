@@ -7,7 +7,6 @@ from itertools import pairwise
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError, StructureWarning
 from rocking.quantities import finite, length
@@ -204,7 +203,7 @@ class Arch(Structure):
         speed = motion.velocities[bar] + 1j * spins * (points - motion.centroids[bar])
         return np.stack([speed.real, speed.imag, spins], axis=1) * moving[:, None]
 
-    def bodies(self, rotation: ArrayLike) -> Bodies:
+    def bodies(self, rotation: float | np.ndarray) -> Bodies:
         bars, motion = self.linkage.bars, self.linkage.motion(rotation)
         return Bodies(
             bars.masses, bars.inertias * self.radius**2, motion.centroids * self.radius, motion.angles

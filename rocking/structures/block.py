@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import finite, length
@@ -118,7 +117,7 @@ class Block(Structure):
         )
         return Mechanism(side, one_sided=self.one_sided)
 
-    def bodies(self, rotation: ArrayLike) -> Bodies:
+    def bodies(self, rotation: float | np.ndarray) -> Bodies:
         return body_about(
             self.breadth / 2, 0.5j * self.height, (self.breadth**2 + self.height**2) / 12, rotation
         )

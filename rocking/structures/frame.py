@@ -1,10 +1,9 @@
 """The symmetric rocking frame of equal columns under a rigid beam (Makris and Vassiliou 2013; theory: section 3)."""
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import finite
@@ -82,9 +81,16 @@ class Frame(Structure):
         check_restitution(self.restitution, ("momentum",))
 
     @classmethod
-    def of_columns(cls, column_breadth: float, column_height: float, **options: Any) -> "Frame":
+    def of_columns(
+        cls,
+        column_breadth: float,
+        column_height: float,
+        columns: int,
+        beam_mass_ratio: float,
+        restitution: Restitution = None,
+    ) -> "Frame":
         """Return the frame whose columns have that breadth and height [m]."""
-        return cls(Block.of_size(column_breadth, column_height), **options)
+        return cls(Block.of_size(column_breadth, column_height), columns, beam_mass_ratio, restitution)
 
     @property
     def column_breadth(self) -> float:
@@ -109,7 +115,7 @@ class Frame(Structure):
             )
         )
 
-    def bodies(self, rotation: ArrayLike) -> Bodies:
+    def bodies(self, rotation: float | np.ndarray) -> Bodies:
         """All columns, and the beam, whose centre is taken on its lower edge: it does not turn."""
         one = self.column.bodies(rotation)
         shape = (-1, *[1] * np.ndim(rotation))

@@ -4,7 +4,6 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.quantities import LENGTHS, length, squared_length
 from rocking.structures.bars import Bodies, body_about
@@ -94,7 +93,7 @@ class RigidBody(Structure):
     def _mirrored(self) -> "RigidBody":
         return replace(self, left=self.right, right=self.left)
 
-    def bodies(self, rotation: ArrayLike) -> Bodies:
+    def bodies(self, rotation: float | np.ndarray) -> Bodies:
         return body_about(self.right, 1j * self.centre_height, self.inertia, rotation)
 
     def contacts(self, state: MotionState) -> Contacts:

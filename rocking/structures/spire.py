@@ -6,7 +6,6 @@ from functools import cached_property
 from typing import ClassVar, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import finite, length
@@ -147,7 +146,7 @@ class Spire(Structure):
         side = self.body.side(self.half_width, self.half_width, self.end_rotation)
         return Mechanism(side, one_sided=self.one_sided)
 
-    def bodies(self, rotation: ArrayLike) -> Bodies:
+    def bodies(self, rotation: float | np.ndarray) -> Bodies:
         centre = 1j * (self.crack_height + self.body.centre_height)
         return body_about(self.half_width + 1j * self.crack_height, centre, self.body.inertia, rotation)
 

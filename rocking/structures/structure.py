@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import within
@@ -50,7 +49,7 @@ class Structure(ABC):
         return self._on_side(rotation, "_hinges")
 
     @abstractmethod
-    def bodies(self, rotation: ArrayLike) -> Bodies:
+    def bodies(self, rotation: float | np.ndarray) -> Bodies:
         """Return the moving masses at `rotation` ≥ 0 [rad], any shape, on the positive side, up to a factor of mass."""
 
     @abstractmethod

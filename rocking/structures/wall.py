@@ -6,7 +6,6 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import finite, length
@@ -139,7 +138,7 @@ class Wall(Structure):
         before = np.array([lower, upper])
         return momentum_balance([h1, h2], inertias, before, before * [1.0, -1.0, 1.0])
 
-    def bodies(self, rotation: ArrayLike) -> Bodies:
+    def bodies(self, rotation: float | np.ndarray) -> Bodies:
         return bodies_of(self.linkage.bars, self.linkage.motion(rotation))
 
     def contacts(self, state: MotionState) -> Contacts:
