@@ -2,13 +2,13 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from time import process_time
-from typing import Literal
 
 from rocking.assessment.fidelity import Answer, Level, cheapest_answer, limits_for
 from rocking.assessment.method import Method
-from rocking.errors import ConfigurationError, PulseError, RockingError
+from rocking.assessment.settings import AssessmentSettings
+from rocking.errors import PulseError, RockingError
 from rocking.motion.contact_check import UNKNOWN, ModelCheck, check_model
 from rocking.motion.integration import integrate
 from rocking.motion.response import Response
@@ -19,52 +19,15 @@ from rocking.pulses import (
     Pulse,
     PulseAnalysis,
     PulseEvidence,
-    PulseSettings,
     extract_pulses,
     light,
     predicting_pulse,
 )
 from rocking.pulses.interval import PulseInterval, pulse_interval
-from rocking.quantities import GRAVITY, positive, within
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.sine_pulse import Maximum, predict_maximum, printed_maximum
 from rocking.structures import EquivalentBlock, Mechanism, Structure
-from rocking.structures.mechanism import Scale
-
-
-@dataclass(frozen=True)
-class AssessmentSettings:
-    """What a comparison is made with.
-
-    acceleration_scale: which scale the equivalent block carries. tolerance: of the nonlinear integration.
-    fragility_change: relative change of the ground motion that must not flip a verdict. bootstrap_replicates: of the
-    interval of the pulse, 0 for none. pulse_choice: name of the pulse method, one of PULSE_METHODS.
-    friction_coefficient: beyond which a contact slides.
-    fidelity: full: every method, to compare them; auto: the cheapest that rocking.assessment.fidelity trusts to be
-    within fidelity_tolerance of the mechanism, and unsafe in at most fidelity_risk of the answers.
-    """
-
-    acceleration_scale: Scale = "uplift"
-    tolerance: float = 1e-6
-    fragility_change: float = 0.01
-    pulse: PulseSettings = field(default_factory=PulseSettings)
-    bootstrap_replicates: int = 0
-    friction_coefficient: float = 0.6
-    pulse_choice: str = DEFAULT_PULSE_METHOD
-    fidelity: Literal["full", "auto"] = "full"
-    fidelity_tolerance: float = 0.1
-    fidelity_risk: float = 0.01
-
-    def __post_init__(self) -> None:
-        within(ConfigurationError, "tolerance", self.tolerance, 1e-13, 0.1)
-        within(ConfigurationError, "fragility_change", self.fragility_change, 0, 0.5)
-        positive(ConfigurationError, "friction_coefficient", self.friction_coefficient)
-        within(ConfigurationError, "fidelity_tolerance", self.fidelity_tolerance, 0, 1)
-        within(ConfigurationError, "fidelity_risk", self.fidelity_risk, 0, 1)
-        if self.pulse_choice not in PULSE_METHODS:
-            raise ConfigurationError(
-                f"pulse_choice is {self.pulse_choice!r}, but must be one of {', '.join(PULSE_METHODS)}."
-            )
 
 
 @dataclass(frozen=True)

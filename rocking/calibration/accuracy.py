@@ -6,7 +6,7 @@ a millisecond; every method is given the same stretch.
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import chain, product
 from pathlib import Path
 from statistics import median
@@ -14,14 +14,13 @@ from time import perf_counter
 
 import numpy as np
 
-from rocking.assessment.assess import AssessmentSettings
 from rocking.assessment.method import Method
-from rocking.errors import ConfigurationError, MotionError, PulseError, RockingError
+from rocking.calibration.settings import TradeSettings
+from rocking.errors import MotionError, PulseError, RockingError
 from rocking.motion.integration import integrate
 from rocking.motion.reference import REFERENCE_TOLERANCE, Scipy, event_maximum, reference_maximum
 from rocking.motion.table import table_of
 from rocking.pulses import PulseSettings, extract_pulses
-from rocking.quantities import within
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures import Mechanism, Structure
@@ -85,24 +84,6 @@ class Timed:
     repeats: int = 0
     preparation: float = 0.0
     reason: str = ""
-
-
-@dataclass(frozen=True)
-class TradeSettings:
-    """How much is tried. cases: records times structures. samples: of the strongest stretch of each record.
-
-    budget_s: time that scipy may take for one case [s].
-    """
-
-    cases: int = 12
-    samples: int = 300
-    budget_s: float = 60.0
-    assessment: AssessmentSettings = field(default_factory=AssessmentSettings)
-
-    def __post_init__(self) -> None:
-        within(ConfigurationError, "trade.cases", self.cases, 1, 10_000)
-        within(ConfigurationError, "trade.samples", self.samples, 10, 100_000)
-        within(ConfigurationError, "trade.budget_s", self.budget_s, 1, 1e6)
 
 
 def write_trade(

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.quantities import positive, within
+from rocking.quantities import check_settings, setting
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.baseline import adaptive_baseline
 
@@ -19,34 +19,29 @@ _LOW_PASS_SHARE = 0.8
 class Processing:
     """Settings, applied in the order they stand here; a step that is None, 0 or "none" is left out.
 
-    pre_event: length [s] of the window at the start whose mean is removed from the whole record.
-    baseline: "linear" subtracts the least-squares line; "adaptive" fits the drift of velocity before and after shaking.
-    taper: share of the record that a cosine taper covers at each end.
-    high_pass, low_pass: corners of acausal Butterworth filters, Hz; order: of each, before it is run both ways.
+    order: of each Butterworth filter, before it is run both ways.
     padding: whether zeros of 1.5 order/corner seconds (Boore 2005) are put before and after while filtering.
     keep_padding: whether those zeros stay, which velocity and displacement need to end at rest.
     time_step: s, to which the record is resampled at last. Raises RecordError when a setting is out of range.
     """
 
-    pre_event: float | None = None
-    baseline: Baseline = "none"
-    taper: float = 0.0
-    high_pass: float | None = None
-    low_pass: float | None = None
-    order: int = 4
-    padding: bool = True
-    keep_padding: bool = False
-    time_step: float | None = None
+    pre_event: float | None = setting(
+        None, "window at the start whose mean is removed from the record", "s", gt=0
+    )
+    baseline: Baseline = setting(
+        "none",
+        "none; linear: the least-squares line is removed; adaptive: the drift of velocity before and after shaking",
+    )
+    taper: float = setting(0.0, "share of the record that a cosine taper covers at each end", ge=0, le=0.5)
+    high_pass: float | None = setting(None, "corner of the acausal Butterworth high-pass", "Hz", gt=0)
+    low_pass: float | None = setting(None, "corner of the acausal Butterworth low-pass", "Hz", gt=0)
+    order: int = setting(4, "order of the filters", ge=1, le=10)
+    padding: bool = setting(True, "whether zeros stand before and after while filtering")
+    keep_padding: bool = setting(False, "whether those zeros stay")
+    time_step: float | None = setting(None, "to which the record is resampled at last", "s", gt=0)
 
     def __post_init__(self) -> None:
-        for field, unit in (("pre_event", "s"), ("high_pass", "Hz"), ("low_pass", "Hz"), ("time_step", "s")):
-            if getattr(self, field) is not None:
-                positive(RecordError, field, getattr(self, field), unit)
-        within(RecordError, "taper", self.taper, 0, 0.5)
-        if self.baseline not in ("none", "linear", "adaptive"):
-            raise RecordError(f"baseline is {self.baseline!r}, but must be 'none', 'linear' or 'adaptive'.")
-        if isinstance(self.order, bool) or not isinstance(self.order, int) or not 1 <= self.order <= 10:
-            raise RecordError(f"order is {self.order!r}, but must be a whole number from 1 to 10.")
+        check_settings(RecordError, self)
         if self.high_pass and self.low_pass and self.high_pass >= self.low_pass:
             raise RecordError(
                 f"high_pass is {self.high_pass!r} Hz, but must be below low_pass = {self.low_pass!r} Hz."

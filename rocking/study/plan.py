@@ -4,23 +4,25 @@ import hashlib
 import json
 import math
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
-
-import yaml
+from typing import Any, TypeVar
 
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records.catalogue import CatalogueRecord, load_catalogue
 from rocking.structures import load_structures
+from rocking.study.config_file import named_files, read_settings
+from rocking.study.settings import Settings
+
+Found = TypeVar("Found")
 
 
 @dataclass(frozen=True)
 class Plan:
     """What a study will do. records: by identifier, in catalogue order. jobs: identifiers by job."""
 
-    settings: Mapping[str, Any]
+    settings: Settings
     records: Mapping[str, CatalogueRecord]
     jobs: Mapping[str, tuple[str, ...]]
     settings_sha256: str
@@ -41,65 +43,37 @@ class Plan:
         return sorted({str(path) for path in local if path.is_file()})
 
 
-_DO_NOT_CHANGE_NUMBERS = {
-    *(
-        "catalogue",
-        "calibration_catalogue",
-        "structures",
-        "results",
-        "mirror",
-        "reports",
-        "records_per_job",
-        "trade",
-    ),
-}
-
-
 _CHANGE_NO_NUMBER = (
     "reports/",
     *(
         f"study/{name}.py"
-        for name in ("cli", "record_reports", "single_record", "summary_report", "workspace")
+        for name in ("cli", "config_file", "record_reports", "summary_report", "workspace")
     ),
 )
 """Source whose edit leaves every number of a table as it is."""
 
 
-def make_plan(settings: Mapping[str, Any], schema: Path) -> Plan:
-    """Check `settings`, the catalogue and the structures they name, and share out the records.
+def make_plan(config: Mapping[str, Any]) -> Plan:
+    """Check `config`, the catalogue and the structures it names, and share out the records.
 
     Raises ConfigurationError with every defect of the three, and of the place for the results, in one message.
     """
     defects: list[str] = []
-    _collect(defects, lambda: check_settings(settings, schema))
-    catalogue, structures, results = (
-        Path(str(settings.get(name))) for name in ("catalogue", "structures", "results")
-    )
-    records = _collect(defects, lambda: load_catalogue(catalogue))
+    settings = _collect(defects, lambda: read_settings(config)) or named_files(config)
+    structures = Path(settings.structures)
+    records = _collect(defects, lambda: load_catalogue(settings.catalogue)) or ()
     _collect(defects, lambda: load_structures(structures))
-    _collect(defects, lambda: check_writable(results))
+    _collect(defects, lambda: check_writable(Path(settings.results)))
     if defects:
         raise ConfigurationError("\n".join(defects))
     package = package_sha256(leave_out=_CHANGE_NO_NUMBER)
-    numbers = {name: value for name, value in settings.items() if name not in _DO_NOT_CHANGE_NUMBERS}
     return Plan(
         settings=settings,
         records={record.id: record for record in records},
-        jobs=share_out((record.id for record in records), settings["records_per_job"]),
-        settings_sha256=settings_sha256(numbers, structures.read_bytes(), package),
+        jobs=share_out((record.id for record in records), settings.records_per_job),
+        settings_sha256=settings_sha256(settings, structures.read_bytes(), package),
         package_sha256=package,
     )
-
-
-def check_settings(settings: Mapping[str, Any], schema: Path) -> None:
-    """Check `settings` against the JSON Schema in a YAML file; all defects in one ConfigurationError."""
-    from jsonschema import Draft7Validator  # here, so that a job that only looks up its records does not pay
-
-    validator = Draft7Validator(yaml.safe_load(schema.read_text(encoding="utf-8")))
-    errors = sorted(validator.iter_errors(dict(settings)), key=lambda error: list(map(str, error.path)))
-    if errors:
-        lines = (f"setting {'.'.join(map(str, error.path)) or '(top)'}: {error.message}." for error in errors)
-        raise ConfigurationError("\n".join(lines))
 
 
 def check_writable(results: Path) -> None:
@@ -113,9 +87,9 @@ def check_writable(results: Path) -> None:
         )
 
 
-def settings_sha256(numbers: Mapping[str, object], structures: bytes, package: str) -> str:
+def settings_sha256(settings: Settings, structures: bytes, package: str) -> str:
     """Return one hash for the settings that change a number, the structure list and the package."""
-    text = json.dumps(numbers, sort_keys=True)
+    text = json.dumps(settings.numbers(), sort_keys=True)
     return hashlib.sha256(b"\0".join((text.encode(), structures, package.encode()))).hexdigest()
 
 
@@ -174,9 +148,9 @@ def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, 
 _FEW_JOBS, _MANY_RECORDS = 8, 64
 
 
-def _collect(defects: list[str], load):
+def _collect(defects: list[str], load: Callable[[], Found]) -> Found | None:
     try:
         return load()
     except RockingError as error:
         defects.append(str(error))
-        return ()
+        return None

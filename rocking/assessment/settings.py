@@ -1,0 +1,59 @@
+"""AssessmentSettings: what a comparison of prediction and integration is made with."""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from rocking.errors import ConfigurationError
+from rocking.pulses import DEFAULT_PULSE_METHOD, PULSE_METHODS, PulseSettings
+from rocking.quantities import check_settings, setting
+from rocking.structures.mechanism import Scale
+
+FEWEST_REPLICATES = 20
+"""From which order statistics are an interval at all."""
+
+
+@dataclass(frozen=True)
+class AssessmentSettings:
+    """What a comparison is made with. Raises ConfigurationError when a value is outside what is allowed.
+
+    fidelity: auto takes the cheapest method that rocking.assessment.fidelity trusts to be within fidelity_tolerance of
+    the mechanism, and unsafe in at most fidelity_risk of the answers.
+    """
+
+    acceleration_scale: Scale = setting(
+        "uplift", "of the equivalent block: uplift (a_sc,alt: the true uplift), linearised (a_sc) or mean"
+    )
+    tolerance: float = setting(
+        1e-6, "of the nonlinear integration, relative to the critical rotation", ge=1e-13, le=0.1
+    )
+    fragility_change: float = setting(
+        0.01, "relative change of the ground motion that must not flip a verdict", ge=0, le=0.5
+    )
+    pulse: PulseSettings = field(default_factory=PulseSettings)
+    bootstrap_replicates: int = setting(
+        0,
+        f"of the 90 % interval of the pulse; 0: no interval, else at least {FEWEST_REPLICATES}",
+        ge=0,
+        le=10_000,
+    )
+    friction_coefficient: float = setting(0.6, "beyond which a contact is said to slide", gt=0)
+    pulse_choice: Literal["energy", "demand"] = setting(
+        "energy",
+        "energy: the pulse that explains most of the record; demand: of the first five the worst one",
+    )
+    fidelity: Literal["full", "auto"] = setting(
+        "full", "full: every method, to compare them; auto: per case the cheapest that is trusted"
+    )
+    fidelity_tolerance: float = setting(
+        0.1, "for auto: relative error of the largest rotation that counts as right", ge=0, le=1
+    )
+    fidelity_risk: float = setting(
+        0.01, "for auto: share of answers that may be too low by more than that", ge=0, le=1
+    )
+
+    def __post_init__(self) -> None:
+        check_settings(ConfigurationError, self)
+        if 0 < self.bootstrap_replicates < FEWEST_REPLICATES:
+            raise ConfigurationError(
+                f"bootstrap_replicates is {self.bootstrap_replicates}, but must be 0 or at least {FEWEST_REPLICATES}."
+            )
