@@ -4,7 +4,11 @@ from snakemake.utils import min_version
 
 min_version("9.0")
 
-configfile: workflow.source_path("workflow/config.yaml")
+# The shipped example, unless a study is named: what a study leaves out has the default of rocking.study.settings.
+if not workflow.overwrite_configfiles:
+
+    configfile: workflow.source_path("workflow/config.yaml")
+
 
 report: "workflow/report/study.rst"
 

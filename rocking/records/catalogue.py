@@ -59,7 +59,11 @@ def open_record(
     scale_factor, station, event and high_pass_frequency of the row are applied.
     Raises RecordError naming record and file.
     """
-    channels = channels_of(record, mirror, cache)
+    return horizontal_of(channels_of(record, mirror, cache), record)
+
+
+def horizontal_of(channels: list[Accelerogram], record: CatalogueRecord) -> list[Accelerogram]:
+    """Return the channels that open_record returns, from all `channels` of the record's file."""
     try:
         return [as_declared(channel, record) for channel in _selected(channels, record)]
     except RecordError as error:

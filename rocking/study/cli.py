@@ -144,13 +144,13 @@ def _pulse(options: argparse.Namespace) -> None:
 
 
 def _assess(options: argparse.Namespace) -> None:
+    from rocking.study.settings import Settings
     from rocking.study.single_record import assess_file
-    from rocking.study.workspace import default_settings
 
-    record, settings = _own_record(options), default_settings()
-    print("\n".join(assess_file(record, options.structures, options.name, settings, options.output)))
+    own = _own_file(options)
+    print("\n".join(assess_file(own, options.structures, options.name, Settings(), options.output)))
     if options.output is not None:
-        print(options.output / record.id / "report.pdf")
+        print(options.output / own.record.id / "report.pdf")
 
 
 def _spectrum(options: argparse.Namespace) -> None:
@@ -161,18 +161,17 @@ def _spectrum(options: argparse.Namespace) -> None:
 
 
 def _accelerograms(options: argparse.Namespace):
-    from rocking.study.single_record import open_as_in_a_study
-    from rocking.study.workspace import default_settings, workflow_folder
+    """The horizontal components of the file, processed as a study would."""
+    from rocking.study.run import Study
 
-    structures = workflow_folder() / "workflow" / "structures.yaml"
-    return open_as_in_a_study(_own_record(options), structures, default_settings())
+    own = _own_file(options)
+    return Study({}).opened(own.channels, own.record)[0]
 
 
-def _own_record(options: argparse.Namespace):
-    from rocking.study.single_record import Declared, own_record
+def _own_file(options: argparse.Namespace):
+    from rocking.study.single_record import Declared, read_own
 
-    declared = Declared(options.unit, options.time_step, options.scale, options.component)
-    return own_record(options.file, declared)
+    return read_own(options.file, Declared(options.unit, options.time_step, options.scale, options.component))
 
 
 if __name__ == "__main__":

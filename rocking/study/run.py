@@ -1,105 +1,73 @@
 """A study: many records against one list of structures, each record in its own folder of tables."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from time import process_time
-from typing import Any, Literal
 
 from rocking.assessment import columns, rows
-from rocking.assessment.assess import Assessment, AssessmentSettings, Case, Failure, assess
+from rocking.assessment.assess import Assessment, Case, Failure, assess
+from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, processed, processed_variants
 from rocking.errors import RockingError
-from rocking.pulses import PulseSettings
 from rocking.records import Accelerogram
-from rocking.records.catalogue import CatalogueRecord, open_record
-from rocking.records.processing import UNPROCESSED_DEFAULT, Processing, process
+from rocking.records.catalogue import CatalogueRecord, as_declared, horizontal_of, open_record, vertical_of
+from rocking.records.processing import process
 from rocking.records.vertical import aligned, open_vertical
-from rocking.structures import Structure, load_structures
+from rocking.structures import Structure
+from rocking.study.settings import Settings
 from rocking.tables import Row, write_table
+
+
+Opened = tuple[list[Accelerogram], Accelerogram | None]
+"""The horizontal components of a record, and its vertical one where that acts too."""
 
 
 @dataclass(frozen=True)
 class Study:
-    """What every record of a study is put through.
+    """What every record of a study is put through: structures by name, and settings.
 
-    structures: by name. mirror: a folder that holds the files of remote records, or None.
-    candidates: heights tried for the hinge of a wall or the crack of a spire, 0 for none.
-    processing_variants: whether every structure also meets the record processed otherwise.
-    vertical: whether the vertical component acts too, where there is one.
-    process: which records are processed: those whose file says they are raw, all, or none; processing: how.
     settings_sha256: names the settings, the structure list and the package in every row.
     """
 
     structures: Mapping[str, Structure]
-    settings: AssessmentSettings
-    settings_sha256: str
-    mirror: Path | None = None
-    candidates: int = 19
-    processing_variants: bool = True
-    vertical: bool = False
-    process: Literal["raw", "always", "never"] = "raw"
-    processing: Processing = UNPROCESSED_DEFAULT
+    settings: Settings = Settings()
+    settings_sha256: str = ""
 
-    def open(self, record: CatalogueRecord) -> tuple[list[Accelerogram], Accelerogram | None]:
-        """Return the horizontal components of `record` and, where it is asked for and there is one, its vertical one.
+    @cached_property
+    def assessment(self) -> AssessmentSettings:
+        """What a record is compared with."""
+        return self.settings.assessment
+
+    def open(self, record: CatalogueRecord) -> Opened:
+        """Return the components of `record`, processed as the settings say.
 
         Raises RecordError naming the record, also when the vertical component does not fit the others.
         """
-        accelerograms = [self._processed(a) for a in open_record(record, mirror=self.mirror)]
-        vertical = open_vertical(record, mirror=self.mirror) if self.vertical else None
-        vertical = None if vertical is None else self._processed(vertical)
-        if vertical is not None:
-            for accelerogram in accelerograms:
-                aligned(vertical, accelerogram)
-        return accelerograms, vertical
+        mirror = self.settings.mirror
+        vertical = open_vertical(record, mirror=mirror) if self.settings.vertical else None
+        return self._processed(open_record(record, mirror=mirror), vertical)
 
-    def _processed(self, accelerogram: Accelerogram) -> Accelerogram:
-        raw = accelerogram.processed is False or (self.process == "always")
-        return process(accelerogram, self.processing) if raw and self.process != "never" else accelerogram
+    def opened(self, channels: list[Accelerogram], record: CatalogueRecord) -> Opened:
+        """Return what open() returns, from the `channels` of the record's file. Raises RecordError."""
+        vertical = vertical_of(channels, record) if self.settings.vertical else None
+        vertical = None if vertical is None else as_declared(vertical, record)
+        return self._processed(horizontal_of(channels, record), vertical)
 
-    @classmethod
-    def from_settings(cls, settings: Mapping[str, Any], structures: Path, sha256: str) -> "Study":
-        """Return the study that checked `settings` and the structure list in `structures` describe."""
-        pulse = settings["pulse"]
-        assessment = AssessmentSettings(
-            acceleration_scale=settings["acceleration_scale"],
-            tolerance=settings["tolerance"],
-            fragility_change=settings["fragility_change"],
-            fidelity=settings["fidelity"],
-            fidelity_tolerance=settings["fidelity_tolerance"],
-            fidelity_risk=settings["fidelity_risk"],
-            friction_coefficient=settings["friction_coefficient"],
-            bootstrap_replicates=pulse["bootstrap_replicates"],
-            pulse_choice=pulse["choice"],
-            pulse=PulseSettings(
-                lowest_frequency=pulse["lowest_frequency_hz"],
-                highest_frequency=pulse["highest_frequency_hz"],
-                per_octave=pulse["frequencies_per_octave"],
-            ),
-        )
-        mirror = settings["mirror"]
-        return cls(
-            load_structures(structures),
-            assessment,
-            sha256,
-            Path(mirror) if mirror else None,
-            settings["candidates"],
-            settings["processing_variants"],
-            settings["vertical"],
-            settings["processing"]["apply"],
-            _processing(settings["processing"]),
-        )
+    def _processed(self, accelerograms: list[Accelerogram], vertical: Accelerogram | None) -> Opened:
+        done = [self._process(accelerogram) for accelerogram in accelerograms]
+        if vertical is None:
+            return done, None
+        vertical = self._process(vertical)
+        for accelerogram in done:
+            aligned(vertical, accelerogram)
+        return done, vertical
 
-
-def _processing(settings: Mapping[str, Any]) -> Processing:
-    return Processing(
-        pre_event=settings["pre_event_s"],
-        baseline=settings["baseline"],
-        taper=settings["taper"],
-        high_pass=settings["high_pass_hz"],
-        low_pass=settings["low_pass_hz"],
-    )
+    def _process(self, accelerogram: Accelerogram) -> Accelerogram:
+        which = self.settings.processing.apply
+        wanted = which == "always" or (which == "raw" and accelerogram.processed is False)
+        return process(accelerogram, self.settings.raw_processing) if wanted else accelerogram
 
 
 def assess_records(records: Iterable[CatalogueRecord], study: Study, results: Path, log: Path) -> None:
@@ -116,13 +84,26 @@ def assess_record(record: CatalogueRecord, study: Study, folder: Path) -> list[s
     Returns the sentences of what failed.
     """
     started = process_time()
-    tables: dict[str, list[Row]] = {table.name: [] for table in columns.PER_RECORD}
     try:
-        accelerograms, vertical = study.open(record)
+        opened, failures = study.open(record), []
     except RockingError as error:
-        tables["failures"] = [rows.failure_row(record.id, "", Failure("read", "", str(error)))]
-        accelerograms, vertical = [], None
-    durations = {"read": process_time() - started}
+        opened, failures = ([], None), [rows.failure_row(record.id, "", Failure("read", "", str(error)))]
+    return write_tables(record, opened, study, folder, failures, process_time() - started)
+
+
+def write_tables(
+    record: CatalogueRecord,
+    opened: Opened,
+    study: Study,
+    folder: Path,
+    failures: Sequence[Row] = (),
+    read_duration: float = 0.0,
+) -> list[str]:
+    """Write the tables of the components that were `opened` into `folder`, and return the sentences of what failed."""
+    tables: dict[str, list[Row]] = {table.name: [] for table in columns.PER_RECORD}
+    tables["failures"] = list(failures)
+    durations = {"read": read_duration}
+    accelerograms, vertical = opened
     for accelerogram in accelerograms:
         _assess_component(record, accelerogram, vertical, study, tables, durations)
     tables["timings"] = [
@@ -142,9 +123,9 @@ def _assess_component(
     durations: dict[str, float],
 ) -> None:
     beside = None if vertical is None else aligned(vertical, accelerogram)
-    assessment = assess(accelerogram, study.structures, study.settings, beside)
+    assessment = assess(accelerogram, study.structures, study.assessment, beside)
     identity = rows.Identity(record.id, accelerogram, study.settings_sha256)
-    made = rows.all_rows(identity, assessment, study.settings, record.licence, beside)
+    made = rows.all_rows(identity, assessment, study.assessment, record.licence, beside)
     for name, new in made.items():
         tables[name].extend(new)
     varied = process_time()
@@ -158,7 +139,7 @@ def _assess_component(
 def _variations(identity: rows.Identity, assessment: Assessment, study: Study) -> dict[str, list[Row]]:
     """The rows of candidates and processing, for every structure that gave a result, and of what failed among them."""
     record = assessment.accelerogram
-    records = processed(record) if study.processing_variants else {}
+    records = processed(record) if study.settings.processing_variants else {}
     made: dict[str, list[Row]] = {"candidates": [], "processing": [], "failures": []}
     for case in assessment.cases:
         try:
@@ -178,7 +159,7 @@ def _vary(
 ) -> None:
     structure = study.structures[case.structure]
     pulse = case.prediction.pulse if case.prediction else None
-    found = candidates(structure, identity.accelerogram, pulse, study.candidates, study.settings)
+    found = candidates(structure, identity.accelerogram, pulse, study.settings.candidates, study.assessment)
     made["candidates"] += rows.candidate_rows(identity, case.structure, found)
-    variants = processed_variants(structure, records, study.settings)
+    variants = processed_variants(structure, records, study.assessment)
     made["processing"] += rows.processing_rows(identity, case.structure, variants)

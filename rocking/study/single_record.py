@@ -1,13 +1,10 @@
 """One file of the user's own, apart from any study, through the same functions as the workflow."""
 
-import hashlib
-import os
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 import numpy as np
 
@@ -16,9 +13,11 @@ from rocking.errors import ConfigurationError
 from rocking.motion.spectrum import rocking_spectrum
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
-from rocking.records.read import bytes_of
+from rocking.records.read import read
+from rocking.structures import load_structures
 from rocking.study.plan import package_sha256, settings_sha256
-from rocking.study.run import Study, assess_records
+from rocking.study.run import Opened, Study, write_tables
+from rocking.study.settings import Settings
 from rocking.study.summary import structure_rows
 from rocking.tables import Row, read_rows, write_table
 
@@ -38,47 +37,50 @@ class Declared:
     component: str = ""
 
 
-def own_record(path: Path, declared: Declared) -> CatalogueRecord:
-    """Return the row that a catalogue would hold for the file at `path`. Raises RecordError when it does not open."""
+@dataclass(frozen=True)
+class OwnFile:
+    """A file that was read once: the row that a catalogue would hold for it, and every channel of it."""
+
+    record: CatalogueRecord
+    channels: list[Accelerogram]
+
+
+def read_own(path: Path, declared: Declared) -> OwnFile:
+    """Read the file at `path`. Raises RecordError."""
+    channels = read(path, unit=declared.unit, time_step=declared.time_step)
     real = path.resolve()
     name = re.sub(r"[^A-Za-z0-9._-]+", "_", path.stem).strip("._-")[:70]
-    return CatalogueRecord(
+    record = CatalogueRecord(
         id=f"{name}_record" if name.lower() in ("", "summary") else name,
         file=real.name,
-        sha256=hashlib.sha256(bytes_of(path)).hexdigest(),
+        sha256=channels[0].source.sha256,
         component=declared.component,
         unit=declared.unit or "",
         time_step=declared.time_step,
         scale_factor=declared.scale_factor,
         folder=real.parent,
     )
-
-
-def open_as_in_a_study(
-    record: CatalogueRecord, structures: Path, settings: dict[str, Any]
-) -> list[Accelerogram]:
-    """Return the horizontal components of `record`, processed as a study with `settings` would. Raises RecordError."""
-    accelerograms, _ = Study.from_settings(settings, structures, "").open(record)
-    return accelerograms
+    return OwnFile(record, channels)
 
 
 def assess_file(
-    record: CatalogueRecord, structures: Path, name: str | None, settings: dict[str, Any], output: Path | None
+    own: OwnFile, structures: Path, name: str | None, settings: Settings, output: Path | None
 ) -> list[str]:
     """Assess the structure `name` (None: all) of a list under one record and return lines of text.
 
     output: a folder for the tables and report.pdf of the record, laid out like the results of a study.
-    Raises RecordError or ConfigurationError, before anything is written, when the file or the list cannot be read.
+    Raises RecordError or ConfigurationError, before anything is written, when the list cannot be read or the record does
+    not hold what is asked of it.
     """
     sha256 = settings_sha256(settings, structures.read_bytes(), package_sha256())
-    study = _narrowed(Study.from_settings(settings, structures, sha256), name, structures)
-    study.open(record)  # a file that cannot be read is an error here, where a study goes on to its others
+    study = _narrowed(Study(load_structures(structures), settings, sha256), name, structures)
+    opened = study.opened(own.channels, own.record)
     with TemporaryDirectory() as temporary:
-        folder = output or Path(temporary)
-        assess_records([record], study, folder, Path(os.devnull))
+        folder = (output or Path(temporary)) / own.record.id
+        write_tables(own.record, opened, study, folder)
         if output is not None:
-            _write_report(record, study, settings, output)
-        return list(_lines(folder / record.id))
+            _write_report(own.record, opened, study, output)
+        return list(_lines(folder))
 
 
 def write_spectrum(accelerograms: Sequence[Accelerogram], restitution: float, target: Path) -> None:
@@ -95,11 +97,11 @@ def _narrowed(study: Study, name: str | None, structures: Path) -> Study:
     return replace(study, structures={name: study.structures[name]})
 
 
-def _write_report(record: CatalogueRecord, study: Study, settings: dict[str, Any], output: Path) -> None:
+def _write_report(record: CatalogueRecord, opened: Opened, study: Study, output: Path) -> None:
     # Matplotlib and typst take a second to import: only for those who ask for a report.
-    from rocking.study.record_reports import report_records
+    from rocking.study.record_reports import write_report
 
-    report_records([record], study, settings, output, Path(os.devnull))
+    write_report(record, lambda: opened, study, output / record.id)
     write_table(
         columns.STRUCTURES,
         structure_rows(study.structures),

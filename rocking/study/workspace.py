@@ -5,12 +5,13 @@ import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import yaml
 
 from rocking.errors import ConfigurationError, RecordError
 from rocking.records.catalogue import catalogue_from_folder, write_catalogue_rows
+from rocking.study.config_file import commented_yaml, named_files
+from rocking.study.settings import Settings
 from rocking.tables import write_whole
 
 _CORES = re.compile(r"(--cores|--jobs)(=.*)?|-[cj]\d*|-[cj]all")
@@ -20,11 +21,6 @@ def workflow_folder() -> Path:
     """Return the folder that holds Snakefile and workflow/: inside an installed package, or the clone."""
     package = Path(__file__).parents[1]
     return package / "shipped" if (package / "shipped" / "Snakefile").is_file() else package.parent
-
-
-def default_settings() -> dict[str, Any]:
-    """Return the settings of the shipped workflow."""
-    return yaml.safe_load((workflow_folder() / "workflow" / "config.yaml").read_text(encoding="utf-8"))
 
 
 def start(folder: Path) -> list[Path]:
@@ -45,12 +41,8 @@ def start(folder: Path) -> list[Path]:
 
 def _starting_files() -> Mapping[str, bytes]:
     workflow, real = workflow_folder() / "workflow", Path("records", "near_fault.csv")
-    config = (workflow / "config.yaml").read_text(encoding="utf-8")
-    here = re.sub(
-        r"(?m)^structures: workflow/structures\.yaml", "structures: structures.yaml         ", config
-    )
     return {
-        "config.yaml": here.encode(),
+        "config.yaml": commented_yaml(Settings()).encode(),
         "structures.yaml": (workflow / "structures.yaml").read_bytes(),
         str(real): (workflow_folder() / real).read_bytes(),
     }
@@ -110,13 +102,10 @@ def run(folder: Path, options: Sequence[str]) -> int:
 
 def _check_catalogue(folder: Path, config: Path) -> None:
     try:
-        settings = yaml.safe_load(config.read_text(encoding="utf-8"))
-        catalogue = folder / settings["catalogue"]
-    except (yaml.YAMLError, UnicodeDecodeError, TypeError, KeyError) as error:
+        catalogue = folder / named_files(yaml.safe_load(config.read_text(encoding="utf-8")) or {}).catalogue
+    except (yaml.YAMLError, UnicodeDecodeError, AttributeError) as error:
         reason = " ".join(str(error).split())
-        raise ConfigurationError(
-            f"{config}: this is no YAML mapping with a catalogue ({reason}); mend it."
-        ) from None
+        raise ConfigurationError(f"{config}: this is no YAML mapping of settings ({reason}); mend it.") from None
     if not catalogue.is_file():
         raise ConfigurationError(
             f"{catalogue}: there is no catalogue yet; put records beside it, then: rocking catalogue {catalogue.parent}"

@@ -1,12 +1,13 @@
 """Read each record, extract its pulse, predict and integrate every structure, and compare."""
 
+# A rule for each job, where wildcards cannot stand: which records a job takes, and so its files, is planned.
 for JOB, RECORDS in PLAN.jobs.items():
 
     rule:
         name:
             f"assess_{JOB}"
         input:
-            structures=config["structures"],
+            structures=SETTINGS.structures,
             compiled=COMPILED,
             files=PLAN.local_files(JOB),
         output:

@@ -3,8 +3,8 @@
 
 rule calibrate:
     input:
-        catalogue=config["calibration_catalogue"],
-        structures=config["structures"],
+        catalogue=SETTINGS.calibration_catalogue,
+        structures=SETTINGS.structures,
     output:
         [f"{RESULTS}/calibration/{table}.csv" for table in ("comparisons", "thresholds", "reliability")],
     log:
@@ -12,6 +12,7 @@ rule calibrate:
     benchmark:
         f"{RESULTS}/calibration/calibrate.tsv"
     params:
+        mirror=SETTINGS.mirror,
         package_sha256=PLAN.package_sha256,
     message:
         "Compare predictions with integrations of the real records"

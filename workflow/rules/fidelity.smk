@@ -3,8 +3,8 @@
 
 rule calibrate_fidelity:
     input:
-        catalogue=config["calibration_catalogue"],
-        structures=config["structures"],
+        catalogue=SETTINGS.calibration_catalogue,
+        structures=SETTINGS.structures,
     output:
         [f"{RESULTS}/calibration/{table}.csv" for table in ("fidelity", "fidelity_held_out")],
     log:
@@ -12,6 +12,7 @@ rule calibrate_fidelity:
     benchmark:
         f"{RESULTS}/calibration/fidelity.tsv"
     params:
+        mirror=SETTINGS.mirror,
         package_sha256=PLAN.package_sha256,
     message:
         "Try every method on the real records"

@@ -3,7 +3,7 @@
 
 rule paper:
     input:
-        catalogue=config["calibration_catalogue"],
+        catalogue=SETTINGS.calibration_catalogue,
         source=sorted(
             str(path)
             for path in Path(workflow.basedir, "docs", "paper").iterdir()
@@ -17,6 +17,7 @@ rule paper:
         f"{SUMMARY}/benchmarks/paper.tsv"
     params:
         home=workflow.basedir,
+        mirror=SETTINGS.mirror,
         package_sha256=PACKAGE,
     message:
         "Redraw the figures of the paper"

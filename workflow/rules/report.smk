@@ -1,5 +1,6 @@
 """Set the PDF of each record, and the one of the whole study."""
 
+# A rule for each job, where wildcards cannot stand: which records a job takes, and so its files, is planned.
 for JOB, RECORDS in PLAN.jobs.items():
 
     rule:
@@ -7,7 +8,7 @@ for JOB, RECORDS in PLAN.jobs.items():
             f"report_{JOB}"
         input:
             tables=record_files(RECORDS, *CSV),
-            structures=config["structures"],
+            structures=SETTINGS.structures,
         output:
             [
                 report(
@@ -33,14 +34,10 @@ for JOB, RECORDS in PLAN.jobs.items():
             "../scripts/report.py"
 
 
-# Measured on demand (snakemake trade), and reported from then on.
-TRADE = f"{SUMMARY}/trade.csv"
-
-
 rule report_summary:
     input:
         tables=[f"{SUMMARY}/{table}.csv" for table in SUMMARIES],
-        trade=TRADE if Path(TRADE).exists() else [],
+        trade=f"{SUMMARY}/trade.csv" if SETTINGS.trade.in_summary else [],
     output:
         document=report(
             f"{SUMMARY}/summary.pdf",
@@ -59,7 +56,7 @@ rule report_summary:
     benchmark:
         f"{SUMMARY}/benchmarks/report_summary.tsv"
     params:
-        settings=config,
+        settings=SETTINGS.mapping(),
         package_sha256=PACKAGE,
     message:
         "Report on all records"

@@ -4,7 +4,7 @@
 rule summarise:
     input:
         tables=record_files(PLAN.records, *CSV),
-        structures=config["structures"],
+        structures=SETTINGS.structures,
     output:
         [
             report(
@@ -24,7 +24,7 @@ rule summarise:
         f"{SUMMARY}/benchmarks/summarise.tsv"
     params:
         records={record.id: record.sha256 for record in PLAN.records.values()},
-        settings=config,
+        settings=SETTINGS.mapping(),
         settings_sha256=PLAN.settings_sha256,
         package_sha256=PLAN.package_sha256,
     message:

@@ -3,8 +3,8 @@
 
 rule trade:
     input:
-        catalogue=config["catalogue"],
-        structures=config["structures"],
+        catalogue=SETTINGS.catalogue,
+        structures=SETTINGS.structures,
         files=[file for job in PLAN.jobs for file in PLAN.local_files(job)],
     output:
         table=f"{SUMMARY}/trade.csv",
@@ -16,7 +16,7 @@ rule trade:
     benchmark:
         f"{SUMMARY}/benchmarks/trade.tsv"
     params:
-        settings=config["trade"],
+        settings=SETTINGS.mapping()["trade"],
         package_sha256=PACKAGE,
     message:
         "Measure the error and the time of every method"

@@ -7,7 +7,7 @@ from rocking.records import load_catalogue, open_record
 from rocking.structures import load_structures
 
 if __name__ == "__main__":
-    files, mirror = snakemake.input, snakemake.config["mirror"]
+    files, mirror = snakemake.input, snakemake.params.mirror
     records = (
         (record.id, accelerogram)
         for record in load_catalogue(Path(files.catalogue))

@@ -7,6 +7,6 @@ if __name__ == "__main__":
     sys.path.append(snakemake.params.home)
     from docs.paper.write import write_paper
 
-    files, mirror = snakemake.input, snakemake.config["mirror"]
+    files, mirror = snakemake.input, snakemake.params.mirror
     message = write_paper(Path(files.catalogue), mirror, Path(snakemake.output[0]))
     Path(snakemake.log[0]).write_text(f"{message}\n", encoding="utf-8")

@@ -1,14 +1,15 @@
-"""Set the PDFs of one job's records: snakemake.* onto rocking.study.run."""
+"""Set the PDFs of one job's records: snakemake.* onto rocking.study.record_reports."""
 
 from pathlib import Path
 
+from rocking.structures import load_structures
+from rocking.study.config_file import read_settings
 from rocking.study.plan import planned_records
 from rocking.study.record_reports import report_records
 from rocking.study.run import Study
 
 if __name__ == "__main__":
-    config = snakemake.config
-    study = Study.from_settings(config, Path(snakemake.input.structures), snakemake.params.settings_sha256)
-    params = snakemake.params
-    records = planned_records(Path(config["catalogue"]), params.records, params.records_sha256)
-    report_records(records, study, config, Path(config["results"]), Path(snakemake.log[0]))
+    settings, params = read_settings(snakemake.config), snakemake.params
+    study = Study(load_structures(snakemake.input.structures), settings, params.settings_sha256)
+    records = planned_records(Path(settings.catalogue), params.records, params.records_sha256)
+    report_records(records, study, Path(settings.results), Path(snakemake.log[0]))

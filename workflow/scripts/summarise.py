@@ -6,8 +6,8 @@ from rocking.structures import load_structures
 from rocking.study.summary import write_description, write_provenance, write_summary
 
 if __name__ == "__main__":
-    params, config = snakemake.params, snakemake.config
-    results = Path(config["results"])
+    params = snakemake.params
+    results = Path(params.settings["results"])
     folders = [results / record for record in params.records]
     write_summary(folders, load_structures(Path(snakemake.input.structures)), results / "summary")
     write_description(folders, results / "summary")
