@@ -98,10 +98,13 @@ def setting(
 ) -> Any:
     """Return a dataclass field that says all there is to say of one setting.
 
-    one_of: names, where a registry rather than the type gives them. bounds: any of gt, ge, lt, le. check_settings holds the value against its type and its bounds; the settings of a
-    study, their JSON schema, the shipped config.yaml and its table in the documentation are made from the same field.
+    one_of: names, where a registry rather than the type gives them. bounds: any of gt, ge, lt, le.
+    check_settings holds the value against its type and its bounds; the settings of a study, their JSON schema, the
+    shipped config.yaml and its table in the documentation are made from the same field.
     """
-    return field(default=default, metadata={"meaning": meaning, "unit": unit, "one_of": one_of, "bounds": bounds})
+    return field(
+        default=default, metadata={"meaning": meaning, "unit": unit, "one_of": one_of, "bounds": bounds}
+    )
 
 
 def check_settings(error: type[RockingError], made: Any) -> None:
@@ -140,7 +143,7 @@ def allowed(kind: Any, described: Field[Any]) -> str:
         int: f"a whole number {limits}",
         float: f"a number {limits}",
         bool: "true or false",
-        str: "a text",
+        str: "a text that is not empty",
     }
     return " or ".join(
         words[choice].strip() if choice in words else _spelt(choice) for choice in choices(kind, described)

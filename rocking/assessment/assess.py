@@ -13,7 +13,6 @@ from rocking.motion.contact_check import UNKNOWN, ModelCheck, check_model
 from rocking.motion.integration import integrate
 from rocking.motion.response import Response
 from rocking.pulses import (
-    DEFAULT_PULSE_METHOD,
     PULSE_METHODS,
     Light,
     Pulse,

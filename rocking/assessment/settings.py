@@ -31,15 +31,14 @@ class AssessmentSettings:
     )
     pulse: PulseSettings = field(default_factory=PulseSettings)
     bootstrap_replicates: int = setting(
-        0,
-        f"of the 90 % interval of the pulse; 0: no interval, else at least {FEWEST_REPLICATES}",
-        ge=0,
-        le=10_000,
+        0, f"of the pulse's 90 % interval, at least {FEWEST_REPLICATES}; 0: no interval", ge=0, le=10_000
     )
     friction_coefficient: float = setting(0.6, "beyond which a contact is said to slide", gt=0)
-    pulse_choice: Literal["energy", "demand"] = setting(
-        "energy",
-        "energy: the pulse that explains most of the record; demand: of the first five the worst one",
+    pulse_choice: str = setting(
+        DEFAULT_PULSE_METHOD,
+        "pulse that predicts: energy (explains most of the record), demand (of the first five the one that turns the "
+        "structure farthest) or velocity (sine of the velocity pulse)",
+        one_of=tuple(PULSE_METHODS),
     )
     fidelity: Literal["full", "auto"] = setting(
         "full", "full: every method, to compare them; auto: per case the cheapest that is trusted"

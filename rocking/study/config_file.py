@@ -18,6 +18,7 @@ from rocking.quantities import allowed, as_typed, choices, is_allowed
 from rocking.study.settings import EXAMPLE, Settings
 from rocking.tables import write_whole
 
+
 def read_settings(config: Mapping[str, Any]) -> Settings:
     """Return the settings in `config`, the mapping of a config.yaml; one that is left out gets its default.
 
@@ -51,7 +52,7 @@ def _read(kind: Any, config: object, above: str, defects: list[str]) -> Any:
     for key in config:
         if key not in hints:
             unknown = f"setting {above}{key} is {config[key]!r}, but no setting has this name"
-            defects.append(f"{unknown}; {_hint(key, hints)}.")
+            defects.append(f"{unknown}; {_hint(key, hints)}")
     values = {}
     for each in (each for each in fields(kind) if each.name in config):
         value, expected = config[each.name], hints[each.name]
@@ -73,7 +74,7 @@ def _said(value: object, unit: str) -> str:
 
 def _hint(key: object, known: Mapping[str, Any]) -> str:
     near = get_close_matches(str(key), known, n=1, cutoff=0.6)
-    return f"did you mean {near[0]}?" if near else f"the names are {', '.join(known)}"
+    return f"did you mean {near[0]}?" if near else f"the names are {', '.join(known)}."
 
 
 def _exponent(value: object) -> str:

@@ -47,7 +47,7 @@ _CHANGE_NO_NUMBER = (
     "reports/",
     *(
         f"study/{name}.py"
-        for name in ("cli", "config_file", "record_reports", "summary_report", "workspace")
+        for name in ("cli", "config_file", "record_reports", "single_record", "summary_report", "workspace")
     ),
 )
 """Source whose edit leaves every number of a table as it is."""

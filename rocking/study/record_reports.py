@@ -1,6 +1,7 @@
 """The PDF of each record of a study, beside its tables."""
 
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 
 from rocking.assessment import columns
@@ -16,13 +17,11 @@ def report_records(records: Iterable[CatalogueRecord], study: Study, results: Pa
     """Write report.pdf of each record into its folder below `results`, and a line for each into `log`."""
     with log.open("w", encoding="utf-8") as stream:
         for record in records:
-            write_report(record, lambda record=record: study.open(record), study, results / record.id)
+            write_report(record, partial(study.open, record), study, results / record.id)
             print(f"{record.id}: report written", file=stream, flush=True)
 
 
-def write_report(
-    record: CatalogueRecord, opened: Callable[[], Opened], study: Study, folder: Path
-) -> None:
+def write_report(record: CatalogueRecord, opened: Callable[[], Opened], study: Study, folder: Path) -> None:
     """Write report.pdf beside the tables of a record in `folder`. opened: gives its components, if any are needed."""
     write_whole(folder / "report.pdf", _report(record, opened, study, folder))
 

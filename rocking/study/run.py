@@ -1,7 +1,7 @@
 """A study: many records against one list of structures, each record in its own folder of tables."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from time import process_time
@@ -19,7 +19,6 @@ from rocking.structures import Structure
 from rocking.study.settings import Settings
 from rocking.tables import Row, write_table
 
-
 Opened = tuple[list[Accelerogram], Accelerogram | None]
 """The horizontal components of a record, and its vertical one where that acts too."""
 
@@ -32,7 +31,7 @@ class Study:
     """
 
     structures: Mapping[str, Structure]
-    settings: Settings = Settings()
+    settings: Settings = field(default_factory=Settings)
     settings_sha256: str = ""
 
     @cached_property

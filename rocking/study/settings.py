@@ -22,7 +22,8 @@ def _own(
     default: Any, meaning: str, unit: str = "", *, heading: str = "", numbers: bool = True, **bounds: float
 ) -> Any:
     """A setting of the study itself. heading: of the settings from here on. numbers: whether it changes any."""
-    return _placed(setting(default, meaning, unit, **bounds), heading=heading, numbers=numbers)
+    made = setting(default, meaning, unit, one_of=(), **bounds)
+    return _placed(made, heading=heading, numbers=numbers)
 
 
 def _of(part: type, name: str, *, default: Any = _KEEP, heading: str = "", numbers: bool = True) -> Any:

@@ -69,8 +69,8 @@ def assess_file(
     """Assess the structure `name` (None: all) of a list under one record and return lines of text.
 
     output: a folder for the tables and report.pdf of the record, laid out like the results of a study.
-    Raises RecordError or ConfigurationError, before anything is written, when the list cannot be read or the record does
-    not hold what is asked of it.
+    Raises RecordError or ConfigurationError, before anything is written, when the list cannot be read or the
+    record does not hold what is asked of it.
     """
     sha256 = settings_sha256(settings, structures.read_bytes(), package_sha256())
     study = _narrowed(Study(load_structures(structures), settings, sha256), name, structures)

@@ -105,7 +105,9 @@ def _check_catalogue(folder: Path, config: Path) -> None:
         catalogue = folder / named_files(yaml.safe_load(config.read_text(encoding="utf-8")) or {}).catalogue
     except (yaml.YAMLError, UnicodeDecodeError, AttributeError) as error:
         reason = " ".join(str(error).split())
-        raise ConfigurationError(f"{config}: this is no YAML mapping of settings ({reason}); mend it.") from None
+        raise ConfigurationError(
+            f"{config}: this is no YAML mapping of settings ({reason}); mend it."
+        ) from None
     if not catalogue.is_file():
         raise ConfigurationError(
             f"{catalogue}: there is no catalogue yet; put records beside it, then: rocking catalogue {catalogue.parent}"

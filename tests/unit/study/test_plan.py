@@ -13,7 +13,6 @@ from rocking.study import plan
 from rocking.study.plan import make_plan, planned_records, share_out
 
 ROOT = Path(__file__).parents[3]
-SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.yaml"
 SHA256 = "0" * 64
 
 
@@ -22,22 +21,21 @@ def _write(folder: Path, rows: str, structures: str = "", **settings: object) ->
     (folder / "catalogue.csv").write_text(f"id,file,sha256\n{rows}")
     block = "[{name: pier, type: block, breadth_m: 1, height_m: 6}]"
     (folder / "structures.yaml").write_text(structures or block)
-    shipped = yaml.safe_load((ROOT / "workflow" / "config.yaml").read_text(encoding="utf-8"))
     paths = {name: str(folder / name) for name in ("results", "catalogue.csv", "structures.yaml")}
     named = {"catalogue": paths["catalogue.csv"], "structures": paths["structures.yaml"]}
-    return shipped | named | {"results": paths["results"]} | settings
+    return named | {"results": paths["results"]} | settings
 
 
 def _refusal(settings: dict[str, object]) -> str:
     with pytest.raises(ConfigurationError) as caught:
-        make_plan(settings, SCHEMA)
+        make_plan(settings)
     return str(caught.value)
 
 
 def test_the_shipped_study_is_accepted() -> None:
     settings = yaml.safe_load((ROOT / "workflow" / "config.yaml").read_text(encoding="utf-8"))
     settings |= {name: str(ROOT / settings[name]) for name in ("catalogue", "structures", "results")}
-    assert make_plan(settings, SCHEMA).records
+    assert make_plan(settings).records
 
 
 @pytest.mark.parametrize(
@@ -111,7 +109,7 @@ def test_structures_are_read_as_data_only(tmp_path: Path) -> None:
 
 def test_a_catalogue_edited_after_planning_stops_the_job(tmp_path: Path) -> None:
     settings = _write(tmp_path, f"a,a.AT2,{SHA256}\nb,b.AT2,{SHA256}\n", records_per_job=10)
-    made = make_plan(settings, SCHEMA)
+    made = make_plan(settings)
     (job,) = made.jobs
     catalogue = Path(str(settings["catalogue"]))
     assert planned_records(catalogue, made.jobs[job], made.records_sha256(job)) == made.job(job)
@@ -123,7 +121,7 @@ def test_a_catalogue_edited_after_planning_stops_the_job(tmp_path: Path) -> None
 def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_path: Path) -> None:
     settings = _write(tmp_path, f"a,a.AT2,{SHA256}\n")
     hashes = {
-        make_plan(settings | changed, SCHEMA).settings_sha256
+        make_plan(settings | changed).settings_sha256
         for changed in (
             {},
             {"reports": False},
@@ -132,7 +130,7 @@ def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_pat
         )
     }
     assert len(hashes) == 1
-    assert make_plan(settings | {"tolerance": 1e-7}, SCHEMA).settings_sha256 not in hashes
+    assert make_plan(settings | {"tolerance": 1e-7}).settings_sha256 not in hashes
 
 
 def test_the_hash_of_the_package_follows_its_source(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,17 +1,20 @@
 """Which records of a study are processed."""
 
 import hashlib
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rocking.assessment.assess import AssessmentSettings
 from rocking.records import CatalogueRecord
 from rocking.records.synthetic import BUNDLED, at2_text
 from rocking.study.run import Study
+from rocking.study.settings import ProcessingSettings, Settings
 
-STUDY = Study({}, AssessmentSettings(), "")
+STUDY = Study({})
+
+
+def _applied(which):
+    return Study({}, Settings(processing=ProcessingSettings(apply=which)))
 
 
 @pytest.fixture
@@ -35,7 +38,7 @@ def _steps(study, record):
 
 def test_a_processed_file_is_left_as_it_is_unless_always(at2):
     assert _steps(STUDY, at2) == ()
-    assert any("Butterworth highpass" in step for step in _steps(replace(STUDY, process="always"), at2))
+    assert any("Butterworth highpass" in step for step in _steps(_applied("always"), at2))
 
 
 def test_a_file_that_cannot_say_is_left_as_it_is(columns):
@@ -47,7 +50,7 @@ def test_a_raw_file_is_processed_unless_never():
     from rocking.records.catalogue import load_catalogue
 
     record = next(r for r in load_catalogue("records/catalogue.csv") if r.id == "STNA_2002_scaled")
-    raw = replace(STUDY, process="never").open(record)[0][0]
+    raw = _applied("never").open(record)[0][0]
     done = STUDY.open(record)[0][0]
     assert len(done.processing) > len(raw.processing)
     assert done.high_pass_frequency == 0.1

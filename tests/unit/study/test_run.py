@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-import yaml
 
 from rocking.assessment import columns
 from rocking.errors import StructureError
@@ -14,6 +13,7 @@ from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.structures import Block
 from rocking.study.run import Study, assess_record, assess_records
+from rocking.study.settings import Settings
 from rocking.study.summary import structure_rows, write_summary
 from rocking.tables import read_rows
 
@@ -30,11 +30,8 @@ class Impossible:
 
 
 def _study(**structures: object) -> Study:
-    settings = yaml.safe_load((ROOT / "workflow" / "config.yaml").read_text(encoding="utf-8"))
-    settings |= {"candidates": 0, "processing_variants": False}
-    made = Study.from_settings(settings, ROOT / "workflow" / "structures.yaml", "made")
-    object.__setattr__(made, "structures", structures or {"block": Block.of_size(0.5, 3.0)})
-    return made
+    settings = Settings(candidates=0, processing_variants=False)
+    return Study(structures or {"block": Block.of_size(0.5, 3.0)}, settings, "made")
 
 
 def _record(

@@ -1,0 +1,175 @@
+"""The tree of settings: what it refuses, and that every file made from it says the same."""
+
+import builtins
+import math
+from dataclasses import fields, is_dataclass, replace
+from pathlib import Path
+from typing import get_type_hints
+
+import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
+from jsonschema import Draft7Validator
+
+from rocking.assessment.settings import AssessmentSettings
+from rocking.calibration.settings import TradeSettings
+from rocking.errors import ConfigurationError
+from rocking.pulses import PulseSettings
+from rocking.records.processing import UNPROCESSED_DEFAULT
+from rocking.study.config_file import commented_yaml, json_schema, read_settings, write_settings
+from rocking.study.settings import EXAMPLE, Settings
+
+ROOT = Path(__file__).parents[3]
+SCHEMA = Draft7Validator(json_schema())
+
+
+def _refusal(config: object) -> str:
+    with pytest.raises(ConfigurationError) as caught:
+        read_settings(config)
+    return str(caught.value)
+
+
+def _names(kind: type = Settings, above: tuple[str, ...] = ()) -> list[tuple[str, ...]]:
+    hints = get_type_hints(kind)
+    return [
+        name
+        for each in fields(kind)
+        for name in (
+            _names(hints[each.name], (*above, each.name))
+            if is_dataclass(hints[each.name])
+            else [(*above, each.name)]
+        )
+    ]
+
+
+def _config(name: tuple[str, ...], value: object) -> dict[str, object]:
+    return {name[0]: _config(name[1:], value)} if len(name) > 1 else {name[0]: value}
+
+
+def test_an_empty_config_is_the_default() -> None:
+    assert read_settings({}) == Settings()
+
+
+def test_what_a_part_of_the_package_takes_by_default_is_the_default_of_a_study() -> None:
+    settings = Settings()
+    assert settings.assessment == AssessmentSettings()
+    assert settings.raw_processing == UNPROCESSED_DEFAULT
+    assert settings.error_against_time == TradeSettings()
+
+
+def test_a_value_reaches_the_part_it_is_for() -> None:
+    config = {
+        "tolerance": 1e-9,
+        "pulse": {"highest_frequency_hz": 8, "choice": "demand"},
+        "processing": {"high_pass_hz": None},
+        "trade": {"cases": 3},
+    }
+    settings = read_settings(config)
+    assert settings.assessment == AssessmentSettings(
+        tolerance=1e-9, pulse=PulseSettings(highest_frequency=8.0), pulse_choice="demand"
+    )
+    assert settings.raw_processing == replace(UNPROCESSED_DEFAULT, high_pass=None)
+    assert settings.error_against_time.cases == 3
+
+
+def test_the_shipped_files_are_those_that_the_tree_writes(tmp_path: Path) -> None:
+    write_settings(tmp_path)
+    for name in ("config.yaml", "schemas/config.schema.yaml"):
+        shipped = (ROOT / "workflow" / name).read_text(encoding="utf-8")
+        assert (tmp_path / name).read_text(encoding="utf-8") == shipped, (
+            "python -m rocking.study.config_file workflow"
+        )
+
+
+@pytest.mark.parametrize("settings", [Settings(), EXAMPLE])
+def test_the_written_config_reads_back_and_explains_every_line(settings: Settings) -> None:
+    text = commented_yaml(settings)
+    config = yaml.safe_load(text)
+    assert read_settings(config) == settings
+    assert SCHEMA.is_valid(config)
+    for line in text.splitlines():
+        assert not line or line.endswith(":") or "#" in line, line
+
+
+@pytest.mark.parametrize("name", _names(), ids=".".join)
+def test_every_setting_says_what_it_means_and_its_choices(name: tuple[str, ...]) -> None:
+    schema = json_schema()
+    for part in name:
+        schema = schema["properties"][part]
+    assert schema["description"] and "default" in schema
+    for choice in schema.get("enum", ()):
+        assert choice in schema["description"], f"{choice} is not explained"
+
+
+def test_all_defects_stand_in_one_message_each_with_its_value_and_what_is_allowed() -> None:
+    config = {
+        "tolerance": 5,
+        "tollerance": 1,
+        "results": "",
+        "processing": {"apply": "sometimes", "taper": True},
+        "pulse": {"lowest_frequency_hz": -1, "choice": "best", "frequencies_per_octave": 24.0},
+        "records_per_job": 0,
+        "trade": 3,
+        "mirror": math.nan,
+    }
+    assert _refusal(config).splitlines() == [
+        "setting tollerance is 1, but no setting has this name; did you mean tolerance?",
+        "setting results is '', but must be a text that is not empty.",
+        "setting mirror is nan, but must be a text that is not empty or null.",
+        "setting processing.apply is 'sometimes', but must be raw or always or never.",
+        "setting processing.taper is True, but must be a number from 0 to 0.5.",
+        "setting tolerance is 5, but must be a number from 1e-13 to 0.1.",
+        "setting pulse.lowest_frequency_hz is -1 Hz, but must be a number above 0.",
+        "setting pulse.frequencies_per_octave is 24.0, but must be a whole number from 4 to 200.",
+        "setting pulse.choice is 'best', but must be energy or demand or velocity.",
+        "setting trade is 3, but must be a mapping of cases, samples, budget_s, in_summary.",
+        "setting records_per_job is 0, but must be a whole number of at least 1 or null.",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("config", "words"),
+    [
+        ({"pulse": {"lowest_frequency_hz": 6}}, "highest_frequency is 5 Hz, but must be above"),
+        ({"pulse": {"bootstrap_replicates": 5}}, "bootstrap_replicates is 5, but must be 0 or at least 20"),
+        ({"processing": {"low_pass_hz": 0.05}}, "high_pass is 0.1 Hz, but must be below"),
+        ({"tolerance": "1e-6"}, "write 1.0e-6"),
+        ([], "must be a mapping"),
+    ],
+)
+def test_settings_that_do_not_go_together_are_refused(config: object, words: str) -> None:
+    assert words in _refusal(config)
+
+
+VALUES = (
+    st.none()
+    | st.booleans()
+    | st.sampled_from(["", "raw", "linear", "uplift", "demand", "full", "1"])
+    | st.integers(-2, 20_000)
+    | st.floats(-1, 2).filter(lambda value: not value.is_integer())
+)
+
+
+@given(st.sampled_from(_names()), VALUES)
+def test_the_schema_allows_what_the_tree_allows(name: tuple[str, ...], value: object) -> None:
+    """Held against jsonschema, but for what no schema of one value can say, and numbers such as 3.0."""
+    config = _config(name, value)
+    try:
+        read_settings(config)
+        refused = ""
+    except ConfigurationError as error:
+        refused = str(error)
+    alone = "must be above" not in refused and "must be below" not in refused and "or at least" not in refused
+    assert not alone or SCHEMA.is_valid(config) == (not refused), refused
+
+
+def test_a_job_reads_its_settings_without_a_library_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    real = builtins.__import__
+
+    def refused(name: str, *arguments: object, **named: object) -> object:
+        assert name.partition(".")[0] not in ("jsonschema", "pydantic")
+        return real(name, *arguments, **named)
+
+    monkeypatch.setattr(builtins, "__import__", refused)
+    assert read_settings({"tolerance": 1e-8}).assessment.tolerance == 1e-8
