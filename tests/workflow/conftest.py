@@ -111,8 +111,7 @@ class SmallStudy:
 def new_study(folder: Path, tree: Path) -> SmallStudy:
     """A study without records: two structures, no reports, one record a job."""
     (folder / "records").mkdir(parents=True)
-    settings = yaml.safe_load((ROOT / "workflow" / "config.yaml").read_text(encoding="utf-8"))
-    settings |= {"structures": "structures.yaml", "reports": False, "records_per_job": 1}
+    settings = {"reports": False, "records_per_job": 1}
     (folder / "config.yaml").write_text(yaml.safe_dump(settings), encoding="utf-8")
     (folder / "structures.yaml").write_text(yaml.safe_dump(STRUCTURES), encoding="utf-8")
     return SmallStudy(folder, tree)

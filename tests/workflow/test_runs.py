@@ -74,6 +74,16 @@ def test_a_record_more_computes_its_own_job_only(finished, tmp_path: Path) -> No
     assert b"good_4" in after["summary/maxima.csv"]
 
 
+def test_the_trade_of_error_for_time_is_drawn_where_it_is_asked_for(finished) -> None:
+    """The graph is built from the settings alone, whatever lies in the results."""
+    asked = finished.run("--dry-run", "--config", "reports=true", "trade={in_summary: true}").stdout
+    for told, wanted in (
+        (asked, True),
+        (finished.run("--dry-run", "--config", "reports=true").stdout, False),
+    ):
+        assert bool(re.search(r"(?m)^trade +1 *$", told)) == wanted, told
+
+
 def _jobs(output: str) -> list[str]:
     """The kinds of jobs in the table that snakemake prints before a run, without the target."""
     table = output.partition("Job stats:")[2].partition("\ntotal ")[0]

@@ -110,6 +110,16 @@ def test_assess_writes_report_and_tables_like_a_study(record, blocks, tmp_path, 
     assert rows(tmp_path / "out" / "summary" / "structures.csv")[0]["structure"] == "squat"
 
 
+def test_a_single_file_is_opened_once(record, blocks, tmp_path, monkeypatch):
+    opened = []
+    real = Path.open
+    monkeypatch.setattr(
+        Path, "open", lambda path, *mode, **more: (opened.append(path), real(path, *mode, **more))[1]
+    )
+    assert main(["assess", str(record), str(blocks), "--unit", "g", "--output", str(tmp_path / "out")]) == 0
+    assert opened.count(record) == 1
+
+
 def test_spectrum_agrees_with_the_integration_of_one_block(record, tmp_path):
     target = tmp_path / "spectrum.csv"
     assert main(["spectrum", str(record), "--unit", "g", "--output", str(target)]) == 0

@@ -88,6 +88,11 @@ def test_all_defects_of_all_three_files_stand_in_one_message(tmp_path: Path) -> 
         assert defect in message
 
 
+def test_files_are_looked_for_where_a_defective_config_names_them(tmp_path: Path) -> None:
+    settings = _write(tmp_path, "", tolerance=5, catalogue=str(tmp_path / "elsewhere.csv"))
+    assert "elsewhere.csv" in _refusal(settings) and "records/catalogue.csv" not in _refusal(settings)
+
+
 def test_results_that_cannot_be_a_folder_are_refused(tmp_path: Path) -> None:
     (tmp_path / "taken").write_text("")
     settings = _write(tmp_path, f"a,a.AT2,{SHA256}\n", results=str(tmp_path / "taken" / "results"))
