@@ -58,18 +58,19 @@ def _read(kind: Any, config: object, above: str, defects: list[str]) -> Any:
         value, expected = config[each.name], hints[each.name]
         if is_dataclass(expected):
             values[each.name] = _read(expected, value, f"{above}{each.name}.", defects)
-        elif is_allowed(expected, each, value):
-            values[each.name] = as_typed(expected, value)
         else:
-            must = allowed(expected, each) + _exponent(value)
-            defects.append(
-                f"setting {above}{each.name} is {_said(value, each.metadata['unit'])}, but must be {must}."
-            )
+            values[each.name] = _read_one(expected, each, value, above, defects)
     return kind(**values)
 
 
-def _said(value: object, unit: str) -> str:
-    return f"{value!r} {unit}" if unit and isinstance(value, int | float) else repr(value)
+def _read_one(expected: Any, described: Field[Any], value: Any, above: str, defects: list[str]) -> Any:
+    for said in (value, _as_said(value) if isinstance(value, str) else value):
+        if is_allowed(expected, described, said):
+            return as_typed(expected, said)
+    unit, must = described.metadata["unit"], allowed(expected, described)
+    shown = f"{value!r} {unit}" if unit and isinstance(value, int | float) else repr(value)
+    defects.append(f"setting {above}{described.name} is {shown}, but must be {must}.")
+    return value
 
 
 def _hint(key: object, known: Mapping[str, Any]) -> str:
@@ -77,11 +78,14 @@ def _hint(key: object, known: Mapping[str, Any]) -> str:
     return f"did you mean {near[0]}?" if near else f"the names are {', '.join(known)}."
 
 
-def _exponent(value: object) -> str:
-    """YAML 1.1 takes 1e-6 for a text."""
-    if isinstance(value, str) and re.fullmatch(r"[+-]?\d+[eE][+-]?\d+", value):
-        return f"; YAML takes this for a text, write {re.sub('[eE]', '.0e', value)}"
-    return ""
+def _as_said(text: str) -> object:
+    """What a text says. snakemake --config hands on "true" and inner numbers as text, and for YAML 1.1 1e-6 is one."""
+    if re.fullmatch(r"[+-]?\d+[eE][+-]?\d+", text):
+        return float(text)
+    try:
+        return yaml.safe_load(text)
+    except yaml.YAMLError:
+        return text
 
 
 def json_schema(kind: type = Settings) -> dict[str, Any]:

@@ -122,7 +122,7 @@ def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A copy of the workflow and the package, with what is compiled already, which a test may edit."""
     folder = tmp_path_factory.mktemp("tree")
     shutil.copy2(ROOT / "Snakefile", folder)
-    for name in ("workflow", "rocking"):
+    for name in ("workflow", "rocking", "docs"):
         shutil.copytree(ROOT / name, folder / name)
     return folder
 
