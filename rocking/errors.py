@@ -13,7 +13,11 @@ class RecordError(RockingError):
 
 
 class UnknownFormatError(RecordError):
-    """No reader recognises the file; the message says what was looked for."""
+    """No reader recognises the file; `details` says what each looked for, one sentence each."""
+
+    def __init__(self, message: str, details: tuple[str, ...] = ()) -> None:
+        super().__init__(message)
+        self.details = details
 
 
 class UndeclaredError(RecordError):

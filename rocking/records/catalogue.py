@@ -11,6 +11,7 @@ from typing import Any
 from rocking.errors import CatalogueError, RecordError, RockingError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue_record import COLUMNS, CatalogueRecord
+from rocking.records.channels import is_unnamed
 from rocking.records.directions import azimuth, is_vertical
 from rocking.records.fetch import fetch, inventory_of
 from rocking.records.folder import catalogue_from_folder, write_catalogue_rows
@@ -145,7 +146,7 @@ def _absent(record: CatalogueRecord, mirror: Path) -> Iterable[str]:
 
 def _selected(channels: list[Accelerogram], record: CatalogueRecord) -> list[Accelerogram]:
     held = ", ".join(c.component or "(unnamed)" for c in channels)
-    if len(channels) == len(record.components) == 1 and not channels[0].component:
+    if len(channels) == len(record.components) == 1 and is_unnamed(channels[0]):
         return [_named(channels[0], record.component.strip())]
     if record.components:
         missing = [name for name in record.components if name not in {c.component for c in channels}]

@@ -81,12 +81,6 @@ class CatalogueRecord:
         """The channels asked for by name."""
         return tuple(part.strip() for part in self.component.split(";") if part.strip())
 
-    def fetch(self, mirror: str | Path | None = None, cache: str | Path | None = None) -> Path:
-        """Return the path of the file, its hash checked; see rocking.records.fetch.fetch."""
-        from rocking.records.fetch import fetch
-
-        return fetch(self, mirror, cache)
-
 
 def _defects(record: CatalogueRecord) -> Iterable[str]:
     if (

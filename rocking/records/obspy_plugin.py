@@ -11,12 +11,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.read import LARGEST_FILE, read_content, unpacked
 
-PLUGINS = {
-    "PEER_AT2": "PEER AT2", "COSMOS_V1V2": "COSMOS V1/V2", "CSMIP_V1V2": "CSMIP V1/V2", "USGS_SMC": "USGS SMC",
-    "USC_V1": "USC Volume 1", "DYNA": "DYNA (ESM, ITACA, AFAD)", "AFAD": "AFAD/NSMN text", "RESORCE": "RESORCE",
-    "GEONET": "GeoNet V1A/V2A", "UNAM": "UNAM/CICESE", "BHRC": "BHRC", "RENADIC": "RENADIC", "CWB": "CWB",
-    "CSMNC": "CSMNC",
-}  # fmt: skip
+PLUGINS = {form.plugin: form.name for form in FORMATS if form.plugin}
 """Name in obspy → name in FORMATS. K-NET, EVT, SAC and miniSEED are obspy's own already."""
 
 _HEAD = 2**16

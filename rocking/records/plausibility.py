@@ -1,11 +1,18 @@
 """Gates: a peak that contradicts its own header, or that no ground has, does not pass unseen."""
 
+from dataclasses import replace
+
+import numpy as np
+
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, acceleration_factor
 from rocking.records.accelerogram import Accelerogram
 
 LARGEST_PEAK = 5 * GRAVITY
 """m/s²; the largest recorded so far is 4.4 g (Iwate-Miyagi 2008, IWTH25), so what is above is a wrong unit."""
+
+RARE_PEAK = 3 * GRAVITY
+"""m/s²; a handful of records of the world exceed it."""
 
 SMALLEST_PEAK = 1e-5 * GRAVITY
 """m/s²; below, a record is noise or has a wrong unit."""
@@ -22,30 +29,63 @@ _NEAR = 0.02
 _PLAUSIBLE = (0.005, 1.5)
 
 
-def agree_with_header(record: Accelerogram, peak: float | None, unit: str, half_digit: float = 0.0) -> None:
-    """Check the peak of `record` against the one its header states in `unit`, within 1 % or half its last digit.
+def agree_with_header(
+    record: Accelerogram,
+    peak: float | None,
+    unit: str,
+    half_digit: float = 0.0,
+    *,
+    at: float | None = None,
+    samples: np.ndarray | None = None,
+) -> Accelerogram:
+    """Return `record` after comparing its peak with the one its header states in `unit`, within 1 % or half a digit.
 
-    Nothing is checked when the header states none or zero. Raises RecordError with the factor that would explain it.
+    at: time of the stated peak, s after the first sample; where the samples there are smaller than the peak, the record
+    gets a warning. samples: (n,) m/s² as the file holds them, where the record's are cleared of an offset or resampled.
+    Nothing is checked when the header states no peak or zero. Raises RecordError with the factor that would explain it.
     """
     if not peak:
-        return
-    stated = abs(peak) * acceleration_factor(unit)
+        return record
+    magnitudes = np.abs(record.acceleration if samples is None else samples)
+    found, stated = float(magnitudes.max()), abs(peak) * acceleration_factor(unit)
     allowed = max(0.01 * stated, half_digit * acceleration_factor(unit))
-    if abs(record.peak_acceleration - stated) > allowed:
+    if abs(found - stated) > allowed:
         raise RecordError(
             f"{record.source.path}: peak acceleration of {record.component or 'the samples'} is "
-            f"{record.peak_acceleration:.6g} m/s², but the file's header states {stated:.6g} m/s²"
-            f"{_explain(record.peak_acceleration / stated)}; the two must agree within 1 %."
+            f"{found:.6g} m/s², but the file's header states {stated:.6g} m/s²"
+            f"{_explain(found / stated)}; the two must agree within 1 %."
         )
+    return record if at is None else _peak_in_place(record, magnitudes, at)
+
+
+_NEIGHBOURS = 3
+"""Samples by which the stated time of a peak may be off: it is printed with few digits, and counts from 0 or from 1."""
+
+
+def _peak_in_place(record: Accelerogram, magnitudes: np.ndarray, at: float) -> Accelerogram:
+    place = round(at / record.time_step) if abs(at) < 1e9 * record.time_step else magnitudes.size
+    near = magnitudes[max(0, place - _NEIGHBOURS) : max(0, place + _NEIGHBOURS + 1)]
+    if near.size and near.max() >= 0.98 * magnitudes.max():
+        return record
+    found = int(magnitudes.argmax()) * record.time_step
+    sentence = (
+        f"The header puts the peak at {at:g} s, but it stands at {found:g} s: "
+        "lines may be missing, repeated or out of order before it, or the time step is another."
+    )
+    return replace(record, warnings=(*record.warnings, sentence))
 
 
 def pass_limits(record: Accelerogram) -> tuple[str, ...]:
-    """Return a warning when the peak is below 1e-5 g; raise RecordError when it is above 5 g."""
+    """Return warnings on a peak that is below 1e-5 g or above 3 g; raise RecordError when it is above 5 g."""
     peak = record.peak_acceleration / GRAVITY
     if record.peak_acceleration > LARGEST_PEAK:
         raise RecordError(
             f"{record.source.path}: peak acceleration is {peak:.6g} g read as {record.source.unit or 'm/s2'}, "
             f"above the 5 g that no ground has reached{_candidates(peak, divide=True)}; declare the true unit."
+        )
+    if record.peak_acceleration > RARE_PEAK:
+        return (
+            f"The peak acceleration is {peak:.3g} g, above 3 g: almost no ground moves so; check unit and file.",
         )
     if record.peak_acceleration >= SMALLEST_PEAK:
         return ()

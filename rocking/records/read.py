@@ -9,6 +9,7 @@ from pathlib import Path
 
 from rocking.errors import RecordError, UnknownFormatError
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.channels import told_apart
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response
 from rocking.records.plausibility import pass_limits
@@ -64,9 +65,8 @@ def read_content(
     records = (reader or recognise(content, name)).read(content, name, options)
     if not records:
         raise RecordError(f"{name}: the file holds no channel of acceleration.")
-    return [
-        _signed(record, sha256 or hashlib.sha256(content).hexdigest(), path or name) for record in records
-    ]
+    sha256 = sha256 or hashlib.sha256(content).hexdigest()
+    return [_signed(record, sha256, path or name) for record in told_apart(records, name)]
 
 
 def recognise(content: bytes, name: str) -> Format:
@@ -83,23 +83,36 @@ def recognise(content: bytes, name: str) -> Format:
     if found:
         names = ", ".join(form.name for form in found)
         raise UnknownFormatError(f"{name}: several readers recognise this file ({names}); none is preferred.")
-    sought = "; ".join(f"{form.name}: no {form.sought}" for form in FORMATS)
     raise UnknownFormatError(
-        f"{name}: no reader recognises this file. What each looked for and did not find: {sought}."
+        f"{name}: no reader recognises this file, which begins with {_beginning(content)}; "
+        "rocking read --details says what each of them looked for.",
+        details=tuple(f"{form.name}: no {form.sought}" for form in FORMATS),
     )
 
 
+def _beginning(content: bytes) -> str:
+    """Return the first words of a text, or the first bytes of what is none, in quotation marks."""
+    head = content.lstrip()[:40]
+    text = head.decode("latin-1").splitlines()[0].strip() if head else ""
+    return repr(text if text.isprintable() else head[:8])
+
+
 def unpacked(raw: bytes, name: str) -> bytes:
-    """Return `raw`, unpacked if it is gzip. Raises RecordError when it is damaged or unpacks to too much."""
+    """Return `raw`, all of it unpacked if it is gzip. Raises RecordError when it is damaged or unpacks to too much."""
     if not raw.startswith(b"\x1f\x8b"):
         return raw
-    unpacker = zlib.decompressobj(wbits=31)
-    try:
-        content = unpacker.decompress(raw, LARGEST_FILE)
-    except zlib.error as error:
-        raise RecordError(f"{name}: damaged gzip file, {error}; fetch it again.") from None
-    if not unpacker.eof:
-        raise RecordError(f"{name}: the gzip file is truncated or unpacks to more than {LARGEST_FILE} bytes.")
+    content = b""
+    while raw.strip(b"\0"):  # a gzip file may hold several members, and zeros that fill up a block of tape
+        unpacker = zlib.decompressobj(wbits=31)
+        try:
+            content += unpacker.decompress(raw, LARGEST_FILE + 1 - len(content))
+        except zlib.error as error:
+            raise RecordError(f"{name}: damaged gzip file, {error}; fetch it again.") from None
+        if not unpacker.eof or len(content) > LARGEST_FILE:
+            raise RecordError(
+                f"{name}: the gzip file is truncated or unpacks to more than {LARGEST_FILE} bytes."
+            )
+        raw = unpacker.unused_data
     return content
 
 

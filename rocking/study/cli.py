@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from shlex import quote
 
-from rocking.errors import RockingError
+from rocking.errors import RockingError, UnknownFormatError
 from rocking.quantities import GRAVITY
 
 
@@ -41,7 +41,10 @@ def _parser() -> argparse.ArgumentParser:
     run = _verb(verbs, "run", _run, "run the study in a folder")
     run.add_argument("folder", type=Path)
     run.add_argument("snakemake", nargs="*", help="what follows -- goes to snakemake: -- --dry-run")
-    _record_verb(verbs, "read", _read, "read a file and say what it is")
+    reading = _record_verb(verbs, "read", _read, "read a file and say what it is")
+    reading.add_argument(
+        "--details", action="store_true", help="of a file that is not recognised: what each reader looked for"
+    )
     for name, function, text in (
         ("pulse", _pulse, "dominant sine pulse of a file"),
         ("assess", _assess, "assess structures under a file"),
@@ -115,7 +118,13 @@ def _run(options: argparse.Namespace) -> int:
 def _read(options: argparse.Namespace) -> None:
     from rocking.records import read
 
-    for found in read(options.file, unit=options.unit, time_step=options.time_step):
+    try:
+        records = read(options.file, unit=options.unit, time_step=options.time_step)
+    except UnknownFormatError as error:
+        if options.details:
+            print("\n".join(error.details))
+        raise
+    for found in records:
         accelerogram = found if options.scale == 1 else found.scaled(options.scale)
         peak = accelerogram.peak_acceleration
         print(

@@ -1,5 +1,7 @@
 """A small file of each text format, made here: what its header declares and how its columns stand."""
 
+import io
+import struct
 from collections.abc import Callable
 
 import numpy as np
@@ -213,11 +215,129 @@ def table() -> str:
     return "time,acc_NS(m/s2),acc_EW(m/s2)\n" + "".join(rows)
 
 
+def csmip_of_1983(stated: float = 1.0) -> str:
+    """Volume 2 as the CDMG wrote it until the nineties: capitals, and the unit in brackets after the step."""
+    gal = 100 * TRUE
+    peak, at = stated * np.abs(gal).max(), np.abs(gal).argmax() * STEP
+
+    def block(quantity: str, unit: str) -> str:
+        announced = f" {N} POINTS OF {quantity} DATA EQUALLY SPACED AT  {STEP:.3f} SEC.  (UNITS: {unit})\n"
+        return announced + columns(gal, 8, "10.3f")
+
+    return (
+        "CORRECTED ACCELEROGRAM   36456-S4384-83123.01       CHAN  1:  45 DEG     FROM\n"
+        "UNCORRECTED ACCELEROGRAM DATA              PROCESSED:  6/06/83, CDMG QC83A456\nMADE EARTHQUAKE\n"
+        "STATION NO. 36456   35.908N, 120.458W     SMA-1  S/N 4384\nCHAN  1:  45 DEG\n"
+        "ACCELEROGRAM BANDPASS FILTERED WITH RAMPS AT  .050- .100 AND 23.00-25.00 CYC/SEC\n"
+        f"  {N} POINTS OF INSTRUMENT- AND BASELINE-CORRECTED ACCEL, VELOC AND DISPL DATA\n"
+        f"AT EQUALLY-SPACED INTERVALS OF    {STEP:.3f}  SEC.\n"
+        f"PEAK ACCELERATION =  {peak:.3f}    CM/SEC/SEC  AT   {at:.3f}   SEC.\n"
+        + columns(np.zeros(100, int), 16, "5d") + columns(np.zeros(100), 8, "10.3f")
+        + block("ACCEL", "CM/SEC/SEC") + block("VELOC", "CM/SEC") + block("DISPL", "CM")
+        + "/&  ----------  END OF DATA FOR CHANNEL  1  ----------\n"
+    )  # fmt: skip
+
+
+def csmip_raw(stated: float = 1.0) -> str:
+    """The raw volume of the CDMG, digital: evenly spaced, in g."""
+    peak = stated * np.abs(TRUE).max() / 9.80665
+    head = volume1(
+        "UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 06/16/98, CDMG 23583", "CHAN  1:  45 DEG",
+        f"UNITS OF UNCOR ACCEL IS G.                 MAX  =  {peak:6.3f} G, AT   9.425 SEC.", "",
+    )  # fmt: skip
+    body = f"{N} POINTS OF ACCEL DATA EQUALLY SPACED AT {STEP:.3f} SEC.  (UNITS: G)\n" + columns(
+        TRUE / 9.80665, 8, "9.6f"
+    )
+    made = head.replace("UNIVERSIDAD DE CHILE - RENADIC", "MADE EARTHQUAKE").format(body)
+    return made + "/&  ----- END OF DATA FOR CHANNEL  1 -----\n"
+
+
+def csmip_film(stated: float = 1.0) -> str:
+    """The raw volume of the CDMG, digitised from film: pairs of seconds and tenths of g."""
+    peak = stated * np.abs(TRUE).max() / 9.80665
+    head = volume1(
+        "UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 02/08/94, CDMG QN94A403", "CHAN  1:  45 DEG",
+        f"UNITS OF UNCOR ACCEL ARE SEC AND G/10.     MAX  =  {peak:6.3f} G, AT  11.576 SEC.",
+        "/&  ----- END OF DATA FOR CHANNEL  1 -----\n",
+    )  # fmt: skip
+    return head.replace("UNIVERSIDAD DE CHILE - RENADIC", "MADE EARTHQUAKE").format(
+        columns(pairs(), 10, "7.3f")
+    )
+
+
+def unam_with_blank_block(stated: float = 1.0) -> str:
+    """Two channels of twelve: the second block of six stands there and is blank."""
+    text = unam(stated).replace("/N45E/V\n", "/N45E/V/ / / /\n").replace(f"/{N}/{N}", f"/{N}/{N}/ / / /")
+    blank = "/ / / / / /"
+    second = f"ORIENTACION C7-C12 (rumbo;orientacion) : {blank}\nNUM. TOTAL DE MUESTRAS, C7-C12         : {blank}\n"
+    return text.replace("INTERVALO DE", f"{second}INTERVALO DE", 1)
+
+
+def unam_with_repeats(stated: float = 1.0) -> str:
+    """The last line stands there three times."""
+    text = unam(stated)
+    return text + 2 * (text.rstrip("\n").rsplit("\n", 1)[1] + "\n")
+
+
+def two_headers() -> str:
+    """A title with the unit, then number of samples and step, then eight numbers a line: files like KOBE.000."""
+    return f"Made, Kobe 000, acceleration in g\n{N} points, dt = {STEP} sec\n" + columns(
+        TRUE / 9.80665, 8, "12.7f"
+    )
+
+
+def miniseed() -> bytes:
+    return _by_obspy("MSEED", encoding="FLOAT32")
+
+
+def sac() -> bytes:
+    return _by_obspy("SAC")
+
+
+def _by_obspy(form: str, **options) -> bytes:
+    import obspy
+
+    header = {"network": "XX", "station": "MADE", "channel": "HNE", "delta": STEP}
+    stream = obspy.Stream([obspy.Trace(TRUE.astype(np.float32), header=header)])
+    written = io.BytesIO()
+    stream.write(written, format=form, **options)
+    return written.getvalue()
+
+
+def evt() -> bytes:
+    """A file of one channel as a Kinemetrics K2 writes it: a header of 2040 bytes, frames of a tenth of a second."""
+    samples = round(0.1 / STEP)
+    frames, full_scale, sensitivity = N // samples, 2.5, 1.25
+    counts = np.round(TRUE / 9.80665 * sensitivity / full_scale * 2**23).astype(int)
+    head = bytearray(2040)
+    head[:4] = b"KMI\x09"
+    struct.pack_into(">3L4H2L4x2H5s", head, 0x22C, 10**9, 0, frames, 0, 0, 0, 0, 0, 0, 1, 1, b"MADE")
+    struct.pack_into(">ff", head, 0x2C8 + 32, full_scale, sensitivity)
+    parts = [_tagged(1, bytes(head), b"")]
+    for i in range(frames):
+        frame = struct.pack(
+            ">BBHHLHHBBHB13s", 3, 9, 1, 32, 10**9, 1, round(1 / STEP), 128, 0, 100 * i, 0, b""
+        )
+        body = b"".join(
+            int(c).to_bytes(3, "big", signed=True) for c in counts[i * samples : (i + 1) * samples]
+        )
+        parts.append(_tagged(2, frame, body))
+    return b"".join(parts)
+
+
+def _tagged(kind: int, head: bytes, body: bytes) -> bytes:
+    checksum = sum(head + body) & 0xFFFF
+    return struct.pack(">cBBBLHHHH", b"K", 1, 1, 9, kind, len(head), len(body), 1, checksum) + head + body
+
+
 MADE: dict[str, tuple[Callable[..., str], float, Options]] = {
     "PEER AT2": (peer, 1e-7, Options()),
-    "PEER AT2 ": (peer_2008, 1e-7, Options()),
+    "PEER AT2: of 2008": (peer_2008, 1e-7, Options()),
     "COSMOS V1/V2": (cosmos, 1e-7, Options()),
     "CSMIP V1/V2": (csmip, 1e-7, Options()),
+    "CSMIP V1/V2: of 1983": (csmip_of_1983, 5e-6, Options()),
+    "CSMIP V1/V2: raw": (csmip_raw, 5e-6, Options()),
+    "CSMIP V1/V2: film": (csmip_film, 5e-4, Options()),
     "USGS SMC": (smc, 5e-4, Options()),
     "USC Volume 1": (usc, 5e-4, Options()),
     "RENADIC": (renadic, 5e-4, Options()),
@@ -228,9 +348,32 @@ MADE: dict[str, tuple[Callable[..., str], float, Options]] = {
     "RESORCE": (resorce, 1e-7, Options()),
     "GeoNet V1A/V2A": (geonet, 5e-5, Options()),
     "UNAM/CICESE": (unam, 5e-7, Options()),
+    "UNAM/CICESE: blank second block": (unam_with_blank_block, 5e-7, Options()),
+    "UNAM/CICESE: repeated last line": (unam_with_repeats, 5e-7, Options()),
     "CWB": (cwb, 5e-6, Options()),
     "CSMNC": (csmnc, 1e-6, Options()),
     "titled column": (titled, 1e-6, Options(unit="m/s2")),
+    "titled column: two headers": (two_headers, 5e-7, Options()),
     "columns of numbers": (table, 5e-8, Options()),
 }
-"""Format → (text of a small file, half a unit of the last digit it prints in m/s², what the caller declares)."""
+"""Format, and what is special after a colon → (text of a small file, half a unit of the last digit it prints in m/s²,
+what the caller declares)."""
+
+MADE_BINARY: dict[str, tuple[Callable[[], bytes], float, Options]] = {
+    "miniSEED": (miniseed, 1e-7, Options(unit="m/s2")),
+    "SAC": (sac, 1e-7, Options(unit="m/s2")),
+    "Kinemetrics EVT": (evt, 2e-6, Options()),
+}
+"""The same for formats that are no text."""
+
+MADE_REFUSED: dict[str, tuple[str, str]] = {
+    "PEER VT2 or DT2": (peer().replace("ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY IN CM/S"), "velocity"),
+    "CSMIP V3 spectra": ("Response and Fourier Amplitude Spectra\n 1 2 3\n", "spectra"),
+    "StationXML": ('<?xml version="1.0"?>\n<FDSNStationXML></FDSNStationXML>\n', "no samples"),
+}  # fmt: skip
+"""Format → (a file of what is no acceleration, the word by which it is refused)."""
+
+
+def format_of(label: str) -> str:
+    """Return the name of the format of a label in MADE."""
+    return label.partition(":")[0]

@@ -20,6 +20,14 @@ REFUSED = {"VT2": "velocity", "V3": "spectra", "xml": "StationXML"}
 TRUNCATED = ("HEC000_truncated.AT2", "HEC090_truncated.AT2", "KOBE_NS1_wrong_header.AT2")
 
 
+SERIES_STEP = {
+    "Cosmos12TimeSeriesTest.v1": 0.01,
+    "us1000hyfh_akbmrp_AKBMR--n.1000hyfh.BNZ.--.acc.V2c": 0.005,
+}
+"""Step of a resampled COSMOS series, s: the manifest lists the recorder's. The same headers state lengths of 70 and
+210 s and peaks at 27.85 and 76.215 s, where 7000 and 42000 samples have them with these steps alone."""
+
+
 def declared(row: dict[str, str]) -> dict:
     """Return what the caller has to declare because the file does not: known from the source, not from the file."""
     if row["file"].endswith((".time_g.csv", ".sac")):
@@ -52,6 +60,7 @@ def test_every_channel_agrees_with_the_manifest(real_records: Path, manifest: li
             channels += 1
             # The uneven record: the manifest gives the film's median step, its note the 0.005 s of npts and PGA.
             step = 0.005 if "resampled 0.005 s" in row["note"] else float(row["dt"])
+            step = SERIES_STEP.get(Path(file).name, step)
             got = (record.acceleration.size, record.time_step)
             # 0.5 % is what is asked for; the manifest prints PGA to 1e-5 g, so half a digit on top.
             off = abs(record.peak_acceleration / GRAVITY - float(row["pga_g"])) - 0.005 * float(row["pga_g"])

@@ -54,9 +54,10 @@ def _record(name: str, pairs: dict[str, str], component: str, values, told, opti
         processed="RAW" not in peaks,
     )
     stated = optional_number(rf"\({re.escape(component)}\)\s*(-?[\d.]+)", pairs.get(peaks, ""))
-    agree_with_header(record, stated, "gal", half_digit=5e-7)
-    return record
+    return agree_with_header(record, stated, "gal", half_digit=5e-7)
 
 
-AFAD = Format("AFAD/NSMN text", "first line STRONG GROUND MOTION RECORDS OF TURKIYE",
-              lambda content: starts(content, _FIRST), _read)  # fmt: skip
+AFAD = Format("AFAD/NSMN text", "AFAD, Turkey", "first line STRONG GROUND MOTION RECORDS OF TURKIYE",
+              lambda content: starts(content, _FIRST), _read, plugin="AFAD")  # fmt: skip
+
+FORMATS = (AFAD,)

@@ -2,12 +2,11 @@
 
 import re
 
-from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.directions import is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram, without_offset
 from rocking.records.formats.header import optional, optional_number, starts
-from rocking.records.formats.text import fields, whole
+from rocking.records.formats.text import filled
 from rocking.records.formats.volume1 import Block, channels
 
 _FIRST = re.compile(r"\* VOL1DS FILE:")
@@ -19,11 +18,9 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
 
 
 def _record(block: Block, name: str, options: Options) -> Accelerogram:
-    values, told = whole(name, fields(name, block.rows, _WIDTH), block.declared, _PER_LINE)
-    if not values.size:
-        raise RecordError(f"{name}: the block of a channel holds no samples.")
+    values = filled(name, block.rows, block.declared, _PER_LINE, _WIDTH)
     unit = options.unit_of(name, "g/10")
-    values, offset = without_offset(values, unit)
+    values, offset = without_offset(name, values, unit)
     component = optional(r"^COMP\s+(\S+)", block.head)
     letter = component[:1].upper()
     return accelerogram(
@@ -34,7 +31,6 @@ def _record(block: Block, name: str, options: Options) -> Accelerogram:
         options.time_step_of(name, block.duration / block.declared),
         component=component,
         station=optional(r"FILE:\s*(\w+)", block.head),
-        warnings=told,
         event=_event(block.head),
         processing=(offset,),
         vertical=is_vertical(letter),
@@ -51,4 +47,13 @@ def _azimuth(head: str, letter: str) -> float | None:
     return optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", head) if letter in ("L", "T") else None
 
 
-BHRC = Format("BHRC", "first line * VOL1DS FILE:", lambda content: starts(content, _FIRST), _read)
+BHRC = Format(
+    "BHRC",
+    "BHRC, Iran",
+    "first line * VOL1DS FILE:",
+    lambda content: starts(content, _FIRST),
+    _read,
+    plugin="BHRC",
+)
+
+FORMATS = (BHRC,)

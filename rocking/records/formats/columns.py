@@ -10,8 +10,10 @@ from rocking.errors import RecordError
 from rocking.quantities import ACCELERATION_UNITS
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.quantity import other_quantity, refuse_other_quantity
 from rocking.records.formats.sampling import even_step, resampled
-from rocking.records.formats.text import count, is_number, lines, number, numbers, whole
+from rocking.records.formats.separators import points_for_commas, refuse_commas
+from rocking.records.formats.text import after_lines, is_number, lines, numbers
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _TIME = re.compile(r"t|time\b.*|seconds?", re.I)
@@ -68,17 +70,22 @@ def _whole_lines(content: bytes) -> list[str]:
 
 def _recognise(content: bytes) -> bool:
     other = content.startswith(_COMMENTED_FORMAT) or b"\0" in content[:4096]
-    return not other and _table(content) is not None
+    return not other and _table(points_for_commas(content) or content) is not None
 
 
 def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    pointed = points_for_commas(content)
+    if pointed is None:
+        refuse_commas(name)
+    content = pointed or content
     table = _table(content)
     if table is None:
         raise RecordError(
             f"{name}: the file does not hold columns of numbers below at most one row of names."
         )
+    refuse_other_quantity(name, "\n".join(lines(content, _HEAD)[: table.start]))
     width = table.width
-    body = _body(content, table.start)
+    body = after_lines(content, table.start)
     if _EMPTY_CELL.search(body):
         raise RecordError(f"{name}: a cell is empty; every column needs a number on every line.")
     values = numbers(name, body.replace(b",", b" ").replace(b";", b" "))
@@ -87,14 +94,6 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     if width == 1 or wrapped:
         return [_series(name, values, options, table.names[0] if table.names else "")]
     return _channels(name, values.reshape(-1, width), table.names, options)
-
-
-def _body(content: bytes, start: int) -> bytes:
-    content = content.removeprefix(b"\xef\xbb\xbf")
-    ends = re.finditer(rb"\r*\n|\r+(?!\n)", content)
-    if start == 0:
-        return content
-    return next((content[m.end() :] for i, m in enumerate(ends, 1) if i == start), b"")
 
 
 def _time_first(values: np.ndarray, width: int) -> bool:
@@ -136,7 +135,8 @@ def _channels(name: str, rows: np.ndarray, names: tuple[str, ...], options: Opti
     if timed:
         step, resample, told = _step(name, rows[:, 0])
     make = partial(_channel, name, step=step, resample=resample, told=told, options=options)
-    return [make(labels[i], rows[:, i]) for i in range(int(timed), rows.shape[1])]
+    kept = [i for i in range(int(timed), rows.shape[1]) if other_quantity(labels[i]) is None]
+    return [make(labels[i], rows[:, i]) for i in kept]
 
 
 def _step(name: str, times: np.ndarray):
@@ -176,32 +176,11 @@ def _component(label: str) -> str:
     return re.sub(r"^(acc|acceleration|a)[_\s-]+", "", _UNIT.sub("", label).strip(), flags=re.I)
 
 
-def _titled(content: bytes) -> tuple[str, str] | None:
-    """Return the (samples, step) of a file whose second line gives both, its first a title, the rest one column."""
-    head = _whole_lines(content)
-    if len(head) < 5 or is_number(head[0].strip()) or len(second := head[1].split()) != 2:
-        return None
-    single = all(is_number(line.strip()) for line in head[2:-1])
-    return (second[0], second[1]) if single and second[0].isdecimal() and is_number(second[1]) else None
-
-
-def _read_titled(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    found = _titled(content)
-    if found is None:
-        raise RecordError(f"{name}: the second line does not give the number of samples and the time step.")
-    step = options.time_step_of(name, number(name, "time step", found[1]))
-    values, told = whole(
-        name, numbers(name, _body(content, 2)), count(name, "number of samples", found[0]), per_line=1
-    )
-    return [
-        accelerogram(
-            name, TITLED.name, options.unit_of(name, None), values, step, warnings=told, processed=None
-        )
-    ]
-
-
 COLUMNS = Format(
-    "columns of numbers", "lines that hold numbers only, below at most one row of names", _recognise, _read
+    "columns of numbers",
+    "spreadsheets, OpenSees and scripts",
+    "lines that hold numbers only, below at most one row of names",
+    _recognise,
+    _read,
 )
-TITLED = Format("titled column", "title, then a line with samples and step, then one number a line",
-                lambda content: _titled(content) is not None, _read_titled)  # fmt: skip
+FORMATS = (COLUMNS,)

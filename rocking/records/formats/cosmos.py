@@ -2,11 +2,22 @@
 
 import re
 
+import numpy as np
+
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import blocks, corner, optional, optional_number, starts
-from rocking.records.formats.text import count, fields, whole
+from rocking.records.formats.header import (
+    blocks,
+    check_nothing_left,
+    corner,
+    missing_channels,
+    optional,
+    optional_number,
+    starts,
+)
+from rocking.records.formats.site import site_warnings
+from rocking.records.formats.text import count, fields, filled
 from rocking.records.plausibility import agree_with_header
 
 _FIRST = re.compile(r"(Corrected|Uncorrected)\s+(acceleration|velocity|displacement)\s+\(Format v", re.I)
@@ -17,14 +28,18 @@ _DATA = re.compile(
 )
 _REALS = re.compile(r"^\s*(\d+)\s+Real-header values follow on\s+(\d+)\s+lines.*?\d+[FE](\d+)", re.I)
 _UNITS = {"g": "g", "cm/sec2": "cm/s2", "cm/s2": "cm/s2", "cm/sec/sec": "cm/s2", "m/s2": "m/s2", "gal": "gal"}
-_STEP, _PEAK = 33, 63
-"""Places in the real header of the sampling step and of the largest value of the COSMOS format 1.20."""
+_END = re.compile(r"\s*(End-of-data|/&)", re.I)
+_RECORDER_STEP, _STEP, _LENGTH, _PEAK, _PEAK_TIME = 33, 61, 62, 63, 64
+"""Places in the real header: step of the recorder, s; of the series, step in ms, length, largest value and its time.
+
+After COSMOS format 1.20. A processed series is often resampled, so that the recorder's step is not its own.
+"""
+_UNKNOWN = -999.0
 
 
 def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    found = [
-        record for block in blocks(content, _FIRST) if (record := _block(block, name, options)) is not None
-    ]
+    every = blocks(content, _FIRST)
+    found = [record for block in every if (record := _block(block, name, options, len(every))) is not None]
     if not found:
         raise RecordError(
             f"{name}: this COSMOS file holds velocity or displacement only; use the acceleration file."
@@ -32,7 +47,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     return found
 
 
-def _block(block: list[str], name: str, options: Options) -> Accelerogram | None:
+def _block(block: list[str], name: str, options: Options, held: int) -> Accelerogram | None:
     at, data = next(((i, m) for i, line in enumerate(block) if (m := _DATA.match(line))), (0, None))
     if data is None:
         raise RecordError(
@@ -43,14 +58,21 @@ def _block(block: list[str], name: str, options: Options) -> Accelerogram | None
     head = "\n".join(block[:at])
     reals = _reals(block[:at], name)
     unit = options.unit_of(name, _unit(name, data["unit"]))
-    values, told = _samples(block[at + 1 :], data, name)
+    values = _samples(block[at + 1 :], data, name)
+    time_step = options.time_step_of(name, _step(reals))
+    place = optional(r"\bLocation:\s*(.*?)\s*$", head)
+    told = (
+        *missing_channels(head, held),
+        *site_warnings(place),
+        *_length(values.size * time_step, float(reals[_LENGTH]), time_step),
+    )
     component = _component(head)
     record = accelerogram(
         name,
         COSMOS.name,
         unit,
         values,
-        options.time_step_of(name, reals[_STEP]),
+        time_step,
         component=component,
         warnings=told,
         station=optional(r"Code:\s*(\S+)", head),
@@ -58,17 +80,33 @@ def _block(block: list[str], name: str, options: Options) -> Accelerogram | None
         processed=block[0].lower().startswith("corrected"),
         high_pass_frequency=corner(optional_number(r"filtered below\s+([\d.]+)\s*Hz", head)),
     )
-    agree_with_header(record, reals[_PEAK] if abs(reals[_PEAK] + 999) > 1e-3 else None, unit, half_digit=5e-7)
-    return record
+    peak, when = (
+        None if abs(value - _UNKNOWN) < 1e-3 else float(value) for value in reals[[_PEAK, _PEAK_TIME]]
+    )
+    return agree_with_header(record, peak, unit, half_digit=5e-7, at=when)
 
 
-def _samples(rows: list[str], data: re.Match[str], name: str):
+def _samples(rows: list[str], data: re.Match[str], name: str) -> np.ndarray:
+    end = next((i for i, row in enumerate(rows) if _END.match(row)), None)
+    if end is None:
+        raise RecordError(
+            f"{name}: no line End-of-data ends a channel: the file is truncated; fetch it again."
+        )
+    check_nothing_left(name, rows[end + 1 :])
     declared = count(name, "number of points", data["n"])
-    per_line, width = max(1, int(data["per_line"])), max(1, int(data["width"]))
-    body = rows[: -(-declared // per_line)]
-    if body and re.match(r"\s*(End-of-data|/&)", body[-1], re.I):
-        body = body[:-1]
-    return whole(name, fields(name, body, width), declared, per_line)
+    return filled(name, rows[:end], declared, max(1, int(data["per_line"])), max(1, int(data["width"])))
+
+
+def _step(reals: np.ndarray) -> float:
+    step = float(reals[_STEP])
+    return step / 1000 if 0 < step < 1e4 else float(reals[_RECORDER_STEP])
+
+
+def _length(lasts: float, stated: float, time_step: float) -> tuple[str, ...]:
+    """Return a warning when the header gives the series another length than its samples: not all agencies fill it."""
+    if not 0 < stated < 1e5 or abs(stated - lasts) <= 1.5 * time_step + 5e-4:
+        return ()
+    return (f"The header gives the series a length of {stated:g} s, but its samples last {lasts:g} s.",)
 
 
 def _reals(head: list[str], name: str):
@@ -77,10 +115,10 @@ def _reals(head: list[str], name: str):
             values = fields(
                 name, head[i + 1 : i + 1 + count(name, "real-header lines", found[2])], int(found[3]) or 1
             )
-            if values.size > _PEAK:
+            if values.size > _PEAK_TIME:
                 return values
     raise RecordError(
-        f"{name}: the real header does not hold the {_PEAK + 1} values that give step and peak."
+        f"{name}: the real header does not hold the {_PEAK_TIME + 1} values that give step and peak."
     )
 
 
@@ -103,5 +141,7 @@ def _component(head: str) -> str:
     return code if direction.lower() in ("", "other") and code else direction
 
 
-COSMOS = Format("COSMOS V1/V2", "first line like Corrected acceleration (Format v01.20",
-                lambda content: starts(content, _FIRST), _read)  # fmt: skip
+COSMOS = Format("COSMOS V1/V2", "COSMOS, CESMD and USGS, USA", "first line like Corrected acceleration (Format v01.20",
+                lambda content: starts(content, _FIRST), _read, plugin="COSMOS_V1V2")  # fmt: skip
+
+FORMATS = (COSMOS,)

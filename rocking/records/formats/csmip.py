@@ -1,15 +1,30 @@
-"""CSMIP/CDMG Volume 1 and 2 text: uncorrected and corrected accelerograms, one block per channel."""
+"""CSMIP/CDMG Volume 1 and 2 text: raw and corrected accelerograms, one block per channel, old and new spelling."""
 
 import re
 
+import numpy as np
+
 from rocking.errors import RecordError
+from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import corner, optional, optional_number, starts
-from rocking.records.formats.text import count, fields, lines, number, whole
+from rocking.records.formats.header import (
+    check_duration,
+    check_equal,
+    check_nothing_left,
+    corner,
+    missing_channels,
+    optional,
+    optional_number,
+    starts,
+)
+from rocking.records.formats.sampling import even_step, resampled
+from rocking.records.formats.site import site_warnings
+from rocking.records.formats.text import column_width, count, filled, lines, number
+from rocking.records.formats.volume1 import pairs, volume1_block
 from rocking.records.plausibility import agree_with_header
 
-_VOLUME_1 = re.compile(r"Uncorrected Accelerogram Data\s+Processed")
+_VOLUME_1 = re.compile(r"Uncorrected Accelerogram Data\s+Processed", re.I)
 _VOLUME_2 = re.compile(r"Corrected accelerogram\s+.*Chan", re.I)
 _VOLUME_3 = re.compile(r"(Response and )?Fourier amplitude spectr|Response (and|spectr)", re.I)
 _DATA_1 = re.compile(
@@ -17,51 +32,139 @@ _DATA_1 = re.compile(
     r"Format:\s*\((?P<per_line>\d+)[FE](?P<width>\d+)", re.I,
 )  # fmt: skip
 _DATA_2 = re.compile(
-    r"^\s*(?P<n>\d+)\s+points of accel data equally spaced at\s+(?P<step>[\d.]+)\s*sec,\s*in\s+(?P<unit>[\w/]+)\.?\s*"
-    r"\((?P<per_line>\d+)[FE](?P<width>\d+)", re.I,
+    r"^\s*(?P<n>\d+)\s+points of (?P<quantity>accel|veloc|displ)\w* data equally spaced at\s+(?P<step>[\d.]+)\s*sec"
+    r"[.,]?\s*(?:in|\(units:)\s*(?P<unit>[\w/]+)[.)]*\s*(?:\((?P<per_line>\d+)[FE](?P<width>\d+))?", re.I,
 )  # fmt: skip
+_PER_LINE = 8
+"""Of the volumes before 2000, which do not say it."""
 _UNITS = {"g": "g", "cm/sec2": "cm/s2", "cm/sec/sec": "cm/s2", "cm/s/s": "cm/s2", "g/10": "g/10"}
 
 
+def _recognise(content: bytes) -> bool:
+    if starts(content, _VOLUME_2):
+        return True
+    return starts(content, _VOLUME_1) and not any("RENADIC" in row.upper() for row in lines(content, 13))
+
+
 def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    text, found, start = lines(content), [], 0
+    text, start, blocks = lines(content), 0, []
     for i, line in enumerate(text):
-        if data := _DATA_1.match(line) or _DATA_2.match(line):
-            found.append(_channel("\n".join(text[start:i]), data, text[i + 1 :], name, options))
-        elif line.startswith("/&"):
+        if line.startswith("/&"):
+            blocks.append(text[start:i])
             start = i + 1
-    if not found:
+    if any(_announcement(line) or _VOLUME_1.match(line) for line in text[start:]):
+        blocks.append(text[start:])
+    else:
+        check_nothing_left(name, text[start:])
+    return [_channel(block, name, options, len(blocks)) for block in blocks]
+
+
+def _announcement(line: str) -> re.Match[str] | None:
+    return _DATA_1.match(line) or _DATA_2.match(line)
+
+
+def _channel(block: list[str], name: str, options: Options, channels: int) -> Accelerogram:
+    announced = [(i, data) for i, line in enumerate(block) if (data := _announcement(line))]
+    if not announced and any(re.match(r"UNITS\b.*\bG/10", line, re.I) for line in block[:13]):
+        return _film(block, name, options, channels)
+    if not announced or (
+        "quantity" in announced[0][1].groupdict() and announced[0][1]["quantity"].lower() != "accel"
+    ):
         raise RecordError(
-            f"{name}: no line announces points of acceleration with their format; the file is truncated."
+            f"{name}: no line announces points of acceleration with their format; the file is truncated, "
+            "or holds velocity or displacement only."
         )
-    return found
+    ends = [i for i, _ in announced[1:]] + [len(block)]
+    parts = [_numbers(block[i + 1 : end], data, name) for (i, data), end in zip(announced, ends, strict=True)]
+    head, data = "\n".join(block[: announced[0][0]]), announced[0][1]
+    return _record(head, data, parts[0], name, options, channels)
 
 
-def _channel(head: str, data: re.Match[str], rows: list[str], name: str, options: Options) -> Accelerogram:
-    corrected = "step" in data.groupdict()
-    declared, per_line = count(name, "number of points", data["n"]), max(1, int(data["per_line"]))
-    values = fields(name, rows[: -(-declared // per_line)], max(1, int(data["width"])))
-    values, told = whole(name, values, declared, per_line)
-    step = number(name, "step", data["step"]) if corrected else 1 / _rate(name, data["rate"])
-    component = _component(head)
+def _numbers(rows: list[str], data: re.Match[str], name: str) -> np.ndarray:
+    per_line = int(data["per_line"] or _PER_LINE)
+    width = int(data["width"] or column_width(rows[0] if rows else ""))
+    return filled(name, rows, count(name, "number of points", data["n"]), max(1, per_line), max(1, width))
+
+
+def _record(
+    head: str, data: re.Match[str], values: np.ndarray, name: str, options: Options, channels: int
+) -> Accelerogram:
+    step = number(name, "step", data["step"]) if "step" in data.groupdict() else 1 / _rate(name, data["rate"])
+    corrected = bool(_VOLUME_2.match(head))
+    time_step = options.time_step_of(name, step)
+    _check_sampling(name, head, values.size, time_step, corrected)
     record = accelerogram(
         name,
         CSMIP.name,
         options.unit_of(name, _unit(name, data["unit"])),
         values,
-        options.time_step_of(name, step),
-        component=component,
-        station=optional(r"^Station No\.\s*(\S+)", head),
-        warnings=told,
+        time_step,
         processed=corrected,
-        event=optional(r"^(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)", head),
-        high_pass_frequency=corner(optional_number(r"3 dB pts at\s+([\d.]+)", head)),
+        high_pass_frequency=corner(
+            optional_number(r"3 dB pts at\s+([\d.]+)", head) or optional_number(r"RAMPS AT\s+([\d.]+)", head)
+        ),
+        **_named(head, channels),
     )
     if corrected:
-        agree_with_header(record, optional_number(r"Peak acceleration\s*=\s*(-?[\d.]+)", head), "cm/s2", 5e-4)
+        peak = optional_number(r"Peak acceleration\s*=\s*(-?[\d.]+)", head)
+        at = optional_number(r"Peak acceleration\s*=.*?\bat\s+([\d.]+)\s*sec", head)
+        return agree_with_header(record, peak, "cm/s2", 5e-4, at=at)
+    return agree_with_header(record, *_uncorrected_peak(head))
+
+
+def _check_sampling(name: str, head: str, samples: int, time_step: float, corrected: bool) -> None:
+    """Compare number and step of the samples with what the text above says of them."""
+    if corrected:
+        said = optional(r"^\s*(\S+)\s+points of instrument", head)
+        interval = optional_number(r"^At equally-spaced intervals of\s+([\d.]+)", head)
     else:
-        agree_with_header(record, optional_number(r"Max\s*=\s*(-?[\d.]+)\s*g", head), "g", 5e-4)
-    return record
+        said = optional(r"^No\. of points\s*=\s*(\S+)", head)
+        interval = None
+        if duration := optional(r"Record length\s*=\s*([\d.]+)", head):
+            check_duration(name, "Record Length", duration, samples, time_step)
+    if said:
+        check_equal(name, "the number of points", count(name, "number of points", said), samples, 0)
+    if interval:
+        check_equal(name, "the interval", interval, time_step)
+
+
+def _uncorrected_peak(head: str) -> tuple[float | None, str, float]:
+    return optional_number(r"Max\s*=\s*(-?[\d.]+)\s*g", head), "g", 5e-4
+
+
+def _named(head: str, channels: int) -> dict:
+    place = optional(r"\bLocation:\s*(.*?)\s*$", head)
+    return {
+        "component": _component(head),
+        "station": optional(r"^Station No\.\s*(\S+)", head),
+        "event": optional(r"^(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)", head) or _old_event(head),
+        "warnings": (*missing_channels(head, channels), *site_warnings(place)),
+    }
+
+
+def _old_event(head: str) -> str:
+    return next((row.strip() for row in head.split("\n") if re.search(r"\bEARTHQUAKE\b", row)), "")[:60]
+
+
+def _film(block: list[str], name: str, options: Options, channels: int) -> Accelerogram:
+    """Return a raw channel digitised from film: (t, a) pairs in seconds and tenths of g."""
+    film = volume1_block(block, name)
+    times, values = pairs(film, name, margin=0)
+    step = even_step(name, times)
+    told: tuple[str, ...] = ()
+    unit = options.unit_of(name, "g/10")
+    even = values
+    if step is None:
+        step, at, sentence = resampled(name, times)
+        even, told = np.interp(at, times, values), (sentence,)
+    named = _named(film.head, channels)
+    named["warnings"] = (*told, *named["warnings"])
+    record = accelerogram(
+        name, CSMIP.name, unit, even, options.time_step_of(name, step), processing=told, **named
+    )
+    return agree_with_header(
+        record, *_uncorrected_peak(film.head), samples=values * acceleration_factor(unit)
+    )
 
 
 def _rate(name: str, text: str) -> float:
@@ -81,7 +184,7 @@ def _unit(name: str, text: str) -> str:
 
 def _component(head: str) -> str:
     direction = optional(r"^Chan\s*\d+:\s*(\S+(?: Deg)?)", head)
-    return direction.removesuffix(" Deg").removesuffix(" deg")
+    return re.sub(r"\s+deg$", "", direction, flags=re.I)
 
 
 def _is_spectra(content: bytes) -> bool:
@@ -94,8 +197,20 @@ def _refuse(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     )
 
 
-CSMIP = Format("CSMIP V1/V2", "first line like Uncorrected Accelerogram Data Processed, or Corrected accelerogram Chan",
-               lambda content: starts(content, _VOLUME_1) or starts(content, _VOLUME_2), _read)  # fmt: skip
-SPECTRA = Format(
-    "CSMIP V3 spectra", "first line that names response or Fourier spectra", _is_spectra, _refuse
+CSMIP = Format(
+    "CSMIP V1/V2",
+    "California Geological Survey (CSMIP, CDMG)",
+    "first line like Uncorrected Accelerogram Data Processed, or Corrected accelerogram Chan",
+    _recognise,
+    _read,
+    plugin="CSMIP_V1V2",
 )
+SPECTRA = Format(
+    "CSMIP V3 spectra",
+    "California Geological Survey (CSMIP, CDMG)",
+    "first line that names response or Fourier spectra",
+    _is_spectra,
+    _refuse,
+)
+
+FORMATS = (CSMIP, SPECTRA)

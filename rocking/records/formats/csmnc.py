@@ -3,7 +3,7 @@
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import optional, optional_number, required
+from rocking.records.formats.header import check_duration, optional, optional_number, required
 from rocking.records.formats.text import count, fields, lines, number, whole
 from rocking.records.plausibility import agree_with_header
 
@@ -43,8 +43,20 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         event=text[2].strip()[:60],
         processed=optional(r"^((?:UN)?CORRECTED) ", head).upper() == "CORRECTED",
     )
-    agree_with_header(record, optional_number(r"^PEAK VALUE:\s*(-?[\d.]+)", head), "cm/s2", half_digit=5e-4)
-    return [record]
+    if duration := optional(r"\bDURATION:\s*([\d.]+)", head):
+        check_duration(name, "DURATION", duration, values.size, record.time_step)
+    peak = optional_number(r"^PEAK VALUE:\s*(-?[\d.]+)", head)
+    at = optional_number(r"^PEAK VALUE:.*?\bAT\s+([\d.]+)\s*SEC", head)
+    return [agree_with_header(record, peak, "cm/s2", half_digit=5e-4, at=at)]
 
 
-CSMNC = Format("CSMNC", "lines OBSERVING POINT: and NO. OF POINTS: in the first 16", _recognise, _read)
+CSMNC = Format(
+    "CSMNC",
+    "China Strong Motion Networks Centre",
+    "lines OBSERVING POINT: and NO. OF POINTS: in the first 16",
+    _recognise,
+    _read,
+    plugin="CSMNC",
+)
+
+FORMATS = (CSMNC,)

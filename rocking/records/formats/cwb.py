@@ -42,7 +42,9 @@ def _step(name: str, times, pairs: dict[str, str]) -> float:
         raise RecordError(
             f"{name}: SampleRate is {rate:g} Hz, but the times are not spaced so; the file is damaged."
         )
-    check_duration(name, "RecordLength(sec)", valued(name, pairs, "RECORDLENGTH(SEC)"), times.size, step)
+    check_duration(
+        name, "RecordLength(sec)", valued(name, pairs, "RECORDLENGTH(SEC)"), times.size, step, exact=True
+    )
     return step
 
 
@@ -64,8 +66,16 @@ def _record(
         rf"({re.escape(component)}:.*)", "\n".join(f"{k[-1]}:{v}" for k, v in pairs.items() if "MAX" in k)
     )
     stated = [abs(float(t)) for t in re.split(r"[~\s:]+", ends)[1:] if is_number(t)]
-    agree_with_header(record, max(stated, default=None), "gal", half_digit=5e-4)
-    return record
+    return agree_with_header(record, max(stated, default=None), "gal", half_digit=5e-4)
 
 
-CWB = Format("CWB", "first line #Earthquake Information", lambda content: starts(content, _FIRST), _read)
+CWB = Format(
+    "CWB",
+    "Central Weather Bureau, Taiwan",
+    "first line #Earthquake Information",
+    lambda content: starts(content, _FIRST),
+    _read,
+    plugin="CWB",
+)
+
+FORMATS = (CWB,)

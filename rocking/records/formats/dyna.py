@@ -5,7 +5,7 @@ import re
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import corner, mapping, numeric, optional_number, valued
+from rocking.records.formats.header import check_duration, corner, mapping, numeric, optional_number, valued
 from rocking.records.formats.text import count, lines, numbers, whole
 from rocking.records.plausibility import agree_with_header
 
@@ -45,10 +45,12 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         name, numbers(name, "\n".join(text[length:]).encode("latin-1")), declared, per_line=1
     )
     record = _record(name, pairs, unit, values, told, options)
-    agree_with_header(
-        record, optional_number(r"^\s*(-?[\d.]+)", pairs.get("PGA_CM/S^2", "")), "cm/s2", half_digit=5e-4
+    if pairs.get("DURATION_S"):
+        check_duration(name, "DURATION_S", pairs["DURATION_S"], declared, record.time_step)
+    peak, at = (
+        optional_number(r"^\s*(-?[\d.]+)", pairs.get(key, "")) for key in ("PGA_CM/S^2", "TIME_PGA_S")
     )
-    return [record]
+    return [agree_with_header(record, peak, "cm/s2", half_digit=5e-4, at=at)]
 
 
 def _record(name: str, pairs: dict[str, str], unit: str, values, told, options: Options) -> Accelerogram:
@@ -86,5 +88,12 @@ def _unit(name: str, text: str) -> str:
 
 
 DYNA = Format(
-    "DYNA (ESM, ITACA, AFAD)", "EVENT_NAME: at the start and SAMPLING_INTERVAL_S: below", _recognise, _read
+    "DYNA (ESM, ITACA, AFAD)",
+    "ESM and ITACA (ORFEUS, INGV), AFAD",
+    "EVENT_NAME: at the start and SAMPLING_INTERVAL_S: below",
+    _recognise,
+    _read,
+    plugin="DYNA",
 )
+
+FORMATS = (DYNA,)

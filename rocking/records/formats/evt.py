@@ -1,5 +1,8 @@
 """Kinemetrics EVT (Altus K2, Etna, Makalu): counts, with full scale and sensitivity in the file itself."""
 
+import struct
+
+from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram, without_offset
@@ -9,6 +12,11 @@ _OBSPY_G = 9.81
 """obspy turns the sensitivity in V/g into V/(m/s²) with this g."""
 
 _COMPONENTS = "XYZ"
+_TAG = struct.Struct(">cBBBLHHHH")
+_FRAME = struct.Struct(">6xL6xH")
+"""Time of a frame's first sample: whole seconds and milliseconds."""
+_FRAME_LENGTH = 100
+"""ms."""
 
 
 def _recognise(content: bytes) -> bool:
@@ -17,13 +25,42 @@ def _recognise(content: bytes) -> bool:
 
 def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     options.unit_of(name, "m/s2")
+    _check_frames(content, name)
     result, warnings = stream(content, "KINEMETRICS_EVT", name, apply_calib=False)
     return [_record(trace, i, name, options, warnings) for i, trace in enumerate(joined(result, name))]
 
 
+def _check_frames(content: bytes, name: str) -> None:
+    """Check the sum of each frame, and that one follows another by a tenth of a second."""
+    at, before = 0, None
+    while content[at : at + 1] == b"K" and at + _TAG.size <= len(content):
+        _, _, _, _, kind, head, body, _, checksum = _TAG.unpack_from(content, at)
+        frame = content[at + _TAG.size : at + _TAG.size + head + body]
+        if len(frame) < head + body or sum(frame) & 0xFFFF != checksum or (kind == 1) != (at == 0):
+            raise RecordError(
+                f"{name}: the frame at byte {at} is cut or damaged: its sum differs; fetch it again."
+            )
+        if kind == 2 and head >= _FRAME.size:
+            seconds, milliseconds = _FRAME.unpack_from(frame)
+            now = 1000 * seconds + milliseconds
+            if before is not None and now - before != _FRAME_LENGTH:
+                raise RecordError(
+                    f"{name}: the frame at byte {at} begins {now - before} ms after the one before, not "
+                    f"{_FRAME_LENGTH} ms: frames are missing, repeated or out of order."
+                )
+            before = now
+        at += _TAG.size + head + body
+    if content[at:].strip(b"\0"):
+        raise RecordError(
+            f"{name}: what stands at byte {at} is no frame; the file is damaged, fetch it again."
+        )
+
+
 def _record(trace, index: int, name: str, options: Options, warnings: tuple[str, ...]) -> Accelerogram:
     stats = trace.stats
-    values, offset = without_offset(trace.data.astype(float) * stats.calib * (GRAVITY / _OBSPY_G), "m/s2")
+    values, offset = without_offset(
+        name, trace.data.astype(float) * stats.calib * (GRAVITY / _OBSPY_G), "m/s2"
+    )
     component = str(stats.kinemetrics_evt.get("chan_id", "")).strip() or _COMPONENTS[index % 3]
     return accelerogram(
         name,
@@ -41,4 +78,8 @@ def _record(trace, index: int, name: str, options: Options, warnings: tuple[str,
     )
 
 
-EVT = Format("Kinemetrics EVT", "KMI mark at the start of the file", _recognise, _read)
+EVT = Format(
+    "Kinemetrics EVT", "Kinemetrics recorders", "KMI mark at the start of the file", _recognise, _read
+)
+
+FORMATS = (EVT,)

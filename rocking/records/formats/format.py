@@ -1,5 +1,6 @@
 """Format: how one kind of file is recognised and read, and the options a caller may declare."""
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +12,7 @@ from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_factor, positive
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.directions import azimuth, is_vertical
+from rocking.records.plausibility import LARGEST_PEAK
 
 Response = Literal["sensitivity", "full"]
 
@@ -77,14 +79,17 @@ class Options:
 class Format:
     """One kind of file.
 
-    sought: what the recogniser looks for, as the end of "no ...". recognise: whole content to bool, never raises.
-    read: (content, name, options) to accelerograms; raises RecordError only.
+    origin: who publishes records in it. sought: what the recogniser looks for, as the end of "no ...".
+    recognise: whole content to bool, never raises. read: (content, name, options) to accelerograms; raises RecordError
+    only. plugin: its name among obspy's formats, where it is offered to obspy.
     """
 
     name: str
+    origin: str
     sought: str
     recognise: Callable[[bytes], bool]
     read: Callable[[bytes, str, Options], list[Accelerogram]]
+    plugin: str = ""
 
 
 def accelerogram(
@@ -92,8 +97,10 @@ def accelerogram(
 ) -> Accelerogram:
     """Return an Accelerogram from `values` in `unit` of the file `name` in the format `form`.
 
-    fields: of Accelerogram; azimuth and vertical follow from the component's name unless they are given.
+    fields: of Accelerogram; azimuth and vertical follow from the component's name unless they are given, and text is
+    cleared of control characters.
     """
+    fields = {key: plain(value) if isinstance(value, str) else value for key, value in fields.items()}
     component = fields.get("component", "")
     fields.setdefault("vertical", is_vertical(component))
     fields.setdefault("azimuth", None if fields["vertical"] else azimuth(component))
@@ -101,9 +108,22 @@ def accelerogram(
     return Accelerogram(values * acceleration_factor(unit), time_step, source=source, **fields)
 
 
-def without_offset(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
-    """Return raw `values` less their mean, which is the offset of the recorder, and the sentence that says so."""
+def plain(text: str) -> str:
+    """Return `text` on one line: control characters and runs of blanks become one blank each."""
+    return " ".join(re.sub(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]", " ", text).split())
+
+
+def without_offset(name: str, values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
+    """Return raw `values` less their mean, which is the offset of the recorder, and the sentence that says so.
+
+    Raises RecordError for an offset beyond any recorder's: the peak would hide in it.
+    """
     offset = values.mean() if values.size else 0.0
+    if abs(offset) * acceleration_factor(unit) > LARGEST_PEAK:
+        raise RecordError(
+            f"{name}: the mean of the record is {offset:.6g} {unit}, above the 5 g that no recorder is off by; "
+            "declare the true unit."
+        )
     return (
         values - offset,
         f"Mean of the whole record removed, {offset:.6g} {unit}: the offset of the recorder.",

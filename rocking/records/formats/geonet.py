@@ -2,14 +2,19 @@
 
 import re
 
+import numpy as np
+
+from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import blocks, corner, optional, optional_number, required
-from rocking.records.formats.text import count, fields, lines, number, whole
+from rocking.records.formats.header import blocks, check_duration, corner, optional, optional_number, required
+from rocking.records.formats.text import count, filled, lines, number
 from rocking.records.plausibility import agree_with_header
 
 _FIRST = re.compile(r"(Un)?corrected accelerogram\s", re.I)
-_HEADER, _PER_LINE, _WIDTH = 26, 10, 8
+_TEXT, _HEADER, _PER_LINE, _WIDTH = 16, 26, 10, 8
+_PREPENDED = 31
+"""Place in the integer header (GNS accelerogram data files, Standard Format, 2008)."""
 _STEP = r"intervals of\s+([\d.]+)\s*s|data at\s+([\d.]+)\s*sec intervals"
 
 
@@ -19,10 +24,16 @@ def _recognise(content: bytes) -> bool:
 
 
 def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    return [_record(block, name, options) for block in blocks(content, _FIRST)]
+    found = blocks(content, _FIRST)
+    told = (
+        ()
+        if len(found) % 3 == 0
+        else (f"A GeoNet file holds 3 components, but this one holds {len(found)}.",)
+    )
+    return [_record(block, name, options, told) for block in found]
 
 
-def _record(block: list[str], name: str, options: Options) -> Accelerogram:
+def _record(block: list[str], name: str, options: Options, told: tuple[str, ...]) -> Accelerogram:
     head = "\n".join(block[:16])
     declared = count(
         name,
@@ -32,15 +43,17 @@ def _record(block: list[str], name: str, options: Options) -> Accelerogram:
     factor = number(name, "raw unit", optional(r"readings in units of\s+([\d.]+)\s*mm/s/s", head) or "1")
     required(name, "acceleration in mm/s/s", r"^Acceleration:\s+peak\s+\S+\s+mm/s/s", head)
     steps = required(name, "the sampling step", _STEP, head)
-    rows = block[_HEADER : _HEADER + -(-declared // _PER_LINE)]
-    values, told = whole(name, fields(name, rows, _WIDTH), declared, _PER_LINE)
+    values = _samples(block[_HEADER:], declared, name)
+    time_step = options.time_step_of(name, number(name, "step", steps[1] or steps[2]))
+    if duration := optional(r"\bDuration\s+([\d.]+)", head):
+        check_duration(name, "Duration", duration, declared, time_step)
     component = optional(r"^Component\s+(\S+)", head)
     record = accelerogram(
         name,
         GEONET.name,
         options.unit_of(name, "mm/s2"),
         values * factor,
-        options.time_step_of(name, number(name, "step", steps[1] or steps[2])),
+        time_step,
         component=component,
         warnings=told,
         station=optional(r"^Site\s+(\S+)", head),
@@ -49,12 +62,38 @@ def _record(block: list[str], name: str, options: Options) -> Accelerogram:
         processed=block[0].lower().startswith("corrected"),
         high_pass_frequency=corner(optional_number(r"transition bands are\s+([\d.]+)", head)),
     )
-    agree_with_header(
-        record, optional_number(r"^Acceleration:\s+peak\s+(-?[\d.]+)", head), "mm/s2", half_digit=0.05
+    peak = optional_number(r"^Acceleration:\s+peak\s+(-?[\d.]+)", head)
+    at = optional_number(r"^Acceleration:\s+peak\s+\S+\s+mm/s/s at\s+([\d.]+)\s*s", head)
+    if at is not None:
+        at += _prepended(block) * time_step
+    return agree_with_header(record, peak, "mm/s2", half_digit=0.05, at=at)
+
+
+def _prepended(block: list[str]) -> int:
+    """Return the number of samples put before the first digitised one, from which the header counts its times."""
+    integers = " ".join(block[_TEXT : _TEXT + 4]).split()
+    return int(integers[_PREPENDED]) if len(integers) == 40 and integers[_PREPENDED].isdecimal() else 0
+
+
+def _samples(rows: list[str], declared: int, name: str) -> np.ndarray:
+    """Return the acceleration, which a corrected file follows by as many lines of velocity and of displacement."""
+    rows = [row for row in rows if row.strip()]
+    wanted = -(-declared // _PER_LINE)
+    if len(rows) in (wanted, 3 * wanted):
+        return filled(name, rows[:wanted], declared, _PER_LINE, _WIDTH)
+    raise RecordError(
+        f"{name}: the header declares {declared} samples, which fill {wanted} lines once or thrice, but {len(rows)} "
+        "stand there: lines are missing or repeated, the file is truncated or damaged; fetch it again."
     )
-    return record
 
 
 GEONET = Format(
-    "GeoNet V1A/V2A", "first line Corrected or Uncorrected accelerogram above a Site line", _recognise, _read
+    "GeoNet V1A/V2A",
+    "GeoNet (GNS Science), New Zealand",
+    "first line Corrected or Uncorrected accelerogram above a Site line",
+    _recognise,
+    _read,
+    plugin="GEONET",
 )
+
+FORMATS = (GEONET,)

@@ -69,15 +69,43 @@ def corner(value: float | None) -> float | None:
     return value if value is not None and 0 < value < 100 else None
 
 
-def check_duration(name: str, field: str, text: str, samples: int, time_step: float) -> None:
+def check_duration(
+    name: str, field: str, text: str, samples: int, time_step: float, *, exact: bool = False
+) -> None:
     """Check `samples` against the duration printed as `text`, s, within a step and half its last digit.
 
-    Raises RecordError when they disagree: the file is cut, or its header belongs to another record.
+    A record of n samples lasts n steps for some agencies and n - 1 for others. exact: the recorder writes whole
+    seconds, so that the print rounds nothing. Raises RecordError when they disagree.
     """
     declared = number(name, field, text)
-    half_digit = 0.5 * 10.0 ** -len(text.strip().partition(".")[2])
-    if abs(samples * time_step - declared) > time_step + half_digit:
+    half_digit = 0.0 if exact else 0.5 * 10.0 ** -len(text.strip().partition(".")[2])
+    if abs(samples * time_step - declared) > 1.001 * time_step + half_digit:
         raise RecordError(
             f"{name}: {field} is {declared:g} s, but the {samples} samples last {samples * time_step:g} s: "
             "it is truncated or its header belongs to another record; fetch the whole file."
+        )
+
+
+def check_equal(name: str, field: str, first: float, second: float, relative: float = 1e-3) -> None:
+    """Check that two places of a header give the same number. Raises RecordError when they do not."""
+    if abs(first - second) > relative * abs(first):
+        raise RecordError(
+            f"{name}: the header gives {field} as {first:g} and as {second:g}; it is damaged, fetch it again."
+        )
+
+
+def missing_channels(head: str, held: int) -> tuple[str, ...]:
+    """Return a warning when `head` speaks of more channels of the record than the file holds."""
+    spoken = optional_number(r"\(\s*(\d+)\s+Chns\s+of", head)
+    if spoken is None or not held < spoken < 1e4:
+        return ()
+    return (f"The header speaks of {spoken:g} channels, but the file holds {held}.",)
+
+
+def check_nothing_left(name: str, rows: list[str]) -> None:
+    """Check that nothing but blanks follows the last channel. Raises RecordError: a channel is cut."""
+    if any(row.strip() for row in rows):
+        raise RecordError(
+            f"{name}: {len(rows)} lines follow the end of the last whole channel: another channel is cut; "
+            "fetch the whole file."
         )

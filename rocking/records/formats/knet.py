@@ -41,8 +41,8 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     time_step = options.time_step_of(
         name, 1 / _positive(name, "Sampling Freq(Hz)", fields["Sampling Freq(Hz)"])
     )
-    check_duration(name, "Duration Time(s)", fields["Duration Time(s)"], counts.size, time_step)
-    values, offset = without_offset(counts * _scale(name, fields["Scale Factor"]), "gal")
+    check_duration(name, "Duration Time(s)", fields["Duration Time(s)"], counts.size, time_step, exact=True)
+    values, offset = without_offset(name, counts * _scale(name, fields["Scale Factor"]), "gal")
     direction = fields["Dir."]
     component = _KIKNET.get(direction, direction)
     record = accelerogram(
@@ -59,10 +59,8 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         network="BO",
         borehole=direction in _BOREHOLE,
     )
-    agree_with_header(
-        record, number(name, "Max. Acc. (gal)", fields["Max. Acc. (gal)"]), "gal", half_digit=5e-4
-    )
-    return [record]
+    peak = number(name, "Max. Acc. (gal)", fields["Max. Acc. (gal)"])
+    return [agree_with_header(record, peak, "gal", half_digit=5e-4)]
 
 
 def _body(content: bytes) -> bytes:
@@ -93,5 +91,11 @@ def _start(text: str) -> str:
 
 
 KNET = Format(
-    "K-NET/KiK-net", "header that starts with Origin Time, Lat., Long., Depth. (km)", _recognise, _read
+    "K-NET/KiK-net",
+    "NIED, Japan",
+    "header that starts with Origin Time, Lat., Long., Depth. (km)",
+    _recognise,
+    _read,
 )
+
+FORMATS = (KNET,)

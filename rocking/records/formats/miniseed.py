@@ -154,5 +154,13 @@ def _refuse(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     )
 
 
-MINISEED = Format("miniSEED", "miniSEED fixed header (six digits, then D, R, Q or M)", _recognise, _read)
-STATIONXML = Format("StationXML", "FDSNStationXML element", _is_inventory, _refuse)
+MINISEED = Format(
+    "miniSEED",
+    "FDSN data centres",
+    "miniSEED fixed header (six digits, then D, R, Q or M)",
+    _recognise,
+    _read,
+)
+STATIONXML = Format("StationXML", "FDSN data centres", "FDSNStationXML element", _is_inventory, _refuse)
+
+FORMATS = (MINISEED, STATIONXML)

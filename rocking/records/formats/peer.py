@@ -17,6 +17,7 @@ _UNITS = (
     (re.compile(r"\bM/SEC?(/SEC?|\*\*2|\^?2)", re.I), "m/s2"),
     (re.compile(r"\b(UNITS OF|UNITS ARE|ACCELERATION IN)\s*\(?G\b", re.I), "g"),
 )
+_VELOCITY_UNIT = re.compile(r"\bUNITS (OF|ARE) \(?(CM|M|IN)/S(EC)?\b(?!\s*[/*^\d])")
 _PEAK = re.compile(r"PGA\s*=\s*([0-9.]+)\s*G\b", re.I)
 _FILTER_POINTS = re.compile(r"HP\s*=\s*([0-9.]+)\s*HZ", re.I)
 _POLES = re.compile(r"(-?\d+)\s+POLE\s+@\s*([0-9.]+)", re.I)
@@ -37,8 +38,12 @@ def _header(content: bytes) -> tuple[list[str], re.Match[str]] | None:
 def _quantity(header: list[str]) -> str:
     """Return the quantity a header names: acceleration unless it says velocity or displacement."""
     text = " ".join(header).upper()
-    named = re.search(r"(VELOCITY|DISPLACEMENT)\s+(TIME|IN)", text)
-    return named[1].lower() if named else "acceleration"
+    named = re.search(r"\b(VELOCITY|DISPLACEMENT)\b", text)
+    if named and not re.search(r"\bACC(EL|\b)", text):
+        return named[1].lower()
+    return (
+        "velocity" if _VELOCITY_UNIT.search(text) and not re.search(r"\bACC(EL|\b)", text) else "acceleration"
+    )
 
 
 def _is_acceleration(content: bytes) -> bool:
@@ -83,8 +88,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         high_pass_frequency=_high_pass(head),
     )
     peak = _PEAK.search(" ".join(head))
-    agree_with_header(record, number(name, "PGA", peak[1]) if peak else None, "g", half_digit=5e-6)
-    return [record]
+    return [agree_with_header(record, number(name, "PGA", peak[1]) if peak else None, "g", half_digit=5e-6)]
 
 
 def _body(content: bytes, header_lines: int) -> bytes:
@@ -137,8 +141,19 @@ def _high_pass(head: list[str]) -> float | None:
 
 
 PEER_AT2 = Format(
-    "PEER AT2", "line with NPTS and DT in the first 8 lines of an acceleration file", _is_acceleration, _read
+    "PEER AT2",
+    "PEER (NGA databases), USA",
+    "line with NPTS and DT in the first 8 lines of an acceleration file",
+    _is_acceleration,
+    _read,
+    plugin="PEER_AT2",
 )
 PEER_OTHER = Format(
-    "PEER VT2 or DT2", "NPTS and DT below VELOCITY or DISPLACEMENT TIME SERIES", _is_other, _refuse
+    "PEER VT2 or DT2",
+    "PEER (NGA databases), USA",
+    "NPTS and DT below VELOCITY or DISPLACEMENT TIME SERIES",
+    _is_other,
+    _refuse,
 )
+
+FORMATS = (PEER_AT2, PEER_OTHER)

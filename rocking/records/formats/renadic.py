@@ -5,7 +5,7 @@ import re
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import optional, optional_number, starts
+from rocking.records.formats.header import missing_channels, optional, optional_number, starts
 from rocking.records.formats.sampling import even_step
 from rocking.records.formats.text import lines
 from rocking.records.formats.volume1 import Block, channels, pairs
@@ -19,10 +19,11 @@ def _recognise(content: bytes) -> bool:
 
 
 def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    return [_record(block, name, options) for block in channels(content, _FIRST, name)]
+    found = channels(content, _FIRST, name)
+    return [_record(block, name, options, len(found)) for block in found]
 
 
-def _record(block: Block, name: str, options: Options) -> Accelerogram:
+def _record(block: Block, name: str, options: Options, held: int) -> Accelerogram:
     times, values = pairs(block, name, margin=0)
     step = even_step(name, times)
     if step is None:
@@ -37,11 +38,19 @@ def _record(block: Block, name: str, options: Options) -> Accelerogram:
         component=component,
         station=optional(r"^(QDR S/N\s*\d+)", block.head),
         event=optional(r"^([\d/]+ [\d:]+)", block.head),
+        warnings=missing_channels(block.head, held),
     )
-    agree_with_header(record, optional_number(r"MAX\s*=\s*(-?[\d.]+)\s*G", block.head), "g", half_digit=5e-4)
-    return record
+    peak = optional_number(r"MAX\s*=\s*(-?[\d.]+)\s*G", block.head)
+    return agree_with_header(record, peak, "g", half_digit=5e-4)
 
 
 RENADIC = Format(
-    "RENADIC", "first line UNCORRECTED ACCELEROGRAM DATA PROCESSED with RENADIC below", _recognise, _read
+    "RENADIC",
+    "RENADIC (Universidad de Chile)",
+    "first line UNCORRECTED ACCELEROGRAM DATA PROCESSED with RENADIC below",
+    _recognise,
+    _read,
+    plugin="RENADIC",
 )
+
+FORMATS = (RENADIC,)

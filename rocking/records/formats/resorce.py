@@ -48,9 +48,11 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         processed=bool(cuts),
         high_pass_frequency=corner(optional_number(r"^\s*([\d.]+)", cuts)),
     )
-    agree_with_header(record, optional_number(r"(.*)", pairs.get("PGA (M/S/S)", "")), "m/s2")
-    return [record]
+    return [agree_with_header(record, optional_number(r"(.*)", pairs.get("PGA (M/S/S)", "")), "m/s2")]
 
 
-RESORCE = Format("RESORCE", "Event Date & Time at the start and a line that names the time series",
-                 lambda content: _title(content) is not None, _read)  # fmt: skip
+RESORCE = Format("RESORCE", "RESORCE and SHARE, Europe",
+                 "Event Date & Time at the start and a line that names the time series",
+                 lambda content: _title(content) is not None, _read, plugin="RESORCE")  # fmt: skip
+
+FORMATS = (RESORCE,)

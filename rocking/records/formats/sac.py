@@ -2,12 +2,16 @@
 
 import struct
 
+import numpy as np
+
+from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.directions import azimuth, is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram, without_offset
 from rocking.records.formats.waveform import joined, stream
 
 _HEADER = 632
+_UNDEFINED = -12345.0
 _VERSION, _SAMPLES = 304, 316
 """Bytes at which the header's version and number of samples stand (SAC manual, words 76 and 79)."""
 
@@ -27,7 +31,7 @@ def _fits(content: bytes, order: str) -> bool:
 
 
 def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    result, warnings = stream(content, "SAC", name)
+    result, warnings = stream(content, "SAC", name, checksize=True)
     unit = options.unit_of(name, None)
     return [_record(trace, name, unit, options, warnings) for trace in joined(result, name)]
 
@@ -37,7 +41,8 @@ def _record(trace, name: str, unit: str, options: Options, warnings: tuple[str, 
     azimuth_in_file = float(stats.sac.get("cmpaz", float("nan")))
     known = -360 <= azimuth_in_file <= 360
     vertical = is_vertical(stats.channel)
-    values, offset = without_offset(trace.data.astype(float) * stats.calib, unit)
+    _check_header(name, stats, trace.data)
+    values, offset = without_offset(name, trace.data.astype(float) * stats.calib, unit)
     return accelerogram(
         name,
         SAC.name,
@@ -55,11 +60,38 @@ def _record(trace, name: str, unit: str, options: Options, warnings: tuple[str, 
     )
 
 
+def _check_header(name: str, stats, data: np.ndarray) -> None:
+    """Compare the extremes and the end that the header states with the samples, before any mean is removed."""
+    low, high = (float(stats.sac.get(key, _UNDEFINED)) for key in ("depmin", "depmax"))
+    allowed = 1e-4 * max(abs(low), abs(high))
+    for key, stated, found in (("DEPMIN", low, data.min()), ("DEPMAX", high, data.max())):
+        if stated != _UNDEFINED and not abs(stated - found) <= allowed:
+            raise RecordError(
+                f"{name}: the header states {key} = {stated:g}, but the samples reach {found:g}; the file is damaged "
+                "or its header belongs to another record."
+            )
+    begin, end = (float(stats.sac.get(key, _UNDEFINED)) for key in ("b", "e"))
+    if _UNDEFINED not in (begin, end):
+        step = _step(stats)
+        # Single precision keeps seven digits of the times.
+        if abs(end - begin - step * (stats.npts - 1)) > 0.5 * step + 3e-7 * max(abs(begin), abs(end)):
+            raise RecordError(
+                f"{name}: the header states an end at {end:g} s, but {stats.npts} samples every {step:g} s from "
+                f"{begin:g} s end elsewhere; the file is damaged."
+            )
+
+
 def _step(stats) -> float:
     """The step in the file has single precision: 0.02 is stored as 0.0199999996."""
     return float(f"{stats.delta:.6g}")
 
 
 SAC = Format(
-    "SAC", "SAC header of version 6 or 7 whose number of samples fits the size of the file", _recognise, _read
+    "SAC",
+    "SAC (IRIS, and many networks)",
+    "SAC header of version 6 or 7 whose number of samples fits the size of the file",
+    _recognise,
+    _read,
 )
+
+FORMATS = (SAC,)

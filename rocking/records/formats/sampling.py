@@ -4,8 +4,10 @@ import numpy as np
 
 from rocking.errors import RecordError
 
-_LARGEST_SERIES = 4_000_000
+LARGEST_SERIES = 4_000_000
+"""Samples of all channels of a file: five and a half hours at 200 Hz."""
 _SMALLEST_STEP = 1e-6
+_LONGEST_GAP = 5
 
 
 def even_step(name: str, times: np.ndarray) -> float | None:
@@ -28,17 +30,23 @@ def even_step(name: str, times: np.ndarray) -> float | None:
         )
     off = np.abs(times - (times[0] + step * np.arange(times.size))).max()
     quantum = _quantum(times)
-    # Half a printed digit for the time itself, and as much for the line through the rounded first and last ones.
-    if off > max(0.01 * step, min(1.02 * quantum, 0.5 * step)) + 1e-9 * abs(times[-1]):
+    # Half a printed digit for the time itself, and as much for the line through the rounded first and last ones. A
+    # digit as coarse as the step rounds nothing: a line that is missing would pass for rounding.
+    allowed = max(0.01 * step, 1.02 * quantum if quantum < 0.9 * step else 0.0) + 1e-9 * abs(times[-1])
+    if off > allowed or steps.max() - step > allowed:
         return None
     return _rounded(step, quantum / times.size)
 
 
 def resampled(name: str, times: np.ndarray) -> tuple[float, np.ndarray, str]:
-    """Return (step, even times, the sentence that says so) for uneven `times`: linear, at their median step."""
+    """Return (step, even times, the sentence that says so) for uneven `times`: linear, at their median step.
+
+    Raises RecordError at a gap of more than five of these steps: a line across it would be no record.
+    """
     step = float(f"{np.median(np.diff(times)):.6g}")
+    check_no_gap(name, times, _LONGEST_GAP * step)
     number = int(min((times[-1] - times[0]) / step, 1e12)) + 1 if step > 0 else 0
-    if not 2 <= number <= _LARGEST_SERIES:
+    if not 2 <= number <= LARGEST_SERIES:
         raise RecordError(
             f"{name}: the times are uneven and would make {number} samples at their median step {step:g} s."
         )
@@ -47,6 +55,17 @@ def resampled(name: str, times: np.ndarray) -> tuple[float, np.ndarray, str]:
         f"interpolated linearly to {number} at their median step, {step:g} s."
     )
     return step, times[0] + step * np.arange(number), sentence
+
+
+def check_no_gap(name: str, times: np.ndarray, longest: float) -> None:
+    """Raise RecordError when two neighbours of `times` (n,) s are more than `longest` s apart."""
+    gaps = np.diff(times)
+    at = int(gaps.argmax())
+    if gaps[at] > longest * (1 + 1e-9):
+        raise RecordError(
+            f"{name}: no samples between {times[at]:g} and {times[at + 1]:g} s, more than {longest:g} s apart; "
+            "cut the record there, a gap is not bridged."
+        )
 
 
 def _quantum(times: np.ndarray) -> float:

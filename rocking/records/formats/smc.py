@@ -6,7 +6,7 @@ from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import corner, optional, starts
-from rocking.records.formats.text import fields, lines, whole
+from rocking.records.formats.text import column_width, fields, lines, whole
 from rocking.records.plausibility import agree_with_header
 
 _KINDS = {"0": "unknown", "1": "uncorrected accelerogram", "2": "corrected accelerogram", "3": "velocity",
@@ -18,7 +18,7 @@ _TEXT, _INTEGERS, _REALS = 11, 6, 10
 """Lines of each part of the header."""
 _COMMENTS, _SAMPLES = 15, 16
 _RATE, _LARGEST, _SMALLEST, _CORNER = 1, 29, 31, 32
-"""Places in the integer and in the real header."""
+"""Places in the integer and in the real header; the time of an extreme stands before its value."""
 _MISSING = 1.69e38
 
 
@@ -38,8 +38,14 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
             f"{name}: the SMC header holds {integers.size} integers and {reals.size} reals, not 48 and 50."
         )
     first = _TEXT + _INTEGERS + _REALS + _whole(integers[_COMMENTS], name)
+    comments = text[_TEXT + _INTEGERS + _REALS : first]
+    if not all(row.startswith("|") for row in comments) or any(row.startswith("|") for row in text[first:]):
+        raise RecordError(
+            f"{name}: the header declares {len(comments)} lines of comment, but other lines begin with |; "
+            "the file is damaged."
+        )
     body = [row for row in text[first:] if row.strip()]
-    width = _width(body[0]) if body else 10
+    width = column_width(body[0]) if body else 10
     values, told = whole(name, fields(name, body, width), _whole(integers[_SAMPLES], name), 80 // width)
     return [_record("\n".join(text[:_TEXT]), kind, values, told, reals, name, options)]
 
@@ -63,9 +69,11 @@ def _record(head: str, kind: str, values, told, reals, name: str, options: Optio
         processed=kind == "2",
         high_pass_frequency=corner(float(reals[_CORNER])),
     )
-    stated = [abs(v) for v in (reals[_LARGEST], reals[_SMALLEST]) if abs(v) < _MISSING]
-    agree_with_header(record, max(stated, default=None), "cm/s2")
-    return record
+    extremes = [(abs(reals[i]), reals[i - 1]) for i in (_LARGEST, _SMALLEST) if abs(reals[i]) < _MISSING]
+    if not extremes:
+        return record
+    peak, at = max(extremes)
+    return agree_with_header(record, peak, "cm/s2", at=float(at) if 0 < at < _MISSING else None)
 
 
 def _whole(value: float, name: str) -> int:
@@ -74,15 +82,13 @@ def _whole(value: float, name: str) -> int:
     return int(value)
 
 
-def _width(row: str) -> int:
-    """Return the width of the columns, from the places of the decimal points in the first row."""
-    points = [m.start() for m in re.finditer(r"\.", row)]
-    return points[1] - points[0] if len(points) > 1 else max(1, len(row.rstrip()))
-
-
 SMC = Format(
     "USGS SMC",
+    "U.S. Geological Survey",
     "first line like 2 CORRECTED ACCELEROGRAM above ten text lines and integers",
     _recognise,
     _read,
+    plugin="USGS_SMC",
 )
+
+FORMATS = (SMC,)

@@ -22,6 +22,15 @@ def lines(content: bytes, limit: int | None = None) -> list[str]:
     return text.split("\n", -1 if limit is None else limit)[:limit]
 
 
+def after_lines(content: bytes, number: int) -> bytes:
+    """Return `content` after its first `number` lines, whatever ends them."""
+    content = content.removeprefix(b"\xef\xbb\xbf")
+    if number == 0:
+        return content
+    ends = re.finditer(rb"\r*\n|\r+(?!\n)", content)
+    return next((content[m.end() :] for i, m in enumerate(ends, 1) if i == number), b"")
+
+
 def is_number(token: str) -> bool:
     """Whether `token` is a plain finite decimal number; "1_0", "nan" and "inf" are not."""
     return bool(_NUMBER.fullmatch(token))
@@ -70,6 +79,12 @@ def fields(name: str, rows: list[str], width: int, margin: int = 0) -> np.ndarra
         return numbers(name, " ".join(pieces).encode("latin-1"))
 
 
+def column_width(row: str) -> int:
+    """Return the width of the columns of `row`, from the places of its first two decimal points."""
+    points = [m.start() for m in re.finditer(r"\.", row)]
+    return points[1] - points[0] if len(points) > 1 else max(1, len(row.rstrip()))
+
+
 def whole(name: str, values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray, tuple[str, ...]]:
     """Return `values`, with a warning if there are up to a line more than `declared`.
 
@@ -89,6 +104,25 @@ def whole(name: str, values: np.ndarray, declared: int, per_line: int) -> tuple[
     return values, (
         f"The header declares {declared} samples, but the file holds {values.size}; all are kept.",
     )
+
+
+def filled(
+    name: str, rows: list[str], declared: int, per_line: int, width: int, margin: int = 0
+) -> np.ndarray:
+    """Return the `declared` numbers of a block whose every line but the last holds `per_line`, (declared,).
+
+    Raises RecordError when lines are missing or repeated: the block ends elsewhere than its header says.
+    """
+    wanted = -(-declared // per_line)
+    rows = [row for row in rows if row.strip()]
+    if len(rows) < wanted or (len(rows) > wanted and declared > 1):
+        state = "truncated" if len(rows) < wanted else "damaged"
+        raise RecordError(
+            f"{name}: the header declares {declared} samples, which fill {wanted} lines, but {len(rows)} stand there: "
+            f"lines are missing or repeated, the file is {state}; fetch it again."
+        )
+    values, _ = whole(name, fields(name, rows, width, margin), declared, per_line=0)
+    return values
 
 
 def _bounded(name: str, values: np.ndarray) -> np.ndarray:

@@ -2,16 +2,22 @@
 
 import re
 
+import numpy as np
+
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import mapping, valued
+from rocking.records.formats.header import check_duration, check_equal, mapping, valued
+from rocking.records.formats.quantity import other_quantity
 from rocking.records.formats.text import count, fields, is_number, lines, number, whole
 from rocking.records.plausibility import agree_with_header
 
 _HEADER = 160
 _DATA = "DATOS DE ACELERACION"
 _RULE = re.compile(r"[-+]{20,}")
+_ORIENTATION = "ORIENTACION"
+_REPEATED = 2
+"""Surplus lines that some files of the network end in."""
 
 
 def _recognise(content: bytes) -> bool:
@@ -31,60 +37,96 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     pairs = mapping(text[:at])
     unit = valued(name, pairs, "UNIDADES DE LOS DATOS")
     if not unit.lower().startswith("gal"):
-        raise RecordError(f"{name}: UNIDADES DE LOS DATOS is {unit!r}, but must be Gal.")
-    table, told, labels = _table(text[rules[1] + 1 :], pairs, name)
-    return [_record(i, label, table[:, i], told, pairs, name, options) for i, label in enumerate(labels)]
+        quantity = f": a file of {word}" if (word := other_quantity(unit)) else ""
+        raise RecordError(f"{name}: UNIDADES DE LOS DATOS is {unit!r}, but must be Gal{quantity}.")
+    channels = [i for i, label in enumerate(_listed(pairs, _ORIENTATION)) if label.strip(" ;")]
+    table, told = _table(text[rules[1] + 1 :], pairs, channels, name)
+    return [_record(i, table[:, at], told, pairs, name, options) for at, i in enumerate(channels)]
 
 
-def _table(rows: list[str], pairs: dict[str, str], name: str):
-    """Return (samples (n, channels), warnings, directions)."""
-    labels = _listed(pairs, "ORIENTACION C1-C6 (RUMBO;ORIENTACION)")
+def _table(rows: list[str], pairs: dict[str, str], channels: list[int], name: str):
+    """Return (samples (n, channels), warnings)."""
     form = re.search(r"(\d+)F(\d+)", valued(name, pairs, "FORMATO DATOS (FORTRAN,10 CAMPOS/DATO)"))
     width = max(1, int(form[2])) if form else 10
     values = fields(name, [row for row in rows if row.strip()], width)
-    if not labels or values.size % len(labels):
+    if not channels or values.size % len(channels):
         raise RecordError(
-            f"{name}: {values.size} numbers do not fill the {len(labels)} channels named; it is truncated."
+            f"{name}: {values.size} numbers do not fill the {len(channels)} channels named; it is truncated."
         )
-    declared = _listed(pairs, "NUM. TOTAL DE MUESTRAS, C1-C6")
-    if len(set(declared)) > 1:
+    declared = {text for i in channels if (text := _at(pairs, "NUM. TOTAL DE MUESTRAS", i))}
+    if len(declared) > 1:
         raise RecordError(
-            f"{name}: the channels declare {', '.join(declared)} samples, but must be equally long."
+            f"{name}: the channels declare {', '.join(sorted(declared))} samples, but must be equally long."
         )
-    table = values.reshape(-1, len(labels))
-    _, told = whole(
-        name, table[:, 0], count(name, "NUM. TOTAL DE MUESTRAS", (declared or [""])[0]), per_line=1
-    )
-    return table, told, labels
+    table = values.reshape(-1, len(channels))
+    samples = count(name, "NUM. TOTAL DE MUESTRAS", next(iter(declared), ""))
+    table, told = _without_repeats(table, samples)
+    _, surplus = whole(name, table[:, 0], samples, per_line=1)
+    return table, told + surplus
 
 
-def _record(
-    i: int, label: str, values, told, pairs: dict[str, str], name: str, options: Options
-) -> Accelerogram:
-    component = label.split(";")[-1].strip()
-    step = number(
-        name, "INTERVALO DE MUESTREO", (_listed(pairs, "INTERVALO DE MUESTREO, C1-C6 (S)") + [""] * 9)[i]
+def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tuple[str, ...]]:
+    """Return `table` without one or two surplus lines at its end that repeat the lines before, and a warning if so."""
+    surplus = len(table) - declared
+    if not 1 <= surplus <= _REPEATED or declared < 2:
+        return table, ()
+    last, before = table[declared:], table[declared - surplus : declared]
+    if not (np.array_equal(last, before) or np.all(last == table[declared - 1])):
+        return table, ()
+    many = "lines repeat" if surplus > 1 else "line repeats"
+    sentence = (
+        f"The header declares {declared} samples; the {surplus} surplus {many} the end and {{}} left out."
     )
+    return table[:declared], (sentence.format("are" if surplus > 1 else "is"),)
+
+
+def _record(i: int, values, told, pairs: dict[str, str], name: str, options: Options) -> Accelerogram:
+    step = number(name, "INTERVALO DE MUESTREO", _at(pairs, "INTERVALO DE MUESTREO", i))
+    if rate := _at(pairs, "VEL. DE MUESTREO", i):
+        check_equal(name, "the interval", step, 1 / max(1e-9, number(name, "VEL. DE MUESTREO", rate)))
     record = accelerogram(
         name,
         UNAM.name,
         options.unit_of(name, "gal"),
         values,
         options.time_step_of(name, step),
-        component=component,
+        component=_listed(pairs, _ORIENTATION)[i].split(";")[-1].strip(),
         station=pairs.get("CLAVE DE LA ESTACION", ""),
         event=pairs.get("FECHA DEL SISMO [GMT]", ""),
         warnings=told,
     )
-    peaks = _listed(pairs, "ACEL. MAX.(GAL), C1-C6")
-    stated = float(peaks[i]) if i < len(peaks) and is_number(peaks[i]) else None
-    agree_with_header(record, stated, "gal", half_digit=5e-5)
-    return record
+    if duration := _at(pairs, "DURACION DEL REGISTRO", i):
+        check_duration(name, "DURACION DEL REGISTRO", duration, len(values), record.time_step)
+    peak, place = _at(pairs, "ACEL. MAX.(GAL)", i), _at(pairs, "ACEL. MAX.,", i)
+    return agree_with_header(
+        record,
+        float(peak) if is_number(peak) else None,
+        "gal",
+        half_digit=5e-5,
+        at=(float(place) - 1) * record.time_step if is_number(place) else None,
+    )
 
 
 def _listed(pairs: dict[str, str], key: str) -> list[str]:
-    """Return the parts of a value like "/V/N00E/N90E"."""
-    return [part.strip() for part in pairs.get(key, "").split("/")[1:]]
+    """Return the parts of the values like "/V/N00E/N90E" of channels 1 to 6 and 7 to 12, "" where there is none."""
+    found: list[str] = []
+    for block in ("C1-C6", "C7-C12"):
+        value = next((text for name, text in pairs.items() if name.startswith(key) and block in name), "")
+        found += [part.strip() for part in (value.split("/")[1:] + [""] * 6)[:6]]
+    return found
 
 
-UNAM = Format("UNAM/CICESE", "line ARCHIVO ESTANDAR DE ACELERACION in the first 12", _recognise, _read)
+def _at(pairs: dict[str, str], key: str, channel: int) -> str:
+    return _listed(pairs, key)[channel]
+
+
+UNAM = Format(
+    "UNAM/CICESE",
+    "Instituto de Ingeniería UNAM and CICESE, Mexico",
+    "line ARCHIVO ESTANDAR DE ACELERACION in the first 12",
+    _recognise,
+    _read,
+    plugin="UNAM",
+)
+
+FORMATS = (UNAM,)

@@ -7,12 +7,14 @@ import numpy as np
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import optional, starts
-from rocking.records.formats.sampling import even_step
+from rocking.records.formats.sampling import check_no_gap, even_step
 from rocking.records.formats.volume1 import Block, channels, pairs
 
 _FIRST = re.compile(r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", re.I)
 _STEP = 0.005
 """s; the even step to which Volume 1 film records are interpolated."""
+_LONGEST_GAP = 0.1
+"""s; points were digitised where the trace bends, a dozen to a hundred a second: more is a part lost."""
 
 
 def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
@@ -24,6 +26,7 @@ def _record(block: Block, name: str, options: Options) -> Accelerogram:
     step = even_step(name, times)
     told: tuple[str, ...] = ()
     if step is None:
+        check_no_gap(name, times, _LONGEST_GAP)
         step, even = _STEP, np.arange(round(times[0] / _STEP), int(times[-1] / _STEP + 1e-6) + 1) * _STEP
         values = np.interp(even, times, values)
         told = (
@@ -44,5 +47,8 @@ def _record(block: Block, name: str, options: Options) -> Accelerogram:
     )
 
 
-USC = Format("USC Volume 1", "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I",
-             lambda content: starts(content, _FIRST), _read)  # fmt: skip
+USC = Format("USC Volume 1", "University of Southern California",
+             "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I",
+             lambda content: starts(content, _FIRST), _read, plugin="USC_V1")  # fmt: skip
+
+FORMATS = (USC,)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.records.formats.header import blocks, required
+from rocking.records.formats.header import blocks, check_nothing_left, required
 from rocking.records.formats.text import count, fields, number, whole
 
 _HEADER = 27
@@ -25,10 +25,11 @@ class Block:
 
 def channels(content: bytes, first_line: re.Pattern[str], name: str) -> list[Block]:
     """Return the channels of a file. Raises RecordError when the header is cut or not in tenths of g."""
-    return [_block(lines, name) for lines in blocks(content, first_line)]
+    return [volume1_block(lines, name) for lines in blocks(content, first_line)]
 
 
-def _block(lines: list[str], name: str) -> Block:
+def volume1_block(lines: list[str], name: str) -> Block:
+    """Return one channel from its lines. Raises RecordError when the header is cut or not in tenths of g."""
     head = "\n".join(lines[:_TEXT])
     said = required(
         name,
@@ -37,9 +38,10 @@ def _block(lines: list[str], name: str) -> Block:
         head,
     )
     required(name, "units of G/10", r"^UNITS\b.*\bG/10", head)
-    rows = [row for row in lines[_HEADER:] if row.strip()]
-    if rows and rows[-1].startswith("/&"):
-        rows = rows[:-1]
+    body = lines[_HEADER:]
+    end = next((i for i, row in enumerate(body) if row.startswith("/&")), len(body))
+    check_nothing_left(name, body[end + 1 :])
+    rows = [row for row in body[:end] if row.strip()]
     return Block(head, count(name, "NO. OF POINTS", said[1]), number(name, "duration", said[2]), rows)
 
 
@@ -52,4 +54,15 @@ def pairs(block: Block, name: str, margin: int) -> tuple[np.ndarray, np.ndarray]
         )
     table = values.reshape(-1, 2)
     whole(name, table[:, 0], block.declared, per_line=0)
+    _check_end(name, table[:, 0], block.duration)
     return table[:, 0], table[:, 1]
+
+
+def _check_end(name: str, times: np.ndarray, duration: float) -> None:
+    """Check the last time against the duration, which counts a last step or does not."""
+    step = (times[-1] - times[0]) / (times.size - 1)
+    if not -0.001 <= duration - times[-1] <= 2 * step + 0.001:
+        raise RecordError(
+            f"{name}: the header declares a length of {duration:g} s, but the last sample stands at {times[-1]:g} s; "
+            "the file is damaged or its header belongs to another record."
+        )

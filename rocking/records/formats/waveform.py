@@ -6,6 +6,7 @@ import warnings
 import numpy as np
 
 from rocking.errors import RecordError
+from rocking.records.formats.sampling import LARGEST_SERIES
 
 
 def stream(content: bytes, form: str, name: str, **options):
@@ -15,6 +16,7 @@ def stream(content: bytes, form: str, name: str, **options):
     """
     import obspy
 
+    _check_size(content, form, name)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
@@ -23,9 +25,37 @@ def stream(content: bytes, form: str, name: str, **options):
             raise RecordError(
                 f"{name}: damaged {form} file, {_first_line(error)}; fetch it again."
             ) from error
+    if form == "MSEED" and (damage := [w for w in caught if "MSEED" in w.category.__name__]):
+        raise RecordError(f"{name}: damaged {form} file, {_first_line(damage[0].message)}; fetch it again.")
     if not any(trace.stats.npts for trace in result):
         raise RecordError(f"{name}: the {form} file holds no samples.")
     return result, tuple(sorted({f"obspy: {_first_line(w.message)}." for w in caught}))
+
+
+def _check_size(content: bytes, form: str, name: str) -> None:
+    """Check, from the heads of its records, that a miniSEED file is whole and not too large unpacked."""
+    if form != "MSEED":
+        return
+    import obspy
+    from obspy.io.mseed.util import get_record_information
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            told = get_record_information(io.BytesIO(content))
+            heads = obspy.read(io.BytesIO(content), format=form, check_compression=False, headonly=True)
+    except Exception as error:
+        raise RecordError(f"{name}: damaged {form} file, {_first_line(error)}; fetch it again.") from error
+    if told.get("excess_bytes"):
+        raise RecordError(
+            f"{name}: the last record of {told['record_length']} bytes is cut after {told['excess_bytes']}: "
+            "the file is truncated; fetch the whole file."
+        )
+    samples = sum(trace.stats.npts for trace in heads)
+    if samples > LARGEST_SERIES:
+        raise RecordError(
+            f"{name}: the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first."
+        )
 
 
 def joined(result, name: str):

@@ -12,7 +12,7 @@ from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import CatalogueRecord, load_catalogue, open_record, vertical_of
 from rocking.records.catalogue import COLUMNS, catalogue_from_folder, write_catalogue_rows
-from rocking.records.fetch import source_address
+from rocking.records.fetch import fetch, source_address
 
 TABLE = "time,NS (gal),EW (gal),UD (gal)\n" + "".join(
     f"{i / 100},{i % 5},{i % 7},{i % 3}\n" for i in range(50)
@@ -118,13 +118,13 @@ def test_the_mirror_comes_first_and_links_may_not_leave_it(
     mirror, outside = tmp_path_factory.mktemp("mirror"), tmp_path_factory.mktemp("outside")
     (record,) = load_catalogue(write(folder, row()))
     (mirror / "table.csv").write_bytes(TABLE.encode())
-    assert record.fetch(mirror) == mirror / "table.csv"
+    assert fetch(record, mirror) == mirror / "table.csv"
     (mirror / "table.csv").unlink()
-    assert record.fetch(mirror) == folder / "table.csv"
+    assert fetch(record, mirror) == folder / "table.csv"
     (outside / "table.csv").write_bytes(TABLE.encode())
     os.symlink(outside / "table.csv", mirror / "table.csv")
     with pytest.raises(RecordError, match="leads out of"):
-        record.fetch(mirror)
+        fetch(record, mirror)
 
 
 def test_a_file_that_is_nowhere(folder: Path) -> None:
@@ -133,7 +133,7 @@ def test_a_file_that_is_nowhere(folder: Path) -> None:
         load_catalogue(path, mirror=folder)
     (record,) = load_catalogue(path)
     with pytest.raises(RecordError, match=r"one: file 'lost\.csv' is not in"):
-        record.fetch()
+        fetch(record)
 
 
 def remote(folder: Path, **changes: str) -> CatalogueRecord:
@@ -159,9 +159,9 @@ def test_remote_files_come_by_commit_and_hash(
 
     monkeypatch.setattr(pooch.downloaders, "HTTPDownloader", lambda **_: served(TABLE))
     monkeypatch.setattr("pooch.core.choose_downloader", lambda *_, **__: served(TABLE))
-    path = record.fetch(cache=tmp_path / "cache")
+    path = fetch(record, cache=tmp_path / "cache")
     assert path.read_text() == TABLE and asked == [source_address(record)]
-    record.fetch(cache=tmp_path / "cache")
+    fetch(record, cache=tmp_path / "cache")
     assert len(asked) == 1
 
 
@@ -178,7 +178,7 @@ def test_a_remote_file_that_does_not_come(
     with pytest.raises(
         RecordError, match=r"one: file 'far\.csv' cannot be fetched from https.*no network here"
     ):
-        remote(folder).fetch(cache=tmp_path / "cache")
+        fetch(remote(folder), cache=tmp_path / "cache")
 
 
 def test_the_shipped_catalogue_opens_offline() -> None:

@@ -1,0 +1,83 @@
+"""Text below two header lines: a title, then number of samples and time step, then numbers, any number on a line."""
+
+import re
+
+from rocking.errors import RecordError
+from rocking.quantities import ACCELERATION_UNITS
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.quantity import refuse_other_quantity
+from rocking.records.formats.text import after_lines, count, is_number, lines, number, numbers, whole
+
+_HEAD = 12
+_WORDS = re.compile(r"[A-Za-z=:,;()]+")
+_UNIT = re.compile(r"(?:\b(?:in|units?(?: of| are|:)?)\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)", re.I)
+_LONGEST_STEP = 1.0
+"""s; of a record, so that a line of two numbers is known for samples and step."""
+
+
+def _announced(line: str) -> tuple[str, str] | None:
+    """Return (samples, step) of a line that holds these two numbers and nothing else but words."""
+    found = [part for part in _WORDS.sub(" ", line).split() if is_number(part)]
+    if len(found) != 2 or len(_WORDS.sub(" ", line).split()) != 2:
+        return None
+    for samples, step in (found, found[::-1]):
+        if samples.isdecimal() and int(samples) > 1 and "." in step and 0 < float(step) <= _LONGEST_STEP:
+            return samples, step
+    return None
+
+
+def _titled(content: bytes) -> tuple[str, str] | None:
+    head = [line for line in lines(content, _HEAD) if len(line) < 2000]
+    if len(head) < 4 or all(is_number(cell) for cell in head[0].split()):
+        return None
+    found = _announced(head[1])
+    if found is None:
+        return None
+    rows = [row.split() for row in head[2:-1] if row.strip()]
+    return found if rows and all(is_number(cell) for row in rows for cell in row) else None
+
+
+def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+    found = _titled(content)
+    if found is None:
+        raise RecordError(f"{name}: the second line does not give the number of samples and the time step.")
+    title, second = lines(content, _HEAD)[:2]
+    refuse_other_quantity(name, f"{title}\n{second}")
+    step = options.time_step_of(name, number(name, "time step", found[1]))
+    declared = count(name, "number of samples", found[0])
+    body = after_lines(content, 2)
+    per_line = max(len(row.split()) for row in lines(content, _HEAD)[2:])
+    values, told = whole(name, numbers(name, body), declared, per_line)
+    return [
+        accelerogram(
+            name,
+            TITLED.name,
+            options.unit_of(name, _unit(f"{title}\n{second}")),
+            values,
+            step,
+            event=title.strip()[:60],
+            warnings=told,
+            processed=None,
+        )
+    ]
+
+
+def _unit(text: str) -> str | None:
+    """Return the unit that follows the word "in" or "units", or stands in brackets."""
+    found = (
+        m[1].lower().replace("²", "2").replace("sec", "s").replace("/s/s", "/s2")
+        for m in _UNIT.finditer(text)
+    )
+    return next((unit for unit in found if unit in ACCELERATION_UNITS), None)
+
+
+TITLED = Format(
+    "titled column",
+    "programs of analysis, files like KOBE.000",
+    "title, then a line with number of samples and step, then numbers",
+    lambda content: _titled(content) is not None,
+    _read,
+)
+
+FORMATS = (TITLED,)
