@@ -121,7 +121,7 @@ def stays_at_rest(
     mechanism: Mechanism, accelerogram: Accelerogram, vertical: Accelerogram | None = None
 ) -> bool:
     """Whether the ground never reaches the uplift acceleration, whatever its phase with the vertical component."""
-    return bool(forcing_of(accelerogram, vertical).threat[0] <= mechanism.uplift_multiplier)
+    return forcing_of(accelerogram, vertical).excitation <= mechanism.uplift_multiplier
 
 
 def closed_form_stands(light: Light, margin: float, limits: Limits) -> bool:

@@ -1,11 +1,13 @@
 """The ground motion as the kernel sees it: samples joined by straight lines, or one exact sine pulse."""
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
 from rocking.errors import MotionError
+from rocking.motion.nonlinear_kernel import Ground
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
@@ -15,34 +17,31 @@ GroundMotion = Accelerogram | Pulse
 
 @dataclass(frozen=True, eq=False)
 class Forcing:
-    """ground, gravity, threat: (n,) ü_g, g + ü_v, and the largest |ü_g|/(g + ü_v) from each sample to the end.
+    """A ground motion with the factors of its horizontal and of its vertical component.
 
-    time_step: s, of the samples. frequency: rad/s of a sine pulse, whose period is then time_step and whose amplitude
-    is ground[0]; 0.0 for samples. start_time: s, added to every time of the response.
+    ground: what the kernel takes of it. factor, vertical_factor: 1 for the motion itself. vertical: whether it has a
+    vertical component. start_time: s, added to every time of the response.
     """
 
-    ground: np.ndarray
-    gravity: np.ndarray
-    threat: np.ndarray
-    time_step: float
-    frequency: float = 0.0
+    ground: Ground
     start_time: float = 0.0
     vertical: bool = False
+    factor: float = 1.0
+
+    @property
+    def samples(self) -> int:
+        """How many samples; 1 for a sine pulse."""
+        return self.ground.horizontal.size
+
+    @property
+    def excitation(self) -> float:
+        """The largest |ü_g|/(g + ü_v), whatever the phase of the two; inf where gravity may vanish."""
+        least = self.ground.gravity + self.factor * self.ground.lightest[0]
+        return float(abs(self.factor) * self.ground.strongest[0] / least) if least > 0 else math.inf
 
     def scaled(self, factor: float) -> "Forcing":
         """The same motion with its accelerations, vertical one included, multiplied by `factor`."""
-        ground, gravity = self.ground * factor, self.gravity
-        if self.vertical:
-            gravity = GRAVITY + factor * (gravity - GRAVITY)
-        return Forcing(
-            ground,
-            gravity,
-            _threat(ground, gravity),
-            self.time_step,
-            self.frequency,
-            self.start_time,
-            self.vertical,
-        )
+        return replace(self, factor=self.factor * factor)
 
 
 def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Forcing:
@@ -63,14 +62,11 @@ def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Fo
 @lru_cache(maxsize=4)
 def _forcing(motion: GroundMotion, vertical: Accelerogram | None) -> Forcing:
     if isinstance(motion, Pulse):
-        ground, gravity = np.array([motion.amplitude]), np.array([GRAVITY])
-        threat = _threat(ground, gravity)
-        return Forcing(ground, gravity, threat, motion.period, motion.circular_frequency, motion.start_time)
-    # A copy, because the record's own array is read-only, for which the kernel would compile anew.
-    ground, gravity = motion.acceleration.copy(), np.full(motion.acceleration.size, GRAVITY)
-    if vertical is not None:
-        gravity += vertical.acceleration
-    return Forcing(ground, gravity, _threat(ground, gravity), motion.time_step, vertical=vertical is not None)
+        ground = _ground(np.array([motion.amplitude]), np.zeros(1), motion.period, motion.circular_frequency)
+        return Forcing(ground, motion.start_time)
+    horizontal = motion.acceleration
+    lift = np.zeros(horizontal.size) if vertical is None else vertical.acceleration
+    return Forcing(_ground(horizontal, lift, motion.time_step), vertical=vertical is not None)
 
 
 def _check_fit(vertical: Accelerogram, motion: GroundMotion) -> None:
@@ -92,7 +88,16 @@ def _check_fit(vertical: Accelerogram, motion: GroundMotion) -> None:
         )
 
 
-def _threat(ground: np.ndarray, gravity: np.ndarray) -> np.ndarray:
-    largest = np.maximum.accumulate(np.abs(ground[::-1]))[::-1]
-    least = np.minimum.accumulate(gravity[::-1])[::-1]
-    return np.where(least > 0, largest / np.where(least > 0, least, 1.0), np.inf)
+def _ground(
+    horizontal: np.ndarray, vertical: np.ndarray, time_step: float, circular_frequency: float = 0.0
+) -> Ground:
+    return Ground(
+        # Copies, because a record's own arrays are read-only, for which the kernel would compile anew.
+        horizontal=horizontal.copy(),
+        vertical=vertical.copy(),
+        strongest=np.ascontiguousarray(np.maximum.accumulate(np.abs(horizontal[::-1]))[::-1]),
+        lightest=np.ascontiguousarray(np.minimum.accumulate(vertical[::-1])[::-1]),
+        time_step=time_step,
+        circular_frequency=circular_frequency,
+        gravity=GRAVITY,
+    )

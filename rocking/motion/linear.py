@@ -1,8 +1,10 @@
 """The exact response of an equivalent block to a record: no time-stepping error, only event times are iterated."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from rocking.motion import kernel
+from rocking.motion import linear_kernel as kernel
 from rocking.motion.forcing import Forcing
 from rocking.motion.nonlinear import concluded, logged_run, with_history
 from rocking.motion.response import Response
@@ -15,9 +17,11 @@ _LARGEST_GROWTH = 50.0
 
 def solvable_exactly(block: EquivalentBlock, forcing: Forcing) -> bool:
     """Whether the closed form per sample holds: a sampled record, no vertical component, a sane p Δt."""
-    frequency = max(each.frequency_parameter for each in _sides(block))
+    frequency = max(each.frequency_parameter for each in sides_of(block))
     return (
-        forcing.frequency == 0 and not forcing.vertical and frequency * forcing.time_step <= _LARGEST_GROWTH
+        forcing.ground.circular_frequency == 0
+        and not forcing.vertical
+        and frequency * forcing.ground.time_step <= _LARGEST_GROWTH
     )
 
 
@@ -25,38 +29,50 @@ def follow_exactly(
     block: EquivalentBlock, forcing: Forcing, start: tuple[float, float, int], history: bool
 ) -> Response:
     """Follow the block through a record. start: rotation, rate outward, side (0: at rest)."""
-    sides = _sides(block)
-    frequency = np.array([each.frequency_parameter for each in sides])
-    push = np.array([each.acceleration_scale / (GRAVITY * each.critical_rotation) for each in sides])
-    span = np.array([each.critical_rotation for each in sides])
-    restitution = np.array([each.restitution for each in sides])
-    takeable = np.empty((2, forcing.ground.size))
-    kernel.takeback(forcing.ground, forcing.time_step, frequency[0], 1, takeable[0])
-    kernel.takeback(forcing.ground, forcing.time_step, frequency[-1], -1, takeable[1])
+    sides = sides_of(block)
     rotation, velocity, sign = start
-    own = 0 if sign > 0 else -1
-    state = (rotation / span[own], velocity / (span[own] * frequency[own]), sign)
-    ground, ones = forcing.ground, np.ones(forcing.ground.size)
-    found, log = logged_run(
+    own = sides[0 if sign > 0 else -1]
+    span = own.critical_rotation
+    state = kernel.State(rotation / span, velocity / (span * own.frequency_parameter), sign)
+    peaks = np.empty((2, 2))
+    (status, impacts, uplift, last_side, steps, _), log = logged_run(
         kernel.rock_linear,
         (
-            frequency,
-            push,
-            span,
-            restitution,
-            block.one_sided,
-            ground,
-            ones,
-            takeable,
-            forcing.time_step,
-            *state,
+            blocks_of(block),
+            samples_of(sides, forcing),
+            forcing.factor,
+            (sides[0].restitution, sides[-1].restitution),
+            state,
+            False,
+            peaks,
         ),
-        forcing.ground.size if history else 0,
+        forcing.samples if history else 0,
     )
-    status, best, when, impacts, uplift, last_side, steps, _ = found
-    response = concluded(status, best.tolist(), when, impacts, uplift, last_side, steps, 0.0, 0.0)
+    response = concluded(status, peaks[0].tolist(), peaks[1], impacts, uplift, last_side, steps, 0.0, 0.0)
     return with_history(response, log[:, 0], log[:, 1], log[:, 2], 0.0) if history else response
 
 
-def _sides(block: EquivalentBlock) -> tuple[EquivalentBlock, ...]:
+def blocks_of(block: EquivalentBlock) -> kernel.Blocks:
+    """What the kernel takes of a block."""
+    sides = sides_of(block)
+    return kernel.Blocks(
+        frequency=np.array([each.frequency_parameter for each in sides]),
+        push=np.array([1 / (GRAVITY * each.uplift_multiplier) for each in sides]),
+        span=np.array([each.critical_rotation for each in sides]),
+        one_sided=block.one_sided,
+    )
+
+
+def samples_of(sides: Sequence[EquivalentBlock], forcing: Forcing) -> kernel.Samples:
+    """What the kernel takes of a record, for these sides of a block."""
+    ground, time_step = forcing.ground.horizontal, forcing.ground.time_step
+    takeable = np.empty((len(sides), 2, ground.size))
+    for k, side in enumerate(sides):
+        kernel.takeback(ground, time_step, side.frequency_parameter, 1, takeable[k, 0])
+        kernel.takeback(ground, time_step, side.frequency_parameter, -1, takeable[k, 1])
+    return kernel.Samples(ground, time_step, takeable)
+
+
+def sides_of(block: EquivalentBlock) -> tuple[EquivalentBlock, ...]:
+    """The distinct sides of a block, positive first."""
     return (block,) if block.other_side is None else (block, block.other_side)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from rocking.errors import MotionError
-from rocking.motion import kernel
+from rocking.motion import nonlinear_kernel as kernel
 from rocking.motion.forcing import Forcing
 from rocking.motion.response import Response
 from rocking.motion.table import SideTable, Table
@@ -23,19 +23,15 @@ def follow(
     table: Table, forcing: Forcing, tolerance: float, start: tuple[float, float, int], history: bool
 ) -> Response:
     """Integrate the table's mechanism through the forcing. start: rotation, rate outward, side (0: at rest)."""
-    pieces, grid, lift, hold, critical, end, restitution, reaching, pace = table.arrays
-    state = _initial(table, *start) if start[2] else (0.0, 0.0, 0)
-    if forcing.frequency > 0:
-        pace = np.minimum(pace, 1 / forcing.frequency)
-    rest_speed = reaching * math.sqrt(kernel.REST_ENERGY)
-    mechanism = (pieces, grid, lift, hold, critical, end, restitution, rest_speed, pace, table.one_sided)
-    motion = (forcing.ground, forcing.gravity, forcing.threat, GRAVITY, forcing.time_step, forcing.frequency)
-    found, log = logged_run(
+    state = kernel.Start(*(_initial(table, *start) if start[2] else (0.0, 0.0, 0)))
+    member = kernel.Member(forcing.factor, forcing.factor if forcing.vertical else 0.0, table.restitution)
+    peaks = np.empty((2, 2))
+    (status, impacts, uplift, last_side, steps, _), log = logged_run(
         kernel.rock,
-        (*mechanism, *motion, *state, STEP_SHARE * tolerance),
-        forcing.ground.size if history else 0,
+        (table.kernel_of(forcing), forcing.ground, member, state, STEP_SHARE * tolerance, False, peaks),
+        forcing.samples if history else 0,
     )
-    status, best, when, impacts, uplift, last_side, steps, _ = found
+    best, when = peaks
     ratios = [_ratio(table.side(1), best[0]), _ratio(table.side(-1), best[1])]
     response = concluded(
         status, ratios, when, impacts, uplift, last_side, steps, forcing.start_time, tolerance
@@ -65,16 +61,8 @@ def concluded(
     tolerance: float,
 ) -> Response:
     """The Response of a finished run; raises MotionError for a run that has no answer."""
-    if status == kernel.TOO_MANY_IMPACTS:
-        raise MotionError(
-            f"the structure met {impacts} impacts before the motion ended, but at most "
-            f"{kernel.IMPACT_LIMIT} are followed; "
-            "a restitution below 1 brings it to rest."
-        )
     if status not in OUTCOMES:
-        raise MotionError(
-            "the motion left the range of floating-point numbers; check the record's amplitude."
-        )
+        raise failure(status, impacts)
     outcome = OUTCOMES[status]
     largest = 0 if ratios[0] >= ratios[1] else 1
     rocks = outcome is Outcome.ROCKS
@@ -88,6 +76,16 @@ def concluded(
         steps=steps,
         tolerance=tolerance,
     )
+
+
+def failure(status: int, impacts: int) -> MotionError:
+    """Why a run has no answer."""
+    if status == kernel.TOO_MANY_IMPACTS:
+        return MotionError(
+            f"the structure met {impacts} impacts before the motion ended, but at most {kernel.IMPACT_LIMIT} are "
+            "followed; a restitution below 1 brings it to rest."
+        )
+    return MotionError("the motion left the range of floating-point numbers; check the record's amplitude.")
 
 
 def with_history(

@@ -22,7 +22,7 @@ def rocking_spectrum(
     Exact (linear between samples), on all cores or on `workers` threads. Raises MotionError when p or λ is not
     positive, or the restitution lies outside [0, 1].
     """
-    from rocking.motion import kernel
+    from rocking.motion import linear_kernel as kernel
 
     frequencies = _positive("frequency_parameters", frequency_parameters)
     pushes = 1 / (GRAVITY * _positive("uplift_multipliers", uplift_multipliers))
@@ -33,14 +33,15 @@ def rocking_spectrum(
             f"frequency_parameters reach {frequencies.max()!r} rad/s, but at a time step of {step!r} s "
             f"must stay below {50 / step:g}."
         )
-    gravity = np.ones(ground.size)
     ratios = np.empty((frequencies.size, pushes.size))
 
     def row(i: int) -> None:
-        takeable = np.empty((2, ground.size))
-        kernel.takeback(ground, step, frequencies[i], 1, takeable[0])
-        kernel.takeback(ground, step, frequencies[i], -1, takeable[1])
-        kernel.spectrum_row(frequencies[i], pushes, restitution, ground, gravity, takeable, step, ratios[i])
+        takeable = np.empty((1, 2, ground.size))
+        kernel.takeback(ground, step, frequencies[i], 1, takeable[0, 0])
+        kernel.takeback(ground, step, frequencies[i], -1, takeable[0, 1])
+        kernel.spectrum_row(
+            frequencies[i], pushes, restitution, kernel.Samples(ground, step, takeable), ratios[i]
+        )
 
     with ThreadPoolExecutor(workers or os.cpu_count()) as pool:
         list(pool.map(row, range(frequencies.size)))

@@ -13,6 +13,8 @@ import numpy as np
 
 from rocking.errors import MotionError
 from rocking.motion.arc import arc_of
+from rocking.motion.forcing import Forcing
+from rocking.motion.nonlinear_kernel import REST_ENERGY, Sides
 from rocking.quantities import GRAVITY
 from rocking.structures.mechanism import EquivalentBlock, Function, Mechanism, Side
 
@@ -24,6 +26,9 @@ ROOM = 0.25
 """A piece is accurate up to this share of its width beyond its ends; a step goes no further."""
 
 _AIM = 2e-14
+_NEAR = 1 / 64
+"""Share of the arc of φ_cr within which a chain of impacts is looked at as a whole."""
+
 _MOST_PIECES = 4096
 _GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(40)
 _NODES = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
@@ -40,7 +45,7 @@ class SideTable:
     pieces; inverse widths.
     hold: (m,) smallest −G/|B| from each piece on: a smaller ground acceleration, in g, cannot bring the side back.
     critical, end: in arc. lift: G̃(0), B̃(0). reaching_speed: along the arc at φ = 0, just reaches φ_cr, rad/s.
-    pace: longest step, s. arc and stretch: q and dq/dφ at a rotation.
+    longest_step: s. near: bounds near rest, as `Sides` has them. arc and stretch: q and dq/dφ at a rotation.
     """
 
     pieces: np.ndarray
@@ -52,7 +57,8 @@ class SideTable:
     lift: tuple[float, float]
     restitution: float
     reaching_speed: float
-    pace: float
+    longest_step: float
+    near: tuple[float, ...]
     critical_rotation: float
     arc: Function
     stretch: Function
@@ -78,8 +84,17 @@ class Table:
 
     sides: tuple[SideTable, ...]
     one_sided: bool
-    arrays: tuple[np.ndarray, ...]
-    """pieces, grid, lift, hold, critical, end, restitution, reaching_speed, pace."""
+    kernel: Sides
+    """What the kernel takes of them."""
+    restitution: tuple[float, float]
+    """η of the positive and of the negative side."""
+
+    def kernel_of(self, forcing: Forcing) -> Sides:
+        """What the kernel takes under `forcing`: its steps resolve a sine as well."""
+        frequency = forcing.ground.circular_frequency
+        if frequency == 0:
+            return self.kernel
+        return self.kernel._replace(longest_step=np.minimum(self.kernel.longest_step, 1 / frequency))
 
     def side(self, sign: int) -> SideTable:
         """The table of the side of this sign."""
@@ -113,9 +128,11 @@ def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
     pieces, hold = np.zeros((len(sides), most, 2 * DEGREE + 2)), np.zeros((len(sides), most))
     for k, side in enumerate(sides):
         pieces[k, : side.hold.size], hold[k, : side.hold.size] = side.pieces, side.hold
-    names = ("grid", "lift", "critical", "end", "restitution", "reaching_speed", "pace")
-    grid, lift, *others = (np.array([getattr(side, name) for side in sides], dtype=float) for name in names)
-    return Table(sides, one_sided, (pieces, grid, lift, hold, *others))
+    names = ("grid", "lift", "critical", "end", "reaching_speed", "longest_step", "near")
+    stacked = {name: np.array([getattr(side, name) for side in sides], dtype=float) for name in names}
+    stacked["rest_speed"] = stacked.pop("reaching_speed") * REST_ENERGY**0.5
+    kernel = Sides(pieces=pieces, hold=hold, one_sided=one_sided, **stacked)
+    return Table(sides, one_sided, kernel, (sides[0].restitution, sides[-1].restitution))
 
 
 def _linear_side(block: EquivalentBlock) -> SideTable:
@@ -140,7 +157,11 @@ def _linear_side(block: EquivalentBlock) -> SideTable:
         lift=(square * critical, square * scale),
         restitution=block.restitution,
         reaching_speed=block.frequency_parameter * critical,
-        pace=1 / block.frequency_parameter,
+        longest_step=1 / block.frequency_parameter,
+        near=_near_rest(
+            critical * _NEAR,
+            np.array([[critical, (1 - _NEAR) * critical], [scale, scale]]) * square,
+        ),
         critical_rotation=critical,
         arc=np.asarray,
         stretch=np.ones_like,
@@ -192,7 +213,8 @@ def _tabulated(side: Side, last: float) -> SideTable | None:
         lift=lift,
         restitution=side.restitution,
         reaching_speed=_reaching_speed(side, rest),
-        pace=1 / np.sqrt(GRAVITY * max(steepest, lift[0] / critical)),
+        longest_step=1 / np.sqrt(GRAVITY * max(steepest, lift[0] / critical)),
+        near=_near_rest(critical * _NEAR, np.column_stack([lift, functions(np.linspace(0, critical * _NEAR, 65)[1:])[:2]])),
         critical_rotation=side.critical_rotation,
         arc=arc.at,
         stretch=arc.stretch,
@@ -211,6 +233,19 @@ def _reaching_speed(side: Side, rest_inertia: float) -> float:
     """√(2 g ∫ G dφ / I(0)) from 0 to φ_cr."""
     half = side.critical_rotation / 2
     return float(np.sqrt(2 * GRAVITY * half * (_WEIGHTS @ side.gravity(half * (_GAUSS + 1))) / rest_inertia))
+
+
+def _near_rest(reach: float, values: np.ndarray) -> tuple[float, ...]:
+    """Bounds of G̃ and B̃ (2, n), taken at equal distances over the arcs [0, reach]; see `Sides`.
+
+    Widened by the largest change between neighbouring samples, and slopes by half, for what lies between samples.
+    """
+    changes = np.abs(np.diff(values, axis=1)).max(axis=1)
+    slopes = 1.5 * changes * (values.shape[1] - 1) / reach
+    least, most = values[0].min() - changes[0], values[0].max() + changes[0]
+    drive = np.abs(values[1]).max() + changes[1]
+    speed = np.sqrt(2 * GRAVITY * max(least, 0.0) * reach)
+    return tuple(float(each) for each in (reach, least, most, drive, *slopes, speed))
 
 
 def _hold(side: Side, rotation: Function, starts: np.ndarray) -> np.ndarray:

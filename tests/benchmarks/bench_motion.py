@@ -11,7 +11,8 @@ from numba import njit
 from scipy.constants import g
 from scipy.integrate import solve_ivp
 
-from rocking.motion import integrate, integrate_many, kernel
+from rocking.motion import integrate, integrate_many
+from rocking.motion import nonlinear_kernel as kernel
 from rocking.motion.forcing import forcing_of
 from rocking.motion.spectrum import rocking_spectrum
 from rocking.motion.table import table_of

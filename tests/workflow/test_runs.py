@@ -43,7 +43,7 @@ def test_a_second_run_does_nothing(finished) -> None:
 
 @pytest.mark.parametrize(
     ("edited", "again"),
-    [("motion/kernel.py", ["assess"] * 2 + ["summarise"]), ("reports/record/report.py", [])],
+    [("motion/nonlinear_kernel.py", ["assess"] * 2 + ["summarise"]), ("reports/record/report.py", [])],
     ids=["numbers", "appearance"],
 )
 def test_an_edit_of_the_package_runs_again_what_depends_on_it(

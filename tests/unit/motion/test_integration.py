@@ -227,7 +227,8 @@ def test_motions_are_taken_a_few_at_a_time():
 
 _INTERPRETED = """
 import numpy as np
-from rocking.motion import integrate, kernel
+from rocking.motion import integrate
+from rocking.motion import nonlinear_kernel as kernel
 from rocking.structures import Block
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram

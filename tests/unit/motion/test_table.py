@@ -7,7 +7,7 @@ from scipy.constants import g
 from scipy.integrate import quad
 
 from rocking.errors import MotionError
-from rocking.motion.kernel import _place
+from rocking.motion.nonlinear_kernel import _place
 from rocking.motion.table import ACCURACY, linear_table, table_of
 from rocking.structures import Arch, EquivalentBlock, Wall
 from rocking.structures.mechanism import Mechanism, Side
@@ -24,10 +24,10 @@ ALL = MECHANISMS | EXTREMES
 
 def evaluated(table, k, arc):
     """G̃ and B̃ of side k at each arc, by the pieces that the kernel would take."""
-    pieces, grid = table.arrays[0], table.arrays[1]
+    pieces, grid = table.kernel.pieces, table.kernel.grid
     values = []
     for q in arc:
-        j, centre, _ = _place(grid[k], q)
+        j, centre, _ = _place(grid, k, q)
         powers = (q - centre) ** np.arange(8)
         values.append((powers @ pieces[k, j, 0::2], powers @ pieces[k, j, 1::2]))
     return np.array(values).T
@@ -68,9 +68,9 @@ def test_hold_bounds_every_rotation_further_out(name):
     side, own = ALL[name].positive, table_of(ALL[name]).side(1)
     rotation = np.linspace(0, float(own.rotation(np.float64(own.end))), 2001)
     balance = -side.gravity(rotation) / np.abs(side.ground(rotation))
-    grid = table_of(ALL[name]).arrays[1][0]
+    grid = table_of(ALL[name]).kernel.grid
     for q, lowest in zip(own.arc(rotation), np.minimum.accumulate(balance[::-1])[::-1], strict=True):
-        j, _, _ = _place(grid, q)
+        j, _, _ = _place(grid, 0, q)
         assert own.hold[j] <= lowest + 1e-12
 
 

@@ -1,0 +1,452 @@
+"""The compiled exact response of an equivalent block to a record, one member or many at a call.
+
+On one side, with x = φ/φ_cr (or what the block measures in its stead) and time in 1/p, x'' = x − 1 − s ü_g/(gλ). The
+ground acceleration is linear within a sample, so each sample has a closed form; only event times are iterated.
+
+numba stores compiled code under the file that defines it and looks at no other: functions that call each other stand
+in one file, and so do the tuples that they take.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+ROCKS, OVERTURNS, TOO_MANY_IMPACTS, NOT_FINITE = 1, 2, 3, 4
+"""How a run ends; 0 is no uplift."""
+
+REST_ENERGY = 1e-14
+"""Rocking ends at an impact that leaves less than this share of the energy that reaches φ_cr."""
+
+SETTLED = 1e-10
+"""A root is found by Newton's method when its last move is below this share: the next would be its square."""
+
+IMPACT_LIMIT = 5_000_000
+
+INSTANT, PAUSE = 1e-14, 1e-9
+"""A landing sooner than INSTANT after an uplift is a rounding: it rests for PAUSE. Both are shares of a sample."""
+
+NEAR = 1 / 16
+"""Largest x of a chain of impacts that is looked at as a whole."""
+
+LOOK_AHEAD = 100
+"""Samples over which such a chain is examined for its end."""
+
+
+class Blocks(NamedTuple):
+    """An equivalent block, by side k (one if they mirror, else the positive first).
+
+    frequency: (k,) p, rad/s. push: (k,) 1/(gλ). span: (k,) angular velocity at φ = 0 per x'. one_sided: it leans.
+    """
+
+    frequency: np.ndarray
+    push: np.ndarray
+    span: np.ndarray
+    one_sided: bool
+
+
+class Samples(NamedTuple):
+    """A record: ü_g (n,), the time step, and what the rest of it can take back, from `takeback`.
+
+    takeable: (k, 2, n), of side k where positive ü_g pushes it back, then where negative ü_g does.
+    """
+
+    ground: np.ndarray
+    time_step: float
+    takeable: np.ndarray
+
+
+class State(NamedTuple):
+    """The state when the motion begins: x, x'/p, and side; side 0 is rest."""
+
+    x: float
+    w: float
+    side: int
+
+
+# Contraction to fused multiply-adds changes roundings only; infinities and NaN keep their meaning.
+compiled = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+
+
+@compiled
+def _margins(blocks, ground):
+    """By how much the push to the positive and to the negative side exceeds the uplift acceleration, over it."""
+    last = blocks.push.shape[0] - 1
+    return -ground * blocks.push[0] - 1, -np.inf if blocks.one_sided else ground * blocks.push[last] - 1
+
+
+@compiled
+def _uplift(blocks, ground, factor, time_step, i, tau):
+    """First instant from (interval i, offset tau) on that lifts: interval, offset, side (0 if none does)."""
+    count = ground.size - 1
+    if i >= count:
+        return i, 0.0, 0
+    now = ground[i] + (tau / time_step) * (ground[i + 1] - ground[i])
+    positive, negative = _margins(blocks, factor * now)
+    if positive > 0 or negative > 0:
+        return i, tau, (1 if positive >= negative else -1)
+    while i < count:
+        next_positive, next_negative = _margins(blocks, factor * ground[i + 1])
+        if next_positive > 0 or next_negative > 0:
+            to_positive = positive / (positive - next_positive) if next_positive > 0 else 2.0
+            to_negative = negative / (negative - next_negative) if next_negative > 0 else 2.0
+            side = 1 if to_positive <= to_negative else -1
+            return i, tau + min(to_positive, to_negative) * (time_step - tau), side
+        positive, negative, tau = next_positive, next_negative, 0.0
+        i += 1
+    return i, 0.0, 0
+
+
+@compiled
+def _write(log, logged, time, rotation, velocity):
+    """Write one line of history where there is room; the count tells how much room was needed."""
+    if log.shape[0] == 0:
+        return 0
+    if logged < log.shape[0]:
+        log[logged, 0], log[logged, 1], log[logged, 2] = time, rotation, velocity
+    return logged + 1
+
+
+@compiled
+def _hyperbolic(y):
+    """cosh(y) − 1 and sinh(y) − y, without cancellation."""
+    if y > 1:
+        return math.cosh(y) - 1, math.sinh(y) - y
+    z = y * y
+    even = odd = 1.0
+    if y > 0.1:
+        even += z * (1 / 132) * (1 + z * (1 / 182) * (1 + z * (1 / 240) * (1 + z * (1 / 306))))
+        odd += z * (1 / 156) * (1 + z * (1 / 210) * (1 + z * (1 / 272) * (1 + z * (1 / 342))))
+    even = 1 + z * (1 / 12) * (1 + z * (1 / 30) * (1 + z * (1 / 56) * (1 + z * (1 / 90) * even)))
+    odd = 1 + z * (1 / 20) * (1 + z * (1 / 42) * (1 + z * (1 / 72) * (1 + z * (1 / 110) * odd)))
+    return 0.5 * z * even, y * z * (1 / 6) * odd
+
+
+@compiled
+def _weights(y):
+    """Exact update over the scaled time y = p t: growth, decay, and what the two ends of a linear drive add."""
+    even, odd = _hyperbolic(y)
+    up, up_end = even + y + odd, (even + odd) / y
+    if y > 1:
+        down = -math.expm1(-y)
+        down_end = 1 - down / y
+    else:
+        down, down_end = y + odd - even, (even - odd) / y
+    return up + 1, 1 - down, up - up_end, up_end, down - down_end, down_end
+
+
+@compiled
+def _exact(x, w, drive, ramp, y):
+    """x, its scaled velocity w and acceleration after the scaled time y, from x'' = x + drive + ramp y."""
+    force = x + drive
+    even, odd = _hyperbolic(y)
+    if y <= 1:
+        x += force * even + w * (y + odd) + ramp * odd
+        w += w * even + force * (y + odd) + ramp * even
+    else:
+        growing = 0.5 * (force + w + ramp) * math.exp(y)
+        decaying = 0.5 * (force - w - ramp) * math.exp(-y)
+        x, w = growing + decaying - drive - ramp * y, growing - decaying - ramp
+    return x, w, x + drive + ramp * y
+
+
+@compiled
+def _exact_root(x, w, drive, ramp, low, high, first, last, of_velocity):
+    """The zero of w (or of x) between two scaled times where it is `first` and `last`, to rounding."""
+    y = low + (high - low) * (first / (first - last))
+    for _ in range(100):
+        a, b, c = _exact(x, w, drive, ramp, y)
+        value, slope = (b, c) if of_velocity else (a, b)
+        if (value > 0) == (last > 0):
+            high = y
+        else:
+            low = y
+        new = y - value / slope
+        if not low <= new <= high:
+            new = 0.5 * (low + high)
+        move, y = abs(new - y), new
+        if move <= SETTLED * y:
+            break
+    return y
+
+
+@compiled
+def _sample_events(x, w, drive, ramp, span):
+    """First landing within the scaled time span (−1 if none), and the largest peak before it with its time."""
+    bound, peak, at = span, -1.0, 0.0
+    force = x + drive
+    if force * (_exact(x, w, drive, ramp, span)[2]) < 0:  # the velocity has an extreme, its only one
+        bound = min(math.atanh(min(-force / (w + ramp), 1 - 1e-16)), span)
+    low, floor, speed = 0.0, x, w
+    for part in range(2):
+        if part == 1:
+            if bound == span:
+                break
+            bound = span
+        height, end, _ = _exact(x, w, drive, ramp, bound)
+        if speed > 0 >= end:
+            turn = _exact_root(x, w, drive, ramp, low, bound, speed, end, True)
+            floor, _, _ = _exact(x, w, drive, ramp, turn)
+            if floor > peak:
+                peak, at = floor, turn
+            low = turn
+        elif speed < 0 <= end:
+            turn = _exact_root(x, w, drive, ramp, low, bound, speed, end, True)
+            bottom, _, _ = _exact(x, w, drive, ramp, turn)
+            if bottom <= 0:
+                return _exact_root(x, w, drive, ramp, low, turn, floor, bottom, False), peak, at
+        if height <= 0 and end < 0:
+            return _exact_root(x, w, drive, ramp, low, bound, floor, height, False), peak, at
+        low, floor, speed = bound, height, end
+    return -1.0, peak, at
+
+
+@compiled
+def takeback(ground, time_step, frequency, side, out):
+    """Fill out (n,) with what the rest of the record can take from the unstable coordinate x − 1 + x'/p.
+
+    The largest, over all later instants T, of p ∫ s ü_g exp(−p (t − t_i)) dt up to T: a backward recursion. Divided by
+    gλ it is the bound that proves overturning, so that one array serves every λ.
+    """
+    y = frequency * time_step
+    decay, whole = math.exp(-y), -math.expm1(-y)
+    even, odd = _hyperbolic(y)
+    second = decay * (even + odd) / y
+    first = whole - second
+    last = ground.size - 1
+    out[last] = 0.0
+    for i in range(last - 1, -1, -1):
+        now, then = side * ground[i], side * ground[i + 1]
+        within = first * max(now, 0.0) + second * max(then, 0.0)
+        out[i] = max(within, first * now + second * then + decay * out[i + 1])
+
+
+@compiled
+def _dies_out(blocks, ground, factor, time_step, restitution, i, tau, speed, best):
+    """Whether the chain of impacts that starts with `speed` (angular) provably ends before the ground can lift again.
+
+    While |ü_g| stays below a bound, a flight from speed v decelerates by at least d: it lasts 2v/d and rises v²/2d at
+    most. Within it the deceleration varies by Δ at most, so it lands with at most v (1 + Δ/2d), and each flight
+    multiplies v by at most ρ = η (1 + Δ/2d). With ρ < 1 all flights together last 2v/(d (1 − ρ)). The chain is over if
+    the bound holds for as long, and of no account if it stays below the peaks on record.
+    """
+    last = blocks.span.shape[0] - 1
+    eta, strongest, steepest = max(restitution[0], restitution[1]), 0.0, 0.0
+    peak = max(best[0], best[1]) if last == 0 else min(best[0], best[1])
+    for j in range(i, min(i + LOOK_AHEAD, ground.size - 1)):
+        now, then = abs(factor * ground[j]), abs(factor * ground[j + 1])
+        strongest, steepest = max(strongest, now, then), max(steepest, abs(factor * (ground[j + 1] - ground[j])))
+        d = np.inf
+        for k in range(last + 1):
+            scale = blocks.span[k] * blocks.frequency[k] ** 2
+            d = min(d, scale * (1 - NEAR - blocks.push[k] * strongest))
+        if not d > 0:
+            return False
+        flight, rise, spread = 2 * speed / d, speed * speed / (2 * d), 0.0
+        for k in range(last + 1):
+            if rise > min(NEAR, peak) * blocks.span[k]:
+                return False
+            square = blocks.frequency[k] ** 2
+            in_time = blocks.span[k] * square * blocks.push[k] * steepest / time_step * flight
+            spread = max(spread, in_time + square * rise)
+        shrink = eta * (1 + spread / (2 * d))
+        if shrink >= 1:
+            return False
+        if flight / (1 - shrink) <= (j + 1 - i) * time_step - tau:
+            return True
+    return False
+
+
+@compiled
+def _free(x, w, side, k, time, blocks, restitution, best, impacts, log, logged):
+    """Follow the equivalent block over still ground until no larger peak can come, in closed form.
+
+    (x − 1)² − w² is constant in each flight. Returns status, impacts, side, logged.
+    """
+    frequency, span = blocks.frequency, blocks.span
+    last, turns = frequency.size - 1, 0
+    for _ in range(last + 2):
+        unstable, stable = x - 1 + w, x - 1 - w
+        if unstable >= 0:
+            return OVERTURNS, impacts, side, logged
+        energy = w * w + x * (2 - x)
+        if w > 0:
+            peak = energy / (1 + math.sqrt(max(1 - energy, 0.0)))
+            at = time + 0.5 * math.log(stable / unstable) / frequency[k]
+            logged = _write(log, logged, at, side * peak * span[k], 0.0)
+            slot = 0 if side > 0 else 1
+            if peak > best[0, slot]:
+                best[0, slot], best[1, slot] = peak, at
+            turns += 1
+            if turns > last:
+                break
+        arrival = math.sqrt(energy)
+        time += math.log((-1 - arrival) / unstable) / frequency[k]
+        logged = _write(log, logged, time, 0.0, -side * arrival * span[k] * frequency[k])
+        impacts += 1
+        w = arrival * restitution[0 if side > 0 else 1] * frequency[k] * span[k]
+        if not blocks.one_sided:
+            side, k = -side, last - k
+        w /= frequency[k] * span[k]
+        x = 0.0
+        if w * w <= REST_ENERGY:
+            break
+    return ROCKS, impacts, side, logged
+
+
+@compiled
+def _glide(ground, bound, time_step, p, scale, limit, full, i, tau, x, w, span, log, logged):
+    """Advance from sample to sample, exactly, until one in which something may happen, an overturning, or the end.
+
+    x'' = x + drive in p t, with a drive that is linear within a sample. full: the weights of a whole sample. Returns
+    interval and offset, x and w there, drive there and at the end of the sample, x and w at the end of the sample,
+    whether it overturned, samples passed, lines of log.
+    """
+    growth, decay, up, up_end, down, down_end = full
+    drive = -1 - scale * (ground[i] + (tau / time_step) * (ground[i + 1] - ground[i]))
+    if x == 0 and w == 0:  # uplift where the drive is zero to rounding
+        drive = max(drive, 0.0)
+    width = p * (time_step - tau)
+    if tau > 0:
+        growth, decay, up, up_end, down, down_end = _weights(width)
+    q, r, passed = x + w, x - w, 0
+    while True:
+        final = -1 - scale * ground[i + 1]
+        q = growth * q + drive * up + final * up_end
+        r = decay * r - drive * down - final * down_end
+        new, pull = 0.5 * (q + r), 0.5 * (q - r)
+        force, later = x + drive, new + final
+        # |x''| is largest at an end of the sample, so a velocity beyond y |x''| has no zero within it.
+        same = force * later >= 0 or abs(w) > width * max(abs(force), abs(later))
+        if not (new > 0 and w * pull > 0 and same):
+            return i, tau, x, w, drive, final, new, pull, False, passed, logged
+        i, tau, x, w, drive = i + 1, 0.0, new, pull, final
+        growth, decay, up, up_end, down, down_end = full
+        width = p * time_step
+        passed += 1
+        if log.shape[0] > 0:
+            logged = _write(log, logged, i * time_step, span * x, span * w * p)
+        fallen = q - 1 > limit * bound[i]
+        if fallen or i == ground.size - 1:
+            return i, tau, x, w, drive, final, new, pull, fallen, passed, logged
+
+
+@compiled
+def rock_linear(blocks, samples, factor, restitution, start, settle, best, log):
+    """Follow an equivalent block through a record and on, exactly: per sample in closed form, events by iteration.
+
+    factor: of ü_g. restitution: η of the positive and of the negative side. settle: whether a chain of impacts that
+    provably dies out is left out, with its impacts. best: (2, 2), filled with the largest x of the positive and of the
+    negative side, and their times. log: (m, 3) for the history, or no rows. Returns status, impacts, uplift time, last
+    side, steps, lines of log.
+    """
+    ground, time_step = samples.ground, samples.time_step
+    frequency, push, span, one_sided = blocks
+    count, last = ground.size - 1, frequency.size - 1
+    x, w, side = start
+    best[0], best[1] = 0.0, np.nan
+    whole = _weights(frequency[0] * time_step), _weights(frequency[last] * time_step)
+    i, tau, status, impacts, steps, logged, uplift = 0, 0.0, 0, 0, 0, 0, np.nan
+    if side != 0:
+        status, uplift = ROCKS, 0.0
+        slot = 0 if side > 0 else 1
+        best[0, slot], best[1, slot] = x, 0.0
+    k = 0 if side > 0 else last
+    logged = _write(log, logged, 0.0, side * x * span[k], side * w * span[k] * frequency[k])
+    while i < count:
+        if side == 0:
+            i, tau, side = _uplift(blocks, ground, factor, time_step, i, tau)
+            if side == 0:
+                break
+            x = w = 0.0
+            if status == 0:
+                status, uplift = ROCKS, i * time_step + tau
+            logged = _write(log, logged, i * time_step + tau, 0.0, 0.0)
+        k = 0 if side > 0 else last
+        if time_step - tau <= 0:
+            i, tau = i + 1, 0.0
+            continue
+        p, slot = frequency[k], 0 if side > 0 else 1
+        takeable, limit = samples.takeable[k, 0 if side * factor > 0 else 1], push[k] * abs(factor) * (1 + 1e-12)
+        i, tau, x, w, drive, final, new, pull, fallen, passed, logged = _glide(
+            ground, takeable, time_step, p, side * push[k] * factor, limit, whole[k],
+            i, tau, x, w, side * span[k], log, logged,
+        )  # fmt: skip
+        steps += passed
+        if fallen:
+            status = OVERTURNS
+            break
+        if i == count:
+            break
+        steps += 1
+        y = p * (time_step - tau)
+        landing, peak, at = _sample_events(x, w, drive, (final - drive) / y, y)
+        if peak > best[0, slot]:
+            best[0, slot], best[1, slot] = peak, i * time_step + tau + at / p
+        if peak > 0:
+            logged = _write(log, logged, i * time_step + tau + at / p, side * peak * span[k], 0.0)
+        if landing < 0:
+            if not abs(new) < np.inf:
+                status = NOT_FINITE
+                break
+            i, tau, x, w = i + 1, 0.0, new, pull
+            logged = _write(log, logged, i * time_step, side * x * span[k], side * w * span[k] * p)
+            if x + w - 1 > limit * takeable[i]:
+                status = OVERTURNS
+                break
+            continue
+        _, w, _ = _exact(x, w, drive, (final - drive) / y, landing)
+        tau += landing / p
+        impacts += 1
+        logged = _write(log, logged, i * time_step + tau, 0.0, side * w * span[k] * p)
+        w *= -restitution[slot] * p * span[k]
+        if not one_sided:
+            side, k = -side, last - k
+        w /= frequency[k] * span[k]
+        x = 0.0
+        logged = _write(log, logged, i * time_step + tau, 0.0, side * w * span[k] * frequency[k])
+        if not w * w > REST_ENERGY or w < 0:
+            side = 0
+            if landing <= INSTANT * y:
+                tau += PAUSE * time_step
+        elif settle and w < NEAR:
+            speed = w * frequency[k] * span[k]
+            if _dies_out(blocks, ground, factor, time_step, restitution, i, tau, speed, best[0]):
+                side = 0
+        if impacts >= IMPACT_LIMIT:
+            status = TOO_MANY_IMPACTS
+            break
+    if side != 0 and status == ROCKS and i >= count:
+        time = count * time_step
+        status, impacts, side, logged = _free(
+            x, w, side, k, time, blocks, restitution, best, impacts, log, logged
+        )
+    return status, impacts, uplift, side, steps, logged
+
+
+@compiled
+def rock_linear_members(blocks, samples, factors, restitution, status, peaks, impacts):
+    """`rock_linear` for every member (m,): fill status, peaks (m, 2), the largest x of each side, and impacts.
+
+    factors: (m,) of ü_g. restitution: (m, 2), of the positive and of the negative side. Chains of impacts that provably
+    die out are not followed, nor counted.
+    """
+    none, best, start = np.empty((0, 3)), np.zeros((2, 2)), State(0.0, 0.0, 0)
+    for m in range(factors.size):
+        eta = restitution[m, 0], restitution[m, 1]
+        status[m], impacts[m], _, _, _, _ = rock_linear(blocks, samples, factors[m], eta, start, True, best, none)
+        peaks[m] = best[0]
+
+
+@compiled
+def spectrum_row(frequency, pushes, restitution, samples, ratios):
+    """Fill ratios (n,) with the peak of the symmetric block of one frequency for each push = 1/(g λ); inf overturns."""
+    p, one, eta, start = np.array([frequency]), np.ones(1), (restitution, restitution), State(0.0, 0.0, 0)
+    none, best = np.empty((0, 3)), np.zeros((2, 2))
+    for j in range(pushes.size):
+        blocks = Blocks(p, pushes[j : j + 1], one, False)
+        status, _, _, _, _, _ = rock_linear(blocks, samples, 1.0, eta, start, True, best, none)
+        ratios[j] = np.inf if status == OVERTURNS else max(best[0, 0], best[0, 1])
+        if status > OVERTURNS:
+            ratios[j] = np.nan

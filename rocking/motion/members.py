@@ -1,0 +1,225 @@
+"""Many responses of one structure to one ground motion in one compiled call: the members of an ensemble."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rocking.errors import MotionError
+from rocking.motion import linear_kernel, nonlinear_kernel
+from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
+from rocking.motion.integration import TOLERANCES, Rocking, reduce
+from rocking.motion.linear import blocks_of, samples_of, sides_of, solvable_exactly
+from rocking.motion.nonlinear import STEP_SHARE, failure
+from rocking.motion.table import Table, linear_table, table_of
+from rocking.quantities import within
+from rocking.records.accelerogram import Accelerogram
+from rocking.structures.mechanism import EquivalentBlock, Mechanism
+
+
+@dataclass(frozen=True, eq=False)
+class Members:
+    """What varies between the members of an ensemble; each field one value for all, or one per member (m,).
+
+    scale_factor: of the ground motion, vertical component included, > 0. polarity: +1, or −1 for the horizontal motion
+    reversed. vertical: whether the vertical component acts. restitution: η, (m,) or one per side (m, 2), positive side
+    first; None takes the structure's own.
+    Raises MotionError for a value out of range, or for fields that do not fit each other.
+    """
+
+    scale_factor: ArrayLike = 1.0
+    polarity: ArrayLike = 1
+    vertical: ArrayLike = True
+    restitution: ArrayLike | None = None
+
+    def __post_init__(self) -> None:
+        given = {name: np.atleast_1d(getattr(self, name)) for name in ("scale_factor", "polarity", "vertical")}
+        size = max(array.size for array in given.values())
+        if self.restitution is not None:
+            given["restitution"] = _by_side(self.restitution, size)
+            size = max(size, given["restitution"].shape[0])
+        for name, array in given.items():
+            shape = (size, 2) if name == "restitution" else (size,)
+            kind = bool if name == "vertical" else float
+            try:
+                fitted = np.array(np.broadcast_to(array, shape), dtype=kind)
+            except ValueError:
+                raise MotionError(
+                    f"{name} has the shape {array.shape}, but must hold one value or {size}."
+                ) from None
+            object.__setattr__(self, name, fitted)
+        self._check()
+
+    def _check(self) -> None:
+        factor, polarity, restitution = self.scale_factor, self.polarity, self.restitution
+        for name, array, right, allowed in (
+            ("scale_factor", factor, np.isfinite(factor) & np.greater(factor, 0), "be greater than 0"),
+            ("polarity", polarity, np.abs(polarity) == 1, "be 1 or -1"),
+            ("restitution", restitution, _unit_interval(restitution), "lie between 0 and 1"),
+        ):
+            if not np.all(right):
+                wrong = np.asarray(array)[~np.asarray(right)][0]
+                raise MotionError(f"{name} holds {wrong!s}, but every value must {allowed}.")
+
+    @property
+    def count(self) -> int:
+        """How many members."""
+        return int(np.asarray(self.scale_factor).size)
+
+
+class MemberResponses(NamedTuple):
+    """The members' responses, (m,) each.
+
+    rotation_ratio: largest φ/φ_cr over the sides; inf overturns, 0 without uplift, nan failed. peak_side: +1 or −1, the
+    side of the largest rotation; 0 without uplift, and unknown where it overturns. reasons: by member that failed.
+    """
+
+    rotation_ratio: np.ndarray
+    peak_side: np.ndarray
+    reasons: dict[int, str]
+
+    @property
+    def lifted(self) -> np.ndarray:
+        """Whether the structure rocks at all."""
+        return self.rotation_ratio != 0
+
+    @property
+    def overturns(self) -> np.ndarray:
+        """Whether it overturns."""
+        return np.isposinf(self.rotation_ratio)
+
+
+def integrate_members(
+    structure: Rocking,
+    motion: GroundMotion,
+    members: Members,
+    tolerance: float = 1e-6,
+    *,
+    vertical: Accelerogram | None = None,
+) -> MemberResponses:
+    """Follow `structure` through `motion` once for every member, in one compiled call that lets other threads run.
+
+    Each result is that of `integrate` with the scaled motion, within `tolerance`; an EquivalentBlock without vertical
+    motion is solved exactly. Raises MotionError as `integrate` does for a setting that is wrong for every member; a
+    member that cannot be followed is nan, with its reason.
+    """
+    tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
+    return follow_members(reduce(structure), forcing_of(motion, vertical), members, tolerance)
+
+
+def follow_members(
+    reduced: Mechanism | EquivalentBlock, forcing: Forcing, members: Members, tolerance: float
+) -> MemberResponses:
+    """`integrate_members` of what is prepared already."""
+    factor, polarity = np.asarray(members.scale_factor), np.asarray(members.polarity)
+    lift = np.where(members.vertical, factor, 0.0) if forcing.vertical else np.zeros(factor.size)
+    horizontal = factor * polarity
+    if isinstance(reduced, Mechanism):
+        return _stepped(table_of(reduced), forcing, horizontal, lift, members.restitution, tolerance)
+    exact = (lift == 0) & solvable_exactly(reduced, forcing)
+    if exact.all():
+        return _exact(reduced, forcing, horizontal, members.restitution)
+    if not exact.any():
+        return _stepped(linear_table(reduced), forcing, horizontal, lift, members.restitution, tolerance)
+    return _merged(
+        exact,
+        lambda rows, eta: _exact(reduced, forcing, horizontal[rows], eta),
+        lambda rows, eta: _stepped(linear_table(reduced), forcing, horizontal[rows], lift[rows], eta, tolerance),
+        members.restitution,
+    )
+
+
+def _stepped(
+    table: Table,
+    forcing: Forcing,
+    horizontal: np.ndarray,
+    vertical: np.ndarray,
+    restitution: ArrayLike | None,
+    tolerance: float,
+) -> MemberResponses:
+    status, peaks, impacts = _room(horizontal.size)
+    nonlinear_kernel.rock_members(
+        table.kernel_of(forcing),
+        forcing.ground,
+        horizontal,
+        vertical,
+        _restitutions(restitution, table.restitution, horizontal.size),
+        STEP_SHARE * tolerance,
+        status,
+        peaks,
+        impacts,
+    )
+    for column, sign in enumerate((1, -1)):
+        side, arcs = table.side(sign), peaks[:, column]
+        rises = (arcs > 0) & (status == nonlinear_kernel.ROCKS)
+        arcs[rises] = side.rotation(arcs[rises]) / side.critical_rotation
+    return _concluded(status, peaks, impacts)
+
+
+def _exact(
+    block: EquivalentBlock, forcing: Forcing, horizontal: np.ndarray, restitution: ArrayLike | None
+) -> MemberResponses:
+    sides = sides_of(block)
+    status, peaks, impacts = _room(horizontal.size)
+    own = sides[0].restitution, sides[-1].restitution
+    linear_kernel.rock_linear_members(
+        blocks_of(block),
+        samples_of(sides, forcing),
+        horizontal,
+        _restitutions(restitution, own, horizontal.size),
+        status,
+        peaks,
+        impacts,
+    )
+    return _concluded(status, peaks, impacts)
+
+
+def _merged(
+    mask: np.ndarray,
+    where: Callable[[np.ndarray, ArrayLike | None], MemberResponses],
+    elsewhere: Callable[[np.ndarray, ArrayLike | None], MemberResponses],
+    restitution: ArrayLike | None,
+) -> MemberResponses:
+    """The responses of the members in `mask` by one run, and of the others by another."""
+    ratio, side, reasons = np.empty(mask.size), np.empty(mask.size, dtype=np.int64), {}
+    for chosen, run in ((mask, where), (~mask, elsewhere)):
+        rows = np.flatnonzero(chosen)
+        found = run(rows, None if restitution is None else np.asarray(restitution)[rows])
+        ratio[rows], side[rows] = found.rotation_ratio, found.peak_side
+        reasons |= {int(rows[k]): reason for k, reason in found.reasons.items()}
+    return MemberResponses(ratio, side, reasons)
+
+
+def _concluded(status: np.ndarray, ratios: np.ndarray, impacts: np.ndarray) -> MemberResponses:
+    """status, impacts: (m,) as the kernels leave them. ratios: (m, 2), the largest φ/φ_cr of each side."""
+    ratio = ratios.max(axis=1)
+    side = np.where(ratios[:, 0] >= ratios[:, 1], 1, -1)
+    ratio[status == nonlinear_kernel.OVERTURNS] = np.inf
+    side[status == 0] = 0
+    failed = np.flatnonzero(status > nonlinear_kernel.OVERTURNS)
+    ratio[failed], side[failed] = np.nan, 0
+    reasons = {int(k): str(failure(int(status[k]), int(impacts[k]))) for k in failed}
+    return MemberResponses(ratio, side, reasons)
+
+
+def _room(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    return np.zeros(count, dtype=np.int64), np.zeros((count, 2)), np.zeros(count, dtype=np.int64)
+
+
+def _restitutions(given: ArrayLike | None, own: tuple[float, float], count: int) -> np.ndarray:
+    return np.ascontiguousarray(np.broadcast_to(np.asarray(own if given is None else given, float), (count, 2)))
+
+
+def _by_side(restitution: ArrayLike, size: int) -> np.ndarray:
+    """(m, 2), or (1, 2) of one value."""
+    array = np.asarray(restitution, dtype=float)
+    if array.ndim == 2:
+        return array
+    return np.repeat(np.atleast_1d(array)[:, None], 2, axis=1)
+
+
+def _unit_interval(values: ArrayLike | None) -> np.ndarray:
+    array = np.asarray(0.0 if values is None else values)
+    return (array >= 0) & (array <= 1)

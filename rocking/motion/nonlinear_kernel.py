@@ -1,0 +1,651 @@
+"""The compiled integration of a mechanism by Taylor series, one member or many at a call.
+
+A mechanism is followed in the arc q = ∫ √(I(φ)/I(0)) dφ, in which J drops out of the equation of motion:
+
+    q'' = −G̃(q) (g + ü_v) − s B̃(q) ü_g ,   G̃ = G/√(I I(0)) , B̃ = B/√(I I(0))
+
+G̃ and B̃ are piecewise polynomials, ü_g and ü_v are linear within a sample (or ü_g is a sine), so the Taylor
+coefficients of q(t) follow from one recursion. A step is a polynomial of degree 8 (order 7), or of degree 6 where that
+is accurate enough, and its events are the roots of that polynomial: nothing is interpolated or stepped twice.
+
+numba stores compiled code under the file that defines it and looks at no other: functions that call each other stand
+in one file, and so do the tuples that they take.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+ROCKS, OVERTURNS, TOO_MANY_IMPACTS, NOT_FINITE = 1, 2, 3, 4
+"""How a run ends; 0 is no uplift."""
+
+REST_ENERGY = 1e-14
+"""Rocking ends at an impact that leaves less than this share of the energy that reaches φ_cr.
+
+The next flight would rise to about half this share of φ_cr, less than ten roundings of φ_cr."""
+
+SETTLED = 1e-10
+"""A root is found by Newton's method when its last move is below this share: the next would be its square."""
+
+IMPACT_LIMIT = 5_000_000
+
+INSTANT, PAUSE = 1e-14, 1e-9
+"""A landing sooner than INSTANT after an uplift is a rounding: it rests for PAUSE. Both are shares of a sample."""
+
+LOOK_AHEAD = 100
+"""Samples over which a chain of impacts is examined for its end."""
+
+
+class Sides(NamedTuple):
+    """A mechanism's table, by side k (one if they mirror, else the positive first), in the arc.
+
+    pieces: (k, m, 16) G̃ and B̃ alternating, by power of the distance from the centre of a piece. grid: (k, 9) end of
+    the inner zone, then width, count and room of the pieces of the inner and of the outer zone, then the inverse
+    widths. lift: (k, 2) G̃(0), B̃(0). hold: (k, m) the ground acceleration in units of gravity that cannot bring the
+    side back from that piece or beyond. critical, end: (k,) arc of φ_cr and of the end. rest_speed: (k,) the speed at
+    which rocking rests. longest_step: (k,) s. near: (k, 7) an arc near rest; up to it the least and the largest G̃, the largest
+    |B̃|, the largest |dG̃/dq| and |dB̃/dq|; and the speed that reaches it over still ground.
+    """
+
+    pieces: np.ndarray
+    grid: np.ndarray
+    lift: np.ndarray
+    hold: np.ndarray
+    critical: np.ndarray
+    end: np.ndarray
+    rest_speed: np.ndarray
+    longest_step: np.ndarray
+    near: np.ndarray
+    one_sided: bool
+
+
+class Ground(NamedTuple):
+    """A ground motion: (n,) samples, or a sine of one period.
+
+    horizontal, vertical: ü_g and ü_v at the samples; a sine has its amplitude and 0 there. strongest, lightest: the
+    largest |ü_g| and the smallest ü_v from each sample to the end. time_step: s, the period of a sine.
+    circular_frequency: rad/s, 0 for samples. gravity: g.
+    """
+
+    horizontal: np.ndarray
+    vertical: np.ndarray
+    strongest: np.ndarray
+    lightest: np.ndarray
+    time_step: float
+    circular_frequency: float
+    gravity: float
+
+
+class Member(NamedTuple):
+    """What varies between the members of an ensemble.
+
+    horizontal, vertical: factors of ü_g and of ü_v. restitution: η of the positive and of the negative side.
+    """
+
+    horizontal: float
+    vertical: float
+    restitution: tuple[float, float]
+
+
+class Start(NamedTuple):
+    """The state when the motion begins: arc, speed outward, and side; side 0 is rest."""
+
+    arc: float
+    speed: float
+    side: int
+
+
+# Contraction to fused multiply-adds changes roundings only; infinities and NaN keep their meaning.
+compiled = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+
+
+@compiled
+def _margin(lift, push, gravity):
+    """Acceleration along the arc that a push towards a side gives the structure at rest."""
+    return lift[1] * push - lift[0] * gravity
+
+
+@compiled
+def _margins(sides, ground, gravity):
+    """Acceleration that would lift the structure at rest to the positive and to the negative side."""
+    lift = sides.lift
+    negative = -np.inf if sides.one_sided else _margin(lift[lift.shape[0] - 1], ground, gravity)
+    return _margin(lift[0], -ground, gravity), negative
+
+
+@compiled
+def _accelerations(ground, member, i):
+    """ü_g and g + ü_v at a sample."""
+    return member.horizontal * ground.horizontal[i], ground.gravity + member.vertical * ground.vertical[i]
+
+
+@compiled
+def _over(ground, i):
+    """Whether the ground motion has no interval i."""
+    return i >= (1 if ground.circular_frequency > 0 else ground.horizontal.size - 1)
+
+
+@compiled
+def _excitation(ground, member, i):
+    """The largest |ü_g|/(g + ü_v) from a sample on; infinite where gravity may vanish."""
+    if _over(ground, i):
+        return 0.0
+    least = ground.gravity + member.vertical * ground.lightest[i]
+    return abs(member.horizontal) * ground.strongest[i] / least if least > 0 else np.inf
+
+
+@compiled
+def _uplift(sides, ground, member, i, tau):
+    """First instant from (interval i, offset tau) on that lifts: interval, offset, side (0 if none does)."""
+    count = ground.horizontal.size - 1
+    if i >= count:
+        return i, 0.0, 0
+    share = tau / ground.time_step
+    push, weight = _accelerations(ground, member, i)
+    next_push, next_weight = _accelerations(ground, member, i + 1)
+    push, weight = push + share * (next_push - push), weight + share * (next_weight - weight)
+    positive, negative = _margins(sides, push, weight)
+    if positive > 0 or negative > 0:
+        return i, tau, (1 if positive >= negative else -1)
+    while i < count:
+        next_push, next_weight = _accelerations(ground, member, i + 1)
+        next_positive, next_negative = _margins(sides, next_push, next_weight)
+        if next_positive > 0 or next_negative > 0:
+            to_positive = positive / (positive - next_positive) if next_positive > 0 else 2.0
+            to_negative = negative / (negative - next_negative) if next_negative > 0 else 2.0
+            side = 1 if to_positive <= to_negative else -1
+            return i, tau + min(to_positive, to_negative) * (ground.time_step - tau), side
+        positive, negative, tau = next_positive, next_negative, 0.0
+        i += 1
+    return i, 0.0, 0
+
+
+@compiled
+def _uplift_sine(sides, amplitude, omega, gravity, tau):
+    """First instant of the sine pulse from offset tau on that lifts: offset, side (0 if none does)."""
+    lift = sides.lift
+    for half in range(2):
+        push = -amplitude if half else amplitude
+        side = -1 if push > 0 else 1
+        if push == 0 or (sides.one_sided and side < 0):
+            continue
+        k = 0 if side > 0 else lift.shape[0] - 1
+        ratio = lift[k, 0] * gravity / (lift[k, 1] * abs(amplitude))
+        if ratio < 1:
+            phase = math.asin(ratio)
+            if tau < ((half + 1) * math.pi - phase) / omega:
+                return max(tau, (half * math.pi + phase) / omega), side
+    return tau, 0
+
+
+@compiled
+def _next_uplift(sides, ground, member, i, tau):
+    """First instant from (interval i, offset tau) on that lifts, of a record or of a sine."""
+    if ground.circular_frequency == 0:
+        return _uplift(sides, ground, member, i, tau)
+    if i > 0:
+        return i, 0.0, 0
+    amplitude = member.horizontal * ground.horizontal[0]
+    tau, side = _uplift_sine(sides, amplitude, ground.circular_frequency, ground.gravity, tau)
+    return i, tau, side
+
+
+@compiled
+def _place(grid, k, arc):
+    """Index of the piece of side k that holds an arc, its centre, and the room beyond it."""
+    if arc < grid[k, 0]:
+        j = max(int(arc * grid[k, 7]), 0)
+        return j, (j + 0.5) * grid[k, 1], grid[k, 3]
+    j = int(min((arc - grid[k, 0]) * grid[k, 8], grid[k, 5] - 1))
+    return int(grid[k, 2]) + j, grid[k, 0] + (j + 0.5) * grid[k, 4], grid[k, 6]
+
+
+@compiled
+def _shift(pieces, k, j, g, b, u):
+    """Taylor coefficients 0 to 6, about the place u of piece j of side k, of g G̃ + b B̃."""
+    e0, e1 = g * pieces[k, j, 0] + b * pieces[k, j, 1], g * pieces[k, j, 2] + b * pieces[k, j, 3]
+    e2, e3 = g * pieces[k, j, 4] + b * pieces[k, j, 5], g * pieces[k, j, 6] + b * pieces[k, j, 7]
+    e4, e5 = g * pieces[k, j, 8] + b * pieces[k, j, 9], g * pieces[k, j, 10] + b * pieces[k, j, 11]
+    e6, e7 = g * pieces[k, j, 12] + b * pieces[k, j, 13], g * pieces[k, j, 14] + b * pieces[k, j, 15]
+    a0 = e0 + u * (e1 + u * (e2 + u * (e3 + u * (e4 + u * (e5 + u * (e6 + u * e7))))))
+    a1 = e1 + u * (2 * e2 + u * (3 * e3 + u * (4 * e4 + u * (5 * e5 + u * (6 * e6 + u * 7 * e7)))))
+    a2 = e2 + u * (3 * e3 + u * (6 * e4 + u * (10 * e5 + u * (15 * e6 + u * 21 * e7))))
+    a3 = e3 + u * (4 * e4 + u * (10 * e5 + u * (20 * e6 + u * 35 * e7)))
+    a4 = e4 + u * (5 * e5 + u * (15 * e6 + u * 35 * e7))
+    a5 = e5 + u * (6 * e6 + u * 21 * e7)
+    return a0, a1, a2, a3, a4, a5, e6 + u * 7 * e7
+
+
+@compiled
+def _series(pieces, k, j, u, v, side, a0, a1, g0, g1, square):
+    """Taylor coefficients (v, x2, ..., x8) of the arc, at the place u of piece j of side k.
+
+    Ground acceleration a0 + a1 t (or the sine that starts so, with the squared frequency `square`), gravity g0 + g1 t.
+    """
+    s0, s1 = side * a0, side * a1
+    w0, w1, w2, w3, w4, w5, w6 = _shift(pieces, k, j, g0, s0, u)
+    r0, r1, r2, r3, r4, r5, _ = _shift(pieces, k, j, g1, s1, u)
+    b0 = b1 = b2 = b3 = b4 = 0.0
+    s2 = s3 = s4 = s5 = s6 = 0.0
+    if square != 0.0:
+        b0, b1, b2, b3, b4, _, _ = _shift(pieces, k, j, 0.0, 1.0, u)
+        s2, s3 = -square * s0 / 2, -square * s1 / 6
+        s4, s5, s6 = -square * s2 / 12, -square * s3 / 20, square * square * s2 / 360
+    # pkn: coefficient n of the k-th power of the displacement within the step.
+    x2 = -0.5 * w0
+    x3 = (w1 * v + r0) * (-1 / 6)
+    p22, p23 = v * v, 2 * v * x2
+    x4 = (w1 * x2 + w2 * p22 + r1 * v + s2 * b0) * (-1 / 12)
+    p24 = 2 * v * x3 + x2 * x2
+    p33, p34 = p22 * v, 3 * p22 * x2
+    d1 = b1 * v
+    x5 = (w1 * x3 + w2 * p23 + w3 * p33 + r1 * x2 + r2 * p22 + s2 * d1 + s3 * b0) * (-1 / 20)
+    p25 = 2 * (v * x4 + x2 * x3)
+    p35 = v * p24 + x2 * p23 + x3 * p22
+    p44, p45 = p22 * p22, 4 * p33 * x2
+    d2 = b1 * x2 + b2 * p22
+    driven = s2 * d2 + s3 * d1 + s4 * b0
+    still = w1 * x4 + w2 * p24 + w3 * p34 + w4 * p44
+    x6 = (still + r1 * x3 + r2 * p23 + r3 * p33 + driven) * (-1 / 30)
+    p26 = 2 * (v * x5 + x2 * x4) + x3 * x3
+    p36 = v * p25 + x2 * p24 + x3 * p23 + x4 * p22
+    p46 = 2 * p22 * p24 + p23 * p23
+    p55, p56 = p44 * v, 5 * p44 * x2
+    d3 = b1 * x3 + b2 * p23 + b3 * p33
+    driven = s2 * d3 + s3 * d2 + s4 * d1 + s5 * b0
+    still = w1 * x5 + w2 * p25 + w3 * p35 + w4 * p45 + w5 * p55
+    x7 = (still + r1 * x4 + r2 * p24 + r3 * p34 + r4 * p44 + driven) * (-1 / 42)
+    d4 = b1 * x4 + b2 * p24 + b3 * p34 + b4 * p44
+    driven = s2 * d4 + s3 * d3 + s4 * d2 + s5 * d1 + s6 * b0
+    still = w1 * x6 + w2 * p26 + w3 * p36 + w4 * p46 + w5 * p56 + w6 * p33 * p33
+    x8 = (still + r1 * x5 + r2 * p25 + r3 * p35 + r4 * p45 + r5 * p55 + driven) * (-1 / 56)
+    return v, x2, x3, x4, x5, x6, x7, x8
+
+
+@compiled
+def _short_series(pieces, k, j, u, v, s0, s1, g0, g1):
+    """The first coefficients (v, x2, ..., x6) of `_series` for a ground acceleration s0 + s1 t against the side.
+
+    Powers are paired (Estrin), so that few operations wait for each other.
+    """
+    u2 = u * u
+    u4 = u2 * u2
+    e0, e1, e2, e3 = pieces[k, j, 0], pieces[k, j, 2], pieces[k, j, 4], pieces[k, j, 6]
+    e4, e5, e6, e7 = pieces[k, j, 8], pieces[k, j, 10], pieces[k, j, 12], pieces[k, j, 14]
+    p0 = e0 + u * e1 + u2 * (e2 + u * e3) + u4 * (e4 + u * e5 + u2 * (e6 + u * e7))
+    p1 = e1 + u * 2 * e2 + u2 * (3 * e3 + u * 4 * e4) + u4 * (5 * e5 + u * 6 * e6 + u2 * 7 * e7)
+    p2 = e2 + u * 3 * e3 + u2 * (6 * e4 + u * 10 * e5) + u4 * (15 * e6 + u * 21 * e7)
+    p3 = e3 + u * 4 * e4 + u2 * (10 * e5 + u * 20 * e6) + u4 * 35 * e7
+    p4 = e4 + u * 5 * e5 + u2 * (15 * e6 + u * 35 * e7)
+    f0, f1, f2, f3 = pieces[k, j, 1], pieces[k, j, 3], pieces[k, j, 5], pieces[k, j, 7]
+    f4, f5, f6, f7 = pieces[k, j, 9], pieces[k, j, 11], pieces[k, j, 13], pieces[k, j, 15]
+    q0 = f0 + u * f1 + u2 * (f2 + u * f3) + u4 * (f4 + u * f5 + u2 * (f6 + u * f7))
+    q1 = f1 + u * 2 * f2 + u2 * (3 * f3 + u * 4 * f4) + u4 * (5 * f5 + u * 6 * f6 + u2 * 7 * f7)
+    q2 = f2 + u * 3 * f3 + u2 * (6 * f4 + u * 10 * f5) + u4 * (15 * f6 + u * 21 * f7)
+    q3 = f3 + u * 4 * f4 + u2 * (10 * f5 + u * 20 * f6) + u4 * 35 * f7
+    q4 = f4 + u * 5 * f5 + u2 * (15 * f6 + u * 35 * f7)
+    square = v * v
+    x2 = -0.5 * (g0 * p0 + s0 * q0)
+    w1, r0 = g0 * p1 + s0 * q1, g1 * p0 + s1 * q0
+    x3 = (w1 * v + r0) * (-1 / 6)
+    w2, r1 = g0 * p2 + s0 * q2, g1 * p1 + s1 * q1
+    x4 = (w1 * x2 + w2 * square + r1 * v) * (-1 / 12)
+    w3, r2 = g0 * p3 + s0 * q3, g1 * p2 + s1 * q2
+    double = 2 * v * x2
+    x5 = (w1 * x3 + w2 * double + w3 * square * v + r1 * x2 + r2 * square) * (-1 / 20)
+    w4, r3 = g0 * p4 + s0 * q4, g1 * p3 + s1 * q3
+    still = w1 * x4 + w2 * (2 * v * x3 + x2 * x2) + 3 * w3 * square * x2 + w4 * square * square
+    x6 = (still + r1 * x3 + r2 * double + r3 * square * v) * (-1 / 30)
+    return v, x2, x3, x4, x5, x6
+
+
+@compiled
+def _displacement(x, t):
+    """Change of the arc after the time t."""
+    return t * (x[0] + t * (x[1] + t * (x[2] + t * (x[3] + t * (x[4] + t * (x[5] + t * (x[6] + t * x[7])))))))
+
+
+@compiled
+def _speed(x, t):
+    """Speed along the arc after the time t."""
+    high = 5 * x[4] + t * (6 * x[5] + t * (7 * x[6] + t * 8 * x[7]))
+    return x[0] + t * (2 * x[1] + t * (3 * x[2] + t * (4 * x[3] + t * high)))
+
+
+@compiled
+def _acceleration(x, t):
+    """Acceleration along the arc after the time t."""
+    return 2 * x[1] + t * (
+        6 * x[2] + t * (12 * x[3] + t * (20 * x[4] + t * (30 * x[5] + t * (42 * x[6] + t * 56 * x[7]))))
+    )
+
+
+@compiled
+def _monotone(x, h):
+    """Whether the speed provably has at most one zero within the step."""
+    p, q, r = abs(x[1]), abs(x[2]), abs(x[3])
+    high = h * (20 * abs(x[4]) + h * (30 * abs(x[5]) + h * (42 * abs(x[6]) + h * 56 * abs(x[7]))))
+    if abs(x[0]) > h * (2 * p + h * (3 * q + h * (4 * r + h * high / 4))):
+        return True
+    if 2 * p > h * (6 * q + h * (12 * r + h * high)):
+        return True
+    return x[1] * x[2] >= 0 and 6 * q > h * (24 * r + 3 * h * high)
+
+
+@compiled
+def _travel(x, h):
+    """Bound of the way within the step."""
+    return h * (abs(x[0]) + h * (abs(x[1]) + h * (abs(x[2]) + h * abs(x[3]))))
+
+
+@compiled
+def _accurate(x, h, arc, farthest, fastest, tolerance):
+    """Whether the last two terms of the series, which bound its remainder, are within the tolerance.
+
+    They are measured against the largest arc and the largest speed of the present flight, so that small motions are as
+    accurate as large ones.
+    """
+    square = h * h
+    tail = square * square * square * (abs(x[6]) + h * abs(x[7]))
+    if tail * h <= tolerance * farthest and 8 * tail <= tolerance * fastest:
+        return True
+    largest, quickest = max(farthest, abs(arc + _displacement(x, h))), max(fastest, abs(_speed(x, h)))
+    return tail * h <= tolerance * largest and 8 * tail <= tolerance * quickest
+
+
+@compiled
+def _stride(x, h, room, arc, farthest, fastest, tolerance):
+    """Largest step up to h that is accurate, stays within reach of its piece, and turns at most once."""
+    for _ in range(200):
+        if _travel(x, h) <= room and _accurate(x, h, arc, farthest, fastest, tolerance):
+            break
+        h *= 0.8
+    least = 1e-6 * h
+    while h > least and not _monotone(x, h):
+        h *= 0.5
+    return h
+
+
+@compiled
+def _lifted(x, arc, speed):
+    """The series of an uplift where the acceleration is zero to rounding, without a fall below the ground."""
+    if arc == 0 and speed == 0 and x[1] < 0:
+        return x[0], 0.0, x[2], x[3], x[4], x[5], x[6], x[7]
+    return x
+
+
+@compiled
+def _eventless(x, h, share, arc, room, farthest, fastest, tolerance):
+    """Whether the short series is accurate over h, and the speed keeps its sign; the arc and the speed after it.
+
+    Each term of the series is about `share` = h/τ of the one before it, τ being the shortest time of the structure. So
+    the last term bounds the remainder; that share of the one before guards against a last term that happens to vanish.
+    """
+    v, x2, x3, x4, x5, x6 = x
+    fourth = h * h * h * h
+    last, fifth = h * abs(x6), abs(x5)
+    tail = fourth * (last + share * fifth)
+    bend = h * (2 * abs(x2) + h * (3 * abs(x3) + h * (4 * abs(x4) + h * (5 * fifth + 6 * last))))
+    new = arc + h * (v + h * (x2 + h * (x3 + h * (x4 + h * (x5 + h * x6)))))
+    pull = v + h * (2 * x2 + h * (3 * x3 + h * (4 * x4 + h * (5 * x5 + h * 6 * x6))))
+    accurate = tail * h <= tolerance * max(farthest, new) and 6 * tail <= tolerance * max(fastest, abs(pull))
+    return accurate and bend < abs(v) and h * (abs(v) + bend) <= room, new, pull
+
+
+@compiled
+def _glide(sides, ground, member, k, side, i, arc, speed, farthest, fastest, tolerance, log, logged):
+    """Advance from sample to sample by the short series, up to one in which something may happen, or the end.
+
+    Returns the interval, arc, speed, largest arc and speed of the flight, and lines of log.
+    """
+    pieces, grid, critical, h = sides.pieces, sides.grid, sides.critical[k], ground.time_step
+    horizontal, vertical, rate = ground.horizontal, ground.vertical, 1 / ground.time_step
+    share = h / sides.longest_step[k]
+    if share > 1:
+        return i, arc, speed, farthest, fastest, logged
+    push, weight = side * member.horizontal * horizontal[i], ground.gravity + member.vertical * vertical[i]
+    while i < horizontal.size - 1:
+        next_push = side * member.horizontal * horizontal[i + 1]
+        next_weight = ground.gravity + member.vertical * vertical[i + 1]
+        j, centre, room = _place(grid, k, arc)
+        x = _short_series(
+            pieces, k, j, arc - centre, speed, push, (next_push - push) * rate, weight, (next_weight - weight) * rate
+        )  # fmt: skip
+        plain, new, pull = _eventless(x, h, share, arc, room, farthest, fastest, tolerance)
+        if not plain or not new > 0 or (new > critical and pull > 0):
+            break
+        i, arc, speed, push, weight = i + 1, new, pull, next_push, next_weight
+        farthest, fastest = max(farthest, arc), max(fastest, abs(speed))
+        if log.shape[0] > 0:
+            logged = _write(log, logged, i * h, side * arc, side * speed)
+    return i, arc, speed, farthest, fastest, logged
+
+
+@compiled
+def _turning(x, h):
+    """The zero of the speed within the step, to rounding."""
+    low, high, end = 0.0, h, _speed(x, h)
+    t = h * x[0] / (x[0] - end)
+    for _ in range(100):
+        speed = _speed(x, t)
+        if (speed > 0) == (end > 0):
+            high = t
+        else:
+            low = t
+        new = t - speed / _acceleration(x, t)
+        if not low <= new <= high:
+            new = 0.5 * (low + high)
+        move, t = abs(new - t), new
+        if move <= SETTLED * t:
+            break
+    return t
+
+
+@compiled
+def _landing(x, arc, low, high):
+    """The zero of the arc between the times low (above zero) and high (at or below), to rounding."""
+    t = high
+    for _ in range(100):
+        height = arc + _displacement(x, t)
+        if height > 0:
+            low = t
+        else:
+            high = t
+        new = t - height / _speed(x, t)
+        if not low <= new <= high:
+            new = 0.5 * (low + high)
+        move, t = abs(new - t), new
+        if move <= SETTLED * t:
+            break
+    return t
+
+
+@compiled
+def _events(x, h, arc, speed, new, pull):
+    """When the step turns and when it lands; −1 where it does not."""
+    turn = landing = -1.0
+    if speed > 0 >= pull:
+        turn = _turning(x, h)
+    elif speed < 0 <= pull:
+        turn = _turning(x, h)
+        if arc + _displacement(x, turn) <= 0:
+            return turn, _landing(x, arc, 0.0, turn)
+    if not new > 0 and pull < 0:
+        landing = _landing(x, arc, max(turn, 0.0), h)
+    return turn, landing
+
+
+@compiled
+def _write(log, logged, time, arc, speed):
+    """Write one line of history where there is room; the count tells how much room was needed."""
+    if log.shape[0] == 0:
+        return 0
+    if logged < log.shape[0]:
+        log[logged, 0], log[logged, 1], log[logged, 2] = time, arc, speed
+    return logged + 1
+
+
+@compiled
+def _drive(ground, member, i, tau):
+    """ü_g, its slope, g + ü_v, its slope, and the squared frequency of a sine, at an offset of an interval."""
+    if _over(ground, i):
+        return 0.0, 0.0, ground.gravity, 0.0, 0.0
+    if ground.circular_frequency > 0:
+        omega, amplitude = ground.circular_frequency, member.horizontal * ground.horizontal[0]
+        sine, cosine = math.sin(omega * tau), math.cos(omega * tau)
+        return amplitude * sine, amplitude * omega * cosine, ground.gravity, 0.0, omega * omega
+    push, weight = _accelerations(ground, member, i)
+    next_push, next_weight = _accelerations(ground, member, i + 1)
+    rate = 1 / ground.time_step
+    push_rate, weight_rate = (next_push - push) * rate, (next_weight - weight) * rate
+    return push + tau * push_rate, push_rate, weight + tau * weight_rate, weight_rate, 0.0
+
+
+@compiled
+def _dies_out(sides, ground, member, i, tau, speed, best):
+    """Whether the chain of impacts that starts with `speed` provably ends before the ground can lift the structure.
+
+    While ü_g and ü_v stay below bounds, a flight from speed v decelerates by at least d: it lasts 2v/d and rises v²/2d
+    at most. Within it the deceleration varies by Δ at most, so it lands with at most v (1 + Δ/2d), and each flight
+    multiplies v by at most ρ = η (1 + Δ/2d). With ρ < 1 all flights together last 2v/(d (1 − ρ)). The chain is over if
+    those bounds hold for as long, and of no account if it stays below the peaks on record.
+    """
+    count, step, last = ground.horizontal.size - 1, ground.time_step, sides.near.shape[0] - 1
+    eta = max(member.restitution[0], member.restitution[1])
+    lightest, heaviest, strongest, steepest, steepest_up = np.inf, 0.0, 0.0, 0.0, 0.0
+    peak = max(best[0], best[1]) if last == 0 else min(best[0], best[1])
+    for j in range(i, min(i + LOOK_AHEAD, count)):
+        push, weight = _accelerations(ground, member, j)
+        next_push, next_weight = _accelerations(ground, member, j + 1)
+        lightest, heaviest = min(lightest, weight, next_weight), max(heaviest, weight, next_weight)
+        strongest = max(strongest, abs(push), abs(next_push))
+        steepest = max(steepest, abs(next_push - push))
+        steepest_up = max(steepest_up, abs(next_weight - weight))
+        d, spread = np.inf, 0.0
+        for k in range(last + 1):
+            d = min(d, sides.near[k, 1] * lightest - sides.near[k, 3] * strongest)
+        if not d > 0:
+            return False
+        flight, rise = 2 * speed / d, speed * speed / (2 * d)
+        for k in range(last + 1):
+            if rise > sides.near[k, 0]:
+                return False
+            in_time = (sides.near[k, 2] * steepest_up + sides.near[k, 3] * steepest) / step * flight
+            spread = max(spread, in_time + (sides.near[k, 4] * heaviest + sides.near[k, 5] * strongest) * rise)
+        shrink = eta * (1 + spread / (2 * d))
+        if rise > peak or shrink >= 1:
+            return False
+        if flight / (1 - shrink) <= (j + 1 - i) * step - tau:
+            return True
+    return False
+
+
+@compiled
+def _lost(sides, ground, member, k, i, arc):
+    """Whether a side that moves outward beyond φ_cr overturns: past its end, or past what the ground can still do."""
+    j, _, _ = _place(sides.grid, k, arc)
+    return arc >= sides.end[k] or sides.hold[k, j] > _excitation(ground, member, i)
+
+
+@compiled
+def rock(sides, ground, member, start, tolerance, settle, best, log):
+    """Follow a mechanism through a ground motion and on until no larger peak can come.
+
+    settle: whether a chain of impacts that provably dies out is left out, with its impacts. best: (2, 2), filled with
+    the largest arc of the positive and of the negative side, and their times. log: (m, 3) for the history, or no rows.
+    Returns status, impacts, uplift time, last side, steps, lines of log.
+    """
+    count = 1 if ground.circular_frequency > 0 else ground.horizontal.size - 1
+    last, time_step = sides.pieces.shape[0] - 1, ground.time_step
+    arc, speed, side = start.arc, start.speed, start.side
+    i, tau, status, impacts, steps, turns, sampled = 0, 0.0, 0, 0, 0, 0, ground.circular_frequency == 0
+    uplift, farthest, fastest = np.nan, arc, abs(speed)
+    best[0], best[1] = 0.0, np.nan
+    if side != 0:
+        status, uplift = ROCKS, 0.0
+        slot = 0 if side > 0 else 1
+        best[0, slot], best[1, slot] = arc, 0.0
+    logged = _write(log, 0, 0.0, side * arc, side * speed)
+    while True:
+        if side == 0:
+            i, tau, side = _next_uplift(sides, ground, member, i, tau)
+            if side == 0:
+                break
+            arc = speed = farthest = fastest = 0.0
+            if status == 0:
+                status, uplift = ROCKS, i * time_step + tau
+            logged = _write(log, logged, i * time_step + tau, 0.0, 0.0)
+        k = 0 if side > 0 else last
+        left = time_step - tau if i < count else np.inf
+        if left <= 0:
+            i, tau = i + 1, 0.0
+            continue
+        if sampled and tau == 0 and i < count:
+            before = i
+            i, arc, speed, farthest, fastest, logged = _glide(
+                sides, ground, member, k, side, i, arc, speed, farthest, fastest, tolerance, log, logged
+            )
+            steps += i - before
+            if i == count:
+                continue
+        a0, a1, g0, g1, square = _drive(ground, member, i, tau)
+        j, centre, room = _place(sides.grid, k, arc)
+        x = _lifted(_series(sides.pieces, k, j, arc - centre, speed, side, a0, a1, g0, g1, square), arc, speed)
+        h = _stride(x, min(left, sides.longest_step[k]), room, arc, farthest, fastest, tolerance)
+        steps += 1
+        new, pull, now = arc + _displacement(x, h), _speed(x, h), i * time_step + tau
+        turn, landing = _events(x, h, arc, speed, new, pull)
+        if speed > 0 and turn >= 0:
+            peak, slot = arc + _displacement(x, turn), 0 if side > 0 else 1
+            if peak > best[0, slot]:
+                best[0, slot], best[1, slot] = peak, now + turn
+            logged = _write(log, logged, now + turn, side * peak, 0.0)
+            turns += i >= count
+            if turns > last:
+                break
+        if landing < 0:
+            if not new > 0 and not abs(new) < np.inf:
+                status = NOT_FINITE
+                break
+            arc, speed = new, pull
+            farthest, fastest = max(farthest, arc), max(fastest, abs(speed))
+            i, tau = (i + 1, 0.0) if h == left else (i, tau + h)
+            logged = _write(log, logged, now + h, side * arc, side * speed)
+            if arc > sides.critical[k] and speed > 0 and _lost(sides, ground, member, k, i, arc):
+                status = OVERTURNS
+                break
+            continue
+        impacts += 1
+        tau, arrival = tau + landing, -_speed(x, landing)
+        logged = _write(log, logged, now + landing, 0.0, -side * arrival)
+        arc, farthest = 0.0, 0.0
+        speed = fastest = arrival * member.restitution[0 if side > 0 else 1]
+        if not sides.one_sided:
+            side, k = -side, last - k
+        logged = _write(log, logged, now + landing, 0.0, side * speed)
+        if not speed > sides.rest_speed[k]:
+            side = 0
+            if landing <= INSTANT * time_step:
+                tau += PAUSE * time_step
+        elif settle and speed < sides.near[k, 6] and _dies_out(sides, ground, member, i, tau, speed, best[0]):
+            side = 0
+        if impacts >= IMPACT_LIMIT:
+            status = TOO_MANY_IMPACTS
+            break
+    return status, impacts, uplift, side, steps, logged
+
+
+@compiled
+def rock_members(sides, ground, horizontal, vertical, restitution, tolerance, status, peaks, impacts):
+    """`rock` for every member (m,): fill status, peaks (m, 2), the largest arc of each side, and impacts.
+
+    horizontal, vertical: (m,) factors of ü_g and ü_v. restitution: (m, 2), of the positive and of the negative side.
+    Chains of impacts that provably die out are not followed, nor counted.
+    """
+    none, best, start = np.empty((0, 3)), np.zeros((2, 2)), Start(0.0, 0.0, 0)
+    for m in range(horizontal.size):
+        member = Member(horizontal[m], vertical[m], (restitution[m, 0], restitution[m, 1]))
+        status[m], impacts[m], _, _, _, _ = rock(sides, ground, member, start, tolerance, True, best, none)
+        peaks[m] = best[0]

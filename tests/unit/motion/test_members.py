@@ -1,0 +1,191 @@
+"""Many responses at a call: each equals the one that `integrate` gives for the same motion."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from motion_cases import MECHANISMS, noise, random_case
+from scipy.constants import g
+
+from rocking.errors import MotionError
+from rocking.motion import Members, integrate, integrate_batch, integrate_members
+from rocking.motion import linear_kernel as linear
+from rocking.motion import nonlinear_kernel as kernel
+from rocking.motion.forcing import forcing_of
+from rocking.motion.linear import blocks_of, samples_of, sides_of
+from rocking.motion.table import table_of
+from rocking.pulses.pulse import Pulse
+from rocking.records.accelerogram import Accelerogram
+from rocking.structures import Block
+from rocking.structures.mechanism import Mechanism
+
+RECORD, VERTICAL = noise(5, 600, 0.01, 4.0), noise(6, 600, 0.01, 2.0)
+BLOCKS = {name: mechanism.equivalent_block() for name, mechanism in MECHANISMS.items()}
+STRUCTURES = MECHANISMS | {f"{name}, linear": block for name, block in BLOCKS.items()}
+
+
+def with_restitution(structure, positive, negative):
+    if isinstance(structure, Mechanism):
+        other = structure.negative or (None if structure.one_sided else structure.positive)
+        return replace(
+            structure,
+            positive=replace(structure.positive, restitution=positive),
+            negative=None if other is None else replace(other, restitution=negative),
+        )
+    other = structure.other_side or (None if structure.one_sided else structure)
+    return replace(
+        structure,
+        restitution=positive,
+        other_side=None if other is None else replace(other, restitution=negative, other_side=None),
+    )
+
+
+def one_by_one(structure, record, members, k, vertical, tolerance):
+    motion = record.scaled(float(members.scale_factor[k] * members.polarity[k]))
+    lift = vertical.scaled(float(members.scale_factor[k])) if members.vertical[k] else None
+    return integrate(with_restitution(structure, *members.restitution[k]), motion, tolerance, vertical=lift)
+
+
+@pytest.mark.parametrize("name", STRUCTURES)
+def test_members_equal_one_response_at_a_time(name):
+    """At a tolerance of 1e-10; sensitivities up to a thousand leave 1e-7. Each kind of variation occurs."""
+    structure, rng = STRUCTURES[name], np.random.default_rng(3)
+    lift = max(side.uplift_multiplier for side in getattr(structure, "sides", (structure,))) * g
+    record = RECORD.scaled(lift / RECORD.peak_acceleration)
+    members = Members(
+        scale_factor=rng.uniform(0.8, 3, 40),
+        polarity=rng.choice([-1, 1], 40),
+        vertical=rng.random(40) < 0.5,
+        restitution=rng.uniform(0.5, 0.9, (40, 2)),
+    )
+    found = integrate_members(structure, record, members, 1e-10, vertical=VERTICAL)
+    alone = [one_by_one(structure, record, members, k, VERTICAL, 1e-10) for k in range(40)]
+    expected = np.array([response.rotation_ratio for response in alone])
+    assert found.rotation_ratio == pytest.approx(expected, rel=1e-7)
+    rocks = found.lifted & ~found.overturns
+    assert np.array_equal(found.peak_side[rocks], np.array([each.peak_side for each in alone])[rocks])
+    assert rocks.sum() > 5
+    assert not found.reasons
+
+
+def test_a_pulse_and_its_mirror_image():
+    mechanism = MECHANISMS["two sides"]
+    amplitude = 1.5 * g * max(side.uplift_multiplier for side in mechanism.sides)
+    found = integrate_members(mechanism, Pulse(amplitude, 9.0), Members(polarity=[1, -1]), 1e-10)
+    alone = [integrate(mechanism, Pulse(sign * amplitude, 9.0), 1e-10).rotation_ratio for sign in (1, -1)]
+    assert found.rotation_ratio == pytest.approx(alone, rel=1e-8)
+    assert alone[0] != pytest.approx(alone[1], rel=1e-2)
+
+
+def chains(mechanism, motion, settle):
+    """Largest arcs and impacts with and without the chains of impacts that provably die out."""
+    table, best = table_of(mechanism), np.empty((2, 2))
+    status, impacts, *_ = kernel.rock(
+        table.kernel,
+        forcing_of(motion).ground,
+        kernel.Member(1.0, 0.0, table.restitution),
+        kernel.Start(0.0, 0.0, 0),
+        1e-12,
+        settle,
+        best,
+        np.empty((0, 3)),
+    )
+    return status, best[0].max(), impacts
+
+
+def test_chains_of_impacts_that_die_out_change_nothing():
+    """The rest that they end in is the same, so that what follows is the same, to what a rest leaves: 1e-14 of energy."""
+    rng, saved = np.random.default_rng(8), 0
+    for _ in range(200):
+        mechanism, motion = random_case(rng)
+        if isinstance(motion, Pulse):
+            continue
+        (status, peak, impacts), (short, cut, fewer) = (chains(mechanism, motion, s) for s in (False, True))
+        assert short == status
+        assert fewer <= impacts
+        saved += impacts - fewer
+        if status == kernel.ROCKS:
+            assert cut == pytest.approx(peak, rel=1e-9)
+    assert saved > 1000
+
+
+def test_the_same_of_equivalent_blocks():
+    rng, saved = np.random.default_rng(8), 0
+    for _ in range(200):
+        mechanism, motion = random_case(rng)
+        block = mechanism.equivalent_block()
+        sides = sides_of(block)
+        if isinstance(motion, Pulse):
+            continue
+        runs = []
+        for settle in (False, True):
+            best = np.empty((2, 2))
+            status, impacts, *_ = linear.rock_linear(
+                blocks_of(block),
+                samples_of(sides, forcing_of(motion)),
+                1.0,
+                (sides[0].restitution, sides[-1].restitution),
+                linear.State(0.0, 0.0, 0),
+                settle,
+                best,
+                np.empty((0, 3)),
+            )
+            runs.append((status, best[0].max(), impacts))
+        (status, peak, impacts), (short, cut, fewer) = runs
+        assert short == status
+        saved += impacts - fewer
+        if status == linear.ROCKS:
+            assert cut == pytest.approx(peak, rel=1e-9)
+    assert saved > 1000
+
+
+def test_batch_equals_one_response_at_a_time():
+    structures, factors = [*STRUCTURES.values(), Block(1.0, 0.25)], np.array([0.2, 0.5, 1.0, 1.5, 3.0])
+    for vertical in (None, VERTICAL):
+        ratios = integrate_batch(structures, RECORD, factors, vertical=vertical, tolerance=1e-10)
+        assert ratios.shape == (len(structures), factors.size)
+        for row, structure in zip(ratios, structures, strict=True):
+            for ratio, factor in zip(row, factors, strict=True):
+                lift = None if vertical is None else vertical.scaled(factor)
+                alone = integrate(structure, RECORD.scaled(factor), 1e-10, vertical=lift)
+                assert ratio == pytest.approx(alone.rotation_ratio, rel=1e-7)
+    assert np.isinf(ratios).any() and (ratios == 0).any() and ((ratios > 0) & (ratios < 1)).any()
+
+
+def test_batch_is_the_same_on_any_number_of_threads():
+    structures, factors = list(STRUCTURES.values())[:3], np.linspace(0.5, 3, 70)
+    one, three = (integrate_batch(structures, RECORD, factors, workers=n) for n in (1, 3))
+    assert np.array_equal(one, three)
+
+
+def test_a_structure_that_fails_is_nan_and_the_others_go_on():
+    ratios = integrate_batch(["a block", MECHANISMS["block"]], RECORD, (1.0, 1.2))
+    assert np.isnan(ratios[0]).all()
+    assert np.isfinite(ratios[1]).all()
+    with pytest.raises(MotionError, match="the structure is a str"):
+        integrate("a block", RECORD)
+
+
+def test_a_member_that_fails_says_why():
+    """Without loss, rattling that a push just above the uplift acceleration began goes on for a day."""
+    block = Block(1.0, 0.2).mechanism()
+    push = np.zeros(1_000_000)
+    push[1] = 1.05 * g * block.uplift_multiplier
+    found = integrate_members(block, Accelerogram(push, 0.01), Members(restitution=[1.0, 0.5]))
+    assert np.isnan(found.rotation_ratio[0]) and 0 < found.rotation_ratio[1] < 1e-3
+    assert "5000000 impacts before the motion ended" in found.reasons[0]
+
+
+@pytest.mark.parametrize(
+    "fields, words",
+    [
+        ({"scale_factor": [1.0, 0.0]}, r"scale_factor holds 0.0, but every value must be greater than 0"),
+        ({"scale_factor": [np.nan]}, "scale_factor holds nan"),
+        ({"polarity": [2]}, r"polarity holds 2.0, but every value must be 1 or -1"),
+        ({"restitution": [0.5, 1.2]}, r"restitution holds 1.2, but every value must lie between 0 and 1"),
+        ({"scale_factor": [1.0, 2.0], "polarity": [1, 1, 1]}, r"scale_factor has the shape \(2,\), but must hold one"),
+    ],
+)
+def test_members_are_checked_at_birth(fields, words):
+    with pytest.raises(MotionError, match=words):
+        Members(**fields)
