@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import MotionError, RockingError
 from rocking.motion.forcing import GroundMotion, forcing_of
@@ -22,7 +21,7 @@ _SMALLEST_CHUNK = 16
 def integrate_batch(
     structures: Sequence[Rocking],
     record: GroundMotion,
-    scale_factors: ArrayLike = (1.0,),
+    scale_factors: Sequence[float] | np.ndarray = (1.0,),
     *,
     vertical: Accelerogram | None = None,
     tolerance: float = 1e-6,
@@ -38,7 +37,7 @@ def integrate_batch(
     """
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
     members, forcing = Members(scale_factors), forcing_of(record, vertical)
-    factors = np.asarray(members.scale_factor)
+    factors = members.scale_factor
     ratios = np.full((len(structures), factors.size), math.nan)
     workers = workers or os.cpu_count() or 1
     chunk = _chunk(len(structures), factors.size, workers)

@@ -236,7 +236,10 @@ def _dies_out(blocks, ground, factor, time_step, restitution, i, tau, speed, bes
     peak = max(best[0], best[1]) if last == 0 else min(best[0], best[1])
     for j in range(i, min(i + LOOK_AHEAD, ground.size - 1)):
         now, then = abs(factor * ground[j]), abs(factor * ground[j + 1])
-        strongest, steepest = max(strongest, now, then), max(steepest, abs(factor * (ground[j + 1] - ground[j])))
+        strongest, steepest = (
+            max(strongest, now, then),
+            max(steepest, abs(factor * (ground[j + 1] - ground[j]))),
+        )
         d = np.inf
         for k in range(last + 1):
             scale = blocks.span[k] * blocks.frequency[k] ** 2
@@ -368,7 +371,10 @@ def rock_linear(blocks, samples, factor, restitution, start, settle, best, log):
             i, tau = i + 1, 0.0
             continue
         p, slot = frequency[k], 0 if side > 0 else 1
-        takeable, limit = samples.takeable[k, 0 if side * factor > 0 else 1], push[k] * abs(factor) * (1 + 1e-12)
+        takeable, limit = (
+            samples.takeable[k, 0 if side * factor > 0 else 1],
+            push[k] * abs(factor) * (1 + 1e-12),
+        )
         i, tau, x, w, drive, final, new, pull, fallen, passed, logged = _glide(
             ground, takeable, time_step, p, side * push[k] * factor, limit, whole[k],
             i, tau, x, w, side * span[k], log, logged,
@@ -435,7 +441,9 @@ def rock_linear_members(blocks, samples, factors, restitution, status, peaks, im
     none, best, start = np.empty((0, 3)), np.zeros((2, 2)), State(0.0, 0.0, 0)
     for m in range(factors.size):
         eta = restitution[m, 0], restitution[m, 1]
-        status[m], impacts[m], _, _, _, _ = rock_linear(blocks, samples, factors[m], eta, start, True, best, none)
+        status[m], impacts[m], _, _, _, _ = rock_linear(
+            blocks, samples, factors[m], eta, start, True, best, none
+        )
         peaks[m] = best[0]
 
 

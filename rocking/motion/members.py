@@ -1,11 +1,10 @@
 """Many responses of one structure to one ground motion in one compiled call: the members of an ensemble."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import MotionError
 from rocking.motion import linear_kernel, nonlinear_kernel
@@ -18,55 +17,60 @@ from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 
+Values = float | Sequence[float] | np.ndarray
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, init=False, repr=False)
 class Members:
-    """What varies between the members of an ensemble; each field one value for all, or one per member (m,).
+    """What varies between the members of an ensemble; each argument one value for all, or one per member (m,).
 
     scale_factor: of the ground motion, vertical component included, > 0. polarity: +1, or −1 for the horizontal motion
     reversed. vertical: whether the vertical component acts. restitution: η, (m,) or one per side (m, 2), positive side
-    first; None takes the structure's own.
-    Raises MotionError for a value out of range, or for fields that do not fit each other.
+    first; None takes the structure's own. Kept as arrays (m,) and (m, 2).
+    Raises MotionError for a value out of range, or for arguments that do not fit each other.
     """
 
-    scale_factor: ArrayLike = 1.0
-    polarity: ArrayLike = 1
-    vertical: ArrayLike = True
-    restitution: ArrayLike | None = None
+    scale_factor: np.ndarray
+    polarity: np.ndarray
+    vertical: np.ndarray
+    restitution: np.ndarray | None
 
-    def __post_init__(self) -> None:
-        given = {name: np.atleast_1d(getattr(self, name)) for name in ("scale_factor", "polarity", "vertical")}
-        size = max(array.size for array in given.values())
-        if self.restitution is not None:
-            given["restitution"] = _by_side(self.restitution, size)
-            size = max(size, given["restitution"].shape[0])
+    def __init__(
+        self,
+        scale_factor: Values = 1.0,
+        polarity: Values = 1.0,
+        vertical: Values = True,
+        restitution: Values | Sequence[Sequence[float]] | None = None,
+    ) -> None:
+        given = {
+            "scale_factor": np.atleast_1d(np.asarray(scale_factor, dtype=float)),
+            "polarity": np.atleast_1d(np.asarray(polarity, dtype=float)),
+            "vertical": np.atleast_1d(np.asarray(vertical, dtype=bool)),
+        }
+        if restitution is not None:
+            given["restitution"] = _by_side(np.asarray(restitution, dtype=float))
+        size = max(array.shape[0] for array in given.values())
         for name, array in given.items():
             shape = (size, 2) if name == "restitution" else (size,)
-            kind = bool if name == "vertical" else float
-            try:
-                fitted = np.array(np.broadcast_to(array, shape), dtype=kind)
-            except ValueError:
-                raise MotionError(
-                    f"{name} has the shape {array.shape}, but must hold one value or {size}."
-                ) from None
-            object.__setattr__(self, name, fitted)
-        self._check()
+            if array.ndim != len(shape) or array.shape[0] not in (1, size) or array.shape[1:] != shape[1:]:
+                raise MotionError(f"{name} has the shape {array.shape}, but must hold one value or {size}.")
+            object.__setattr__(self, name, np.array(np.broadcast_to(array, shape)))
+        if restitution is None:
+            object.__setattr__(self, "restitution", None)
+        _check("scale_factor", self.scale_factor, self.scale_factor > 0, "be greater than 0")
+        _check("polarity", self.polarity, np.abs(self.polarity) == 1, "be 1 or -1")
+        if self.restitution is not None:
+            inside = (self.restitution >= 0) & (self.restitution <= 1)
+            _check("restitution", self.restitution, inside, "lie between 0 and 1")
 
-    def _check(self) -> None:
-        factor, polarity, restitution = self.scale_factor, self.polarity, self.restitution
-        for name, array, right, allowed in (
-            ("scale_factor", factor, np.isfinite(factor) & np.greater(factor, 0), "be greater than 0"),
-            ("polarity", polarity, np.abs(polarity) == 1, "be 1 or -1"),
-            ("restitution", restitution, _unit_interval(restitution), "lie between 0 and 1"),
-        ):
-            if not np.all(right):
-                wrong = np.asarray(array)[~np.asarray(right)][0]
-                raise MotionError(f"{name} holds {wrong!s}, but every value must {allowed}.")
+    def __repr__(self) -> str:
+        low, high = self.scale_factor.min(), self.scale_factor.max()
+        return f"<Members: {self.count}, scaled by {low:.4g} to {high:.4g}>"
 
     @property
     def count(self) -> int:
         """How many members."""
-        return int(np.asarray(self.scale_factor).size)
+        return self.scale_factor.size
 
 
 class MemberResponses(NamedTuple):
@@ -113,7 +117,7 @@ def follow_members(
     reduced: Mechanism | EquivalentBlock, forcing: Forcing, members: Members, tolerance: float
 ) -> MemberResponses:
     """`integrate_members` of what is prepared already."""
-    factor, polarity = np.asarray(members.scale_factor), np.asarray(members.polarity)
+    factor, polarity = members.scale_factor, members.polarity
     lift = np.where(members.vertical, factor, 0.0) if forcing.vertical else np.zeros(factor.size)
     horizontal = factor * polarity
     if isinstance(reduced, Mechanism):
@@ -126,7 +130,9 @@ def follow_members(
     return _merged(
         exact,
         lambda rows, eta: _exact(reduced, forcing, horizontal[rows], eta),
-        lambda rows, eta: _stepped(linear_table(reduced), forcing, horizontal[rows], lift[rows], eta, tolerance),
+        lambda rows, eta: _stepped(
+            linear_table(reduced), forcing, horizontal[rows], lift[rows], eta, tolerance
+        ),
         members.restitution,
     )
 
@@ -136,7 +142,7 @@ def _stepped(
     forcing: Forcing,
     horizontal: np.ndarray,
     vertical: np.ndarray,
-    restitution: ArrayLike | None,
+    restitution: np.ndarray | None,
     tolerance: float,
 ) -> MemberResponses:
     status, peaks, impacts = _room(horizontal.size)
@@ -159,7 +165,7 @@ def _stepped(
 
 
 def _exact(
-    block: EquivalentBlock, forcing: Forcing, horizontal: np.ndarray, restitution: ArrayLike | None
+    block: EquivalentBlock, forcing: Forcing, horizontal: np.ndarray, restitution: np.ndarray | None
 ) -> MemberResponses:
     sides = sides_of(block)
     status, peaks, impacts = _room(horizontal.size)
@@ -178,15 +184,16 @@ def _exact(
 
 def _merged(
     mask: np.ndarray,
-    where: Callable[[np.ndarray, ArrayLike | None], MemberResponses],
-    elsewhere: Callable[[np.ndarray, ArrayLike | None], MemberResponses],
-    restitution: ArrayLike | None,
+    where: Callable[[np.ndarray, np.ndarray | None], MemberResponses],
+    elsewhere: Callable[[np.ndarray, np.ndarray | None], MemberResponses],
+    restitution: np.ndarray | None,
 ) -> MemberResponses:
     """The responses of the members in `mask` by one run, and of the others by another."""
-    ratio, side, reasons = np.empty(mask.size), np.empty(mask.size, dtype=np.int64), {}
+    ratio, side = np.empty(mask.size), np.empty(mask.size, dtype=np.int64)
+    reasons: dict[int, str] = {}
     for chosen, run in ((mask, where), (~mask, elsewhere)):
         rows = np.flatnonzero(chosen)
-        found = run(rows, None if restitution is None else np.asarray(restitution)[rows])
+        found = run(rows, None if restitution is None else restitution[rows])
         ratio[rows], side[rows] = found.rotation_ratio, found.peak_side
         reasons |= {int(rows[k]): reason for k, reason in found.reasons.items()}
     return MemberResponses(ratio, side, reasons)
@@ -208,18 +215,18 @@ def _room(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return np.zeros(count, dtype=np.int64), np.zeros((count, 2)), np.zeros(count, dtype=np.int64)
 
 
-def _restitutions(given: ArrayLike | None, own: tuple[float, float], count: int) -> np.ndarray:
-    return np.ascontiguousarray(np.broadcast_to(np.asarray(own if given is None else given, float), (count, 2)))
+def _restitutions(given: np.ndarray | None, own: tuple[float, float], count: int) -> np.ndarray:
+    return np.ascontiguousarray(
+        np.broadcast_to(np.asarray(own if given is None else given, float), (count, 2))
+    )
 
 
-def _by_side(restitution: ArrayLike, size: int) -> np.ndarray:
+def _by_side(restitution: np.ndarray) -> np.ndarray:
     """(m, 2), or (1, 2) of one value."""
-    array = np.asarray(restitution, dtype=float)
-    if array.ndim == 2:
-        return array
-    return np.repeat(np.atleast_1d(array)[:, None], 2, axis=1)
+    return restitution if restitution.ndim == 2 else np.repeat(np.atleast_1d(restitution)[:, None], 2, axis=1)
 
 
-def _unit_interval(values: ArrayLike | None) -> np.ndarray:
-    array = np.asarray(0.0 if values is None else values)
-    return (array >= 0) & (array <= 1)
+def _check(name: str, values: np.ndarray, right: np.ndarray, allowed: str) -> None:
+    right = right & np.isfinite(values)
+    if not np.all(right):
+        raise MotionError(f"{name} holds {values[~right][0]!s}, but every value must {allowed}.")

@@ -45,8 +45,8 @@ class Sides(NamedTuple):
     the inner zone, then width, count and room of the pieces of the inner and of the outer zone, then the inverse
     widths. lift: (k, 2) G̃(0), B̃(0). hold: (k, m) the ground acceleration in units of gravity that cannot bring the
     side back from that piece or beyond. critical, end: (k,) arc of φ_cr and of the end. rest_speed: (k,) the speed at
-    which rocking rests. longest_step: (k,) s. near: (k, 7) an arc near rest; up to it the least and the largest G̃, the largest
-    |B̃|, the largest |dG̃/dq| and |dB̃/dq|; and the speed that reaches it over still ground.
+    which rocking rests. longest_step: (k,) s. near: (k, 7) an arc near rest; up to it the least and the largest G̃, the
+    largest |B̃|, the largest |dG̃/dq| and |dB̃/dq|; and the speed that reaches it over still ground.
     """
 
     pieces: np.ndarray
@@ -533,7 +533,9 @@ def _dies_out(sides, ground, member, i, tau, speed, best):
             if rise > sides.near[k, 0]:
                 return False
             in_time = (sides.near[k, 2] * steepest_up + sides.near[k, 3] * steepest) / step * flight
-            spread = max(spread, in_time + (sides.near[k, 4] * heaviest + sides.near[k, 5] * strongest) * rise)
+            spread = max(
+                spread, in_time + (sides.near[k, 4] * heaviest + sides.near[k, 5] * strongest) * rise
+            )
         shrink = eta * (1 + spread / (2 * d))
         if rise > peak or shrink >= 1:
             return False
@@ -592,7 +594,9 @@ def rock(sides, ground, member, start, tolerance, settle, best, log):
                 continue
         a0, a1, g0, g1, square = _drive(ground, member, i, tau)
         j, centre, room = _place(sides.grid, k, arc)
-        x = _lifted(_series(sides.pieces, k, j, arc - centre, speed, side, a0, a1, g0, g1, square), arc, speed)
+        x = _lifted(
+            _series(sides.pieces, k, j, arc - centre, speed, side, a0, a1, g0, g1, square), arc, speed
+        )
         h = _stride(x, min(left, sides.longest_step[k]), room, arc, farthest, fastest, tolerance)
         steps += 1
         new, pull, now = arc + _displacement(x, h), _speed(x, h), i * time_step + tau

@@ -214,7 +214,9 @@ def _tabulated(side: Side, last: float) -> SideTable | None:
         restitution=side.restitution,
         reaching_speed=_reaching_speed(side, rest),
         longest_step=1 / np.sqrt(GRAVITY * max(steepest, lift[0] / critical)),
-        near=_near_rest(critical * _NEAR, np.column_stack([lift, functions(np.linspace(0, critical * _NEAR, 65)[1:])[:2]])),
+        near=_near_rest(
+            critical * _NEAR, np.column_stack([lift, functions(np.linspace(0, critical * _NEAR, 65)[1:])[:2]])
+        ),
         critical_rotation=side.critical_rotation,
         arc=arc.at,
         stretch=arc.stretch,

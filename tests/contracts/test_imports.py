@@ -21,7 +21,12 @@ FLOORS = [
 ]
 ONLY_IN = {
     "obspy": ("records/",),
-    "numba": ("motion/linear_kernel.py", "motion/nonlinear_kernel.py", "pulses/refinement.py", "pulses/scan.py"),
+    "numba": (
+        "motion/linear_kernel.py",
+        "motion/nonlinear_kernel.py",
+        "pulses/refinement.py",
+        "pulses/scan.py",
+    ),
     "matplotlib": ("reports/",),
     "typst": ("reports/",),
     "snakemake": (),

@@ -94,7 +94,7 @@ def chains(mechanism, motion, settle):
 
 
 def test_chains_of_impacts_that_die_out_change_nothing():
-    """The rest that they end in is the same, so that what follows is the same, to what a rest leaves: 1e-14 of energy."""
+    """The rest that they end in is the same, to what a rest leaves (1e-14 of the energy), and so is what follows."""
     rng, saved = np.random.default_rng(8), 0
     for _ in range(200):
         mechanism, motion = random_case(rng)
@@ -183,7 +183,10 @@ def test_a_member_that_fails_says_why():
         ({"scale_factor": [np.nan]}, "scale_factor holds nan"),
         ({"polarity": [2]}, r"polarity holds 2.0, but every value must be 1 or -1"),
         ({"restitution": [0.5, 1.2]}, r"restitution holds 1.2, but every value must lie between 0 and 1"),
-        ({"scale_factor": [1.0, 2.0], "polarity": [1, 1, 1]}, r"scale_factor has the shape \(2,\), but must hold one"),
+        (
+            {"scale_factor": [1.0, 2.0], "polarity": [1, 1, 1]},
+            r"scale_factor has the shape \(2,\), but must hold one",
+        ),
     ],
 )
 def test_members_are_checked_at_birth(fields, words):
