@@ -1,11 +1,17 @@
 """Response: what an integration says."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rocking.errors import MotionError
 from rocking.quantities import counted, shown
 from rocking.structures.outcome import Outcome
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from pandas import DataFrame
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -50,3 +56,30 @@ class Response:
         if self.times is not None:
             said.append(f"history of {counted(self.times.size, 'step')}")
         return f"Response({', '.join(said)})"
+
+    def plot(self, axes: "Axes | None" = None) -> "Axes":
+        """Draw the rotation against time, on `axes` or on new ones, and return the axes.
+
+        Raises MotionError without a history.
+        """
+        from rocking.reports.plots import plot_response
+
+        return plot_response(self, axes)
+
+    def frame(self) -> "DataFrame":
+        """Return a pandas frame of the history: time_s, rotation_rad, angular_velocity_rad_s.
+
+        Raises MotionError without a history.
+        """
+        from pandas import DataFrame
+
+        if self.times is None:
+            raise MotionError(
+                "the history of the response is not there; integrate with history=True to keep it."
+            )
+        columns = {
+            "time_s": self.times,
+            "rotation_rad": self.rotation,
+            "angular_velocity_rad_s": self.angular_velocity,
+        }
+        return DataFrame(columns)

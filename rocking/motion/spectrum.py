@@ -2,12 +2,39 @@
 
 import os
 from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rocking.errors import MotionError
 from rocking.quantities import GRAVITY, within
 from rocking.records.accelerogram import Accelerogram
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+class RockingSpectrum(np.ndarray):
+    """φ_max/φ_cr, (m, n): an array that knows its axes.
+
+    frequency_parameters: p (m,), rad/s. uplift_multipliers: λ (n,). A part of it keeps the axes of the whole.
+    """
+
+    frequency_parameters: np.ndarray
+    uplift_multipliers: np.ndarray
+
+    def __array_finalize__(self, of: np.ndarray | None) -> None:
+        self.frequency_parameters = getattr(of, "frequency_parameters", np.empty(0))
+        self.uplift_multipliers = getattr(of, "uplift_multipliers", np.empty(0))
+
+    def plot(self, axes: "Axes | None" = None) -> "Axes":
+        """Draw lines of equal ratio over p and λ, on `axes` or on new ones, and return the axes.
+
+        Raises MotionError for fewer than two values on either axis, or for a part of a spectrum.
+        """
+        from rocking.reports.plots import plot_spectrum
+
+        return plot_spectrum(self, axes)
 
 
 def rocking_spectrum(
@@ -16,7 +43,7 @@ def rocking_spectrum(
     uplift_multipliers: np.ndarray,
     restitution: float,
     workers: int | None = None,
-) -> np.ndarray:
+) -> RockingSpectrum:
     """Return φ_max/φ_cr, (m, n), of the equivalent blocks of p [rad/s] (m,) and λ (n,) under one record; inf overturns.
 
     Exact (linear between samples), on all cores or on `workers` threads. Raises MotionError when p or λ is not
@@ -25,7 +52,8 @@ def rocking_spectrum(
     from rocking.motion import linear_kernel as kernel
 
     frequencies = _positive("frequency_parameters", frequency_parameters)
-    pushes = 1 / (GRAVITY * _positive("uplift_multipliers", uplift_multipliers))
+    multipliers = _positive("uplift_multipliers", uplift_multipliers)
+    pushes = 1 / (GRAVITY * multipliers)
     restitution = within(MotionError, "restitution", restitution, 0, 1)
     ground, step = accelerogram.acceleration.copy(), accelerogram.time_step
     if frequencies.size and frequencies.max() * step > 50:
@@ -33,14 +61,16 @@ def rocking_spectrum(
             f"frequency_parameters reach {frequencies.max()!r} rad/s, but at a time step of {step!r} s "
             f"must stay below {50 / step:g}."
         )
-    ratios = np.empty((frequencies.size, pushes.size))
+    ratios = RockingSpectrum((frequencies.size, pushes.size))
+    ratios.frequency_parameters, ratios.uplift_multipliers = frequencies, multipliers
+    rows = ratios.view(np.ndarray)
 
     def row(i: int) -> None:
         takeable = np.empty((1, 2, ground.size))
         kernel.takeback(ground, step, frequencies[i], 1, takeable[0, 0])
         kernel.takeback(ground, step, frequencies[i], -1, takeable[0, 1])
         kernel.spectrum_row(
-            frequencies[i], pushes, restitution, kernel.Samples(ground, step, takeable), ratios[i]
+            frequencies[i], pushes, restitution, kernel.Samples(ground, step, takeable), rows[i]
         )
 
     with ThreadPoolExecutor(workers or os.cpu_count()) as pool:

@@ -1,6 +1,7 @@
 """PulseEvidence and PulseAnalysis: the pulses of one record and what the record says for them."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -9,6 +10,10 @@ from rocking.pulses.flags import Flag
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import counted
 from rocking.records.accelerogram import Accelerogram
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from pandas import DataFrame
 
 
 @dataclass(frozen=True)
@@ -102,3 +107,25 @@ class PulseAnalysis:
     def gain_ratio(self) -> float:
         """G₂/G₁, second gain over first; 0 when the record holds one maximum only."""
         return self.ranked[1].gain / self.ranked[0].gain if len(self.ranked) > 1 else 0.0
+
+    def plot(self, axes: "Axes | None" = None) -> "Axes":
+        """Draw the record with its dominant pulse, on `axes` or on new ones, and return the axes."""
+        from rocking.reports.plots import plot_analysis
+
+        return plot_analysis(self, axes)
+
+    def frame(self) -> "DataFrame":
+        """Return a pandas frame with one row per pulse, by gain, the dominant one first."""
+        from pandas import DataFrame
+
+        rows = [
+            {
+                "amplitude_m_s2": found.pulse.amplitude,
+                "period_s": found.pulse.period,
+                "start_time_s": found.pulse.start_time,
+                "gain_m2_s3": found.gain,
+                "explained_energy": found.explained_energy,
+            }
+            for found in self.ranked
+        ]
+        return DataFrame(rows)

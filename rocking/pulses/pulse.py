@@ -1,11 +1,15 @@
 """Pulse: one full sine cycle of acceleration. A signal, nothing else."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rocking.errors import PulseError
 from rocking.quantities import GRAVITY, finite, positive, shown
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, repr=False)
@@ -45,3 +49,9 @@ class Pulse:
         phase = self.circular_frequency * (np.asarray(times, dtype=float) - self.start_time)
         inside = (phase >= 0) & (phase <= 2 * np.pi)
         return np.where(inside, self.amplitude * np.sin(phase), 0.0)
+
+    def plot(self, axes: "Axes | None" = None) -> "Axes":
+        """Draw the cycle against time, on `axes` or on new ones, and return the axes."""
+        from rocking.reports.plots import plot_pulse
+
+        return plot_pulse(self, axes)

@@ -3,12 +3,16 @@
 import hashlib
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TypedDict, Unpack
+from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
 
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, finite, positive, shown
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from pandas import DataFrame
 
 
 @dataclass(frozen=True)
@@ -110,6 +114,18 @@ class Accelerogram:
     def processed_by(self, acceleration: np.ndarray, step: str, **changes: Unpack[Changes]) -> "Accelerogram":
         """Return a copy with new samples and one more processing sentence."""
         return replace(self, acceleration=acceleration, processing=(*self.processing, step), **changes)
+
+    def plot(self, axes: "Axes | None" = None) -> "Axes":
+        """Draw the acceleration against time, on `axes` or on new ones, and return the axes."""
+        from rocking.reports.plots import plot_accelerogram
+
+        return plot_accelerogram(self, axes)
+
+    def frame(self) -> "DataFrame":
+        """Return a pandas frame of the columns time_s and acceleration_m_s2."""
+        from pandas import DataFrame
+
+        return DataFrame({"time_s": self.times, "acceleration_m_s2": self.acceleration})
 
 
 def _samples(name: str, values: np.ndarray) -> np.ndarray:

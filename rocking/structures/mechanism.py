@@ -11,12 +11,15 @@ motion on this side; the angular velocity of the next flight is `restitution` ti
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, positive, shown, within
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Function = Callable[[np.ndarray], np.ndarray]
 """A function of the rotation φ [rad], any shape in, the same shape out."""
@@ -172,6 +175,12 @@ class Mechanism:
         block = _equivalent(self.positive, scale)
         other = None if self.negative is None else _equivalent(self.negative, scale)
         return replace(block, other_side=other, one_sided=self.one_sided)
+
+    def plot(self, axes: "Axes | None" = None) -> "Axes":
+        """Draw I, G and B against the rotation, on `axes` or on new ones, and return the axes."""
+        from rocking.reports.plots import plot_mechanism
+
+        return plot_mechanism(self, axes)
 
 
 @dataclass(frozen=True)

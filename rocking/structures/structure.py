@@ -4,7 +4,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import fields
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -15,6 +15,9 @@ from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Dimension, Path
 from rocking.structures.fields import Field, Form
 from rocking.structures.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 HIGHEST_SHARE = 0.95
 """Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
@@ -47,6 +50,12 @@ class Structure(ABC):
     def hinges(self, rotation: float = 0.0) -> np.ndarray:
         """Return the contact points (k, 2) in m at a signed `rotation` [rad]; at rest those of the positive side."""
         return self._on_side(rotation, "_hinges")
+
+    def plot(self, rotation: float = 0.0, axes: "Axes | None" = None) -> "Axes":
+        """Draw the parts to scale at a signed `rotation` [rad], on `axes` or on new ones, and return the axes."""
+        from rocking.reports.plots import plot_structure
+
+        return plot_structure(self, rotation, axes)
 
     @abstractmethod
     def bodies(self, rotation: float | np.ndarray) -> Bodies:

@@ -54,7 +54,10 @@ ARRAY = re.compile(r"numpy\.ndarray\[tuple\[Any, \.\.\.\], numpy\.dtype\[Any\]\]
 
 
 def members() -> list[str]:
-    """Every public name, and every public attribute of the classes among them, as an expression."""
+    """Every public name, and every public attribute of the classes among them, as an expression.
+
+    Not the frames: pandas carries no types of its own.
+    """
     found = []
     for name in rocking.__all__:
         value = getattr(rocking, name)
@@ -63,9 +66,8 @@ def members() -> list[str]:
             own = (
                 name for base in value.__mro__ if base.__module__.startswith("rocking") for name in vars(base)
             )
-            found += [
-                f"rocking.{name}.{member}" for member in dict.fromkeys(own) if not member.startswith("_")
-            ]
+            public = (member for member in dict.fromkeys(own) if not member.startswith("_"))
+            found += [f"rocking.{name}.{member}" for member in public if member != "frame"]
     return found
 
 

@@ -1,0 +1,120 @@
+"""What `.plot()` draws is what is there: the lines hold the numbers, the axes say the units; frames likewise."""
+
+import subprocess
+import sys
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+import rocking
+
+TIMES = np.arange(3000) * 0.01
+PULSE = rocking.Pulse(4.0, 2 * np.pi / 0.9, 5.0)
+RECORD = rocking.Accelerogram(PULSE.acceleration(TIMES), 0.01, "NS", "$x^$", "event")
+BLOCK = rocking.Block.of_size(0.6, 3.0)
+WHOLE = rocking.integrate(BLOCK, RECORD.scaled(0.55), history=True)
+FREQUENCIES, MULTIPLIERS = np.geomspace(0.5, 8, 12), np.geomspace(0.05, 0.6, 10)
+SPECTRUM = rocking.rocking_spectrum(RECORD, FREQUENCIES, MULTIPLIERS, 0.9)
+PLOTTED = {
+    "record": RECORD,
+    "pulse": PULSE,
+    "analysis": rocking.extract_pulses(RECORD),
+    "response": WHOLE,
+    "spectrum": SPECTRUM,
+    "mechanism": BLOCK.mechanism(),
+    "structure": rocking.Arch(10.0, 1.5, np.radians(157.5)),
+}
+
+
+@pytest.fixture(autouse=True)
+def no_window():
+    """Figures go nowhere, and are closed."""
+    with matplotlib.rc_context({"backend": "agg"}):
+        from matplotlib import pyplot
+
+        yield
+        pyplot.close("all")
+
+
+def lines(axes: Axes) -> dict[str, np.ndarray]:
+    return {str(line.get_label()): line.get_ydata() for line in axes.lines}
+
+
+@pytest.mark.parametrize("name", PLOTTED)
+def test_it_returns_the_axes_it_was_given_or_new_ones_with_units(name):
+    given = Figure().subplots()
+    assert PLOTTED[name].plot(axes=given) is given
+    new = PLOTTED[name].plot()
+    assert isinstance(new, Axes) and new.figure is not given.figure
+    for label in (new.get_xlabel(), new.get_ylabel()):
+        assert label.endswith("]") and "[" in label
+    new.figure.canvas.draw()  # markup in a name stays text
+
+
+def test_the_record_and_the_pulse_are_drawn_as_they_are():
+    assert np.array_equal(lines(RECORD.plot())[r"event, \$x^\$, NS"], RECORD.acceleration)
+    drawn = lines(PLOTTED["analysis"].plot())
+    assert np.array_equal(drawn["record"], RECORD.acceleration)
+    # 400 points on 1.5 periods: the nearest to the peak is at most π/267 away, which costs 1 − cos of it
+    assert np.abs(drawn["sine pulse, T = 0.9 s"]).max() == pytest.approx(4.0, rel=7e-5)
+
+
+def test_the_response_is_drawn_with_its_largest_rotation_marked():
+    axes = WHOLE.plot()
+    rotation, _, mark = (line.get_ydata() for line in axes.lines)
+    assert np.array_equal(rotation, WHOLE.rotation)
+    critical = BLOCK.mechanism().critical_rotation
+    # the history has the steps of the integration, between which the peak lies
+    assert abs(mark[0]) / critical == pytest.approx(WHOLE.rotation_ratio, rel=1e-3)
+
+
+def test_the_mechanism_is_drawn_over_its_values_at_rest():
+    side = BLOCK.mechanism().positive
+    drawn = lines(BLOCK.mechanism().plot())
+    assert drawn["G"][0] == 1 and drawn["G"][-1] == pytest.approx(0, abs=1e-12)
+    assert drawn["B"][-1] == pytest.approx(1 / np.cos(side.critical_rotation), rel=1e-12)
+    assert np.all(drawn["I"] == 1)
+    unlike = rocking.RigidBody(left=0.3, right=0.5, centre_height=1.5, inertia=1.0, restitution=0.9)
+    assert len(unlike.mechanism().plot().lines) == 7  # three for each side and the line at 0
+
+
+def test_a_spectrum_is_an_array_that_knows_its_axes():
+    assert SPECTRUM.shape == (12, 10) and np.isinf(SPECTRUM).any() and (SPECTRUM == 0).any()
+    assert np.array_equal(SPECTRUM.frequency_parameters, FREQUENCIES)
+    assert np.array_equal(SPECTRUM.uplift_multipliers, MULTIPLIERS)
+    block = rocking.EquivalentBlock(FREQUENCIES[3], 1.0, 1 / MULTIPLIERS[4], 0.9)
+    # two compiled ways to the same exact solution; the equations amplify rounding by e^(p t)
+    assert SPECTRUM[3, 4] == pytest.approx(rocking.integrate(block, RECORD).rotation_ratio, rel=1e-7)
+
+
+def test_what_cannot_be_drawn_is_said():
+    with pytest.raises(rocking.MotionError, match="history=True"):
+        rocking.integrate(BLOCK, RECORD).plot()
+    with pytest.raises(rocking.MotionError, match="history=True"):
+        rocking.integrate(BLOCK, RECORD).frame()
+    with pytest.raises(rocking.MotionError, match="a part of one"):
+        SPECTRUM[3:].plot()
+    with pytest.raises(rocking.MotionError, match="at least"):
+        rocking.rocking_spectrum(RECORD, FREQUENCIES[:1], MULTIPLIERS, 0.9).plot()
+
+
+def test_frames_hold_the_numbers_under_names_with_units():
+    assert list(RECORD.frame().columns) == ["time_s", "acceleration_m_s2"]
+    assert RECORD.frame().acceleration_m_s2.abs().max() == RECORD.peak_acceleration
+    history = WHOLE.frame()
+    assert np.array_equal(history.rotation_rad, WHOLE.rotation) and len(history.columns) == 3
+    pulses = PLOTTED["analysis"].frame()
+    assert len(pulses) == len(PLOTTED["analysis"].ranked)
+    assert pulses.period_s[0] == pytest.approx(0.9, rel=1e-6)
+
+
+def test_who_plots_nothing_imports_no_matplotlib():
+    code = (
+        "import sys, numpy, rocking; b = rocking.Block.of_size(0.6, 3.0); b.mechanism();"
+        "rocking.integrate(b, rocking.Pulse(4.0, 7.0)); print('matplotlib' in sys.modules, 'pandas' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["False", "False"]
