@@ -13,7 +13,9 @@ import numpy as np
 
 from rocking.errors import PulseError
 from rocking.pulses.components import same_sampling
+from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.processing import integral
 
 SHORTEST_PERIOD, LONGEST_PERIOD = 0.25, 15.0
 """Band of T_p that is searched, s."""
@@ -29,6 +31,8 @@ LATE_ENERGY = 0.17
 """Share of the squared velocity before the pulse from which it arrives too late to be a directivity pulse."""
 PULSE_START = 0.05
 """Share of the pulse's squared velocity that marks its start."""
+UNLIKE_PERIODS = 2.0
+"""Factor between T_p and the period of a sine from which the two are not the same feature of the motion."""
 SUPPORT = 7.0
 """Length of db4 in its own time; its centre frequency is 5 cycles over it."""
 PERIOD_OF_SCALE = SUPPORT / 5
@@ -57,6 +61,11 @@ class VelocityPulse:
         """Whether the published criterion calls the motion pulse-like."""
         return self.indicator > 0 and not self.late
 
+    def is_unlike(self, sine: Pulse) -> bool:
+        """Whether T_p and the period of `sine` differ by more than a factor 2."""
+        ratio = sine.period / self.period
+        return max(ratio, 1 / ratio) > UNLIKE_PERIODS
+
 
 def velocity_pulse(first: Accelerogram, second: Accelerogram) -> VelocityPulse:
     """Return the velocity pulse of two horizontal components: the largest that is pulse-like, else the largest.
@@ -66,8 +75,14 @@ def velocity_pulse(first: Accelerogram, second: Accelerogram) -> VelocityPulse:
     step = first.time_step
     velocities = _velocities(same_sampling(first, second), step)
     scales = searched_scales(step, velocities.shape[1])
-    judged = [_judged(velocities, step, scales, row, column) for row, column in _largest(velocities, scales)]
-    return next((pulse for pulse in judged if pulse.pulse_like), judged[0])
+    largest = None
+    for row, column in _largest(velocities, scales):
+        pulse = _judged(velocities, step, scales, row, column)
+        if pulse.pulse_like:
+            return pulse
+        largest = largest or pulse
+    assert largest is not None  # there is always a largest coefficient
+    return largest
 
 
 def largest_velocity_pulse(accelerogram: Accelerogram) -> tuple[float, float]:
@@ -83,13 +98,11 @@ def largest_velocity_pulse(accelerogram: Accelerogram) -> tuple[float, float]:
 
 
 def _velocities(accelerations: np.ndarray, step: float) -> np.ndarray:
-    from scipy import integrate
-
     if not np.any(accelerations):
         raise PulseError(
             "The motion is zero throughout, but a velocity pulse needs one that moves; check the file."
         )
-    return integrate.cumulative_trapezoid(accelerations, dx=step, initial=0)
+    return np.array([integral(acceleration, step) for acceleration in accelerations])
 
 
 def pulse_indicator(peak_ratio: float, energy_ratio: float, peak_velocity: float) -> float:
@@ -124,30 +137,35 @@ def _table() -> tuple[np.ndarray, np.ndarray]:
     return places, wavelet
 
 
+def _half_length(scale: int) -> int:
+    return math.floor(SUPPORT / 2 * scale)
+
+
 def _wavelet(scale: int) -> np.ndarray:
     """db4 stretched to `scale` samples per unit and of unit energy, centred on the middle sample (odd count)."""
-    half = math.floor(SUPPORT / 2 * scale)
+    half = _half_length(scale)
     places, wavelet = _table()
     return np.interp(np.arange(-half, half + 1) / scale + SUPPORT / 2, places, wavelet) / math.sqrt(scale)
 
 
 def _transform(velocities: np.ndarray, scale: int) -> np.ndarray:
-    """Coefficient of the wavelet of one scale centred at each sample, along the last axis."""
-    from scipy import signal
+    """Coefficient of the wavelet of one scale centred at each sample of (n,) velocities, real or complex."""
+    from scipy import fft
 
-    wavelet = _wavelet(scale)[::-1]
-    full = signal.fftconvolve(
-        velocities, np.broadcast_to(wavelet, (*velocities.shape[:-1], wavelet.size)), axes=-1
-    )
-    half = wavelet.size // 2
-    return full[..., half : half + velocities.shape[-1]]
+    wavelet, count = _wavelet(scale), velocities.size
+    size = fft.next_fast_len(count + wavelet.size - 1)
+    # the wavelet is real: reversed, its transform is the conjugate
+    full = fft.ifft(fft.fft(velocities, size) * np.conj(fft.fft(wavelet, size)))
+    return np.roll(full, wavelet.size // 2)[:count]
 
 
 def _largest(
     velocities: np.ndarray, scales: np.ndarray, count: int = POTENTIAL_PULSES
 ) -> list[tuple[int, int]]:
     """(scale index, sample) of the largest coefficients over all orientations, c₁² + c₂², each keeping its room."""
-    squares = np.array([(_transform(velocities, int(scale)) ** 2).sum(axis=0) for scale in scales])
+    # one complex transform serves two components
+    both = velocities[0] if len(velocities) == 1 else velocities[0] + 1j * velocities[1]
+    squares = np.array([np.square(np.abs(_transform(both, int(scale)))) for scale in scales])
     found = []
     for _ in range(count):
         row, column = np.unravel_index(np.argmax(squares), squares.shape)
@@ -193,13 +211,15 @@ def _extracted(velocity: np.ndarray, scale: int, column: int) -> tuple[np.ndarra
     """Return the pulse, as the sum of the largest wavelets of one scale near `column`, and its first centre."""
     pulse, centre, reach = np.zeros_like(velocity), column, math.ceil(NEIGHBOURHOOD * scale)
     for number in range(WAVELETS):
-        coefficients = _transform(velocity - pulse, scale)
-        low = max(0, centre - reach)
-        at = low + int(np.argmax(np.abs(coefficients[low : centre + reach + 1])))
-        begin, end, wavelet = _overlap(velocity.size, scale, at)
-        pulse[begin:end] += coefficients[at] * wavelet
+        # only the coefficients within reach are wanted, and only the samples that they see are transformed
+        low, high = max(0, centre - reach), min(centre + reach + 1, velocity.size)
+        seen = slice(max(0, low - _half_length(scale)), high + _half_length(scale))
+        coefficients = _transform((velocity - pulse)[seen], scale).real[low - seen.start : high - seen.start]
+        best = int(np.argmax(np.abs(coefficients)))
+        begin, end, wavelet = _overlap(velocity.size, scale, low + best)
+        pulse[begin:end] += coefficients[best] * wavelet
         if number == 0:
-            centre = at
+            centre = low + best
     return pulse, centre
 
 

@@ -84,15 +84,16 @@ def variants(high_pass: float = 0.1, pre_event: float | None = None) -> dict[str
 
 def velocity(record: Accelerogram) -> np.ndarray:
     """Return the velocity (n,) in m/s by the trapezoidal rule, starting from rest."""
-    return _integral(record.acceleration, record.time_step)
+    return integral(record.acceleration, record.time_step)
 
 
 def displacement(record: Accelerogram) -> np.ndarray:
     """Return the displacement (n,) in m by the trapezoidal rule twice, starting from rest."""
-    return _integral(velocity(record), record.time_step)
+    return integral(velocity(record), record.time_step)
 
 
-def _integral(values: np.ndarray, time_step: float) -> np.ndarray:
+def integral(values: np.ndarray, time_step: float) -> np.ndarray:
+    """Return the integral (n,) of `values` from the first sample on by the trapezoidal rule."""
     return time_step * (np.cumsum(values) - (values + values[0]) / 2)
 
 

@@ -8,7 +8,7 @@ import pywt
 
 from rocking.errors import PulseError
 from rocking.pulses import Pulse, velocity_pulse
-from rocking.pulses.velocity_pulse import pulse_indicator
+from rocking.pulses.velocity_pulse import largest_velocity_pulse, pulse_indicator
 from rocking.records.accelerogram import Accelerogram
 
 STEP = 0.005
@@ -33,11 +33,23 @@ def test_a_planted_wavelet_is_found(scale, angle):
     assert found.pulse_like
 
 
+def test_one_component_alone_has_the_pulse_of_the_pair_along_it():
+    motion = Pulse(3.0, math.pi, 10.0).acceleration(TIMES)
+    pair = velocity_pulse(Accelerogram(motion, STEP), Accelerogram(0 * motion, STEP))
+    period, centre = largest_velocity_pulse(Accelerogram(motion, STEP))
+    assert period == pair.period
+    assert abs(centre - pair.centre_time) < 0.1 * period
+
+
 def test_the_period_is_not_that_of_the_acceleration_pulse():
     motion = Pulse(3.0, math.pi, 10.0).acceleration(TIMES)
     found = velocity_pulse(Accelerogram(motion, STEP), Accelerogram(0 * motion, STEP))
     # T_p / T_g of a pure sine, computed with the same two methods by other code: 1.93
     assert found.period / 2.0 == pytest.approx(1.93, rel=0.01)
+    assert not found.is_unlike(Pulse(3.0, math.pi, 10.0))
+    assert found.is_unlike(Pulse(3.0, 1.1 * math.pi, 10.0)) and found.is_unlike(
+        Pulse(3.0, 0.12 * math.pi, 10.0)
+    )
 
 
 @pytest.mark.parametrize("component", [0.2, 0.5, 0.8, 1.0])

@@ -1,0 +1,97 @@
+"""The response spectrum against closed forms, a general solver, and the spectra that an agency printed."""
+
+import itertools
+
+import numpy as np
+import pytest
+from scipy import integrate
+
+from rocking.errors import RecordError
+from rocking.records import Accelerogram, read
+from rocking.records.response_spectrum import response_spectrum
+
+STEP = 0.005
+TIMES = np.arange(8001) * STEP
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.02, 0.05, 0.2])
+def test_a_suddenly_applied_acceleration(damping):
+    # D ω²/a = 1 + exp(−ζπ/√(1 − ζ²)) (Chopra, Dynamics of Structures, Eq. 4.3.2 at its first peak); a peak between
+    # two of 20 or more steps is missed by up to (π/20)²/2, and the first ramp takes a step
+    spectrum = response_spectrum(Accelerogram(np.full(8001, 2.0), STEP), np.array([0.1, 0.7, 3.0]), damping)
+    overshoot = np.exp(-damping * np.pi / np.sqrt(1 - damping**2))
+    assert spectrum.pseudo_acceleration == pytest.approx(2.0 * (1 + overshoot), rel=1.3e-2)
+
+
+@pytest.mark.parametrize("period", [0.5, 1.0])
+def test_resonance_grows_to_one_over_twice_the_damping(period):
+    # steady state of ω = ω_n: D ω²/a = 1/(2ζ); 40 cycles at ζ = 0.05 leave exp(−2π · 2) = 3e-6 of the transient
+    motion = Accelerogram(1.7 * np.sin(2 * np.pi * TIMES / period), STEP)
+    spectrum = response_spectrum(motion, np.array([period]))
+    assert spectrum.pseudo_acceleration[0] == pytest.approx(1.7 / 0.1, rel=2e-3)
+    assert spectrum.pseudo_velocity[0] == pytest.approx(
+        spectrum.pseudo_acceleration[0] * period / (2 * np.pi)
+    )
+
+
+def test_stiff_oscillators_follow_the_ground_and_soft_ones_stand_still():
+    phase = (TIMES - 5) / 1.3
+    # velocity (1 − cos) and its mirror image after it, so that the ground comes to rest where it began
+    samples = np.sin(2 * np.pi * phase) * (phase > 0) * np.sign(1 - phase) * (phase < 2)
+    motion = Accelerogram(samples, STEP)
+    ground = integrate.cumulative_trapezoid(
+        integrate.cumulative_trapezoid(samples, dx=STEP, initial=0), dx=STEP
+    )
+    spectrum = response_spectrum(motion, np.array([0.02, 200.0]))
+    assert spectrum.pseudo_acceleration[0] == pytest.approx(1.0, rel=1e-2)
+    assert spectrum.displacement[1] == pytest.approx(np.abs(ground).max(), rel=1e-2)
+
+
+@pytest.mark.parametrize("period", [0.06, 0.4, 2.5])
+def test_noise_against_a_general_solver(period):
+    rng, step = np.random.default_rng(1), 0.02
+    samples = np.concatenate(([0.0], rng.standard_normal(200), [0.0]))
+    times, omega = np.arange(samples.size) * step, 2 * np.pi / period
+
+    def change(time, state):
+        return [state[1], -np.interp(time, times, samples) - 0.1 * omega * state[1] - omega**2 * state[0]]
+
+    # a solver that may not step over a corner, looked at densely
+    reached, largest = [0.0, 0.0], 0.0
+    for begin, end in itertools.pairwise(times):
+        part = integrate.solve_ivp(
+            change, (begin, end), reached, rtol=1e-8, atol=1e-12, dense_output=True, method="DOP853"
+        )
+        largest = max(largest, np.abs(part.sol(np.linspace(begin, end, 20))[0]).max())
+        reached = part.y[:, -1]
+    found = response_spectrum(Accelerogram(samples, step), np.array([period]))
+    # the peak between two of 20 steps, (π/20)²/2
+    assert found.displacement[0] == pytest.approx(largest, rel=1.3e-2)
+
+
+@pytest.mark.parametrize(("period", "damping", "field"), [(0.0, 0.05, "period"), (1.0, 1.2, "damping")])
+def test_what_no_oscillator_has_is_refused(period, damping, field):
+    with pytest.raises(RecordError, match=field):
+        response_spectrum(Accelerogram(TIMES, STEP), np.array([period]), damping)
+
+
+def printed_spectra(path):
+    """(periods s, displacements m) of the channels of a CSMIP volume 3: 100 values each, of which 78 are used."""
+    lines = path.read_text(encoding="ascii").splitlines()
+    for place, line in enumerate(lines):
+        if line.startswith("Damping ="):
+            after = [float(word) for text in lines[place + 1 : place + 14] for word in text.split()]
+            start = next(i for i in range(place, 0, -1) if lines[i].startswith("Fourier amplitude"))
+            before = [float(word) for text in lines[start - 13 : start] for word in text.split()]
+            yield np.array(before[:78]), 0.0254 * np.array(after[:78])
+
+
+@pytest.mark.real_records
+def test_the_spectra_that_an_agency_printed(real_records):
+    # Willow Creek 2012, three channels: volume 3 of CGS beside the accelerations of volume 2
+    records = read(real_records / "formats_csmip" / "CE89146.V2")
+    spectra = list(printed_spectra(real_records / "formats_csmip" / "CE89146.V3"))
+    assert len(records) == len(spectra) == 3
+    for record, (periods, displacement) in zip(records, spectra, strict=True):
+        found = response_spectrum(record, periods)
+        assert found.displacement == pytest.approx(displacement, rel=0.02)
