@@ -108,7 +108,7 @@ def test_a_pulse_method_that_finds_nothing_costs_no_integration():
 
 
 def test_an_unknown_pulse_method_is_refused_with_those_there_are():
-    with pytest.raises(ConfigurationError, match="'best', but must be one of energy, demand, velocity"):
+    with pytest.raises(ConfigurationError, match="'best', but must be energy or demand or velocity"):
         AssessmentSettings(pulse_choice="best")
 
 
