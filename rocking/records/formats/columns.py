@@ -16,7 +16,9 @@ from rocking.records.formats.separators import points_for_commas, refuse_commas
 from rocking.records.formats.text import after_lines, is_number, lines, numbers
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
-_TIME = re.compile(r"t|time\b.*|seconds?", re.I)
+_TIME = re.compile(
+    r"t|(time|zeit|tiempo|temps|tempo|zaman|seconds?)\b.*|[^()\[\]]*[(\[]\s*s(ec)?\s*[)\]]", re.I
+)
 _UNIT = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
 _HEAD = 12

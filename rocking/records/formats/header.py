@@ -75,11 +75,12 @@ def check_duration(
     """Check `samples` against the duration printed as `text`, s, within a step and half its last digit.
 
     A record of n samples lasts n steps for some agencies and n - 1 for others. exact: the recorder writes whole
-    seconds, so that the print rounds nothing. Raises RecordError when they disagree.
+    seconds of n steps, so that the print rounds nothing. Raises RecordError when they disagree.
     """
     declared = number(name, field, text)
-    half_digit = 0.0 if exact else 0.5 * 10.0 ** -len(text.strip().partition(".")[2])
-    if abs(samples * time_step - declared) > 1.001 * time_step + half_digit:
+    half_digit = 0.5 * 10.0 ** -len(text.strip().partition(".")[2])
+    allowed = 0.5 * time_step if exact else 1.001 * time_step + half_digit
+    if abs(samples * time_step - declared) > allowed:
         raise RecordError(
             f"{name}: {field} is {declared:g} s, but the {samples} samples last {samples * time_step:g} s: "
             "it is truncated or its header belongs to another record; fetch the whole file."

@@ -31,12 +31,15 @@ def points_for_commas(content: bytes) -> bytes | None:
     if decimal and max(map(len, cells)) > 1:
         return re.sub(rb"(?<=\d),(?=\d)|(?<![\d,]),(?=\d)", b".", content)
     named = re.search(r"[A-Za-z]", next(line for line in head if line.strip()))
-    return None if decimal and not named and not _counts(rows) else content
+    return content if named or _counts(rows) else None
 
 
 def _counts(rows: list[str]) -> bool:
     """Whether the first numbers count evenly upwards, as times do."""
-    steps = {int(b) - int(a) for a, b in pairwise(row.split(",")[0] or "0" for row in rows)}
+    first = [row.split(",")[0] for row in rows]
+    if not all(cell.isdecimal() for cell in first):
+        return False
+    steps = {int(b) - int(a) for a, b in pairwise(first)}
     return len(rows) > 2 and len(steps) == 1 and steps.pop() > 0
 
 

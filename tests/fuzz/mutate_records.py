@@ -1,0 +1,194 @@
+"""Mutated records: which damage a reader lets pass without a word, by format and kind.
+
+    python tests/fuzz/mutate_records.py [--mutants 30000] [--seed 1] [--real SHARE]
+
+Each mutant is a whole file with one thing done to it, as disks, editors and transfers do: a line repeated, dropped or
+swapped with its neighbour, a digit changed, bytes cut, the end missing, the file appended to itself. It is silent when
+it is read with no warning that the whole file does not give, and yet the time step, the number of channels or more than
+three samples differ. Files are the made ones of the contract tests, of 403 samples, and with ROCKING_RECORDS set a
+share of the real ones.
+"""
+
+import argparse
+import os
+import random
+import re
+import sys
+import warnings
+from collections import Counter
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+sys.path.append(str(Path(__file__).parents[1] / "contracts"))
+
+import made_files
+
+from rocking.errors import RecordError
+from rocking.records import Accelerogram
+from rocking.records.formats import Options
+from rocking.records.read import read_content
+
+SAMPLES = 403
+"""Not a multiple of what any format puts on a line."""
+NOTICED = 3
+"""Samples that may differ: what one flipped byte reaches."""
+
+
+@dataclass(frozen=True)
+class Whole:
+    """A file as it should be: its content, what the caller declares, and what is read from it."""
+
+    name: str
+    content: bytes
+    options: Options
+
+    def read(self, content: bytes) -> list[Accelerogram]:
+        """Return the channels of `content` read as this file is."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return read_content(content, self.name, self.options)
+
+
+def made() -> list[Whole]:
+    """Return a file of each format, made with more samples than the contract tests take."""
+    made_files.N = SAMPLES
+    times = np.arange(SAMPLES) * made_files.STEP
+    made_files.TRUE = 0.9 * np.sin(7 * times) * np.exp(-((times - 2) ** 2)) + 0.01 * np.sin(61 * times)
+    found = []
+    for label, (make, _, options) in (made_files.MADE | made_files.MADE_BINARY).items():
+        content = make()
+        found.append(
+            Whole(label, content if isinstance(content, bytes) else content.encode("latin-1"), options)
+        )
+    return found
+
+
+def real(folder: Path) -> list[Whole]:
+    """Return the smaller real files, one or two of each format."""
+    from test_formats_mutation import SMALL
+
+    declared = {".sac": "g", ".th": "g", ".txt": "m/s2"}
+    found = []
+    for name in SMALL:
+        path = folder / name
+        unit = declared.get(path.suffix) if "afad" not in name else None
+        step = 0.005 if path.suffix == ".th" else None
+        found.append(Whole(name, path.read_bytes(), Options(unit=unit, time_step=step, folder=path.parent)))
+    return found
+
+
+def repeat_line(content: bytes, dice: random.Random) -> bytes:
+    """Repeat a line."""
+    start, end = _line(content, dice)
+    return content[:end] + content[start:end] + content[end:]
+
+
+def drop_line(content: bytes, dice: random.Random) -> bytes:
+    """Remove a line."""
+    start, end = _line(content, dice)
+    return content[:start] + content[end:]
+
+
+def swap_lines(content: bytes, dice: random.Random) -> bytes:
+    """Exchange a line with the next."""
+    start, end = _line(content, dice)
+    after = content.find(b"\n", end) + 1 or len(content)
+    return content[:start] + content[end:after] + content[start:end] + content[after:]
+
+
+def flip_digit(content: bytes, dice: random.Random) -> bytes:
+    """Replace a digit by another."""
+    digits = [m.start() for m in re.finditer(rb"\d", content[:4000] if dice.random() < 0.6 else content)]
+    at = dice.choice(digits or [0])
+    return content[:at] + bytes([48 + (content[at] - 48 + dice.randint(1, 9)) % 10]) + content[at + 1 :]
+
+
+def cut_bytes(content: bytes, dice: random.Random) -> bytes:
+    """Remove one to two hundred bytes."""
+    at = dice.randrange(len(content))
+    return content[:at] + content[at + dice.randint(1, 200) :]
+
+
+def truncate(content: bytes, dice: random.Random) -> bytes:
+    """Lose the end."""
+    return content[: dice.randrange(1, len(content))]
+
+
+def append(content: bytes, dice: random.Random) -> bytes:
+    """Append the file to itself."""
+    return content + content
+
+
+KINDS: Mapping[str, Callable[[bytes, random.Random], bytes]] = {
+    function.__name__: function
+    for function in (repeat_line, drop_line, swap_lines, flip_digit, cut_bytes, truncate, append)
+}
+
+
+def silent_difference(whole: Whole, content: bytes, expected: list[Accelerogram]) -> str | None:
+    """Return what differs when `content` is read without a word; None when nothing, or when it is said or refused."""
+    try:
+        records = whole.read(content)
+    except RecordError:
+        return None
+    known = {sentence for record in expected for sentence in record.warnings}
+    if {sentence for record in records for sentence in record.warnings} - known:
+        return None
+    if len(records) != len(expected):
+        return "channels"
+    for record, true in zip(records, expected, strict=True):
+        if abs(record.time_step / true.time_step - 1) > 1e-6:
+            return "time step"
+        if _differing(record.acceleration, true.acceleration) > NOTICED:
+            return "samples"
+    return None
+
+
+def _differing(a: np.ndarray, b: np.ndarray) -> int:
+    """Return the number of samples that differ by more than a mean over the record, moved by one of them, explains."""
+    if a.size != b.size:
+        return max(a.size, b.size)
+    return int((np.abs(a - b - np.median(a - b)) > 1e-9 * max(1e-12, float(np.abs(b).max()))).sum())
+
+
+def run(wholes: list[Whole], mutants: int, seed: int, kinds: Mapping = KINDS) -> Counter:
+    """Return how often damage passed in silence, by (file, kind, what differs); ("", kind, "made") counts mutants."""
+    dice = random.Random(seed)
+    found: Counter[tuple[str, str, str]] = Counter()
+    expected = {whole.name: whole.read(whole.content) for whole in wholes}
+    for _ in range(mutants):
+        whole = dice.choice(wholes)
+        kind = dice.choice(list(kinds))
+        content = kinds[kind](whole.content, dice)
+        found["", kind, "made"] += 1
+        if content != whole.content and (what := silent_difference(whole, content, expected[whole.name])):
+            found[whole.name, kind, what] += 1
+    return found
+
+
+def _line(content: bytes, dice: random.Random) -> tuple[int, int]:
+    at = dice.randrange(len(content))
+    return content.rfind(b"\n", 0, at) + 1, content.find(b"\n", at) + 1 or len(content)
+
+
+def main() -> None:
+    """Run and print what passed in silence."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--mutants", type=int, default=30_000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--real", type=float, default=0.2, help="share of mutants of real files")
+    options = parser.parse_args()
+    folder = os.environ.get("ROCKING_RECORDS")
+    of_real = round(options.mutants * options.real) if folder else 0
+    found = run(made(), options.mutants - of_real, options.seed)
+    if folder:
+        found += run(real(Path(folder)), of_real, options.seed)
+    for (name, kind, what), count in sorted(found.items(), key=lambda item: (item[0][1], -item[1])):
+        print(f"{kind:12} {count:6} {what:10} {name}")
+
+
+if __name__ == "__main__":
+    main()

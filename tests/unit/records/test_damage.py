@@ -1,0 +1,303 @@
+"""Damage that header or structure tell of: refused or warned of, never read in silence."""
+
+import gzip
+import io
+import struct
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.append(str(Path(__file__).parents[2] / "contracts"))
+
+import made_files
+from made_files import MADE, STEP, TRUE, N, format_of
+
+from rocking.errors import RecordError
+from rocking.records import Accelerogram
+from rocking.records.formats import Options
+from rocking.records.formats.header import check_duration
+from rocking.records.read import LARGEST_FILE, read_content, unpacked
+
+
+def read_text(text: str, **declared) -> list[Accelerogram]:
+    return read_content(text.encode("latin-1"), "made", Options(**declared))
+
+
+def made(name: str) -> str:
+    return MADE[name][0]()
+
+
+def declared(name: str) -> dict:
+    options = MADE[name][2]
+    return {"unit": options.unit, "time_step": options.time_step}
+
+
+@pytest.mark.parametrize("lines", [1, 2, 3])
+def test_lines_missing_in_knet_are_seen_in_its_duration(lines: int) -> None:
+    """A duration of whole seconds is no rounding: a real file of 10200 samples at 100 Hz states 102 s."""
+    text = made("K-NET/KiK-net").split("\n")
+    with pytest.raises(RecordError, match=r"Duration Time\(s\) is"):
+        read_text("\n".join(text[:20] + text[20 + lines :]))
+
+
+def test_a_duration_is_checked_to_its_last_digit() -> None:
+    """n steps or n - 1, and half of what the print rounds; a tenth of a step more is too much."""
+    for text, samples in (("0.40", 40), ("0.39", 40), ("0.4", 44), ("0", 49)):
+        check_duration("made", "D", text, samples, 0.01)
+    for text, samples in (("0.40", 42), ("0.40", 38), ("0.4", 47), ("0", 53)):
+        with pytest.raises(RecordError, match="D is"):
+            check_duration("made", "D", text, samples, 0.01)
+    check_duration("made", "D", "102", 10200, 0.01, exact=True)
+    for samples in (10199, 10201):
+        with pytest.raises(RecordError, match="last"):
+            check_duration("made", "D", "102", samples, 0.01, exact=True)
+
+
+BLOCKS = ("GeoNet V1A/V2A", "COSMOS V1/V2", "CSMIP V1/V2", "CSMIP V1/V2: of 1983", "CSMIP V1/V2: raw", "BHRC",
+          "RENADIC", "CSMIP V1/V2: film")  # fmt: skip
+
+
+@pytest.mark.parametrize("name", BLOCKS)
+@pytest.mark.parametrize("copies", [0, 2])
+def test_a_line_of_a_block_missing_or_repeated_is_refused(name: str, copies: int) -> None:
+    text = made(name).rstrip("\n").split("\n")
+    at = next(i for i in range(len(text) - 1, 0, -1) if text[i].strip()[:1] in tuple("-.0123456789")) - 1
+    with pytest.raises(RecordError, match="made"):
+        read_text("\n".join(text[:at] + [text[at]] * copies + text[at + 1 :]) + "\n")
+
+
+@pytest.mark.parametrize("name", BLOCKS)
+def test_a_second_channel_that_is_cut_is_refused(name: str) -> None:
+    text = made(name)
+    for cut in (60, len(text) // 2, len(text) - 90):
+        with pytest.raises(RecordError, match="made"):
+            read_text(text + text[:cut])
+
+
+@pytest.mark.parametrize("name", BLOCKS)
+def test_a_file_appended_to_itself_is_refused(name: str) -> None:
+    with pytest.raises(RecordError, match="repeats channel 1 number by number"):
+        read_text(2 * made(name))
+
+
+def test_a_bare_column_appended_to_itself_is_warned_of() -> None:
+    column = "\n".join(f"{v:.6f}" for v in TRUE) + "\n"
+    (once,), (twice,) = (read_text(n * column, unit="m/s2", time_step=STEP) for n in (1, 2))
+    assert not once.warnings and "appended to itself" in twice.warnings[0]
+
+
+def test_channels_that_the_header_speaks_of_are_missed(monkeypatch: pytest.MonkeyPatch) -> None:
+    text = made("CSMIP V1/V2").replace("123.6W", "123.6W  (3 Chns of  3 at Sta)")
+    assert "speaks of 3 channels, but the file holds 1" in read_text(text)[0].warnings[0]
+    assert "holds 3 components, but this one holds 1" in read_text(made("GeoNet V1A/V2A"))[0].warnings[0]
+
+
+@pytest.mark.parametrize(("name", "old", "new"), [
+    ("DYNA (ESM, ITACA, AFAD)", "UNITS", f"DURATION_S: {2 * N * STEP}\nUNITS"),
+    ("GeoNet V1A/V2A", "    Duration", f"    Duration {2 * N * STEP:.2f} s"),
+    ("CSMNC", "   AT 1 SEC", f"   AT 1 SEC    DURATION: {2 * N * STEP:.2f} SEC"),
+    ("UNAM/CICESE", "UNIDADES", f"DURACION DEL REGISTRO (s), C1-C6  : /{2 * N * STEP}/{2 * N * STEP}\nUNIDADES"),
+    ("UNAM/CICESE", "UNIDADES", "VEL. DE MUESTREO, C1-C6 (muestras/s)   : /200/200\nUNIDADES"),
+    ("CSMIP V1/V2: of 1983", "INTERVALS OF    0.010", "INTERVALS OF    0.020"),
+    ("CSMIP V1/V2: of 1983", f"  {N} POINTS OF INSTRUMENT", f"  {N + 8} POINTS OF INSTRUMENT"),
+    ("CSMIP V1/V2: raw", f"LENGTH = {N * STEP:.3f}", f"LENGTH = {2 * N * STEP:.3f}"),
+    ("RENADIC", f"LENGTH = {N * STEP:.3f}", f"LENGTH = {2 * N * STEP:.3f}"),
+    ("USC Volume 1", f"LENGTH = {N * STEP:.3f}", f"LENGTH = {2 * N * STEP:.3f}"),
+])  # fmt: skip
+def test_a_header_that_contradicts_itself_is_refused(name: str, old: str, new: str) -> None:
+    text = made(name)
+    assert old in text
+    with pytest.raises(RecordError, match="made"):
+        read_text(text.replace(old, new, 1))
+
+
+@pytest.mark.parametrize(("name", "old", "new"), [
+    ("DYNA (ESM, ITACA, AFAD)", "UNITS", "TIME_PGA_S: {}\nUNITS"),
+    ("GeoNet V1A/V2A", "mm/s/s at 1 s", "mm/s/s at {} s"),
+    ("CSMNC", "AT 1 SEC", "AT {} SEC"),
+])  # fmt: skip
+def test_a_peak_out_of_its_place_is_warned_of(name: str, old: str, new: str) -> None:
+    """Lines missing in one place and repeated in another leave the count as it was, not the time of the peak."""
+    place = float(np.abs(TRUE).argmax()) * STEP
+    text = made(name)
+
+    def told(at: float) -> tuple[str, ...]:
+        return read_text(text.replace(old, new.format(round(at, 3)), 1))[0].warnings
+
+    known = set(told(place))
+    assert not any("puts the peak" in sentence for sentence in known)
+    (new_one,) = set(told(place + 12 * STEP)) - known
+    assert "puts the peak" in new_one
+
+
+@pytest.fixture
+def counts() -> np.ndarray:
+    return np.round(1e4 * np.sin(np.arange(4000) / 30)).astype(np.int32)
+
+
+def written(form: str, values: np.ndarray, **options) -> bytes:
+    obspy = pytest.importorskip("obspy")
+    trace = obspy.Trace(values, header={"delta": STEP, "channel": "HNE", "station": "MADE"})
+    target = io.BytesIO()
+    trace.write(target, format=form, **options)
+    return target.getvalue()
+
+
+@pytest.mark.parametrize("word", [1, 2, 6])
+def test_sac_is_held_to_its_extremes_and_its_end(counts: np.ndarray, word: int) -> None:
+    """Words 1, 2 and 6 of the header are DEPMIN, DEPMAX and E (SAC manual)."""
+    content = bytearray(written("SAC", (counts / 1e4).astype(np.float32)))
+    assert read_content(bytes(content), "made", Options(unit="m/s2"))
+    (value,) = struct.unpack_from("<f", content, 4 * word)
+    struct.pack_into("<f", content, 4 * word, 1.01 * value)
+    with pytest.raises(RecordError, match=r"DEPMIN|DEPMAX|end at"):
+        read_content(bytes(content), "made", Options(unit="m/s2"))
+
+
+def test_the_peak_is_looked_at_before_a_mean_is_removed(counts: np.ndarray) -> None:
+    """Counts around 9000 m/s² would seem a record of 1 m/s² once their mean is gone."""
+    content = written("SAC", (9000 + counts / 1e4).astype(np.float32))
+    with pytest.raises(RecordError, match="no recorder is off by"):
+        read_content(content, "made", Options(unit="m/s2"))
+
+
+@pytest.mark.parametrize("cut", [1, 100, 511])
+def test_miniseed_cut_within_a_record_is_refused(counts: np.ndarray, cut: int) -> None:
+    content = written("MSEED", counts, reclen=512, encoding="STEIM2")
+    assert read_content(content, "made", Options(unit="mm/s2"))[0].acceleration.size == 4000
+    with pytest.raises(RecordError, match="last record of 512 bytes is cut"):
+        read_content(content[:-cut], "made", Options(unit="mm/s2"))
+
+
+def test_miniseed_that_fails_its_own_check_is_refused(counts: np.ndarray) -> None:
+    content = bytearray(written("MSEED", counts, reclen=512, encoding="STEIM2"))
+    content[64 + 80] ^= (
+        0x40  # a difference within the first record: its last sample is no longer the one it states
+    )
+    with pytest.raises(RecordError, match="integrity"):
+        read_content(bytes(content), "made", Options(unit="mm/s2"))
+
+
+def test_miniseed_that_unpacks_to_too_much_is_refused() -> None:
+    """Ten million samples of stillness fit into six megabytes; their heads tell before they are unpacked."""
+    content = written("MSEED", np.zeros(10_000_000, np.int32), reclen=4096, encoding="STEIM2")
+    assert len(content) < LARGEST_FILE
+    with pytest.raises(RecordError, match="unpacks to 10000000 samples"):
+        read_content(content, "made", Options(unit="gal"))
+
+
+def test_evt_frames_are_summed_and_in_order() -> None:
+    content = made_files.evt()
+    frame = (len(content) - 2056) // 4
+    first = content[2056 : 2056 + frame]
+    flipped = content[:-3] + bytes([content[-3] ^ 1]) + content[-2:]
+    swapped = content[:2056] + content[2056 + frame : 2056 + 2 * frame] + first + content[2056 + 2 * frame :]
+    for damaged, word in ((flipped, "sum differs"), (swapped, "out of order"), (content[:-20], "cut"),
+                          (2 * content, "cut or damaged")):  # fmt: skip
+        with pytest.raises(RecordError, match=word):
+            read_content(damaged, "made", Options())
+    assert read_content(content + b"\0" * 50, "made", Options())[0].acceleration.size == N
+
+
+def test_every_member_of_a_gzip_file_is_read() -> None:
+    text = made("PEER AT2").encode()
+    packed = gzip.compress(text[:400]) + gzip.compress(text[400:]) + b"\0" * 100
+    assert unpacked(packed, "made") == text
+    for damaged, word in ((packed + b"more", "damaged gzip"), (packed[:-150], "truncated"),
+                          (gzip.compress(b"1" * LARGEST_FILE) + gzip.compress(b"2\n"), "more than")):  # fmt: skip
+        with pytest.raises(RecordError, match=word):
+            unpacked(damaged, "made")
+
+
+@pytest.mark.parametrize("separator", [";", "; ", "\t", "   "])
+@pytest.mark.parametrize("head", ["", "Zeit[s]{0}acc NS (m/s2)\n"])
+def test_decimal_commas_are_read_where_something_else_parts_the_columns(separator: str, head: str) -> None:
+    rows = [f"{i * STEP:.3f}{separator}{v:.5f}".replace(".", ",") for i, v in enumerate(TRUE)]
+    text = (head.format(separator) if separator != "   " else "") + "\n".join(rows) + "\n"
+    records = read_text(text, unit="m/s2")
+    assert len(records) == 1 and records[0].time_step == STEP
+    assert np.abs(records[0].acceleration - TRUE).max() < 6e-6
+
+
+@pytest.mark.parametrize("text", [
+    "\n".join(f"{v:.4f}".replace(".", ",") for v in TRUE),
+    "\n".join(f"{a:.4f},{b:.4f}".replace(".", ",") for a, b in TRUE.reshape(-1, 2)),
+    "\n".join(f"{i * STEP:.2f};{v:.4f}".replace("0.", "0,", i % 2) for i, v in enumerate(TRUE)),
+])  # fmt: skip
+def test_commas_that_may_be_either_are_refused(text: str) -> None:
+    """A column of 1800 samples was read as 7200, or as two columns."""
+    with pytest.raises(RecordError, match=r"commas|recognises|columns"):
+        read_text(text + "\n", unit="m/s2", time_step=STEP)
+
+
+@pytest.mark.parametrize(
+    "text", ["0.00,1\n0.01,2\n0.02,3\n0.03,5\n", "0,1,5\n1,2,6\n2,3,8\n3,1,5\n", "t,a\n0,1\n1,2\n2,7\n3,9\n"]
+)
+def test_commas_that_part_columns_still_do(text: str) -> None:
+    assert read_text(text, unit="gal")[0].acceleration.size in (3, 4)
+
+
+def test_a_gap_is_not_bridged_by_a_line() -> None:
+    rows = [f"{i * STEP:.3f} {v:.5f}\n" for i, v in enumerate(TRUE)]
+    (one,) = read_text("".join(rows[:10] + rows[11:]), unit="m/s2")
+    assert one.acceleration.size == N and "unevenly spaced" in one.warnings[0]
+    with pytest.raises(RecordError, match=r"no samples between 0.09 and 0.16 s.*not bridged"):
+        read_text("".join(rows[:10] + rows[16:]), unit="m/s2")
+
+
+def test_a_missing_line_does_not_pass_for_rounding() -> None:
+    """Times of two digits and a step of one hundredth: the last digit is the step, so nothing is rounded."""
+    rows = [f"{i * STEP:.2f} {v:.5f}\n" for i, v in enumerate(TRUE)]
+    (record,) = read_text("".join(rows[:20] + rows[21:]), unit="m/s2")
+    assert record.time_step == STEP and "unevenly spaced" in record.warnings[0]
+
+
+@pytest.mark.parametrize(("name", "text"), [
+    ("kobe.VT2", "1.0\n150.0\n-99.0\n3.0\n"),
+    ("made", "velocity in cm/s\n4 0.01\n1.0\n150.0\n-99.0\n3.0\n"),
+    ("made", "# velocity, cm/s\n0.00 1.0\n0.01 150.0\n0.02 -99.0\n"),
+    ("made", "time,vel NS (cm/s)\n0.00,1.0\n0.01,150.0\n0.02,-99.0\n"),
+    ("made", "PEER NGA RECORD\nQuake, 1/2/99, Here, 045\nUNITS OF CM/S\nNPTS= 3, DT= .01 SEC\n1.0 150.0 -99.0\n"),
+    ("made", made_files.unam().replace(": Gal (cm/s/s)", ": cm/s")),
+    ("made", made_files.csmip_of_1983().replace("POINTS OF ACCEL", "POINTS OF VELOC")),
+])  # fmt: skip
+def test_a_velocity_file_is_called_so_and_no_unit_is_offered(name: str, text: str) -> None:
+    with pytest.raises(RecordError, match="velocity") as caught:
+        read_content(
+            text.encode(), name, Options(unit=None if "ARCHIVO" in text or "POINTS" in text else "g")
+        )
+    assert "divided" not in str(caught.value)
+
+
+def test_velocity_beside_acceleration_is_left_out() -> None:
+    text = "time,acc NS (gal),vel NS (cm/s)\n" + "".join(
+        f"{i * STEP:.2f},{i % 7},{i % 5}\n" for i in range(9)
+    )
+    assert [record.component for record in read_text(text)] == ["NS"]
+
+
+def test_surplus_lines_that_repeat_are_left_out_with_a_word() -> None:
+    records = read_text(made("UNAM/CICESE: repeated last line"))
+    assert {record.acceleration.size for record in records} == {N}
+    assert all("2 surplus lines repeat the end and are left out" in record.warnings[0] for record in records)
+    text = made("UNAM/CICESE")
+    with pytest.raises(RecordError, match="more than one line too many"):
+        read_text(text + 3 * (text.rstrip("\n").rsplit("\n", 1)[1] + "\n"))
+
+
+def test_channels_have_names_of_their_own() -> None:
+    text = "time,NS (gal),NS (gal),(gal)\n" + "".join(
+        f"{i / 100},{i % 5},{i % 7},{i % 3}\n" for i in range(9)
+    )
+    assert [r.component for r in read_text(text)] == ["NS (channel 1)", "NS (channel 2)", "channel 3"]
+    assert [r.azimuth for r in read_text(text)] == [0.0, 0.0, None]
+    (single,) = read_text("\n".join(f"{v:.4f}" for v in TRUE), unit="m/s2", time_step=STEP)
+    assert single.component == "channel 1"
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_no_component_is_empty(name: str) -> None:
+    components = [record.component for record in read_text(made(name), **declared(name))]
+    assert all(components) and len(set(components)) == len(components), format_of(name)
