@@ -36,3 +36,5 @@ from .structures import Spire as Spire
 from .structures import Wall as Wall
 from .structures import structure_from_config as structure_from_config
 from .structures.outcome import Outcome as Outcome
+from .study.results import Results as Results
+from .study.results import open_results as open_results

@@ -16,7 +16,7 @@ from rocking.structures.equivalence import (
 )
 from rocking.structures.mechanism import Scale, Side
 from rocking.structures.wall import Wall
-from rocking.tables import Row
+from rocking.tables import Row, column, row
 
 WALL_SLENDERNESS = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3)
 """α of the walls of Figs. 3 and 4, rad."""
@@ -35,6 +35,18 @@ OVERTURNING = "time to overturn, block / structure [-]"
 ROTATION = "rotation / critical rotation [-]"
 
 
+@row("curves", "The curves of a figure, one row per point")
+class CurveRow(Row):
+    """One point of one curve."""
+
+    panel: str = column("Panel of the figure")
+    curve: str = column("Label of the curve in the legend")
+    x_quantity: str = column("What x is, with its unit")
+    x: float = column("Abscissa")
+    y_quantity: str = column("What y is, with its unit")
+    y: float = column("Ordinate")
+
+
 @dataclass(frozen=True, eq=False)
 class Curve:
     """One line of one panel: what x and y are (with unit), and their values (k,). An empty style takes its turn."""
@@ -47,17 +59,17 @@ class Curve:
     y: np.ndarray
     style: str = ""
 
-    def rows(self) -> Iterator[Row]:
-        """Return the curve as rows of CURVES."""
+    def rows(self) -> Iterator[CurveRow]:
+        """Yield the points of the curve."""
         for x, y in zip(self.x, self.y, strict=True):
-            yield {
-                "panel": self.panel,
-                "curve": self.label,
-                "x_quantity": self.x_quantity,
-                "x": float(x),
-                "y_quantity": self.y_quantity,
-                "y": float(y),
-            }
+            yield CurveRow(
+                panel=self.panel,
+                curve=self.label,
+                x_quantity=self.x_quantity,
+                x=float(x),
+                y_quantity=self.y_quantity,
+                y=float(y),
+            )
 
 
 def wall_sides() -> dict[str, Side]:
@@ -166,6 +178,6 @@ def _hinged(height_ratio: float, thickness_ratio: float) -> Wall:
     return Wall.hinged_at(1.0, 1 / (1 + height_ratio), thickness_ratio, restitution=0.9)
 
 
-def rows_of(curves: Sequence[Curve]) -> list[Row]:
+def rows_of(curves: Sequence[Curve]) -> list[CurveRow]:
     """Return all points of all curves."""
     return [row for curve in curves for row in curve.rows()]

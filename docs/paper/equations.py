@@ -17,24 +17,25 @@ from rocking.structures.block import Block
 from rocking.structures.mechanism import EquivalentBlock
 from rocking.structures.structure import Structure
 from rocking.structures.wall import Wall
-from rocking.tables import Column, Row, Table
+from rocking.tables import Row, column, row
 
-EQUATIONS = Table(
+
+@row(
     "equations",
     "One row per equation that the source paper prints with a slip, with the number that decides",
-    (
-        Column("equation", "string", "Number of the equation in the paper"),
-        Column("printed", "string", "What the paper prints"),
-        Column("corrected", "string", "What is right"),
-        Column("quantity", "string", "The number by which it is decided, with its unit"),
-        Column("printed_number", "number", "That number by the printed form; INF if it overturns"),
-        Column("corrected_number", "number", "That number by the corrected form; INF if it overturns"),
-        Column(
-            "deciding_number", "number", "That number from something that uses neither; INF if it overturns"
-        ),
-        Column("decided_by", "string", "Where the deciding number comes from"),
-    ),
 )
+class EquationRow(Row):
+    """One slip, both forms, and the number that decides between them."""
+
+    equation: str = column("Number of the equation in the paper")
+    printed: str = column("What the paper prints")
+    corrected: str = column("What is right")
+    quantity: str = column("The number by which it is decided, with its unit")
+    printed_number: float = column("That number by the printed form; INF if it overturns")
+    corrected_number: float = column("That number by the corrected form; INF if it overturns")
+    deciding_number: float = column("That number from something that uses neither; INF if it overturns")
+    decided_by: str = column("Where the deciding number comes from")
+
 
 _ALPHA = 0.2
 _EQUAL = Wall(2 * math.cos(_ALPHA), 2 * math.cos(_ALPHA), 2 * math.sin(_ALPHA))
@@ -44,19 +45,28 @@ _UNEQUAL = Wall(1.0, 2.0, 0.3)
 _DRAWING = "positions of the parts in the drawing, at neighbouring rotations"
 
 
-def equation_rows() -> list[Row]:
-    """Return the rows of EQUATIONS."""
+def equation_rows() -> list[EquationRow]:
+    """Return the equations."""
     return [*_sign_rows(), *_inertia_rows(), *_hinge_rows(), *_pulse_rows()]
 
 
 def _row(
     equation: str, forms: tuple[str, str], quantity: str, numbers: tuple[float, float, float], by: str
-) -> Row:
-    values = (equation, *forms, quantity, *(float(number) for number in numbers), by)
-    return dict(zip(EQUATIONS.column_names, values, strict=True))
+) -> EquationRow:
+    printed, corrected, deciding = (float(number) for number in numbers)
+    return EquationRow(
+        equation=equation,
+        printed=forms[0],
+        corrected=forms[1],
+        quantity=quantity,
+        printed_number=printed,
+        corrected_number=corrected,
+        deciding_number=deciding,
+        decided_by=by,
+    )
 
 
-def _sign_rows() -> list[Row]:
+def _sign_rows() -> list[EquationRow]:
     block = Block(1.0, _ALPHA)
     released = -GRAVITY * drawn_gravity(block, 0.0) / drawn_inertia(block, 0.0)
     linear = 0.75 * GRAVITY * _ALPHA  # p² θ_cr of a block of semi-diagonal 1 m
@@ -73,7 +83,7 @@ def _sign_rows() -> list[Row]:
     return [*rows, _row("8, 9", forms, f"{quantity}, linearised", (linear, -linear, wall), _DRAWING)]
 
 
-def _inertia_rows() -> list[Row]:
+def _inertia_rows() -> list[EquationRow]:
     sine = math.sin(_ALPHA) ** 2
     forms = ("I_O/(2mR) + 6R sin²(α − φ)", "I_O/(2mR) + 2R sin²(α − φ)")
     # the equation stands divided by 4mR, and the drawing has mass 1 m² per block of 4 sin α cos α m²
@@ -82,7 +92,7 @@ def _inertia_rows() -> list[Row]:
     return [_row("4, 6", forms, quantity, (2 / 3 + 6 * sine, 2 / 3 + 2 * sine, drawn), _DRAWING)]
 
 
-def _hinge_rows() -> list[Row]:
+def _hinge_rows() -> list[EquationRow]:
     side = _UNEQUAL.mechanism().positive
     critical = math.atan2(_UNEQUAL.thickness, _UNEQUAL.lower_height)
     slope = _derivative(lambda rotation: drawn_gravity(_UNEQUAL, rotation), critical)
@@ -101,7 +111,7 @@ def _hinge_rows() -> list[Row]:
     return [*rows, _row("14, λ", forms, f"uplift acceleration {wall} [g]", numbers, _DRAWING)]
 
 
-def _largest_row() -> Row:
+def _largest_row() -> EquationRow:
     printed, right = (HEIGHT_RATIOS[int(np.argmax(curve.y))] for curve in hinge_height_curves())
     drawn = []
     coarse = HEIGHT_RATIOS[::20]
@@ -117,7 +127,7 @@ def _largest_row() -> Row:
     return _row("14, text", forms, quantity, (printed, right, coarse[int(np.argmax(drawn))]), _DRAWING)
 
 
-def _pulse_rows() -> list[Row]:
+def _pulse_rows() -> list[EquationRow]:
     rows = []
     for amplitude, frequency in ((3.0, 2.5), (10.0, 6.0), (1.5, 4.0)):
         block = EquivalentBlock(1.0, 1.0, 1.0, 0.9)  # λ = 1 g and p = 1 rad/s: the pulse carries a and ω

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from docs.paper import curves
-from docs.paper.equations import EQUATIONS, equation_rows
+from docs.paper.equations import EquationRow, equation_rows
 from docs.paper.figures import arch_response, panels, pulse_map
 from docs.paper.response import example_arch, response_curves
 from rocking.records.accelerogram import Accelerogram
@@ -16,18 +16,29 @@ from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.style import svg
 from rocking.sine_pulse import pulse_spectrum
-from rocking.tables import Column, Row, Table, csv_cells
+from rocking.tables import Row, column, row
+
+
+@row("pulse_spectrum", "One row per point of the spectrum of one sine pulse")
+class PulseSpectrumRow(Row):
+    """One block under one sine pulse."""
+
+    frequency_ratio: float = column(
+        "Circular frequency of the pulse over frequency parameter", equation="Eq. 16"
+    )
+    amplitude_ratio: float = column("a = a_g / (g times uplift multiplier)", equation="Eq. 16")
+    rotation_ratio: float = column("Largest rotation over critical rotation; INF if it overturns")
 
 
 @dataclass(frozen=True, eq=False)
 class PaperFigure:
-    """One figure of the paper, redrawn. name: of its files. table and rows: its data, as a CSV holds them."""
+    """One figure of the paper, redrawn. name: of its files. row_class and rows: its data."""
 
     name: str
     caption: str
     figure: Figure
-    table: Table
-    rows: list[Row]
+    row_class: type[Row]
+    rows: Sequence[Row]
 
 
 def paper_figures(rinaldi: Accelerogram | None) -> list[PaperFigure]:
@@ -39,17 +50,17 @@ def paper_figures(rinaldi: Accelerogram | None) -> list[PaperFigure]:
     return made if rinaldi is None else [*made, _figure_8(rinaldi)]
 
 
-def paper_report(figures: Sequence[PaperFigure], equations: Sequence[Row]) -> bytes:
-    """Return one PDF with `figures` and the table of equations (rows of EQUATIONS)."""
+def paper_report(figures: Sequence[PaperFigure], equations: Sequence[EquationRow]) -> bytes:
+    """Return one PDF with `figures` and the table of equations."""
     data = {
         "title": "Towards a unified description of rocking structures: figures and equations recomputed",
         "figures": [{"svg": svg(f.figure), "caption": f.caption, "name": f.name} for f in figures],
-        "equations": equation_table([csv_cells(EQUATIONS, row) for row in equations]),
+        "equations": equation_table(equations),
     }
     return compile_document(Path(__file__).with_name("paper.typ"), data)
 
 
-def equation_table(rows: Sequence[printing.Row]) -> dict[str, object]:
+def equation_table(rows: Sequence[EquationRow]) -> dict[str, object]:
     """Return the equations as the template sets them."""
     columns = [
         ("Eq.", "0.45", "l"),
@@ -60,36 +71,19 @@ def equation_table(rows: Sequence[printing.Row]) -> dict[str, object]:
         ("Corrected gives", "0.75", "r"),
         ("Decided", "0.7", "r"),
     ]
-    names = ("printed_number", "corrected_number", "deciding_number")
-    texts = ("equation", "printed", "corrected", "quantity")
-    return printing.table(
-        columns,
-        [[row[name] for name in texts] + [printing.number(row[name], 6) for name in names] for row in rows],
-    )
+    return printing.table(columns, [_equation_cells(row) for row in rows])
+
+
+def _equation_cells(row: EquationRow) -> list[printing.Cell]:
+    numbers = (row.printed_number, row.corrected_number, row.deciding_number)
+    texts = (row.equation, row.printed, row.corrected, row.quantity)
+    return [*texts, *(printing.number(number, 6) for number in numbers)]
 
 
 def _made(
     name: str, caption: str, lines: Sequence[curves.Curve], figure: Figure | None = None
 ) -> PaperFigure:
-    return PaperFigure(
-        name, caption, figure or panels(lines), curve_table(name, caption), curves.rows_of(lines)
-    )
-
-
-def curve_table(name: str, caption: str) -> Table:
-    """Return the description of a figure's CSV."""
-    return Table(
-        name,
-        f"The curves of a figure, one row per point. {caption}",
-        (
-            Column("panel", "string", "Panel of the figure"),
-            Column("curve", "string", "Label of the curve in the legend"),
-            Column("x_quantity", "string", "What x is, with its unit"),
-            Column("x", "number", "Abscissa"),
-            Column("y_quantity", "string", "What y is, with its unit"),
-            Column("y", "number", "Ordinate"),
-        ),
-    )
+    return PaperFigure(name, caption, figure or panels(lines), curves.CurveRow, curves.rows_of(lines))
 
 
 def _figure_3() -> PaperFigure:
@@ -157,32 +151,15 @@ def _pulse_spectrum() -> PaperFigure:
     )
     frequencies, amplitudes = np.geomspace(0.5, 12, 90), np.geomspace(1.01, 20, 90)
     ratios = pulse_spectrum(frequencies, amplitudes, 0.9)
-    rows: list[Row] = [
-        {"frequency_ratio": float(omega), "amplitude_ratio": float(a), "rotation_ratio": float(ratios[i, j])}
+    rows = [
+        PulseSpectrumRow(
+            frequency_ratio=float(omega), amplitude_ratio=float(a), rotation_ratio=float(ratios[i, j])
+        )
         for i, omega in enumerate(frequencies)
         for j, a in enumerate(amplitudes)
     ]
     figure = pulse_map(frequencies, amplitudes, ratios)
-    return PaperFigure("pulse_spectrum", caption, figure, _pulse_spectrum_table(caption), rows)
-
-
-def _pulse_spectrum_table(caption: str) -> Table:
-    return Table(
-        "pulse_spectrum",
-        f"One row per point of the spectrum. {caption}",
-        (
-            Column(
-                "frequency_ratio",
-                "number",
-                "Circular frequency of the pulse over frequency parameter",
-                "Eq. 16",
-            ),
-            Column("amplitude_ratio", "number", "a = a_g / (g times uplift multiplier)", "Eq. 16"),
-            Column(
-                "rotation_ratio", "number", "Largest rotation over critical rotation; INF if it overturns"
-            ),
-        ),
-    )
+    return PaperFigure("pulse_spectrum", caption, figure, PulseSpectrumRow, rows)
 
 
 def _figure_8(rinaldi: Accelerogram) -> PaperFigure:
@@ -196,4 +173,4 @@ def _figure_8(rinaldi: Accelerogram) -> PaperFigure:
     return _made("figure_8", caption, lines, arch_response(lines, example_arch(10.0)))
 
 
-__all__ = ["EQUATIONS", "PaperFigure", "equation_rows", "paper_figures", "paper_report"]
+__all__ = ["EquationRow", "PaperFigure", "equation_rows", "paper_figures", "paper_report"]

@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from docs.paper.report import EQUATIONS, equation_rows, paper_figures, paper_report
+from docs.paper.report import EquationRow, equation_rows, paper_figures, paper_report
 from rocking.errors import RecordError
 from rocking.records.catalogue import load_catalogue, open_record
 from rocking.reports.style import svg
-from rocking.tables import write_table, write_whole
+from rocking.tables import write_rows, write_whole
 
 EXAMPLE = "RSN1063_NORTHR_RRS228"
 """The record of the paper's example (Fig. 8), by its identifier in the catalogue of near-fault records."""
@@ -28,8 +28,8 @@ def write_paper(catalogue: Path, mirror: str | None, folder: Path) -> str:
         message = f"Fig. 8 was left out: {error}"
     figures, equations = paper_figures(rinaldi), equation_rows()
     for figure in figures:
-        write_table(figure.table, figure.rows, folder / f"{figure.name}.csv")
+        write_rows(figure.row_class, figure.rows, folder / f"{figure.name}.csv")
         write_whole(folder / f"{figure.name}.svg", svg(figure.figure).encode())
-    write_table(EQUATIONS, equations, folder / EQUATIONS.file_name)
+    write_rows(EquationRow, equations, folder / EquationRow.table.file_name)
     write_whole(folder / "paper.pdf", paper_report(figures, equations))
     return message

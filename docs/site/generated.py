@@ -7,7 +7,7 @@ from typing import Any
 import yaml
 
 import rocking
-from rocking.assessment import columns
+from rocking.assessment.rows import PER_RECORD, SUMMARY_TABLES, SpectrumRow
 from rocking.quantities import ACCELERATION_UNITS
 from rocking.records.formats import FORMATS
 from rocking.tables import Table
@@ -39,8 +39,8 @@ def structures(workflow: Path) -> str:
 
 def tables(_: Path) -> str:
     """Every column of every table."""
-    known = dict.fromkeys((*columns.PER_RECORD, *columns.SUMMARY_TABLES, columns.SPECTRUM))
-    return "\n\n".join(_table_section(described) for described in known)
+    known = dict.fromkeys((*PER_RECORD, *SUMMARY_TABLES, SpectrumRow))
+    return "\n\n".join(_table_section(described.table) for described in known)
 
 
 def equations(_: Path) -> str:
@@ -50,12 +50,13 @@ def equations(_: Path) -> str:
     )
 
     head = ("Eq.", "quantity", "by the printed form", "by the corrected form", "decides")
-    names = ("equation", "quantity")
-    numbers = ("printed_number", "corrected_number", "deciding_number")
-    rows = equation_rows()
     body = (
-        (*(str(row[name]) for name in names), *(_figure(float(str(row[name]))) for name in numbers))
-        for row in rows
+        (
+            row.equation,
+            row.quantity,
+            *map(_figure, (row.printed_number, row.corrected_number, row.deciding_number)),
+        )
+        for row in equation_rows()
     )
     return table(head, body)
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from time import process_time
 
-from rocking.assessment.fidelity import Answer, Level, cheapest_answer, limits_for
+from rocking.assessment.fidelity import Answer, cheapest_answer, limits_for
 from rocking.assessment.method import Method
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import PulseError, RockingError
@@ -155,32 +155,6 @@ def predict(
     )
 
 
-NEGLIGIBLE = 1e-3
-"""Rotation ratio below which a structure that rocks is not told from one that rests, when verdicts are compared."""
-
-
-def verdict(predicted: float, integrated: float) -> str:
-    """Say whether a predicted rotation ratio errs against the integrated one.
-
-    "agree": both rest, rock or overturn; "unsafe": the prediction says less than happens; "safe": it says more;
-    "unknown" where one of them is nan.
-    """
-    if math.isnan(predicted) or math.isnan(integrated):
-        return "unknown"
-    difference = _severity(predicted) - _severity(integrated)
-    return "agree" if difference == 0 else "safe" if difference > 0 else "unsafe"
-
-
-def _severity(rotation_ratio: float) -> int:
-    return 2 if math.isinf(rotation_ratio) else int(rotation_ratio > NEGLIGIBLE)
-
-
-def ratio(predicted: float, integrated: float) -> float:
-    """Return predicted over integrated rotation ratio where both rock, else nan."""
-    both_rock = 0 < predicted < math.inf and 0 < integrated < math.inf
-    return predicted / integrated if both_rock else math.nan
-
-
 def _interval(analysis: PulseAnalysis, settings: AssessmentSettings) -> PulseInterval | None:
     if not settings.bootstrap_replicates:
         return None
@@ -201,13 +175,12 @@ def _case(
     if full:
         responses = _responses(mechanism, accelerogram, settings, vertical)
         whole = responses[Method.MECHANISM_ON_RECORD]
-        answer = Answer(Level.MECHANISM, whole.rotation_ratio, whole.outcome, whole)
+        answer = Answer(Method.MECHANISM_ON_RECORD, whole.rotation_ratio, whole.outcome, whole)
         if prediction is not None:
             responses |= _pulse_responses(mechanism, prediction, settings)
     else:
         answer = _cheapest(mechanism, prediction, accelerogram, settings, vertical)
-        method = Method.BLOCK_ON_RECORD if answer.level is Level.BLOCK else Method.MECHANISM_ON_RECORD
-        responses = {} if answer.response is None else {method: answer.response}
+        responses = {} if answer.response is None else {answer.integrated: answer.response}
     on_record = responses.get(Method.MECHANISM_ON_RECORD)
     check = check_model(structure, on_record, accelerogram, vertical) if on_record else UNKNOWN
     return Case(name, mechanism, prediction, responses, check, answer)

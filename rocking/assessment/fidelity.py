@@ -17,15 +17,12 @@ The band from the interval of the pulse takes no part: it costs more than the in
 Nothing was calibrated with vertical ground motion, so with it only 1 and 4 apply.
 """
 
-import csv
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields
-from enum import StrEnum
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-from rocking.errors import ConfigurationError
+from rocking.assessment.method import Method
 from rocking.motion.forcing import forcing_of
 from rocking.motion.integration import integrate
 from rocking.motion.response import Response
@@ -35,54 +32,38 @@ from rocking.records import Accelerogram
 from rocking.sine_pulse import Maximum
 from rocking.structures import EquivalentBlock, Mechanism
 from rocking.structures.outcome import Outcome
+from rocking.tables import Row, column, read_rows, row
 
 NUDGE = 0.03
 """Relative change of the ground motion that the verdict of a rocking block must survive."""
 
 
-class Level(StrEnum):
-    """What answered, from the cheapest to the dearest."""
-
-    NOTHING = "nothing to integrate"
-    CLOSED_FORM = "closed form"
-    BLOCK = "block on record"
-    MECHANISM = "mechanism on record"
+LADDER = (Method.NOTHING_TO_INTEGRATE, Method.CLOSED_FORM, Method.BLOCK_ON_RECORD, Method.MECHANISM_ON_RECORD)
+"""What may answer, from the cheapest to the dearest."""
 
 
-@dataclass(frozen=True)
-class Limits:
-    """How far the cheap methods are trusted, for one tolerance and one risk, and what that rests on.
+@row("fidelity", "One row per tolerance and risk: how far the cheap methods are trusted")
+class Limits(Row):
+    """How far the cheap methods are trusted, for one tolerance and one risk, and what that rests on."""
 
-    tolerance: relative error of the rotation that counts as right. risk: largest share of unsafe answers.
-    closed_form_margin, known_error, rotation_ratio, sensitivity: as in the rule; inf or 0 for a method not trusted.
-    answers, right, unsafe: of the closed form and the block together, on the half of the sites they were chosen on.
-    """
-
-    tolerance: float
-    risk: float
-    closed_form_margin: float
-    known_error: float
-    rotation_ratio: float
-    sensitivity: float
-    answers: int
-    right: float
-    unsafe: float
-
-
-def read_limits(lines: Iterable[str]) -> tuple[Limits, ...]:
-    """Return the rows of a CSV text with the columns of Limits. Raises ConfigurationError for another table."""
-    reader = csv.DictReader(lines)
-    names = [field.name for field in fields(Limits)]
-    if reader.fieldnames != names:
-        raise ConfigurationError(f"The limits must have the columns {', '.join(names)}.")
-    return tuple(_limits({name: float(text) for name, text in row.items()}) for row in reader)
+    tolerance: float = column("Relative error of the rotation that counts as right")
+    risk: float = column("Largest share of unsafe answers")
+    closed_form_margin: float = column(
+        "Least overturning margin, negated, at which the closed form may say overturns; INF: never"
+    )
+    known_error: float = column("Largest known error of an equivalent block that may answer; 0: none may")
+    rotation_ratio: float = column(
+        "Largest rotation over critical rotation that a block may answer; 0: overturning only"
+    )
+    sensitivity: float = column("Largest magnitude of its d ln(largest rotation) / d ln(ground acceleration)")
+    answers: int = column(
+        "Answers of the closed form and the block on the half of the sites that the limits were chosen on"
+    )
+    right: float = column("Share of them that were right")
+    unsafe: float = column("Share of them that were unsafe")
 
 
-def _limits(row: dict[str, Any]) -> Limits:
-    return Limits(**row | {"answers": int(row["answers"])})
-
-
-LIMITS = read_limits(Path(__file__).with_suffix(".csv").read_text(encoding="utf-8").splitlines())
+LIMITS = tuple(read_rows(Limits, Path(__file__).with_suffix(".csv")))
 """Made by `snakemake calibrate_fidelity` from the real records of records/near_fault.csv."""
 
 
@@ -90,10 +71,15 @@ LIMITS = read_limits(Path(__file__).with_suffix(".csv").read_text(encoding="utf-
 class Answer:
     """What answered, and its largest rotation over the critical one; response is None for the closed form."""
 
-    level: Level
+    method: Method
     rotation_ratio: float
     outcome: Outcome
     response: Response | None
+
+    @property
+    def integrated(self) -> Method:
+        """The integration that `response` stands for: of a structure at rest, that of the mechanism."""
+        return self.method if self.method is Method.BLOCK_ON_RECORD else Method.MECHANISM_ON_RECORD
 
 
 def limits_for(tolerance: float, risk: float, table: Sequence[Limits] = LIMITS) -> Limits | None:
@@ -155,7 +141,7 @@ def cheapest_answer(
     of the ground motion flips its verdict; so does that of a block that rocks, with the larger of it and `NUDGE`.
     """
     if stays_at_rest(mechanism, accelerogram, vertical):
-        return Answer(Level.NOTHING, 0.0, Outcome.NO_UPLIFT, Response(0.0, Outcome.NO_UPLIFT))
+        return Answer(Method.NOTHING_TO_INTEGRATE, 0.0, Outcome.NO_UPLIFT, Response(0.0, Outcome.NO_UPLIFT))
     if limits is not None and vertical is None:
         nudge = max(fragility_change, NUDGE)
         cheap = _cheap_answer(mechanism, block, accelerogram, closed_form, limits, nudge)
@@ -170,7 +156,7 @@ def cheapest_answer(
         sensitivity=True,
         fragility_change=fragility_change,
     )
-    return Answer(Level.MECHANISM, whole.rotation_ratio, whole.outcome, whole)
+    return Answer(Method.MECHANISM_ON_RECORD, whole.rotation_ratio, whole.outcome, whole)
 
 
 def _cheap_answer(
@@ -184,7 +170,7 @@ def _cheap_answer(
     if closed_form is not None:
         light, maximum = closed_form
         if closed_form_stands(light, maximum.overturning_margin, limits):
-            return Answer(Level.CLOSED_FORM, math.inf, Outcome.OVERTURNS, None)
+            return Answer(Method.CLOSED_FORM, math.inf, Outcome.OVERTURNS, None)
     if known_error(mechanism, block) > limits.known_error:
         return None
     found = integrate(block, accelerogram)
@@ -192,4 +178,4 @@ def _cheap_answer(
         found = integrate(block, accelerogram, sensitivity=True, fragility_change=nudge)
     if not block_stands(found.rotation_ratio, found.sensitivity, found.fragile is not False, limits):
         return None
-    return Answer(Level.BLOCK, found.rotation_ratio, found.outcome, found)
+    return Answer(Method.BLOCK_ON_RECORD, found.rotation_ratio, found.outcome, found)

@@ -12,3 +12,5 @@ class Method(StrEnum):
     BLOCK_ON_RECORD = "block on record"
     MECHANISM_ON_PULSE = "mechanism on pulse"
     MECHANISM_ON_RECORD = "mechanism on record"
+    NOTHING_TO_INTEGRATE = "nothing to integrate"
+    """The ground never reaches the uplift acceleration, so the rotation is zero exactly."""

@@ -15,6 +15,8 @@ from time import perf_counter
 import numpy as np
 
 from rocking.assessment.method import Method
+from rocking.assessment.rows import TradeRow
+from rocking.assessment.verdict import Verdict, ratio, rocks, verdict
 from rocking.calibration.settings import TradeSettings
 from rocking.errors import MotionError, PulseError, RockingError
 from rocking.motion.integration import integrate
@@ -25,7 +27,7 @@ from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures import Mechanism, Structure
 from rocking.structures.mechanism import Scale
-from rocking.tables import Column, Row, Table, data_package, write_table, write_whole
+from rocking.tables import data_package, write_rows, write_whole
 
 TOLERANCES = tuple(10.0**-power for power in range(2, 11))
 """Of the mechanism on the record."""
@@ -37,29 +39,6 @@ MOST_RECORDS = 40
 """Records among which the cases are sought, spread evenly over the catalogue."""
 LEAST_ROTATION = 0.01
 """Rotation ratio below which a case says nothing that matters to anyone."""
-
-TRADE = Table(
-    "trade",
-    "One row per case, method and setting: error against a tight integration, and time; differs between runs",
-    (
-        Column("record", "string", "Identifier of the record in the catalogue"),
-        Column("component", "string", "Component of the ground motion"),
-        Column("structure", "string", "Name of the structure in the structure list"),
-        Column("samples", "integer", "Samples of the strongest stretch, which every method was given"),
-        Column("time_step_s", "number", "Time step"),
-        Column("sensitivity", "number", "d ln(largest rotation) / d ln(ground acceleration)"),
-        Column("method", "string", "How the number was computed"),
-        Column("tolerance", "number", "Relative tolerance of the method; empty where it has none"),
-        Column("rotation_ratio", "number", "Largest rotation over critical rotation; INF if it overturns"),
-        Column("reference_rotation_ratio", "number", "The same by DOP853 at 1e-12, restarted at each sample"),
-        Column("error", "number", "Magnitude of the relative error where both rock; 0 where neither does"),
-        Column("verdict_agrees", "boolean", "Whether it rocks, overturns or stays as the reference says"),
-        Column("duration_s", "number", "Time of one response, median of the repeats, all tables warm"),
-        Column("repeats", "integer", "Timed runs"),
-        Column("preparation_s", "number", "Time spent once beforehand: on the pulse, or on the table of the mechanism"),
-        Column("reason", "string", "Why there is no number"),
-    ),
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -108,14 +87,17 @@ def write_trade(
                 except RockingError as error:
                     print(f"{name}: {error}", file=stream, flush=True)
 
-        def rows() -> Iterator[Row]:
+        def rows() -> Iterator[TradeRow]:
             for case in choose_cases(motions(), structures, settings.cases, settings.samples):
                 found = list(trade_rows(case, settings))
                 print(f"{case.record}, {case.structure}: {len(found)} runs", file=stream, flush=True)
                 yield from found
 
-        write_table(TRADE, rows(), table)
-    write_whole(table.with_suffix(".json"), data_package("rocking-trade", {TRADE.name: (TRADE, table.name)}))
+        write_rows(TradeRow, rows(), table)
+    write_whole(
+        table.with_suffix(".json"),
+        data_package("rocking-trade", {TradeRow.table.name: (TradeRow.table, table.name)}),
+    )
 
 
 def strongest_stretch(accelerogram: Accelerogram, samples: int) -> Accelerogram:
@@ -148,10 +130,10 @@ def choose_cases(
     return [*chosen, *(case for case in turns if case not in chosen)][:count]
 
 
-def trade_rows(case: TradeCase, settings: TradeSettings) -> Iterator[Row]:
-    """Yield the rows of TRADE for one case; none but the reference's where that has no answer within its budget.
+def trade_rows(case: TradeCase, settings: TradeSettings) -> Iterator[TradeRow]:
+    """Yield the rows for one case; none but the reference's where that has no answer within its budget.
 
-    What the reference leaves of the budget is the yardsticks'.
+    What the reference leaves of the budget is scipy's.
     """
     scale, pulse, budget = (
         settings.assessment.acceleration_scale,
@@ -166,7 +148,7 @@ def trade_rows(case: TradeCase, settings: TradeSettings) -> Iterator[Row]:
         return
     taken = perf_counter() - started
     yield _row(case, Timed("reference", REFERENCE_TOLERANCE, truth, taken, 1), truth)
-    runs = (_closed_forms(case, scale, pulse), _integrations(case, scale), _yardsticks(case, budget - taken))
+    runs = (_closed_forms(case, scale, pulse), _integrations(case, scale), _scipy(case, budget - taken))
     for timed in chain.from_iterable(runs):
         yield _row(case, timed, truth)
 
@@ -201,7 +183,7 @@ def _integrations(case: TradeCase, scale: Scale) -> Iterator[Timed]:
         yield _timed(Method.MECHANISM_ON_RECORD, tolerance, run, once)
 
 
-def _yardsticks(case: TradeCase, budget: float) -> Iterator[Timed]:
+def _scipy(case: TradeCase, budget: float) -> Iterator[Timed]:
     end = perf_counter() + budget
     for tolerance, method in product(SCIPY_TOLERANCES, SCIPY_METHODS):
         started = perf_counter()
@@ -226,34 +208,28 @@ def _timed(method: str, tolerance: float, run: Callable[[], float], preparation:
     return Timed(method, tolerance, found, median(durations), REPEATS, preparation)
 
 
-def _row(case: TradeCase, timed: Timed, truth: float) -> Row:
-    agrees = _verdict(timed.rotation_ratio) == _verdict(truth)
-    rocks = agrees and 0 < truth < math.inf
-    error = abs(timed.rotation_ratio / truth - 1) if rocks else 0.0 if agrees and truth == truth else math.nan
-    return {
-        "record": case.record,
-        "component": case.accelerogram.component,
-        "structure": case.structure,
-        "samples": case.accelerogram.acceleration.size,
-        "time_step_s": case.accelerogram.time_step,
-        "sensitivity": case.sensitivity,
-        "method": str(timed.method),
-        "tolerance": timed.tolerance,
-        "rotation_ratio": timed.rotation_ratio,
-        "reference_rotation_ratio": truth,
-        "error": error,
-        "verdict_agrees": None if math.isnan(timed.rotation_ratio) else agrees,
-        "duration_s": timed.duration,
-        "repeats": timed.repeats,
-        "preparation_s": timed.preparation,
-        "reason": timed.reason,
-    }
-
-
-def _verdict(rotation_ratio: float) -> int:
-    if math.isnan(rotation_ratio):
-        return -1
-    return 2 if math.isinf(rotation_ratio) else int(rotation_ratio != 0)
+def _row(case: TradeCase, timed: Timed, truth: float) -> TradeRow:
+    said = verdict(timed.rotation_ratio, truth)
+    agrees = said is Verdict.AGREE
+    miss = abs(ratio(timed.rotation_ratio, truth) - 1)
+    return TradeRow(
+        record=case.record,
+        component=case.accelerogram.component,
+        structure=case.structure,
+        samples=case.accelerogram.acceleration.size,
+        time_step_s=case.accelerogram.time_step,
+        sensitivity=case.sensitivity,
+        method=timed.method,
+        tolerance=timed.tolerance,
+        rotation_ratio=timed.rotation_ratio,
+        reference_rotation_ratio=truth,
+        error=0.0 if agrees and not rocks(truth) else miss,
+        verdict_agrees=None if said is Verdict.UNKNOWN else agrees,
+        duration_s=timed.duration,
+        repeats=timed.repeats,
+        preparation_s=timed.preparation,
+        reason=timed.reason,
+    )
 
 
 def _from_the_median(cases: Sequence[TradeCase]) -> list[TradeCase]:

@@ -7,21 +7,23 @@ wrong and too low: overturning or uplift missed, or a rotation too small by more
 import itertools
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
-from rocking.assessment.fidelity import Level, Limits
+from rocking.assessment.fidelity import LADDER, Limits
+from rocking.assessment.method import Method
+from rocking.assessment.verdict import Verdict, rocks, verdict
 from rocking.calibration.lights import distinct_components, grid_of_blocks
 from rocking.calibration.trials import Trial, trials
 from rocking.records import Accelerogram
 from rocking.structures import Structure
-from rocking.tables import Column, Table, write_table
+from rocking.tables import Row, column, row, write_rows
 
 TOLERANCES = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5)
 RISKS = (0.001, 0.01, 0.05)
 RIGHT = 0.95
 """Least share of right answers among the cheap ones, whichever one site is left out."""
-CHEAP = (Level.CLOSED_FORM, Level.BLOCK)
+CHEAP = (Method.CLOSED_FORM, Method.BLOCK_ON_RECORD)
 FEWEST = 20
 """Fewest answers on which a limit may rest."""
 _MARGINS = (0.0, 0.5, 1.0, 2.0, 5.0, 10.0)
@@ -31,67 +33,29 @@ _SHARES_OF_TOLERANCE = (1.0, 0.8, 0.6)
 """Largest known error over tolerance."""
 
 
-@dataclass(frozen=True)
-class HeldOut:
-    """What one row of limits did on one half of the sites; the columns of HELD_OUT say what each is."""
-
-    half: str
-    tolerance: float
-    risk: float
-    sites: int
-    trials: int
-    at_rest: float
-    closed_form: float
-    block: float
-    mechanism: float
-    right: float
-    unsafe: float
-    right_of_cheap: float
-    unsafe_of_cheap: float
-    unsafe_verdicts: float
-    time_saved: float
-    time_saved_full: float
-
-
-_MEANINGS = {
-    "half": "chosen on: the limits were chosen here; held out: they were not",
-    "tolerance": "Relative error of the rotation that counts as right",
-    "risk": "Largest share of unsafe answers asked for",
-    "sites": "Recording sites",
-    "trials": "Records times structures times factors on the record",
-    "at_rest": "Share of trials without uplift",
-    "closed_form": "Share of trials answered by the closed form",
-    "block": "Share of trials answered by the equivalent block",
-    "mechanism": "Share of trials integrated in full",
-    "right": "Share of right answers",
-    "unsafe": "Share of unsafe answers",
-    "right_of_cheap": "Share of right answers among those of the closed form and the block",
-    "unsafe_of_cheap": "Share of unsafe answers among those of the closed form and the block",
-    "unsafe_verdicts": "Share of trials in which overturning or uplift was missed",
-    "time_saved": "Share saved of integrating every mechanism once",
-    "time_saved_full": "The same, with sensitivity and fragility wherever the mechanism answers",
-}
-HELD_OUT = Table(
+@row(
     "fidelity_held_out",
     "One row per tolerance, risk and half of the sites: what the choice did; times differ between runs",
-    tuple(Column(name, "string" if name == "half" else "number", text) for name, text in _MEANINGS.items()),
 )
-_LIMIT_MEANINGS = {
-    "tolerance": "Relative error of the rotation that counts as right",
-    "risk": "Largest share of unsafe answers",
-    "closed_form_margin": "Least overturning margin, negated, at which the closed form may say overturns; INF: never",
-    "known_error": "Largest known error of an equivalent block that may answer; 0: none may",
-    "rotation_ratio": "Largest rotation over critical rotation that a block may answer; 0: overturning only",
-    "sensitivity": "Largest magnitude of its d ln(largest rotation) / d ln(ground acceleration)",
-    "answers": "Answers of the closed form and the block on the half of the sites that the limits were chosen on",
-    "right": "Share of them that were right",
-    "unsafe": "Share of them that were unsafe",
-}
-LIMITS_TABLE = Table(
-    "fidelity",
-    "One row per tolerance and risk: how far the cheap methods are trusted",
-    tuple(Column(name, "number", text) for name, text in _LIMIT_MEANINGS.items()),
-)
+class HeldOut(Row):
+    """What one row of limits did on one half of the sites."""
+
+    half: str = column("chosen on: the limits were chosen here; held out: they were not")
+    tolerance: float = column("Relative error of the rotation that counts as right")
+    risk: float = column("Largest share of unsafe answers asked for")
+    sites: int = column("Recording sites")
+    trials: int = column("Records times structures times factors on the record")
+    at_rest: float = column("Share of trials without uplift")
+    closed_form: float = column("Share of trials answered by the closed form")
+    block: float = column("Share of trials answered by the equivalent block")
+    mechanism: float = column("Share of trials integrated in full")
+    right: float = column("Share of right answers")
+    unsafe: float = column("Share of unsafe answers")
+    right_of_cheap: float = column("Share of right answers among those of the closed form and the block")
+    unsafe_of_cheap: float = column("Share of unsafe answers among those of the closed form and the block")
+    unsafe_verdicts: float = column("Share of trials in which overturning or uplift was missed")
+    time_saved: float = column("Share saved of integrating every mechanism once")
+    time_saved_full: float = column("The same, with sensitivity and fragility wherever the mechanism answers")
 
 
 def halves(everything: Sequence[Trial]) -> tuple[list[Trial], list[Trial]]:
@@ -102,9 +66,9 @@ def halves(everything: Sequence[Trial]) -> tuple[list[Trial], list[Trial]]:
 
 def is_right(answer: float, truth: float, tolerance: float) -> bool:
     """Whether the verdict agrees and the rotation is within the tolerance."""
-    if _verdict(answer) != _verdict(truth):
+    if verdict(answer, truth) is not Verdict.AGREE:
         return False
-    return not 0 < truth < math.inf or abs(answer / truth - 1) <= tolerance
+    return not rocks(truth) or abs(answer / truth - 1) <= tolerance
 
 
 def is_unsafe(answer: float, truth: float, tolerance: float) -> bool:
@@ -119,14 +83,24 @@ def choose_limits(chosen_on: Sequence[Trial], tolerance: float, risk: float) -> 
     counted would still be at most `risk` of them. Both hold whichever one site is left out.
     """
     lifted = [trial for trial in chosen_on if not trial.at_rest]
-    nothing = Limits(tolerance, risk, math.inf, 0.0, 0.0, 0.0, 0, math.nan, math.nan)
+    nothing = Limits(
+        tolerance=tolerance,
+        risk=risk,
+        closed_form_margin=math.inf,
+        known_error=0.0,
+        rotation_ratio=0.0,
+        sensitivity=0.0,
+        answers=0,
+        right=math.nan,
+        unsafe=math.nan,
+    )
     margins = (replace(nothing, closed_form_margin=margin) for margin in _MARGINS)
-    best = next((row for row in margins if _mostly_right(lifted, row)), nothing)
+    best = next((each for each in margins if _mostly_right(lifted, each)), nothing)
     most, errors = 0, (share * tolerance for share in _SHARES_OF_TOLERANCE)
     reaches = [(0.0, 0.0), *itertools.product(_ROTATION_RATIOS, _SENSITIVITIES)]
     for error, (ratio, sensitivity) in itertools.product(errors, reaches):
         tried = replace(best, known_error=error, rotation_ratio=ratio, sensitivity=sensitivity)
-        answered = sum(trial.level(tried) is Level.BLOCK for trial in lifted)
+        answered = sum(trial.level(tried) is Method.BLOCK_ON_RECORD for trial in lifted)
         if answered > most and _mostly_right(lifted, tried) and _seldom_unsafe(lifted, tried):
             best, most = tried, answered
     return _with_evidence(best, chosen_on)
@@ -138,7 +112,7 @@ def held_out(half: str, trials_of_half: Sequence[Trial], limits: Limits) -> Held
     pairs = list(zip(trials_of_half, levels, strict=True))
     right, unsafe, verdicts = _answers(pairs, limits.tolerance)
     cheap = [level in CHEAP for level in levels]
-    at_rest, closed_form, block, mechanism = (_mean([level is each for level in levels]) for each in Level)
+    at_rest, closed_form, block, mechanism = (_mean([level is each for level in levels]) for each in LADDER)
     return HeldOut(
         half=half,
         tolerance=limits.tolerance,
@@ -166,11 +140,11 @@ def write_fidelity(
     everything = grid_of_blocks() | dict(structures)
     made = [t for name, record in distinct_components(records) for t in trials(name, record, everything)]
     first, second = halves(made)
-    rows = [choose_limits(first, *pair) for pair in itertools.product(TOLERANCES, RISKS)]
+    limits = [choose_limits(first, *pair) for pair in itertools.product(TOLERANCES, RISKS)]
     parts = {"chosen on": first, "held out": second}
-    report = [held_out(half, part, row) for row, (half, part) in itertools.product(rows, parts.items())]
-    write_table(LIMITS_TABLE, (asdict(row) for row in rows), folder / LIMITS_TABLE.file_name)
-    write_table(HELD_OUT, (asdict(row) for row in report), folder / HELD_OUT.file_name)
+    report = [held_out(half, part, each) for each, (half, part) in itertools.product(limits, parts.items())]
+    write_rows(Limits, limits, folder / Limits.table.file_name)
+    write_rows(HeldOut, report, folder / HeldOut.table.file_name)
     return report
 
 
@@ -185,14 +159,14 @@ def _saved(found: Sequence[Trial], limits: Limits, full: bool) -> float:
     return 1 - spent / sum(trial.mechanism_full_s if full else trial.mechanism_s for trial in found)
 
 
-def _answers(pairs: Iterable[tuple[Trial, Level]], tolerance: float) -> tuple[list, list, list]:
+def _answers(pairs: Iterable[tuple[Trial, Method]], tolerance: float) -> tuple[list, list, list]:
     """Whether each answer is right, is unsafe, and misses overturning or uplift."""
     right, unsafe, verdicts = [], [], []
     for trial, level in pairs:
         answer, truth = trial.rotation_ratio(level), trial.mechanism_ratio
         right.append(is_right(answer, truth, tolerance))
         unsafe.append(is_unsafe(answer, truth, tolerance))
-        verdicts.append(_verdict(answer) < _verdict(truth))
+        verdicts.append(verdict(answer, truth) is Verdict.UNSAFE)
     return right, unsafe, verdicts
 
 
@@ -204,7 +178,9 @@ def _mostly_right(lifted: Sequence[Trial], limits: Limits) -> bool:
 
 def _seldom_unsafe(lifted: Sequence[Trial], limits: Limits) -> bool:
     """Of the block's rotations alone, so that overturnings, which cannot be unsafe, do not hide them."""
-    rocking = [t for t in lifted if not math.isinf(t.block_ratio) and t.level(limits) is Level.BLOCK]
+    rocking = [
+        t for t in lifted if not math.isinf(t.block_ratio) and t.level(limits) is Method.BLOCK_ON_RECORD
+    ]
     unsafe = [is_unsafe(t.block_ratio, t.mechanism_ratio, limits.tolerance) for t in rocking]
     return not rocking or _share_without_one_site(rocking, unsafe, more=1) <= limits.risk
 
@@ -216,10 +192,6 @@ def _share_without_one_site(found: Sequence[Trial], flags: Sequence[bool], more:
         kept = [flag for trial, flag in zip(found, flags, strict=True) if trial.site != site]
         shares.append((sum(kept) + more) / (len(kept) + more) if len(kept) >= FEWEST else 1.0)
     return max(shares, default=1.0)
-
-
-def _verdict(rotation_ratio: float) -> int:
-    return 2 if math.isinf(rotation_ratio) else int(rotation_ratio > 0)
 
 
 def _mean(flags: Sequence[bool]) -> float:

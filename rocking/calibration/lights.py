@@ -7,12 +7,13 @@ written down, from records that are listed in a catalogue.
 import itertools
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from rocking.assessment.assess import AssessmentSettings, predict
+from rocking.assessment.verdict import ratio, within_factor_two
 from rocking.errors import PulseError
 from rocking.motion.integration import integrate
 from rocking.pulses import Light, PulseAnalysis, extract_pulses, light, pulse_method
@@ -20,7 +21,7 @@ from rocking.pulses.evidence import Thresholds
 from rocking.pulses.reliability import Reliability
 from rocking.records import Accelerogram
 from rocking.structures import Block, Structure
-from rocking.tables import Column, Table, write_table
+from rocking.tables import Row, column, row, write_rows
 
 SCALES = (0.5, 1.0, 2.0)
 """Factors on each record, so that a record speaks for weaker and stronger shaking of the same shape."""
@@ -32,68 +33,24 @@ AMBER = (0.70, 0.75)
 _ENERGIES = np.round(np.arange(0.10, 0.61, 0.05), 2)
 _RATIOS = (1.1, 1.2, 1.3, 1.5, 2.0)
 
-COMPARISONS = Table(
+
+@row(
     "comparisons",
     "One row per record, structure and scale: prediction by the dominant pulse beside the integrations",
-    (
-        Column("record", "string", "Identifier of the record in the catalogue"),
-        Column("site", "string", "Event and station; what counts as one independent record"),
-        Column("structure", "string", "Name of the structure"),
-        Column("scale_factor", "number", "Factor on the record"),
-        Column("explained_energy", "number", "Share of the record's energy that the pulse explains"),
-        Column("amplitude_ratio", "number", "Pulse amplitude over g times uplift multiplier"),
-        Column("frequency_ratio", "number", "Circular frequency of the pulse over frequency parameter"),
-        Column("predicted_rotation_ratio", "number", "Closed form on the equivalent block under the pulse"),
-        Column("pulse_rotation_ratio", "number", "Mechanism under the pulse"),
-        Column("integrated_rotation_ratio", "number", "Mechanism under the record"),
-    ),
 )
+class Comparison(Row):
+    """One prediction beside its integrations."""
 
-THRESHOLDS = Table(
-    "thresholds",
-    "One row: what a record and a structure must reach for each light",
-    (
-        Column("green_explained_energy", "number", "Least share of energy explained of green"),
-        Column("amber_explained_energy", "number", "Least share of energy explained of amber"),
-        Column("amplitude_ratio", "number", "Least pulse amplitude over g times uplift multiplier of both"),
-        Column("evidence", "string", "What stands behind them"),
-    ),
-)
-RELIABILITY = Table(
-    "reliability",
-    "One row per light and class of frequency ratio: how often the prediction agreed with the whole record",
-    (
-        Column("light", "string", "green, amber or red"),
-        Column("frequency_ratio_from", "number", "Lower edge of the class, included"),
-        Column("frequency_ratio_to", "number", "Upper edge of the class, left out"),
-        Column("records", "integer", "Independent records (sites) behind the row"),
-        Column(
-            "comparisons",
-            "integer",
-            "Records x structures x scales in which the structure rocked or overturned",
-        ),
-        Column("within_factor_2", "number", "Share within a factor 2, where both rock"),
-        Column("median_ratio", "number", "Median of predicted over integrated rotation, where both rock"),
-        Column("overturnings_found", "integer", "Overturnings under the record that the pulse finds"),
-        Column("overturnings_missed", "integer", "Overturnings under the record that the pulse misses"),
-    ),
-)
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """One prediction beside its integrations; the columns of COMPARISONS say what each is."""
-
-    record: str
-    site: str
-    structure: str
-    scale_factor: float
-    explained_energy: float
-    amplitude_ratio: float
-    frequency_ratio: float
-    predicted_rotation_ratio: float
-    pulse_rotation_ratio: float
-    integrated_rotation_ratio: float
+    record: str = column("Identifier of the record in the catalogue")
+    site: str = column("Event and station; what counts as one independent record")
+    structure: str = column("Name of the structure")
+    scale_factor: float = column("Factor on the record")
+    explained_energy: float = column("Share of the record's energy that the pulse explains")
+    amplitude_ratio: float = column("Pulse amplitude over g times uplift multiplier")
+    frequency_ratio: float = column("Circular frequency of the pulse over frequency parameter")
+    predicted_rotation_ratio: float = column("Closed form on the equivalent block under the pulse")
+    pulse_rotation_ratio: float = column("Mechanism under the pulse")
+    integrated_rotation_ratio: float = column("Mechanism under the record")
 
 
 @dataclass(frozen=True)
@@ -141,34 +98,34 @@ def compare(
             mechanism, pulse_method(settings.pulse_choice).candidates(analysed), None, settings
         )
         yield Comparison(
-            record,
-            site,
-            name,
-            scale,
-            analysed.explained_energy,
-            prediction.amplitude_ratio,
-            prediction.frequency_ratio,
-            prediction.maximum.rotation_ratio,
-            integrate(mechanism, prediction.pulse, settings.tolerance).rotation_ratio,
-            integrate(mechanism, scaled, settings.tolerance).rotation_ratio,
+            record=record,
+            site=site,
+            structure=name,
+            scale_factor=scale,
+            explained_energy=analysed.explained_energy,
+            amplitude_ratio=prediction.amplitude_ratio,
+            frequency_ratio=prediction.frequency_ratio,
+            predicted_rotation_ratio=prediction.maximum.rotation_ratio,
+            pulse_rotation_ratio=integrate(mechanism, prediction.pulse, settings.tolerance).rotation_ratio,
+            integrated_rotation_ratio=integrate(mechanism, scaled, settings.tolerance).rotation_ratio,
         )
 
 
 def score(comparisons: Sequence[Comparison]) -> Score:
     """Count what `comparisons` say."""
-    predicted = np.array([c.predicted_rotation_ratio for c in comparisons])
-    integrated = np.array([c.integrated_rotation_ratio for c in comparisons])
-    overturned = np.isinf(integrated)
-    both = (predicted > 0) & np.isfinite(predicted) & (integrated > 0) & ~overturned
-    ratios = predicted[both] / integrated[both]
+    pairs = [(c.predicted_rotation_ratio, c.integrated_rotation_ratio) for c in comparisons]
+    ratios = [found for pair in pairs if not math.isnan(found := ratio(*pair))]
+    overturnings = [predicted for predicted, integrated in pairs if math.isinf(integrated)]
     return Score(
         comparisons=len(comparisons),
         records=len({c.site for c in comparisons}),
-        both_rock=int(both.sum()),
-        within_factor_2=float(np.mean((ratios >= 0.5) & (ratios <= 2))) if both.any() else math.nan,
-        median_ratio=float(np.median(ratios)) if both.any() else math.nan,
-        overturnings=int(overturned.sum()),
-        overturnings_found=int((overturned & np.isinf(predicted)).sum()),
+        both_rock=len(ratios),
+        within_factor_2=sum(bool(within_factor_two(*pair)) for pair in pairs) / len(ratios)
+        if ratios
+        else math.nan,
+        median_ratio=float(np.median(ratios)) if ratios else math.nan,
+        overturnings=len(overturnings),
+        overturnings_found=sum(map(math.isinf, overturnings)),
     )
 
 
@@ -184,16 +141,16 @@ def choose_thresholds(comparisons: Sequence[Comparison]) -> Thresholds:
         raise PulseError(
             "comparisons hold no pair of thresholds that earns green; add records or refuse the pulse."
         )
-    energy, ratio = max(pairs, key=lambda pair: len(_covered(comparisons, pair[0], math.inf, pair[1])))
+    energy, least = max(pairs, key=lambda pair: len(_covered(comparisons, pair[0], math.inf, pair[1])))
     ambers = [
         low
         for low in _ENERGIES
-        if low < energy and score(_covered(comparisons, low, energy, ratio)).earns(AMBER)
+        if low < energy and score(_covered(comparisons, low, energy, least)).earns(AMBER)
     ]
     return Thresholds(
         green_explained_energy=float(energy),
         amber_explained_energy=float(min(ambers, default=energy)),
-        amplitude_ratio=float(ratio),
+        amplitude_ratio=float(least),
         evidence=_evidence(comparisons),
     )
 
@@ -212,31 +169,37 @@ def reliability(comparisons: Sequence[Comparison], thresholds: Thresholds) -> li
         if not chosen:
             continue
         found = score(chosen)
-        missed = found.overturnings - found.overturnings_found
-        shares = (found.within_factor_2, found.median_ratio)
         rows.append(
             Reliability(
-                colour, low, high, found.records, found.comparisons, *shares, found.overturnings_found, missed
+                light=colour,
+                frequency_ratio_from=low,
+                frequency_ratio_to=high,
+                records=found.records,
+                comparisons=found.comparisons,
+                within_factor_2=found.within_factor_2,
+                median_ratio=found.median_ratio,
+                overturnings_found=found.overturnings_found,
+                overturnings_missed=found.overturnings - found.overturnings_found,
             )
         )
     return rows
 
 
 def _covered(
-    comparisons: Iterable[Comparison], low: float, high: float, ratio: float, without: str = ""
+    comparisons: Iterable[Comparison], low: float, high: float, least: float, without: str = ""
 ) -> list[Comparison]:
     return [
         c
         for c in comparisons
-        if low <= c.explained_energy < high and c.amplitude_ratio >= ratio and c.site != without
+        if low <= c.explained_energy < high and c.amplitude_ratio >= least and c.site != without
     ]
 
 
-def _earns_green(comparisons: Sequence[Comparison], energy: float, ratio: float) -> bool:
-    covered = _covered(comparisons, energy, math.inf, ratio)
+def _earns_green(comparisons: Sequence[Comparison], energy: float, least: float) -> bool:
+    covered = _covered(comparisons, energy, math.inf, least)
     sites = {c.site for c in covered}
     return len(sites) > 1 and all(
-        score(_covered(covered, energy, math.inf, ratio, site)).earns(GREEN) for site in sites
+        score(_covered(covered, energy, math.inf, least, site)).earns(GREEN) for site in sites
     )
 
 
@@ -261,10 +224,9 @@ def write_calibration(
         c for name, record in distinct_components(records) for c in compare(name, record, everything)
     ]
     thresholds = choose_thresholds(comparisons)
-    write_table(COMPARISONS, (asdict(c) for c in comparisons), folder / COMPARISONS.file_name)
-    write_table(THRESHOLDS, [asdict(thresholds)], folder / THRESHOLDS.file_name)
-    rows = (asdict(row) for row in reliability(comparisons, thresholds))
-    write_table(RELIABILITY, rows, folder / RELIABILITY.file_name)
+    write_rows(Comparison, comparisons, folder / Comparison.table.file_name)
+    write_rows(Thresholds, [thresholds], folder / Thresholds.table.file_name)
+    write_rows(Reliability, reliability(comparisons, thresholds), folder / Reliability.table.file_name)
     return thresholds
 
 

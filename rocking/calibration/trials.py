@@ -9,13 +9,13 @@ from time import process_time
 from rocking.assessment.assess import AssessmentSettings, predict
 from rocking.assessment.fidelity import (
     NUDGE,
-    Level,
     Limits,
     block_stands,
     closed_form_stands,
     known_error,
     stays_at_rest,
 )
+from rocking.assessment.method import Method
 from rocking.motion.integration import integrate
 from rocking.pulses import Light, PulseAnalysis, extract_pulses, pulse_method
 from rocking.records import Accelerogram
@@ -52,21 +52,25 @@ class Trial:
     mechanism_s: float
     mechanism_full_s: float
 
-    def level(self, limits: Limits) -> Level:
+    def level(self, limits: Limits) -> Method:
         """What answers under `limits`."""
         if self.at_rest:
-            return Level.NOTHING
+            return Method.NOTHING_TO_INTEGRATE
         if closed_form_stands(self.light, self.margin, limits):
-            return Level.CLOSED_FORM
+            return Method.CLOSED_FORM
         if self.known_error <= limits.known_error and block_stands(
             self.block_ratio, self.block_sensitivity, self.block_fragile, limits
         ):
-            return Level.BLOCK
-        return Level.MECHANISM
+            return Method.BLOCK_ON_RECORD
+        return Method.MECHANISM_ON_RECORD
 
-    def rotation_ratio(self, level: Level) -> float:
+    def rotation_ratio(self, level: Method) -> float:
         """The answer of one method."""
-        answers = {Level.NOTHING: 0.0, Level.CLOSED_FORM: math.inf, Level.BLOCK: self.block_ratio}
+        answers = {
+            Method.NOTHING_TO_INTEGRATE: 0.0,
+            Method.CLOSED_FORM: math.inf,
+            Method.BLOCK_ON_RECORD: self.block_ratio,
+        }
         return answers.get(level, self.mechanism_ratio)
 
     def duration(self, limits: Limits, full: bool) -> float:
@@ -75,13 +79,13 @@ class Trial:
         full: with its sensitivity and fragility where the mechanism answers.
         """
         level = self.level(limits)
-        if level is Level.NOTHING:
+        if level is Method.NOTHING_TO_INTEGRATE:
             return 0.0
-        tried = level is not Level.CLOSED_FORM and self.known_error <= limits.known_error
+        tried = level is not Method.CLOSED_FORM and self.known_error <= limits.known_error
         nudged = tried and 0 < self.block_ratio <= limits.rotation_ratio
         whole = self.mechanism_full_s if full else self.mechanism_s
         block = tried * self.block_s + nudged * self.block_full_s
-        return self.closed_form_s + block + (level is Level.MECHANISM) * whole
+        return self.closed_form_s + block + (level is Method.MECHANISM_ON_RECORD) * whole
 
 
 def trials(

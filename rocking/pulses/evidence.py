@@ -1,13 +1,11 @@
 """How far a dominant pulse may be trusted: the light of one record × structure, from thresholds that are data."""
 
-import csv
-from collections.abc import Iterable
-from dataclasses import dataclass, fields
 from enum import StrEnum
 from pathlib import Path
 
 from rocking.errors import PulseError
 from rocking.quantities import finite
+from rocking.tables import Row, column, read_rows, row
 
 
 class Light(StrEnum):
@@ -30,29 +28,27 @@ _SENTENCES = {
 }
 
 
-@dataclass(frozen=True)
-class Thresholds:
+@row("thresholds", "One row: what a record and a structure must reach for each light")
+class Thresholds(Row):
     """Least share of energy explained and least amplitude ratio of each light, and where they come from."""
 
-    green_explained_energy: float
-    amber_explained_energy: float
-    amplitude_ratio: float
-    evidence: str
+    green_explained_energy: float = column("Least share of energy explained of green")
+    amber_explained_energy: float = column("Least share of energy explained of amber")
+    amplitude_ratio: float = column("Least pulse amplitude over g times uplift multiplier of both")
+    evidence: str = column("What stands behind them")
 
 
-def read_thresholds(lines: Iterable[str]) -> Thresholds:
-    """Return the one row of a CSV text with the columns of Thresholds. Raises PulseError for any defect."""
-    rows = list(csv.DictReader(lines))
-    names = [field.name for field in fields(Thresholds)]
-    if len(rows) != 1 or list(rows[0]) != names:
-        raise PulseError(f"The thresholds must be one row with the columns {', '.join(names)}.")
-    numbers = [finite(PulseError, name, float(rows[0][name])) for name in names[:3]]
-    return Thresholds(numbers[0], numbers[1], numbers[2], rows[0]["evidence"])
+def read_thresholds(path: Path) -> Thresholds:
+    """Return the one row of a table of thresholds. Raises RockingError for any defect."""
+    rows = list(read_rows(Thresholds, path))
+    if len(rows) != 1:
+        raise PulseError(f"{path}: the thresholds must be one row, but are {len(rows)}.")
+    for name in ("green_explained_energy", "amber_explained_energy", "amplitude_ratio"):
+        finite(PulseError, f"{path}, {name}", getattr(rows[0], name))
+    return rows[0]
 
 
-THRESHOLDS = read_thresholds(
-    Path(__file__).with_name("thresholds.csv").read_text(encoding="utf-8").splitlines()
-)
+THRESHOLDS = read_thresholds(Path(__file__).with_name("thresholds.csv"))
 """Made by `snakemake calibrate` from the real records of records/near_fault.csv."""
 
 

@@ -1,10 +1,9 @@
-"""How the text of a CSV cell is printed: rounded, with a real minus, never changed otherwise."""
+"""How a value of a row is printed: rounded, with a real minus, never changed otherwise."""
 
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 
-Row = Mapping[str, str]
 Cell = str | dict[str, object]
 
 NOTHING = "–"
@@ -32,11 +31,10 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 LIGHT_SYMBOLS = {"green": "● green", "amber": "▲ amber", "red": "■ red"}
 
 
-def number(text: str, digits: int = 3) -> str:
-    """Return the number in `text` to `digits` significant digits; ∞ for INF, a dash for nothing."""
-    if text.strip() in ("", "nan"):
+def number(value: float | None, digits: int = 3) -> str:
+    """Return `value` to `digits` significant digits; ∞ for inf, a dash for nan or None."""
+    if value is None or math.isnan(value):
         return NOTHING
-    value = float(text)
     if math.isinf(value):
         return "∞" if value > 0 else "−∞"
     if 10**digits <= abs(value) < _LARGEST_PLAIN:
@@ -44,34 +42,37 @@ def number(text: str, digits: int = 3) -> str:
     return _typeset(f"{value:#.{digits}g}".rstrip("."))
 
 
-def whole(text: str) -> str:
-    """Return a whole number as it stands in the CSV, or a dash."""
-    return text.strip().replace("-", "−") or NOTHING
+def whole(value: int | None) -> str:
+    """Return a whole number, or a dash."""
+    return NOTHING if value is None else str(value).replace("-", "−")
 
 
-def given(text: str) -> str:
+def given(value: float | None) -> str:
     """Return a number that somebody chose (a factor, a tolerance) without trailing zeros."""
-    return NOTHING if text.strip() == "" else _typeset(f"{float(text):.6g}")
+    return NOTHING if value is None or math.isnan(value) else _typeset(f"{value:.6g}")
 
 
-def words(text: str) -> str:
-    """Return the text as it stands, or a dash."""
-    return text.strip() or NOTHING
+def words(text: str | Sequence[str] | None) -> str:
+    """Return the text, or several in a row, as it stands; a dash for none."""
+    whole_text = text if isinstance(text, str) else "; ".join(text or ())
+    return whole_text.strip() or NOTHING
 
 
-def lamp(light: str) -> str:
+def yes_or_no(value: bool | None) -> str:
+    """Return YES or no, or a dash where it is not known."""
+    return NOTHING if value is None else "YES" if value else "no"
+
+
+def lamp(light: str | None) -> str:
     """Return the light as symbol and word, so that it is read without colour."""
-    return LIGHT_SYMBOLS.get(light, words(light))
+    return LIGHT_SYMBOLS.get(light or "", words(light))
 
 
-def ratio(text: str, digits: int = 3) -> str:
-    """Return a rotation ratio: a number, "overturns" for INF, "no uplift" for zero, a dash for nothing."""
-    if text.strip() in ("", "nan"):
-        return NOTHING
-    value = float(text)
+def ratio(value: float, digits: int = 3) -> str:
+    """Return a rotation ratio: a number, "overturns" for inf, "no uplift" for zero, a dash for nan."""
     if math.isinf(value):
         return "overturns"
-    return "no uplift" if value == 0 else number(text, digits)
+    return "no uplift" if value == 0 else number(value, digits)
 
 
 def geometry(text: str) -> str:
@@ -113,25 +114,15 @@ def sentence(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-def of_component(rows: Iterable[Row], component: str) -> list[Row]:
-    """Return the rows of one component, in order."""
-    return [row for row in rows if row["component"] == component]
-
-
-def distinct(rows: Iterable[Row], column: str) -> list[str]:
-    """Return the different values of a column in the order of their first row."""
-    return list(dict.fromkeys(row[column] for row in rows))
-
-
 def table(columns: Sequence[tuple[str, str, str]], rows: Iterable[Sequence[Cell]]) -> dict[str, object]:
     """Return a table as the templates set it; a column is (heading, width, alignment)."""
     heads, widths, alignments = zip(*columns, strict=True)
     return {"heads": heads, "widths": widths, "alignments": alignments, "rows": [list(row) for row in rows]}
 
 
-def strong(text: str) -> dict[str, object]:
-    """Return a table cell whose text is set in bold."""
-    return {"text": text, "strong": True}
+def strong(text: str, really: bool = True) -> Cell:
+    """Return a table cell whose text is set in bold, or plain where it is not `really` meant to be."""
+    return {"text": text, "strong": True} if really else text
 
 
 def _typeset(text: str) -> str:

@@ -1,13 +1,13 @@
 """A study: many records against one list of structures, each record in its own folder of tables."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from time import process_time
 
-from rocking.assessment import columns, rows
-from rocking.assessment.assess import Assessment, Case, Failure, assess
+from rocking.assessment.assess import Assessment, Failure, assess
+from rocking.assessment.rows import Identity, RecordTables, TimingRow, candidate_rows, processing_rows
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, processed, processed_variants
 from rocking.errors import RockingError
@@ -17,7 +17,6 @@ from rocking.records.processing import process
 from rocking.records.vertical import aligned, open_vertical
 from rocking.structures import Structure
 from rocking.study.settings import Settings
-from rocking.tables import Row, write_table
 
 Opened = tuple[list[Accelerogram], Accelerogram | None]
 """The horizontal components of a record, and its vertical one where that acts too."""
@@ -83,11 +82,13 @@ def assess_record(record: CatalogueRecord, study: Study, folder: Path) -> list[s
     Returns the sentences of what failed.
     """
     started = process_time()
+    tables = RecordTables()
     try:
-        opened, failures = study.open(record), []
+        opened = study.open(record)
     except RockingError as error:
-        opened, failures = ([], None), [rows.failure_row(record.id, "", Failure("read", "", str(error)))]
-    return write_tables(record, opened, study, folder, failures, process_time() - started)
+        tables.fail(record.id, "", Failure("read", "", str(error)))
+        opened = [], None
+    return write_tables(record, opened, study, folder, tables, process_time() - started)
 
 
 def write_tables(
@@ -95,70 +96,42 @@ def write_tables(
     opened: Opened,
     study: Study,
     folder: Path,
-    failures: Sequence[Row] = (),
+    tables: RecordTables | None = None,
     read_duration: float = 0.0,
 ) -> list[str]:
-    """Write the tables of the components that were `opened` into `folder`, and return the sentences of what failed."""
-    tables: dict[str, list[Row]] = {table.name: [] for table in columns.PER_RECORD}
-    tables["failures"] = list(failures)
+    """Write the tables of the components that were `opened` into `folder`, and return the sentences of what failed.
+
+    tables: what is known already.
+    """
+    tables = tables or RecordTables()
     durations = {"read": read_duration}
     accelerograms, vertical = opened
     for accelerogram in accelerograms:
-        _assess_component(record, accelerogram, vertical, study, tables, durations)
-    tables["timings"] = [
-        {"record": record.id, "stage": stage, "duration_s": duration} for stage, duration in durations.items()
-    ]
-    for table in columns.PER_RECORD:
-        write_table(table, tables[table.name], folder / table.file_name)
-    return [str(row["message"]) for row in tables["failures"]]
+        beside = None if vertical is None else aligned(vertical, accelerogram)
+        assessment = assess(accelerogram, study.structures, study.assessment, beside)
+        identity = Identity(record.id, accelerogram, study.settings_sha256)
+        tables.add(identity, assessment, study.assessment, record.licence, beside)
+        varied = process_time()
+        _vary(identity, assessment, study, tables)
+        spent = {"variations": process_time() - varied, **assessment.durations}
+        durations |= {stage: durations.get(stage, 0.0) + duration for stage, duration in spent.items()}
+    for stage, duration in durations.items():
+        tables.timings.append(TimingRow(record=record.id, stage=stage, duration_s=duration))
+    tables.write(folder)
+    return [failure.message for failure in tables.failures]
 
 
-def _assess_component(
-    record: CatalogueRecord,
-    accelerogram: Accelerogram,
-    vertical: Accelerogram | None,
-    study: Study,
-    tables: dict[str, list[Row]],
-    durations: dict[str, float],
-) -> None:
-    beside = None if vertical is None else aligned(vertical, accelerogram)
-    assessment = assess(accelerogram, study.structures, study.assessment, beside)
-    identity = rows.Identity(record.id, accelerogram, study.settings_sha256)
-    made = rows.all_rows(identity, assessment, study.assessment, record.licence, beside)
-    for name, new in made.items():
-        tables[name].extend(new)
-    varied = process_time()
-    for name, new in _variations(identity, assessment, study).items():
-        tables[name].extend(new)
-    durations["variations"] = durations.get("variations", 0.0) + process_time() - varied
-    for stage, duration in assessment.durations.items():
-        durations[stage] = durations.get(stage, 0.0) + duration
-
-
-def _variations(identity: rows.Identity, assessment: Assessment, study: Study) -> dict[str, list[Row]]:
-    """The rows of candidates and processing, for every structure that gave a result, and of what failed among them."""
-    record = assessment.accelerogram
+def _vary(identity: Identity, assessment: Assessment, study: Study, tables: RecordTables) -> None:
+    """Append the rows of candidates and processing, for every structure that gave a result."""
+    record = identity.accelerogram
     records = processed(record) if study.settings.processing_variants else {}
-    made: dict[str, list[Row]] = {"candidates": [], "processing": [], "failures": []}
     for case in assessment.cases:
+        structure = study.structures[case.structure]
+        pulse = case.prediction.pulse if case.prediction else None
         try:
-            _vary(identity, case, records, study, made)
+            found = candidates(structure, record, pulse, study.settings.candidates, study.assessment)
+            tables.candidates.extend(candidate_rows(identity, case.structure, found))
+            variants = processed_variants(structure, records, study.assessment)
+            tables.processing.extend(processing_rows(identity, case.structure, variants))
         except RockingError as error:
-            failure = Failure("variations", case.structure, str(error))
-            made["failures"].append(rows.failure_row(identity.record, record.component, failure))
-    return made
-
-
-def _vary(
-    identity: rows.Identity,
-    case: Case,
-    records: Mapping[str, Accelerogram],
-    study: Study,
-    made: dict[str, list[Row]],
-) -> None:
-    structure = study.structures[case.structure]
-    pulse = case.prediction.pulse if case.prediction else None
-    found = candidates(structure, identity.accelerogram, pulse, study.settings.candidates, study.assessment)
-    made["candidates"] += rows.candidate_rows(identity, case.structure, found)
-    variants = processed_variants(structure, records, study.assessment)
-    made["processing"] += rows.processing_rows(identity, case.structure, variants)
+            tables.fail(identity.record, record.component, Failure("variations", case.structure, str(error)))

@@ -1,5 +1,6 @@
 """One file of the user's own, apart from any study, through the same functions as the workflow."""
 
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -8,9 +9,16 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from rocking.assessment import columns
+from rocking.assessment.method import Method
+from rocking.assessment.rows import (
+    ComparisonRow,
+    RecordTables,
+    SpectrumRow,
+    StructureRow,
+    spectrum_rows,
+    structure_rows,
+)
 from rocking.errors import ConfigurationError
-from rocking.motion.spectrum import rocking_spectrum
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.read import read
@@ -18,8 +26,7 @@ from rocking.structures import load_structures
 from rocking.study.plan import package_sha256, settings_sha256
 from rocking.study.run import Opened, Study, write_tables
 from rocking.study.settings import Settings
-from rocking.study.summary import structure_rows
-from rocking.tables import Row, read_rows, write_table
+from rocking.tables import write_rows
 
 FREQUENCY_PARAMETERS = np.geomspace(0.5, 10, 40)
 """p of the spectrum that is written, rad/s."""
@@ -85,7 +92,8 @@ def assess_file(
 
 def write_spectrum(accelerograms: Sequence[Accelerogram], restitution: float, target: Path) -> None:
     """Write the rocking spectrum of each component to `target` as rows of p, λ and rotation ratio."""
-    write_table(columns.SPECTRUM, list(_spectrum_rows(accelerograms, restitution)), target)
+    rows = spectrum_rows(accelerograms, FREQUENCY_PARAMETERS, UPLIFT_MULTIPLIERS, restitution)
+    write_rows(SpectrumRow, rows, target)
 
 
 def _narrowed(study: Study, name: str | None, structures: Path) -> Study:
@@ -102,60 +110,31 @@ def _write_report(record: CatalogueRecord, opened: Opened, study: Study, output:
     from rocking.study.record_reports import write_report
 
     write_report(record, lambda: opened, study, output / record.id)
-    write_table(
-        columns.STRUCTURES,
-        structure_rows(study.structures),
-        output / "summary" / columns.STRUCTURES.file_name,
-    )
+    table = output / "summary" / StructureRow.table.file_name
+    write_rows(StructureRow, structure_rows(study.structures), table)
 
 
 def _lines(folder: Path) -> Iterator[str]:
-    tables = {
-        t.name: read_rows(folder / t.file_name)
-        for t in (columns.COMPARISON, columns.RESPONSES, columns.FAILURES)
-    }
-    responses = {
-        (row["component"], row["structure"]): row
-        for row in tables["responses"]
-        if row["method"] == "mechanism on record"
-    }
-    for row in tables["comparison"]:
-        yield _line(row, responses[row["component"], row["structure"]]["outcome"])
-    for row in tables["failures"]:
-        yield f"not assessed: {row['structure'] or row['stage']}: {row['message']}"
+    tables = RecordTables.read(folder)
+    outcomes = {row.case: row.outcome for row in tables.responses if row.method is Method.MECHANISM_ON_RECORD}
+    for row in tables.comparison:
+        yield _line(row, outcomes[row.case])
+    for failure in tables.failures:
+        yield f"not assessed: {failure.structure or failure.stage}: {failure.message}"
 
 
-def _line(row: dict[str, str], outcome: str) -> str:
-    factor, regime = float(row["scale_factor"]), row["regime"]
-    parts = [
-        f"{row['component'] or 'component not named'}, {row['structure']}: {outcome}",
-        *_sentence("largest rotation {} of the critical one", row["integrated_rotation_ratio"]),
-        *_sentence(f"one pulse predicts {{}} ({regime})", row["predicted_rotation_ratio"]),
-        *([f"light {row['light']}"] if row["light"] else []),
-        *([f"the accelerations of the file were multiplied by {factor:g}"] if factor != 1 else []),
-        *(["FRAGILE: a small change of the ground motion flips this"] if row["fragile"] == "true" else []),
-    ]
+def _line(row: ComparisonRow, outcome: str) -> str:
+    integrated, predicted = row.integrated_rotation_ratio, row.predicted_rotation_ratio
+    parts = [f"{row.component or 'component not named'}, {row.structure}: {outcome}"]
+    if math.isfinite(integrated):  # overturning stands in the outcome
+        parts.append(f"largest rotation {integrated:.4g} of the critical one")
+    if not math.isnan(predicted):
+        said = "overturning" if math.isinf(predicted) else f"{predicted:.4g}"
+        parts.append(f"one pulse predicts {said} ({row.regime})")
+    if row.light:
+        parts.append(f"light {row.light}")
+    if row.scale_factor != 1:
+        parts.append(f"the accelerations of the file were multiplied by {row.scale_factor:g}")
+    if row.fragile:
+        parts.append("FRAGILE: a small change of the ground motion flips this")
     return "; ".join(parts)
-
-
-def _sentence(text: str, ratio: str) -> list[str]:
-    """The text with a rotation ratio in it; nothing where there is none or the outcome says it all."""
-    if not ratio or (ratio == "INF" and "predicts" not in text):
-        return []
-    return [text.format("overturning" if ratio == "INF" else f"{float(ratio):.4g}")]
-
-
-def _spectrum_rows(accelerograms: Sequence[Accelerogram], restitution: float) -> Iterator[Row]:
-    for accelerogram in accelerograms:
-        ratios = rocking_spectrum(accelerogram, FREQUENCY_PARAMETERS, UPLIFT_MULTIPLIERS, restitution)
-        for p, row in zip(FREQUENCY_PARAMETERS.tolist(), ratios.tolist(), strict=True):
-            for multiplier, value in zip(UPLIFT_MULTIPLIERS.tolist(), row, strict=True):
-                yield {
-                    "component": accelerogram.component,
-                    "frequency_parameter_rad_s": p,
-                    "uplift_multiplier": multiplier,
-                    "restitution": restitution,
-                    "rotation_ratio": value,
-                    "scale_factor": accelerogram.scale_factor,
-                    "record_sha256": accelerogram.source.sha256,
-                }

@@ -3,21 +3,25 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from rocking.assessment import columns
+from rocking.assessment.rows import SUMMARY_TABLES, ComparisonRow, TradeRow
 from rocking.reports.style import svg
 from rocking.reports.summary.figures import prediction_scatter
 from rocking.reports.summary.report import summary_report
-from rocking.tables import StoredRows, write_whole
+from rocking.tables import frame, write_whole
+
+_SHOWN = ("record", "pulses", "comparison", "structures", "agreement", "failures")
 
 
 def report_summary(folder: Path, settings: Mapping[str, object], trade: Path | None = None) -> None:
     """Write summary.pdf beside the summary tables in `folder`. trade: a trade.csv, where one was measured."""
-    tables = {table.name: StoredRows(folder / table.file_name) for table in columns.SUMMARY_TABLES}
+    shown = {each.table.name: each for each in SUMMARY_TABLES if each.table.name in _SHOWN}
+    tables = {name: frame(each, folder / each.table.file_name) for name, each in shown.items()}
     if trade is not None:
-        tables["trade"] = StoredRows(trade)
+        tables["trade"] = frame(TradeRow, trade)
     write_whole(folder / "summary.pdf", summary_report(tables, settings))
 
 
 def draw_summary(comparison: Path, target: Path) -> None:
     """Draw prediction against integration of every row of the comparison table into the SVG file `target`."""
-    write_whole(target, svg(prediction_scatter(StoredRows(comparison))).encode())
+    columns = ("predicted_rotation_ratio", "integrated_rotation_ratio", "light")
+    write_whole(target, svg(prediction_scatter(frame(ComparisonRow, comparison, columns))).encode())

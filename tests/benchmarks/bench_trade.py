@@ -25,19 +25,19 @@ def main() -> None:
     print(f"{len(cases)} cases: " + "; ".join(f"{case.record}, {case.structure}" for case in cases))
     groups: dict[tuple[str, float | None], list] = {}
     for row in rows:
-        tolerance = None if math.isnan(row["tolerance"]) else row["tolerance"]
-        groups.setdefault((row["method"], tolerance), []).append(row)
-    yardstick = median(row["duration_s"] for row in groups["scipy DOP853", 1e-6])
+        tolerance = None if math.isnan(row.tolerance) else row.tolerance
+        groups.setdefault((row.method, tolerance), []).append(row)
+    scipy = median(row.duration_s for row in groups["scipy DOP853", 1e-6])
     print(
         f"{'method':22} {'tolerance':>9} {'median error':>13} {'median time':>12} {'scipy over it':>14} {'wrong':>6}"
     )
     for (method, tolerance), found in groups.items():
-        errors = [row["error"] for row in found if not math.isnan(row["error"])]
-        duration = median(row["duration_s"] for row in found)
-        wrong = sum(row["verdict_agrees"] is False for row in found)
+        errors = [row.error for row in found if not math.isnan(row.error)]
+        duration = median(row.duration_s for row in found)
+        wrong = sum(row.verdict_agrees is False for row in found)
         print(
             f"{method:22} {tolerance or '':>9} {median(errors) if errors else math.nan:13.2e} "
-            f"{duration * 1e6:9.1f} us {yardstick / duration:14.1f} {wrong:3d}/{len(found)}"
+            f"{duration * 1e6:9.1f} us {scipy / duration:14.1f} {wrong:3d}/{len(found)}"
         )
 
 

@@ -1,4 +1,4 @@
-"""Tables: what stands in a cell, and that a file appears whole or not at all."""
+"""Tables: what stands in a cell, that rows come back as they went, and that a file appears whole or not at all."""
 
 import csv
 import io
@@ -10,31 +10,76 @@ import weakref
 from enum import StrEnum
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from rocking.errors import RockingError
 from rocking.tables import (
-    Column,
-    Table,
-    csv_cells,
+    Row,
+    cell,
+    column,
     csv_lines,
     data_package,
+    frame,
     read_rows,
-    write_table,
+    row,
+    rows_of,
+    write_rows,
     write_whole,
 )
-
-TABLE = Table("made", "Made for a test", (Column("a", "string", "A"), Column("b", "number", "B", "Eq. 1")))
 
 
 class Colour(StrEnum):
     RED = "red hot"
+    BLUE = "blue"
+
+
+@row()
+class Head(Row):
+    """What both kinds of row share."""
+
+    record: str = column("Whose row it is")
+    sha256: str = column("Where it comes from", last=True)
+
+
+@row("made", "Made for a test")
+class MadeRow(Head):
+    """One of each type."""
+
+    speed_rad_s: float = column("How fast", equation="Eq. 1")
+    count: int = column("How many")
+    missing_count: int | None = column("How many, where it is known")
+    holds: bool | None = column("Whether it holds")
+    colour: Colour = column("Which colour")
+    other_colour: Colour | None = column("Which other colour")
+    flags: tuple[str, ...] = column("What is doubtful")
+
+
+def made(record: str = "one", speed: float = 1.0, **known) -> MadeRow:
+    rest = {"count": 1, "missing_count": None, "holds": None, "colour": Colour.RED, "other_colour": None}
+    return MadeRow(**{"record": record, "sha256": "ab", "speed_rad_s": speed, "flags": (), **rest, **known})
+
+
+TEXT = st.text(max_size=12) | st.text("=+-@\t\r\n'\\u\x00\u2028n", max_size=6)
+ROWS = st.builds(
+    MadeRow,
+    record=TEXT,
+    sha256=TEXT,
+    speed_rad_s=st.floats(allow_nan=False),
+    count=st.integers(-(2**60), 2**60),
+    missing_count=st.none() | st.integers(0, 2**60),
+    holds=st.none() | st.booleans(),
+    colour=st.sampled_from(Colour),
+    other_colour=st.none() | st.sampled_from(Colour),
+    flags=st.lists(TEXT.filter(lambda text: text and ";" not in text), max_size=3).map(tuple),
+)
 
 
 @pytest.mark.parametrize(
-    ("value", "cell"),
+    ("value", "text"),
     [
         (None, ""),
         (True, "true"),
@@ -42,50 +87,132 @@ class Colour(StrEnum):
         (math.inf, "INF"),
         (-math.inf, "-INF"),
         (0.1 + 0.2, "0.30000000000000004"),
+        (np.float64(0.5), "0.5"),
         (Colour.RED, "red hot"),
         (("one", "two"), "one; two"),
         (7, "7"),
+        (-7.5, "-7.5"),
+        ("=1+1", "'=1+1"),
+        ("@SUM(A1)", "'@SUM(A1)"),
+        ("-NS", "'-NS"),
+        ("\t=1", "'\\u0009=1"),
+        ("two\nlines", "two\\u000alines"),
+        ("C:\\records", "C:\\\\records"),
+        ("'quoted'", "'quoted'"),
     ],
 )
-def test_a_cell_says_what_the_value_is(value: object, cell: str) -> None:
-    assert csv_cells(TABLE, {"a": value, "b": 1})["a"] == cell
+def test_a_cell_says_what_the_value_is(value: object, text: str) -> None:
+    assert cell(value) == text
 
 
-@given(st.text(st.characters(codec="utf-8", exclude_characters="\x00\r")), st.floats(allow_nan=False))
-def test_what_is_written_is_read_again(text: str, number: float) -> None:
-    lines = list(csv_lines(TABLE, [{"a": text, "b": number}]))
-    (row,) = csv.DictReader(io.StringIO("".join(lines), newline=""))
-    assert row["a"] == text
-    assert float(row["b"]) == number
+@given(st.lists(ROWS, max_size=4))
+def test_what_is_written_is_read_again(tmp_path_factory, rows: list[MadeRow]) -> None:
+    path = tmp_path_factory.mktemp("made") / "made.csv"
+    write_rows(MadeRow, rows, path)
+    assert list(read_rows(MadeRow, path)) == rows
+    assert len(path.read_text(encoding="utf-8").splitlines()) == len(rows) + 1, "a row is one line"
+    for found in csv.DictReader(io.StringIO(path.read_text(encoding="utf-8"))):
+        assert not found["record"].startswith(("=", "+", "-", "@", "\t", "\r"))
 
 
-@pytest.mark.parametrize("row", [{"a": 1}, {"a": 1, "b": 2, "c": 3}])
-def test_a_row_of_other_columns_is_refused_and_nothing_is_written(
-    tmp_path: Path, row: dict[str, object]
-) -> None:
-    with pytest.raises(RockingError, match=r"made\.csv: a row and the table differ in the columns"):
-        write_table(TABLE, [{"a": 1, "b": 2}, row], tmp_path / "made.csv")
+@given(st.lists(ROWS, max_size=4))
+def test_a_frame_of_a_file_is_the_frame_of_its_rows(tmp_path_factory, rows: list[MadeRow]) -> None:
+    path = tmp_path_factory.mktemp("made") / "made.csv"
+    write_rows(MadeRow, rows, path)
+    table = frame(MadeRow, path)
+    pd.testing.assert_frame_equal(table, frame(MadeRow, rows))
+    assert list(rows_of(MadeRow, table)) == rows
+
+
+def test_a_frame_has_the_type_of_each_column(tmp_path: Path) -> None:
+    rows = [made(speed=math.inf, holds=True), made(speed=math.nan, missing_count=3)]
+    write_rows(MadeRow, rows, tmp_path / "made.csv")
+    table = frame(MadeRow, tmp_path / "made.csv")
+    assert {name: str(kind) for name, kind in table.dtypes.items()} == {
+        "record": "str",
+        "speed_rad_s": "float64",
+        "count": "int64",
+        "missing_count": "Int64",
+        "holds": "boolean",
+        "colour": "category",
+        "other_colour": "category",
+        "flags": "str",
+        "sha256": "str",
+    }
+    assert math.isinf(table["speed_rad_s"][0]) and math.isnan(table["speed_rad_s"][1])
+    assert table["holds"].isna().tolist() == [False, True]
+    assert list(frame(MadeRow, tmp_path / "made.csv", ["count"])) == ["count"]
+    assert frame(MadeRow, []).dtypes.equals(table.dtypes)
+
+
+def test_a_row_of_another_class_is_refused_and_nothing_is_written(tmp_path: Path) -> None:
+    with pytest.raises(RockingError, match=r"made\.csv: Head is not MadeRow"):
+        write_rows(MadeRow, [made(), Head(record="", sha256="")], tmp_path / "made.csv")  # type: ignore[list-item]
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "reader", [lambda path: list(read_rows(MadeRow, path)), lambda path: frame(MadeRow, path)]
+)
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("count,", "", r"line 1: the columns are not those of made \(count\)"),
+        ("count,", "many,", r"line 1: the columns are not those of made \(count, many\)"),
+        ("2.5", "fast", r"line 3, column speed_rad_s: 'fast' must be a number"),
+        (",17,", ",1.5,", r"line 3, column count: '1.5' must be a whole number"),
+        (",true,", ",yes,", r"line 3, column holds: 'yes' must be true or false"),
+        ("blue", "green", r"line 3, column colour: 'green' must be red hot, blue"),
+        (",blue,", ",,", r"line 3, column colour: '' must be red hot, blue"),
+    ],
+)
+def test_a_defect_is_one_sentence_with_its_place(
+    tmp_path: Path, reader, old: str, new: str, said: str
+) -> None:
+    path = tmp_path / "made.csv"
+    write_rows(MadeRow, [made(), made("two", 2.5, count=17, holds=True, colour=Colour.BLUE)], path)
+    text = path.read_text()
+    assert text.count(old) >= 1
+    path.write_text(text.replace(old, new, 1))
+    with pytest.raises(RockingError, match=rf"made\.csv, {said}"):
+        reader(path)
+
+
+@pytest.mark.parametrize("content", [None, b"\xff\xfe", b"record,speed_rad_s\n"])
+def test_what_is_no_table_is_said_in_a_sentence(tmp_path: Path, content: bytes | None) -> None:
+    if content is not None:
+        (tmp_path / "made.csv").write_bytes(content)
+    for read in (lambda path: list(read_rows(MadeRow, path)), lambda path: frame(MadeRow, path)):
+        with pytest.raises(RockingError, match="make the table again"):
+            read(tmp_path / "made.csv")
+
+
+def test_a_line_of_too_few_cells_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "made.csv"
+    write_rows(MadeRow, [made()], path)
+    path.write_text(path.read_text() + "two,1\n")
+    with pytest.raises(RockingError, match="line 3, has 2 cells, but must have 9"):
+        list(read_rows(MadeRow, path))
 
 
 def test_an_interrupted_writer_leaves_the_old_file(tmp_path: Path) -> None:
     path = tmp_path / "made.csv"
-    write_table(TABLE, [{"a": "old", "b": 1}], path)
+    write_rows(MadeRow, [made("old")], path)
 
     def rows():
-        yield {"a": "new", "b": 2}
+        yield made("new")
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        write_table(TABLE, rows(), path)
-    assert read_rows(path) == [{"a": "old", "b": "1"}]
+        write_rows(MadeRow, rows(), path)
+    assert [each.record for each in read_rows(MadeRow, path)] == ["old"]
     assert [entry.name for entry in tmp_path.iterdir()] == ["made.csv"]
 
 
 def test_what_a_killed_writer_left_is_removed_by_the_next(tmp_path: Path) -> None:
     (tmp_path / ".made.csv.abc123.part").write_text("half")
     (tmp_path / ".other.csv.abc123.part").write_text("somebody else's")
-    write_table(TABLE, [], tmp_path / "made.csv")
+    write_rows(MadeRow, [], tmp_path / "made.csv")
     assert sorted(entry.name for entry in tmp_path.iterdir()) == [".other.csv.abc123.part", "made.csv"]
 
 
@@ -118,29 +245,41 @@ def test_a_folder_that_is_a_file_is_said_in_a_sentence(tmp_path: Path) -> None:
 
 
 def test_memory_does_not_grow_with_the_rows(tmp_path: Path) -> None:
-    """A generator of rows is never held whole: each is dropped before the next but one is made."""
+    """A generator of rows is never held whole, neither in writing nor in reading: each is dropped before long."""
 
-    class Cell(str):
+    class Text(str):
         __slots__ = ("__weakref__",)
 
-    alive: list[weakref.ref[Cell]] = []
+    alive: list[weakref.ref[Text]] = []
 
     def rows():
         for number in range(100):
-            cell = Cell(number)
-            alive.append(weakref.ref(cell))
-            yield {"a": cell, "b": 0}
+            text = Text(number)
+            alive.append(weakref.ref(text))
+            yield made(text)
             assert sum(ref() is not None for ref in alive) <= 2
 
-    write_table(TABLE, rows(), tmp_path / "made.csv")
-    assert len(read_rows(tmp_path / "made.csv")) == 100
+    write_rows(MadeRow, rows(), tmp_path / "made.csv")
+    assert sum(1 for _ in read_rows(MadeRow, tmp_path / "made.csv")) == 100
+    assert next(iter(read_rows(MadeRow, tmp_path / "made.csv"))).record == "0"
 
 
 def test_a_data_package_describes_each_column_once() -> None:
-    package = json.loads(data_package("study", {"made": (TABLE, ["x/made.csv", "y/made.csv"])}))
+    package = json.loads(data_package("study", {"made": (MadeRow.table, ["x/made.csv", "y/made.csv"])}))
     (resource,) = package["resources"]
     assert resource["path"] == ["x/made.csv", "y/made.csv"]
-    assert resource["schema"]["fields"] == [
-        {"name": "a", "type": "string", "description": "A"},
-        {"name": "b", "type": "number", "description": "B", "equation": "Eq. 1"},
-    ]
+    assert resource["description"] == "Made for a test"
+    fields = {field["name"]: field for field in resource["schema"]["fields"]}
+    assert list(fields) == next(csv.reader(csv_lines(MadeRow, [])))
+    assert fields["speed_rad_s"] == {
+        "name": "speed_rad_s",
+        "type": "number",
+        "description": "How fast",
+        "unit": "rad/s",
+        "equation": "Eq. 1",
+    }
+    kinds = [fields[name]["type"] for name in ("count", "missing_count", "holds", "colour", "flags")]
+    assert kinds == ["integer", "integer", "boolean", "string", "string"]
+    assert next(iter(fields)) == "record" and list(fields)[-1] == "sha256", (
+        "the end of the shared head comes last"
+    )

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from rocking.assessment import columns
+from rocking.assessment.rows import PER_RECORD
 
 
 def test_a_run_makes_every_table_of_every_record(finished) -> None:
     for number in (1, 2, 3):
-        for table in columns.PER_RECORD:
+        for table in (each.table for each in PER_RECORD):
             assert (finished.results / f"good_{number}" / table.file_name).is_file()
     with (finished.results / "summary" / "maxima.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))

@@ -2,7 +2,7 @@
 
 from pathlib import Path  # for the rules
 
-from rocking.assessment import columns
+from rocking.assessment.rows import PER_RECORD, SUMMARY_TABLES
 from rocking.study.plan import make_plan, package_sha256
 
 PLAN = make_plan(config)
@@ -10,8 +10,8 @@ SETTINGS = PLAN.settings
 PACKAGE = package_sha256()
 RESULTS = SETTINGS.results
 SUMMARY = f"{RESULTS}/summary"
-TABLES = [table.name for table in columns.PER_RECORD]
-SUMMARIES = [table.name for table in columns.SUMMARY_TABLES]
+TABLES = [each.table.name for each in PER_RECORD]
+SUMMARIES = [each.table.name for each in SUMMARY_TABLES]
 
 
 def record_files(records, *names):

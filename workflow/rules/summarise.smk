@@ -13,7 +13,7 @@ rule summarise:
                 category="Tables",
                 labels={"table": table.file_name, "content": table.description},
             )
-            for table in columns.SUMMARY_TABLES
+            for table in (each.table for each in SUMMARY_TABLES)
         ],
         f"{SUMMARY}/provenance.json",
         f"{SUMMARY}/datapackage.json",

@@ -1,49 +1,76 @@
-"""Rows of the result tables, made from what was computed. The columns stand in rocking.assessment.columns."""
+"""The rows of the result tables: each class says what its columns are, and a function beside it fills them."""
 
-from rocking.assessment.assess import Assessment, AssessmentSettings
-from rocking.assessment.rows.identity import Identity
-from rocking.assessment.rows.of_record import failure_row, pulse_rows, record_row
-from rocking.assessment.rows.of_structure import comparison_row, prediction_rows, response_rows, rotation
-from rocking.assessment.rows.of_variations import candidate_rows, processing_rows
-from rocking.records import Accelerogram
+from rocking.assessment.rows.of_case import (
+    CandidateRow,
+    ComparisonRow,
+    MaximumRow,
+    PredictionRow,
+    ProcessingRow,
+    ResponseRow,
+    candidate_rows,
+    comparison_row,
+    maximum_row,
+    processing_rows,
+)
+from rocking.assessment.rows.of_folder import PER_RECORD, RECORD_TABLES, RecordTables
+from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow, TimingRow, failure_row
+from rocking.assessment.rows.of_study import (
+    AgreementRow,
+    EquivalenceRow,
+    SpectrumRow,
+    StructureRow,
+    TradeRow,
+    agreement_rows,
+    equivalence_rows,
+    spectrum_rows,
+    structure_rows,
+)
+from rocking.assessment.rows.shared import CaseRow, ComponentRow, Identity
 from rocking.tables import Row
 
+SUMMARY_TABLES: tuple[type[Row], ...] = (
+    RecordRow,
+    PulseRow,
+    ComparisonRow,
+    AgreementRow,
+    MaximumRow,
+    StructureRow,
+    EquivalenceRow,
+    FailureRow,
+    TimingRow,
+)
+"""The rows of the tables of the summary folder."""
+
 __all__ = [
+    "PER_RECORD",
+    "RECORD_TABLES",
+    "SUMMARY_TABLES",
+    "AgreementRow",
+    "CandidateRow",
+    "CaseRow",
+    "ComparisonRow",
+    "ComponentRow",
+    "EquivalenceRow",
+    "FailureRow",
     "Identity",
-    "all_rows",
+    "MaximumRow",
+    "PredictionRow",
+    "ProcessingRow",
+    "PulseRow",
+    "RecordRow",
+    "RecordTables",
+    "ResponseRow",
+    "SpectrumRow",
+    "StructureRow",
+    "TimingRow",
+    "TradeRow",
+    "agreement_rows",
     "candidate_rows",
     "comparison_row",
+    "equivalence_rows",
     "failure_row",
-    "prediction_rows",
+    "maximum_row",
     "processing_rows",
-    "pulse_rows",
-    "record_row",
-    "response_rows",
-    "rotation",
+    "spectrum_rows",
+    "structure_rows",
 ]
-
-
-def all_rows(
-    identity: Identity,
-    assessment: Assessment,
-    settings: AssessmentSettings,
-    licence: str,
-    vertical: Accelerogram | None = None,
-) -> dict[str, list[Row]]:
-    """The rows that one assessment gives, by name of the table."""
-    cases = assessment.cases
-    return {
-        "record": [record_row(identity, licence, vertical)],
-        "pulses": pulse_rows(identity, assessment.analysis, assessment.interval, assessment.candidates),
-        "predictions": [
-            row for case in cases for row in prediction_rows(identity, case, settings.acceleration_scale)
-        ],
-        "responses": [
-            row for case in cases for row in response_rows(identity, case, settings.friction_coefficient)
-        ],
-        "comparison": [comparison_row(identity, case) for case in cases],
-        "failures": [
-            failure_row(identity.record, assessment.accelerogram.component, failure)
-            for failure in assessment.failures
-        ],
-    }

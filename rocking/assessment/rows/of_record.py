@@ -1,46 +1,120 @@
-"""Rows about a record: what was read, its pulses, and what failed."""
+"""Rows about a record: what was read, its pulses, what failed, and how long it took."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from rocking.assessment.assess import Failure
-from rocking.assessment.rows.identity import Identity
-from rocking.pulses import PulseAnalysis, PulseEvidence
+from rocking.assessment.rows.shared import COMPONENT, RECORD, STRUCTURE, ComponentRow, Identity
+from rocking.pulses import Pulse, PulseAnalysis, PulseEvidence
 from rocking.pulses.interval import PulseInterval
 from rocking.records import Accelerogram
 from rocking.records.processing import displacement, velocity
-from rocking.tables import Row
-
-_NONE = (math.nan, math.nan)
+from rocking.tables import Row, column, row
 
 
-def record_row(identity: Identity, licence: str, vertical: Accelerogram | None = None) -> Row:
-    """The row of the record table for one component."""
+@row("record", "One row per component: what was read and what was done to it before use")
+class RecordRow(ComponentRow):
+    """One component of a record as it was used."""
+
+    event: str = column("Earthquake")
+    station: str = column("Recording station")
+    file: str = column("File the record was read from")
+    format: str = column("Format that recognised the file")
+    unit: str = column("Unit of the numbers in the file")
+    licence: str = column("Licence of the record, as the catalogue declares it")
+    vertical_component: str = column("Vertical component that acts too; empty where none does")
+    vertical_peak_acceleration_m_s2: float = column("Largest magnitude of the vertical acceleration")
+    samples: int = column("Number of samples")
+    time_step_s: float = column("Time step")
+    duration_s: float = column("Time from the first to the last sample")
+    peak_acceleration_m_s2: float = column("Largest magnitude of the acceleration")
+    peak_velocity_m_s: float = column("Largest magnitude of the velocity by trapezoid")
+    peak_displacement_m: float = column("Largest magnitude of the displacement by trapezoid")
+    high_pass_frequency_hz: float | None = column("Corner of the high-pass known to have been applied")
+    processing: tuple[str, ...] = column("Steps applied to the numbers of the file, in order")
+    warnings: tuple[str, ...] = column("What the reader noticed")
+
+
+@row("pulses", "One row per sine pulse of acceleration; rank 1 of kind alternative is the dominant pulse")
+class PulseRow(ComponentRow):
+    """One sine pulse that was found in a component."""
+
+    kind: str = column(
+        "alternative: ranked on the record; sequence: pursued on the residual of the pulses before it; "
+        "predicting: the pulse that predicts, where it is no alternative"
+    )
+    rank: int = column("Place in its kind, from 1")
+    amplitude_m_s2: float = column("Signed amplitude a_g")
+    amplitude_low_m_s2: float = column("Lower end of the 90 % bootstrap interval of the amplitude")
+    amplitude_high_m_s2: float = column("Upper end of the 90 % bootstrap interval of the amplitude")
+    circular_frequency_rad_s: float = column("Circular frequency of the pulse")
+    period_s: float = column("Period of the pulse")
+    period_low_s: float = column("Lower end of the 90 % bootstrap interval of the period")
+    period_high_s: float = column("Upper end of the 90 % bootstrap interval of the period")
+    start_time_s: float = column("Start of the pulse after the first sample")
+    gain_m2_s3: float = column("Energy gain of the matched filter")
+    gain_ratio: float = column("Energy gain over that of the dominant pulse")
+    explained_energy: float = column(
+        "Share of the record's acceleration energy that the pulse explains (EVa)"
+    )
+    effective_length_m: float = column("Amplitude times period squared")
+    flags: tuple[str, ...] = column("What makes the pulse doubtful")
+
+    @property
+    def ranked(self) -> bool:
+        """Whether it is one of the ranked alternatives."""
+        return self.kind == "alternative"
+
+    @property
+    def pulse(self) -> Pulse:
+        """The pulse itself."""
+        return Pulse(self.amplitude_m_s2, self.circular_frequency_rad_s, self.start_time_s)
+
+
+@row("failures", "One row per record or structure that gave no result, and why")
+class FailureRow(Row):
+    """Something that gave no result."""
+
+    record: str = column(RECORD)
+    component: str = column(COMPONENT)
+    structure: str = column(STRUCTURE)
+    stage: str = column("Stage that failed")
+    message: str = column("What is wrong, what is allowed and what to do")
+
+
+@row("timings", "One row per record and stage; differs between runs of the same input")
+class TimingRow(Row):
+    """CPU time of one stage."""
+
+    record: str = column(RECORD)
+    stage: str = column("Stage")
+    duration_s: float = column("CPU time")
+
+
+def record_row(identity: Identity, licence: str, vertical: Accelerogram | None = None) -> RecordRow:
+    """Return the row of one component; `vertical` acts with it."""
     accelerogram = identity.accelerogram
-    return (
-        identity.head
-        | {
-            "event": accelerogram.event,
-            "station": accelerogram.station,
-            "file": accelerogram.source.path,
-            "format": accelerogram.source.format,
-            "unit": accelerogram.source.unit,
-            "licence": licence,
-            "vertical_component": vertical.component or "not named" if vertical else None,
-            "vertical_peak_acceleration_m_s2": vertical.peak_acceleration if vertical else None,
-            "samples": accelerogram.acceleration.size,
-            "time_step_s": accelerogram.time_step,
-            "duration_s": accelerogram.duration,
-            "peak_acceleration_m_s2": accelerogram.peak_acceleration,
-            "peak_velocity_m_s": float(np.abs(velocity(accelerogram)).max()),
-            "peak_displacement_m": float(np.abs(displacement(accelerogram)).max()),
-            "high_pass_frequency_hz": accelerogram.high_pass_frequency,
-            "processing": accelerogram.processing,
-            "warnings": accelerogram.warnings,
-        }
-        | identity.provenance
+    return RecordRow(
+        **identity.columns,
+        event=accelerogram.event,
+        station=accelerogram.station,
+        file=accelerogram.source.path,
+        format=accelerogram.source.format,
+        unit=accelerogram.source.unit,
+        licence=licence,
+        vertical_component=vertical.component or "not named" if vertical else "",
+        vertical_peak_acceleration_m_s2=vertical.peak_acceleration if vertical else math.nan,
+        samples=accelerogram.acceleration.size,
+        time_step_s=accelerogram.time_step,
+        duration_s=accelerogram.duration,
+        peak_acceleration_m_s2=accelerogram.peak_acceleration,
+        peak_velocity_m_s=float(np.abs(velocity(accelerogram)).max()),
+        peak_displacement_m=float(np.abs(displacement(accelerogram)).max()),
+        high_pass_frequency_hz=accelerogram.high_pass_frequency,
+        processing=accelerogram.processing,
+        warnings=accelerogram.warnings,
     )
 
 
@@ -49,62 +123,47 @@ def pulse_rows(
     analysis: PulseAnalysis | None,
     interval: PulseInterval | None,
     candidates: Sequence[PulseEvidence] = (),
-) -> list[Row]:
-    """The rows of the pulses table: ranked alternatives, the dominant pulse first, then the pursuit sequence.
+) -> Iterator[PulseRow]:
+    """Yield the rows of the ranked alternatives, the dominant pulse first, then those of the pursuit sequence.
 
     candidates: the pulses that predict; those that are not among the alternatives follow.
     """
     if analysis is None:
-        return []
+        return
     others = [evidence for evidence in candidates if evidence not in analysis.ranked]
     kinds = {"alternative": analysis.ranked, "sequence": analysis.sequence, "predicting": others}
-    return [
-        _pulse_row(identity, analysis, interval, kind, rank, evidence)
-        for kind, pulses in kinds.items()
-        for rank, evidence in enumerate(pulses, start=1)
-    ]
+    for kind, found in kinds.items():
+        for rank, evidence in enumerate(found, start=1):
+            pulse, dominant = evidence.pulse, kind == "alternative" and rank == 1
+            known = interval if dominant else None
+            unknown = (math.nan, math.nan)
+            amplitude, period = (known.amplitude, known.period) if known else (unknown, unknown)
+            yield PulseRow(
+                **identity.columns,
+                kind=kind,
+                rank=rank,
+                amplitude_m_s2=pulse.amplitude,
+                amplitude_low_m_s2=amplitude[0],
+                amplitude_high_m_s2=amplitude[1],
+                circular_frequency_rad_s=pulse.circular_frequency,
+                period_s=pulse.period,
+                period_low_s=period[0],
+                period_high_s=period[1],
+                start_time_s=pulse.start_time,
+                gain_m2_s3=evidence.gain,
+                gain_ratio=evidence.gain / analysis.evidence.gain,
+                explained_energy=evidence.explained_energy,
+                effective_length_m=evidence.effective_length,
+                flags=analysis.flags if dominant else (),
+            )
 
 
-def _pulse_row(
-    identity: Identity,
-    analysis: PulseAnalysis,
-    interval: PulseInterval | None,
-    kind: str,
-    rank: int,
-    evidence: PulseEvidence,
-) -> Row:
-    pulse = evidence.pulse
-    dominant = kind == "alternative" and rank == 1
-    amplitude, period = (interval.amplitude, interval.period) if dominant and interval else (_NONE, _NONE)
-    return (
-        identity.head
-        | {
-            "kind": kind,
-            "rank": rank,
-            "amplitude_m_s2": pulse.amplitude,
-            "amplitude_low_m_s2": amplitude[0],
-            "amplitude_high_m_s2": amplitude[1],
-            "circular_frequency_rad_s": pulse.circular_frequency,
-            "period_s": pulse.period,
-            "period_low_s": period[0],
-            "period_high_s": period[1],
-            "start_time_s": pulse.start_time,
-            "gain_m2_s3": evidence.gain,
-            "gain_ratio": evidence.gain / analysis.evidence.gain,
-            "explained_energy": evidence.explained_energy,
-            "effective_length_m": evidence.effective_length,
-            "flags": analysis.flags if dominant else (),
-        }
-        | identity.provenance
+def failure_row(record: str, component: str, failure: Failure) -> FailureRow:
+    """Return the row of what gave no result."""
+    return FailureRow(
+        record=record,
+        component=component,
+        structure=failure.structure,
+        stage=failure.stage,
+        message=failure.message,
     )
-
-
-def failure_row(record: str, component: str, failure: Failure) -> Row:
-    """The row of the failures table."""
-    return {
-        "record": record,
-        "component": component,
-        "structure": failure.structure,
-        "stage": failure.stage,
-        "message": failure.message,
-    }

@@ -1,16 +1,18 @@
 """The figures of a record's report as the template takes them: SVG, alternative text and what the caption adds."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from rocking.assessment.method import Method
+from rocking.assessment.rows import ComparisonRow, PredictionRow, PulseRow
+from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.motion.response import Response
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
-from rocking.reports.printing import Row, of_component
 from rocking.reports.record.motion_figures import (
     History,
     ground_motion,
@@ -23,14 +25,10 @@ from rocking.reports.style import TEXT_WIDTH, svg
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.structure import Structure
 
-Rows = Sequence[Row]
-Tables = Mapping[str, Rows]
 Picture = dict[str, str]
 
 MOST_DRAWN = 15
 """Structures that are drawn; the tables hold all."""
-SMALLEST_DRAWN = 1e-3
-"""Rotation ratio below which a response is a tremor that no panel shows."""
 MOST_HISTORIES = 12
 """Responses that are drawn for one component, the most demanding ones; the tables hold all."""
 SPECTRUM_POINTS = 32
@@ -43,24 +41,14 @@ PAIRED_WIDTH = 83.0
 _MAP_COLUMNS = 240
 
 
-def read_number(text: str) -> float:
-    """Return the number in a CSV cell; nan for an empty one."""
-    return float(text) if text.strip() else math.nan
-
-
-def read_pulses(rows: Rows) -> list[Pulse]:
-    """Return the ranked pulses of one component's rows, the dominant one first."""
-    ranked = sorted((row for row in rows if row["kind"] == "alternative"), key=lambda row: int(row["rank"]))
-    columns = ("amplitude_m_s2", "circular_frequency_rad_s", "start_time_s")
-    return [Pulse(*(float(row[column]) for column in columns)) for row in ranked]
-
-
-def motion_picture(accelerogram: Accelerogram, rows: Rows, structures: Rows, height: float) -> Picture:
+def motion_picture(
+    accelerogram: Accelerogram, rows: Sequence[PulseRow], structures: Mapping[str, Structure], height: float
+) -> Picture:
     """Return acceleration, residual, velocity and displacement of one component."""
     from rocking.records.processing import displacement, velocity
 
-    pulses = read_pulses(rows)
-    uplift = [GRAVITY * float(row["uplift_multiplier"]) for row in structures]
+    pulses = _ranked(rows)
+    uplift = [GRAVITY * structure.mechanism().uplift_multiplier for structure in structures.values()]
     figure = ground_motion(
         accelerogram,
         velocity(accelerogram),
@@ -74,7 +62,12 @@ def motion_picture(accelerogram: Accelerogram, rows: Rows, structures: Rows, hei
     return {"component": component, "svg": svg(figure), "alt": alt}
 
 
-def map_picture(accelerogram: Accelerogram, rows: Rows, width: float = TEXT_WIDTH) -> Picture:
+def _ranked(rows: Sequence[PulseRow]) -> list[Pulse]:
+    """The ranked pulses, the dominant one first."""
+    return [row.pulse for row in sorted(rows, key=lambda row: row.rank) if row.ranked]
+
+
+def map_picture(accelerogram: Accelerogram, rows: Sequence[PulseRow], width: float = TEXT_WIDTH) -> Picture:
     """Return the energy of a sine pulse over onset and period."""
     from rocking.pulses.extraction import energy_map as energy_gains
 
@@ -82,7 +75,7 @@ def map_picture(accelerogram: Accelerogram, rows: Rows, width: float = TEXT_WIDT
     stretch = max(1, gains.shape[0] // _MAP_COLUMNS)
     starts = np.arange(0, gains.shape[0], stretch)
     pooled = np.maximum.reduceat(gains, starts, axis=0)
-    figure = energy_map(starts * accelerogram.time_step, 1 / frequencies, pooled, read_pulses(rows), width)
+    figure = energy_map(starts * accelerogram.time_step, 1 / frequencies, pooled, _ranked(rows), width)
     component = printing.words(accelerogram.component)
     alt = f"Map of the energy that one sine pulse explains in component {component}, over onset and period."
     return {"component": component, "svg": svg(figure), "alt": alt}
@@ -123,7 +116,7 @@ def drawing_pictures(structures: Mapping[str, Structure], numbers: Mapping[str, 
 def history_picture(
     accelerogram: Accelerogram,
     structures: Mapping[str, Structure],
-    rows: Rows,
+    rows: Sequence[ComparisonRow],
     numbers: Mapping[str, str],
     tolerance: float,
     vertical: Accelerogram | None = None,
@@ -133,9 +126,7 @@ def history_picture(
     from rocking.records.vertical import aligned
 
     moving = [
-        row
-        for row in rows
-        if read_number(row["integrated_rotation_ratio"]) > SMALLEST_DRAWN and row["structure"] in structures
+        row for row in rows if row.integrated_rotation_ratio > NEGLIGIBLE and row.structure in structures
     ]
     chosen = sorted(moving, key=_demand, reverse=True)[:MOST_HISTORIES]
     chosen = [row for row in rows if row in chosen]
@@ -144,9 +135,9 @@ def history_picture(
     beside = None if vertical is None else aligned(vertical, accelerogram)
     histories = []
     for row in chosen:
-        mechanism = structures[row["structure"]].mechanism()
+        mechanism = structures[row.structure].mechanism()
         response = integrate(mechanism, accelerogram, tolerance, history=True, vertical=beside)
-        label = f"{numbers[row['structure']]} {row['structure']}"
+        label = f"{numbers[row.structure]} {row.structure}"
         histories.append(_history(label, row, mechanism, response))
     figure = response_histories(histories)
     left_out = len(rows) - len(chosen)
@@ -160,18 +151,16 @@ def history_picture(
     return {"component": component, "svg": svg(figure), "alt": alt, "note": note}
 
 
-def _demand(row: Row) -> tuple[bool, float]:
-    return row["verdict"] == "unsafe" or row["fragile"] == "true", read_number(
-        row["integrated_rotation_ratio"]
-    )
+def _demand(row: ComparisonRow) -> tuple[bool, float]:
+    return row.verdict is Verdict.UNSAFE or bool(row.fragile), row.integrated_rotation_ratio
 
 
-def _history(label: str, row: Row, mechanism: Mechanism, response: Response) -> History:
+def _history(label: str, row: ComparisonRow, mechanism: Mechanism, response: Response) -> History:
     assert response.times is not None and response.rotation is not None  # asked for
     negative = mechanism.negative or mechanism.positive
     critical = np.where(response.rotation < 0, negative.critical_rotation, mechanism.critical_rotation)
-    predicted = read_number(row["predicted_rotation_ratio"])
-    overturns = math.isinf(read_number(row["integrated_rotation_ratio"]))
+    predicted = row.predicted_rotation_ratio
+    overturns = math.isinf(row.integrated_rotation_ratio)
     remark = _remark(predicted, overturns)
     return History(label, response.times, response.rotation / critical, predicted, remark)
 
@@ -184,18 +173,25 @@ def _remark(predicted: float, overturns: bool) -> str:
 
 
 def spectrum_picture(
-    accelerogram: Accelerogram, rows: Rows, numbers: Mapping[str, str], width: float = TEXT_WIDTH
+    accelerogram: Accelerogram,
+    rows: Sequence[PredictionRow],
+    numbers: Mapping[str, str],
+    width: float = TEXT_WIDTH,
 ) -> Picture | None:
     """Return the rocking spectrum with the equivalent blocks of the `predictions` rows on it; None without rows."""
     from rocking.motion.spectrum import rocking_spectrum
 
-    placed = list(_placed(rows, numbers))
+    placed = [
+        (numbers[row.structure], row.frequency_parameter_rad_s, row.uplift_multiplier)
+        for row in rows
+        if row.method is Method.CLOSED_FORM
+    ]
     if not placed:
         return None
     frequency_parameters = _around([place[1] for place in placed])
     uplift_multipliers = _around([place[2] for place in placed])
-    restitution = sorted((row["restitution"] for row in rows), key=float)[len(rows) // 2]
-    ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, float(restitution))
+    restitution = sorted(row.restitution for row in rows)[len(rows) // 2]
+    ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, restitution)
     figure = rocking_spectrum_figure(frequency_parameters, uplift_multipliers, ratios, placed, width)
     component = printing.words(accelerogram.component)
     alt = f"Rocking spectrum of component {component} over p and uplift acceleration, with the structures."
@@ -205,13 +201,6 @@ def spectrum_picture(
         "alt": alt,
         "restitution": printing.number(restitution),
     }
-
-
-def _placed(rows: Rows, numbers: Mapping[str, str]) -> Iterator[tuple[str, float, float]]:
-    for row in of_component(rows, rows[0]["component"]) if rows else ():
-        if row["method"] == "closed form":
-            place = float(row["frequency_parameter_rad_s"]), float(row["uplift_multiplier"])
-            yield (f"{numbers[row['structure']]}", *place)
 
 
 def _around(values: Sequence[float]) -> np.ndarray:

@@ -3,10 +3,10 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from rocking.assessment.rows import RecordRow, RecordTables, structure_rows
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
 from rocking.reports.document import compile_document
-from rocking.reports.printing import Row, of_component
 from rocking.reports.record import curves as record_curves
 from rocking.reports.record import tables as record_tables
 from rocking.reports.record import variations as record_variations
@@ -14,24 +14,20 @@ from rocking.reports.record import verdict as record_verdict
 from rocking.reports.style import TEXT_WIDTH
 from rocking.structures.structure import Structure
 
-Tables = Mapping[str, Sequence[Row]]
-
 
 def record_report(
     record: str,
     accelerograms: Sequence[Accelerogram],
     structures: Mapping[str, Structure],
-    tables: Tables,
+    tables: RecordTables,
     settings: Mapping[str, Any],
     vertical: Accelerogram | None = None,
 ) -> bytes:
     """Return the PDF of one record.
 
-    tables: rows of text as read from the CSV files "record", "pulses", "predictions", "responses", "comparison",
-    "structures" and, where they exist, "candidates", "processing" and "failures"; every number printed is one of
-    their cells, rounded. Only curves are computed here, from `accelerograms` and the mechanisms of `structures` (by
-    name). settings: at least tolerance, acceleration_scale and fragility_change. vertical: the vertical component, if
-    it acted on the responses of the tables.
+    Every number printed is a cell of `tables` or of the structures table, rounded. Only curves are computed here, from
+    `accelerograms` and the mechanisms of `structures` (by name). settings: at least tolerance, acceleration_scale and
+    fragility_change. vertical: the vertical component, if it acted on the responses of the tables.
     """
     return compile_document(
         "record/record.typ", record_data(record, accelerograms, structures, tables, settings, vertical)
@@ -48,100 +44,89 @@ def record_data(
     record: str,
     accelerograms: Sequence[Accelerogram],
     structures: Mapping[str, Structure],
-    tables: Tables,
+    tables: RecordTables,
     settings: Mapping[str, Any],
     vertical: Accelerogram | None = None,
 ) -> dict[str, object]:
     """Return what the template of the record report is given: texts, tables and figures."""
-    numbers = record_tables.structure_numbers(tables)
-    scale_note = record_verdict.scale_note(tables["record"])
+    numbers = record_tables.structure_numbers(structures, tables.comparison)
+    scale_note = record_verdict.scale_note(tables.record)
+    by_component = {row.component: tables.of_component(row.component) for row in tables.record}
+    rows = list(structure_rows(structures))
     return {
         "title": f"Rocking assessment: {record}",
-        "subtitle": _subtitle(tables["record"]),
+        "subtitle": _subtitle(tables.record),
         "running": f"{record}.{scale_note}" if scale_note else record,
         "scale-note": scale_note,
-        "notices": record_verdict.notices(tables, tables.get("failures", ())),
-        "verdicts": _verdicts(tables, numbers),
-        "identity": record_tables.identity_table(tables["record"]),
-        "pulses": _pulse_parts(tables),
-        "structures": record_tables.structure_table(tables["structures"], numbers),
+        "notices": record_verdict.notices(tables),
+        "verdicts": [
+            _verdicts(component, of_it, numbers, scale_note)
+            for component, of_it in by_component.items()
+            if of_it.comparison
+        ],
+        "identity": record_tables.identity_table(tables.record),
+        "pulses": [
+            {
+                "component": printing.words(component),
+                "table": record_tables.pulse_table(of_it.pulses),
+                "sentences": record_tables.pulse_sentences(of_it.pulses),
+            }
+            for component, of_it in by_component.items()
+            if of_it.pulses
+        ],
+        "structures": record_tables.structure_table(rows, numbers),
         "methods": record_tables.method_table(tables, numbers),
         "trust": record_tables.trust_table(tables, numbers),
-        **_variations(tables, numbers),
-        **_pictures(accelerograms, structures, tables, numbers, float(settings["tolerance"]), vertical),
+        "candidates": record_variations.candidate_table(tables.candidates, numbers),
+        "processing": record_variations.processing_table(tables.processing, numbers),
+        **_pictures(accelerograms, structures, by_component, numbers, float(settings["tolerance"]), vertical),
         **_assumptions(tables, settings),
     }
 
 
-def _subtitle(rows: Sequence[Row]) -> str:
-    events = [text for text in printing.distinct(rows, "event") if text]
-    stations = [text for text in printing.distinct(rows, "station") if text]
-    parts = [", ".join(events), ", ".join(f"station {text}" for text in stations)]
+def _subtitle(rows: Sequence[RecordRow]) -> str:
+    events = dict.fromkeys(row.event for row in rows if row.event)
+    stations = dict.fromkeys(f"station {row.station}" for row in rows if row.station)
+    parts = [", ".join(events), ", ".join(stations)]
     return " · ".join(part for part in parts if part) or "The file names no event and no station."
 
 
-def _verdicts(tables: Tables, numbers: Mapping[str, str]) -> list[dict[str, object]]:
-    rows = tables["comparison"]
-    note = record_verdict.scale_note(tables["record"])
-    return [
-        {
-            "caption": f"Component {printing.words(component)}: largest rotation over critical rotation by the closed "
-            f"form under the dominant pulse and by full integration under the whole record.{note}",
-            "table": record_verdict.verdict_table(of_component(rows, component), numbers),
-            "sentences": record_verdict.verdict_sentences(of_component(rows, component))
-            + record_variations.processing_sentences(of_component(tables.get("processing", ()), component)),
-        }
-        for component in printing.distinct(rows, "component")
-    ]
-
-
-def _pulse_parts(tables: Tables) -> list[dict[str, object]]:
-    rows = tables["pulses"]
-    return [
-        {
-            "component": printing.words(component),
-            "table": record_tables.pulse_table(of_component(rows, component)),
-            "sentences": record_tables.pulse_sentences(of_component(rows, component)),
-        }
-        for component in printing.distinct(rows, "component")
-    ]
-
-
-def _variations(tables: Tables, numbers: Mapping[str, str]) -> dict[str, object]:
-    candidates, processing = tables.get("candidates", ()), tables.get("processing", ())
+def _verdicts(
+    component: str, tables: RecordTables, numbers: Mapping[str, str], scale_note: str
+) -> dict[str, object]:
     return {
-        "candidates": record_variations.candidate_table(candidates, numbers),
-        "processing": record_variations.processing_table(processing, numbers),
+        "caption": f"Component {printing.words(component)}: largest rotation over critical rotation by the closed "
+        f"form under the dominant pulse and by full integration under the whole record.{scale_note}",
+        "table": record_verdict.verdict_table(tables.comparison, numbers),
+        "sentences": record_verdict.verdict_sentences(tables.comparison)
+        + record_variations.processing_sentences(tables.processing),
     }
 
 
 def _pictures(
     accelerograms: Sequence[Accelerogram],
     structures: Mapping[str, Structure],
-    tables: Tables,
+    by_component: Mapping[str, RecordTables],
     numbers: Mapping[str, str],
     tolerance: float,
     vertical: Accelerogram | None,
 ) -> dict[str, list[dict[str, str]]]:
-    known = set(printing.distinct(tables["record"], "component"))
-    used = [accelerogram for accelerogram in accelerograms if accelerogram.component in known]
+    used = [accelerogram for accelerogram in accelerograms if accelerogram.component in by_component]
     alone = len(used) == 1
     map_width = TEXT_WIDTH if alone else record_curves.MAP_WIDTH
     width = TEXT_WIDTH if alone else record_curves.PAIRED_WIDTH
     height = record_curves.MOTION_HEIGHTS[0 if alone else 1]
     pictures: dict[str, list[dict[str, str]]] = {"motions": [], "maps": [], "histories": [], "spectra": []}
     for accelerogram in used:
-        pulses, predictions, cases = (
-            of_component(tables[name], accelerogram.component)
-            for name in ("pulses", "predictions", "comparison")
-        )
+        tables = by_component[accelerogram.component]
+        pulses = tables.pulses
         new = {
-            "motions": record_curves.motion_picture(accelerogram, pulses, tables["structures"], height),
+            "motions": record_curves.motion_picture(accelerogram, pulses, structures, height),
             "maps": record_curves.map_picture(accelerogram, pulses, map_width) if pulses else None,
             "histories": record_curves.history_picture(
-                accelerogram, structures, cases, numbers, tolerance, vertical
+                accelerogram, structures, tables.comparison, numbers, tolerance, vertical
             ),
-            "spectra": record_curves.spectrum_picture(accelerogram, predictions, numbers, width),
+            "spectra": record_curves.spectrum_picture(accelerogram, tables.predictions, numbers, width),
         }
         for name, picture in new.items():
             pictures[name] += [picture] if picture else []
@@ -150,30 +135,29 @@ def _pictures(
     return pictures | {"drawings": record_curves.drawing_pictures(structures, numbers)}
 
 
-def _assumptions(tables: Tables, settings: Mapping[str, Any]) -> dict[str, object]:
-    hashes = printing.distinct(tables["record"], "record_sha256")
-    change = 100 * float(settings["fragility_change"])
+def _assumptions(tables: RecordTables, settings: Mapping[str, Any]) -> dict[str, object]:
+    hashes = dict.fromkeys(f"SHA-256 {row.record_sha256}" for row in tables.record if row.record_sha256)
+    warnings = dict.fromkeys(printing.words(row.warnings) for row in tables.record if row.warnings)
     return {
-        "tolerance": printing.given(str(settings["tolerance"])),
-        "fragility-change": f"{printing.given(str(change))} %",
+        "tolerance": printing.given(float(settings["tolerance"])),
+        "fragility-change": f"{printing.given(100 * float(settings['fragility_change']))} %",
         "acceleration-scale": str(settings["acceleration_scale"]),
         "friction": _friction(settings),
-        "vertical": _vertical(tables["record"]),
-        "warnings": [text for text in printing.distinct(tables["record"], "warnings") if text],
-        "hashes": "; ".join(f"SHA-256 {text}" for text in hashes if text) or "the file's hash is not known.",
+        "vertical": _vertical(tables.record),
+        "warnings": list(warnings),
+        "hashes": "; ".join(hashes) or "the file's hash is not known.",
     }
 
 
-def _vertical(rows: Sequence[Row]) -> str:
-    named = printing.distinct((row for row in rows if row.get("vertical_component")), "vertical_component")
-    if not named:
+def _vertical(rows: Sequence[RecordRow]) -> str:
+    component = ", ".join(dict.fromkeys(row.vertical_component for row in rows if row.vertical_component))
+    if not component:
         return "The vertical ground acceleration is left out."
-    component = ", ".join(named)
     return f"The vertical component {component} acts on the integrations, not on the closed form and the spectrum."
 
 
 def _friction(settings: Mapping[str, Any]) -> str:
     if "friction_coefficient" not in settings:
         return "Sliding is not checked."
-    coefficient = printing.given(str(settings["friction_coefficient"]))
+    coefficient = printing.given(float(settings["friction_coefficient"]))
     return f"A contact is said to slide where it needs a friction coefficient above {coefficient}."

@@ -1,26 +1,37 @@
 """The tables behind the verdicts of a record's report, from the rows of its CSV tables and nothing else."""
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TypeVar
 
+from rocking.assessment.method import Method
+from rocking.assessment.rows import (
+    CaseRow,
+    ComparisonRow,
+    PredictionRow,
+    PulseRow,
+    RecordRow,
+    RecordTables,
+    ResponseRow,
+    StructureRow,
+)
 from rocking.pulses.flags import Flag
 from rocking.reports import printing
-from rocking.reports.printing import Cell, Row, number, of_component, ratio, strong, table, words
+from rocking.reports.printing import Cell, number, ratio, strong, table, words
 from rocking.reports.record.verdict import contact_failure
 
-Rows = Sequence[Row]
-Tables = Mapping[str, Rows]
+M = TypeVar("M", PredictionRow, ResponseRow)
 
 
-def structure_numbers(tables: Tables) -> dict[str, str]:
+def structure_numbers(structures: Iterable[str], comparison: Iterable[CaseRow]) -> dict[str, str]:
     """Return the number by which each structure is called in the report, from 1, by name."""
-    names = [row["structure"] for row in tables["structures"]]
-    names += [row["structure"] for row in tables["comparison"] if row["structure"] not in names]
-    return {name: str(place) for place, name in enumerate(dict.fromkeys(names), start=1)}
+    names = dict.fromkeys([*structures, *(row.structure for row in comparison)])
+    return {name: str(place) for place, name in enumerate(names, start=1)}
 
 
-def identity_table(rows: Rows) -> dict[str, object]:
+def identity_table(rows: Sequence[RecordRow]) -> dict[str, object]:
     """Return what was read and done: one column per component, or two columns of facts for a single one."""
-    facts = [[label, *[show(row) for row in rows]] for label, show in _IDENTITY]
+    facts = [[label, *[show(row) for row in rows]] for label, show in _IDENTITY.items()]
     facts = [fact for fact in facts if set(fact[1:]) != {printing.NOTHING}]
     if len(rows) == 1:
         facts += [["", ""]] * (len(facts) % 2)
@@ -28,52 +39,39 @@ def identity_table(rows: Rows) -> dict[str, object]:
         columns = [("", "auto", "l"), ("", "1", "l"), ("", "auto", "l"), ("", "1", "l")]
         return table(columns, [left + right for left, right in zip(facts[:half], facts[half:], strict=True)])
     return table(
-        [("", "auto", "l"), *[(f"Component {words(row['component'])}", "1", "l") for row in rows]], facts
+        [("", "auto", "l"), *[(f"Component {words(row.component)}", "1", "l") for row in rows]], facts
     )
-
-
-def _plain(column: str):
-    return lambda row: words(row[column])
-
-
-def _rounded(column: str, unit: str, digits: int = 4):
-    return lambda row: _with_unit(number(row[column], digits), unit)
-
-
-def _chosen(column: str, unit: str):
-    return lambda row: _with_unit(printing.given(row[column]), unit)
 
 
 def _with_unit(text: str, unit: str) -> str:
     return text if text == printing.NOTHING or not unit else f"{text} {unit}"
 
 
-_IDENTITY = (
-    ("Event", _plain("event")),
-    ("Station", _plain("station")),
-    ("File", _plain("file")),
-    ("Format", _plain("format")),
-    ("Unit in the file", _plain("unit")),
-    ("Licence", _plain("licence")),
-    ("Vertical component", lambda row: words(row.get("vertical_component", ""))),
-    (
-        "Vertical peak acceleration",
-        lambda row: _with_unit(number(row.get("vertical_peak_acceleration_m_s2", ""), 4), "m/s²"),
+_IDENTITY: dict[str, Callable[[RecordRow], str]] = {
+    "Event": lambda row: words(row.event),
+    "Station": lambda row: words(row.station),
+    "File": lambda row: words(row.file),
+    "Format": lambda row: words(row.format),
+    "Unit in the file": lambda row: words(row.unit),
+    "Licence": lambda row: words(row.licence),
+    "Vertical component": lambda row: words(row.vertical_component),
+    "Vertical peak acceleration": lambda row: _with_unit(
+        number(row.vertical_peak_acceleration_m_s2, 4), "m/s²"
     ),
-    ("Declared scale factor", _chosen("scale_factor", "")),
-    ("Samples", lambda row: printing.whole(row["samples"])),
-    ("Time step", _chosen("time_step_s", "s")),
-    ("Duration", _chosen("duration_s", "s")),
-    ("Peak acceleration", _rounded("peak_acceleration_m_s2", "m/s²")),
-    ("Peak velocity", _rounded("peak_velocity_m_s", "m/s")),
-    ("Peak displacement", _rounded("peak_displacement_m", "m")),
-    ("High-pass corner, known", _chosen("high_pass_frequency_hz", "Hz")),
-    ("Processing", lambda row: row["processing"] or "none"),
-    ("Noticed by the reader", _plain("warnings")),
-)
+    "Declared scale factor": lambda row: printing.given(row.scale_factor),
+    "Samples": lambda row: printing.whole(row.samples),
+    "Time step": lambda row: _with_unit(printing.given(row.time_step_s), "s"),
+    "Duration": lambda row: _with_unit(printing.given(row.duration_s), "s"),
+    "Peak acceleration": lambda row: _with_unit(number(row.peak_acceleration_m_s2, 4), "m/s²"),
+    "Peak velocity": lambda row: _with_unit(number(row.peak_velocity_m_s, 4), "m/s"),
+    "Peak displacement": lambda row: _with_unit(number(row.peak_displacement_m, 4), "m"),
+    "High-pass corner, known": lambda row: _with_unit(printing.given(row.high_pass_frequency_hz), "Hz"),
+    "Processing": lambda row: words(row.processing or "none"),
+    "Noticed by the reader": lambda row: words(row.warnings),
+}
 
 
-def pulse_table(rows: Rows) -> dict[str, object]:
+def pulse_table(rows: Sequence[PulseRow]) -> dict[str, object]:
     """Return the pulses of one component."""
     columns = [
         ("Kind", "auto", "l"),
@@ -89,34 +87,33 @@ def pulse_table(rows: Rows) -> dict[str, object]:
     return table(columns, [_pulse_row(row) for row in rows])
 
 
-def _pulse_row(row: Row) -> list[Cell]:
+def _pulse_row(row: PulseRow) -> list[Cell]:
     return [
-        row["kind"],
-        printing.whole(row["rank"]),
-        _with_interval(row, "amplitude", "_m_s2"),
-        _with_interval(row, "period", "_s"),
-        number(row["circular_frequency_rad_s"]),
-        number(row["start_time_s"]),
-        number(row["gain_ratio"]),
-        number(row["explained_energy"]),
-        number(row["effective_length_m"]),
+        row.kind,
+        printing.whole(row.rank),
+        _with_interval(row.amplitude_m_s2, row.amplitude_low_m_s2, row.amplitude_high_m_s2),
+        _with_interval(row.period_s, row.period_low_s, row.period_high_s),
+        number(row.circular_frequency_rad_s),
+        number(row.start_time_s),
+        number(row.gain_ratio),
+        number(row.explained_energy),
+        number(row.effective_length_m),
     ]
 
 
-def _with_interval(row: Row, quantity: str, unit: str) -> str:
-    middle = number(row[quantity + unit])
-    low, high = row[f"{quantity}_low{unit}"], row[f"{quantity}_high{unit}"]
-    return f"{middle} [{number(low)}, {number(high)}]" if low and high else middle
+def _with_interval(middle: float, low: float, high: float) -> str:
+    known = not math.isnan(low + high)
+    return f"{number(middle)} [{number(low)}, {number(high)}]" if known else number(middle)
 
 
-def pulse_sentences(rows: Rows) -> list[str]:
+def pulse_sentences(rows: Sequence[PulseRow]) -> list[str]:
     """Return the doubts about the dominant pulse, in sentences."""
-    flags = [flag for row in rows[:1] for flag in row["flags"].split("; ") if flag]
     known = {flag.value: flag.sentence for flag in Flag}
+    flags = [flag for row in rows[:1] for flag in row.flags]
     return [known.get(flag, printing.sentence(f"{flag}.")) for flag in flags]
 
 
-def structure_table(rows: Rows, numbers: Mapping[str, str]) -> dict[str, object]:
+def structure_table(rows: Iterable[StructureRow], numbers: Mapping[str, str]) -> dict[str, object]:
     """Return the structures with their equivalent blocks."""
     columns = [
         ("No.", "auto", "r"),
@@ -133,22 +130,22 @@ def structure_table(rows: Rows, numbers: Mapping[str, str]) -> dict[str, object]
     return table(columns, [_structure_row(row, numbers) for row in rows])
 
 
-def _structure_row(row: Row, numbers: Mapping[str, str]) -> list[Cell]:
+def _structure_row(row: StructureRow, numbers: Mapping[str, str]) -> list[Cell]:
     return [
-        numbers[row["structure"]],
-        row["structure"],
-        f"{words(row['type'])}: {printing.geometry(row['geometry'])}",
-        number(row["frequency_parameter_rad_s"], 4),
-        number(row["critical_rotation_rad"], 4),
-        number(row["uplift_multiplier"], 4),
-        number(row["acceleration_scale_linearised"], 4),
-        number(row["acceleration_scale_uplift"], 4),
-        number(row["linearised_over_true_uplift"], 4),
-        number(row["restitution"], 4),
+        numbers[row.structure],
+        row.structure,
+        f"{words(row.type)}: {printing.geometry(row.geometry)}",
+        number(row.frequency_parameter_rad_s, 4),
+        number(row.critical_rotation_rad, 4),
+        number(row.uplift_multiplier, 4),
+        number(row.acceleration_scale_linearised, 4),
+        number(row.acceleration_scale_uplift, 4),
+        number(row.linearised_over_true_uplift, 4),
+        number(row.restitution, 4),
     ]
 
 
-def method_table(tables: Tables, numbers: Mapping[str, str]) -> dict[str, object]:
+def method_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, object]:
     """Return every method beside the others, one row per component and structure."""
     columns = [
         ("No.", "auto", "r"),
@@ -163,30 +160,39 @@ def method_table(tables: Tables, numbers: Mapping[str, str]) -> dict[str, object
         ("Peak at [s]", "0.7", "r"),
         ("Im\u00adpacts", "0.6", "r"),
     ]
-    return table(columns, [_method_row(tables, row, numbers) for row in tables["comparison"]])
+    predictions = _by_case(tables.predictions, Method.CLOSED_FORM)
+    responses = _by_case(tables.responses, Method.MECHANISM_ON_RECORD)
+    return table(
+        columns,
+        [
+            _method_row(row, predictions.get(row.case), responses.get(row.case), numbers)
+            for row in tables.comparison
+        ],
+    )
 
 
-def _method_row(tables: Tables, row: Row, numbers: Mapping[str, str]) -> list[Cell]:
-    prediction = _of_method(tables["predictions"], row, "closed form")
-    response = _of_method(tables["responses"], row, "mechanism on record")
+def _method_row(
+    row: ComparisonRow,
+    prediction: PredictionRow | None,
+    response: ResponseRow | None,
+    numbers: Mapping[str, str],
+) -> list[Cell]:
     return [
-        numbers[row["structure"]],
-        words(row["component"]),
-        ratio(row["printed_rotation_ratio"]),
-        ratio(row["predicted_rotation_ratio"]),
-        _range(
-            ratio(prediction.get("rotation_ratio_low", "")), ratio(prediction.get("rotation_ratio_high", ""))
-        ),
-        ratio(row["pulse_rotation_ratio"]),
-        ratio(row["block_rotation_ratio"]),
-        strong(ratio(row["integrated_rotation_ratio"], 6)),
-        number(response.get("rotation_rad", ""), 5),
-        number(response.get("peak_time_s", ""), 4),
-        printing.whole(response.get("impacts", "")),
+        numbers[row.structure],
+        words(row.component),
+        ratio(row.printed_rotation_ratio),
+        ratio(row.predicted_rotation_ratio),
+        _range(prediction),
+        ratio(row.pulse_rotation_ratio),
+        ratio(row.block_rotation_ratio),
+        strong(ratio(row.integrated_rotation_ratio, 6)),
+        number(response.rotation_rad if response else None, 5),
+        number(response.peak_time_s if response else None, 4),
+        printing.whole(response.impacts if response else None),
     ]
 
 
-def trust_table(tables: Tables, numbers: Mapping[str, str]) -> dict[str, object]:
+def trust_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, object]:
     """Return what stands behind each prediction, and whether the contacts hold along each response."""
     columns = [
         ("No.", "auto", "r"),
@@ -201,32 +207,46 @@ def trust_table(tables: Tables, numbers: Mapping[str, str]) -> dict[str, object]
         ("Friction needed [-]", "1", "r"),
         ("Contacts", "1.1", "l"),
     ]
-    return table(columns, [_trust_row(tables, row, numbers) for row in tables["comparison"]])
+    predictions = _by_case(tables.predictions, Method.CLOSED_FORM)
+    responses = _by_case(tables.responses, Method.MECHANISM_ON_RECORD)
+    return table(
+        columns,
+        [
+            _trust_row(row, predictions.get(row.case), responses.get(row.case), numbers)
+            for row in tables.comparison
+        ],
+    )
 
 
-def _trust_row(tables: Tables, row: Row, numbers: Mapping[str, str]) -> list[Cell]:
-    prediction = _of_method(tables["predictions"], row, "closed form")
-    response = _of_method(tables["responses"], row, "mechanism on record")
-    failing = contact_failure(response)
+def _trust_row(
+    row: ComparisonRow,
+    prediction: PredictionRow | None,
+    response: ResponseRow | None,
+    numbers: Mapping[str, str],
+) -> list[Cell]:
+    failing = contact_failure(response) if response else ""
+    holding = "hold" if response and response.slides is False else printing.NOTHING
     return [
-        numbers[row["structure"]],
-        words(row["component"]),
-        printing.lamp(row["light"]),
-        printing.whole(prediction.get("pulse_rank", "")),
-        number(prediction.get("amplitude_ratio", "")),
-        number(prediction.get("frequency_ratio", "")),
-        number(row.get("reliability_within_factor_two", "")),
-        number(row.get("reliability_overturnings_found", "")),
-        printing.whole(row.get("reliability_records", "")),
-        number(response.get("friction_needed", "")),
-        strong(failing) if failing else {"false": "hold"}.get(response.get("slides", ""), printing.NOTHING),
+        numbers[row.structure],
+        words(row.component),
+        printing.lamp(row.light),
+        printing.whole(prediction.pulse_rank if prediction else None),
+        number(prediction.amplitude_ratio if prediction else None),
+        number(prediction.frequency_ratio if prediction else None),
+        number(row.reliability_within_factor_two),
+        number(row.reliability_overturnings_found),
+        printing.whole(row.reliability_records),
+        number(response.friction_needed if response else None),
+        strong(failing or holding, bool(failing)),
     ]
 
 
-def _range(low: str, high: str) -> str:
+def _range(prediction: PredictionRow | None) -> str:
+    if prediction is None:
+        return printing.NOTHING
+    low, high = ratio(prediction.rotation_ratio_low), ratio(prediction.rotation_ratio_high)
     return low if low == high else f"{low} to {high}"
 
 
-def _of_method(rows: Rows, case: Row, method: str) -> Row:
-    same = (row for row in of_component(rows, case["component"]) if row["structure"] == case["structure"])
-    return next((row for row in same if row["method"] == method), {})
+def _by_case(rows: Iterable[M], method: Method) -> dict[tuple[str, str], M]:
+    return {row.case: row for row in rows if row.method is method}

@@ -1,22 +1,24 @@
 """The first page of a record's report: the verdicts, what they amount to, and the warnings above them."""
 
+import math
 from collections.abc import Mapping, Sequence
 
+from rocking.assessment.method import Method
+from rocking.assessment.rows import ComparisonRow, RecordRow, RecordTables, ResponseRow
+from rocking.assessment.verdict import Verdict, rests
+from rocking.pulses import Light
 from rocking.reports import printing
-from rocking.reports.printing import Cell, Row, number, ratio, strong, table, words
-
-Rows = Sequence[Row]
-Tables = Mapping[str, Rows]
+from rocking.reports.printing import Cell, number, ratio, strong, table, words
 
 _VERDICTS = {
-    "agree": "in agreement",
-    "unsafe": "UNSAFE: too low",
-    "safe": "safe: too high",
-    "unknown": "unknown",
+    Verdict.AGREE: "in agreement",
+    Verdict.UNSAFE: "UNSAFE: too low",
+    Verdict.SAFE: "safe: too high",
+    Verdict.UNKNOWN: "unknown",
 }
 
 
-def verdict_table(rows: Rows, numbers: Mapping[str, str]) -> dict[str, object]:
+def verdict_table(rows: Sequence[ComparisonRow], numbers: Mapping[str, str]) -> dict[str, object]:
     """Return the first table that a reader sees: one row per structure of one component."""
     columns = [
         ("No.", "auto", "r"),
@@ -32,61 +34,43 @@ def verdict_table(rows: Rows, numbers: Mapping[str, str]) -> dict[str, object]:
     return table(columns, [_verdict_row(row, numbers) for row in rows])
 
 
-def _verdict_row(row: Row, numbers: Mapping[str, str]) -> list[Cell]:
-    verdict = _VERDICTS.get(row["verdict"], words(row["verdict"]))
+def _verdict_row(row: ComparisonRow, numbers: Mapping[str, str]) -> list[Cell]:
     return [
-        numbers[row["structure"]],
-        row["structure"],
-        printing.lamp(row["light"]),
-        ratio(row["predicted_rotation_ratio"]),
-        strong(_answer(row)),
-        strong(verdict) if row["verdict"] == "unsafe" else verdict,
-        words(row["regime"]),
-        number(row["sensitivity"]),
-        strong("YES") if row["fragile"] == "true" else {"false": "no"}.get(row["fragile"], printing.NOTHING),
+        numbers[row.structure],
+        row.structure,
+        printing.lamp(row.light),
+        ratio(row.predicted_rotation_ratio),
+        strong(ratio(row.found_rotation_ratio) + (f" ({row.answer_method})" if row.spared else "")),
+        strong(_VERDICTS[row.verdict], row.verdict is Verdict.UNSAFE),
+        words(row.regime),
+        number(row.sensitivity),
+        strong(printing.yes_or_no(row.fragile), bool(row.fragile)),
     ]
 
 
-def verdict_sentences(rows: Rows) -> list[str]:
+def verdict_sentences(rows: Sequence[ComparisonRow]) -> list[str]:
     """Return what the verdict table amounts to, in sentences."""
-    integrated = [ratio(_found(row)) for row in rows]
-    falling = integrated.count("overturns")
-    still = integrated.count("no uplift")
-    failed = integrated.count(printing.NOTHING)
+    found = [row.found_rotation_ratio for row in rows]
+    falling, still, failed = (sum(map(each, found)) for each in (math.isinf, rests, math.isnan))
     rocking = len(rows) - falling - still - failed
     parts = [
         (falling, "overturns", "overturn"),
         (rocking, "rocks and stays up", "rock and stay up"),
-        (still, "is not lifted", "are not lifted"),
+        (still, "is not lifted or hardly so", "are not lifted or hardly so"),
         (failed, "gave no result", "gave no result"),
     ]
     said = [f"{printing.count(many)} {one if many == 1 else more}" for many, one, more in parts if many]
     total = printing.counted(len(rows), "structure")
-    spared = sum(_spared(row) for row in rows)
+    spared = any(row.spared for row in rows)
     how = "by the cheapest trusted method" if spared else "in the full integration"
     sentences = [printing.sentence(f"of {total} {how}: {', '.join(said)}.")] if rows else []
     return sentences + _doubts(rows)
 
 
-def _spared(row: Row) -> bool:
-    """Whether a cheaper method than the full integration answered."""
-    return not row["integrated_rotation_ratio"] and bool(row.get("answer_rotation_ratio"))
-
-
-def _found(row: Row) -> str:
-    return row["integrated_rotation_ratio"] or row.get("answer_rotation_ratio", "")
-
-
-def _answer(row: Row) -> str:
-    return ratio(_found(row)) + (f" ({row['answer_method']})" if _spared(row) else "")
-
-
-def _doubts(rows: Rows) -> list[str]:
-    missed = [row for row in rows if row["verdict"] == "unsafe"]
-    unsafe = [
-        row["structure"] for row in sorted(missed, key=lambda row: -float(row["integrated_rotation_ratio"]))
-    ]
-    fragile = [row["structure"] for row in rows if row["fragile"] == "true"]
+def _doubts(rows: Sequence[ComparisonRow]) -> list[str]:
+    missed = [row for row in rows if row.verdict is Verdict.UNSAFE]
+    unsafe = [row.structure for row in sorted(missed, key=lambda row: -row.integrated_rotation_ratio)]
+    fragile = [row.structure for row in rows if row.fragile]
     sentences = []
     if unsafe:
         sentences.append(f"The closed form misses what happens to {printing.listed(unsafe)}.")
@@ -95,63 +79,60 @@ def _doubts(rows: Rows) -> list[str]:
     return sentences
 
 
-def notices(tables: Tables, failures: Rows) -> list[dict[str, object]]:
+def notices(tables: RecordTables) -> list[dict[str, object]]:
     """Return the warnings that stand above everything: scale factor, red light, nothing moves, what failed."""
-    rows = tables["comparison"]
-    red = [row for row in rows if row["light"] == "red"]
-    found = [(True, scale) for scale in [scale_sentence(tables["record"])] if scale]
+    rows = tables.comparison
+    found = [(True, scale) for scale in [scale_sentence(tables.record)] if scale]
     if not rows:
         found.append((True, "No structure could be assessed under this record."))
-    elif all(ratio(_found(row)) == "no uplift" for row in rows):
+    elif all(row.found_rotation_ratio == 0 for row in rows):
         found.append(
             (False, "No structure uplifts: the ground acceleration never reaches an uplift acceleration.")
         )
+    red = sum(row.light is Light.RED for row in rows)
     if red:
-        found.append((True, _red_sentence(red, rows)))
-    failing = [
-        row for row in tables["responses"] if contact_failure(row) and row["method"] == "mechanism on record"
-    ]
-    if failing:
-        said = dict.fromkeys(f"{row['structure']} ({contact_failure(row)})" for row in failing)
+        found.append((True, _red_sentence(red, len(rows))))
+    whole = [row for row in tables.responses if row.method is Method.MECHANISM_ON_RECORD]
+    said = dict.fromkeys(f"{row.structure} ({failing})" for row in whole if (failing := contact_failure(row)))
+    if said:
         found.append(
             (True, f"The model does not hold, because a contact fails, for {printing.listed(list(said))}.")
         )
-    if not tables["pulses"]:
+    if not tables.pulses:
         found.append(
             (True, "No pulse could be sought in this record, so there is no closed-form prediction.")
         )
-    found += [(True, f"{row['structure'] or row['component']}: {row['message']}") for row in failures]
+    found += [(True, f"{row.structure or row.component}: {row.message}") for row in tables.failures]
     return [{"strong": loud, "text": text} for loud, text in found]
 
 
-def _red_sentence(red: Rows, rows: Rows) -> str:
-    share = "all" if len(red) == len(rows) else printing.count(len(red))
-    of_all = printing.counted(len(rows), "prediction")
+def _red_sentence(red: int, every: int) -> str:
+    share = "all" if red == every else printing.count(red)
+    of_all = printing.counted(every, "prediction")
     return (
         f"Red light for {share} of {of_all}: one pulse does not stand for this record there, and the closed form then "
         "mostly predicts too little. Use the full integration."
     )
 
 
-def scale_sentence(rows: Rows) -> str:
+def scale_sentence(rows: Sequence[RecordRow]) -> str:
     """Return the sentence that declares the scale factors, or nothing when every factor is 1."""
-    scaled = [row for row in rows if float(row["scale_factor"] or 1) != 1]
-    if not scaled:
-        return ""
     named = "; ".join(
-        f"component {words(row['component'])}: ×\u00a0{printing.given(row['scale_factor'])}" for row in scaled
+        f"component {words(row.component)}: ×\u00a0{printing.given(row.scale_factor)}"
+        for row in rows
+        if row.scale_factor != 1
     )
+    if not named:
+        return ""
     return f"Not the recorded amplitude. The accelerations of the file were multiplied by a declared factor ({named})."
 
 
-def scale_note(rows: Rows) -> str:
+def scale_note(rows: Sequence[RecordRow]) -> str:
     """Return the short form of the scale sentence for captions and the running head."""
-    factors = dict.fromkeys(
-        printing.given(row["scale_factor"]) for row in rows if float(row["scale_factor"] or 1) != 1
-    )
+    factors = dict.fromkeys(printing.given(row.scale_factor) for row in rows if row.scale_factor != 1)
     return f" Accelerations ×\u00a0{', '.join(factors)}, declared." if factors else ""
 
 
-def contact_failure(response: Row) -> str:
+def contact_failure(response: ResponseRow) -> str:
     """Return how the contacts of a response fail: "slides", "bounces", both, or nothing."""
-    return " and ".join(name for name in ("slides", "bounces") if response.get(name) == "true")
+    return " and ".join(name for name in ("slides", "bounces") if getattr(response, name))

@@ -1,17 +1,18 @@
 """Figures over many records."""
 
-import math
-from array import array
-from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.reports.printing import Row
+from rocking.assessment.verdict import NEGLIGIBLE
 from rocking.reports.style import LIGHT_COLOURS, LIGHT_MARKERS, new_figure, plain_logarithmic, styled
 
-_SMALLEST = 1e-3
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+_SMALLEST = NEGLIGIBLE
 """Rotation ratio below which a point is set on the edge of the figure."""
 _FALLEN = 1.6
 """Where overturning is set, beyond the critical rotation."""
@@ -22,8 +23,8 @@ _MOST_DRAWN = 5000
 
 
 @styled
-def prediction_scatter(comparison: Iterable[Row]) -> Figure:
-    """Draw predicted against integrated rotation ratio, from the rows of the comparison table, with factor-two lines.
+def prediction_scatter(comparison: "DataFrame") -> Figure:
+    """Draw predicted against integrated rotation ratio, from the comparison table, with factor-two lines.
 
     A case without one of the two is left out, and so is one that neither lifts.
     """
@@ -33,10 +34,13 @@ def prediction_scatter(comparison: Iterable[Row]) -> Figure:
     panel.plot(span, span, color="black", linewidth=0.7)
     for factor in (0.5, 2.0):
         panel.plot(span, factor * span, color="black", linewidth=0.6, linestyle="--")
-    points = _points(comparison)
-    many = sum(len(integrated) for integrated, _ in points.values()) > _MOST_DRAWN
+    ratios = comparison[["integrated_rotation_ratio", "predicted_rotation_ratio"]]
+    shown = ratios.notna().all(axis="columns") & (ratios.max(axis="columns") > 0)
+    places = ratios[shown].clip(lower=0.7 * _SMALLEST).replace(np.inf, _FALLEN)
+    lights = comparison["light"][shown]
+    many = len(places) > _MOST_DRAWN
     for light, colour in LIGHT_COLOURS.items():
-        integrated, predicted = points[light]
+        integrated, predicted = places[lights == light].to_numpy().T
         panel.plot(
             integrated,
             predicted,
@@ -50,23 +54,6 @@ def prediction_scatter(comparison: Iterable[Row]) -> Figure:
         )
     _frame(panel)
     return figure
-
-
-def _points(comparison: Iterable[Row]) -> dict[str, tuple[array, array]]:
-    """By light, where the cases stand: integrated and predicted rotation ratio."""
-    points = {light: (array("d"), array("d")) for light in LIGHT_COLOURS}
-    for row in comparison:
-        predicted, integrated = (
-            float(row[name] or "nan") for name in ("predicted_rotation_ratio", "integrated_rotation_ratio")
-        )
-        if max(predicted, integrated) > 0 and not math.isnan(predicted + integrated):
-            points[row["light"]][0].append(_place(integrated))
-            points[row["light"]][1].append(_place(predicted))
-    return points
-
-
-def _place(ratio: float) -> float:
-    return _FALLEN if math.isinf(ratio) else max(ratio, 0.7 * _SMALLEST)
 
 
 def _frame(panel: Axes) -> None:

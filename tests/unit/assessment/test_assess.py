@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rocking.assessment.assess import AssessmentSettings, Method, assess, predict, ratio, verdict
+from rocking.assessment.assess import AssessmentSettings, Method, assess, predict
+from rocking.assessment.verdict import NEGLIGIBLE, ratio, rests, verdict, within_factor_two
 from rocking.errors import ConfigurationError, StructureError
 from rocking.pulses import PULSE_METHODS, Light, Pulse, extract_pulses
 from rocking.records import Accelerogram
@@ -137,7 +138,22 @@ def test_verdict(predicted, integrated, expected):
     assert verdict(predicted, integrated) == expected
 
 
-def test_ratio_is_told_only_where_both_rock():
+def test_a_verdict_changes_where_rest_ends():
+    above = math.nextafter(NEGLIGIBLE, 1.0)
+    assert rests(NEGLIGIBLE) and not rests(above) and not rests(math.nan)
+    assert verdict(NEGLIGIBLE, above) == "unsafe"
+    assert verdict(above, NEGLIGIBLE) == "safe"
+
+
+@pytest.mark.parametrize(
+    ("predicted", "integrated", "expected"),
+    [(0.2, 0.4, True), (0.8, 0.4, True), (0.19, 0.4, False), (0.81, 0.4, False), (0.0, 0.4, None)],
+)
+def test_within_a_factor_two_holds_its_ends(predicted, integrated, expected):
+    assert within_factor_two(predicted, integrated) is expected
+
+
+def test_ratio_is_known_only_where_both_are_lifted_and_stay_up():
     assert ratio(0.2, 0.4) == 0.5
     assert math.isnan(ratio(math.inf, 0.4))
     assert math.isnan(ratio(0.2, 0.0))

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import Method
+from rocking.assessment.rows import TradeRow
 from rocking.calibration.accuracy import (
     SCIPY_METHODS,
     SCIPY_TOLERANCES,
     TOLERANCES,
-    TRADE,
     TradeCase,
     TradeSettings,
     choose_cases,
@@ -24,7 +24,7 @@ from rocking.motion.integration import integrate
 from rocking.records import Accelerogram
 from rocking.reports.summary.trade_figures import write_trade_figure
 from rocking.structures import Block, Wall
-from rocking.tables import read_rows
+from rocking.tables import frame, read_rows
 
 STEP = 0.02
 BLOCK, WALL = Block(1.0, 0.2), Wall(1.5, 1.5, 0.16)
@@ -56,47 +56,47 @@ def test_every_method_is_measured(rows):
     expected += [(Method.BLOCK_ON_RECORD, None)]
     expected += [(Method.MECHANISM_ON_RECORD, tolerance) for tolerance in TOLERANCES]
     expected += [(f"scipy {method}", rtol) for rtol in SCIPY_TOLERANCES for method in SCIPY_METHODS]
-    found = [(r["method"], None if math.isnan(r["tolerance"]) else r["tolerance"]) for r in rows]
+    found = [(r.method, None if math.isnan(r.tolerance) else r.tolerance) for r in rows]
     assert found == expected
     assert min(TOLERANCES) == pytest.approx(1e-10)
     assert max(TOLERANCES) == pytest.approx(1e-2)
-    assert all(row["duration_s"] > 0 for row in rows)
+    assert all(row.duration_s > 0 for row in rows)
 
 
 def test_the_mechanism_keeps_three_times_its_tolerance(rows):
     for row in rows:
-        if row["method"] == Method.MECHANISM_ON_RECORD:
-            assert row["error"] <= 3 * row["tolerance"]
+        if row.method == Method.MECHANISM_ON_RECORD:
+            assert row.error <= 3 * row.tolerance
 
 
 def test_eq_15_without_a_number_counts_as_overturning(rows):
     """Here its radicand is negative, which the paper reads as overturning; the block only rocks."""
-    printed = next(row for row in rows if row["method"] == Method.PRINTED)
-    assert math.isinf(printed["rotation_ratio"])
-    assert printed["verdict_agrees"] is False
+    printed = next(row for row in rows if row.method == Method.PRINTED)
+    assert math.isinf(printed.rotation_ratio)
+    assert printed.verdict_agrees is False
 
 
 def test_errors_are_those_of_the_numbers_beside_them(rows):
     for row in rows:
-        assert 0 < row["reference_rotation_ratio"] < 1
-        if row["verdict_agrees"]:
-            ratio = row["rotation_ratio"] / row["reference_rotation_ratio"]
-            assert row["error"] == pytest.approx(abs(ratio - 1), abs=1e-15)
+        assert 0 < row.reference_rotation_ratio < 1
+        if row.verdict_agrees:
+            ratio = row.rotation_ratio / row.reference_rotation_ratio
+            assert row.error == pytest.approx(abs(ratio - 1), abs=1e-15)
 
 
 def test_the_closed_form_errs_where_the_pulse_is_not_the_record(rows):
     """The record is no sine pulse, so a closed form that is exact for one cannot be right to 1e-6."""
-    closed = next(row for row in rows if row["method"] == Method.CLOSED_FORM)
-    assert not closed["error"] < 1e-6
+    closed = next(row for row in rows if row.method == Method.CLOSED_FORM)
+    assert not closed.error < 1e-6
 
 
 def test_a_case_beyond_its_budget_says_so():
     case = TradeCase("one", record(3.0, count=2000), "wall", WALL.mechanism(), 1.0)
     settings = TradeSettings(budget_s=1.0)
     (row,) = trade_rows(case, settings)
-    assert row["method"] == "reference"
-    assert "budget" in row["reason"]
-    assert math.isnan(row["error"])
+    assert row.method == "reference"
+    assert "budget" in row.reason
+    assert math.isnan(row.error)
 
 
 def test_the_strongest_stretch_holds_most_energy():
@@ -132,11 +132,9 @@ def test_a_record_that_cannot_be_read_costs_no_other(tmp_path):
     table, log = tmp_path / "trade.csv", tmp_path / "trade.log"
     write_trade(records, {"block": BLOCK}, TradeSettings(cases=2), table, log)
     assert "b: b.AT2: 3 samples are missing." in log.read_text(encoding="utf-8")
-    written = read_rows(table)
-    assert list(written[0]) == list(TRADE.column_names)
-    assert {row["record"] for row in written} == {"a"}
+    assert {row.record for row in read_rows(TradeRow, table)} == {"a"}
     described = json.loads(table.with_suffix(".json").read_text(encoding="utf-8"))["resources"][0]
-    assert [field["name"] for field in described["schema"]["fields"]] == list(written[0])
+    assert [field["name"] for field in described["schema"]["fields"]] == list(frame(TradeRow, table))
 
     figures = [tmp_path / "trade.pdf", tmp_path / "trade.svg"]
     write_trade_figure(table, *figures)
@@ -159,7 +157,7 @@ def test_nothing_that_rocks_still_gives_a_table_and_a_figure(tmp_path):
     write_trade(
         {"a": lambda: [record(0.1)]}, {"block": BLOCK}, TradeSettings(), tmp_path / "t.csv", tmp_path / "log"
     )
-    assert read_rows(tmp_path / "t.csv") == []
+    assert list(read_rows(TradeRow, tmp_path / "t.csv")) == []
     write_trade_figure(tmp_path / "t.csv", tmp_path / "t.svg")
     assert "0 cases" in (tmp_path / "t.svg").read_text(encoding="utf-8")
 

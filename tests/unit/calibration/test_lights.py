@@ -19,7 +19,18 @@ from rocking.records import read
 
 
 def _comparison(energy, amplitude_ratio, predicted, integrated, site="a"):
-    return Comparison("r", site, "s", 1.0, energy, amplitude_ratio, 5.0, predicted, predicted, integrated)
+    return Comparison(
+        record="r",
+        site=site,
+        structure="s",
+        scale_factor=1.0,
+        explained_energy=energy,
+        amplitude_ratio=amplitude_ratio,
+        frequency_ratio=5.0,
+        predicted_rotation_ratio=predicted,
+        pulse_rotation_ratio=predicted,
+        integrated_rotation_ratio=integrated,
+    )
 
 
 def test_score_counts_what_it_says():

@@ -8,7 +8,7 @@ import pytest
 
 from docs.paper import curves as paper_curves
 from docs.paper.equations import drawn_gravity, drawn_ground, drawn_inertia
-from docs.paper.report import EQUATIONS, equation_rows, paper_figures, paper_report
+from docs.paper.report import EquationRow, equation_rows, paper_figures, paper_report
 from docs.paper.response import RADII, example_arch, response_curves
 from rocking.records import read
 from rocking.structures import Block
@@ -23,10 +23,12 @@ def equations():
 def test_the_corrected_form_agrees_with_what_decides_and_the_printed_one_does_not(equations):
     assert len(equations) >= 10
     for row in equations:
-        printed, corrected, decided = (row[f"{name}_number"] for name in ("printed", "corrected", "deciding"))
+        printed, corrected, decided = (
+            getattr(row, f"{name}_number") for name in ("printed", "corrected", "deciding")
+        )
         if math.isinf(decided):
             assert corrected == decided != printed
-        elif row["equation"] in ("3", "8, 9"):
+        elif row.equation in ("3", "8, 9"):
             # linearised about φ_cr against the nonlinear drawing: α against sin α / (1 + 3 sin² α) of the wall
             assert np.sign(corrected) == np.sign(decided) == -np.sign(printed)
         else:
@@ -84,7 +86,7 @@ def figures():
 def test_every_figure_is_a_table_of_its_curves(figures):
     assert [figure.name for figure in figures][:2] == ["figure_3", "figure_4"]
     for figure in figures:
-        lines = list(csv_lines(figure.table, figure.rows))
+        lines = list(csv_lines(figure.row_class, figure.rows))
         assert len(lines) == len(figure.rows) + 1 > 30
         if figure.name != "pulse_spectrum":
             drawn = sum(len(line.get_xdata()) for panel in figure.figure.axes for line in panel.lines)
@@ -100,7 +102,7 @@ def test_curves_are_told_apart_without_colour(figures):
 
 def test_the_document_is_the_same_twice(figures, equations):
     assert paper_report(figures, equations) == paper_report(figures, equations)
-    assert set(equations[0]) == set(EQUATIONS.column_names)
+    assert {type(row) for row in equations} == {EquationRow}
 
 
 @pytest.mark.real_records
@@ -120,7 +122,7 @@ def test_figure_8_prediction_and_integration_are_nearly_the_same(real_records):
 def test_the_pulse_spectrum_holds_a_safe_island(figures):
     """η = 0.9, ω near 5: falls above a = 3.02, stands again above 6.32, falls for good above 7.17."""
     rows = next(figure.rows for figure in figures if figure.name == "pulse_spectrum")
-    near = min({row["frequency_ratio"] for row in rows}, key=lambda omega: abs(omega - 5))
-    falls = [math.isinf(row["rotation_ratio"]) for row in rows if row["frequency_ratio"] == near]
+    near = min({row.frequency_ratio for row in rows}, key=lambda omega: abs(omega - 5))
+    falls = [math.isinf(row.rotation_ratio) for row in rows if row.frequency_ratio == near]
     changes = sum(one != other for one, other in itertools.pairwise(falls))
     assert changes == 3 and falls[-1]

@@ -20,7 +20,7 @@ import rocking
 from docs.site import filled, python_blocks, write_site, written_pages
 from docs.site.generated import table
 from docs.site.pages import FOLDER
-from rocking.assessment import columns
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, SpectrumRow
 from rocking.errors import ConfigurationError
 from rocking.records.formats import FORMATS
 from rocking.structures import load_structures
@@ -179,8 +179,8 @@ def test_the_site_leaves_nothing_of_the_code_out(site):
     assert "generated:" not in "".join(site.values())
     for form in FORMATS:
         assert f"<td>{form.name}</td>" in unescape(site["formats.html"])
-    for described in (*columns.RECORD_TABLES, *columns.SUMMARY_TABLES, columns.SPECTRUM):
-        for column in described.columns:
+    for each in (*RECORD_TABLES, *SUMMARY_TABLES, SpectrumRow):
+        for column in each.table.columns:
             assert f"<code>{column.name}</code>" in site["tables.html"]
     settings = yaml.safe_load(written(WORKFLOW / "config.yaml"))
     for name, value in settings.items():
@@ -197,8 +197,8 @@ def test_the_table_of_equations_is_that_of_the_code(site):
 
     cells = re.findall(r"<td>(.*?)</td>", site["equations.html"])
     for row in equation_rows():
-        assert row["quantity"] in [unescape(cell) for cell in cells]
-        assert f"{row['corrected_number']:.5g}".replace("inf", "overturns") in cells
+        assert row.quantity in [unescape(cell) for cell in cells]
+        assert f"{row.corrected_number:.5g}".replace("inf", "overturns") in cells
 
 
 def test_an_unknown_generated_part_is_refused():

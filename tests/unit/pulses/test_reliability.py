@@ -2,10 +2,10 @@
 
 import pytest
 
-from rocking.errors import PulseError
+from rocking.errors import RockingError
 from rocking.pulses import Light
-from rocking.pulses.evidence import THRESHOLDS, read_thresholds
-from rocking.pulses.reliability import COLUMNS, read_reliability, reliability_of, shipped_reliability
+from rocking.pulses.evidence import THRESHOLDS, Thresholds, read_thresholds
+from rocking.pulses.reliability import Reliability, read_reliability, reliability_of, shipped_reliability
 
 
 def _share_found(light):
@@ -31,10 +31,16 @@ def test_a_class_is_closed_below_and_open_above():
     assert reliability_of(shipped_reliability(), Light.GREEN, edge) is not below
 
 
-def test_defects_are_refused():
-    with pytest.raises(PulseError, match="columns"):
-        read_reliability(["light,records", "green,1"])
-    with pytest.raises(PulseError, match="line 2"):
-        read_reliability([",".join(COLUMNS), "green,3,1,1,1,1,1,1,1"])
-    with pytest.raises(PulseError, match="one row"):
-        read_thresholds(["green_explained_energy", "0.3"])
+def test_defects_are_refused(tmp_path):
+    table = tmp_path / "table.csv"
+    heads = ",".join(Reliability.table.column_names)
+    for content, read, said in (
+        ("light,records\ngreen,1", read_reliability, "columns"),
+        (f"{heads}\nblue,1,3,1,1,1,1,1,1", read_reliability, "line 2, column light: 'blue' must be green"),
+        (f"{heads}\ngreen,3,1,1,1,1,1,1,1", read_reliability, "must ascend"),
+        (f"{heads}\ngreen,1,3,1,1,,1,1,1", read_reliability, "finite"),
+        (",".join(Thresholds.table.column_names) + "\n", read_thresholds, "one row"),
+    ):
+        table.write_text(content)
+        with pytest.raises(RockingError, match=said):
+            read(table)

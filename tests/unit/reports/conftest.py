@@ -5,17 +5,28 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rocking.assessment import columns
-from rocking.assessment.assess import Assessment, AssessmentSettings, assess
-from rocking.assessment.rows import Identity, all_rows, candidate_rows, processing_rows
+from rocking.assessment.assess import AssessmentSettings, assess
+from rocking.assessment.rows import (
+    AgreementRow,
+    ComparisonRow,
+    FailureRow,
+    Identity,
+    PulseRow,
+    RecordRow,
+    RecordTables,
+    StructureRow,
+    agreement_rows,
+    candidate_rows,
+    processing_rows,
+    structure_rows,
+)
 from rocking.assessment.variations import candidates, processed, processed_variants
 from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.structures import Arch, Block, Wall
-from rocking.study.summary import structure_rows
-from rocking.tables import csv_cells
+from rocking.tables import frame
 
-TABLES = {table.name: table for table in (*columns.RECORD_TABLES, columns.FAILURES)}
+SUMMARISED = {"record": RecordRow, "pulses": PulseRow, "comparison": ComparisonRow, "failures": FailureRow}
 ASSESSMENT = AssessmentSettings()
 SETTINGS = {
     name: getattr(ASSESSMENT, name) for name in ("tolerance", "acceleration_scale", "fragility_change")
@@ -31,7 +42,7 @@ class Assessed:
     record: str
     accelerograms: list[Accelerogram]
     structures: dict[str, object]
-    tables: dict[str, list[dict[str, str]]]
+    tables: RecordTables
 
     @property
     def arguments(self) -> tuple:
@@ -51,31 +62,27 @@ def shaken(component: str = "EW", scale_factor: float = 1.0, **identity) -> Acce
 
 
 def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[str, object]) -> Assessed:
-    """Compute every table of `record` and return its rows as text."""
-    tables: dict[str, list] = {name: [] for name in TABLES}
+    """Compute every table of `record`."""
+    tables = RecordTables()
     for accelerogram in accelerograms:
         computed = assess(accelerogram, structures, ASSESSMENT)
         identity = Identity(record, accelerogram, "cd" * 32)
-        rows = all_rows(identity, computed, ASSESSMENT, "CC0-1.0")
-        rows |= varied(identity, computed, structures)
-        for name, table in TABLES.items():
-            tables[name] += [csv_cells(table, row) for row in rows[name]]
-    tables["structures"] = [csv_cells(columns.STRUCTURES, row) for row in structure_rows(structures)]
+        tables.add(identity, computed, ASSESSMENT, "CC0-1.0")
+        records = processed(accelerogram)
+        pulse = computed.analysis.dominant if computed.analysis else None
+        for name, structure in structures.items():
+            found = candidates(structure, accelerogram, pulse, 7, ASSESSMENT)
+            tables.candidates.extend(candidate_rows(identity, name, found))
+            variants = processed_variants(structure, records, ASSESSMENT)
+            tables.processing.extend(processing_rows(identity, name, variants))
     return Assessed(record, accelerograms, structures, tables)
 
 
-def varied(identity: Identity, computed: Assessment, structures: dict[str, object]) -> dict[str, list]:
-    """Return the rows of candidates and processing."""
-    made: dict[str, list] = {"candidates": [], "processing": []}
-    records = processed(identity.accelerogram)
-    pulse = computed.analysis.dominant if computed.analysis else None
-    for name, structure in structures.items():
-        found = candidates(structure, identity.accelerogram, pulse, 7, ASSESSMENT)
-        made["candidates"] += candidate_rows(identity, name, found)
-        made["processing"] += processing_rows(
-            identity, name, processed_variants(structure, records, ASSESSMENT)
-        )
-    return made
+def summarised(tables: RecordTables, structures: dict[str, object]) -> dict[str, object]:
+    """Return the summary tables of one record as data frames."""
+    made = {name: frame(rows_class, getattr(tables, name)) for name, rows_class in SUMMARISED.items()}
+    agreement = frame(AgreementRow, agreement_rows(made["comparison"]))
+    return made | {"structures": frame(StructureRow, structure_rows(structures)), "agreement": agreement}
 
 
 @pytest.fixture(scope="package")

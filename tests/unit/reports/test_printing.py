@@ -1,37 +1,39 @@
 """How cells are printed."""
 
+import math
+
 import pytest
 
 from rocking.reports import printing
 
 
 @pytest.mark.parametrize(
-    ("text", "digits", "printed"),
+    ("value", "digits", "printed"),
     [
-        ("0.4321987", 3, "0.432"),
-        ("-1.9995", 3, "−2.00"),
-        ("1e-06", 3, "1.00×10⁻⁶"),
-        ("123456.7", 3, "123457"),
-        ("1234567", 3, "1.23×10⁶"),
-        ("100.2", 3, "100"),
-        ("INF", 3, "∞"),
-        ("", 3, "–"),
-        ("nan", 3, "–"),
+        (0.4321987, 3, "0.432"),
+        (-1.9995, 3, "−2.00"),
+        (1e-06, 3, "1.00×10⁻⁶"),
+        (123456.7, 3, "123457"),
+        (1234567.0, 3, "1.23×10⁶"),
+        (100.2, 3, "100"),
+        (math.inf, 3, "∞"),
+        (None, 3, "–"),
+        (math.nan, 3, "–"),
     ],
 )
-def test_a_number_keeps_its_significant_digits(text, digits, printed):
-    assert printing.number(text, digits) == printed
+def test_a_number_keeps_its_significant_digits(value, digits, printed):
+    assert printing.number(value, digits) == printed
 
 
 @pytest.mark.parametrize(
-    ("text", "printed"), [("INF", "overturns"), ("0.0", "no uplift"), ("0.5", "0.500"), ("", "–")]
+    ("value", "printed"), [(math.inf, "overturns"), (0.0, "no uplift"), (0.5, "0.500"), (math.nan, "–")]
 )
-def test_a_ratio_says_what_became_of_the_structure(text, printed):
-    assert printing.ratio(text) == printed
+def test_a_ratio_says_what_became_of_the_structure(value, printed):
+    assert printing.ratio(value) == printed
 
 
 def test_a_chosen_number_has_no_trailing_zeros():
-    assert [printing.given(text) for text in ("12.5", "1.0", "1e-06", "")] == ["12.5", "1", "1×10⁻⁶", "–"]
+    assert [printing.given(value) for value in (12.5, 1.0, 1e-06, None)] == ["12.5", "1", "1×10⁻⁶", "–"]
 
 
 def test_counts_are_words_up_to_twelve():

@@ -1,16 +1,21 @@
 """The report of one record: its numbers, its bytes, and what it says when something is wrong."""
 
-import json
 import re
 import shutil
 import subprocess
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 
+from rocking.assessment.method import Method
+from rocking.assessment.rows import structure_rows
+from rocking.pulses import Light
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports.record.report import failure_report, record_data, record_report
 from rocking.structures import Block
+from rocking.structures.outcome import Outcome
+from rocking.tables import cell
 
 from .conftest import HOSTILE, SETTINGS, assessed, shaken
 
@@ -31,10 +36,12 @@ def printed_numbers(text: str) -> list[tuple[float, float]]:
     return found
 
 
-def csv_numbers(tables) -> np.ndarray:
+def csv_numbers(example) -> np.ndarray:
     """Every number in every cell of the tables."""
-    cells = (cell for rows in tables.values() for row in rows for cell in row.values())
-    return np.array([float(token) for cell in cells for token in CSV_NUMBER.findall(cell)])
+    tables = [getattr(example.tables, field.name) for field in fields(example.tables)]
+    rows = [row for table in [*tables, structure_rows(example.structures)] for row in table]
+    cells = (cell(getattr(row, name)) for row in rows for name in row.table.column_names)
+    return np.array([float(token) for text in cells for token in CSV_NUMBER.findall(text)])
 
 
 def shown_tables(data) -> list[dict]:
@@ -54,7 +61,7 @@ def cell_texts(data) -> list[str]:
 
 
 def test_every_number_in_a_table_stands_in_a_csv(example):
-    known = csv_numbers(example.tables)
+    known = csv_numbers(example)
     texts = [text for text in cell_texts(record_data(*example.arguments)) if text != "Eq. 15 exact"]
     printed = [number for text in texts for number in printed_numbers(text)]
     assert len(printed) > 100
@@ -64,8 +71,9 @@ def test_every_number_in_a_table_stands_in_a_csv(example):
 
 
 def test_a_changed_cell_changes_what_is_printed(example):
-    tables = json.loads(json.dumps(example.tables))
-    tables["comparison"][0]["integrated_rotation_ratio"] = "0.123456789"
+    first, *others = example.tables.comparison
+    changed = replace(first, integrated_rotation_ratio=0.123456789)
+    tables = replace(example.tables, comparison=[changed, *others])
     data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
     assert data["verdicts"][0]["table"]["rows"][0][4] == {"text": "0.123", "strong": True}
 
@@ -131,7 +139,7 @@ def test_the_declared_factor_stands_wherever_numbers_do(hostile):
 
 
 def test_red_is_on_the_first_page(example):
-    red = [row for row in example.tables["comparison"] if row["light"] == "red"]
+    red = [row for row in example.tables.comparison if row.light is Light.RED]
     data = record_data(*example.arguments)
     assert red
     assert any("Red light" in notice["text"] and notice["strong"] for notice in data["notices"])
@@ -160,11 +168,14 @@ def test_a_record_without_a_pulse_still_gives_a_document():
 
 
 def test_a_hundred_structures_are_all_in_the_first_table_and_few_are_drawn(example):
-    tables = json.loads(json.dumps(example.tables))
-    for name in ("comparison", "structures", "predictions"):
-        first = tables[name][0]
-        tables[name] = [first | {"structure": f"block {place}"} for place in range(100)]
-    tables |= {"candidates": [], "processing": []}
+    named = [f"block {place}" for place in range(100)]
+    tables = replace(
+        example.tables,
+        comparison=[replace(example.tables.comparison[0], structure=name) for name in named],
+        predictions=[replace(example.tables.predictions[0], structure=name) for name in named],
+        candidates=[],
+        processing=[],
+    )
     structures = {f"block {place}": example.structures["block 4 m"] for place in range(100)}
     data = record_data(example.record, example.accelerograms, structures, tables, SETTINGS)
     assert len(data["verdicts"][0]["table"]["rows"]) == 100
@@ -180,27 +191,34 @@ def test_a_failure_is_one_page_that_says_why(message):
 
 
 def test_a_contact_that_fails_is_said_first(example):
-    tables = json.loads(json.dumps(example.tables))
-    failing = next(row for row in tables["responses"] if row["method"] == "mechanism on record")
-    failing |= {"slides": "true", "bounces": "true"}
+    place, failing = next(
+        (place, row)
+        for place, row in enumerate(example.tables.responses)
+        if row.method is Method.MECHANISM_ON_RECORD
+    )
+    responses = list(example.tables.responses)
+    responses[place] = replace(failing, slides=True, bounces=True)
+    tables = replace(example.tables, responses=responses)
     data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
-    said = f"{failing['structure']} (slides and bounces)"
+    said = f"{failing.structure} (slides and bounces)"
     assert any(said in notice["text"] and notice["strong"] for notice in data["notices"])
     assert data["trust"]["rows"][0][-1] == {"text": "slides and bounces", "strong": True}
 
 
 def test_the_governing_height_is_the_one_that_the_table_marks(example):
-    marked = [row for row in example.tables["candidates"] if row["governs_record"] == "true"]
+    marked = [row for row in example.tables.candidates if row.governs_record]
     shown = record_data(*example.arguments)["candidates"]["rows"]
-    assert [row[2] for row in shown] == [row["structure"] for row in marked] == ["wall 3 m"]
+    assert [row[2] for row in shown] == [row.structure for row in marked] == ["wall 3 m"]
     # three significant digits
-    assert float(shown[0][5]) == pytest.approx(float(marked[0]["position_m"]), rel=5e-3)
+    assert float(shown[0][5]) == pytest.approx(marked[0].position_m, rel=5e-3)
 
 
 def test_an_outcome_that_processing_decides_is_said(example):
-    tables = json.loads(json.dumps(example.tables))
-    row = next(row for row in tables["processing"] if row["structure"] == "arch 20 m")
-    row["outcome"] = "overturns" if row["outcome"] != "overturns" else "rocks"
+    processing = list(example.tables.processing)
+    place = next(place for place, row in enumerate(processing) if row.structure == "arch 20 m")
+    other = Outcome.ROCKS if processing[place].outcome is Outcome.OVERTURNS else Outcome.OVERTURNS
+    processing[place] = replace(processing[place], outcome=other)
+    tables = replace(example.tables, processing=processing)
     data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
     said = [text for text in data["verdicts"][0]["sentences"] if "depends on the processing" in text]
     assert "arch 20 m" in said[0]
@@ -208,8 +226,8 @@ def test_an_outcome_that_processing_decides_is_said(example):
 
 def test_a_vertical_component_is_named_and_changes_the_histories(example):
     up = Accelerogram(3 * np.sin(np.arange(2000) * 0.1), 0.01, "UP", vertical=True)
-    tables = json.loads(json.dumps(example.tables))
-    tables["record"][0] |= {"vertical_component": "UP", "vertical_peak_acceleration_m_s2": "2.999"}
+    acting = {"vertical_component": "UP", "vertical_peak_acceleration_m_s2": 2.999}
+    tables = replace(example.tables, record=[replace(example.tables.record[0], **acting)])
     arguments = (example.record, example.accelerograms, example.structures, tables, SETTINGS)
     still, moved = record_data(*arguments), record_data(*arguments, vertical=up)
     assert "vertical component UP acts" in still["vertical"]

@@ -1,20 +1,31 @@
 """A study of records: what fails becomes a row, and costs neither its record nor the others."""
 
 import hashlib
+import math
 import pickle
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
-from rocking.assessment import columns
+from rocking.assessment.method import Method
+from rocking.assessment.rows import (
+    PER_RECORD,
+    ComparisonRow,
+    FailureRow,
+    MaximumRow,
+    PredictionRow,
+    PulseRow,
+    ResponseRow,
+    structure_rows,
+)
 from rocking.errors import StructureError
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.structures import Block
 from rocking.study.run import Study, assess_record, assess_records
 from rocking.study.settings import Settings
-from rocking.study.summary import structure_rows, write_summary
+from rocking.study.summary import write_summary
 from rocking.tables import read_rows
 
 ROOT = Path(__file__).parents[3]
@@ -45,8 +56,8 @@ def _record(
 def test_a_structure_that_fails_does_not_take_the_record_with_it(tmp_path: Path) -> None:
     study = _study(impossible=Impossible(), block=Block.of_size(0.5, 3.0))
     assert assess_record(_record(tmp_path), study, tmp_path / "out") == ["it cannot stand."]
-    (failure,) = read_rows(tmp_path / "out" / "failures.csv")
-    assert (failure["structure"], failure["stage"]) == ("impossible", "responses")
+    (failure,) = read_rows(FailureRow, tmp_path / "out" / "failures.csv")
+    assert (failure.structure, failure.stage) == ("impossible", "responses")
     alone = assess_record(_record(tmp_path), _study(), tmp_path / "alone")
     assert alone == []
     for name in ("responses.csv", "comparison.csv", "pulses.csv"):
@@ -57,9 +68,9 @@ def test_a_record_that_fails_has_all_its_tables_and_says_why(tmp_path: Path) -> 
     record = _record(tmp_path, content=b"not a record")
     (sentence,) = assess_record(record, _study(), tmp_path / "out")
     assert "made.AT2" in sentence
-    for table in columns.PER_RECORD:
-        rows = read_rows(tmp_path / "out" / table.file_name)
-        assert len(rows) == (1 if table.name in ("failures", "timings") else 0), table.name
+    for each in PER_RECORD:
+        rows = list(read_rows(each, tmp_path / "out" / each.table.file_name))
+        assert len(rows) == (1 if each.table.name in ("failures", "timings") else 0), each.table.name
 
 
 def test_a_file_is_not_read_before_its_hash_is_checked(
@@ -140,44 +151,40 @@ def test_the_summary_holds_every_row_of_every_record(tmp_path: Path) -> None:
         folders.append(tmp_path / f"record_{number}")
         assess_record(_record(tmp_path, f"record_{number}"), study, folders[-1])
     write_summary(folders, study.structures, tmp_path / "summary")
-    for name in ("pulses", "comparison", "failures"):
-        parts = [row for folder in folders for row in read_rows(folder / f"{name}.csv")]
-        assert read_rows(tmp_path / "summary" / f"{name}.csv") == parts
-    maxima = read_rows(tmp_path / "summary" / "maxima.csv")
+    for each in (PulseRow, ComparisonRow, FailureRow):
+        file = each.table.file_name
+        parts = [row for folder in folders for row in read_rows(each, folder / file)]
+        assert list(map(repr, read_rows(each, tmp_path / "summary" / file))) == list(map(repr, parts))
+    maxima = read_rows(MaximumRow, tmp_path / "summary" / "maxima.csv")
     wanted = [
-        (row["record"], row["method"], row["rotation_ratio"])
+        (row.record, row.method, row.rotation_ratio)
         for folder in folders
-        for name in ("predictions", "responses")
-        for row in read_rows(folder / f"{name}.csv")
+        for each in (PredictionRow, ResponseRow)
+        for row in read_rows(each, folder / each.table.file_name)
     ]
-    assert [(row["record"], row["method"], row["rotation_ratio"]) for row in maxima] == wanted
+    assert [(row.record, row.method, row.rotation_ratio) for row in maxima] == wanted
 
 
 def test_the_error_of_each_method_is_against_the_mechanism_on_the_record(tmp_path: Path) -> None:
     study = _study(stout=Block.of_size(1.0, 3.0))
     assess_record(_record(tmp_path), study, tmp_path / "made")
     write_summary([tmp_path / "made"], study.structures, tmp_path / "summary")
-    maxima = {row["method"]: row for row in read_rows(tmp_path / "summary" / "maxima.csv")}
-    reference = float(maxima["mechanism on record"]["rotation_ratio"])
-    assert 0 < reference < 1, "the record was made so that the block rocks"
-    assert maxima["mechanism on record"]["error"] == ""
-    for method, row in maxima.items():
-        if row["error"]:
-            assert method != "mechanism on record"
-            assert float(row["error"]) == pytest.approx(
-                float(row["rotation_ratio"]) / reference - 1, rel=1e-12
-            )
-    assert maxima["closed form"]["error"] or float(maxima["closed form"]["rotation_ratio"]) in (
-        0,
-        float("inf"),
-    )
+    maxima = {row.method: row for row in read_rows(MaximumRow, tmp_path / "summary" / "maxima.csv")}
+    reference = maxima.pop(Method.MECHANISM_ON_RECORD)
+    assert 0 < reference.rotation_ratio < 1, "the record was made so that the block rocks"
+    assert math.isnan(reference.error)
+    for row in maxima.values():
+        if not math.isnan(row.error):
+            assert row.error == pytest.approx(row.rotation_ratio / reference.rotation_ratio - 1, rel=1e-12)
+    closed = maxima[Method.CLOSED_FORM]
+    assert not math.isnan(closed.error) or closed.rotation_ratio in (0, math.inf)
 
 
 def test_the_structures_table_carries_the_block_of_the_closed_form() -> None:
     """λ = tan α, φ_cr = α and p² = 3g/4R of a single block, in numbers that were worked out by hand."""
     (row,) = structure_rows({"block": Block.of_size(0.5, 3.0)})
-    assert row["uplift_multiplier"] == pytest.approx(0.5 / 3.0, rel=1e-14)
-    assert row["critical_rotation_rad"] == pytest.approx(0.16514867741462683, rel=1e-14)
-    assert row["frequency_parameter_rad_s"] == pytest.approx(
+    assert row.uplift_multiplier == pytest.approx(0.5 / 3.0, rel=1e-14)
+    assert row.critical_rotation_rad == pytest.approx(0.16514867741462683, rel=1e-14)
+    assert row.frequency_parameter_rad_s == pytest.approx(
         (0.75 * 9.80665 / 1.5206906325745548) ** 0.5, rel=1e-14
     )

@@ -1,0 +1,347 @@
+"""Rows about a structure under a component: predictions, integrations, both side by side, and their variations."""
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+from rocking.assessment.assess import Case, Prediction
+from rocking.assessment.method import Method
+from rocking.assessment.rows.shared import (
+    FRAGILE,
+    FREQUENCY_PARAMETER,
+    IMPACTS,
+    LIGHT,
+    METHOD,
+    OUTCOME,
+    REGIME,
+    RESTITUTION,
+    ROTATION,
+    ROTATION_RATIO,
+    SENSITIVITY,
+    CaseRow,
+    Identity,
+)
+from rocking.assessment.variations import Candidate, Variant, governing
+from rocking.assessment.verdict import Verdict, ratio, verdict, within_factor_two
+from rocking.motion.contact_check import UNKNOWN
+from rocking.motion.response import Response
+from rocking.pulses import Light
+from rocking.pulses.reliability import reliability_of, shipped_reliability
+from rocking.sine_pulse import Regime
+from rocking.structures import Mechanism
+from rocking.structures.outcome import Outcome
+from rocking.tables import column, row
+
+
+@row(
+    "predictions",
+    "One row per structure and closed form: the equivalent block under the dominant pulse",
+)
+class PredictionRow(CaseRow):
+    """One closed form of one case."""
+
+    method: Method = column(METHOD)
+    pulse_rank: int = column("Rank of the pulse among those that its method offers")
+    acceleration_scale_choice: str = column("linearised (a_sc), uplift (a_sc,alt) or their mean")
+    frequency_parameter_rad_s: float = column(FREQUENCY_PARAMETER, equation="Eq. 11")
+    critical_rotation_rad: float = column("Critical rotation")
+    acceleration_scale: float = column("Acceleration scale of the equivalent block", equation="Eqs. 11, 13")
+    uplift_multiplier: float = column("Uplift acceleration of the equivalent block in g", equation="Eq. 12")
+    restitution: float = column(RESTITUTION, equation="Eq. 2")
+    amplitude_ratio: float = column("a = a_g / (g times uplift multiplier)", equation="Eq. 16")
+    frequency_ratio: float = column(
+        "Circular frequency of the pulse over frequency parameter", equation="Eq. 16"
+    )
+    rotation_ratio: float = column(ROTATION_RATIO)
+    rotation_rad: float = column(ROTATION)
+    rotation_ratio_low: float = column(
+        "Lower end of the 90 % band of the prediction, from the interval of the pulse"
+    )
+    rotation_ratio_high: float = column(
+        "Upper end of the 90 % band of the prediction, from the interval of the pulse"
+    )
+    outcome: Outcome | None = column(OUTCOME)
+    regime: Regime | None = column(REGIME)
+    impacts: int | None = column(IMPACTS)
+    light: Light = column(LIGHT)
+
+
+@row("responses", "One row per structure and integration")
+class ResponseRow(CaseRow):
+    """One integration of one case."""
+
+    method: Method = column(METHOD)
+    rotation_ratio: float = column(ROTATION_RATIO)
+    rotation_rad: float = column(ROTATION)
+    outcome: Outcome = column(OUTCOME)
+    impacts: int = column(IMPACTS)
+    peak_side: int = column("Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift")
+    peak_time_s: float = column("Time of the largest rotation after the first sample")
+    uplift_time_s: float = column("Time of the first uplift after the first sample")
+    sensitivity: float = column(SENSITIVITY)
+    fragile: bool | None = column(FRAGILE)
+    tolerance: float = column("Relative tolerance of the integration; 0 for an exact solution")
+    steps: int = column("Steps taken")
+    friction_needed: float = column(
+        "Largest friction coefficient a contact needs while rocking; INF where a contact is not pressed"
+    )
+    slides: bool | None = column(
+        "Whether that exceeds the friction coefficient of the settings: the model does not hold"
+    )
+    bounces: bool | None = column("Whether a contact would have to pull: the model does not hold")
+    reason: str = column("Why it failed, if it did")
+
+
+@row(
+    "comparison",
+    "One row per structure: the closed form under the dominant pulse beside the integration of the whole record",
+)
+class ComparisonRow(CaseRow):
+    """One case: what every method says of it, and how far to trust the closed form."""
+
+    printed_rotation_ratio: float = column(
+        "Eq. 15 as the paper prints it; empty where its radicand is negative", equation="Eq. 15"
+    )
+    predicted_rotation_ratio: float = column("Exact maximum of the equivalent block under the dominant pulse")
+    pulse_rotation_ratio: float = column("Nonlinear mechanism under the dominant pulse")
+    block_rotation_ratio: float = column("Equivalent block under the whole record")
+    integrated_rotation_ratio: float = column("Nonlinear mechanism under the whole record")
+    answer_rotation_ratio: float = column(
+        "Of the mechanism under the record, or of the cheapest method that fidelity: auto trusts instead"
+    )
+    answer_method: Method = column("Which method that was")
+    prediction_over_integration: float = column("Predicted over integrated rotation ratio, where both rock")
+    within_factor_two: bool | None = column("Whether that ratio lies between 1/2 and 2, where both rock")
+    reliability_within_factor_two: float = column(
+        "Share of comparisons of this light and frequency ratio within a factor two, from the shipped calibration"
+    )
+    reliability_overturnings_found: float = column(
+        "Share of overturnings that such predictions found, from the shipped calibration; empty if there were none"
+    )
+    reliability_records: int = column("Independent records behind those two shares")
+    verdict: Verdict = column(
+        "agree, unsafe (overturning or rocking missed) or safe (predicted, did not happen)"
+    )
+    regime: Regime | None = column(REGIME)
+    light: Light | None = column(LIGHT)
+    sensitivity: float = column(SENSITIVITY)
+    fragile: bool | None = column(FRAGILE)
+
+    @property
+    def spared(self) -> bool:
+        """Whether a cheaper method than the full integration answered."""
+        return math.isnan(self.integrated_rotation_ratio) and not math.isnan(self.answer_rotation_ratio)
+
+    @property
+    def found_rotation_ratio(self) -> float:
+        """The rotation ratio of the full integration, or of what answered in its stead."""
+        return self.answer_rotation_ratio if self.spared else self.integrated_rotation_ratio
+
+
+@row(
+    "candidates",
+    "One row per height at which a wall may be hinged or a spire cracked: the governing height is marked",
+)
+class CandidateRow(CaseRow):
+    """One height at which a structure may crack."""
+
+    position_m: float = column("Height of the hinge or of the crack above the base")
+    predicted_rotation_ratio: float = column("Exact maximum of its equivalent block under the dominant pulse")
+    integrated_rotation_ratio: float = column("Its mechanism under the whole record")
+    governs_pulse: bool = column("Whether it rotates most under the pulse; the lowest of those that overturn")
+    governs_record: bool = column(
+        "Whether it rotates most under the record; the lowest of those that overturn"
+    )
+
+
+@row(
+    "processing",
+    "One row per structure and processing of the record: what the answer owes to baseline and corner frequency",
+)
+class ProcessingRow(CaseRow):
+    """One case under the record processed otherwise."""
+
+    processing: str = column("What was done to the record besides what the record table says")
+    peak_acceleration_m_s2: float = column("Largest magnitude of the acceleration then")
+    rotation_ratio: float = column(ROTATION_RATIO)
+    outcome: Outcome = column(OUTCOME)
+
+
+@row("maxima", "One row per record, component, structure and method")
+class MaximumRow(CaseRow):
+    """The largest rotation of one case by one method."""
+
+    method: Method = column(METHOD)
+    rotation_ratio: float = column(ROTATION_RATIO)
+    rotation_rad: float = column(ROTATION)
+    outcome: Outcome | None = column(OUTCOME)
+    regime: Regime | None = column(REGIME)
+    light: Light | None = column(LIGHT)
+    error: float = column("Rotation ratio over that of the mechanism on the record, minus 1, where both rock")
+    fragile: bool | None = column(FRAGILE)
+
+
+def prediction_rows(identity: Identity, case: Case, acceleration_scale: str) -> Iterator[PredictionRow]:
+    """Yield the rows of Eq. 15 as printed and of the exact closed form; none without a pulse."""
+    prediction = case.prediction
+    if prediction is None:
+        return
+    block, maximum = prediction.block, prediction.maximum
+    shared = identity.columns | {
+        "structure": case.structure,
+        "pulse_rank": prediction.rank,
+        "acceleration_scale_choice": acceleration_scale,
+        "frequency_parameter_rad_s": block.frequency_parameter,
+        "critical_rotation_rad": block.critical_rotation,
+        "acceleration_scale": block.acceleration_scale,
+        "uplift_multiplier": block.uplift_multiplier,
+        "restitution": block.restitution,
+        "amplitude_ratio": prediction.amplitude_ratio,
+        "frequency_ratio": prediction.frequency_ratio,
+        "light": prediction.light,
+    }
+    yield PredictionRow(
+        **shared,
+        method=Method.PRINTED,
+        rotation_ratio=prediction.printed,
+        rotation_rad=prediction.printed * block.critical_rotation,
+        rotation_ratio_low=math.nan,
+        rotation_ratio_high=math.nan,
+        outcome=None,
+        regime=None,
+        impacts=None,
+    )
+    yield PredictionRow(
+        **shared,
+        method=Method.CLOSED_FORM,
+        rotation_ratio=maximum.rotation_ratio,
+        rotation_rad=rotation(case.mechanism, maximum.rotation_ratio, maximum.peak_side),
+        rotation_ratio_low=prediction.low,
+        rotation_ratio_high=prediction.high,
+        outcome=maximum.outcome,
+        regime=maximum.regime,
+        impacts=maximum.impacts,
+    )
+
+
+def response_rows(identity: Identity, case: Case, friction_coefficient: float) -> Iterator[ResponseRow]:
+    """Yield the row of each integration."""
+    for method, response in case.responses.items():
+        check = case.check if method is Method.MECHANISM_ON_RECORD else UNKNOWN
+        yield ResponseRow(
+            **identity.columns,
+            structure=case.structure,
+            method=method,
+            rotation_ratio=response.rotation_ratio,
+            rotation_rad=rotation(case.mechanism, response.rotation_ratio, response.peak_side),
+            outcome=response.outcome,
+            impacts=response.impacts,
+            peak_side=response.peak_side,
+            peak_time_s=response.peak_time,
+            uplift_time_s=response.uplift_time,
+            sensitivity=response.sensitivity,
+            fragile=response.fragile,
+            tolerance=response.tolerance,
+            steps=response.steps,
+            friction_needed=check.friction_needed,
+            slides=check.slides(friction_coefficient),
+            bounces=check.bounces,
+            reason=response.reason,
+        )
+
+
+_NOT_RUN = Response(math.nan, Outcome.FAILED)
+
+
+def comparison_row(identity: Identity, case: Case) -> ComparisonRow:
+    """Return the row of one case: the closed form beside the integration of the whole record."""
+    reference = case.responses.get(Method.MECHANISM_ON_RECORD, _NOT_RUN)
+    prediction = case.prediction
+    predicted = prediction.maximum.rotation_ratio if prediction else math.nan
+    integrated = reference.rotation_ratio
+    return ComparisonRow(
+        **identity.columns,
+        **_reliability(prediction),
+        structure=case.structure,
+        printed_rotation_ratio=prediction.printed if prediction else math.nan,
+        predicted_rotation_ratio=predicted,
+        pulse_rotation_ratio=case.responses.get(Method.MECHANISM_ON_PULSE, _NOT_RUN).rotation_ratio,
+        block_rotation_ratio=case.responses.get(Method.BLOCK_ON_RECORD, _NOT_RUN).rotation_ratio,
+        integrated_rotation_ratio=integrated,
+        answer_rotation_ratio=case.answer.rotation_ratio,
+        answer_method=case.answer.method,
+        prediction_over_integration=ratio(predicted, integrated),
+        within_factor_two=within_factor_two(predicted, integrated),
+        verdict=verdict(predicted, integrated),
+        regime=prediction.maximum.regime if prediction else None,
+        light=prediction.light if prediction else None,
+        sensitivity=reference.sensitivity,
+        fragile=reference.fragile,
+    )
+
+
+def _reliability(prediction: Prediction | None) -> dict[str, Any]:
+    """What the shipped calibration says of predictions like this one."""
+    known = prediction and reliability_of(shipped_reliability(), prediction.light, prediction.frequency_ratio)
+    overturnings = known.overturnings_found + known.overturnings_missed if known else 0
+    found = known.overturnings_found / overturnings if known and overturnings else math.nan
+    return {
+        "reliability_within_factor_two": known.within_factor_2 if known else math.nan,
+        "reliability_overturnings_found": found,
+        "reliability_records": known.records if known else 0,
+    }
+
+
+def maximum_row(method: PredictionRow | ResponseRow, comparison: ComparisonRow) -> MaximumRow:
+    """Return what one method says of the case of `comparison`."""
+    error = ratio(method.rotation_ratio, comparison.integrated_rotation_ratio) - 1
+    return MaximumRow(
+        record=method.record,
+        component=method.component,
+        structure=method.structure,
+        method=method.method,
+        rotation_ratio=method.rotation_ratio,
+        rotation_rad=method.rotation_rad,
+        outcome=method.outcome,
+        regime=method.regime if isinstance(method, PredictionRow) else None,
+        light=comparison.light,
+        error=math.nan if method.method is Method.MECHANISM_ON_RECORD else error,
+        fragile=method.fragile if isinstance(method, ResponseRow) else None,
+        scale_factor=method.scale_factor,
+        record_sha256=method.record_sha256,
+        settings_sha256=method.settings_sha256,
+    )
+
+
+def candidate_rows(identity: Identity, structure: str, found: Sequence[Candidate]) -> Iterator[CandidateRow]:
+    """Yield the row of each height at which one structure may crack."""
+    on_pulse = governing([candidate.predicted for candidate in found])
+    on_record = governing([candidate.integrated for candidate in found])
+    for place, candidate in enumerate(found):
+        yield CandidateRow(
+            **identity.columns,
+            structure=structure,
+            position_m=candidate.position,
+            predicted_rotation_ratio=candidate.predicted,
+            integrated_rotation_ratio=candidate.integrated,
+            governs_pulse=place == on_pulse,
+            governs_record=place == on_record,
+        )
+
+
+def processing_rows(identity: Identity, structure: str, found: Iterable[Variant]) -> Iterator[ProcessingRow]:
+    """Yield the row of each processing of the record for one structure."""
+    for variant in found:
+        yield ProcessingRow(
+            **identity.columns,
+            structure=structure,
+            processing=variant.processing,
+            peak_acceleration_m_s2=variant.peak_acceleration,
+            rotation_ratio=variant.rotation_ratio,
+            outcome=variant.outcome,
+        )
+
+
+def rotation(mechanism: Mechanism, rotation_ratio: float, side: int) -> float:
+    """Return the rotation in rad that `rotation_ratio` means on `side` (+1 or −1) of `mechanism`."""
+    return rotation_ratio * mechanism.sides[0 if side >= 0 else -1].critical_rotation

@@ -1,0 +1,98 @@
+"""The tables of one record's folder: filled by an assessment, written, and read again as rows."""
+
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from rocking.assessment.assess import Assessment, Failure
+from rocking.assessment.rows.of_case import (
+    CandidateRow,
+    ComparisonRow,
+    PredictionRow,
+    ProcessingRow,
+    ResponseRow,
+    comparison_row,
+    prediction_rows,
+    response_rows,
+)
+from rocking.assessment.rows.of_record import (
+    FailureRow,
+    PulseRow,
+    RecordRow,
+    TimingRow,
+    failure_row,
+    pulse_rows,
+    record_row,
+)
+from rocking.assessment.rows.shared import Identity
+from rocking.assessment.settings import AssessmentSettings
+from rocking.records import Accelerogram
+from rocking.tables import Row, read_rows, write_rows
+
+RECORD_TABLES: tuple[type[Row], ...] = (
+    RecordRow,
+    PulseRow,
+    PredictionRow,
+    ResponseRow,
+    ComparisonRow,
+    CandidateRow,
+    ProcessingRow,
+)
+"""The rows of the tables of one record's folder that hold results."""
+PER_RECORD: tuple[type[Row], ...] = (*RECORD_TABLES, FailureRow, TimingRow)
+"""The rows of every table of one record's folder."""
+
+
+@dataclass(frozen=True)
+class RecordTables:
+    """Every row of one record, by table; each field is named as its file."""
+
+    record: list[RecordRow] = field(default_factory=list)
+    pulses: list[PulseRow] = field(default_factory=list)
+    predictions: list[PredictionRow] = field(default_factory=list)
+    responses: list[ResponseRow] = field(default_factory=list)
+    comparison: list[ComparisonRow] = field(default_factory=list)
+    candidates: list[CandidateRow] = field(default_factory=list)
+    processing: list[ProcessingRow] = field(default_factory=list)
+    failures: list[FailureRow] = field(default_factory=list)
+    timings: list[TimingRow] = field(default_factory=list)
+
+    @classmethod
+    def read(cls, folder: Path) -> "RecordTables":
+        """Return the rows of a record's folder. Raises RockingError for a table that cannot be read."""
+        files = {each.table.name: (each, folder / each.table.file_name) for each in PER_RECORD}
+        return cls(**{name: list(read_rows(*file)) for name, file in files.items()})  # type: ignore[arg-type]
+
+    def write(self, folder: Path) -> None:
+        """Write every table into `folder`."""
+        for each in PER_RECORD:
+            write_rows(each, getattr(self, each.table.name), folder / each.table.file_name)
+
+    def of_component(self, component: str) -> "RecordTables":
+        """Return the rows of one component, without the timings."""
+        tables = {each.table.name: getattr(self, each.table.name) for each in PER_RECORD[:-1]}
+        kept = {name: [row for row in rows if row.component == component] for name, rows in tables.items()}
+        return replace(self, timings=[], **kept)
+
+    def add(
+        self,
+        identity: Identity,
+        assessment: Assessment,
+        settings: AssessmentSettings,
+        licence: str,
+        vertical: Accelerogram | None = None,
+    ) -> None:
+        """Append what one assessment gives."""
+        self.record.append(record_row(identity, licence, vertical))
+        self.pulses.extend(
+            pulse_rows(identity, assessment.analysis, assessment.interval, assessment.candidates)
+        )
+        for case in assessment.cases:
+            self.predictions.extend(prediction_rows(identity, case, settings.acceleration_scale))
+            self.responses.extend(response_rows(identity, case, settings.friction_coefficient))
+            self.comparison.append(comparison_row(identity, case))
+        for failure in assessment.failures:
+            self.fail(identity.record, assessment.accelerogram.component, failure)
+
+    def fail(self, record: str, component: str, failure: Failure) -> None:
+        """Append a row of the failures."""
+        self.failures.append(failure_row(record, component, failure))

@@ -1,0 +1,240 @@
+"""Rows about a whole study: its structures, their blocks, its counts, its spectrum and what accuracy costs."""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import product
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rocking.assessment.rows.shared import (
+    COMPONENT,
+    FREQUENCY_PARAMETER,
+    METHOD,
+    RECORD,
+    RECORD_SHA256,
+    RESTITUTION,
+    ROTATION_RATIO,
+    SCALE_FACTOR,
+    SENSITIVITY,
+    STRUCTURE,
+)
+from rocking.motion.spectrum import rocking_spectrum
+from rocking.pulses import Light
+from rocking.records import Accelerogram
+from rocking.structures import Structure
+from rocking.structures.equivalence import measure_equivalence
+from rocking.tables import Row, column, row
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+AMPLITUDES = (0.1, 0.3, 0.5, 0.7, 0.9)
+"""Rotations over φ_cr at which natural periods are compared."""
+ACCELERATIONS = (1.1, 1.5, 2.0, 5.0)
+"""Constant ground accelerations over that of uplift under which times to overturn are compared."""
+
+
+@row("structures", "One row per structure: its mechanism and its equivalent block")
+class StructureRow(Row):
+    """One structure of the structure list."""
+
+    structure: str = column(STRUCTURE)
+    type: str = column("Type of the structure")
+    geometry: str = column("Its geometry, SI and radians")
+    frequency_parameter_rad_s: float = column(FREQUENCY_PARAMETER, equation="Eq. 11")
+    critical_rotation_rad: float = column("Critical rotation")
+    uplift_multiplier: float = column("Uplift acceleration in g", equation="Eq. 7")
+    acceleration_scale_linearised: float = column("a_sc", equation="Eq. 11")
+    acceleration_scale_uplift: float = column("a_sc,alt", equation="Eq. 13")
+    linearised_over_true_uplift: float = column(
+        "Uplift acceleration of the linearised block over the true one", equation="Eq. 12"
+    )
+    restitution: float = column(RESTITUTION, equation="Eq. 2")
+
+
+@row(
+    "equivalence",
+    "One row per structure, side and measure: what the equivalent block gets wrong, by quadrature",
+)
+class EquivalenceRow(Row):
+    """The equivalent block of one side of one structure by one measure."""
+
+    structure: str = column(STRUCTURE)
+    side: str = column("positive or negative: the side to which it rocks")
+    measure: str = column("natural period, uplift acceleration or time to overturn")
+    acceleration_scale_choice: str = column("linearised, uplift or mean, where the measure depends on it")
+    at: float = column(
+        "Rotation amplitude over critical rotation, or constant ground acceleration over uplift acceleration"
+    )
+    block_over_structure: float = column("Equivalent block over structure", equation="Figs. 3, 4, 6, 7")
+
+
+@row(
+    "agreement",
+    "One row per light and one for all: the closed form under the dominant pulse against the full integration",
+)
+class AgreementRow(Row):
+    """How often the closed form was right under one light."""
+
+    light: str = column("green, amber or red; all for their sum")
+    records: int = column("Records behind the row")
+    cases: int = column("Component and structure pairs with both a prediction and an integration")
+    both_rock: int = column("Cases in which both rock and stay up")
+    within_factor_two: int = column("Those whose predicted over integrated rotation lies in [1/2, 2]")
+    median_ratio: float = column("Median of predicted over integrated rotation where both rock")
+    overturning: int = column("Cases that overturn in the integration")
+    overturning_found: int = column("Those in which the closed form overturns too")
+    overturning_missed: int = column("Those in which it does not")
+    overturning_false: int = column("Cases in which the closed form alone overturns")
+    fragile: int = column("Cases whose verdict the stated change of amplitude flips")
+
+
+@row(
+    "spectrum",
+    "One row per component and equivalent block under the whole record; written by rocking spectrum",
+)
+class SpectrumRow(Row):
+    """One block under one component."""
+
+    component: str = column(COMPONENT)
+    frequency_parameter_rad_s: float = column(FREQUENCY_PARAMETER, equation="Eq. 11")
+    uplift_multiplier: float = column("Uplift acceleration of the equivalent block in g", equation="Eq. 12")
+    restitution: float = column(RESTITUTION, equation="Eq. 2")
+    rotation_ratio: float = column(ROTATION_RATIO)
+    scale_factor: float = column(SCALE_FACTOR)
+    record_sha256: str = column(RECORD_SHA256)
+
+
+@row(
+    "trade",
+    "One row per case, method and setting: error against a tight integration, and time; differs between runs",
+)
+class TradeRow(Row):
+    """One method at one tolerance on one case."""
+
+    record: str = column(RECORD)
+    component: str = column("Component of the ground motion")
+    structure: str = column(STRUCTURE)
+    samples: int = column("Samples of the strongest stretch, which every method was given")
+    time_step_s: float = column("Time step")
+    sensitivity: float = column(SENSITIVITY)
+    method: str = column(METHOD)
+    tolerance: float = column("Relative tolerance of the method; empty where it has none")
+    rotation_ratio: float = column("Largest rotation over critical rotation; INF if it overturns")
+    reference_rotation_ratio: float = column("The same by DOP853 at 1e-12, restarted at each sample")
+    error: float = column("Magnitude of the relative error where both rock; 0 where neither does")
+    verdict_agrees: bool | None = column("Whether it rocks, overturns or stays as the reference says")
+    duration_s: float = column("Time of one response, median of the repeats, all tables warm")
+    repeats: int = column("Timed runs")
+    preparation_s: float = column(
+        "Time spent once beforehand: on the pulse, or on the table of the mechanism"
+    )
+    reason: str = column("Why there is no number")
+
+
+def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow]:
+    """Yield the row of each structure."""
+    for name, structure in structures.items():
+        mechanism = structure.mechanism()
+        side = mechanism.positive
+        linearised = side.scaled_acceleration("linearised")
+        yield StructureRow(
+            structure=name,
+            type=type(structure).__name__,
+            geometry=str(structure),
+            frequency_parameter_rad_s=side.frequency_parameter,
+            critical_rotation_rad=side.critical_rotation,
+            uplift_multiplier=mechanism.uplift_multiplier,
+            acceleration_scale_linearised=linearised,
+            acceleration_scale_uplift=side.scaled_acceleration("uplift"),
+            linearised_over_true_uplift=side.critical_rotation / linearised / side.uplift_multiplier,
+            restitution=side.restitution,
+        )
+
+
+def equivalence_rows(structures: Mapping[str, Structure]) -> Iterator[EquivalenceRow]:
+    """Yield the rows that hold each side of each structure against its linearisation."""
+    for name, structure in structures.items():
+        for which, side in zip(("positive", "negative"), structure.mechanism().sides, strict=False):
+            found = measure_equivalence(side, AMPLITUDES, ACCELERATIONS)
+            measures: list[tuple[str, str, Sequence[float], Iterable[float]]] = [
+                ("natural period", "", AMPLITUDES, found.period_ratio),
+                ("uplift acceleration", "linearised", (math.nan,), (found.uplift_ratio,)),
+                *(
+                    ("time to overturn", scale, ACCELERATIONS, r)
+                    for scale, r in found.overturning_ratio.items()
+                ),
+            ]
+            for measure, scale, places, ratios in measures:
+                for place, value in zip(places, ratios, strict=True):
+                    yield EquivalenceRow(
+                        structure=name,
+                        side=which,
+                        measure=measure,
+                        acceleration_scale_choice=scale,
+                        at=place,
+                        block_over_structure=float(value),
+                    )
+
+
+AGREEMENT_COLUMNS = (
+    "record",
+    "light",
+    "predicted_rotation_ratio",
+    "integrated_rotation_ratio",
+    "prediction_over_integration",
+    "within_factor_two",
+    "fragile",
+)
+"""What `agreement_rows` needs of the comparison table."""
+
+
+def agreement_rows(comparison: "DataFrame") -> Iterator[AgreementRow]:
+    """Yield the counts of each light and of all, from the comparison table as a data frame."""
+    ratios = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]]
+    known = comparison[ratios.notna().all(axis="columns")]
+    for light in Light:
+        yield _agreement_row(light, known[known["light"] == light])
+    yield _agreement_row("all", known)
+
+
+def _agreement_row(light: str, cases: "DataFrame") -> AgreementRow:
+    predicted = np.isinf(cases["predicted_rotation_ratio"])
+    integrated = np.isinf(cases["integrated_rotation_ratio"])
+    return AgreementRow(
+        light=str(light),
+        records=cases["record"].nunique(),
+        cases=len(cases),
+        both_rock=int(cases["prediction_over_integration"].count()),
+        within_factor_two=int(cases["within_factor_two"].sum()),
+        median_ratio=float(cases["prediction_over_integration"].median()),
+        overturning=int(integrated.sum()),
+        overturning_found=int((predicted & integrated).sum()),
+        overturning_missed=int((integrated & ~predicted).sum()),
+        overturning_false=int((predicted & ~integrated).sum()),
+        fragile=int(cases["fragile"].sum()),
+    )
+
+
+def spectrum_rows(
+    accelerograms: Iterable[Accelerogram],
+    frequency_parameters: np.ndarray,
+    uplift_multipliers: np.ndarray,
+    restitution: float,
+) -> Iterator[SpectrumRow]:
+    """Yield the rocking spectrum of each component over p (m,) [rad/s] and λ (n,)."""
+    for accelerogram in accelerograms:
+        ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, restitution)
+        for (i, p), (k, multiplier) in product(
+            enumerate(frequency_parameters.tolist()), enumerate(uplift_multipliers.tolist())
+        ):
+            yield SpectrumRow(
+                component=accelerogram.component,
+                frequency_parameter_rad_s=p,
+                uplift_multiplier=multiplier,
+                restitution=restitution,
+                rotation_ratio=float(ratios[i, k]),
+                scale_factor=accelerogram.scale_factor,
+                record_sha256=accelerogram.source.sha256,
+            )

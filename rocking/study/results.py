@@ -1,0 +1,62 @@
+"""The results of a study as pandas data frames."""
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rocking.assessment.rows import PER_RECORD, SUMMARY_TABLES, TradeRow
+from rocking.errors import RockingError
+from rocking.tables import Row, frame
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+_ROWS: tuple[type[Row], ...] = (*PER_RECORD, *SUMMARY_TABLES, TradeRow)
+_TABLES = {each.table.name: each for each in _ROWS}
+
+
+class Results:
+    """The folder of a study's results: each table is an attribute, read when it is asked for.
+
+    >>> results = rocking.open_results("results")
+    >>> results.comparison.groupby("light")["within_factor_two"].mean()
+
+    A table that the summary does not hold, as `responses`, is gathered from the folders of the records.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def table(self, name: str, columns: Iterable[str] | None = None) -> "DataFrame":
+        """Return the table `name`, or only some of its columns. Raises RockingError where there is none."""
+        import pandas as pd
+
+        if name not in _TABLES:
+            raise RockingError(f"table is {name!r}, but must be one of {', '.join(_TABLES)}.")
+        row_class = _TABLES[name]
+        file, kept = row_class.table.file_name, None if columns is None else list(columns)
+        if (self.folder / "summary" / file).exists():
+            return frame(row_class, self.folder / "summary" / file, kept)
+        found = [frame(row_class, path, kept) for path in sorted(self.folder.glob(f"*/{file}"))]
+        if not found:
+            raise RockingError(f"{self.folder} holds no {file}; name the folder of a study's results.")
+        return pd.concat(found, ignore_index=True)
+
+    def __getattr__(self, name: str) -> "DataFrame":
+        if name not in _TABLES:
+            raise AttributeError(f"Results has no table {name!r}; there are {', '.join(_TABLES)}.")
+        return self.table(name)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *_TABLES]
+
+    def __repr__(self) -> str:
+        return f"Results({str(self.folder)!r}): {', '.join(_TABLES)}"
+
+
+def open_results(folder: Path | str) -> Results:
+    """Return the tables of the results of a study in `folder`. Raises RockingError where there is no such folder."""
+    path = Path(folder)
+    if not path.is_dir():
+        raise RockingError(f"{path} is no folder; name the folder of a study's results.")
+    return Results(path)
