@@ -64,6 +64,10 @@ class Accelerogram:
     """Direction of positive acceleration, degrees clockwise from north; None if unknown."""
     vertical: bool = False
     borehole: bool = False
+    magnitude: float | None = None
+    """Of the earthquake, on the scale that the file or the catalogue prefers; None where neither knows it."""
+    epicentral_distance: float | None = None
+    """m; None where neither the file nor the catalogue gives it."""
     processed: bool | None = False
     """Whether the file says that its numbers are already corrected; None where it cannot say."""
 

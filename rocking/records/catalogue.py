@@ -118,6 +118,9 @@ def _record(row: dict[str, str], folder: Path) -> CatalogueRecord:
     cells["time_step"] = _number(cells.pop("time_step_s", ""), "time_step_s", None)
     cells["scale_factor"] = _number(cells.get("scale_factor", ""), "scale_factor", 1.0)
     cells["high_pass_frequency"] = _number(cells.pop("high_pass_hz", ""), "high_pass_hz", None)
+    cells["magnitude"] = _number(cells.get("magnitude", ""), "magnitude", None)
+    kilometres = _number(cells.pop("epicentral_distance_km", ""), "epicentral_distance_km", None)
+    cells["epicentral_distance"] = None if kilometres is None else 1000 * kilometres
     return CatalogueRecord(**cells, folder=folder)
 
 
@@ -168,7 +171,7 @@ def _named(channel: Accelerogram, component: str) -> Accelerogram:
 
 
 def as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
-    """Return a channel with the file name, scale, station, event and corner frequency of its row."""
+    """Return a channel with what its row says of name, scale, station, event, corner, magnitude and distance."""
     channel = channel.scaled(record.scale_factor) if record.scale_factor != 1 else channel
     return replace(
         channel,
@@ -176,4 +179,8 @@ def as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
         station=record.station or channel.station,
         event=record.event or channel.event,
         high_pass_frequency=record.high_pass_frequency or channel.high_pass_frequency,
+        magnitude=channel.magnitude if record.magnitude is None else record.magnitude,
+        epicentral_distance=(
+            channel.epicentral_distance if record.epicentral_distance is None else record.epicentral_distance
+        ),
     )

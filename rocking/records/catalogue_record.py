@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from rocking.errors import CatalogueError, RockingError
-from rocking.quantities import acceleration_factor, finite, positive
+from rocking.quantities import acceleration_factor, finite, positive, within
 
 COLUMNS = (
     "id", "file", "source_repository", "source_path", "source_commit", "component", "vertical_component",
     "vertical_file", "vertical_sha256", "unit",
-    "time_step_s", "scale_factor", "event", "station", "licence", "sha256", "inventory", "high_pass_hz", "note",
+    "time_step_s", "scale_factor", "event", "magnitude", "epicentral_distance_km", "station", "licence", "sha256",
+    "inventory", "high_pass_hz", "note",
 )  # fmt: skip
 """Columns of a catalogue. Required: id, file and sha256; the source columns only for files that are fetched."""
 
@@ -37,7 +38,8 @@ class CatalogueRecord:
     channels to use, separated by ";" (empty: every horizontal one at the surface). vertical_component: the channel that
     is vertical where the file's own name for it does not say so. vertical_file, vertical_sha256: another file, beside
     the catalogue or in a mirror, that holds it. unit, time_step [s]: where the file is silent.
-    scale_factor: multiplies the acceleration. inventory: StationXML, a path like `file`. high_pass_frequency: Hz.
+    scale_factor: multiplies the acceleration. magnitude, epicentral_distance [m]: where the file is silent or errs.
+    inventory: StationXML, a path like `file`. high_pass_frequency: Hz.
     sha256: of the file as it lies on disk. folder: of the catalogue. Raises CatalogueError naming the field.
     """
 
@@ -59,6 +61,8 @@ class CatalogueRecord:
     licence: str = ""
     inventory: str = ""
     high_pass_frequency: float | None = None
+    magnitude: float | None = None
+    epicentral_distance: float | None = None
     note: str = ""
     folder: Path = Path()
 
@@ -117,6 +121,7 @@ def _source_defects(record: CatalogueRecord) -> Iterable[str]:
 
 def _number_defects(record: CatalogueRecord) -> Iterable[str]:
     unit, step, corner = record.unit, record.time_step, record.high_pass_frequency
+    magnitude, distance = record.magnitude, record.epicentral_distance
     checks: list[Callable[[], object]] = [lambda: _scale(record.scale_factor)]
     if unit:
         checks.append(lambda: acceleration_factor(unit))
@@ -124,6 +129,12 @@ def _number_defects(record: CatalogueRecord) -> Iterable[str]:
         checks.append(lambda: positive(CatalogueError, "time_step_s", step, "s"))
     if corner is not None:
         checks.append(lambda: positive(CatalogueError, "high_pass_hz", corner, "Hz"))
+    if magnitude is not None:
+        checks.append(lambda: within(CatalogueError, "magnitude", magnitude, -2, 10))
+    if distance is not None:
+        checks.append(
+            lambda: within(CatalogueError, "epicentral_distance_km", distance / 1000, 0, 20_100, "km")
+        )
     for check in checks:
         try:
             check()

@@ -6,7 +6,7 @@ from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.directions import azimuth, is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import mapping, numeric, optional_number, starts, valued
+from rocking.records.formats.header import magnitude, mapping, numeric, optional_number, starts, valued
 from rocking.records.formats.text import count, lines, numbers, whole
 from rocking.records.plausibility import agree_with_header
 
@@ -51,6 +51,7 @@ def _record(name: str, pairs: dict[str, str], component: str, values, told, opti
         station=pairs.get("STATION ID", ""),
         event=pairs.get("EARTHQUAKE DATE", ""),
         network="TK",
+        magnitude=magnitude(pairs.get("EARTHQUAKE MAGNITUDE", "")),
         processed="RAW" not in peaks,
     )
     stated = optional_number(rf"\({re.escape(component)}\)\s*(-?[\d.]+)", pairs.get(peaks, ""))

@@ -5,10 +5,12 @@ import re
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.directions import is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram, without_offset
-from rocking.records.formats.header import optional, optional_number, starts
+from rocking.records.formats.header import magnitude, optional, optional_number, starts
 from rocking.records.formats.text import filled
 from rocking.records.formats.volume1 import Block, channels
 
+_SCALES = ("Mw", "Ms", "M", "ML", "mb")
+"""Of magnitude, the preferred one first."""
 _FIRST = re.compile(r"\* VOL1DS FILE:")
 _PER_LINE, _WIDTH = 10, 13
 
@@ -32,6 +34,9 @@ def _record(block: Block, name: str, options: Options) -> Accelerogram:
         component=component,
         station=optional(r"FILE:\s*(\w+)", block.head),
         event=_event(block.head),
+        magnitude=magnitude(
+            *(optional(rf"^Epicenter\b.*\b{scale} ?(\d[\d.]*)", block.head) for scale in _SCALES)
+        ),
         processing=(offset,),
         vertical=is_vertical(letter),
         azimuth=_azimuth(block.head, letter),

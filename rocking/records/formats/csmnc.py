@@ -3,7 +3,7 @@
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import check_duration, optional, optional_number, required
+from rocking.records.formats.header import check_duration, magnitude, optional, optional_number, required
 from rocking.records.formats.text import count, fields, lines, number, whole
 from rocking.records.plausibility import agree_with_header
 
@@ -41,6 +41,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         warnings=told,
         station=optional(r"^STATION:\s*(\S+)", head),
         event=text[2].strip()[:60],
+        magnitude=magnitude(optional(r"^MAGNITUDE\s+([\d.]+)", head)),
         processed=optional(r"^((?:UN)?CORRECTED) ", head).upper() == "CORRECTED",
     )
     if duration := optional(r"\bDURATION:\s*([\d.]+)", head):

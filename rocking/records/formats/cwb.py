@@ -5,7 +5,15 @@ import re
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import check_duration, mapping, numeric, optional, starts, valued
+from rocking.records.formats.header import (
+    check_duration,
+    magnitude,
+    mapping,
+    numeric,
+    optional,
+    starts,
+    valued,
+)
 from rocking.records.formats.sampling import even_step
 from rocking.records.formats.text import fields, is_number, lines
 from rocking.records.plausibility import agree_with_header
@@ -61,6 +69,7 @@ def _record(
         station=pairs.get("STATIONCODE", ""),
         event=pairs.get("ORIGIN TIME(GMT+08)", ""),
         network="TW",
+        magnitude=magnitude(*(value for key, value in pairs.items() if key.startswith("MAGNITUDE"))),
     )
     ends = optional(
         rf"({re.escape(component)}:.*)", "\n".join(f"{k[-1]}:{v}" for k, v in pairs.items() if "MAX" in k)

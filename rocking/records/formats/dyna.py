@@ -5,7 +5,16 @@ import re
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import check_duration, corner, mapping, numeric, optional_number, valued
+from rocking.records.formats.header import (
+    check_duration,
+    corner,
+    distance,
+    magnitude,
+    mapping,
+    numeric,
+    optional_number,
+    valued,
+)
 from rocking.records.formats.text import count, lines, numbers, whole
 from rocking.records.plausibility import agree_with_header
 
@@ -68,6 +77,8 @@ def _record(name: str, pairs: dict[str, str], unit: str, values, told, options: 
         warnings=told,
         event=f"{pairs.get('EVENT_NAME', '')} {pairs.get('EVENT_DATE_YYYYMMDD', '')}".strip(),
         start_time=_start(pairs),
+        magnitude=magnitude(pairs.get("MAGNITUDE_W", ""), pairs.get("MAGNITUDE_L", "")),
+        epicentral_distance=distance(pairs.get("EPICENTRAL_DISTANCE_KM", "")),
         processed=high_pass is not None,
         high_pass_frequency=high_pass,
     )

@@ -7,7 +7,16 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import blocks, check_duration, corner, optional, optional_number, required
+from rocking.records.formats.header import (
+    blocks,
+    check_duration,
+    corner,
+    distance,
+    magnitude,
+    optional,
+    optional_number,
+    required,
+)
 from rocking.records.formats.text import count, filled, lines, number
 from rocking.records.plausibility import agree_with_header
 
@@ -59,6 +68,8 @@ def _record(block: list[str], name: str, options: Options, told: tuple[str, ...]
         station=optional(r"^Site\s+(\S+)", head),
         event=optional(r"^(\d{4} \w+ \d+)\s", head),
         network="NZ",
+        magnitude=magnitude(optional(r"^Epicentre\b.*\bM[A-Za-z]\s+([\d.]+)", head)),
+        epicentral_distance=distance(optional(r"^Epicentre\b.*\bDist\s+([\d.]+)\s*km", head)),
         processed=block[0].lower().startswith("corrected"),
         high_pass_frequency=corner(optional_number(r"transition bands are\s+([\d.]+)", head)),
     )

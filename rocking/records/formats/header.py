@@ -69,6 +69,18 @@ def corner(value: float | None) -> float | None:
     return value if value is not None and 0 < value < 100 else None
 
 
+def magnitude(*texts: str) -> float | None:
+    """Return the first number of the first text that holds a magnitude; 0 and below stand for none."""
+    found = (optional_number(r"(-?\d+(?:\.\d+)?)", text) for text in texts)
+    return next((value for value in found if value is not None and 0 < value <= 10), None)
+
+
+def distance(kilometres: str) -> float | None:
+    """Return the distance in m that a header gives in km, or None where it says none (-999, 32767, nothing)."""
+    value = optional_number(r"^\s*(-?\d+(?:\.\d*)?)", kilometres)
+    return 1000 * value if value is not None and 0 <= value <= 20_100 else None
+
+
 def check_duration(
     name: str, field: str, text: str, samples: int, time_step: float, *, exact: bool = False
 ) -> None:

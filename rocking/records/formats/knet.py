@@ -6,7 +6,7 @@ from datetime import datetime, timedelta
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram, without_offset
-from rocking.records.formats.header import check_duration
+from rocking.records.formats.header import check_duration, magnitude
 from rocking.records.formats.text import lines, number, numbers
 from rocking.records.plausibility import agree_with_header
 
@@ -55,6 +55,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         station=fields["Station Code"],
         event=f"{fields['Origin Time']} M{fields['Mag.']}",
         start_time=_start(fields["Record Time"]),
+        magnitude=magnitude(fields["Mag."]),
         processing=(offset,),
         network="BO",
         borehole=direction in _BOREHOLE,

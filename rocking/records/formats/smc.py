@@ -5,7 +5,7 @@ import re
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import corner, optional, starts
+from rocking.records.formats.header import corner, distance, magnitude, optional, starts
 from rocking.records.formats.text import column_width, fields, lines, whole
 from rocking.records.plausibility import agree_with_header
 
@@ -66,6 +66,10 @@ def _record(head: str, kind: str, values, told, reals, name: str, options: Optio
         station=optional(r"station\s*=\s*(.*?)\s*component", head),
         warnings=told,
         event=optional(r"^\s+\d{4}\s+\d+\s+\d+\s+\d{4}\s+(.*)$", head),
+        magnitude=magnitude(
+            *(optional(rf"{scale}=\s*([\d.]+)", head) for scale in ("Moment Mag", "Ms", "Ml"))
+        ),
+        epicentral_distance=distance(optional(r"epicentral dist\s*=\s*([\d.]+)", head)),
         processed=kind == "2",
         high_pass_frequency=corner(float(reals[_CORNER])),
     )

@@ -7,7 +7,7 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import check_duration, check_equal, mapping, valued
+from rocking.records.formats.header import check_duration, check_equal, magnitude, mapping, valued
 from rocking.records.formats.quantity import other_quantity
 from rocking.records.formats.text import count, fields, is_number, lines, number, whole
 from rocking.records.plausibility import agree_with_header
@@ -93,6 +93,7 @@ def _record(i: int, values, told, pairs: dict[str, str], name: str, options: Opt
         component=_listed(pairs, _ORIENTATION)[i].split(";")[-1].strip(),
         station=pairs.get("CLAVE DE LA ESTACION", ""),
         event=pairs.get("FECHA DEL SISMO [GMT]", ""),
+        magnitude=magnitude(pairs.get("MAGNITUD(ES)", "")),
         warnings=told,
     )
     if duration := _at(pairs, "DURACION DEL REGISTRO", i):
