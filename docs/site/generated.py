@@ -90,6 +90,7 @@ WINGS = {
     "sine_pulse": "Closed form under one sine pulse",
     "motion": "Integration",
     "assessment": "Assessment",
+    "study": "Studies",
     "errors": "Errors",
 }
 """Part of the package: heading under which its public names stand."""

@@ -91,7 +91,7 @@ def pdf(figure: Figure) -> bytes:
 
 def _draw(panel: Axes, rows: "DataFrame", name: str, marker: str, colour: str, side: str) -> bool:
     """Draw one method and say whether it has an error to draw."""
-    placed = rows[rows["error"].notna()].assign(error=rows["error"].clip(lower=SMALLEST_ERROR))
+    placed = rows.assign(error=rows["error"].clip(lower=SMALLEST_ERROR)).dropna(subset="error")
     if placed.empty:
         return False
     points = placed[["tolerance", "duration_s", "error"]].groupby("tolerance", dropna=False, sort=False)

@@ -278,7 +278,7 @@ def test_margins_of_the_closed_form_are_chosen_to_be_right():
 
 def test_time_counts_what_was_tried_in_vain():
     """1 s of closed form, 2 s of the block, 8 s of its sensitivity, 10 s of the mechanism and 40 s with its own."""
-    limits = Limits(0.1, 0.01, math.inf, 0.1, 0.5, 10.0, 0, 1.0, 0.0)
+    limits = replace(TRUSTING, closed_form_margin=math.inf, rotation_ratio=0.5, sensitivity=10.0)
     calm, wild, high = trial("a", 3.0, 0.3, 0.3), trial("a", 30.0, 0.3, 0.6), trial("a", 3.0, 0.8, 0.8)
     assert [t.duration(limits, full=True) for t in (calm, wild, high)] == [11, 51, 43]
     assert [t.duration(limits, full=False) for t in (calm, wild, high)] == [11, 21, 13]
