@@ -15,7 +15,7 @@ from rocking.records.channels import is_unnamed
 from rocking.records.directions import azimuth, is_vertical
 from rocking.records.fetch import fetch, inventory_of
 from rocking.records.folder import catalogue_from_folder, write_catalogue_rows
-from rocking.records.read import read
+from rocking.records.read import plain, read
 
 __all__ = [
     "COLUMNS",
@@ -27,7 +27,10 @@ __all__ = [
     "write_catalogue_rows",
 ]
 
-_REQUIRED = ("id", "file", "sha256")
+_REQUIRED = ("id", "file")
+_PROSE = ("event", "station", "licence", "note")
+_LARGEST = 16 * 2**20
+"""Bytes of a catalogue: a hundred thousand rows."""
 
 
 def load_catalogue(path: str | Path, mirror: str | Path | None = None) -> tuple[CatalogueRecord, ...]:
@@ -80,7 +83,7 @@ def channels_of(
         channels = read(
             path, unit=record.unit or None, time_step=record.time_step, inventory=inventory_of(record, mirror)
         )
-        if channels[0].source.sha256 != record.sha256:
+        if record.sha256 and channels[0].source.sha256 != record.sha256:
             raise RecordError(f"{path.name}: the file changed while it was read.")
         return channels
     except RecordError as error:
@@ -96,6 +99,8 @@ def vertical_of(channels: list[Accelerogram], record: CatalogueRecord) -> Accele
 
 def _rows(path: Path) -> list[tuple[int, dict[str, str]]]:
     try:
+        if path.stat().st_size > _LARGEST:
+            raise CatalogueError(f"{path}: the file is larger than {_LARGEST} bytes, which no catalogue is.")
         with path.open(encoding="utf-8-sig", newline="") as stream:
             reader = csv.DictReader(stream, restkey="", restval="", strict=True)
             rows = [(reader.line_num, row) for row in reader]
@@ -115,6 +120,7 @@ def _rows(path: Path) -> list[tuple[int, dict[str, str]]]:
 
 def _record(row: dict[str, str], folder: Path) -> CatalogueRecord:
     cells: dict[str, Any] = {name: (value or "").strip() for name, value in row.items() if name}
+    cells |= {name: plain(cells[name]) for name in _PROSE if name in cells}
     cells["time_step"] = _number(cells.pop("time_step_s", ""), "time_step_s", None)
     cells["scale_factor"] = _number(cells.get("scale_factor", ""), "scale_factor", 1.0)
     cells["high_pass_frequency"] = _number(cells.pop("high_pass_hz", ""), "high_pass_hz", None)
@@ -155,7 +161,7 @@ def _selected(channels: list[Accelerogram], record: CatalogueRecord) -> list[Acc
         missing = [name for name in record.components if name not in {c.component for c in channels}]
         if missing:
             raise RecordError(f"component is {missing[0]!r}, but the file holds {held}.")
-        return [next(c for c in channels if c.component == name) for name in record.components]
+        return [_asked_for(next(c for c in channels if c.component == name)) for name in record.components]
     vertical = vertical_of(channels, record)
     chosen = [c for c in channels if c is not vertical and not c.vertical and not c.borehole]
     if not chosen:
@@ -163,6 +169,14 @@ def _selected(channels: list[Accelerogram], record: CatalogueRecord) -> list[Acc
             f"the file holds no horizontal component at the surface, only {held}; name a component."
         )
     return chosen
+
+
+def _asked_for(channel: Accelerogram) -> Accelerogram:
+    """Return a channel that the catalogue names, with a warning when it is vertical: it will shake sideways."""
+    if not channel.vertical:
+        return channel
+    sentence = f"Component {channel.component} is vertical, but the catalogue takes it as horizontal."
+    return replace(channel, warnings=(*channel.warnings, sentence))
 
 
 def _named(channel: Accelerogram, component: str) -> Accelerogram:

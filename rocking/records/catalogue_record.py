@@ -14,7 +14,7 @@ COLUMNS = (
     "time_step_s", "scale_factor", "event", "magnitude", "epicentral_distance_km", "station", "licence", "sha256",
     "inventory", "high_pass_hz", "note",
 )  # fmt: skip
-"""Columns of a catalogue. Required: id, file and sha256; the source columns only for files that are fetched."""
+"""Columns of a catalogue. Required: id and file; sha256 and the source columns for files that are fetched."""
 
 _OBSPY = "obspy:"
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
@@ -39,13 +39,13 @@ class CatalogueRecord:
     is vertical where the file's own name for it does not say so. vertical_file, vertical_sha256: another file, beside
     the catalogue or in a mirror, that holds it. unit, time_step [s]: where the file is silent.
     scale_factor: multiplies the acceleration. magnitude, epicentral_distance [m]: where the file is silent or errs.
-    inventory: StationXML, a path like `file`. high_pass_frequency: Hz.
-    sha256: of the file as it lies on disk. folder: of the catalogue. Raises CatalogueError naming the field.
+    inventory: StationXML, a path like `file`. high_pass_frequency: Hz. sha256: of the file as it lies on disk; blank in
+    a row added by hand, until it is filled in. folder: of the catalogue. Raises CatalogueError naming the field.
     """
 
     id: str
     file: str
-    sha256: str
+    sha256: str = ""
     source_repository: str = ""
     source_path: str = ""
     source_commit: str = ""
@@ -87,11 +87,7 @@ class CatalogueRecord:
 
 
 def _defects(record: CatalogueRecord) -> Iterable[str]:
-    if (
-        not _ID.fullmatch(record.id)
-        or record.id.endswith(".")
-        or record.id.split(".")[0].lower() in _RESERVED
-    ):
+    if not is_safe_id(record.id):
         allowed = "a safe file name: letters, digits, . _ -, at most 80, not a reserved name"
         yield f"id is {record.id!r}, but must be {allowed}."
     for name in ("file", "inventory", "vertical_file"):
@@ -99,12 +95,20 @@ def _defects(record: CatalogueRecord) -> Iterable[str]:
             yield f"{name} is {value!r}, but must be a relative path without '..'."
     if not record.file:
         yield "file is missing; give a path beside the catalogue or obspy:NAME."
-    if not _HASH.fullmatch(record.sha256):
-        yield f"sha256 is {record.sha256!r}, but must be 64 hexadecimal digits in lower case."
-    if record.vertical_file and not _HASH.fullmatch(record.vertical_sha256):
-        yield f"vertical_sha256 is {record.vertical_sha256!r}, but must be 64 hexadecimal digits in lower case."
+    for name in ("sha256", "vertical_sha256"):
+        if (value := getattr(record, name)) and not _HASH.fullmatch(value):
+            yield f"{name} is {value!r}, but must be 64 hexadecimal digits in lower case, or blank to be filled in."
+    if record.is_remote and not record.sha256:
+        yield "sha256 is missing; a file that is fetched needs it."
     yield from _source_defects(record)
     yield from _number_defects(record)
+
+
+def is_safe_id(text: str) -> bool:
+    """Whether `text` can name a record: a file name that every system allows, and no name of a file of results."""
+    return (
+        bool(_ID.fullmatch(text)) and not text.endswith(".") and text.split(".")[0].lower() not in _RESERVED
+    )
 
 
 def _source_defects(record: CatalogueRecord) -> Iterable[str]:

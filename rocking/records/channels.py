@@ -29,7 +29,7 @@ def told_apart(records: Sequence[Accelerogram], name: str) -> list[Accelerogram]
         replace(
             record,
             component=_component(record.component, place, shared[record.component] > 1),
-            warnings=(*record.warnings, *channel_warnings(record.component), *_repeats(record)),
+            warnings=(*record.warnings, *channel_warnings(record.component)),
         )
         for place, record in enumerate(records, 1)
     ]
@@ -48,12 +48,3 @@ def _component(name: str, place: int, shared: bool) -> str:
 
 def _same(a: np.ndarray, b: np.ndarray) -> bool:
     return bool(np.any(a)) and np.array_equal(a, b)
-
-
-def _repeats(record: Accelerogram) -> tuple[str, ...]:
-    half, odd = divmod(record.acceleration.size, 2)
-    if odd or half < 2 or not _same(record.acceleration[:half], record.acceleration[half:]):
-        return ()
-    return (
-        f"The second half of the samples repeats the first, {half} numbers: the file may be appended to itself.",
-    )

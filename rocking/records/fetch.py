@@ -1,13 +1,19 @@
 """Fetch: the file of a catalogue row, from mirror, catalogue folder, obspy or network, its hash checked."""
 
 import hashlib
+import time
+import urllib.request
 from pathlib import Path
 from urllib.parse import quote
 
 from rocking.errors import RecordError
 from rocking.records.catalogue_record import CatalogueRecord
+from rocking.records.read import LARGEST_FILE, bytes_of
 
 _RETRIES = 3
+_PIECE = 2**16
+LONGEST_DOWNLOAD, _SILENCE = 300.0, 30.0
+"""s; of one file with all its tries, and without a byte."""
 _RAW = "https://raw.githubusercontent.com/{repository}/{commit}/{path}"
 
 
@@ -87,7 +93,7 @@ def _download(record: CatalogueRecord, cache: str | Path | None) -> Path:
     )  # fmt: skip
     pooch.get_logger().setLevel("WARNING")
     try:
-        return Path(store.fetch(name))
+        return Path(store.fetch(name, downloader=_Downloader()))
     except Exception as error:
         reason = str(error).splitlines()[0][:200] if str(error) else type(error).__name__
         raise RecordError(
@@ -96,11 +102,42 @@ def _download(record: CatalogueRecord, cache: str | Path | None) -> Path:
         ) from error
 
 
+class _Downloader:
+    """Download for pooch, within a size that a record can have and a time, both for all tries together."""
+
+    def __init__(self) -> None:
+        self.ends = time.monotonic() + LONGEST_DOWNLOAD
+
+    def __call__(self, address: str, target: str, _: object) -> None:
+        request = urllib.request.Request(address, headers={"User-Agent": "rocking"})
+        with (
+            urllib.request.urlopen(request, timeout=self._left()) as answer,
+            Path(target).open("wb") as stream,
+        ):
+            size = 0
+            while piece := answer.read1(_PIECE):
+                size += len(piece)
+                if size > LARGEST_FILE:
+                    raise RecordError(
+                        f"the file is larger than {LARGEST_FILE} bytes, which no accelerogram is"
+                    )
+                stream.write(piece)
+                self._left()
+
+    def _left(self) -> float:
+        left = self.ends - time.monotonic()
+        if left <= 0:
+            raise RecordError(f"the download took more than {LONGEST_DOWNLOAD:g} s")
+        return min(left, _SILENCE)
+
+
 def _check(record: CatalogueRecord, path: Path) -> None:
+    if not record.sha256:
+        return
     try:
-        found = hashlib.sha256(path.read_bytes()).hexdigest()
-    except OSError as error:
-        raise RecordError(f"{record.id}: file {path} cannot be opened, {error.strerror}.") from None
+        found = hashlib.sha256(bytes_of(path)).hexdigest()
+    except RecordError as error:
+        raise RecordError(f"{record.id}: {error}") from None
     if found != record.sha256:
         raise RecordError(
             f"{record.id}: file {path} has sha256 {found}, but the catalogue says {record.sha256}; "

@@ -11,7 +11,7 @@ from rocking.errors import RecordError, UnknownFormatError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.channels import told_apart
 from rocking.records.formats import FORMATS, Format, Options
-from rocking.records.formats.format import Response
+from rocking.records.formats.format import Response, plain
 from rocking.records.plausibility import pass_limits
 
 LARGEST_FILE = 8 * 2**20
@@ -46,10 +46,10 @@ def read(
     nowhere, RecordError for every other defect.
     """
     path = Path(path)
-    raw = bytes_of(path)
+    name, raw = printable(path.name), bytes_of(path)
     options = Options(unit, time_step, Path(inventory) if inventory else None, path.parent, response)
     return read_content(
-        unpacked(raw, path.name), path.name, options, hashlib.sha256(raw).hexdigest(), str(path)
+        unpacked(raw, name), name, options, hashlib.sha256(raw).hexdigest(), printable(str(path))
     )
 
 
@@ -123,17 +123,22 @@ def bytes_of(path: Path) -> bytes:
             raise OSError(EINVAL, "it is no regular file")
         with path.open("rb") as stream:
             size = fstat(stream.fileno()).st_size
-            raw = stream.read(min(size, LARGEST_FILE) + 1)  # a larger limit would be allocated whole
+            raw = stream.read(size + 1) if size <= LARGEST_FILE else b""
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise RecordError(
-            f"{path}: the file cannot be opened, {reason}; give the path of a record."
+            f"{printable(str(path))}: the file cannot be opened, {reason}; give the path of a record."
         ) from None
-    if len(raw) > LARGEST_FILE:
+    if max(size, len(raw)) > LARGEST_FILE:
         raise RecordError(
-            f"{path.name}: the file is larger than {LARGEST_FILE} bytes, which no accelerogram is."
+            f"{printable(path.name)}: the file is larger than {LARGEST_FILE} bytes, which no accelerogram is."
         )
     return raw
+
+
+def printable(text: str) -> str:
+    """Return `text`, a name or a message, as it can be printed and written: on one line, without foreign bytes."""
+    return plain(text.encode("utf-8", "backslashreplace").decode()) if not text.isprintable() else text
 
 
 def _signed(record: Accelerogram, sha256: str, path: str) -> Accelerogram:

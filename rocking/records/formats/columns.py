@@ -124,16 +124,32 @@ def _check_rows(name: str, body: bytes, width: int, last_may_be_short: bool) -> 
 
 def _series(name: str, values: np.ndarray, options: Options, label: str) -> Accelerogram:
     unit = options.unit_of(name, _unit(label))
-    step = options.time_step_of(name, None)
     return accelerogram(
-        name, COLUMNS.name, unit, values, step, component="" if _unit(label) else label, processed=None
+        name,
+        COLUMNS.name,
+        unit,
+        values,
+        options.time_step_of(name, None),
+        component="" if _unit(label) else label,
+        warnings=_repeats(values),
+        processed=None,
+    )
+
+
+def _repeats(values: np.ndarray) -> tuple[str, ...]:
+    """Return a warning when numbers without count or times come twice."""
+    half, odd = divmod(values.size, 2)
+    if odd or half < 2 or not np.any(values) or not np.array_equal(values[:half], values[half:]):
+        return ()
+    return (
+        f"The second half of the samples repeats the first, {half} numbers: the file may be appended to itself.",
     )
 
 
 def _channels(name: str, rows: np.ndarray, names: tuple[str, ...], options: Options) -> list[Accelerogram]:
     labels = names or ("time", *[""] * (rows.shape[1] - 1))
     timed = bool(_TIME.fullmatch(labels[0]))
-    step, resample, told = options.time_step, None, ()
+    step, resample, told = options.time_step, None, _repeats(rows.ravel())
     if timed:
         step, resample, told = _step(name, rows[:, 0])
     make = partial(_channel, name, step=step, resample=resample, told=told, options=options)
@@ -162,7 +178,7 @@ def _channel(
         values if resample is None else resample(values),
         options.time_step_of(name, step),
         component=component,
-        processing=told,
+        processing=() if resample is None else told,
         warnings=told,
         processed=None,
     )

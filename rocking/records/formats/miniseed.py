@@ -5,7 +5,7 @@ import re
 import warnings
 from pathlib import Path
 
-from rocking.errors import RecordError
+from rocking.errors import RecordError, UndeclaredError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.directions import azimuth, is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram
@@ -112,7 +112,7 @@ def _inventory(stats, name: str, options: Options):
     ]
     if len(found) != 1:
         several = f"several do: {', '.join(p.name for p in found)}" if found else "none beside it does"
-        raise RecordError(
+        raise UndeclaredError(
             f"{name}: no single StationXML describes {stats.network}.{stats.station} ({several}); "
             "give inventory=, or unit= if the samples are already acceleration."
         )
@@ -131,10 +131,10 @@ def _parse(path: Path, name: str):
     from obspy import read_inventory
 
     try:
-        content = Path(path).read_bytes()
+        content = Path(path).read_bytes() if Path(path).stat().st_size <= _LARGEST_XML else b""
     except OSError as error:
         raise RecordError(f"{name}: the StationXML cannot be opened, {error.strerror}.") from error
-    if b"FDSNStationXML" not in content[:2000] or b"<!DOCTYPE" in content or len(content) > _LARGEST_XML:
+    if b"FDSNStationXML" not in content[:2000] or b"<!DOCTYPE" in content:
         raise RecordError(f"{name}: this is not a plain StationXML file of less than 32 MB; give one.")
     try:
         with warnings.catch_warnings():

@@ -1,9 +1,16 @@
 """The catalogue: every defect in one message, files found and checked, components chosen."""
 
+import contextlib
 import csv
+import dataclasses
 import hashlib
+import http.server
+import itertools
 import os
+import threading
+from collections.abc import Iterator
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -11,8 +18,12 @@ import pytest
 from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import CatalogueRecord, load_catalogue, open_record, vertical_of
+from rocking.records import fetch as fetching
 from rocking.records.catalogue import COLUMNS, catalogue_from_folder, write_catalogue_rows
 from rocking.records.fetch import fetch, source_address
+from rocking.records.folder import list_folder
+from rocking.records.hashes import fill_hashes
+from rocking.records.listing import listing_text
 
 TABLE = "time,NS (gal),EW (gal),UD (gal)\n" + "".join(
     f"{i / 100},{i % 5},{i % 7},{i % 3}\n" for i in range(50)
@@ -88,7 +99,7 @@ def test_all_defects_stand_in_one_message(folder: Path) -> None:
     ("id,file,sha256\n", "no rows"),
     ("id,file,sha256,colour\n1,2,3,4\n", "column 'colour' is not known"),
     ("id,id,file,sha256\n1,1,2,3\n", "column 'id' stands 2 times"),
-    ("id,file\n1,2\n", "column 'sha256' is missing"),
+    ("id,sha256\n1,2\n", "column 'file' is missing"),
     ("id,file,sha256\n1,2,3,4\n", "more cells"),
     ('id,file,sha256\n"1,2,3\n', "cannot be read"),
     (b"id,file,sha256\n\xff\xfe,2,3\n", "UTF-8"),
@@ -142,27 +153,64 @@ def remote(folder: Path, **changes: str) -> CatalogueRecord:
     return record
 
 
-def test_remote_files_come_by_commit_and_hash(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    pooch = pytest.importorskip("pooch")
+class _Answer(http.server.BaseHTTPRequestHandler):
+    """Serves what `served` yields, and counts the questions."""
+
+    served = staticmethod(lambda: iter([TABLE.encode()]))
+    asked: ClassVar[list[str]] = []
+
+    def do_GET(self) -> None:
+        self.asked.append(self.path)
+        self.send_response(200)
+        self.end_headers()
+        with contextlib.suppress(OSError):
+            for piece in self.served():
+                self.wfile.write(piece)
+
+    def log_message(self, *_: object) -> None:
+        """Say nothing."""
+
+
+@pytest.fixture
+def answer(monkeypatch: pytest.MonkeyPatch) -> Iterator[type[_Answer]]:
+    """A server of this machine in the place of the one that records come from."""
+    pytest.importorskip("pooch")
+    monkeypatch.setattr(_Answer, "asked", [])
+    monkeypatch.setenv("no_proxy", "127.0.0.1")
+    monkeypatch.setattr("time.sleep", lambda _: None)
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), _Answer) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        monkeypatch.setattr(
+            fetching, "_RAW", f"http://127.0.0.1:{server.server_port}/{{repository}}/{{commit}}/{{path}}"
+        )
+        yield _Answer
+        server.shutdown()
+
+
+def test_remote_files_come_by_commit_and_hash(folder: Path, tmp_path: Path, answer: type[_Answer]) -> None:
     record = remote(folder)
-    assert source_address(record) == f"https://raw.githubusercontent.com/own/er/{'0' * 40}/a%20b/t.csv"
-    asked = []
-
-    def served(text: str):
-        def download(url: str, output: str, *_: object, **__: object) -> None:
-            asked.append(url)
-            Path(output).write_bytes(text.encode())
-
-        return download
-
-    monkeypatch.setattr(pooch.downloaders, "HTTPDownloader", lambda **_: served(TABLE))
-    monkeypatch.setattr("pooch.core.choose_downloader", lambda *_, **__: served(TABLE))
     path = fetch(record, cache=tmp_path / "cache")
-    assert path.read_text() == TABLE and asked == [source_address(record)]
+    assert path.read_text() == TABLE and answer.asked == [f"/own/er/{'0' * 40}/a%20b/t.csv"]
     fetch(record, cache=tmp_path / "cache")
-    assert len(asked) == 1
+    assert len(answer.asked) == 1
+    with pytest.raises(RecordError, match="cannot be fetched"):
+        fetch(dataclasses.replace(record, sha256="0" * 64), cache=tmp_path / "cache")
+
+
+def test_a_download_ends_at_a_size_and_after_a_time(
+    folder: Path, tmp_path: Path, answer: type[_Answer], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(answer, "served", staticmethod(lambda: itertools.repeat(b"0" * 2**20)))
+    with pytest.raises(RecordError, match=r"larger than \d+ bytes"):
+        fetch(remote(folder), cache=tmp_path / "cache")
+    assert not [path for path in (tmp_path / "cache").rglob("*") if path.is_file()]
+    monkeypatch.setattr(fetching, "LONGEST_DOWNLOAD", 0.2)
+    pause = threading.Event()
+    monkeypatch.setattr(
+        answer, "served", staticmethod(lambda: (pause.wait(0.05) or b"0" for _ in range(1000)))
+    )
+    with pytest.raises(RecordError, match=r"took more than 0\.2 s|timed out"):
+        fetch(remote(folder), cache=tmp_path / "cache")
 
 
 def test_a_remote_file_that_does_not_come(
@@ -173,12 +221,13 @@ def test_a_remote_file_that_does_not_come(
     def fail(*_: object, **__: object) -> None:
         raise OSError("no network here")
 
-    monkeypatch.setattr("pooch.core.choose_downloader", lambda *_, **__: fail)
+    monkeypatch.setattr("urllib.request.urlopen", fail)
     monkeypatch.setattr("time.sleep", lambda _: None)
     with pytest.raises(
         RecordError, match=r"one: file 'far\.csv' cannot be fetched from https.*no network here"
     ):
         fetch(remote(folder), cache=tmp_path / "cache")
+    assert source_address(remote(folder)).startswith("https://raw.githubusercontent.com/own/er/0000")
 
 
 def test_the_shipped_catalogue_opens_offline() -> None:
@@ -229,9 +278,138 @@ def test_a_catalogue_from_a_folder(folder: Path) -> None:
         catalogue_from_folder(folder / "none")
 
 
-def test_a_file_name_that_a_catalogue_would_refuse_is_named_as_unread(tmp_path):
-    (tmp_path / "a:b.txt").write_text("\n".join(f"{i * 0.01:.2f} {i % 7}" for i in range(100)))
-    rows, unread = catalogue_from_folder(tmp_path, unit="m/s2")
-    assert rows == []
-    assert [name for name, _ in unread] == ["a:b.txt"]
-    assert "rename" in unread[0][1]
+def named(folder: Path, name: str | bytes, text: str = TABLE) -> None:
+    with open(os.path.join(os.fsencode(folder), os.fsencode(name)), "wb") as stream:
+        stream.write(text.encode("latin-1"))
+
+
+NAMES = ["a:b.txt", " lead.csv", "trail.csv ", b"\xff\xfe.csv", "two\nlines.csv", "cr\rcell.csv"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_file_name_that_a_catalogue_would_refuse_is_named_as_unread(
+    tmp_path: Path, name: str | bytes
+) -> None:
+    named(tmp_path, name)
+    named(tmp_path, "good.csv")
+    rows, unread = catalogue_from_folder(tmp_path)
+    assert [row["file"] for row in rows] == ["good.csv"] and len(unread) == 1
+    assert "rename" in unread[0][1] and unread[0][0].isprintable()
+    unread[0][0].encode("utf-8")
+
+
+ODD = ["<&>{x}.csv", "=cmd.csv", "@x.csv", "-y.csv", "x..at2", "con.csv", "summary.csv", "...csv", "dots....csv",
+       "Übung #1.csv", "a" * 200 + ".csv", "x.csv.gz.txt", "'quoted\".csv", "semi;colon,comma.csv"]  # fmt: skip
+
+
+def test_ids_that_a_catalogue_writes_are_ids_that_it_loads(tmp_path: Path) -> None:
+    for name in ODD:
+        named(tmp_path, name)
+    (tmp_path / "sub").mkdir()
+    named(tmp_path / "sub", "CON.csv")
+    rows, unread = catalogue_from_folder(tmp_path)
+    assert [name for name, _ in unread] == [] and len(rows) == len([n for n in ODD if n[0] != "."]) + 1
+    (tmp_path / "catalogue.csv").write_text(write_catalogue_rows(rows), encoding="utf-8")
+    records = load_catalogue(tmp_path / "catalogue.csv")
+    assert all(len(open_record(record)) == 2 for record in records)
+    assert not any(row["file"][0] in "=+-@" for row in rows)
+
+
+def test_control_characters_of_a_header_stay_in_the_file(tmp_path: Path) -> None:
+    head = "PEER NGA RECORD\nQu\0ake\x1b[2J, 1/2/99, =HYPERLINK(1)\x07, 0\x0045\n"
+    named(tmp_path, "odd.AT2", f"{head}ACCELERATION IN UNITS OF G\nNPTS= 3, DT= .01 SEC\n .1 .2 .3\n")
+    (row,), _ = catalogue_from_folder(tmp_path)
+    assert all(cell.isprintable() for cell in row.values()) and row["station"] == "HYPERLINK(1)"
+    (tmp_path / "catalogue.csv").write_text(write_catalogue_rows([row]), encoding="utf-8")
+    (record,) = load_catalogue(tmp_path / "catalogue.csv")
+    (channel,) = open_record(record)
+    assert all(text.isprintable() for text in (channel.component, channel.station, channel.event))
+
+
+def test_a_link_out_of_the_folder_is_not_usable(
+    folder: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    outside = tmp_path_factory.mktemp("outside")
+    named(outside, "far.csv")
+    os.symlink(outside / "far.csv", folder / "far.csv")
+    rows, ((file, reason),) = catalogue_from_folder(folder)
+    assert len(rows) == 1 and file == "far.csv" and "leads out" in reason
+
+
+def test_a_huge_file_is_refused_before_it_is_read(tmp_path: Path) -> None:
+    for name in ("huge.csv", "huge.AT2"):
+        with (tmp_path / name).open("wb") as stream:
+            stream.truncate(2**40)  # a terabyte of nothing
+    rows, unread = catalogue_from_folder(tmp_path)
+    assert rows == [] and all("larger than" in reason for _, reason in unread) and len(unread) == 2
+    with pytest.raises(RecordError, match="larger than"):
+        fetch(CatalogueRecord("one", "huge.AT2", "0" * 64, folder=tmp_path))
+    with pytest.raises(CatalogueError, match="larger than"):
+        load_catalogue(tmp_path / "huge.csv")
+
+
+def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
+    bare = "\n".join(f"{0.3 * np.sin(i):.5f}" for i in range(300))
+    named(folder, "bare.txt", bare)
+    named(folder, "loud.csv", "time,HHN (g)\n" + "".join(f"{i / 100},{3.5 * (i % 2)}\n" for i in range(200)))
+    named(
+        folder, "quake-UP.csv", "time,a (g)\n" + "".join(f"{i / 100},{np.sin(i):.3f}\n" for i in range(200))
+    )
+    named(folder, "tale.txt", "once upon a time\n")
+    listed = {found.file: found for found in list_folder(folder)}
+    table = listed["table.csv"].channels
+    assert [c.component for c in table] == ["NS", "EW", "UD"] and [c.samples for c in table] == [50] * 3
+    assert table[0].peak_acceleration == pytest.approx(0.04) and table[0].time_step == 0.01
+    # 0, 1, 2, 3, 4 gal again and again have a mean of 2: by the trapezoidal rule 2 cm/s² for 0.49 s
+    assert table[0].peak_velocity == pytest.approx(0.0098, rel=0.03)
+    assert listed["bare.txt"].row and listed["bare.txt"].to_fill == ("unit", "time_step_s")
+    assert listed["bare.txt"].row["note"] == "columns of numbers. Fill in unit and time_step_s."
+    assert "HHN" in listed["loud.csv"].status and "above 3 g" in listed["loud.csv"].status
+    assert "says UP, but a is taken as horizontal" in listed["quake-UP.csv"].status
+    assert listed["tale.txt"].status.startswith("not read: tale.txt: no reader recognises")
+    text = listing_text(list_folder(folder))
+    assert len(text.splitlines()) == 1 + 3 + 1 + 1 + 1 + 1 and "to fill: unit, time_step_s" in text
+    assert "table.csv" in text and "columns of numbers" in text and "0.00408" in text
+
+
+def test_a_file_without_a_unit_keeps_a_row_to_fill(tmp_path: Path) -> None:
+    named(tmp_path, "bare.csv", "".join(f"{i / 100} {np.sin(i / 5):.4f}\n" for i in range(99)))
+    rows, unread = catalogue_from_folder(tmp_path)
+    assert unread == [] and rows[0].get("unit", "") == ""
+    path = tmp_path / "catalogue.csv"
+    path.write_text(write_catalogue_rows(rows), encoding="utf-8")
+    (record,) = load_catalogue(path)
+    with pytest.raises(RecordError, match="unit is not declared"):
+        open_record(record)
+    path.write_text(write_catalogue_rows([{**rows[0], "unit": "m/s2"}]), encoding="utf-8")
+    assert len(open_record(load_catalogue(path)[0])) == 1
+
+
+def test_a_row_added_by_hand_needs_no_hash_until_it_is_read(folder: Path) -> None:
+    (folder / "up.csv").write_bytes(TABLE.encode())
+    path = folder / "mine.csv"
+    path.write_text(
+        'id,file,note,vertical_file\nold,table.csv,"a, b",\nnew,table.csv,x,up.csv\nlost,none.csv,,\n'
+    )
+    assert len(open_record(load_catalogue(path)[0])) == 2
+    assert fill_hashes(path) == ("old", "new")
+    records = {record.id: record for record in load_catalogue(path)}
+    assert records["old"].sha256 == records["new"].sha256 == records["new"].vertical_sha256 == SHA
+    assert records["old"].note == "a, b" and records["lost"].sha256 == ""
+    before = path.read_bytes()
+    assert fill_hashes(path) == () and path.read_bytes() == before
+    (folder / "table.csv").write_text(TABLE.replace("1,", "2,", 1))
+    with pytest.raises(RecordError, match="another version"):
+        open_record(records["old"])
+
+
+def test_a_vertical_component_that_is_asked_for_is_warned_of(folder: Path) -> None:
+    (record,) = load_catalogue(write(folder, row(component="UD; NS")))
+    vertical, horizontal = open_record(record)
+    assert "is vertical, but the catalogue takes it as horizontal" in vertical.warnings[-1]
+    assert not horizontal.warnings
+
+
+def test_a_file_that_is_fetched_needs_its_hash(folder: Path) -> None:
+    with pytest.raises(CatalogueError, match="sha256 is missing; a file that is fetched needs it"):
+        remote(folder, sha256="")

@@ -44,7 +44,7 @@ def test_its_hash_is_checked(tmp_path):
     with pytest.raises(RecordError, match="sha256"):
         open_vertical(_record(tmp_path, vertical_sha256="0" * 64))
     with pytest.raises(CatalogueError, match="vertical_sha256"):
-        _record(tmp_path, vertical_sha256="")
+        _record(tmp_path, vertical_sha256="ABC")
 
 
 def test_a_path_out_of_the_folder_is_refused(tmp_path):

@@ -1,0 +1,59 @@
+"""Hashes of rows added by hand: filled in at the first reading, checked from then on."""
+
+import csv
+import hashlib
+from dataclasses import replace
+from io import StringIO
+from pathlib import Path
+
+from rocking.errors import RecordError
+from rocking.records.catalogue import load_catalogue
+from rocking.records.catalogue_record import CatalogueRecord
+from rocking.records.fetch import fetch
+from rocking.records.read import bytes_of
+from rocking.tables import write_whole
+
+
+def fill_hashes(path: str | Path, mirror: str | Path | None = None) -> tuple[str, ...]:
+    """Write the sha256 of each file into the rows of the catalogue at `path` that leave it blank; return their ids.
+
+    A row whose file is not there stays blank: opening it says so. The other cells stay as they are, and nothing is
+    written when nothing is to be filled. Raises CatalogueError for a catalogue with defects.
+    """
+    path = Path(path)
+    found = {record.id: cells for record in load_catalogue(path) if (cells := _blanks(record, mirror))}
+    if not found:
+        return ()
+    with path.open(encoding="utf-8-sig", newline="") as stream:
+        reader = csv.DictReader(stream)
+        rows = list(reader)
+    names = list(reader.fieldnames or ())
+    names += [name for name in ("sha256", "vertical_sha256") if name not in names and _has(found, name)]
+    text = StringIO(newline="")
+    writer = csv.DictWriter(text, names, restval="", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(row | found.get(row["id"].strip(), {}) for row in rows)
+    write_whole(path, text.getvalue().encode())
+    return tuple(found)
+
+
+def _has(found: dict[str, dict[str, str]], name: str) -> bool:
+    return any(name in cells for cells in found.values())
+
+
+def _blanks(record: CatalogueRecord, mirror: str | Path | None) -> dict[str, str]:
+    """Return the blank hashes of a row by their columns, as far as the files are there."""
+    vertical = replace(record, file=record.vertical_file or record.file, sha256="", source_repository="",
+                       source_path="", source_commit="")  # fmt: skip
+    wanted = {}
+    if not record.sha256:
+        wanted["sha256"] = record
+    if record.vertical_file and not record.vertical_sha256:
+        wanted["vertical_sha256"] = vertical
+    cells = {}
+    for column, of in wanted.items():
+        try:
+            cells[column] = hashlib.sha256(bytes_of(fetch(of, mirror))).hexdigest()
+        except RecordError:
+            continue
+    return cells
