@@ -99,14 +99,15 @@ def _start(options: argparse.Namespace) -> None:
 
 
 def _catalogue(options: argparse.Namespace) -> None:
+    from rocking.records.listing import listing_text
     from rocking.study.workspace import write_catalogue
 
     target = options.output or options.folder / "catalogue.csv"
     declared = {"unit": options.unit, "time_step": options.time_step, "replace": options.replace}
-    count, unread = write_catalogue(options.folder, target, **declared)
+    listed = write_catalogue(options.folder, target, **declared)
+    print(listing_text(listed), end="")
+    count = sum(1 for found in listed if found.row)
     print(f"{target}: {count} record{'' if count == 1 else 's'}")
-    for name, reason in unread:
-        print(f"not read: {name}: {reason}")
 
 
 def _run(options: argparse.Namespace) -> int:

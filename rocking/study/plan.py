@@ -5,12 +5,14 @@ import json
 import math
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records.catalogue import CatalogueRecord, load_catalogue
+from rocking.records.hashes import fill_hashes
 from rocking.structures import load_structures
 from rocking.study.config_file import named_files, read_settings
 from rocking.study.settings import Settings
@@ -61,6 +63,8 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     defects: list[str] = []
     settings = _collect(defects, lambda: read_settings(config)) or named_files(config)
     structures = Path(settings.structures)
+    with suppress(RockingError):  # what is wrong with the catalogue is told by loading it
+        fill_hashes(settings.catalogue, settings.mirror)
     records = _collect(defects, lambda: load_catalogue(settings.catalogue)) or ()
     _collect(defects, lambda: load_structures(structures))
     _collect(defects, lambda: check_writable(Path(settings.results)))

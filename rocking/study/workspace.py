@@ -9,7 +9,7 @@ from pathlib import Path
 import yaml
 
 from rocking.errors import ConfigurationError, RecordError
-from rocking.records.catalogue import catalogue_from_folder, write_catalogue_rows
+from rocking.records.folder import ListedFile, list_folder, write_catalogue_rows
 from rocking.study.config_file import commented_yaml, named_files
 from rocking.study.settings import Settings
 from rocking.tables import write_whole
@@ -55,8 +55,8 @@ def write_catalogue(
     unit: str | None = None,
     time_step: float | None = None,
     replace: bool = False,
-) -> tuple[int, list[tuple[str, str]]]:
-    """Write a catalogue of the accelerograms in `folder` to `target`; return their number and what was not read.
+) -> list[ListedFile]:
+    """Write a catalogue of the accelerograms in `folder` to `target`; return every file as it was read.
 
     unit and time_step [s] are for the files that do not declare them. Raises RecordError, and writes nothing, when
     `target` exists and `replace` is false, or when no file could be read.
@@ -65,12 +65,13 @@ def write_catalogue(
         raise RecordError(
             f"{target} exists already and may hold your own edits; say --replace to write it anew."
         )
-    found, unread = catalogue_from_folder(folder, unit=unit, time_step=time_step)
-    if not found:
-        reasons = "; ".join(f"{name}: {reason}" for name, reason in unread) or "it holds no file"
+    listed = list_folder(folder, unit=unit, time_step=time_step)
+    rows = [found.row for found in listed if found.row]
+    if not rows:
+        reasons = "; ".join(f"{found.file}: {found.unread}" for found in listed) or "it holds no file"
         raise RecordError(f"{folder}: no accelerogram was read ({reasons}).")
-    write_whole(target, write_catalogue_rows(found).encode())
-    return len(found), unread
+    write_whole(target, write_catalogue_rows(rows).encode())
+    return listed
 
 
 def run(folder: Path, options: Sequence[str]) -> int:
