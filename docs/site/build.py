@@ -4,7 +4,8 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from docs.site.pages import FOLDER, filled, illustrated, written_pages
+from docs.site.drawings import drawings
+from docs.site.pages import FOLDER, filled, illustrated, outlined, written_pages
 from rocking.errors import ConfigurationError
 
 CONFIGURATION = FOLDER.parent / "mkdocs.yml"
@@ -41,8 +42,10 @@ def write_pages(target: Path, workflow: Path) -> None:
     """Write the pages, complete, with their figures and assets, into the folder `target`."""
     shutil.copytree(FOLDER / "assets", target / "assets")
     (target / "figures").mkdir()
+    figures = {f"{name}.svg": outlined(figure) for name, figure in drawings().items()}
     for page in written_pages():
-        text, figures = illustrated(page.read_text(encoding="utf-8"), page.name)
+        text, made = illustrated(page.read_text(encoding="utf-8"), page.name)
         (target / page.name).write_text(filled(text, page.name, workflow), encoding="utf-8")
-        for name, content in figures.items():
-            (target / "figures" / name).write_text(content, encoding="utf-8")
+        figures |= made
+    for name, content in figures.items():
+        (target / "figures" / name).write_text(content, encoding="utf-8")

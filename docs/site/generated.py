@@ -1,5 +1,6 @@
 """The parts of the pages that the code itself knows: formats, settings, structures, tables, equations, lights."""
 
+import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -7,15 +8,18 @@ from typing import Any
 import yaml
 
 import rocking
+from docs.site.drawings import forms
 from rocking.assessment.rows import PER_RECORD, SUMMARY_TABLES, SpectrumRow
 from rocking.quantities import ACCELERATION_UNITS
 from rocking.records.formats import FORMATS
+from rocking.structures.fields import Form
 from rocking.tables import Table
 
 
 def formats(_: Path) -> str:
-    """The formats that are read, and what each is recognised by."""
-    return table(("format", "recognised by"), ((form.name, form.sought) for form in FORMATS))
+    """The formats that are read, where each comes from, and what it is recognised by."""
+    rows = ((form.name, form.origin, form.sought, "yes" if form.plugin else "") for form in FORMATS)
+    return table(("format", "origin", "recognised by", "offered to obspy"), rows)
 
 
 def units(_: Path) -> str:
@@ -31,10 +35,9 @@ def settings(workflow: Path) -> str:
     return table(("setting", "meaning", "allowed", "default"), rows)
 
 
-def structures(workflow: Path) -> str:
-    """The keys of every type of structure."""
-    schema = _yaml(workflow / "schemas" / "structures.schema.yaml")
-    return "\n\n".join(_structure(form, schema["definitions"]) for form in _forms(schema))
+def structures(_: Path) -> str:
+    """The drawing and the keys of every form of every type of structure."""
+    return "\n\n".join(_structure(*form) for form in forms())
 
 
 def tables(_: Path) -> str:
@@ -140,7 +143,7 @@ def _setting_rows(
         if "properties" in schema:
             yield from _setting_rows(schema["properties"], defaults[name], f"{above}{name}.")
         else:
-            default = "null" if defaults[name] is None else str(defaults[name])
+            default = json.dumps(defaults[name]).strip('"')
             yield f"`{above}{name}`", schema.get("description", ""), allowed(schema), f"`{default}`"
 
 
@@ -151,28 +154,36 @@ def allowed(schema: Mapping[str, Any]) -> str:
     if "enum" in schema:
         return ", ".join(f"`{value}`" for value in schema["enum"])
     kinds = schema.get("type", "any")
-    words = " or ".join([kinds] if isinstance(kinds, str) else kinds).replace("string", "text")
-    bounds = {"minimum": "≥", "exclusiveMinimum": ">", "maximum": "≤", "exclusiveMaximum": "<"}
-    limits = [f"{sign} {schema[name]:g}" for name, sign in bounds.items() if name in schema]
-    return f"{words} {' and '.join(limits)}".strip()
+    first, *others = [kinds] if isinstance(kinds, str) else kinds
+    words = f"{_KINDS.get(first, first)} {_bounds(schema)}".strip()
+    return ", or ".join([words, *(f"`{other}`" for other in others)])
 
 
-def _forms(schema: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
-    for reference in schema["items"]["oneOf"]:
-        yield schema["definitions"][reference["$ref"].rsplit("/", 1)[1]]
+_KINDS = {"boolean": "`true` or `false`", "string": "text", "integer": "whole number"}
 
 
-def _structure(form: Mapping[str, Any], definitions: Mapping[str, Any]) -> str:
-    rows = []
-    for key, given in form["properties"].items():
-        schema = definitions[given["$ref"].rsplit("/", 1)[1]] if "$ref" in given else given
-        if key in ("name", "type"):
-            continue
-        needed = "required" if key in form["required"] else "optional"
-        rows.append((f"`{key}`", schema.get("description", ""), allowed(schema), needed))
-    kind = form["properties"]["type"]["const"]
-    body = table(("key", "meaning", "allowed", ""), rows)
-    return f"### `type: {kind}` — {form['description']}\n\n{body}"
+def _bounds(schema: Mapping[str, Any]) -> str:
+    if "minimum" in schema and "maximum" in schema:
+        return f"from {schema['minimum']:g} to {schema['maximum']:g}"
+    signs = {"minimum": "≥", "exclusiveMinimum": ">", "maximum": "≤", "exclusiveMaximum": "<"}
+    return " and ".join(f"{sign} {schema[name]:g}" for name, sign in signs.items() if name in schema)
+
+
+def _structure(drawing: str, kind: str, form: Form) -> str:
+    head = ("key", "letter", "meaning", "allowed", "usual", "")
+    rows = (
+        (
+            f"`{key}`",
+            field.letter,
+            field.meaning,
+            allowed(field.schema),
+            "" if field.usual is None else f"{field.usual[0]:g} to {field.usual[1]:g}{field.suffix}",
+            "required" if field.required else "",
+        )
+        for key, field in form.keys.items()
+    )
+    picture = f"![{form.meaning}](figures/{drawing}.svg)"
+    return f"### `type: {kind}` — {form.meaning}\n\n{picture}\n\n{table(head, rows)}"
 
 
 def _table_section(described: Table) -> str:

@@ -8,17 +8,23 @@ import io
 import os
 import re
 import tempfile
+from contextlib import redirect_stdout
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+import matplotlib
+from matplotlib.figure import Figure
 
 from docs.site.generated import GENERATED
 from rocking.errors import ConfigurationError
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 FOLDER = Path(__file__).parents[1] / "pages"
 ROOT = FOLDER.parents[1]
+_RC: dict[str, object] = {
+    "backend": "agg",
+    "figure.figsize": (7.0, 3.6),
+    "svg.fonttype": "path",
+    "svg.hashsalt": "rocking",
+}
 _MARK = re.compile(r"^<!-- (generated|file): (\S+) -->$", re.M)
 _EXAMPLE = re.compile(r"^```python\n(.*?)^```$|^<!-- figure: (\w+)\. (.*?) -->$", re.M | re.S)
 
@@ -52,7 +58,10 @@ def filled(text: str, name: str, workflow: Path) -> str:
 
 
 def illustrated(text: str, page: str) -> tuple[str, dict[str, str]]:
-    """Return a page with images for its figures, and the figures, SVG by file name, made by running its examples."""
+    """Return a page with what its examples print and draw, and the figures, SVG by file name.
+
+    Only a page that has a figure is run.
+    """
     if "<!-- figure:" not in text:
         return text, {}
     names: dict[str, object] = {}
@@ -61,16 +70,18 @@ def illustrated(text: str, page: str) -> tuple[str, dict[str, str]]:
     def made(match: re.Match[str]) -> str:
         code, name, caption = match.groups()
         if code is not None:
-            exec(compile(code, f"{page} (example)", "exec"), names)
-            return match[0]
+            with redirect_stdout(io.StringIO()) as printed:
+                exec(compile(code, f"{page} (example)", "exec"), names)
+            said = printed.getvalue()
+            return f"{match[0]}\n\n```text\n{said}```" if said else match[0]
         file = f"{Path(page).stem}_{name}.svg"
-        figures[file] = _svg(names["axes"].figure)  # type: ignore[attr-defined]
+        figures[file] = outlined(names["axes"].figure)  # type: ignore[attr-defined]
         return (
             f"<figure markdown>\n![{caption}](figures/{file})\n<figcaption>{caption}</figcaption>\n</figure>"
         )
 
     home = Path.cwd()
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, matplotlib.rc_context(_RC):
         os.chdir(folder)  # as a reader who tries the examples in a folder of their own
         try:
             return _EXAMPLE.sub(made, text), figures
@@ -78,11 +89,9 @@ def illustrated(text: str, page: str) -> tuple[str, dict[str, str]]:
             os.chdir(home)
 
 
-def _svg(figure: "Figure") -> str:
+def outlined(figure: Figure) -> str:
     """The figure with its letters as outlines, so that it looks alike on every machine; the same bytes at every run."""
-    import matplotlib
-
     stream = io.StringIO()
-    with matplotlib.rc_context({"svg.fonttype": "path", "svg.hashsalt": "rocking"}):
+    with matplotlib.rc_context(_RC):
         figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None}, bbox_inches="tight")
     return stream.getvalue()

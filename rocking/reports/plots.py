@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.axes import Axes
+from matplotlib.patches import FancyArrowPatch
+from matplotlib.path import Path
 
 from rocking.errors import MotionError
 from rocking.motion.response import Response
 from rocking.pulses.analysis import PulseAnalysis
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
+from rocking.structures.drawing import Dimension
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.outcome import Outcome
 from rocking.structures.structure import Structure
@@ -24,6 +27,8 @@ if TYPE_CHECKING:
 _TIME = "time [s]"
 _ACCELERATION = "ground acceleration [m/s²]"
 _POINTS = 400
+_LETTER_DISTANCE = 7.0
+"""From a dimension line to its letter, points."""
 _LEVELS = (0.05, 0.1, 0.2, 0.5, 1.0)
 """Rotation ratios that get a line in a rocking spectrum."""
 
@@ -104,8 +109,13 @@ def plot_mechanism(mechanism: Mechanism, axes: Axes | None = None) -> Axes:
     return axes
 
 
-def plot_structure(structure: Structure, rotation: float = 0.0, axes: Axes | None = None) -> Axes:
-    """Draw the parts at a rotation [rad], to scale; displaced, also at rest (dashed) and with the hinges (circles)."""
+def plot_structure(
+    structure: Structure, rotation: float = 0.0, axes: Axes | None = None, dimensions: bool = False
+) -> Axes:
+    """Draw the parts at a rotation [rad], to scale; displaced, also at rest (dashed) and with the hinges (circles).
+
+    dimensions: also draw the lines of its sizes, each with its letter, about the structure at rest.
+    """
     axes = _ready(axes, "[m]", "[m]")
     for outline in structure.outline(rotation):
         axes.fill(*outline.T, facecolor="0.85", edgecolor="0.3", linewidth=0.8)
@@ -113,9 +123,41 @@ def plot_structure(structure: Structure, rotation: float = 0.0, axes: Axes | Non
         for outline in structure.outline():
             axes.fill(*outline.T, fill=False, linewidth=0.8, linestyle="--")
         axes.plot(*structure.hinges(rotation).T, "o", color="white", markeredgecolor="black")
+    if dimensions:
+        for dimension in structure.dimensions():
+            _plot_dimension(axes, dimension)
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.06)
     return axes
+
+
+def _plot_dimension(axes: Axes, dimension: Dimension) -> None:
+    line = dimension.line
+    for foot, end in zip(dimension.feet, (line[0], line[-1]), strict=True):
+        axes.plot(*np.array([foot, end]).T, color="0.5", linewidth=0.5)
+    axes.plot(*line.T, color="C0", linewidth=0.6)
+    heads = FancyArrowPatch(path=Path(line), arrowstyle="<|-|>", mutation_scale=7, shrinkA=0, shrinkB=0)
+    heads.set(linewidth=0.6, color="C0")
+    axes.add_patch(heads)
+    middle = line[line.shape[0] // 2] if line.shape[0] > 2 else line.mean(axis=0)
+    axes.annotate(
+        dimension.letter,
+        middle,
+        tuple(_LETTER_DISTANCE * _outward(dimension)),
+        textcoords="offset points",
+        color="C0",
+        ha="center",
+        va="center",
+    )
+
+
+def _outward(dimension: Dimension) -> np.ndarray:
+    """The unit vector (2,) from what is measured to its line; across the line where the two are one."""
+    away = dimension.line.mean(axis=0) - dimension.feet.mean(axis=0)
+    if not np.any(away):
+        along = dimension.line[-1] - dimension.line[0]
+        away = np.array([-along[1], along[0]])
+    return away / np.hypot(*away)
 
 
 def _plot_side(axes: Axes, side: Side, sign: int) -> None:

@@ -51,11 +51,14 @@ class Structure(ABC):
         """Return the contact points (k, 2) in m at a signed `rotation` [rad]; at rest those of the positive side."""
         return self._on_side(rotation, "_hinges")
 
-    def plot(self, rotation: float = 0.0, axes: "Axes | None" = None) -> "Axes":
-        """Draw the parts to scale at a signed `rotation` [rad], on `axes` or on new ones, and return the axes."""
+    def plot(self, rotation: float = 0.0, axes: "Axes | None" = None, *, dimensions: bool = False) -> "Axes":
+        """Draw the parts to scale at a signed `rotation` [rad], on `axes` or on new ones, and return the axes.
+
+        dimensions: also draw the lines of its sizes, each with its letter, about the structure at rest.
+        """
         from rocking.reports.plots import plot_structure
 
-        return plot_structure(self, rotation, axes)
+        return plot_structure(self, rotation, axes, dimensions)
 
     @abstractmethod
     def bodies(self, rotation: float | np.ndarray) -> Bodies:

@@ -18,6 +18,7 @@ import yaml
 
 import rocking
 from docs.site import filled, python_blocks, write_site, written_pages
+from docs.site.drawings import drawing, forms
 from docs.site.generated import table
 from docs.site.pages import FOLDER
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, SpectrumRow
@@ -152,10 +153,8 @@ def test_every_page_has_its_place_in_the_navigation():
 
 
 def test_the_site_needs_no_network_and_its_links_lead_somewhere(site, folder):
-    for name, text in site.items():
-        if name == "404.html":  # its links start at the root of a server
-            continue
-        found = links(text)
+    parsed = {name: links(text) for name, text in site.items() if name != "404.html"}
+    for name, found in parsed.items():  # not 404.html, whose links start at the root of a server
         assert all(
             (folder / target.split("?")[0]).is_file() for target in found.loaded if target[0] != "#"
         ), name
@@ -163,8 +162,8 @@ def test_the_site_needs_no_network_and_its_links_lead_somewhere(site, folder):
             file, _, anchor = target.partition("#")
             if file.startswith("https://"):
                 continue
-            assert file in site or (not file) or file == ".", f"{name}: {target}"
-            assert not anchor or anchor in links(site.get(file, text)).anchors, f"{name}: {target}"
+            assert file in (*parsed, "", "."), f"{name}: {target}"
+            assert not anchor or anchor in parsed.get(file, found).anchors, f"{name}: {target}"
 
 
 def test_equations_are_set_before_the_page_is_opened(site):
@@ -190,6 +189,23 @@ def test_the_site_leaves_nothing_of_the_code_out(site):
     for name in rocking.__all__:
         value = getattr(rocking, name)
         assert f"{value.__module__}.{name}" in anchors
+
+
+@pytest.mark.parametrize(("name", "kind", "form"), list(forms()))
+def test_a_drawing_shows_the_letter_of_every_size(name, kind, form):
+    """Every length and angle of the form; an inertia has no line to be measured by."""
+    letters = {text.get_text() for axes in drawing(kind, form).axes for text in axes.texts}
+    assert letters == {field.letter for field in form.fields if field.letter and field.unit}
+
+
+def test_every_figure_of_the_pages_is_made(folder):
+    named = {
+        f"{path.stem}_{name}.svg"
+        for path in PAGES
+        for name in re.findall(r"^<!-- figure: (\w+)\.", written(path), re.M)
+    }
+    made = {path.name for path in (folder / "figures").iterdir()}
+    assert len(named) >= 8 and made == named | {f"{name}.svg" for name, *_ in forms()}
 
 
 def test_the_table_of_equations_is_that_of_the_code(site):

@@ -1,0 +1,37 @@
+"""The drawing of every form of every structure, with the letters of its dimensions, made from the registry."""
+
+from collections.abc import Iterator
+
+from matplotlib.figure import Figure
+
+from rocking.reports.style import styled
+from rocking.structures.config import structure_from_config
+from rocking.structures.fields import Form
+from rocking.structures.registry import TYPES
+
+
+def forms() -> Iterator[tuple[str, str, Form]]:
+    """Yield the name of the drawing, the type and the form, of every form of every type."""
+    for name, kind in TYPES.items():
+        for place, form in enumerate(kind.forms):
+            yield f"structure_{name}_{place + 1}", name, form
+
+
+@styled
+def drawing(kind: str, form: Form) -> Figure:
+    """Return the structure of the form's examples, at rest, measured, and displaced beside it."""
+    example = {field.key: field.example for field in form.fields if field.required or field.unit}
+    structure = structure_from_config({"type": kind, **example})
+    figure = Figure(figsize=(6.4, 2.9), layout="constrained")
+    rest, displaced = figure.subplots(1, 2)
+    structure.plot(axes=rest, dimensions=True)
+    side = structure.mechanism().positive
+    structure.plot(min(max(0.6 * side.critical_rotation, 0.12), 0.8 * side.end_rotation), axes=displaced)
+    for axes in (rest, displaced):
+        axes.axis("off")
+    return figure
+
+
+def drawings() -> dict[str, Figure]:
+    """Return every drawing by its name."""
+    return {name: drawing(kind, form) for name, kind, form in forms()}
