@@ -67,8 +67,14 @@ def members() -> list[str]:
                 name for base in value.__mro__ if base.__module__.startswith("rocking") for name in vars(base)
             )
             public = (member for member in dict.fromkeys(own) if not member.startswith("_"))
-            found += [f"rocking.{name}.{member}" for member in public if member != "frame"]
+            found += [
+                f"rocking.{name}.{member}" for member in public if not gives_frame(getattr(value, member))
+            ]
     return found
+
+
+def gives_frame(member: object) -> bool:
+    return "DataFrame" in str(getattr(member, "__annotations__", {}).get("return", ""))
 
 
 def reveals(output: str) -> dict[int, str]:
