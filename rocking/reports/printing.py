@@ -2,9 +2,11 @@
 
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from typing import TypeVar
 
 Cell = str | dict[str, object]
+T = TypeVar("T")
 
 NOTHING = "–"
 """Printed where a cell is empty."""
@@ -68,9 +70,9 @@ def lamp(light: str | None) -> str:
     return LIGHT_SYMBOLS.get(light or "", words(light))
 
 
-def ratio(value: float, digits: int = 3) -> str:
-    """Return a rotation ratio: a number, "overturns" for inf, "no uplift" for zero, a dash for nan."""
-    if math.isinf(value):
+def ratio(value: float | None, digits: int = 3) -> str:
+    """Return a rotation ratio: a number, "overturns" for inf, "no uplift" for zero, a dash for nan or None."""
+    if value is not None and math.isinf(value):
         return "overturns"
     return "no uplift" if value == 0 else number(value, digits)
 
@@ -118,6 +120,11 @@ def table(columns: Sequence[tuple[str, str, str]], rows: Iterable[Sequence[Cell]
     """Return a table as the templates set it; a column is (heading, width, alignment)."""
     heads, widths, alignments = zip(*columns, strict=True)
     return {"heads": heads, "widths": widths, "alignments": alignments, "rows": [list(row) for row in rows]}
+
+
+def table_of(rows: Iterable[T], *columns: tuple[str, str, str, Callable[[T], Cell]]) -> dict[str, object]:
+    """Return a table with a line for each row; a column is (heading, width, alignment, what it shows of a row)."""
+    return table([column[:3] for column in columns], [[show(row) for *_, show in columns] for row in rows])
 
 
 def strong(text: str, really: bool = True) -> Cell:

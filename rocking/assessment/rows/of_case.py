@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
+from typing import Any, final
 
 from rocking.assessment.assess import Case, Prediction
 from rocking.assessment.method import Method
@@ -37,6 +37,7 @@ from rocking.tables import column, row
     "predictions",
     "One row per structure and closed form: the equivalent block under the dominant pulse",
 )
+@final
 class PredictionRow(CaseRow):
     """One closed form of one case."""
 
@@ -67,6 +68,7 @@ class PredictionRow(CaseRow):
 
 
 @row("responses", "One row per structure and integration")
+@final
 class ResponseRow(CaseRow):
     """One integration of one case."""
 
@@ -142,6 +144,7 @@ class ComparisonRow(CaseRow):
     "candidates",
     "One row per height at which a wall may be hinged or a spire cracked: the governing height is marked",
 )
+@final
 class CandidateRow(CaseRow):
     """One height at which a structure may crack."""
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import final
 
 import numpy as np
 
@@ -38,6 +39,7 @@ class RecordRow(ComponentRow):
 
 
 @row("pulses", "One row per sine pulse of acceleration; rank 1 of kind alternative is the dominant pulse")
+@final
 class PulseRow(ComponentRow):
     """One sine pulse that was found in a component."""
 

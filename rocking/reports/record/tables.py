@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TypeVar
+from dataclasses import dataclass
 
 from rocking.assessment.method import Method
 from rocking.assessment.rows import (
@@ -17,10 +17,8 @@ from rocking.assessment.rows import (
 )
 from rocking.pulses.flags import Flag
 from rocking.reports import printing
-from rocking.reports.printing import Cell, number, ratio, strong, table, words
+from rocking.reports.printing import Cell, number, ratio, strong, table, table_of, words
 from rocking.reports.record.verdict import contact_failure
-
-M = TypeVar("M", PredictionRow, ResponseRow)
 
 
 def structure_numbers(structures: Iterable[str], comparison: Iterable[CaseRow]) -> dict[str, str]:
@@ -73,32 +71,28 @@ _IDENTITY: dict[str, Callable[[RecordRow], str]] = {
 
 def pulse_table(rows: Sequence[PulseRow]) -> dict[str, object]:
     """Return the pulses of one component."""
-    columns = [
-        ("Kind", "auto", "l"),
-        ("Rank", "auto", "r"),
-        ("Amplitude [m/s²]", "1.2", "r"),
-        ("Period [s]", "1.2", "r"),
-        ("Circular frequency [rad/s]", "1.1", "r"),
-        ("Start [s]", "0.7", "r"),
-        ("Gain ratio [-]", "0.7", "r"),
-        ("Explained energy [-]", "0.8", "r"),
-        ("Effective length [m]", "0.8", "r"),
-    ]
-    return table(columns, [_pulse_row(row) for row in rows])
-
-
-def _pulse_row(row: PulseRow) -> list[Cell]:
-    return [
-        row.kind,
-        printing.whole(row.rank),
-        _with_interval(row.amplitude_m_s2, row.amplitude_low_m_s2, row.amplitude_high_m_s2),
-        _with_interval(row.period_s, row.period_low_s, row.period_high_s),
-        number(row.circular_frequency_rad_s),
-        number(row.start_time_s),
-        number(row.gain_ratio),
-        number(row.explained_energy),
-        number(row.effective_length_m),
-    ]
+    return table_of(
+        rows,
+        ("Kind", "auto", "l", lambda row: row.kind),
+        ("Rank", "auto", "r", lambda row: printing.whole(row.rank)),
+        (
+            "Amplitude [m/s²]",
+            "1.2",
+            "r",
+            lambda row: _with_interval(row.amplitude_m_s2, row.amplitude_low_m_s2, row.amplitude_high_m_s2),
+        ),
+        (
+            "Period [s]",
+            "1.2",
+            "r",
+            lambda row: _with_interval(row.period_s, row.period_low_s, row.period_high_s),
+        ),
+        ("Circular frequency [rad/s]", "1.1", "r", lambda row: number(row.circular_frequency_rad_s)),
+        ("Start [s]", "0.7", "r", lambda row: number(row.start_time_s)),
+        ("Gain ratio [-]", "0.7", "r", lambda row: number(row.gain_ratio)),
+        ("Explained energy [-]", "0.8", "r", lambda row: number(row.explained_energy)),
+        ("Effective length [m]", "0.8", "r", lambda row: number(row.effective_length_m)),
+    )
 
 
 def _with_interval(middle: float, low: float, high: float) -> str:
@@ -115,130 +109,85 @@ def pulse_sentences(rows: Sequence[PulseRow]) -> list[str]:
 
 def structure_table(rows: Iterable[StructureRow], numbers: Mapping[str, str]) -> dict[str, object]:
     """Return the structures with their equivalent blocks."""
-    columns = [
-        ("No.", "auto", "r"),
-        ("Structure", "1.2", "l"),
-        ("Type and geometry", "2.4", "l"),
-        ("p [rad/s]", "auto", "r"),
-        ("Critical rotation [rad]", "0.7", "r"),
-        ("Uplift λ [g]", "0.55", "r"),
-        ("Scale, linear\u00adised [-]", "0.6", "r"),
-        ("Scale, uplift [-]", "0.55", "r"),
-        ("Linear\u00adised λ / λ [-]", "0.6", "r"),
-        ("Resti\u00adtution [-]", "0.55", "r"),
-    ]
-    return table(columns, [_structure_row(row, numbers) for row in rows])
-
-
-def _structure_row(row: StructureRow, numbers: Mapping[str, str]) -> list[Cell]:
-    return [
-        numbers[row.structure],
-        row.structure,
-        f"{words(row.type)}: {printing.geometry(row.geometry)}",
-        number(row.frequency_parameter_rad_s, 4),
-        number(row.critical_rotation_rad, 4),
-        number(row.uplift_multiplier, 4),
-        number(row.acceleration_scale_linearised, 4),
-        number(row.acceleration_scale_uplift, 4),
-        number(row.linearised_over_true_uplift, 4),
-        number(row.restitution, 4),
-    ]
+    return table_of(
+        rows,
+        ("No.", "auto", "r", lambda row: numbers[row.structure]),
+        ("Structure", "1.2", "l", lambda row: row.structure),
+        (
+            "Type and geometry",
+            "2.4",
+            "l",
+            lambda row: f"{words(row.type)}: {printing.geometry(row.geometry)}",
+        ),
+        ("p [rad/s]", "auto", "r", lambda row: number(row.frequency_parameter_rad_s, 4)),
+        ("Critical rotation [rad]", "0.7", "r", lambda row: number(row.critical_rotation_rad, 4)),
+        ("Uplift λ [g]", "0.55", "r", lambda row: number(row.uplift_multiplier, 4)),
+        ("Scale, linear\u00adised [-]", "0.6", "r", lambda row: number(row.acceleration_scale_linearised, 4)),
+        ("Scale, uplift [-]", "0.55", "r", lambda row: number(row.acceleration_scale_uplift, 4)),
+        ("Linear\u00adised λ / λ [-]", "0.6", "r", lambda row: number(row.linearised_over_true_uplift, 4)),
+        ("Resti\u00adtution [-]", "0.55", "r", lambda row: number(row.restitution, 4)),
+    )
 
 
 def method_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, object]:
     """Return every method beside the others, one row per component and structure."""
-    columns = [
-        ("No.", "auto", "r"),
-        ("Comp.", "auto", "l"),
-        ("Eq. 15, printed", "1", "r"),
-        ("Prediction", "1", "r"),
-        ("Range over the interval", "1.95", "r"),
-        ("Mechanism under the pulse", "1", "r"),
-        ("Block under the record", "1", "r"),
-        ("Mechanism under the record", "1", "r"),
-        ("Rotation [rad]", "1", "r"),
-        ("Peak at [s]", "0.7", "r"),
-        ("Im\u00adpacts", "0.6", "r"),
-    ]
-    predictions = _by_case(tables.predictions, Method.CLOSED_FORM)
-    responses = _by_case(tables.responses, Method.MECHANISM_ON_RECORD)
-    return table(
-        columns,
-        [
-            _method_row(row, predictions.get(row.case), responses.get(row.case), numbers)
-            for row in tables.comparison
-        ],
+    return table_of(
+        _cases(tables),
+        ("No.", "auto", "r", lambda case: numbers[case.row.structure]),
+        ("Comp.", "auto", "l", lambda case: words(case.row.component)),
+        ("Eq. 15, printed", "1", "r", lambda case: ratio(case.row.printed_rotation_ratio)),
+        ("Prediction", "1", "r", lambda case: ratio(case.row.predicted_rotation_ratio)),
+        ("Range over the interval", "1.95", "r", lambda case: _range(case.prediction)),
+        ("Mechanism under the pulse", "1", "r", lambda case: ratio(case.row.pulse_rotation_ratio)),
+        ("Block under the record", "1", "r", lambda case: ratio(case.row.block_rotation_ratio)),
+        (
+            "Mechanism under the record",
+            "1",
+            "r",
+            lambda case: strong(ratio(case.row.integrated_rotation_ratio, 6)),
+        ),
+        ("Rotation [rad]", "1", "r", lambda case: number(case.response and case.response.rotation_rad, 5)),
+        ("Peak at [s]", "0.7", "r", lambda case: number(case.response and case.response.peak_time_s, 4)),
+        ("Im\u00adpacts", "0.6", "r", lambda case: printing.whole(case.response and case.response.impacts)),
     )
-
-
-def _method_row(
-    row: ComparisonRow,
-    prediction: PredictionRow | None,
-    response: ResponseRow | None,
-    numbers: Mapping[str, str],
-) -> list[Cell]:
-    return [
-        numbers[row.structure],
-        words(row.component),
-        ratio(row.printed_rotation_ratio),
-        ratio(row.predicted_rotation_ratio),
-        _range(prediction),
-        ratio(row.pulse_rotation_ratio),
-        ratio(row.block_rotation_ratio),
-        strong(ratio(row.integrated_rotation_ratio, 6)),
-        number(response.rotation_rad if response else None, 5),
-        number(response.peak_time_s if response else None, 4),
-        printing.whole(response.impacts if response else None),
-    ]
 
 
 def trust_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, object]:
     """Return what stands behind each prediction, and whether the contacts hold along each response."""
-    columns = [
-        ("No.", "auto", "r"),
-        ("Comp.", "auto", "l"),
-        ("Light", "auto", "l"),
-        ("Pulse rank", "0.6", "r"),
-        ("Amplitude ratio [-]", "1", "r"),
-        ("Frequency ratio [-]", "1", "r"),
-        ("Within factor 2 [-]", "1", "r"),
-        ("Overturnings found [-]", "1.2", "r"),
-        ("Records behind", "0.8", "r"),
-        ("Friction needed [-]", "1", "r"),
-        ("Contacts", "1.1", "l"),
-    ]
-    predictions = _by_case(tables.predictions, Method.CLOSED_FORM)
-    responses = _by_case(tables.responses, Method.MECHANISM_ON_RECORD)
-    return table(
-        columns,
-        [
-            _trust_row(row, predictions.get(row.case), responses.get(row.case), numbers)
-            for row in tables.comparison
-        ],
+    return table_of(
+        _cases(tables),
+        ("No.", "auto", "r", lambda case: numbers[case.row.structure]),
+        ("Comp.", "auto", "l", lambda case: words(case.row.component)),
+        ("Light", "auto", "l", lambda case: printing.lamp(case.row.light)),
+        (
+            "Pulse rank",
+            "0.6",
+            "r",
+            lambda case: printing.whole(case.prediction and case.prediction.pulse_rank),
+        ),
+        (
+            "Amplitude ratio [-]",
+            "1",
+            "r",
+            lambda case: number(case.prediction and case.prediction.amplitude_ratio),
+        ),
+        (
+            "Frequency ratio [-]",
+            "1",
+            "r",
+            lambda case: number(case.prediction and case.prediction.frequency_ratio),
+        ),
+        ("Within factor 2 [-]", "1", "r", lambda case: number(case.row.reliability_within_factor_two)),
+        ("Overturnings found [-]", "1.2", "r", lambda case: number(case.row.reliability_overturnings_found)),
+        ("Records behind", "0.8", "r", lambda case: printing.whole(case.row.reliability_records)),
+        (
+            "Friction needed [-]",
+            "1",
+            "r",
+            lambda case: number(case.response and case.response.friction_needed),
+        ),
+        ("Contacts", "1.1", "l", lambda case: _contacts(case.response)),
     )
-
-
-def _trust_row(
-    row: ComparisonRow,
-    prediction: PredictionRow | None,
-    response: ResponseRow | None,
-    numbers: Mapping[str, str],
-) -> list[Cell]:
-    failing = contact_failure(response) if response else ""
-    holding = "hold" if response and response.slides is False else printing.NOTHING
-    return [
-        numbers[row.structure],
-        words(row.component),
-        printing.lamp(row.light),
-        printing.whole(prediction.pulse_rank if prediction else None),
-        number(prediction.amplitude_ratio if prediction else None),
-        number(prediction.frequency_ratio if prediction else None),
-        number(row.reliability_within_factor_two),
-        number(row.reliability_overturnings_found),
-        printing.whole(row.reliability_records),
-        number(response.friction_needed if response else None),
-        strong(failing or holding, bool(failing)),
-    ]
 
 
 def _range(prediction: PredictionRow | None) -> str:
@@ -248,5 +197,22 @@ def _range(prediction: PredictionRow | None) -> str:
     return low if low == high else f"{low} to {high}"
 
 
-def _by_case(rows: Iterable[M], method: Method) -> dict[tuple[str, str], M]:
-    return {row.case: row for row in rows if row.method is method}
+def _contacts(response: ResponseRow | None) -> Cell:
+    failing = contact_failure(response) if response else ""
+    holding = "hold" if response and response.slides is False else printing.NOTHING
+    return strong(failing or holding, bool(failing))
+
+
+@dataclass(frozen=True)
+class _Case:
+    """One case with its exact closed form and the full integration, where there are any."""
+
+    row: ComparisonRow
+    prediction: PredictionRow | None
+    response: ResponseRow | None
+
+
+def _cases(tables: RecordTables) -> list[_Case]:
+    predictions = {row.case: row for row in tables.predictions if row.method is Method.CLOSED_FORM}
+    responses = {row.case: row for row in tables.responses if row.method is Method.MECHANISM_ON_RECORD}
+    return [_Case(row, predictions.get(row.case), responses.get(row.case)) for row in tables.comparison]

@@ -1,43 +1,31 @@
 """What the answer owes to where a structure cracks and to how the record was processed: tables and sentences."""
 
-import math
 from collections.abc import Mapping, Sequence
 
 from rocking.assessment.rows import CandidateRow, ProcessingRow
 from rocking.reports import printing
-from rocking.reports.printing import Cell, number, ratio, table, words
+from rocking.reports.printing import number, ratio, table, table_of, words
 
 
 def candidate_table(rows: Sequence[CandidateRow], numbers: Mapping[str, str]) -> dict[str, object]:
     """Return the governing height of each structure with candidates, under the pulse and under the record."""
-    columns = [
-        ("No.", "auto", "r"),
-        ("Comp.", "0.6", "l"),
-        ("Structure", "1.4", "l"),
-        ("Governing height, pulse [m]", "1.1", "r"),
-        ("Closed form there", "1", "r"),
-        ("Governing height, record [m]", "1.1", "r"),
-        ("Full integration there", "1", "r"),
-    ]
-    by_case: dict[tuple[str, str], list[CandidateRow]] = {}
-    for row in rows:
-        by_case.setdefault(row.case, []).append(row)
-    return table(columns, [_candidate_row(found, numbers) for found in by_case.values()])
-
-
-def _candidate_row(rows: Sequence[CandidateRow], numbers: Mapping[str, str]) -> list[Cell]:
-    component, structure = rows[0].case
-    pulse = next((row for row in rows if row.governs_pulse), None)
-    record = next((row for row in rows if row.governs_record), None)
-    return [
-        numbers[structure],
-        words(component),
-        structure,
-        number(pulse.position_m if pulse else None),
-        ratio(pulse.predicted_rotation_ratio if pulse else math.nan),
-        number(record.position_m if record else None),
-        ratio(record.integrated_rotation_ratio if record else math.nan),
-    ]
+    pulse = {row.case: row for row in rows if row.governs_pulse}
+    record = {row.case: row for row in rows if row.governs_record}
+    return table_of(
+        [(*case, pulse.get(case), record.get(case)) for case in dict.fromkeys(row.case for row in rows)],
+        ("No.", "auto", "r", lambda each: numbers[each[1]]),
+        ("Comp.", "0.6", "l", lambda each: words(each[0])),
+        ("Structure", "1.4", "l", lambda each: each[1]),
+        ("Governing height, pulse [m]", "1.1", "r", lambda each: number(each[2] and each[2].position_m)),
+        ("Closed form there", "1", "r", lambda each: ratio(each[2] and each[2].predicted_rotation_ratio)),
+        ("Governing height, record [m]", "1.1", "r", lambda each: number(each[3] and each[3].position_m)),
+        (
+            "Full integration there",
+            "1",
+            "r",
+            lambda each: ratio(each[3] and each[3].integrated_rotation_ratio),
+        ),
+    )
 
 
 def processing_table(rows: Sequence[ProcessingRow], numbers: Mapping[str, str]) -> dict[str, object]:

@@ -8,7 +8,7 @@ from rocking.assessment.rows import ComparisonRow, RecordRow, RecordTables, Resp
 from rocking.assessment.verdict import Verdict, rests
 from rocking.pulses import Light
 from rocking.reports import printing
-from rocking.reports.printing import Cell, number, ratio, strong, table, words
+from rocking.reports.printing import number, ratio, strong, table_of, words
 
 _VERDICTS = {
     Verdict.AGREE: "in agreement",
@@ -20,32 +20,30 @@ _VERDICTS = {
 
 def verdict_table(rows: Sequence[ComparisonRow], numbers: Mapping[str, str]) -> dict[str, object]:
     """Return the first table that a reader sees: one row per structure of one component."""
-    columns = [
-        ("No.", "auto", "r"),
-        ("Structure", "1.2", "l"),
-        ("Light", "auto", "l"),
-        ("Closed form", "0.65", "r"),
-        ("Full inte\u00adgration", "0.65", "r"),
-        ("The closed form is", "1.05", "l"),
-        ("Regime of the closed form", "1.5", "l"),
-        ("Sensi\u00adtivity", "0.45", "r"),
-        ("Fragile", "auto", "l"),
-    ]
-    return table(columns, [_verdict_row(row, numbers) for row in rows])
-
-
-def _verdict_row(row: ComparisonRow, numbers: Mapping[str, str]) -> list[Cell]:
-    return [
-        numbers[row.structure],
-        row.structure,
-        printing.lamp(row.light),
-        ratio(row.predicted_rotation_ratio),
-        strong(ratio(row.found_rotation_ratio) + (f" ({row.answer_method})" if row.spared else "")),
-        strong(_VERDICTS[row.verdict], row.verdict is Verdict.UNSAFE),
-        words(row.regime),
-        number(row.sensitivity),
-        strong(printing.yes_or_no(row.fragile), bool(row.fragile)),
-    ]
+    return table_of(
+        rows,
+        ("No.", "auto", "r", lambda row: numbers[row.structure]),
+        ("Structure", "1.2", "l", lambda row: row.structure),
+        ("Light", "auto", "l", lambda row: printing.lamp(row.light)),
+        ("Closed form", "0.65", "r", lambda row: ratio(row.predicted_rotation_ratio)),
+        (
+            "Full inte\u00adgration",
+            "0.65",
+            "r",
+            lambda row: strong(
+                ratio(row.found_rotation_ratio) + (f" ({row.answer_method})" if row.spared else "")
+            ),
+        ),
+        (
+            "The closed form is",
+            "1.05",
+            "l",
+            lambda row: strong(_VERDICTS[row.verdict], row.verdict is Verdict.UNSAFE),
+        ),
+        ("Regime of the closed form", "1.5", "l", lambda row: words(row.regime)),
+        ("Sensi\u00adtivity", "0.45", "r", lambda row: number(row.sensitivity)),
+        ("Fragile", "auto", "l", lambda row: strong(printing.yes_or_no(row.fragile), bool(row.fragile))),
+    )
 
 
 def verdict_sentences(rows: Sequence[ComparisonRow]) -> list[str]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 from rocking.assessment.rows import AgreementRow, ComparisonRow, FailureRow, PulseRow, RecordRow
 from rocking.reports import printing
-from rocking.reports.printing import Cell, number, ratio, strong, table, whole, words
+from rocking.reports.printing import Cell, number, ratio, strong, table_of, whole, words
 from rocking.tables import Row, rows_of
 
 if TYPE_CHECKING:
@@ -108,117 +108,70 @@ def notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> lis
 
 def agreement_table(agreement: Sequence[AgreementRow]) -> dict[str, object]:
     """Return how often the closed form was right, by light."""
-    columns = [
-        ("Light", "1", "l"),
-        ("Records", "0.8", "r"),
-        ("Cases", "0.8", "r"),
-        ("Both rock", "0.8", "r"),
-        ("within factor 2", "0.8", "r"),
-        ("Median ratio [-]", "0.8", "r"),
-        ("Overturn", "0.9", "r"),
-        ("found", "0.7", "r"),
-        ("missed", "0.7", "r"),
-        ("only predicted", "0.9", "r"),
-        ("Fragile", "0.7", "r"),
-    ]
-    return table(columns, [_agreement_row(row) for row in agreement])
-
-
-def _agreement_row(row: AgreementRow) -> list[Cell]:
-    return [
-        printing.lamp(row.light),
-        whole(row.records),
-        whole(row.cases),
-        whole(row.both_rock),
-        whole(row.within_factor_two),
-        number(row.median_ratio),
-        whole(row.overturning),
-        whole(row.overturning_found),
-        strong(whole(row.overturning_missed), row.overturning_missed > 0),
-        whole(row.overturning_false),
-        whole(row.fragile),
-    ]
+    return table_of(
+        agreement,
+        ("Light", "1", "l", lambda row: printing.lamp(row.light)),
+        ("Records", "0.8", "r", lambda row: whole(row.records)),
+        ("Cases", "0.8", "r", lambda row: whole(row.cases)),
+        ("Both rock", "0.8", "r", lambda row: whole(row.both_rock)),
+        ("within factor 2", "0.8", "r", lambda row: whole(row.within_factor_two)),
+        ("Median ratio [-]", "0.8", "r", lambda row: number(row.median_ratio)),
+        ("Overturn", "0.9", "r", lambda row: whole(row.overturning)),
+        ("found", "0.7", "r", lambda row: whole(row.overturning_found)),
+        ("missed", "0.7", "r", lambda row: strong(whole(row.overturning_missed), row.overturning_missed > 0)),
+        ("only predicted", "0.9", "r", lambda row: whole(row.overturning_false)),
+        ("Fragile", "0.7", "r", lambda row: whole(row.fragile)),
+    )
 
 
 def record_table(records: Listing[RecordRow], pulses: "DataFrame") -> dict[str, object]:
     """Return the records with their dominant pulses."""
-    columns = [
-        ("Record", "1.6", "l"),
-        ("Comp.", "0.8", "l"),
-        ("Declared factor", "0.7", "r"),
-        ("Peak acceleration [m/s²]", "1", "r"),
-        ("Peak velocity [m/s]", "0.9", "r"),
-        ("Pulse amplitude [m/s²]", "0.9", "r"),
-        ("Pulse period [s]", "0.8", "r"),
-        ("Explained energy [-]", "0.9", "r"),
-        ("Flags", "1.2", "l"),
-    ]
     dominant = pulses[(pulses["kind"] == "alternative") & (pulses["rank"] == 1)]
     known = dominant[dominant["record"].isin([row.record for row in records.first])]
     by_component = {(row.record, row.component): row for row in rows_of(PulseRow, known)}
-    return table(
-        columns, [_record_row(row, by_component.get((row.record, row.component))) for row in records.first]
+
+    return table_of(
+        ((row, by_component.get((row.record, row.component))) for row in records.first),
+        ("Record", "1.6", "l", lambda each: each[0].record),
+        ("Comp.", "0.8", "l", lambda each: words(each[0].component)),
+        ("Declared factor", "0.7", "r", lambda each: _factor(each[0].scale_factor)),
+        ("Peak acceleration [m/s²]", "1", "r", lambda each: number(each[0].peak_acceleration_m_s2)),
+        ("Peak velocity [m/s]", "0.9", "r", lambda each: number(each[0].peak_velocity_m_s)),
+        ("Pulse amplitude [m/s²]", "0.9", "r", lambda each: number(each[1] and each[1].amplitude_m_s2)),
+        ("Pulse period [s]", "0.8", "r", lambda each: number(each[1] and each[1].period_s)),
+        ("Explained energy [-]", "0.9", "r", lambda each: number(each[1] and each[1].explained_energy)),
+        ("Flags", "1.2", "l", lambda each: words(each[1] and each[1].flags)),
     )
 
 
-def _record_row(row: RecordRow, pulse: PulseRow | None) -> list[Cell]:
-    scaled = row.scale_factor != 1
-    return [
-        row.record,
-        words(row.component),
-        strong(("×\u00a0" if scaled else "") + printing.given(row.scale_factor), scaled),
-        number(row.peak_acceleration_m_s2),
-        number(row.peak_velocity_m_s),
-        number(pulse.amplitude_m_s2 if pulse else None),
-        number(pulse.period_s if pulse else None),
-        number(pulse.explained_energy if pulse else None),
-        words(pulse.flags if pulse else None),
-    ]
+def _factor(scale_factor: float) -> Cell:
+    scaled = scale_factor != 1
+    return strong(("×\u00a0" if scaled else "") + printing.given(scale_factor), scaled)
 
 
 def case_table(cases: Listing[ComparisonRow]) -> dict[str, object]:
     """Return single cases of the comparison table."""
-    columns = [
-        ("Record", "1.4", "l"),
-        ("Comp.", "0.7", "l"),
-        ("Structure", "1.4", "l"),
-        ("Light", "auto", "l"),
-        ("Closed form", "auto", "r"),
-        ("Full integration", "auto", "r"),
-        ("Regime of the closed form", "1.4", "l"),
-        ("Sensi\u00adtivity", "0.6", "r"),
-        ("Fragile", "auto", "l"),
-    ]
-    return table(columns, [_case_row(row) for row in cases.first])
-
-
-def _case_row(row: ComparisonRow) -> list[Cell]:
-    return [
-        row.record,
-        words(row.component),
-        row.structure,
-        printing.lamp(row.light),
-        ratio(row.predicted_rotation_ratio),
-        strong(ratio(row.integrated_rotation_ratio)),
-        words(row.regime),
-        number(row.sensitivity),
-        printing.yes_or_no(row.fragile),
-    ]
+    return table_of(
+        cases.first,
+        ("Record", "1.4", "l", lambda row: row.record),
+        ("Comp.", "0.7", "l", lambda row: words(row.component)),
+        ("Structure", "1.4", "l", lambda row: row.structure),
+        ("Light", "auto", "l", lambda row: printing.lamp(row.light)),
+        ("Closed form", "auto", "r", lambda row: ratio(row.predicted_rotation_ratio)),
+        ("Full integration", "auto", "r", lambda row: strong(ratio(row.integrated_rotation_ratio))),
+        ("Regime of the closed form", "1.4", "l", lambda row: words(row.regime)),
+        ("Sensi\u00adtivity", "0.6", "r", lambda row: number(row.sensitivity)),
+        ("Fragile", "auto", "l", lambda row: printing.yes_or_no(row.fragile)),
+    )
 
 
 def failure_table(failures: Listing[FailureRow]) -> dict[str, object]:
     """Return what gave no result, and why."""
-    columns = [
-        ("Record", "1", "l"),
-        ("Comp.", "0.5", "l"),
-        ("Structure", "0.8", "l"),
-        ("Stage", "0.6", "l"),
-        ("Why", "3", "l"),
-    ]
-    return table(
-        columns,
-        [
-            [words(text) for text in (row.record, row.component, row.structure, row.stage, row.message)]
-            for row in failures.first
-        ],
+    return table_of(
+        failures.first,
+        ("Record", "1", "l", lambda row: words(row.record)),
+        ("Comp.", "0.5", "l", lambda row: words(row.component)),
+        ("Structure", "0.8", "l", lambda row: words(row.structure)),
+        ("Stage", "0.6", "l", lambda row: words(row.stage)),
+        ("Why", "3", "l", lambda row: words(row.message)),
     )
