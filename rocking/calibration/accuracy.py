@@ -23,6 +23,7 @@ from rocking.motion.integration import integrate
 from rocking.motion.reference import REFERENCE_TOLERANCE, Scipy, event_maximum, reference_maximum
 from rocking.motion.table import table_of
 from rocking.pulses import PulseSettings, extract_pulses
+from rocking.quantities import counted
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures import Mechanism, Structure
@@ -88,9 +89,11 @@ def write_trade(
                     print(f"{name}: {error}", file=stream, flush=True)
 
         def rows() -> Iterator[TradeRow]:
-            for case in choose_cases(motions(), structures, settings.cases, settings.samples):
+            cases = choose_cases(motions(), structures, settings.cases, settings.samples)
+            for number, case in enumerate(cases, start=1):
+                where = f"{number} of {len(cases)}: {case.record}, {case.structure}"
                 found = list(trade_rows(case, settings))
-                print(f"{case.record}, {case.structure}: {len(found)} runs", file=stream, flush=True)
+                print(f"{where}: {counted(len(found), 'run')}", file=stream, flush=True)
                 yield from found
 
         write_rows(TradeRow, rows(), table)

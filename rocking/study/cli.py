@@ -3,21 +3,25 @@
 import argparse
 import sys
 from collections.abc import Sequence
+from importlib.metadata import version
 from pathlib import Path
 from shlex import quote
 
-from rocking.errors import RockingError, UnknownFormatError
+from rocking.errors import CatalogueError, ConfigurationError, RockingError, UnknownFormatError
 from rocking.quantities import GRAVITY
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line and return its exit status: 0, or 1 after a sentence on what is wrong."""
+    """Run the command line and return its exit status.
+
+    0: all went well. 1: a record or a run failed. 2: what was asked for is wrong, such as a setting; it says why.
+    """
     options = _parser().parse_args(arguments)
     try:
         return options.run(options) or 0
     except RockingError as error:
         print(f"rocking: {error}", file=sys.stderr)
-        return 1
+        return 2 if isinstance(error, ConfigurationError | CatalogueError) else 1
     except KeyboardInterrupt:
         print("rocking: stopped.", file=sys.stderr)
         return 130
@@ -30,6 +34,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="rocking", description="Rocking structures under recorded earthquakes."
     )
+    parser.add_argument("--version", action="version", version=f"%(prog)s {version('rocking')}")
     verbs = parser.add_subparsers(required=True, metavar="verb")
     start = _verb(verbs, "start", _start, "start a study in a folder of your own")
     start.add_argument("folder", type=Path)
@@ -40,7 +45,9 @@ def _parser() -> argparse.ArgumentParser:
     _declarations(catalogue)
     run = _verb(verbs, "run", _run, "run the study in a folder")
     run.add_argument("folder", type=Path)
-    run.add_argument("snakemake", nargs="*", help="what follows -- goes to snakemake: -- --dry-run")
+    run.add_argument(
+        "snakemake", nargs="*", help="a target such as trade; what follows -- goes to snakemake: -- --dry-run"
+    )
     reading = _record_verb(verbs, "read", _read, "read a file and say what it is")
     reading.add_argument(
         "--details", action="store_true", help="of a file that is not recognised: what each reader looked for"
@@ -111,7 +118,7 @@ def _catalogue(options: argparse.Namespace) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from rocking.study.workspace import run
+    from rocking.study.launch import run
 
     return run(options.folder, options.snakemake)
 

@@ -1,20 +1,13 @@
-"""A study in a folder of the user's own, apart from this package: start it, catalogue its records, run it."""
+"""A study in a folder of the user's own, apart from this package: start it, and catalogue its records."""
 
-import re
-import subprocess
-import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
-
-import yaml
 
 from rocking.errors import ConfigurationError, RecordError
 from rocking.records.folder import ListedFile, list_folder, write_catalogue_rows
-from rocking.study.config_file import commented_yaml, named_files
+from rocking.study.config_file import commented_yaml
 from rocking.study.settings import Settings
 from rocking.tables import write_whole
-
-_CORES = re.compile(r"(--cores|--jobs)(=.*)?|-[cj]\d*|-[cj]all")
 
 
 def workflow_folder() -> Path:
@@ -72,44 +65,3 @@ def write_catalogue(
         raise RecordError(f"{folder}: no accelerogram was read ({reasons}).")
     write_whole(target, write_catalogue_rows(rows).encode())
     return listed
-
-
-def run(folder: Path, options: Sequence[str]) -> int:
-    """Run the workflow on the study in `folder`, with further options for snakemake, and return its exit status.
-
-    Raises ConfigurationError, before snakemake starts, when the folder holds no study or the study no catalogue.
-    """
-    config = folder.resolve() / "config.yaml"
-    if not config.is_file():
-        raise ConfigurationError(
-            f"{folder} holds no config.yaml; start a study there first: rocking start {folder}"
-        )
-    _check_catalogue(folder, config)
-    cores = [] if any(_CORES.fullmatch(option) for option in options) else ["--cores", "all"]
-    home = workflow_folder()
-    command = [sys.executable, "-m", "snakemake", "--snakefile", str(home / "Snakefile")]
-    command += [
-        "--workflow-profile",
-        str(home / "workflow" / "profiles" / "default"),
-        "--directory",
-        str(folder),
-        "--configfile",
-        str(config),
-        *cores,
-        *options,
-    ]
-    return subprocess.run(command, check=False).returncode
-
-
-def _check_catalogue(folder: Path, config: Path) -> None:
-    try:
-        catalogue = folder / named_files(yaml.safe_load(config.read_text(encoding="utf-8")) or {}).catalogue
-    except (yaml.YAMLError, UnicodeDecodeError, AttributeError) as error:
-        reason = " ".join(str(error).split())
-        raise ConfigurationError(
-            f"{config}: this is no YAML mapping of settings ({reason}); mend it."
-        ) from None
-    if not catalogue.is_file():
-        raise ConfigurationError(
-            f"{catalogue}: there is no catalogue yet; put records beside it, then: rocking catalogue {catalogue.parent}"
-        )

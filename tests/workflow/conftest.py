@@ -91,6 +91,14 @@ class SmallStudy:
             self.command(*options), timeout=300, check=False, **streams, **self.surroundings
         )
 
+    def rocking(self, *arguments: str) -> subprocess.CompletedProcess[str]:
+        """Run the command rocking of this tree, from a folder that is not the study's."""
+        command = [sys.executable, "-m", "rocking.study.cli", *arguments]
+        surroundings = self.surroundings | {"cwd": self.tree}
+        return subprocess.run(
+            command, timeout=300, check=False, capture_output=True, text=True, **surroundings
+        )
+
     def tables(self) -> dict[str, bytes]:
         """The bytes of every file of the results that must not differ between runs, by path."""
         return {

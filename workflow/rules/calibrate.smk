@@ -8,9 +8,9 @@ rule calibrate:
     output:
         [f"{RESULTS}/calibration/{table}.csv" for table in ("comparisons", "thresholds", "reliability")],
     log:
-        f"{RESULTS}/calibration/calibrate.log",
+        f"{SUMMARY}/logs/calibrate.log",
     benchmark:
-        f"{RESULTS}/calibration/calibrate.tsv"
+        f"{SUMMARY}/benchmarks/calibrate.tsv"
     params:
         mirror=SETTINGS.mirror,
         package_sha256=PLAN.package_sha256,

@@ -8,9 +8,9 @@ rule calibrate_fidelity:
     output:
         [f"{RESULTS}/calibration/{table}.csv" for table in ("fidelity", "fidelity_held_out")],
     log:
-        f"{RESULTS}/calibration/fidelity.log",
+        f"{SUMMARY}/logs/calibrate_fidelity.log",
     benchmark:
-        f"{RESULTS}/calibration/fidelity.tsv"
+        f"{SUMMARY}/benchmarks/calibrate_fidelity.tsv"
     params:
         mirror=SETTINGS.mirror,
         package_sha256=PLAN.package_sha256,

@@ -5,14 +5,17 @@ from pathlib import Path
 from rocking.calibration.fidelity import write_fidelity
 from rocking.records import load_catalogue, open_record
 from rocking.structures import load_structures
+from rocking.study.progress import numbered
 
 if __name__ == "__main__":
     files, mirror = snakemake.input, snakemake.params.mirror
+    listed, log = load_catalogue(Path(files.catalogue)), Path(snakemake.log[0])
     records = (
         (record.id, accelerogram)
-        for record in load_catalogue(Path(files.catalogue))
+        for record in numbered(listed, [record.id for record in listed], log)
         for accelerogram in open_record(record, mirror=mirror)
     )
     folder = Path(snakemake.output[0]).parent
     report = write_fidelity(records, load_structures(Path(files.structures)), folder)
-    Path(snakemake.log[0]).write_text("\n".join(map(str, report)) + "\n", encoding="utf-8")
+    with log.open("a", encoding="utf-8") as stream:
+        print(*report, sep="\n", file=stream)

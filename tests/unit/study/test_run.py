@@ -132,8 +132,8 @@ def test_the_log_has_a_line_for_each_record(tmp_path: Path) -> None:
     records = [_record(tmp_path, "good"), _record(tmp_path, "bad", b"no record")]
     assess_records(records, _study(), tmp_path / "out", tmp_path / "log")
     good, bad = (tmp_path / "log").read_text().splitlines()
-    assert good == "good: assessed"
-    assert bad.startswith("bad: ") and "bad.AT2" in bad
+    assert good == "good: overturns: block"
+    assert bad.startswith("bad: failed: ") and "bad.AT2" in bad
 
 
 def test_two_assessments_of_the_same_record_are_equal_byte_for_byte(tmp_path: Path) -> None:

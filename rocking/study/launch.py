@@ -1,0 +1,176 @@
+"""rocking run: snakemake in a process of its own, its log in a file, and on the terminal what one wants to know."""
+
+import contextlib
+import re
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+import yaml
+
+from rocking.errors import ConfigurationError
+from rocking.quantities import counted
+from rocking.study.config_file import named_files
+from rocking.study.outcome import came_of, closing_lines, paths_to_read
+from rocking.study.plan import Plan, make_plan
+from rocking.study.progress import NewLines, Progress, finished_rule, fitting, planned_jobs
+from rocking.study.workspace import workflow_folder
+
+_CORES = re.compile(r"(--cores|--jobs)(=.*)?|-[cj]\d*|-[cj]all")
+_ANSWERS = {
+    *(
+        "-n",
+        "--dry-run",
+        "--dryrun",
+        "-h",
+        "--help",
+        "-v",
+        "--version",
+        "-l",
+        "--list",
+        "--list-rules",
+        "--lint",
+    ),
+    *(
+        "--dag",
+        "--rulegraph",
+        "--filegraph",
+        "--d3dag",
+        "-S",
+        "--summary",
+        "-D",
+        "--detailed-summary",
+        "--report",
+    ),
+    *(
+        "--unlock",
+        "-t",
+        "--touch",
+        "--archive",
+        "--delete-all-output",
+        "--list-changes",
+        "--print-compilation",
+    ),
+}
+"""Options with which snakemake answers a question instead of running the study: its answer is shown as it is."""
+_POLL = 0.1
+"""s between two looks at the logs."""
+
+
+def run(folder: Path, options: Sequence[str]) -> int:
+    """Run the workflow on the study in `folder`, with further options for snakemake, and return the exit status.
+
+    The status is 0, or 1 when a record or a job failed. Raises ConfigurationError, before snakemake starts, when the
+    folder holds no study or the study has defects.
+    """
+    plan = _planned(folder)
+    command = _command(folder, options)
+    if _ANSWERS & {option.partition("=")[0] for option in options}:
+        return subprocess.run(command, check=False).returncode
+    target = next((option for option in options[:1] if not option.startswith("-")), None)
+    return _watched(folder, plan, command, target)
+
+
+def _planned(folder: Path) -> Plan:
+    config = folder / "config.yaml"
+    if not config.is_file():
+        raise ConfigurationError(
+            f"{folder} holds no config.yaml; start a study there first: rocking start {folder}"
+        )
+    settings = _read(config)
+    catalogue = folder / named_files(settings).catalogue
+    if not catalogue.is_file():
+        raise ConfigurationError(
+            f"{catalogue}: there is no catalogue yet; put records beside it, then: rocking catalogue {catalogue.parent}"
+        )
+    with contextlib.chdir(folder):
+        return make_plan(settings)
+
+
+def _read(config: Path) -> dict[str, object]:
+    try:
+        settings = yaml.safe_load(config.read_text(encoding="utf-8")) or {}
+        if not isinstance(settings, dict):
+            raise TypeError(f"it holds a {type(settings).__name__}")
+    except (yaml.YAMLError, UnicodeDecodeError, TypeError) as error:
+        reason = " ".join(str(error).split())
+        raise ConfigurationError(
+            f"{config}: this is no YAML mapping of settings ({reason}); mend it."
+        ) from None
+    return settings
+
+
+def _command(folder: Path, options: Sequence[str]) -> list[str]:
+    home = workflow_folder()
+    cores = [] if any(_CORES.fullmatch(option) for option in options) else ["--cores", "all"]
+    return [
+        *(sys.executable, "-P", "-m", "snakemake", "--snakefile", str(home / "Snakefile")),
+        *("--workflow-profile", str(home / "workflow" / "profiles" / "default")),
+        *("--directory", str(folder), "--configfile", str(folder.resolve() / "config.yaml")),
+        *cores,
+        *options,
+    ]
+
+
+def _watched(folder: Path, plan: Plan, command: Sequence[str], target: str | None) -> int:
+    results = folder / plan.settings.results
+    log = results / "summary" / "logs" / "run.log"
+    log.parent.mkdir(parents=True, exist_ok=True)
+    print(f"{counted(len(plan.records), 'record')}; log of the scheduler: {log}", flush=True)
+    progress = Progress(_records_by_rule(plan), max(map(len, plan.records)))
+    jobs = NewLines(log.parent, "[!r]*.log", "r[!u]*.log")
+    with log.open("w", encoding="utf-8") as stream:
+        process = subprocess.Popen(command, stdout=stream, stderr=subprocess.STDOUT)
+    try:
+        _follow(process, log, jobs, progress)
+    except KeyboardInterrupt:
+        process.wait()
+        progress.close()
+        print("Stopped; what was finished stays. To go on: " + _again(folder))
+        return 130
+    progress.close()
+    if process.returncode:
+        print(f"Not finished: {_reason(log)}\nMend that, then go on: {_again(folder)}")
+        return 1
+    if target is not None:
+        print(f"Finished: {target}; what it wrote lies in {results}")
+        return 0
+    cases, failures = came_of(results / "summary")
+    print(*map(fitting, closing_lines(cases, failures)), *paths_to_read(results), sep="\n", flush=True)
+    return int(bool(failures))
+
+
+def _again(folder: Path) -> str:
+    return f"rocking run {folder}"
+
+
+def _records_by_rule(plan: Plan) -> dict[str, int]:
+    return {f"{kind}_{job}": len(plan.jobs[job]) for job in plan.jobs for kind in ("assess", "report")}
+
+
+def _follow(process: subprocess.Popen[bytes], log: Path, jobs: NewLines, progress: Progress) -> None:
+    scheduler, known = NewLines(log.parent, log.name), False
+    ended = False
+    while not ended:
+        ended = process.poll() is not None  # before the logs are read, so that their last lines are
+        for job, line in jobs:
+            progress.told(job, line)
+        for _, line in scheduler:
+            if rule := finished_rule(line):
+                progress.finished(rule)
+        if not known and (planned := planned_jobs(log.read_text(encoding="utf-8", errors="replace"))):
+            progress.plan(planned)
+            known = True
+        if not ended:
+            time.sleep(_POLL)
+
+
+def _reason(log: Path) -> str:
+    """The sentences of this package, else the last line, in the log of a run that broke off."""
+    lines = [line.strip() for line in log.read_text(encoding="utf-8", errors="replace").splitlines()]
+    said = [line.partition(": ")[2] for line in lines if re.match(r"(rocking\.errors\.)?\w+Error: ", line)]
+    return "; ".join(dict.fromkeys(said)) or next(
+        (line for line in reversed(lines) if line), "no reason given"
+    )

@@ -1,0 +1,72 @@
+"""What a person is told of records: each case in the right group, worst component and fragility included."""
+
+import math
+from pathlib import Path
+
+from rocking.assessment.rows import ComparisonRow, FailureRow
+from rocking.study.outcome import closing_lines, paths_to_read, record_line
+
+
+def _case(record: str, structure: str, ratio: float, fragile: bool = False) -> ComparisonRow:
+    known = {
+        "record": record,
+        "structure": structure,
+        "integrated_rotation_ratio": ratio,
+        "answer_rotation_ratio": ratio,
+        "fragile": fragile,
+    }
+    return ComparisonRow(**dict.fromkeys(ComparisonRow.table.column_names) | known)
+
+
+def _failure(record: str, structure: str, message: str) -> FailureRow:
+    return FailureRow(record=record, component="", structure=structure, stage="", message=message)
+
+
+def test_the_worst_component_counts() -> None:
+    cases = [
+        *(_case("a", "pier", 0.5), _case("a", "pier", math.inf, True)),
+        *(_case("a", "wall", 0.25), _case("a", "wall", 0.0005), _case("a", "arch", 0.0)),
+    ]
+    assert record_line(cases, []) == "overturns: pier (fragile); rocks: wall 0.25; rests: arch"
+
+
+def test_a_failure_stands_first_without_repeating_the_record() -> None:
+    failures = [_failure("a", "wall", "it cannot stand."), _failure("a", "", "a: it cannot be read.")]
+    line = record_line([_case("a", "pier", 0.5)], failures)
+    assert line == "failed: wall: it cannot stand. it cannot be read.; rocks: pier 0.5"
+
+
+def test_the_table_at_the_end_names_records_and_marks_what_is_fragile() -> None:
+    cases = [
+        *(_case("a", "pier", math.inf, True), _case("b", "pier", math.inf)),
+        *(_case("a", "wall", math.inf), _case("b", "wall", 0.1), _case("b", "arch", 0.1)),
+    ]
+    assert closing_lines(cases, [_failure("c", "", "not read.")]) == [
+        "Overturns under how many of 2 records (? where a small change flips it):",
+        "  pier    2  a?, b",
+        "  wall    1  a",
+        "1 record failed, wholly or in part: c",
+    ]
+
+
+def test_nothing_overturns() -> None:
+    assert closing_lines([_case("a", "pier", 0.1)], []) == ["Nothing overturns under 1 record."]
+
+
+def test_of_many_structures_those_that_overturn_most_are_listed() -> None:
+    cases = [_case(f"r{j}", f"s{i}", math.inf) for i in range(9) for j in range(i + 1)]
+    lines = closing_lines(cases, [])
+    assert len(lines) == 1 + 6 + 1 and lines[-1] == "  and 3 more structures, in comparison.csv"
+    assert [line.split()[0] for line in lines[1:-1]] == ["s8", "s7", "s6", "s5", "s4", "s3"]
+
+
+def test_the_paths_are_those_that_exist(tmp_path: Path) -> None:
+    summary = tmp_path / "summary"
+    summary.mkdir()
+    assert list(paths_to_read(tmp_path)) == [f"Summary: {summary}"]
+    for name in ("summary.pdf", "explore.html"):
+        (summary / name).touch()
+    assert list(paths_to_read(tmp_path)) == [
+        f"Page to explore: {summary / 'explore.html'}",
+        f"Summary: {summary / 'summary.pdf'}",
+    ]

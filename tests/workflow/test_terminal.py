@@ -1,0 +1,95 @@
+"""rocking run as a person meets it: what it prints, how it ends, and where the rest is."""
+
+import fcntl
+import os
+import pty
+import struct
+import subprocess
+import sys
+import termios
+from pathlib import Path
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def after_a_run(finished, tmp_path_factory: pytest.TempPathFactory):
+    """A copy of the finished study with a broken record more, and what rocking run printed into a pipe."""
+    study = finished.copy_to(tmp_path_factory.mktemp("terminal") / "study")
+    study.add("broken", b"no record")
+    return study, study.rocking("run", str(study.folder))
+
+
+def test_each_record_that_was_computed_has_a_line(after_a_run) -> None:
+    _, done = after_a_run
+    lines = [line for line in done.stdout.splitlines() if line.startswith(("broken", "good_"))]
+    assert [line.split()[0] for line in lines] == ["broken"], "the others were there already"
+    assert "failed: " in lines[0] and "no reader recognises" in lines[0]
+
+
+def test_a_record_that_failed_ends_in_status_1_after_the_table_of_what_overturns(after_a_run) -> None:
+    study, done = after_a_run
+    assert done.returncode == 1
+    text = done.stdout
+    assert "of 3 records" in text and "1 record failed, wholly or in part: broken" in text
+    assert f"Summary: {study.results / 'summary'}" in text
+    assert not done.stderr and "\r" not in text and "jobid" not in text
+    assert len(text.splitlines()) < 24
+
+
+def test_the_log_of_the_scheduler_is_named_and_holds_what_is_not_shown(after_a_run) -> None:
+    study, done = after_a_run
+    log = study.results / "summary" / "logs" / "run.log"
+    assert str(log) in done.stdout
+    assert "Finished jobid" in log.read_text()
+
+
+def test_a_study_without_a_failure_ends_in_status_0_and_says_each_verdict(start, tmp_path: Path) -> None:
+    study = start.copy_to(tmp_path / "study")
+    done = study.rocking("run", str(study.folder))
+    assert done.returncode == 0, done.stdout + done.stderr
+    records = [line for line in done.stdout.splitlines() if line.startswith("good_")]
+    assert len(records) == 3
+    for line in records:
+        assert "block" in line and "wall" in line
+        assert any(word in line for word in ("overturns: ", "rocks: ", "rests: "))
+
+
+def test_a_wrong_setting_ends_in_status_2_before_anything_runs(start, tmp_path: Path) -> None:
+    study = start.copy_to(tmp_path / "study")
+    with (study.folder / "config.yaml").open("a") as stream:
+        stream.write("tolerance: 7\n")
+    done = study.rocking("run", str(study.folder))
+    assert done.returncode == 2
+    assert done.stderr == "rocking: setting tolerance is 7, but must be a number from 1e-13 to 0.1.\n"
+    assert not study.results.exists()
+
+
+def test_on_a_terminal_a_bar_stands_below_lines_that_fit(finished, tmp_path: Path) -> None:
+    study = finished.copy_to(tmp_path / "study")
+    study.add("broken_record_with_a_name_that_is_long_enough_to_fill_the_line", b"no record")
+    ours, theirs = pty.openpty()
+    command = [sys.executable, "-m", "rocking.study.cli", "run", str(study.folder)]
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 60, 0, 0))
+    process = subprocess.Popen(command, stdout=theirs, stderr=theirs, **study.surroundings)
+    os.close(theirs)
+    shown = b""
+    try:
+        while piece := os.read(ours, 65536):
+            shown += piece
+    except OSError:  # how Linux says that the other end was closed
+        pass
+    assert process.wait() == 1
+    text = shown.decode()
+    assert " %|" in text and " of " in text, "the bar"
+    cut = [line for line in text.splitlines() if line.endswith("…")]
+    assert cut and all(len(line.rpartition("\r")[2]) <= 60 for line in cut)
+
+
+@pytest.mark.slow
+def test_a_long_target_shows_how_far_it_is(finished, tmp_path: Path) -> None:
+    study = finished.copy_to(tmp_path / "study")
+    done = study.rocking("run", str(study.folder), "trade", "--", "--config", "trade={cases: 2, budget_s: 1}")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "trade: 1 of 2: good_" in done.stdout and "trade: 2 of 2: good_" in done.stdout
+    assert "Finished: trade" in done.stdout
