@@ -83,7 +83,7 @@ def _as_said(text: str) -> object:
     if re.fullmatch(r"[+-]?\d+[eE][+-]?\d+", text):
         return float(text)
     try:
-        return yaml.safe_load(text)
+        return yaml.safe_load(text) if text.strip() else text  # nothing is no null
     except yaml.YAMLError:
         return text
 
