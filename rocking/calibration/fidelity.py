@@ -100,7 +100,7 @@ def choose_limits(chosen_on: Sequence[Trial], tolerance: float, risk: float) -> 
     reaches = [(0.0, 0.0), *itertools.product(_ROTATION_RATIOS, _SENSITIVITIES)]
     for error, (ratio, sensitivity) in itertools.product(errors, reaches):
         tried = replace(best, known_error=error, rotation_ratio=ratio, sensitivity=sensitivity)
-        answered = sum(trial.level(tried) is Method.BLOCK_ON_RECORD for trial in lifted)
+        answered = sum(trial.method(tried) is Method.BLOCK_ON_RECORD for trial in lifted)
         if answered > most and _mostly_right(lifted, tried) and _seldom_unsafe(lifted, tried):
             best, most = tried, answered
     return _with_evidence(best, chosen_on)
@@ -108,17 +108,19 @@ def choose_limits(chosen_on: Sequence[Trial], tolerance: float, risk: float) -> 
 
 def held_out(half: str, trials_of_half: Sequence[Trial], limits: Limits) -> HeldOut:
     """Count what `limits` do on one half of the sites."""
-    levels = [trial.level(limits) for trial in trials_of_half]
-    pairs = list(zip(trials_of_half, levels, strict=True))
+    methods = [trial.method(limits) for trial in trials_of_half]
+    pairs = list(zip(trials_of_half, methods, strict=True))
     right, unsafe, verdicts = _answers(pairs, limits.tolerance)
-    cheap = [level in CHEAP for level in levels]
-    at_rest, closed_form, block, mechanism = (_mean([level is each for level in levels]) for each in LADDER)
+    cheap = [method in CHEAP for method in methods]
+    at_rest, closed_form, block, mechanism = (
+        _mean([method is each for method in methods]) for each in LADDER
+    )
     return HeldOut(
         half=half,
         tolerance=limits.tolerance,
         risk=limits.risk,
         sites=len({trial.site for trial in trials_of_half}),
-        trials=len(levels),
+        trials=len(methods),
         at_rest=at_rest,
         closed_form=closed_form,
         block=block,
@@ -162,8 +164,8 @@ def _saved(found: Sequence[Trial], limits: Limits, full: bool) -> float:
 def _answers(pairs: Iterable[tuple[Trial, Method]], tolerance: float) -> tuple[list, list, list]:
     """Whether each answer is right, is unsafe, and misses overturning or uplift."""
     right, unsafe, verdicts = [], [], []
-    for trial, level in pairs:
-        answer, truth = trial.rotation_ratio(level), trial.mechanism_ratio
+    for trial, method in pairs:
+        answer, truth = trial.rotation_ratio(method), trial.mechanism_ratio
         right.append(is_right(answer, truth, tolerance))
         unsafe.append(is_unsafe(answer, truth, tolerance))
         verdicts.append(verdict(answer, truth) is Verdict.UNSAFE)
@@ -171,15 +173,17 @@ def _answers(pairs: Iterable[tuple[Trial, Method]], tolerance: float) -> tuple[l
 
 
 def _mostly_right(lifted: Sequence[Trial], limits: Limits) -> bool:
-    found = [(trial, level) for trial in lifted if (level := trial.level(limits)) in CHEAP]
-    wrong = [not is_right(t.rotation_ratio(level), t.mechanism_ratio, limits.tolerance) for t, level in found]
+    found = [(trial, method) for trial in lifted if (method := trial.method(limits)) in CHEAP]
+    wrong = [
+        not is_right(t.rotation_ratio(method), t.mechanism_ratio, limits.tolerance) for t, method in found
+    ]
     return _share_without_one_site([trial for trial, _ in found], wrong) <= 1 - RIGHT
 
 
 def _seldom_unsafe(lifted: Sequence[Trial], limits: Limits) -> bool:
     """Of the block's rotations alone, so that overturnings, which cannot be unsafe, do not hide them."""
     rocking = [
-        t for t in lifted if not math.isinf(t.block_ratio) and t.level(limits) is Method.BLOCK_ON_RECORD
+        t for t in lifted if not math.isinf(t.block_ratio) and t.method(limits) is Method.BLOCK_ON_RECORD
     ]
     unsafe = [is_unsafe(t.block_ratio, t.mechanism_ratio, limits.tolerance) for t in rocking]
     return not rocking or _share_without_one_site(rocking, unsafe, more=1) <= limits.risk

@@ -52,7 +52,7 @@ class Trial:
     mechanism_s: float
     mechanism_full_s: float
 
-    def level(self, limits: Limits) -> Method:
+    def method(self, limits: Limits) -> Method:
         """What answers under `limits`."""
         if self.at_rest:
             return Method.NOTHING_TO_INTEGRATE
@@ -64,28 +64,28 @@ class Trial:
             return Method.BLOCK_ON_RECORD
         return Method.MECHANISM_ON_RECORD
 
-    def rotation_ratio(self, level: Method) -> float:
+    def rotation_ratio(self, method: Method) -> float:
         """The answer of one method."""
         answers = {
             Method.NOTHING_TO_INTEGRATE: 0.0,
             Method.CLOSED_FORM: math.inf,
             Method.BLOCK_ON_RECORD: self.block_ratio,
         }
-        return answers.get(level, self.mechanism_ratio)
+        return answers.get(method, self.mechanism_ratio)
 
     def duration(self, limits: Limits, full: bool) -> float:
         """What the answer took [s], the methods that were tried before it included.
 
         full: with its sensitivity and fragility where the mechanism answers.
         """
-        level = self.level(limits)
-        if level is Method.NOTHING_TO_INTEGRATE:
+        method = self.method(limits)
+        if method is Method.NOTHING_TO_INTEGRATE:
             return 0.0
-        tried = level is not Method.CLOSED_FORM and self.known_error <= limits.known_error
+        tried = method is not Method.CLOSED_FORM and self.known_error <= limits.known_error
         nudged = tried and 0 < self.block_ratio <= limits.rotation_ratio
         whole = self.mechanism_full_s if full else self.mechanism_s
         block = tried * self.block_s + nudged * self.block_full_s
-        return self.closed_form_s + block + (level is Method.MECHANISM_ON_RECORD) * whole
+        return self.closed_form_s + block + (method is Method.MECHANISM_ON_RECORD) * whole
 
 
 def trials(

@@ -120,7 +120,7 @@ def test_known_error_foretells_the_error_of_a_small_rotation():
 
 
 @pytest.mark.parametrize(
-    "closed_form, level",
+    "closed_form, method",
     [
         ((Light.GREEN, FALLS), Method.CLOSED_FORM),
         ((Light.AMBER, FALLS), Method.CLOSED_FORM),
@@ -130,10 +130,10 @@ def test_known_error_foretells_the_error_of_a_small_rotation():
         (None, Method.BLOCK_ON_RECORD),
     ],
 )
-def test_the_closed_form_answers_overturning_with_a_margin_alone(closed_form, level):
+def test_the_closed_form_answers_overturning_with_a_margin_alone(closed_form, method):
     found = answer(closed_form=closed_form)
-    assert found.method is level
-    if level is Method.CLOSED_FORM:
+    assert found.method is method
+    if method is Method.CLOSED_FORM:
         assert (found.rotation_ratio, found.response) == (math.inf, None)
 
 
@@ -345,7 +345,7 @@ def test_a_study_follows_the_rule_that_was_calibrated(components):
     name, accelerogram = components[0]
     blocks = grid_of_blocks()
     limits = limits_for(0.1, 0.01)
-    expected = [t.level(limits) for t in trials(name, accelerogram, blocks) if t.scale_factor == 1]
+    expected = [t.method(limits) for t in trials(name, accelerogram, blocks) if t.scale_factor == 1]
     settings = AssessmentSettings(fidelity="auto", bootstrap_replicates=0)
     assert [case.answer.method for case in assess(accelerogram, blocks, settings).cases] == expected
     assert len(set(expected)) > 1
