@@ -60,3 +60,16 @@ def bodies_of(bars: Bars, motion: Motion) -> Bodies:
 def cross(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     """Return the cross product of plane vectors given as complex numbers."""
     return one.real * other.imag - one.imag * other.real
+
+
+def carried(
+    bars: Bars, motion: Motion, bar: int, start: complex
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return how far a point fixed to a bar has moved from `start`, where it is at rest, and its two derivatives."""
+    arm = (start - bars.centroids[bar]) * np.exp(1j * motion.angles[bar])
+    spin = motion.spins[bar]
+    return (
+        motion.centroids[bar] + arm - start,
+        motion.velocities[bar] + 1j * spin * arm,
+        motion.accelerations[bar] + (1j * motion.spin_slopes[bar] - spin**2) * arm,
+    )

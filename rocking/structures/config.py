@@ -6,7 +6,7 @@ from difflib import get_close_matches
 from rocking.errors import ConfigurationError
 from rocking.structures.fields import Form, article
 from rocking.structures.registry import TYPES
-from rocking.structures.structure import Structure
+from rocking.structures.structure import Structure, typed_text
 
 
 def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str] | None = None) -> Structure:
@@ -31,7 +31,7 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
     form = _form(kind, given)
     arguments = {form.keys[key].parameter: form.keys[key].inward(value) for key, value in given.items()}
     structure = (getattr(TYPES[kind], form.make) if form.make else TYPES[kind])(**arguments)
-    structure.typed(given, {key: str(value) for key, value in given.items()} | dict(texts or {}))
+    structure.typed(given, {key: typed_text(value) for key, value in given.items()} | dict(texts or {}))
     return structure
 
 

@@ -1,6 +1,7 @@
 """Pieces of a drawing: points turned, and dimension lines."""
 
 from dataclasses import dataclass, field
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,6 +19,19 @@ class Dimension:
     text: str
     line: np.ndarray = field(repr=False)
     feet: np.ndarray = field(repr=False)
+
+
+@dataclass(frozen=True, eq=False)
+class Mark:
+    """What acts on a structure, as a drawing shows it, in m.
+
+    kind: "load" or "thrust", an arrow along `line`, or "tie", a line to its anchorage. text: its value with unit.
+    line: (2, 2), its second point is where it acts.
+    """
+
+    kind: Literal["load", "thrust", "tie"]
+    text: str
+    line: np.ndarray = field(repr=False)
 
 
 Path = tuple[np.ndarray, np.ndarray]

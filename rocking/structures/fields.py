@@ -3,8 +3,9 @@
 A structure's file lists its forms; the loader, the JSON schema and the documentation follow from them.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -12,8 +13,15 @@ import numpy as np
 from rocking.errors import ConfigurationError, StructureError
 from rocking.quantities import LENGTHS, finite
 
-_INWARD: dict[str, Callable[[Any], Any]] = {"°": np.radians}
-_OUTWARD: dict[str, Callable[[Any], Any]] = {"°": np.degrees}
+_KILO = ("kN", "kN/m", "kN/m²", "kN/m³")
+_INWARD: dict[str, Callable[[Any], Any]] = {
+    "°": np.radians,
+    **dict.fromkeys(_KILO, lambda value: 1e3 * value),
+}
+_OUTWARD: dict[str, Callable[[Any], Any]] = {
+    "°": np.degrees,
+    **dict.fromkeys(_KILO, lambda value: value / 1e3),
+}
 """From the unit of the file to SI and back; units that are not here are SI."""
 
 PHRASE = "{name} {value}"
@@ -25,7 +33,7 @@ class Field:
 
     key: as in the file, ending in its unit. parameter: of the constructor, and the attribute that gives the value back
     in SI. meaning: for the documentation. example: a value for a structure that stands. unit: of the file; lengths m,
-    angles °. usual: plausible range in that unit; beyond it a remark, not a refusal. letter: in drawings.
+    angles °, forces kN. usual: plausible range in that unit; beyond it a remark, not a refusal. letter: in drawings.
     phrase: how the description says it, of {name} and {value}, which has its unit.
     schema: the JSON schema of the value. required: whether the form needs it.
     """
@@ -42,15 +50,24 @@ class Field:
     required: bool = True
 
     def inward(self, value: object) -> object:
-        """Return a value of the file as the constructor takes it: angles in radians, the rest as it is."""
+        """Return a value of the file as the constructor takes it: in SI and radians, a list as a tuple."""
         if self.schema.get("type") == "boolean" and not isinstance(value, bool):
             raise ConfigurationError(f"{self.key} is {value!r}, but must be true or false.")
+        if self.schema.get("type") != "array":
+            return self._converted(value)
+        if not isinstance(value, list | tuple):
+            raise ConfigurationError(f"{self.key} is {value!r}, but must be a list of numbers.")
+        return tuple(self._converted(each) for each in value)
+
+    def _converted(self, value: object) -> object:
         if self.unit not in _INWARD:
             return value
-        return _INWARD[self.unit](finite(StructureError, self.key, value, self.unit))  # type: ignore[arg-type]
+        return float(_INWARD[self.unit](finite(StructureError, self.key, value, self.unit)))  # type: ignore[arg-type]
 
-    def outward(self, value: object) -> object:
+    def outward(self, value: Any) -> object:
         """Return an attribute in SI as a file gives it."""
+        if isinstance(value, tuple):
+            return [self.outward(each) for each in value]
         return float(_OUTWARD[self.unit](value)) if self.unit in _OUTWARD else value
 
     def said(self, text: str) -> str:
@@ -64,13 +81,15 @@ class Field:
 
     def remark(self, kind: str, value: object) -> str:
         """Return the sentence on a value (of the file) beyond the plausible range, or nothing."""
-        if self.usual is None or not isinstance(value, int | float):
+        if self.usual is None:
             return ""
         low, high = self.usual
-        if low <= value <= high:
+        values = value if isinstance(value, list | tuple) else [value]
+        beyond = [each for each in values if isinstance(each, int | float) and not low <= each <= high]
+        if not beyond:
             return ""
         return (
-            f"{self.key} is {value:.6g}{self.suffix}, but is usually between {low:g} and {high:g}{self.suffix} for "
+            f"{self.key} is {beyond[0]:.6g}{self.suffix}, but is usually between {low:g} and {high:g}{self.suffix} for "
             f"{article(kind)}; check the unit."
         )
 
@@ -134,6 +153,37 @@ def count_field(
     return Field(key, key, meaning, example, schema, usual=bounds, phrase="{value} {name}", required=required)
 
 
+def number_field(
+    key: str,
+    parameter: str,
+    meaning: str,
+    unit: str,
+    example: object,
+    usual: tuple[float, float],
+    letter: str = "",
+    bounds: Mapping[str, float] = MappingProxyType({"minimum": 0}),
+    *,
+    required: bool = False,
+    phrase: str = PHRASE,
+) -> Field:
+    """Return the field of a number, or of a list of them where `example` is one; bounds: of the JSON schema."""
+    schema: dict[str, object] = {"type": "number", **bounds}
+    if isinstance(example, list):
+        schema = {"type": "array", "minItems": 1, "items": schema}
+    return Field(key, parameter, meaning, example, schema, unit, usual, letter, phrase, required)
+
+
+def choice_field(key: str, meaning: str, choices: Iterable[str], phrase: str = PHRASE) -> Field:
+    """Return the optional field of one word out of `choices`, the first of them the default."""
+    allowed = list(choices)
+    return Field(key, key, meaning, allowed[0], {"enum": allowed}, phrase=phrase, required=False)
+
+
+def flag_field(key: str, meaning: str, phrase: str, example: bool = False) -> Field:
+    """Return the optional field of a yes or no."""
+    return Field(key, key, meaning, example, {"type": "boolean"}, phrase=phrase, required=False)
+
+
 def restitution_field(*balances: str, required: bool = False) -> Field:
     """Return the field of a restitution: a number, or the name of one of `balances`."""
     number: dict[str, object] = {"type": "number", "minimum": 0, "maximum": 1}
@@ -146,14 +196,8 @@ def restitution_field(*balances: str, required: bool = False) -> Field:
     )
 
 
-ONE_SIDED = Field(
-    "one_sided",
-    "one_sided",
-    "Rocks away from what it leans on only; needs a restitution number",
-    False,
-    {"type": "boolean"},
-    phrase="one-sided",
-    required=False,
+ONE_SIDED = flag_field(
+    "one_sided", "Rocks away from what it leans on only; needs a restitution number", "one-sided"
 )
 """Whether a structure leans on something."""
 

@@ -11,7 +11,7 @@ from rocking.structures.bars import Bodies
 from rocking.structures.block import Block
 from rocking.structures.contacts import Contacts, MotionState, UnknownContacts
 from rocking.structures.drawing import Path, rectangle, span, turned
-from rocking.structures.fields import Field, Form, count_field, length_field, restitution_field
+from rocking.structures.fields import Form, count_field, length_field, number_field, restitution_field
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import (
     Restitution,
@@ -45,14 +45,15 @@ class Frame(Structure):
                 ),
                 length_field("column_height_m", "column_height", "Height of a column", 8.0, (0.5, 60), "h"),
                 count_field("columns", "How many columns", 4, (2, _MOST_COLUMNS)),
-                Field(
+                number_field(
                     "beam_mass_ratio",
                     "beam_mass_ratio",
                     "Mass of the beam over that of all columns",
+                    "",
                     0.3,
-                    {"type": "number", "minimum": 0},
-                    usual=(0, 20),
-                    letter="γ",
+                    (0, 20),
+                    "γ",
+                    required=True,
                 ),
                 restitution_field("momentum"),
             ),

@@ -123,11 +123,13 @@ class Mechanism:
     negative: the other side; None when it mirrors the positive one.
     one_sided: the structure leans on something (a façade against side walls) and rocks to the positive side only;
     an impact then throws it back to the same side.
+    elastic: G holds forces of springs, which do not grow and fall with g + ü_v.
     """
 
     positive: Side
     negative: Side | None = None
     one_sided: bool = False
+    elastic: bool = False
 
     def __post_init__(self) -> None:
         if self.one_sided and self.negative is not None:

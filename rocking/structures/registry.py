@@ -11,6 +11,8 @@ _CLASSES = (
     "rocking.structures.frame.Frame",
     "rocking.structures.spire.Spire",
     "rocking.structures.rigid_body.RigidBody",
+    "rocking.structures.facade.Facade",
+    "rocking.structures.loaded_wall.LoadedWall",
 )
 
 

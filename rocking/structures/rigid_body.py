@@ -9,7 +9,7 @@ from rocking.quantities import LENGTHS, length, squared_length
 from rocking.structures.bars import Bodies, body_about
 from rocking.structures.contacts import Contacts, MotionState, corner
 from rocking.structures.drawing import Path, span, turned
-from rocking.structures.fields import ONE_SIDED, Field, Form, length_field, restitution_field
+from rocking.structures.fields import ONE_SIDED, Form, length_field, number_field, restitution_field
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import (
     Restitution,
@@ -44,14 +44,15 @@ class RigidBody(Structure):
                 length_field(
                     "centre_height_m", "centre_height", "Height of the centre of mass", 2.0, (0.05, 50), "z"
                 ),
-                Field(
+                number_field(
                     "inertia_m2",
                     "inertia",
                     "Inertia about the centre of mass per mass",
-                    1.5,
-                    {"type": "number", "minimum": LENGTHS[0] ** 2, "maximum": LENGTHS[1] ** 2},
                     "m²",
+                    1.5,
                     (1e-4, 1e3),
+                    bounds={"minimum": LENGTHS[0] ** 2, "maximum": LENGTHS[1] ** 2},
+                    required=True,
                 ),
                 restitution_field("momentum", "housner"),
                 ONE_SIDED,

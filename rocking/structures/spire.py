@@ -12,7 +12,14 @@ from rocking.quantities import finite, length
 from rocking.structures.bars import Bodies, body_about
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Path, span, turned
-from rocking.structures.fields import ONE_SIDED, Field, Form, length_field, restitution_field
+from rocking.structures.fields import (
+    ONE_SIDED,
+    Form,
+    choice_field,
+    length_field,
+    number_field,
+    restitution_field,
+)
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import Restitution, check_restitution
 from rocking.structures.rigid_body import RigidBody
@@ -49,25 +56,15 @@ class Spire(Structure):
                     "t",
                     required=False,
                 ),
-                Field(
-                    "plan",
-                    "plan",
-                    "Shape of a horizontal section",
-                    "circular",
-                    {"enum": [*_SPREAD]},
-                    phrase="{value} plan",
-                    required=False,
-                ),
-                Field(
+                choice_field("plan", "Shape of a horizontal section", _SPREAD, "{value} plan"),
+                number_field(
                     "crack_height_m",
                     "crack_height",
                     "Height of the crack above the base",
-                    5.0,
-                    {"type": "number", "minimum": 0},
                     "m",
+                    5.0,
                     (0, 95),
                     "z",
-                    required=False,
                 ),
                 restitution_field("momentum", "housner"),
                 ONE_SIDED,

@@ -1,7 +1,7 @@
 """What every structure offers: mechanism, bodies, drawing, contacts, candidates, and how a file describes it."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -12,12 +12,14 @@ from rocking.errors import StructureError
 from rocking.quantities import within
 from rocking.structures.bars import Bodies
 from rocking.structures.contacts import Contacts, MotionState
-from rocking.structures.drawing import Dimension, Path
+from rocking.structures.drawing import Dimension, Mark, Path
 from rocking.structures.fields import Field, Form
 from rocking.structures.mechanism import Mechanism
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+_SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 HIGHEST_SHARE = 0.95
 """Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
@@ -27,12 +29,14 @@ class Structure(ABC):
     """A geometry that reduces to a Mechanism. Subclasses are frozen dataclasses checked at birth.
 
     type_name: the `type` in a file. forms: the ways to describe it there, the first one that of a structure made
-    otherwise. moved: what its candidates move ("hinge height"); "" when it has none.
+    otherwise. moved: what its candidates move ("hinge height"); "" when it has none. draws_both_sides: whether its own
+    drawing takes a negative rotation, instead of being mirrored.
     """
 
     type_name: ClassVar[str] = ""
     forms: ClassVar[tuple[Form, ...]] = ()
     moved: ClassVar[str] = ""
+    draws_both_sides: ClassVar[bool] = False
 
     def mechanism(self) -> Mechanism:
         """Return the structure in standard form; the same object at every call."""
@@ -69,12 +73,29 @@ class Structure(ABC):
         """Return the contact forces in a state on its side; raises UnknownContacts, which says why, without them."""
 
     def dimensions(self) -> tuple[Dimension, ...]:
-        """Return the dimension lines of the sizes it was described by, at rest."""
-        paths = self._dimensions()
-        drawn = [each for each in self.form.fields if each.parameter in paths and each.key in self._values]
-        return tuple(
-            Dimension(each.letter, self._text(each) + each.suffix, *paths[each.parameter]) for each in drawn
-        )
+        """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
+        drawn, paths = [], self._dimensions()
+        for each in self._described():
+            shown = paths.get(each.parameter, ())
+            texts = self._text(each).split(", ")
+            if isinstance(shown, list):
+                for number, (text, path) in enumerate(zip(texts, shown, strict=True), start=1):
+                    letter = each.letter + str(number).translate(_SUBSCRIPTS)
+                    drawn.append(Dimension(letter, text + each.suffix, *path))
+            elif shown:
+                drawn.append(Dimension(each.letter, texts[0] + each.suffix, *shown))
+        return tuple(drawn)
+
+    def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
+        """Return the loads, thrusts and ties on it at a signed `rotation` [rad]."""
+        return ()
+
+    def held_work(self, rotation: float | np.ndarray) -> np.ndarray:
+        """Return the work done since rest, at `rotation` ≥ 0 on the positive side, against what is no moving mass.
+
+        Over g, in the factor of mass of `bodies`: constant loads, thrusts and ties.
+        """
+        return np.zeros(np.shape(rotation))
 
     def candidate_positions(self, count: int) -> np.ndarray:
         """Return `count` positions [m] over which `candidates` may be spread; (0,) when nothing can be moved."""
@@ -133,10 +154,11 @@ class Structure(ABC):
         if given is not None:
             return {key: value for key, (value, _) in given.items()}
         values = [(each, getattr(self, each.parameter)) for each in self.form.fields]
+        defaults = {each.name: each.default for each in fields(self)}  # type: ignore[arg-type]
         return {
             each.key: each.outward(value)
             for each, value in values
-            if each.required or (value is not None and value is not False)
+            if each.required or (value is not None and value != defaults.get(each.parameter))
         }
 
     def _described(self) -> list[Field]:
@@ -147,15 +169,14 @@ class Structure(ABC):
         given = self.__dict__.get("_typed", {})
         if each.key in given:
             return given[each.key][1]
-        value = self._values[each.key]
-        return f"{value:.6g}" if isinstance(value, float) else str(value)
+        return typed_text(self._values[each.key], "{:.6g}")
 
     def _on_side(self, rotation: float, drawing: str) -> Any:
         """The drawing of the positive side, or the mirror image of the mirrored structure's for a negative rotation."""
         sides = self.mechanism().sides
         lowest = 0.0 if self.mechanism().one_sided else -sides[-1].end_rotation
         rotation = within(StructureError, "rotation", rotation, lowest, sides[0].end_rotation, "rad")
-        if rotation >= 0:
+        if rotation >= 0 or self.draws_both_sides:
             return getattr(self, drawing)(rotation)
         drawn = getattr(self._mirrored(), drawing)(-rotation)
         mirror = np.array([-1.0, 1.0])
@@ -176,6 +197,13 @@ class Structure(ABC):
     def _hinges(self, rotation: float) -> np.ndarray:
         """The contacts at a rotation ≥ 0 on the positive side."""
 
-    def _dimensions(self) -> dict[str, Path]:
-        """The dimension of each parameter that a drawing can show."""
+    def _dimensions(self) -> Mapping[str, Path | list[Path]]:
+        """The dimension of each parameter that a drawing can show, or of each value of a list."""
         return {}
+
+
+def typed_text(value: object, number: str = "{}") -> str:
+    """Return a value as it would be typed, a float by the format `number`: "6", "momentum", "3.5, 3.2"."""
+    if isinstance(value, list | tuple):
+        return ", ".join(typed_text(each, number) for each in value)
+    return number.format(value) if isinstance(value, float) else str(value)

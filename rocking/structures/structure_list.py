@@ -72,8 +72,15 @@ def _entries(path: Path) -> list[tuple[object, dict[str, str]]]:
 
 
 def _texts(node: yaml.Node) -> dict[str, str]:
+    """The scalars and the lists of scalars of a mapping, as they were typed."""
     pairs = node.value if isinstance(node, yaml.MappingNode) else ()
-    return {key.value: value.value for key, value in pairs if isinstance(value, yaml.ScalarNode)}
+    texts = {key.value: value.value for key, value in pairs if isinstance(value, yaml.ScalarNode)}
+    for key, value in pairs:
+        if isinstance(value, yaml.SequenceNode):
+            texts[key.value] = ", ".join(
+                each.value for each in value.value if isinstance(each, yaml.ScalarNode)
+            )
+    return texts
 
 
 class _StrictLoader(yaml.SafeLoader):

@@ -12,7 +12,7 @@ from rocking.quantities import finite, length
 from rocking.structures.bars import Bodies, bodies_of, cross
 from rocking.structures.contacts import Contacts, MotionState, dalembert, resolved
 from rocking.structures.drawing import Path, rectangle, span, turned
-from rocking.structures.fields import Form, length_field, restitution_field
+from rocking.structures.fields import ONE_SIDED, Form, length_field, restitution_field
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import (
     Restitution,
@@ -22,6 +22,9 @@ from rocking.structures.restitution import (
 )
 from rocking.structures.structure import HIGHEST_SHARE, Structure
 from rocking.structures.wall_linkage import WallLinkage
+
+Applied = tuple[int, np.ndarray, np.ndarray]
+"""A force on a block (0 lower, 1 upper): where it acts and what it is, (k,) complex each."""
 
 _THICKNESS = length_field("thickness_m", "thickness", "Thickness", 0.25, (0.05, 5), "t")
 
@@ -33,7 +36,8 @@ class Wall(Structure):
     lower_height, upper_height: h₁ below and h₂ above the hinge, m. thickness: 2b, m. The rotation φ is the
     lower block's. restitution: η in [0, 1] or "momentum" (the default): the impulses at the hinges of the
     mirrored mechanism do no work on it. For equal blocks that is (1 − 4.5 sin²α)/(1 + 3 sin²α), which
-    reaches 0 at sin²α = 2/9; squatter walls get 0 and a StructureWarning.
+    reaches 0 at sin²α = 2/9; squatter walls get 0 and a StructureWarning. one_sided: it leans on cross walls and bends
+    outwards only, thrown back at every impact; it needs a number.
     Raises StructureError when it cannot stand.
     """
 
@@ -54,6 +58,7 @@ class Wall(Structure):
                 ),
                 _THICKNESS,
                 restitution_field("momentum"),
+                ONE_SIDED,
             ),
             make="hinged_at",
         ),
@@ -68,6 +73,7 @@ class Wall(Structure):
                 ),
                 _THICKNESS,
                 restitution_field("momentum"),
+                ONE_SIDED,
             ),
         ),
     )
@@ -76,15 +82,21 @@ class Wall(Structure):
     upper_height: float
     thickness: float
     restitution: Restitution = None
+    one_sided: bool = False
 
     def __post_init__(self) -> None:
         for name in ("lower_height", "upper_height", "thickness"):
             object.__setattr__(self, name, length(name, getattr(self, name)))
-        check_restitution(self.restitution, ("momentum",))
+        check_restitution(self.restitution, ("momentum",), self.one_sided)
 
     @classmethod
     def hinged_at(
-        cls, height: float, hinge_height: float, thickness: float, restitution: Restitution = None
+        cls,
+        height: float,
+        hinge_height: float,
+        thickness: float,
+        restitution: Restitution = None,
+        one_sided: bool = False,
     ) -> "Wall":
         """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
         height = length("height", height)
@@ -94,7 +106,7 @@ class Wall(Structure):
                 f"hinge_height is {hinge!r} m, but must lie inside the wall, "
                 f"between 0 and its height of {height!r} m."
             )
-        return cls(hinge, height - hinge, thickness, restitution)
+        return cls(hinge, height - hinge, thickness, restitution, one_sided)
 
     @property
     def height(self) -> float:
@@ -120,7 +132,8 @@ class Wall(Structure):
                 restitution=resolve_restitution(
                     self.restitution, "momentum", {"momentum": self._momentum_balance}
                 ),
-            )
+            ),
+            one_sided=self.one_sided,
         )
 
     @cached_property
@@ -129,22 +142,37 @@ class Wall(Structure):
         return WallLinkage(self.lower_height, self.upper_height, self.thickness)
 
     def _momentum_balance(self) -> float:
-        """Velocities (vx, vy, clockwise ω) at φ = 0; the mirrored mechanism continues the same turn."""
+        return momentum_balance(*self.impact())
+
+    def impact(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Return what `momentum_balance` takes: the mirrored mechanism continues the same turn.
+
+        Velocities (vx, vy, clockwise ω) at φ = 0.
+        """
         h1, h2, t = self.lower_height, self.upper_height, self.thickness
         ratio = h1 / h2
         lower = [h1 / 2, t / 2, 1.0]
         upper = [h1 / 2, t + ratio * t / 2, -ratio]
         inertias = [h1 * (h1**2 + t**2) / 12, h2 * (h2**2 + t**2) / 12]
         before = np.array([lower, upper])
-        return momentum_balance([h1, h2], inertias, before, before * [1.0, -1.0, 1.0])
+        return np.array([h1, h2]), np.array(inertias), before, before * [1.0, -1.0, 1.0]
 
     def bodies(self, rotation: float | np.ndarray) -> Bodies:
         return bodies_of(self.linkage.bars, self.linkage.motion(rotation))
 
     def contacts(self, state: MotionState) -> Contacts:
-        """The top support carries no vertical force: the thrust at the hinge follows from the upper block alone."""
+        return self.contacts_under(state, ())
+
+    def contacts_under(self, state: MotionState, loads: Iterable[Applied]) -> Contacts:
+        """Return the contact forces with more forces on the blocks, per mass of the wall.
+
+        The top support carries no vertical force: the thrust at the hinge follows from the upper block alone.
+        """
         motion = self.linkage.motion(state.rotation)
         forces, couples = dalembert(self.linkage.bars, motion, state, state.pull)
+        for body, point, force in loads:
+            forces[body] += force
+            couples[body] += cross(point - motion.centroids[body], force)
         _, hinge, top = motion.hinges
         turning = cross(motion.centroids[1] - top, forces[1]) + couples[1]
         arm = hinge - top
@@ -162,7 +190,7 @@ class Wall(Structure):
     def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
         """Return this wall hinged at each of `positions` [m] above the base instead, by height."""
         return {
-            float(hinge): Wall.hinged_at(self.height, hinge, self.thickness, restitution=self.restitution)
+            float(hinge): Wall.hinged_at(self.height, hinge, self.thickness, self.restitution, self.one_sided)
             for hinge in positions
         }
 

@@ -43,10 +43,11 @@ def varied(draw, kind, form):
     for field in form.fields:
         if not field.required and draw(st.booleans()):
             continue
+        factor = draw(st.floats(0.8, 1.1) if "restitution" in field.key else st.floats(0.8, 1.25))
         value = field.example
-        if isinstance(value, float):
-            value *= draw(st.floats(0.8, 1.25)) if field.key != "restitution" else draw(st.floats(0.8, 1.1))
-        mapping[field.key] = value
+        if isinstance(value, list):
+            value = [factor * each for each in value]
+        mapping[field.key] = factor * value if isinstance(value, float) else value
     try:
         structure = structure_from_config(mapping)
         structure.mechanism()
@@ -89,7 +90,7 @@ def test_the_standard_form_is_that_of_its_moving_masses(structure):
     spin = differentiated(lambda phi: structure.bodies(phi).turns, at, step)
     expected = {
         "inertia": masses @ np.abs(velocity) ** 2 + inertias @ spin**2,
-        "gravity": masses @ velocity.imag,
+        "gravity": masses @ velocity.imag + differentiated(structure.held_work, at, step),
         "ground": masses @ velocity.real,
     }
     factor = expected["inertia"] / side.inertia(at)
@@ -110,7 +111,7 @@ def test_slopes_are_derivatives_and_the_potential_is_the_height_of_the_masses(st
         scale = np.abs(slope).max() + np.abs(getattr(side, name)(at)).max()
         np.testing.assert_allclose(getattr(side, f"{name}_slope")(at), slope, rtol=0, atol=1e-9 * scale)
     masses, _, centres, _ = structure.bodies(np.append(0.0, at))
-    risen = masses @ (centres.imag - centres.imag[:, :1])
+    risen = masses @ (centres.imag - centres.imag[:, :1]) + structure.held_work(np.append(0.0, at))
     nodes, weights = np.polynomial.legendre.leggauss(40)
     work = at / 2 * (side.gravity(at[:, None] / 2 * (nodes + 1)) @ weights)
     np.testing.assert_allclose(risen[1:] / work, risen[-1] / work[-1], rtol=1e-9)
@@ -167,7 +168,8 @@ def test_a_description_says_every_value_with_its_unit_and_comes_back(structure):
     for field in structure.form.fields:
         value = mapping.get(field.key)
         if value is not None and not isinstance(value, bool):
-            assert f"{value}{field.suffix}" in structure.description
+            said = ", ".join(map(str, value)) if isinstance(value, list) else value
+            assert f"{said}{field.suffix}" in structure.description
     assert structure.size and "=" not in structure.description
 
 
@@ -193,7 +195,7 @@ def test_a_structure_travels_to_another_process(structure):
 def test_a_repr_is_for_a_person(structure):
     for text in (repr(structure), repr(structure.mechanism())):
         assert "lambda" not in text and "array" not in text and "function" not in text
-        assert len(text) < 300
+        assert len(text) < 500
 
 
 @registered

@@ -1,0 +1,183 @@
+"""What hangs on a structure besides its own mass: weights, thrusts and ties at points that move with it.
+
+A constant force and an elastic tie have a potential, so they add to G(φ); a mass that moves along adds to I and B. All
+forces are in the unit of the structure's weights (kN per metre of wall, say), which cancels. Points are complex, m.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from rocking.errors import StructureError
+from rocking.structures.mechanism import Function
+
+
+class PointMotion(NamedTuple):
+    """A point at rotations of any shape: how far it moved from rest, and the derivatives with φ; complex, m."""
+
+    moved: np.ndarray
+    velocity: np.ndarray
+    acceleration: np.ndarray
+
+
+Path = Callable[[np.ndarray], PointMotion]
+"""Where a point goes with the rotation φ ≥ 0 [rad] of one side."""
+
+
+@dataclass(frozen=True)
+class Weight:
+    """A constant vertical force `weight` (downwards) that follows its point; it scales with g + ü_v."""
+
+    weight: float
+
+    def work(self, point: PointMotion) -> np.ndarray:
+        """What was done against it since rest."""
+        return self.weight * point.moved.imag
+
+    def force(self, point: PointMotion) -> np.ndarray:
+        """Derivative of `work` with φ."""
+        return self.weight * point.velocity.imag
+
+    def slope(self, point: PointMotion) -> np.ndarray:
+        """Second derivative of `work` with φ."""
+        return self.weight * point.acceleration.imag
+
+
+@dataclass(frozen=True)
+class Thrust:
+    """A horizontal force `thrust` on its point, towards the side of rocking if positive; it scales with g + ü_v."""
+
+    thrust: float
+
+    def work(self, point: PointMotion) -> np.ndarray:
+        """What was done against it since rest."""
+        return -self.thrust * point.moved.real
+
+    def force(self, point: PointMotion) -> np.ndarray:
+        """Derivative of `work` with φ."""
+        return -self.thrust * point.velocity.real
+
+    def slope(self, point: PointMotion) -> np.ndarray:
+        """Second derivative of `work` with φ."""
+        return -self.thrust * point.acceleration.real
+
+
+@dataclass(frozen=True)
+class Tie:
+    """An elastic tie that stays horizontal (long beside the displacement): force `pretension` + `stiffness` · u.
+
+    u ≥ 0 is how far its point moved towards the side of rocking. A side on which it would slacken has no tie.
+    """
+
+    stiffness: float
+    pretension: float = 0.0
+
+    def tension(self, point: PointMotion) -> np.ndarray:
+        """The force of the tie."""
+        return self.pretension + self.stiffness * point.moved.real
+
+    def work(self, point: PointMotion) -> np.ndarray:
+        """What was done against it since rest."""
+        stretch = point.moved.real
+        return self.pretension * stretch + self.stiffness * stretch**2 / 2
+
+    def force(self, point: PointMotion) -> np.ndarray:
+        """Derivative of `work` with φ."""
+        return self.tension(point) * point.velocity.real
+
+    def slope(self, point: PointMotion) -> np.ndarray:
+        """Second derivative of `work` with φ."""
+        return self.tension(point) * point.acceleration.real + self.stiffness * point.velocity.real**2
+
+
+@dataclass(frozen=True)
+class Attached:
+    """A force and a path, and the weight of the mass that moves along the path (0 for none).
+
+    sideways: whether that mass also moves horizontally; False where something else holds it in that direction.
+    """
+
+    path: Path
+    force: Weight | Thrust | Tie | None = None
+    mass: float = 0.0
+    sideways: bool = True
+
+    def kinetic(self, rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """What its mass adds to I, I', B and G."""
+        _, velocity, acceleration = self.path(rotation)
+        if not self.sideways:
+            velocity, acceleration = 1j * velocity.imag, 1j * acceleration.imag
+        return (
+            self.mass * np.abs(velocity) ** 2,
+            2 * self.mass * (velocity.conjugate() * acceleration).real,
+            self.mass * velocity.real,
+            self.mass * velocity.imag,
+        )
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LoadedForm:
+    """I, I', G, G' and B of bare functions and what is attached, as methods; in the unit of the bare ones' weight.
+
+    bare: I, I', G, G', B in weights, m. divisor: common factor that all five are divided by.
+    """
+
+    bare: tuple[Function, Function, Function, Function, Function]
+    attached: tuple[Attached, ...]
+    divisor: float
+
+    def inertia(self, rotation: np.ndarray) -> np.ndarray:
+        """I(φ)."""
+        masses = [each.kinetic(rotation)[0] for each in self.attached if each.mass]
+        return sum(masses, self.bare[0](rotation)) / self.divisor
+
+    def inertia_slope(self, rotation: np.ndarray) -> np.ndarray:
+        """I'(φ)."""
+        masses = [each.kinetic(rotation)[1] for each in self.attached if each.mass]
+        return sum(masses, self.bare[1](rotation)) / self.divisor
+
+    def gravity(self, rotation: np.ndarray) -> np.ndarray:
+        """G(φ)."""
+        masses = [each.kinetic(rotation)[3] for each in self.attached if each.mass]
+        forces = [each.force.force(each.path(rotation)) for each in self.attached if each.force]
+        return sum(masses + forces, self.bare[2](rotation)) / self.divisor
+
+    def gravity_slope(self, rotation: np.ndarray) -> np.ndarray:
+        """G'(φ)."""
+        masses = [each.mass * each.path(rotation).acceleration.imag for each in self.attached if each.mass]
+        forces = [each.force.slope(each.path(rotation)) for each in self.attached if each.force]
+        return sum(masses + forces, self.bare[3](rotation)) / self.divisor
+
+    def ground(self, rotation: np.ndarray) -> np.ndarray:
+        """B(φ)."""
+        masses = [each.kinetic(rotation)[2] for each in self.attached if each.mass]
+        return sum(masses, self.bare[4](rotation)) / self.divisor
+
+    def held_work(self, rotation: np.ndarray) -> np.ndarray:
+        """Return the work done since rest against all forces that are no moving mass, in weights, m."""
+        return sum(
+            (each.force.work(each.path(rotation)) for each in self.attached if each.force),
+            np.zeros(np.shape(rotation)),
+        )
+
+
+def critical_rotation(gravity: Function, end_rotation: float) -> float:
+    """Return where G first vanishes on (0, end_rotation), rad.
+
+    Raises StructureError when G does not restore at rest, or does not vanish.
+    """
+    from scipy.optimize import brentq  # slow to import, and needed by loaded structures only
+
+    places = np.linspace(0.0, end_rotation, 513)
+    falls = np.flatnonzero(gravity(places) <= 0)
+    if not falls.size:
+        raise StructureError(
+            f"the structure has no unstable equilibrium up to a rotation of {end_rotation:.6g} rad: "
+            "what holds it never lets go; make it weaker."
+        )
+    if falls[0] == 0:
+        raise StructureError("the structure does not stand: what acts on it at rest turns it over.")
+    before, after = places[falls[0] - 1], places[falls[0]]
+    return float(brentq(lambda phi: float(gravity(np.asarray(phi))), before, after, xtol=1e-16, rtol=1e-15))

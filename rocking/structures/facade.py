@@ -1,0 +1,308 @@
+"""The façade that leans out as one rigid body above a crack, with floors, ties and thrusts on it (theory: section 2).
+
+x = 0 is the outer face, x < 0 the building; the positive side rocks outwards about the outer toe of the crack.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from rocking.structures.attachments import Thrust, Tie, Weight
+from rocking.structures.bars import Bodies
+from rocking.structures.contacts import Contacts, MotionState
+from rocking.structures.drawing import Mark, Path, rectangle, span, turned
+from rocking.structures.facade_checks import checked_facade
+from rocking.structures.fields import ONE_SIDED, Form, flag_field, number_field, restitution_field
+from rocking.structures.load_fields import ECCENTRICITY, TOP_SLAB, UNIT_WEIGHT, tie_fields
+from rocking.structures.mechanism import Mechanism
+from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
+from rocking.structures.structure import Structure
+from rocking.structures.turning_body import Held, TurningBody
+
+Kind = Literal["load", "thrust", "tie"]
+_LENGTHS = {"exclusiveMinimum": 0, "maximum": 1000}
+
+
+@dataclass(frozen=True)
+class Facade(Structure):
+    """Storeys stacked as one rigid body, flush outside, that rocks above the crack at the foot of one storey.
+
+    storey_heights, thicknesses: of each storey from the ground up, m. unit_weight: of the masonry, N/m³. All forces
+    are per metre of façade. floor_loads: on top of each storey, N/m, or () for none; eccentricity: of their bearings
+    from the middle of the wall they rest on, inwards positive, m. loads_held: the rest of the building holds their
+    mass, so that only their weight acts. top_slab: the uppermost load rests on a "hinged" bearing, or is a slab that
+    stays "flat" and so rests on the corner that rises.
+    tie_heights: of elastic ties above the ground, m; tie_stiffness: of each, N/m per m; tie_pretension: N/m. A tie
+    pulls inwards only; one that is tightened needs a façade that cannot rock inwards. thrust: of a vault or a roof
+    outwards, N/m, at thrust_height above the ground, m; None is the top. crack_storey: 1 is the ground floor.
+    restitution: η in [0, 1] or "momentum" (the default), for both sides; inward_restitution: of the inward side
+    instead. one_sided: it leans on cross walls and rocks outwards only; restitution must then be a number.
+    Raises StructureError when it cannot stand.
+    """
+
+    type_name: ClassVar[str] = "facade"
+    moved: ClassVar[str] = "crack height"
+    draws_both_sides: ClassVar[bool] = True
+    forms: ClassVar[tuple[Form, ...]] = (
+        Form(
+            "Façade of one storey or several with floor loads, ties and thrust; forces per metre of façade",
+            (
+                number_field(
+                    "storey_heights_m",
+                    "storey_heights",
+                    "Height of each storey from the ground up",
+                    "m",
+                    [3.5, 3.0],
+                    (0.5, 30),
+                    "h",
+                    _LENGTHS,
+                    required=True,
+                ),
+                number_field(
+                    "thicknesses_m",
+                    "thicknesses",
+                    "Thickness of each storey, flush outside",
+                    "m",
+                    [0.6, 0.5],
+                    (0.1, 5),
+                    "t",
+                    _LENGTHS,
+                    required=True,
+                ),
+                UNIT_WEIGHT,
+                number_field(
+                    "floor_loads_kN_m",
+                    "floor_loads",
+                    "Load of the floor or roof on top of each storey",
+                    "kN/m",
+                    [12.0, 6.0],
+                    (0, 200),
+                    "N",
+                ),
+                ECCENTRICITY,
+                flag_field(
+                    "loads_held",
+                    "Whether the rest of the building holds the mass of the loads, so that only their weight acts",
+                    "loads held sideways",
+                ),
+                TOP_SLAB,
+                *tie_fields(3.4, 100.0),
+                number_field(
+                    "thrust_kN_m",
+                    "thrust",
+                    "Horizontal thrust of a vault or roof outwards",
+                    "kN/m",
+                    2.0,
+                    (0, 100),
+                    "H",
+                ),
+                number_field(
+                    "thrust_height_m",
+                    "thrust_height",
+                    "Height of the thrust above the ground",
+                    "m",
+                    6.0,
+                    (0, 60),
+                ),
+                number_field(
+                    "crack_storey",
+                    "crack_storey",
+                    "Storey at whose foot it cracks; 1 is the ground floor",
+                    "",
+                    1,
+                    (1, 12),
+                    bounds={"minimum": 1},
+                ),
+                restitution_field("momentum"),
+                number_field(
+                    "inward_restitution",
+                    "inward_restitution",
+                    "Restitution of the impact that ends rocking inwards, where it differs",
+                    "",
+                    0.8,
+                    (0.1, 1),
+                    bounds={"minimum": 0, "maximum": 1},
+                ),
+                ONE_SIDED,
+            ),
+        ),
+    )
+
+    storey_heights: tuple[float, ...]
+    thicknesses: tuple[float, ...]
+    unit_weight: float
+    floor_loads: tuple[float, ...] = ()
+    eccentricity: float = 0.0
+    loads_held: bool = False
+    top_slab: Literal["hinged", "flat"] = "hinged"
+    tie_heights: tuple[float, ...] = ()
+    tie_stiffness: float = 0.0
+    tie_pretension: float = 0.0
+    thrust: float = 0.0
+    thrust_height: float | None = None
+    crack_storey: int = 1
+    restitution: Restitution = None
+    inward_restitution: float | None = None
+    one_sided: bool = False
+
+    def __post_init__(self) -> None:
+        for name, value in checked_facade(self).items():
+            object.__setattr__(self, name, value)
+        self.mechanism()  # one that is pushed over at rest is refused at birth
+
+    @property
+    def height(self) -> float:
+        """Of all storeys, m."""
+        return float(sum(self.storey_heights))
+
+    @property
+    def crack_height(self) -> float:
+        """Of the crack above the ground, m."""
+        return float(sum(self.storey_heights[: self.crack_storey - 1]))
+
+    @cached_property
+    def levels(self) -> np.ndarray:
+        """The foot of each storey and the top, (n + 1,) m above the ground."""
+        return np.concatenate([[0.0], np.cumsum(self.storey_heights)])
+
+    @cached_property
+    def outward(self) -> TurningBody:
+        """The façade above the crack as it turns about its outer toe, which is the origin."""
+        return self._turning(mirrored=False)
+
+    @cached_property
+    def inward(self) -> TurningBody:
+        """The mirror image of the façade as it turns about its inner toe."""
+        return self._turning(mirrored=True)
+
+    def _turning(self, mirrored: bool) -> TurningBody:
+        toe = complex(-self.thicknesses[self.crack_storey - 1] if mirrored else 0.0, self.crack_height)
+
+        def seen(point: complex) -> complex:
+            return -(point - toe).conjugate() if mirrored else point - toe
+
+        storeys = slice(self.crack_storey - 1, None)
+        heights, thicknesses = np.array(self.storey_heights)[storeys], np.array(self.thicknesses)[storeys]
+        weights = self.unit_weight * heights * thicknesses
+        centres = [
+            seen(complex(-t / 2, z + h / 2))
+            for t, z, h in zip(thicknesses, self.levels[storeys], heights, strict=False)
+        ]
+        inertias = weights * (heights**2 + thicknesses**2) / 12
+        return TurningBody(weights, np.array(centres), inertias, tuple(self._held(seen, mirrored)))
+
+    def _held(self, seen, mirrored: bool) -> Iterable[Held]:  # type: ignore[no-untyped-def]
+        """What hangs on the part above the crack, at points seen from the toe."""
+        for point, load in self._bearings(mirrored):
+            yield Held(seen(point), Weight(load)) if self.loads_held else Held(seen(point), None, load)
+        if self.thrust and self._thrust_point.imag > self.crack_height:
+            yield Held(seen(self._thrust_point), Thrust(-self.thrust if mirrored else self.thrust))
+        for height in () if mirrored else self._tied:
+            yield Held(seen(1j * height), Tie(self.tie_stiffness, self.tie_pretension))
+
+    def _bearings(self, mirrored: bool) -> Iterable[tuple[complex, float]]:
+        """The points of the loads above the crack, and the loads."""
+        last = len(self.floor_loads) - 1
+        for storey, load in enumerate(self.floor_loads):
+            if storey < self.crack_storey - 1 or not load:
+                continue
+            across = -self.thicknesses[storey] / 2 - self.eccentricity
+            if storey == last and self.top_slab == "flat":
+                across = 0.0 if mirrored else -self.thicknesses[storey]
+            yield complex(across, self.levels[storey + 1]), load
+
+    @property
+    def _thrust_point(self) -> complex:
+        return 1j * (self.height if self.thrust_height is None else self.thrust_height)
+
+    @property
+    def _tied(self) -> tuple[float, ...]:
+        """Heights of the ties above the crack; those below hold what does not move."""
+        return tuple(height for height in self.tie_heights if height > self.crack_height)
+
+    def _build(self) -> Mechanism:
+        elastic = bool(self._tied and (self.tie_stiffness or self.tie_pretension))
+        outward = self.outward.side(self._restitution(self.outward, self.inward))
+        if self.one_sided:
+            return Mechanism(outward, one_sided=True, elastic=elastic)
+        inward = self.inward.side(self._restitution(self.inward, self.outward, self.inward_restitution))
+        return Mechanism(outward, inward, elastic=elastic)
+
+    def _restitution(self, body: TurningBody, other: TurningBody, own: float | None = None) -> float:
+        """η of the impact that ends turning about the toe of `body` and starts it about that of `other`."""
+        balances = {"momentum": lambda: momentum_balance(*body.impact_on(other))}
+        return resolve_restitution(self.restitution if own is None else own, "momentum", balances)
+
+    def bodies(self, rotation: float | np.ndarray) -> Bodies:
+        bodies = self.outward.bodies(rotation)
+        return bodies._replace(centres=bodies.centres + 1j * self.crack_height)
+
+    def held_work(self, rotation: float | np.ndarray) -> np.ndarray:
+        return self.outward.form.held_work(np.asarray(rotation, dtype=float))
+
+    def contacts(self, state: MotionState) -> Contacts:
+        out, back = self.outward.contacts(state), self.inward.contacts(state)
+        there = state.sign > 0
+        return Contacts(
+            out.names,
+            np.where(there, out.normal, back.normal),
+            np.where(there, out.tangential, back.tangential),
+        )
+
+    def candidate_positions(self, count: int) -> np.ndarray:
+        """The foot of every storey."""
+        return self.levels[:-1]
+
+    def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
+        """Return this façade cracked at the foot of the storeys at `positions` [m], by height."""
+        storeys = {float(z): int(np.argmin(np.abs(self.levels[:-1] - z))) + 1 for z in positions}
+        return {height: replace(self, crack_storey=storey) for height, storey in storeys.items()}
+
+    def _outline(self, rotation: float) -> list[np.ndarray]:
+        still = self.crack_storey - 1
+        storeys = [
+            rectangle(-t, 0.0, z, z + h)
+            for t, z, h in zip(self.thicknesses, self.levels, self.storey_heights, strict=False)
+        ]
+        toe = self._hinges(rotation)[0]
+        return storeys[:still] + [turned(each, toe, rotation) for each in storeys[still:]]
+
+    def _hinges(self, rotation: float) -> np.ndarray:
+        inner = -self.thicknesses[self.crack_storey - 1]
+        return np.array([[0.0 if rotation >= 0 else inner, self.crack_height]])
+
+    def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
+        toe, size, drawn = self._hinges(rotation)[0], 0.15 * self.height, []
+
+        def at(point: complex, kind: Kind, tail: tuple[float, float], text: str) -> None:
+            head = np.array([point.real, point.imag])
+            if point.imag > self.crack_height:
+                head = turned(head[None], toe, rotation)[0]
+            drawn.append(Mark(kind, text, np.array([head + tail, head])))
+
+        for point, load in self._bearings(rotation < 0):
+            at(point, "load", (0.0, size), f"{load / 1e3:.6g} kN/m")
+        if self.thrust:
+            at(self._thrust_point, "thrust", (-size, 0.0), f"{self.thrust / 1e3:.6g} kN/m")
+        for height in self.tie_heights:
+            at(
+                1j * height,
+                "tie",
+                (-max(self.thicknesses) - 2 * size, 0.0),
+                f"{self.tie_stiffness / 1e3:.6g} kN/m²",
+            )
+        return tuple(drawn)
+
+    def _dimensions(self) -> dict[str, Path | list[Path]]:
+        apart, levels = 0.12 * self.height, self.levels
+        return {
+            "storey_heights": [span([0.0, low], [0.0, high], [apart, 0.0]) for low, high in pairwise(levels)],
+            "thicknesses": [
+                span([-t, z], [0.0, z])
+                for t, z in zip(self.thicknesses, (levels[1:] + levels[:-1]) / 2, strict=False)
+            ],
+        }

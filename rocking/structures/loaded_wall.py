@@ -1,0 +1,327 @@
+"""The wall between two supports with a load on top of it and ties on its outer face (theory: section 4).
+
+x is measured from the middle of the wall, outwards (to the right) positive; the positive side bends outwards.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from rocking.errors import StructureError
+from rocking.quantities import GRAVITY, positive
+from rocking.structures.attachments import (
+    Attached,
+    LoadedForm,
+    PointMotion,
+    Tie,
+    Weight,
+    critical_rotation,
+)
+from rocking.structures.bars import Bodies, carried
+from rocking.structures.contacts import Contacts, MotionState
+from rocking.structures.drawing import Mark, Path
+from rocking.structures.fields import (
+    ONE_SIDED,
+    Form,
+    flag_field,
+    length_field,
+    number_field,
+    restitution_field,
+)
+from rocking.structures.load_fields import (
+    ECCENTRICITY,
+    TOP_SLAB,
+    UNIT_WEIGHT,
+    check_slab,
+    checked_eccentricity,
+    checked_ties,
+    not_negative,
+    tie_fields,
+)
+from rocking.structures.mechanism import Mechanism, Side
+from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
+from rocking.structures.structure import HIGHEST_SHARE, Structure
+from rocking.structures.wall import Applied, Wall
+from rocking.structures.wall_linkage import WallLinkage
+
+
+@dataclass(frozen=True)
+class OnBlock:
+    """The path of a point fixed to a block of a wall (0 lower, 1 upper); `start`: where it is at rest, complex, m."""
+
+    linkage: WallLinkage
+    block: int
+    start: complex
+
+    def __call__(self, rotation: np.ndarray) -> PointMotion:
+        """Return its motion at `rotation` [rad], any shape."""
+        return PointMotion(*carried(self.linkage.bars, self.linkage.motion(rotation), self.block, self.start))
+
+
+@dataclass(frozen=True)
+class LoadedWall(Structure):
+    """A wall cracked into two blocks between supports, as `Wall`, with what hangs on it; forces per metre of wall.
+
+    lower_height, upper_height, thickness: m. unit_weight: of the masonry, N/m³. top_load: of floor or walls above,
+    N/m, at `eccentricity` inwards from the middle, m, on a "hinged" bearing, or by a slab that stays "flat" and rests
+    on the edge in contact. load_held: only its weight acts; otherwise its mass moves up and down with the top.
+    tie_heights: of elastic ties above the base, m; tie_stiffness: of each, N/m per m; tie_pretension: N/m, for a
+    one-sided wall. one_sided: it leans on cross walls and bends outwards only.
+    restitution: η in [0, 1] or "momentum" (the default). Raises StructureError when it cannot stand.
+    """
+
+    type_name: ClassVar[str] = "loaded_wall"
+    moved: ClassVar[str] = "hinge height"
+    forms: ClassVar[tuple[Form, ...]] = (
+        Form(
+            "Wall between supports with a load on top and ties; forces per metre of wall",
+            (
+                length_field("height_m", "height", "Height between the supports", 3.2, (0.5, 60), "h"),
+                length_field(
+                    "hinge_height_m",
+                    "hinge_height",
+                    "Height of the hinge above the base",
+                    1.9,
+                    (0.2, 57),
+                    "h₁",
+                ),
+                length_field("thickness_m", "thickness", "Thickness", 0.25, (0.05, 5), "t"),
+                UNIT_WEIGHT,
+                number_field(
+                    "top_load_kN_m", "top_load", "Load on top of the wall", "kN/m", 10.0, (0, 500), "N"
+                ),
+                ECCENTRICITY,
+                TOP_SLAB,
+                flag_field(
+                    "load_held",
+                    "Whether only the weight of the load acts, not its mass",
+                    "load that does not move",
+                ),
+                *tie_fields(1.6, 50.0),
+                restitution_field("momentum"),
+                ONE_SIDED,
+            ),
+            make="hinged_at",
+        ),
+    )
+
+    lower_height: float
+    upper_height: float
+    thickness: float
+    unit_weight: float
+    top_load: float = 0.0
+    eccentricity: float = 0.0
+    top_slab: Literal["hinged", "flat"] = "hinged"
+    load_held: bool = False
+    tie_heights: tuple[float, ...] = ()
+    tie_stiffness: float = 0.0
+    tie_pretension: float = 0.0
+    restitution: Restitution = None
+    one_sided: bool = False
+
+    def __post_init__(self) -> None:
+        for name in ("lower_height", "upper_height", "thickness"):
+            object.__setattr__(self, name, getattr(self.wall, name))
+        checked = {
+            "unit_weight": positive(StructureError, "unit_weight", self.unit_weight, "N/m³"),
+            "top_load": not_negative("top_load", self.top_load, "N/m"),
+            "eccentricity": checked_eccentricity(self.eccentricity, self.thickness),
+            **checked_ties(
+                self.tie_heights, self.tie_stiffness, self.tie_pretension, self.height, self.one_sided
+            ),
+        }
+        check_slab(self.top_slab)
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+        self.mechanism()  # one that its load pushes over is refused at birth
+
+    @classmethod
+    def hinged_at(
+        cls,
+        height: float,
+        hinge_height: float,
+        thickness: float,
+        unit_weight: float,
+        **options: float | tuple[float, ...] | str | None,
+    ) -> "LoadedWall":
+        """Return the wall of that total height whose hinge lies at `hinge_height` [m]; options as for the class."""
+        wall = Wall.hinged_at(height, hinge_height, thickness, 0.5)
+        return cls(wall.lower_height, wall.upper_height, thickness, unit_weight, **options)  # type: ignore[arg-type]
+
+    @cached_property
+    def wall(self) -> Wall:
+        """The wall alone."""
+        return Wall(self.lower_height, self.upper_height, self.thickness, self.restitution, self.one_sided)
+
+    @property
+    def height(self) -> float:
+        """h₁ + h₂, m."""
+        return self.wall.height
+
+    @property
+    def hinge_height(self) -> float:
+        """h₁, m."""
+        return self.lower_height
+
+    @property
+    def weight(self) -> float:
+        """Of the masonry, N/m."""
+        return self.unit_weight * self.height * self.thickness
+
+    def _bearing(self, mirrored: bool) -> complex:
+        """Where the load rests, on the side seen."""
+        if self.top_slab == "flat":
+            return complex(self.thickness / 2, self.height)
+        return complex(self.eccentricity if mirrored else -self.eccentricity, self.height)
+
+    def attached(self, mirrored: bool = False) -> tuple[Attached, ...]:
+        """Return what hangs on the wall on one side, in units of its weight times R₁."""
+        linkage, unit = self.wall.linkage, self.weight * self.wall.linkage.lower_diagonal
+        found = []
+        if self.top_load:
+            path, load = OnBlock(linkage, 1, self._bearing(mirrored)), self.top_load / unit
+            held = (
+                Attached(path, Weight(load)) if self.load_held else Attached(path, None, load, sideways=False)
+            )
+            found.append(held)
+        if mirrored or not (self.tie_stiffness or self.tie_pretension):
+            return tuple(found)
+        tie = Tie(self.tie_stiffness / unit, self.tie_pretension / unit)
+        for height in self.tie_heights:
+            block = 0 if height <= self.lower_height else 1
+            found.append(Attached(OnBlock(linkage, block, complex(self.thickness / 2, height)), tie))
+        return tuple(found)
+
+    def _form(self, mirrored: bool) -> LoadedForm:
+        linkage = self.wall.linkage
+        bare = (
+            linkage.inertia,
+            linkage.inertia_slope,
+            linkage.gravity,
+            linkage.gravity_slope,
+            linkage.ground,
+        )
+        return LoadedForm(bare, self.attached(mirrored), 1.0)
+
+    def _side(self, mirrored: bool) -> Side:
+        form, end = self._form(mirrored), self.wall.linkage.end_rotation
+        balances = {"momentum": lambda: self._momentum_balance(mirrored)}
+        return Side(
+            inertia=form.inertia,
+            inertia_slope=form.inertia_slope,
+            gravity=form.gravity,
+            gravity_slope=form.gravity_slope,
+            ground=form.ground,
+            critical_rotation=critical_rotation(form.gravity, end),
+            end_rotation=end,
+            restitution=resolve_restitution(self.restitution, "momentum", balances),
+        )
+
+    def _build(self) -> Mechanism:
+        tied = bool(self.tie_heights) and bool(self.tie_stiffness or self.tie_pretension)
+        outward = self._side(mirrored=False)
+        if self.one_sided:
+            return Mechanism(outward, one_sided=True, elastic=tied)
+        if not tied and (self.eccentricity == 0 or self.top_slab == "flat" or not self.top_load):
+            return Mechanism(outward)
+        return Mechanism(outward, self._side(mirrored=True), elastic=tied)
+
+    def _momentum_balance(self, mirrored: bool) -> float:
+        """That of the wall with the load's mass, which moves up and down only."""
+        masses, inertias, before, after = self.wall.impact()
+        if self.top_load and not self.load_held:
+            rises = [
+                float(OnBlock(self.wall.linkage, 1, self._bearing(side))(np.asarray(0.0)).velocity.imag)
+                for side in (mirrored, not mirrored)
+            ]
+            masses = np.append(masses, self.top_load / (self.unit_weight * self.thickness))
+            inertias = np.append(inertias, 0.0)
+            before = np.vstack([before, [0.0, rises[0], 0.0]])
+            after = np.vstack([after, [0.0, -rises[1], 0.0]])
+        return momentum_balance(masses, inertias, before, after)
+
+    def bodies(self, rotation: float | np.ndarray) -> Bodies:
+        found = self.wall.bodies(rotation)
+        if not self.top_load or self.load_held:
+            return found
+        bearing = self._bearing(mirrored=False)
+        risen = OnBlock(self.wall.linkage, 1, bearing)(np.asarray(rotation, dtype=float)).moved.imag
+        return Bodies(
+            np.append(found.masses, self.top_load / self.weight),
+            np.append(found.inertias, 0.0),
+            np.concatenate([found.centres, (bearing + 1j * risen)[None]]),
+            np.concatenate([found.turns, 0 * risen[None]]),
+        )
+
+    def held_work(self, rotation: float | np.ndarray) -> np.ndarray:
+        work = self._form(mirrored=False).held_work(np.asarray(rotation, dtype=float))
+        return work * self.wall.linkage.lower_diagonal
+
+    def contacts(self, state: MotionState) -> Contacts:
+        out = self.wall.contacts_under(state, self._applied(state, mirrored=False))
+        back = self.wall.contacts_under(state, self._applied(state, mirrored=True))
+        there = state.sign > 0
+        return Contacts(
+            out.names,
+            np.where(there, out.normal, back.normal),
+            np.where(there, out.tangential, back.tangential),
+        )
+
+    def _applied(self, state: MotionState, mirrored: bool) -> Iterable[Applied]:
+        """What hangs on the wall as forces on its blocks, per mass of the wall."""
+        factor = self.wall.linkage.lower_diagonal
+        for each in self.attached(mirrored):
+            assert isinstance(each.path, OnBlock)
+            point = each.path(state.rotation)
+            if isinstance(each.force, Tie):
+                force = -each.force.tension(point) * GRAVITY + 0j
+            elif isinstance(each.force, Weight):
+                force = -1j * each.force.weight * state.pull.imag
+            else:
+                rise = point.velocity.imag * state.acceleration + point.acceleration.imag * state.velocity**2
+                force = -1j * each.mass * (rise + state.pull.imag)
+            yield each.path.block, each.path.start + point.moved, force * factor
+
+    def candidate_positions(self, count: int) -> np.ndarray:
+        """Hinge heights that stay a share of the height away from base and top."""
+        return self.height * np.linspace(1 - HIGHEST_SHARE, HIGHEST_SHARE, count)
+
+    def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
+        """Return this wall hinged at each of `positions` [m] above the base instead, by height."""
+        return {
+            float(z): replace(self, lower_height=float(z), upper_height=self.height - float(z))
+            for z in positions
+        }
+
+    def _outline(self, rotation: float) -> list[np.ndarray]:
+        return self.wall._outline(rotation)
+
+    def _hinges(self, rotation: float) -> np.ndarray:
+        return self.wall._hinges(rotation)
+
+    def _mirrored(self) -> "Structure":
+        return self.wall
+
+    def _dimensions(self) -> dict[str, Path]:
+        return self.wall._dimensions()
+
+    def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
+        size, flip = 0.15 * self.height, np.array([-1.0 if rotation < 0 else 1.0, 1.0])
+
+        def line(block: int, start: complex, tail: complex) -> np.ndarray:
+            point = start + OnBlock(self.wall.linkage, block, start)(np.asarray(abs(rotation))).moved
+            return np.array([[each.real, each.imag] for each in (point + tail, point)]) * flip
+
+        drawn = []
+        if self.top_load:
+            text = f"{self.top_load / 1e3:.6g} kN/m"
+            drawn.append(Mark("load", text, line(1, self._bearing(rotation < 0), 1j * size)))
+        for height in self.tie_heights if rotation >= 0 else ():
+            block = 0 if height <= self.lower_height else 1
+            tail = complex(-self.thickness - 2 * size, 0.0)
+            text = f"{self.tie_stiffness / 1e3:.6g} kN/m²"
+            drawn.append(Mark("tie", text, line(block, complex(self.thickness / 2, height), tail)))
+        return tuple(drawn)
