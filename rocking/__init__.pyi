@@ -28,7 +28,9 @@ from .sine_pulse import printed_maximum as printed_maximum
 from .structures import Arch as Arch
 from .structures import Block as Block
 from .structures import EquivalentBlock as EquivalentBlock
+from .structures import Facade as Facade
 from .structures import Frame as Frame
+from .structures import LoadedWall as LoadedWall
 from .structures import Mechanism as Mechanism
 from .structures import RigidBody as RigidBody
 from .structures import Side as Side

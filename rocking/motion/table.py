@@ -5,7 +5,7 @@ G̃ = G/√(I I(0)) and B̃ = B/√(I I(0)). For a rigid body I is constant and 
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from weakref import WeakKeyDictionary
 
@@ -88,9 +88,19 @@ class Table:
     """What the kernel takes of them."""
     restitution: tuple[float, float]
     """η of the positive and of the negative side."""
+    elastic: bool = False
+    """Whether G holds forces of springs, which do not grow and fall with g + ü_v."""
 
     def kernel_of(self, forcing: Forcing) -> Sides:
-        """What the kernel takes under `forcing`: its steps resolve a sine as well."""
+        """What the kernel takes under `forcing`: its steps resolve a sine as well.
+
+        Raises MotionError for springs under vertical motion: the kernel scales all of G with g + ü_v.
+        """
+        if self.elastic and forcing.vertical:
+            raise MotionError(
+                "vertical is given, but ties do not grow and fall with gravity, as the integration takes of all that "
+                "restores; leave the vertical component or the ties out."
+            )
         frequency = forcing.ground.circular_frequency
         if frequency == 0:
             return self.kernel
@@ -112,6 +122,7 @@ def table_of(mechanism: Mechanism) -> Table:
     found = _REMEMBERED.get(mechanism)
     if found is None:
         found = _stacked(tuple(_side_table(side) for side in mechanism.sides), mechanism.one_sided)
+        found = replace(found, elastic=mechanism.elastic)
         _REMEMBERED[mechanism] = found
     return found
 

@@ -3,7 +3,9 @@
 from rocking.structures.arch import Arch
 from rocking.structures.block import Block
 from rocking.structures.config import structure_from_config
+from rocking.structures.facade import Facade
 from rocking.structures.frame import Frame
+from rocking.structures.loaded_wall import LoadedWall
 from rocking.structures.mechanism import EquivalentBlock, Mechanism, Side
 from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
@@ -15,7 +17,9 @@ __all__ = [
     "Arch",
     "Block",
     "EquivalentBlock",
+    "Facade",
     "Frame",
+    "LoadedWall",
     "Mechanism",
     "RigidBody",
     "Side",

@@ -252,8 +252,8 @@ class LoadedWall(Structure):
         return Bodies(
             np.append(found.masses, self.top_load / self.weight),
             np.append(found.inertias, 0.0),
-            np.concatenate([found.centres, (bearing + 1j * risen)[None]]),
-            np.concatenate([found.turns, 0 * risen[None]]),
+            np.concatenate([found.centres, np.asarray(bearing + 1j * risen)[None]]),
+            np.concatenate([found.turns, 0 * np.asarray(risen)[None]]),
         )
 
     def held_work(self, rotation: float | np.ndarray) -> np.ndarray:

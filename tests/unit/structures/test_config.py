@@ -12,7 +12,9 @@ from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.structures import (
     Arch,
     Block,
+    Facade,
     Frame,
+    LoadedWall,
     RigidBody,
     Spire,
     Wall,
@@ -59,6 +61,30 @@ CASES = [
     (
         {"type": "rigid_body", "left_m": 0.4, "right_m": 0.6, "centre_height_m": 2, "inertia_m2": 1.5},
         RigidBody(0.4, 0.6, 2, 1.5),
+    ),
+    (
+        {
+            "type": "facade",
+            "storey_heights_m": [3.5, 3],
+            "thicknesses_m": [0.6, 0.5],
+            "unit_weight_kN_m3": 20,
+            "floor_loads_kN_m": [12, 6],
+            "tie_heights_m": [3.4],
+            "tie_stiffness_kN_m2": 100,
+        },
+        Facade((3.5, 3), (0.6, 0.5), 20e3, (12e3, 6e3), tie_heights=(3.4,), tie_stiffness=1e5),
+    ),
+    (
+        {
+            "type": "loaded_wall",
+            "height_m": 3,
+            "hinge_height_m": 2,
+            "thickness_m": 0.3,
+            "unit_weight_kN_m3": 18,
+            "top_load_kN_m": 10,
+            "load_held": True,
+        },
+        LoadedWall(2, 1, 0.3, 18e3, 10e3, load_held=True),
     ),
 ]
 

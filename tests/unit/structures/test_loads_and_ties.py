@@ -1,0 +1,291 @@
+"""Façades and walls with loads, thrusts and ties: an oracle in positions and energy, limits, energy, refusals."""
+
+import dataclasses
+import itertools
+
+import numpy as np
+import pytest
+from lagrangian import Lagrangian, turned
+from mpmath import findroot, mp, mpf
+
+from rocking.errors import MotionError, StructureError
+from rocking.motion import integrate
+from rocking.quantities import GRAVITY
+from rocking.records import Accelerogram
+from rocking.structures import Block, Facade, Frame, LoadedWall, Wall
+from rocking.structures.contact_forces import angular_acceleration, contact_forces
+
+FACADE = Facade(
+    (3.5, 3.0, 2.5),
+    (0.6, 0.5, 0.4),
+    20e3,
+    floor_loads=(12e3, 10e3, 5e3),
+    eccentricity=0.1,
+    tie_heights=(3.4, 6.4),
+    tie_stiffness=8e3,
+    thrust=1.5e3,
+    thrust_height=7.0,
+    crack_storey=2,
+)
+LOADED = LoadedWall(
+    2.0, 1.4, 0.3, 19e3, top_load=9e3, eccentricity=0.08, tie_heights=(1.5, 2.6), tie_stiffness=20e3
+)
+
+
+def facade_lagrangian(facade, sign):
+    """The façade in its own coordinates: outer face x = 0, the pivot of the side, rectangles and points."""
+    crack, heights, thicknesses = facade.crack_storey - 1, facade.storey_heights, facade.thicknesses
+    pivot = (mpf(0 if sign > 0 else -thicknesses[crack]), mpf(sum(heights[:crack])))
+    still = mpf(GRAVITY)
+
+    def where(phi, x, y):
+        return turned((mpf(x), mpf(y)), pivot, sign * phi)
+
+    def places(phi):
+        found, level = [], mpf(pivot[1])
+        for n in range(crack, len(heights)):
+            mass = facade.unit_weight * heights[n] * thicknesses[n] / still
+            inertia = mass * (mpf(heights[n]) ** 2 + mpf(thicknesses[n]) ** 2) / 12
+            found.append(
+                (mass, inertia, *where(phi, -thicknesses[n] / 2, level + heights[n] / 2), -sign * phi)
+            )
+            level += heights[n]
+            if not facade.loads_held:
+                found.append((facade.floor_loads[n] / still, mpf(0), *where(phi, *bearing(n, level)), mpf(0)))
+        return found
+
+    def bearing(n, level):
+        if facade.top_slab == "flat" and n == len(heights) - 1:
+            return (-thicknesses[n] if sign > 0 else 0.0), level
+        return -thicknesses[n] / 2 - facade.eccentricity, level
+
+    def stored(phi):
+        energy, level = mpf(0), mpf(pivot[1])
+        for n in range(crack, len(heights)):
+            level += heights[n]
+            if facade.loads_held:
+                energy += facade.floor_loads[n] * (where(phi, *bearing(n, level))[1] - level)
+        thrust = facade.height if facade.thrust_height is None else facade.thrust_height
+        if thrust > pivot[1]:
+            energy -= facade.thrust * where(phi, 0, thrust)[0]
+        for z in facade.tie_heights if sign > 0 else ():
+            if z > pivot[1]:
+                stretch = where(phi, 0, z)[0]
+                energy += facade.tie_pretension * stretch + facade.tie_stiffness * stretch**2 / 2
+        return energy
+
+    return Lagrangian(places, stored)
+
+
+def wall_lagrangian(wall, sign):
+    """Two rectangles pinned as the drawing says; the upper one's angle from its top corner staying on its line."""
+    h1, h2, t = mpf(wall.lower_height), mpf(wall.upper_height), mpf(wall.thickness)
+    base = (t / 2, mpf(0))
+
+    def upper(phi):
+        hinge = turned((-t / 2, h1), base, phi)
+        psi = findroot(lambda a: hinge[0] + t * mp.cos(a) - h2 * mp.sin(a) - t / 2, phi * h1 / h2, tol=1e-50)
+        return hinge, psi
+
+    def on_upper(phi, x, y):
+        hinge, psi = upper(phi)
+        dx, dy = mpf(x) + t / 2, mpf(y) - h1
+        return hinge[0] + mp.cos(psi) * dx - mp.sin(psi) * dy, hinge[1] + mp.sin(psi) * dx + mp.cos(psi) * dy
+
+    weight, still = mpf(wall.unit_weight) * t, mpf(GRAVITY)
+    bearing = t / 2 if wall.top_slab == "flat" else -sign * mpf(wall.eccentricity)
+
+    def places(phi):
+        m1, m2 = weight * h1 / still, weight * h2 / still
+        lower = turned((mpf(0), h1 / 2), base, phi)
+        found = [
+            (m1, m1 * (h1**2 + t**2) / 12, *lower, -phi),
+            (m2, m2 * (h2**2 + t**2) / 12, *on_upper(phi, 0, h1 + h2 / 2), upper(phi)[1]),
+        ]
+        if not wall.load_held:
+            found.append((wall.top_load / still, mpf(0), mpf(0), on_upper(phi, bearing, h1 + h2)[1], mpf(0)))
+        return found
+
+    def stored(phi):
+        energy = wall.top_load * on_upper(phi, bearing, h1 + h2)[1] if wall.load_held else mpf(0)
+        for z in wall.tie_heights if sign > 0 else ():
+            place = turned((t / 2, mpf(z)), base, phi) if z <= h1 else on_upper(phi, t / 2, z)
+            stretch = place[0] - t / 2
+            energy += wall.tie_pretension * stretch + wall.tie_stiffness * stretch**2 / 2
+        return energy
+
+    return Lagrangian(places, stored)
+
+
+CASES = {
+    "façade": (FACADE, facade_lagrangian),
+    "façade, loads held": (dataclasses.replace(FACADE, loads_held=True), facade_lagrangian),
+    "façade under a flat slab": (dataclasses.replace(FACADE, top_slab="flat"), facade_lagrangian),
+    "façade, tightened": (
+        dataclasses.replace(FACADE, one_sided=True, restitution=0.5, tie_pretension=2e3),
+        facade_lagrangian,
+    ),
+    "wall": (LOADED, wall_lagrangian),
+    "wall, load held": (dataclasses.replace(LOADED, load_held=True), wall_lagrangian),
+    "wall under a flat slab": (dataclasses.replace(LOADED, top_slab="flat"), wall_lagrangian),
+    "wall, tightened": (
+        dataclasses.replace(LOADED, one_sided=True, restitution=0.5, tie_pretension=1e3),
+        wall_lagrangian,
+    ),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_acceleration_is_that_of_positions_and_energy(case, sign):
+    structure, lagrangian = CASES[case]
+    mechanism = structure.mechanism()
+    if sign < 0 and mechanism.one_sided:
+        return
+    oracle = lagrangian(structure, sign)
+    side = mechanism.sides[0 if sign > 0 else -1]
+    for share, velocity, ground in ((0.05, 0.3, 1.7), (0.4, -0.8, -2.5), (0.9, 0.5, 0.6)):
+        rotation = share * min(side.critical_rotation, 0.4)
+        # the façade's own coordinates keep x; the wall's oracle is mirrored with the side
+        push = ground if lagrangian is facade_lagrangian else sign * ground
+        expected = sign * oracle.acceleration(rotation, velocity, push, GRAVITY)
+        found = angular_acceleration(mechanism, sign * rotation, sign * velocity, ground)
+        assert float(found) == pytest.approx(expected, rel=1e-9)
+
+
+def test_without_loads_a_facade_is_a_block_and_a_loaded_wall_a_wall():
+    """To 1e-12, at zero and in the limit of vanishing loads and stiffness."""
+    block, wall = Block.of_size(0.6, 6.0).mechanism(), Wall(2.0, 1.4, 0.3).mechanism()
+    free = (
+        Facade((6.0,), (0.6,), 20e3),
+        Facade((6.0,), (0.6,), 20e3, (1e-11,), tie_heights=(5.0,), tie_stiffness=1e-11),
+    )
+    walls = (
+        LoadedWall(2.0, 1.4, 0.3, 19e3),
+        LoadedWall(2.0, 1.4, 0.3, 19e3, 1e-11, tie_heights=(1.0,), tie_stiffness=1e-11),
+    )
+    for found, expected in [(f.mechanism(), block) for f in free] + [(w.mechanism(), wall) for w in walls]:
+        at = np.linspace(0, 1, 7) * expected.critical_rotation
+        for side in found.sides:
+            for name in ("inertia", "inertia_slope", "gravity", "gravity_slope", "ground"):
+                values, bare = getattr(side, name)(at), getattr(expected.positive, name)(at)
+                np.testing.assert_allclose(values, bare, rtol=0, atol=1e-12 * max(1, np.abs(bare).max()))
+            assert side.critical_rotation == pytest.approx(expected.critical_rotation, rel=1e-12)
+            assert side.restitution == pytest.approx(expected.restitution, rel=1e-12)
+
+
+def test_under_a_flat_slab_a_facade_is_a_column_of_a_frame():
+    column = Block.of_size(0.6, 6.0)
+    frame = Frame(column, 2, 0.4).mechanism()
+    facade = Facade((6.0,), (0.6,), 20e3, floor_loads=(0.4 * 20e3 * 3.6,), top_slab="flat").mechanism()
+    for side in facade.sides:
+        for name in ("uplift_multiplier", "critical_rotation", "frequency_parameter", "restitution"):
+            assert getattr(side, name) == pytest.approx(getattr(frame.positive, name), rel=1e-12)
+
+
+def test_a_stiffer_tie_lets_through_less_and_in_the_limit_nothing():
+    """λ does not feel the stiffness; the largest rotation falls to nothing, at last as 1/√k."""
+    times = np.arange(1200) * 0.01
+    record = Accelerogram(3.0 * np.sin(2 * np.pi * times / 1.2) * np.exp(-((times - 5) ** 2) / 8), 0.01)
+    found = []
+    for stiffness in (1e4, 1e6, 1e8, 1e10, 1e12):
+        tied = Facade(
+            (6.0,), (0.6,), 20e3, tie_heights=(5.0,), tie_stiffness=stiffness, one_sided=True, restitution=0.5
+        )
+        assert tied.mechanism().uplift_multiplier == pytest.approx(0.1, rel=1e-12)
+        found.append(integrate(tied, record).rotation_ratio * tied.mechanism().critical_rotation)
+    assert all(later < 0.5 * earlier for earlier, later in itertools.pairwise(found))
+    assert found[-1] < 1e-4
+    tightened = Facade(
+        (6.0,), (0.6,), 20e3, tie_heights=(5.0,), tie_pretension=1e5, one_sided=True, restitution=0.5
+    )
+    assert integrate(tightened, record).rotation_ratio == 0
+
+
+@pytest.mark.parametrize("case", ["façade", "wall", "façade, tightened"])
+def test_energy_with_the_work_of_ties_is_kept_over_a_hundred_cycles(case):
+    """η = 1 and still ground: kinetic energy, weight, loads and ties together, at every state of 100 cycles."""
+    structure = dataclasses.replace(CASES[case][0], restitution=1.0)
+    mechanism = structure.mechanism()
+    start = 0.3 * min(side.critical_rotation for side in mechanism.sides)
+    found = integrate(
+        structure, Accelerogram(np.full(30000, 1e-12), 0.01), 1e-12, history=True, initial_rotation=start
+    )
+    assert found.impacts >= 100
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+
+    def energy(side, phi, speed):
+        work = phi / 2 * (side.gravity(phi[:, None] / 2 * (nodes + 1)) @ weights)
+        return side.inertia(phi) * speed**2 / 2 + GRAVITY * work
+
+    reference = energy(mechanism.positive, np.array([start]), np.array([0.0]))[0]
+    out = np.flatnonzero(found.rotation > 0)[::25]
+    kept = energy(mechanism.positive, found.rotation[out], found.angular_velocity[out])
+    np.testing.assert_allclose(kept, reference, rtol=1e-9)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_toe_carries_what_moves_and_what_hangs_on_it(case):
+    """Vertical force at rest: all weights; horizontal force in static balance: ties less thrust."""
+    structure, _ = CASES[case]
+    found = contact_forces(structure, 0.0, 0.0, 0.0)
+    moving = structure.bodies(0.0).masses.sum()
+    if isinstance(structure, Facade):
+        masonry = structure.unit_weight * sum(
+            h * t for h, t in zip(structure.storey_heights[1:], structure.thicknesses[1:], strict=True)
+        )
+        loads = sum(structure.floor_loads[1:])
+        scale = GRAVITY / (masonry + (0.0 if structure.loads_held else loads))
+        assert moving == pytest.approx(GRAVITY / scale)
+        tied = structure.tie_pretension  # one tie is above the crack
+        assert found.tangential[0, 0] == pytest.approx(scale * (tied - structure.thrust), rel=1e-12)
+        assert found.normal[0, 0] == pytest.approx(scale * (masonry + loads), rel=1e-12)
+    else:
+        expected = GRAVITY * (1 + structure.top_load / structure.weight)
+        assert found.normal[0, 0] == pytest.approx(expected, rel=1e-12)
+
+
+def test_ties_and_vertical_motion_together_are_refused():
+    record = Accelerogram(np.sin(np.arange(500) / 10), 0.01)
+    with pytest.raises(MotionError, match="vertical is given, but ties do not grow and fall with gravity"):
+        integrate(FACADE, record, vertical=record)
+    loaded = dataclasses.replace(FACADE, tie_heights=(), tie_stiffness=0.0)
+    assert np.isfinite(integrate(loaded, record.scaled(0.1), vertical=record.scaled(0.1)).rotation_ratio)
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        ({"tie_stiffness": -1.0}, r"tie_stiffness is -1.0 N/m², but must be 0 or more"),
+        ({"tie_heights": (9.1,)}, r"tie_heights is 9.1 m, but must lie on the wall, above 0 and up to 9 m"),
+        ({"tie_heights": ()}, "tie_heights is empty, but must say where the ties are"),
+        ({"tie_pretension": 1e3}, "tie_pretension is 1000.0 N/m, but must be 0 unless the wall is one_sided"),
+        ({"eccentricity": 0.21}, r"eccentricity is 0.21 m, but must lie within half the thickness, 0.2 m"),
+        ({"floor_loads": (1e3,)}, "floor_loads has 1 values, but must have 3, one for each storey"),
+        ({"thrust": 1e6}, "does not stand: what acts on it at rest turns it over"),
+        ({"thrust_height": 12.0}, "thrust_height is 12.0 m, but must lie on the wall"),
+        ({"crack_storey": 4}, "crack_storey is 4, but must be a whole number from 1 to 3"),
+        ({"thicknesses": (0.6, 0.5)}, "thicknesses has 2 values, but must have 3"),
+        ({"one_sided": True}, "restitution is None, but a one-sided body needs its own number"),
+        ({"unit_weight": 0.0}, "unit_weight is 0.0 N/m³, but must be greater than 0"),
+    ],
+)
+def test_bad_input_is_refused_in_one_sentence(change, message):
+    with pytest.raises(StructureError, match=message) as caught:
+        dataclasses.replace(FACADE, **change)
+    assert str(caught.value).endswith(".") and "\n" not in str(caught.value)
+
+
+def test_a_facade_cracks_where_it_is_weakest():
+    """Each storey's foot is a candidate; under a thrust near the top the upper storey alone is the weakest."""
+    facade = dataclasses.replace(FACADE, tie_heights=(), tie_stiffness=0.0, thrust_height=None)
+    found = facade.candidates(facade.candidate_positions(5))
+    assert list(found) == [0.0, 3.5, 6.5]
+    multipliers = [each.mechanism().uplift_multiplier for each in found.values()]
+    weakest = int(np.argmin(multipliers))
+    expected = {
+        crack: dataclasses.replace(facade, crack_storey=crack).mechanism().uplift_multiplier
+        for crack in (1, 2, 3)
+    }
+    assert multipliers == list(expected.values())
+    assert multipliers[weakest] == min(multipliers)
