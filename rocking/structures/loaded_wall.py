@@ -4,6 +4,7 @@ x is measured from the middle of the wall, outwards (to the right) positive; the
 """
 
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar, Literal
@@ -290,11 +291,15 @@ class LoadedWall(Structure):
         return self.height * np.linspace(1 - HIGHEST_SHARE, HIGHEST_SHARE, count)
 
     def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
-        """Return this wall hinged at each of `positions` [m] above the base instead, by height."""
-        return {
-            float(z): replace(self, lower_height=float(z), upper_height=self.height - float(z))
-            for z in positions
-        }
+        """Return this wall hinged at each of `positions` [m] above the base instead, by height.
+
+        A height at which its ties let it find no unstable equilibrium is left out.
+        """
+        found: dict[float, Structure] = {}
+        for z in map(float, positions):
+            with suppress(StructureError):
+                found[z] = replace(self, lower_height=z, upper_height=self.height - z)
+        return found
 
     def _outline(self, rotation: float) -> list[np.ndarray]:
         return self.wall._outline(rotation)
