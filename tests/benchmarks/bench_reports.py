@@ -13,12 +13,14 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "unit" / "reports"))
 
-from conftest import Assessed, assessed, shaken
+from conftest import Assessed, assessed, shaken, summarised
 
+from rocking.assessment.rows import FailureRow
 from rocking.reports.document import compile_document
 from rocking.reports.record.report import record_data, record_report
 from rocking.reports.summary.report import summary_report
 from rocking.structures import Arch, Block, Wall
+from rocking.tables import frame
 
 
 def ten_structures() -> Assessed:
@@ -47,8 +49,8 @@ def median_cpu(function, repeats: int = 5) -> float:
     return statistics.median(spent)
 
 
-def _failure(name: str) -> dict[str, str]:
-    return {"record": name, "component": "", "structure": "", "stage": "read", "message": "is empty."}
+def _failure(name: str) -> FailureRow:
+    return FailureRow(record=name, component="", structure="", stage="read", message="is empty.")
 
 
 def resident() -> float:
@@ -60,18 +62,20 @@ def main(reports: int) -> None:
     """Print CPU times, their shares and the growth of memory."""
     case = ten_structures()
     rest = case.arguments[1:]
-    tables = case.tables | {"maxima": []}
+    tables = summarised(case.tables, case.structures)
     data = record_data(*case.arguments)
     whole = median_cpu(lambda name: record_report(name, *rest))
     parts = {
         "tables and figures": median_cpu(lambda name: record_data(name, *rest)),
-        "document": median_cpu(lambda name: compile_document("record.typ", data | {"title": name})),
+        "document": median_cpu(lambda name: compile_document("record/record.typ", data | {"title": name})),
     }
     print(f"record report, 10 structures: {whole:.3f} s CPU (asked for: 1.5 s)")
     for name, spent in parts.items():
         print(f"  {name}: {spent:.3f} s, {spent / whole:.0%}")
     summary = median_cpu(
-        lambda name: summary_report(tables | {"failures": [_failure(name)]}, case.arguments[-1])
+        lambda name: summary_report(
+            tables | {"failures": frame(FailureRow, [_failure(name)])}, case.arguments[-1]
+        )
     )
     print(f"summary report: {summary:.3f} s CPU, {summary / whole:.0%} of a record report")
     before = resident()
