@@ -33,11 +33,11 @@ def rotated(first: Accelerogram, second: Accelerogram, angle: float) -> Accelero
         f"Rotated by {math.degrees(angle):.2f}° from component {first.component or 'one'} "
         f"towards component {second.component or 'two'}.",
         component=f"{math.degrees(angle):.0f}° from {first.component or 'one'}",
-        azimuth=_azimuth(first.azimuth, second.azimuth, angle),
+        azimuth=azimuth_of_axis(first.azimuth, second.azimuth, angle),
     )
 
 
-def _azimuth(first: float | None, second: float | None, angle: float) -> float | None:
+def azimuth_of_axis(first: float | None, second: float | None, angle: float) -> float | None:
     """Azimuth in degrees of the rotated axis; None unless the components are known to be square to each other."""
     if first is None or second is None:
         return None

@@ -54,6 +54,11 @@ def given(value: float | None) -> str:
     return NOTHING if value is None or math.isnan(value) else _typeset(f"{value:.6g}")
 
 
+def with_unit(text: str, unit: str) -> str:
+    """Return a printed number with its unit; a dash stays a dash."""
+    return text if text == NOTHING else f"{text} {unit}"
+
+
 def words(text: str | Sequence[str] | None) -> str:
     """Return the text, or several in a row, as it stands; a dash for none."""
     whole_text = text if isinstance(text, str) else "; ".join(text or ())

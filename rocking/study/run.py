@@ -7,6 +7,7 @@ from pathlib import Path
 from time import process_time
 
 from rocking.assessment.assess import Assessment, Failure, assess
+from rocking.assessment.horizontal_motion import horizontal_motions
 from rocking.assessment.rows import Identity, RecordTables, TimingRow, candidate_rows, processing_rows
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, processed, processed_variants
@@ -107,11 +108,11 @@ def write_tables(
     tables = tables or RecordTables()
     durations = {"read": read_duration}
     accelerograms, vertical = opened
-    for accelerogram in accelerograms:
+    for accelerogram, motion in zip(accelerograms, horizontal_motions(accelerograms), strict=True):
         beside = None if vertical is None else aligned(vertical, accelerogram)
         assessment = assess(accelerogram, study.structures, study.assessment, beside)
         identity = Identity(record.id, accelerogram, study.settings_sha256)
-        tables.add(identity, assessment, study.assessment, record.licence, beside)
+        tables.add(identity, assessment, study.assessment, record.licence, beside, motion)
         varied = process_time()
         _vary(identity, assessment, study, tables)
         spent = {"variations": process_time() - varied, **assessment.durations}

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from rocking.assessment.assess import Assessment, Failure
+from rocking.assessment.horizontal_motion import HorizontalMotion
 from rocking.assessment.rows.of_case import (
     CandidateRow,
     ComparisonRow,
@@ -80,9 +81,11 @@ class RecordTables:
         settings: AssessmentSettings,
         licence: str,
         vertical: Accelerogram | None = None,
+        motion: HorizontalMotion | None = None,
     ) -> None:
-        """Append what one assessment gives."""
-        self.record.append(record_row(identity, licence, vertical))
+        """Append what one assessment gives. motion: of the pair of components, or None for that of one alone."""
+        dominant = assessment.analysis.dominant if assessment.analysis else None
+        self.record.append(record_row(identity, licence, vertical, motion, dominant))
         self.pulses.extend(
             pulse_rows(identity, assessment.analysis, assessment.interval, assessment.candidates)
         )

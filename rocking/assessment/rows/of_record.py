@@ -2,16 +2,15 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import final
-
-import numpy as np
+from typing import Any, final
 
 from rocking.assessment.assess import Failure
+from rocking.assessment.horizontal_motion import HorizontalMotion, horizontal_motions
 from rocking.assessment.rows.shared import COMPONENT, RECORD, STRUCTURE, ComponentRow, Identity
 from rocking.pulses import Pulse, PulseAnalysis, PulseEvidence
 from rocking.pulses.interval import PulseInterval
 from rocking.records import Accelerogram
-from rocking.records.processing import displacement, velocity
+from rocking.records.measures import record_measures
 from rocking.tables import Row, column, row
 
 
@@ -20,6 +19,12 @@ class RecordRow(ComponentRow):
     """One component of a record as it was used."""
 
     event: str = column("Earthquake")
+    magnitude: float | None = column(
+        "Magnitude of the earthquake, where file or catalogue know it", default=None
+    )
+    epicentral_distance_m: float | None = column(
+        "Distance to the epicentre, where file or catalogue give it", default=None
+    )
     station: str = column("Recording station")
     file: str = column("File the record was read from")
     format: str = column("Format that recognised the file")
@@ -33,6 +38,32 @@ class RecordRow(ComponentRow):
     peak_acceleration_m_s2: float = column("Largest magnitude of the acceleration")
     peak_velocity_m_s: float = column("Largest magnitude of the velocity by trapezoid")
     peak_displacement_m: float = column("Largest magnitude of the displacement by trapezoid")
+    arias_intensity_m_s: float = column("Arias intensity", equation="π/(2g) ∫a² dt")
+    significant_duration_s: float = column("Time between 5 and 95 % of the Arias intensity (D5–95)")
+    rotd50_peak_acceleration_m_s2: float = column(
+        "Median over all directions of the peak acceleration of the pair of components; empty for one alone"
+    )
+    rotd100_peak_acceleration_m_s2: float = column(
+        "Largest peak acceleration of the pair of components in any direction; empty for one alone"
+    )
+    velocity_pulse_period_s: float = column(
+        "Period T_p of the velocity pulse (Shahi & Baker 2014) of the pair of components, or of one alone"
+    )
+    velocity_pulse_centre_time_s: float = column("Middle of the velocity pulse after the first sample")
+    velocity_pulse_peak_velocity_m_s: float = column("Peak velocity along the axis of the velocity pulse")
+    velocity_pulse_orientation_rad: float = column(
+        "Axis of the velocity pulse, from the first of the pair towards the second; 0 for one component alone"
+    )
+    velocity_pulse_azimuth_deg: float = column(
+        "Axis of the velocity pulse clockwise from north, 0 to 180, where the components know theirs",
+        unit="°",
+    )
+    velocity_pulse_indicator: float = column("Pulse indicator of Shahi & Baker (2014)")
+    velocity_pulse_like: bool | None = column(
+        "Whether their criterion calls the motion pulse-like", default=None
+    )
+    pulse_period_ratio: float = column("Period of the dominant sine pulse over T_p")
+    pulse_periods_unlike: bool | None = column("Whether the two differ by more than a factor 2", default=None)
     high_pass_frequency_hz: float | None = column("Corner of the high-pass known to have been applied")
     processing: tuple[str, ...] = column("Steps applied to the numbers of the file, in order")
     warnings: tuple[str, ...] = column("What the reader noticed")
@@ -95,9 +126,19 @@ class TimingRow(Row):
     duration_s: float = column("CPU time")
 
 
-def record_row(identity: Identity, licence: str, vertical: Accelerogram | None = None) -> RecordRow:
-    """Return the row of one component; `vertical` acts with it."""
+def record_row(
+    identity: Identity,
+    licence: str,
+    vertical: Accelerogram | None = None,
+    motion: HorizontalMotion | None = None,
+    dominant: Pulse | None = None,
+) -> RecordRow:
+    """Return the row of one component; `vertical` acts with it, `motion` is that of the pair it belongs to.
+
+    motion: None makes that of the component alone. dominant: its sine pulse of largest energy gain.
+    """
     accelerogram = identity.accelerogram
+    measures = record_measures(accelerogram)
     return RecordRow(
         **identity.columns,
         event=accelerogram.event,
@@ -112,12 +153,34 @@ def record_row(identity: Identity, licence: str, vertical: Accelerogram | None =
         time_step_s=accelerogram.time_step,
         duration_s=accelerogram.duration,
         peak_acceleration_m_s2=accelerogram.peak_acceleration,
-        peak_velocity_m_s=float(np.abs(velocity(accelerogram)).max()),
-        peak_displacement_m=float(np.abs(displacement(accelerogram)).max()),
+        peak_velocity_m_s=measures.peak_velocity,
+        peak_displacement_m=measures.peak_displacement,
+        arias_intensity_m_s=measures.arias_intensity,
+        significant_duration_s=measures.significant_duration,
+        magnitude=accelerogram.magnitude,
+        epicentral_distance_m=accelerogram.epicentral_distance,
+        **_motion_columns(motion or horizontal_motions([accelerogram])[0], dominant),
         high_pass_frequency_hz=accelerogram.high_pass_frequency,
         processing=accelerogram.processing,
         warnings=accelerogram.warnings,
     )
+
+
+def _motion_columns(motion: HorizontalMotion, dominant: Pulse | None) -> dict[str, Any]:
+    pulse, rotd = motion.velocity_pulse, motion.rotd
+    return {
+        "rotd50_peak_acceleration_m_s2": rotd.rotd50 if rotd else math.nan,
+        "rotd100_peak_acceleration_m_s2": rotd.rotd100 if rotd else math.nan,
+        "velocity_pulse_period_s": pulse.period if pulse else math.nan,
+        "velocity_pulse_centre_time_s": pulse.centre_time if pulse else math.nan,
+        "velocity_pulse_peak_velocity_m_s": pulse.peak_velocity if pulse else math.nan,
+        "velocity_pulse_orientation_rad": pulse.orientation if pulse else math.nan,
+        "velocity_pulse_azimuth_deg": math.nan if motion.azimuth is None else motion.azimuth,
+        "velocity_pulse_indicator": pulse.indicator if pulse else math.nan,
+        "velocity_pulse_like": pulse.pulse_like if pulse else None,
+        "pulse_period_ratio": dominant.period / pulse.period if pulse and dominant else math.nan,
+        "pulse_periods_unlike": motion.is_unlike(dominant),
+    }
 
 
 def pulse_rows(

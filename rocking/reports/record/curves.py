@@ -32,7 +32,7 @@ MOST_DRAWN = 15
 MOST_HISTORIES = 12
 """Responses that are drawn for one component, the most demanding ones; the tables hold all."""
 SPECTRUM_POINTS = 32
-MOTION_HEIGHTS = (100.0, 74.0)
+MOTION_HEIGHTS = (62.0, 38.0)
 """Height of the time histories of the ground, mm: of a single component, and of each of several."""
 MAP_WIDTH = 58.0
 """Width of an energy map that stands beside others, mm."""
@@ -44,25 +44,16 @@ _MAP_COLUMNS = 240
 def motion_picture(
     accelerogram: Accelerogram, rows: Sequence[PulseRow], structures: Mapping[str, Structure], height: float
 ) -> Picture:
-    """Return acceleration, residual, velocity and displacement of one component."""
-    from rocking.records.processing import displacement, velocity
-
-    pulses = _ranked(rows)
+    """Return acceleration and residual of one component."""
+    pulses = ranked_pulses(rows)
     uplift = [GRAVITY * structure.mechanism().uplift_multiplier for structure in structures.values()]
-    figure = ground_motion(
-        accelerogram,
-        velocity(accelerogram),
-        displacement(accelerogram),
-        pulses[0] if pulses else None,
-        uplift,
-        height,
-    )
+    figure = ground_motion(accelerogram, pulses[0] if pulses else None, uplift, height)
     component = printing.words(accelerogram.component)
-    alt = f"Time histories of component {component}: acceleration, pulse, residual, velocity, displacement."
+    alt = f"Time histories of component {component}: acceleration, pulse and residual."
     return {"component": component, "svg": svg(figure), "alt": alt}
 
 
-def _ranked(rows: Sequence[PulseRow]) -> list[Pulse]:
+def ranked_pulses(rows: Sequence[PulseRow]) -> list[Pulse]:
     """The ranked pulses, the dominant one first."""
     return [row.pulse for row in sorted(rows, key=lambda row: row.rank) if row.ranked]
 
@@ -75,7 +66,7 @@ def map_picture(accelerogram: Accelerogram, rows: Sequence[PulseRow], width: flo
     stretch = max(1, gains.shape[0] // _MAP_COLUMNS)
     starts = np.arange(0, gains.shape[0], stretch)
     pooled = np.maximum.reduceat(gains, starts, axis=0)
-    figure = energy_map(starts * accelerogram.time_step, 1 / frequencies, pooled, _ranked(rows), width)
+    figure = energy_map(starts * accelerogram.time_step, 1 / frequencies, pooled, ranked_pulses(rows), width)
     component = printing.words(accelerogram.component)
     alt = f"Map of the energy that one sine pulse explains in component {component}, over onset and period."
     return {"component": component, "svg": svg(figure), "alt": alt}
@@ -181,11 +172,7 @@ def spectrum_picture(
     """Return the rocking spectrum with the equivalent blocks of the `predictions` rows on it; None without rows."""
     from rocking.motion.spectrum import rocking_spectrum
 
-    placed = [
-        (numbers[row.structure], row.frequency_parameter_rad_s, row.uplift_multiplier)
-        for row in rows
-        if row.method is Method.CLOSED_FORM
-    ]
+    placed = placed_structures(rows, numbers)
     if not placed:
         return None
     frequency_parameters = _around([place[1] for place in placed])
@@ -201,6 +188,17 @@ def spectrum_picture(
         "alt": alt,
         "restitution": printing.number(restitution),
     }
+
+
+def placed_structures(
+    rows: Sequence[PredictionRow], numbers: Mapping[str, str]
+) -> list[tuple[str, float, float]]:
+    """Number, p and λ of each equivalent block."""
+    return [
+        (numbers[row.structure], row.frequency_parameter_rad_s, row.uplift_multiplier)
+        for row in rows
+        if row.method is Method.CLOSED_FORM
+    ]
 
 
 def _around(values: Sequence[float]) -> np.ndarray:

@@ -40,59 +40,36 @@ class History:
 
 @styled
 def ground_motion(
-    accelerogram: Accelerogram,
-    velocity: np.ndarray,
-    displacement: np.ndarray,
-    pulse: Pulse | None,
-    uplift: Sequence[float],
-    height: float = 100.0,
+    accelerogram: Accelerogram, pulse: Pulse | None, uplift: Sequence[float], height: float = 58.0
 ) -> Figure:
-    """Draw acceleration with pulse and uplift accelerations [m/s²], residual, velocity and displacement."""
+    """Draw acceleration with pulse and uplift accelerations [m/s²], and what the pulse leaves of it."""
     figure = new_figure(height, margins=(17, 2, 8.5, 5))
     figure.subplots_adjust(hspace=0.12)
-    axes = figure.subplots(4, 1, sharex=True, height_ratios=[1.5, 1, 1, 1])
+    axes = figure.subplots(2, 1, sharex=True, sharey=True)
     times = accelerogram.times
     residual = (
         accelerogram.acceleration if pulse is None else accelerogram.acceleration - pulse.acceleration(times)
     )
-    traces = (accelerogram.acceleration, residual, velocity, displacement)
-    labels = ("acceleration\n[m/s²]", "residual\n[m/s²]", "velocity\n[m/s]", "displ.\n[m]")
-    for panel, trace, label in zip(axes, traces, labels, strict=True):
+    for panel, trace, label in zip(
+        axes, (accelerogram.acceleration, residual), ("record", "residual"), strict=True
+    ):
         panel.plot(*thinned(times, trace), color="0.35", linewidth=0.5, label="record")
         panel.axhline(0, color="0.6", linewidth=0.3)
         panel.set_ylabel(label)
-        panel.yaxis.set_label_coords(-0.055, 0.5)
+        panel.yaxis.set_label_coords(-0.04, 0.5)
         panel.set_xlim(0, accelerogram.duration)
+        if pulse is not None:
+            panel.axvspan(pulse.start_time, pulse.end_time, color="0.93", linewidth=0, zorder=0)
     if pulse is not None:
-        _pulse_over(axes, accelerogram, velocity, displacement, pulse)
+        inside = np.linspace(pulse.start_time, pulse.end_time, 121)
+        axes[0].plot(
+            inside, pulse.acceleration(inside), color="#D55E00", linewidth=1.5, label="dominant pulse"
+        )
     _uplift_lines(axes[0], uplift, accelerogram.peak_acceleration)
-    axes[1].set_ylim(axes[0].get_ylim())
     axes[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3)
     axes[-1].set_xlabel("time after the first sample [s]")
+    figure.text(0.006, 0.55, "acceleration [m/s²]", va="center", rotation="vertical")
     return figure
-
-
-def _pulse_over(
-    axes: Sequence[Axes],
-    accelerogram: Accelerogram,
-    velocity: np.ndarray,
-    displacement: np.ndarray,
-    pulse: Pulse,
-) -> None:
-    times = np.linspace(pulse.start_time, pulse.end_time, 121)
-    after, omega = times - pulse.start_time, pulse.circular_frequency
-    start_velocity = np.interp(pulse.start_time, accelerogram.times, velocity)
-    start_displacement = np.interp(pulse.start_time, accelerogram.times, displacement)
-    drift = pulse.amplitude / omega
-    curves = {
-        0: pulse.amplitude * np.sin(omega * after),
-        2: start_velocity + drift * (1 - np.cos(omega * after)),
-        3: start_displacement + (start_velocity + drift) * after - drift / omega * np.sin(omega * after),
-    }
-    for place, curve in curves.items():
-        axes[place].plot(times, curve, color="#D55E00", linewidth=1.5, label="dominant pulse")
-    for panel in axes:
-        panel.axvspan(pulse.start_time, pulse.end_time, color="0.93", linewidth=0, zorder=0)
 
 
 def _uplift_lines(panel: Axes, uplift: Sequence[float], peak: float) -> None:

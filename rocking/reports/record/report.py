@@ -8,9 +8,11 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.record import curves as record_curves
+from rocking.reports.record import sheet as record_sheet
 from rocking.reports.record import tables as record_tables
 from rocking.reports.record import variations as record_variations
 from rocking.reports.record import verdict as record_verdict
+from rocking.reports.record.sheet_figures import SHEET_HEIGHTS
 from rocking.reports.style import TEXT_WIDTH
 from rocking.structures.structure import Structure
 
@@ -65,6 +67,8 @@ def record_data(
             if of_it.comparison
         ],
         "identity": record_tables.identity_table(tables.record),
+        "sheet": record_sheet.sheet_table(tables.record),
+        "sheet-sentences": record_sheet.sheet_sentences(tables.record),
         "pulses": [
             {
                 "component": printing.words(component),
@@ -116,12 +120,18 @@ def _pictures(
     map_width = TEXT_WIDTH if alone else record_curves.MAP_WIDTH
     width = TEXT_WIDTH if alone else record_curves.PAIRED_WIDTH
     height = record_curves.MOTION_HEIGHTS[0 if alone else 1]
-    pictures: dict[str, list[dict[str, str]]] = {"motions": [], "maps": [], "histories": [], "spectra": []}
+    sheet_height = SHEET_HEIGHTS[0 if alone else 1]
+    pictures: dict[str, list[dict[str, str]]] = {
+        name: [] for name in ("motions", "sheets", "maps", "histories", "spectra")
+    }
     for accelerogram in used:
         tables = by_component[accelerogram.component]
         pulses = tables.pulses
         new = {
             "motions": record_curves.motion_picture(accelerogram, pulses, structures, height),
+            "sheets": record_sheet.sheet_picture(
+                accelerogram, tables.record[0], pulses, tables.predictions, numbers, sheet_height
+            ),
             "maps": record_curves.map_picture(accelerogram, pulses, map_width) if pulses else None,
             "histories": record_curves.history_picture(
                 accelerogram, structures, tables.comparison, numbers, tolerance, vertical

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator
 
 from rocking.pulses.pulse import Pulse
-from rocking.pulses.velocity_pulse import VelocityPulse
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.measures import RecordMeasures
@@ -17,8 +17,8 @@ from rocking.records.processing import displacement, velocity
 from rocking.records.response_spectrum import ResponseSpectrum
 from rocking.reports.style import elided, new_figure, plain_logarithmic, styled, thinned
 
-SHEET_HEIGHT = 100.0
-"""Height of the sheet of one component, mm: two stand on a page."""
+SHEET_HEIGHTS = (105.0, 72.0)
+"""Height of the sheet of a single component, and of each of several, mm: two stand on a page with their table."""
 ZOOM_PERIODS = 2.0
 """Periods of the pulse that are shown before and after its middle."""
 _PULSE, _VELOCITY_PULSE, _UPLIFT = "#D55E00", "#009E73", "#0072B2"
@@ -35,33 +35,36 @@ Place = tuple[float, float]
 class RecordSheet:
     """What the sheet of one component shows.
 
-    structures: (label, frequency parameter p [rad/s], uplift multiplier λ) of each equivalent block. velocity_pulse: of
-    the pair of components; None where there is none.
+    structures: (label, frequency parameter p [rad/s], uplift multiplier λ) of each equivalent block. velocity_pulse:
+    T_p and the time of its middle, s; None where there is none.
     """
 
     accelerogram: Accelerogram
     measures: RecordMeasures
     spectrum: ResponseSpectrum
     pulse: Pulse | None
-    velocity_pulse: VelocityPulse | None
+    velocity_pulse: Place | None
     structures: Sequence[tuple[str, float, float]]
 
 
 @styled
-def record_sheet(sheet: RecordSheet, height: float = SHEET_HEIGHT) -> Figure:
+def record_sheet(sheet: RecordSheet, height: float = SHEET_HEIGHTS[0]) -> Figure:
     """Draw the spectrum with the structures on it, the pulse, and Husid plot, velocity and displacement over time."""
     figure = new_figure(height, margins=(14, 2, 8.5, 5))
-    halves = figure.add_gridspec(1, 2, wspace=0.2, width_ratios=[1, 1.05])
+    halves = figure.add_gridspec(1, 2, wspace=0.22, width_ratios=[1, 1.02])
     spectrum, zoom = np.asarray(halves[0].subgridspec(2, 1, hspace=0.42, height_ratios=[1.7, 1]).subplots())
     energy, *traces = np.asarray(halves[1].subgridspec(3, 1, hspace=0.14).subplots(sharex=True))
     _spectrum_panel(spectrum, sheet)
     _pulse_panel(zoom, sheet.accelerogram, sheet.pulse)
     _husid_panel(energy, sheet)
-    for panel, (label, trace) in zip(traces, _integrals(sheet.accelerogram), strict=True):
+    integrals = _integrals(sheet.accelerogram)
+    for panel, (label, trace) in zip(traces, integrals, strict=True):
         _trace_panel(panel, sheet, label, trace)
+    if sheet.pulse is not None:
+        _pulse_integrals(traces, sheet.pulse, sheet.accelerogram, [trace for _, trace in integrals])
     _pulse_spans(traces[0], sheet)
     for panel in (energy, *traces):
-        panel.yaxis.set_label_coords(-0.115, 0.5)
+        panel.yaxis.set_label_coords(-0.135, 0.5)
     traces[-1].set_xlabel("time after the first sample [s]")
     return figure
 
@@ -85,9 +88,10 @@ def _spectrum_panel(panel: Axes, sheet: RecordSheet) -> None:
     panel.set_xlim(periods[0], longest)
     for which in "xy":
         plain_logarithmic(panel, which)
+    panel.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     panel.set_xticks([period for period in _PERIOD_TICKS if periods[0] < period < longest])
     panel.set_xlabel("period T, or 2π/p of a structure [s]")
-    panel.set_ylabel(f"pseudo-acceleration, {100 * sheet.spectrum.damping:g} % [m/s²]")
+    panel.set_ylabel(f"PSA, {100 * sheet.spectrum.damping:g} % [m/s²]")
 
 
 def _labelled(places: Sequence[Place], labels: Sequence[str]) -> list[tuple[str, Place]]:
@@ -130,11 +134,12 @@ def _uplift_levels(panel: Axes, levels: Sequence[float]) -> None:
 
 def _period_lines(panel: Axes, sheet: RecordSheet) -> None:
     """The periods of sine and velocity pulse, the shorter named to the left of its line."""
-    marks = [("$T_g$", sheet.pulse, _PULSE, "-."), ("$T_p$", sheet.velocity_pulse, _VELOCITY_PULSE, "--")]
-    drawn = sorted(
-        (pulse.period, name, colour, style) for name, pulse, colour, style in marks if pulse is not None
-    )
-    for side, (period, name, colour, style) in zip(("right", "left"), drawn, strict=False):
+    drawn = []
+    if sheet.pulse is not None:
+        drawn.append((sheet.pulse.period, "$T_g$", _PULSE, "-."))
+    if sheet.velocity_pulse is not None:
+        drawn.append((sheet.velocity_pulse[0], "$T_p$", _VELOCITY_PULSE, "--"))
+    for side, (period, name, colour, style) in zip(("right", "left"), sorted(drawn), strict=False):
         panel.axvline(period, color=colour, linewidth=0.9, linestyle=style)
         panel.annotate(
             name,
@@ -150,7 +155,7 @@ def _period_lines(panel: Axes, sheet: RecordSheet) -> None:
 
 def _pulse_panel(panel: Axes, accelerogram: Accelerogram, pulse: Pulse | None) -> None:
     panel.axhline(0, color="0.6", linewidth=0.3)
-    panel.set_ylabel("acceleration [m/s²]")
+    panel.set_ylabel("accel. [m/s²]")
     panel.set_xlabel("time, two periods before and after the pulse [s]")
     if pulse is None:
         panel.text(0.5, 0.6, "no pulse could be sought", transform=panel.transAxes, ha="center")
@@ -174,7 +179,7 @@ def _husid_panel(panel: Axes, sheet: RecordSheet) -> None:
     _significant(panel, measures)
     panel.set_ylim(0, 1.05)
     panel.set_yticks([0.05, 0.5, 0.95], ["5 %", "50 %", "95 %"])
-    panel.set_ylabel("Arias intensity")
+    panel.set_ylabel("Arias share")
     panel.set_title(
         f"$I_A$ = {measures.arias_intensity:.3g} m/s, $D_{{5–95}}$ = {measures.significant_duration:.3g} s",
         parse_math=True,
@@ -182,7 +187,25 @@ def _husid_panel(panel: Axes, sheet: RecordSheet) -> None:
 
 
 def _integrals(accelerogram: Accelerogram) -> list[tuple[str, np.ndarray]]:
-    return [("velocity [m/s]", velocity(accelerogram)), ("displacement [m]", displacement(accelerogram))]
+    return [("vel. [m/s]", velocity(accelerogram)), ("displ. [m]", displacement(accelerogram))]
+
+
+def _pulse_integrals(
+    panels: Sequence[Axes], pulse: Pulse, accelerogram: Accelerogram, traces: Sequence[np.ndarray]
+) -> None:
+    """Velocity and displacement of the pulse, which start from those of the record."""
+    times = np.linspace(pulse.start_time, pulse.end_time, 121)
+    after, omega = times - pulse.start_time, pulse.circular_frequency
+    start_velocity, start_displacement = (
+        np.interp(pulse.start_time, accelerogram.times, trace) for trace in traces
+    )
+    drift = pulse.amplitude / omega
+    curves = (
+        start_velocity + drift * (1 - np.cos(omega * after)),
+        start_displacement + (start_velocity + drift) * after - drift / omega * np.sin(omega * after),
+    )
+    for panel, curve in zip(panels, curves, strict=True):
+        panel.plot(times, curve, color=_PULSE, linewidth=1.2)
 
 
 def _trace_panel(panel: Axes, sheet: RecordSheet, label: str, trace: np.ndarray) -> None:
@@ -205,8 +228,8 @@ def _pulse_spans(panel: Axes, sheet: RecordSheet) -> None:
     if sheet.pulse is not None:
         spans.append((sheet.pulse.start_time, sheet.pulse.end_time, _PULSE))
     if sheet.velocity_pulse is not None:
-        middle, half = sheet.velocity_pulse.centre_time, sheet.velocity_pulse.period / 2
-        spans.append((middle - half, middle + half, _VELOCITY_PULSE))
+        period, middle = sheet.velocity_pulse
+        spans.append((middle - period / 2, middle + period / 2, _VELOCITY_PULSE))
     for level, (begin, end, colour) in zip((1.0, 0.94), spans, strict=False):
         panel.plot(
             [begin, end],

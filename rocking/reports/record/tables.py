@@ -17,7 +17,7 @@ from rocking.assessment.rows import (
 )
 from rocking.pulses.flags import Flag
 from rocking.reports import printing
-from rocking.reports.printing import Cell, number, ratio, strong, table, table_of, words
+from rocking.reports.printing import Cell, number, ratio, strong, table, table_of, with_unit, words
 from rocking.reports.record.verdict import contact_failure
 
 
@@ -28,8 +28,15 @@ def structure_numbers(structures: Iterable[str], comparison: Iterable[CaseRow]) 
 
 
 def identity_table(rows: Sequence[RecordRow]) -> dict[str, object]:
-    """Return what was read and done: one column per component, or two columns of facts for a single one."""
-    facts = [[label, *[show(row) for row in rows]] for label, show in _IDENTITY.items()]
+    """Return what was read and done."""
+    return facts_table(rows, _IDENTITY)
+
+
+def facts_table(
+    rows: Sequence[RecordRow], known: Mapping[str, Callable[[RecordRow], str]]
+) -> dict[str, object]:
+    """Return what is known by label: one column per component, or two columns of facts for a single one."""
+    facts = [[label, *[show(row) for row in rows]] for label, show in known.items()]
     facts = [fact for fact in facts if set(fact[1:]) != {printing.NOTHING}]
     if len(rows) == 1:
         facts += [["", ""]] * (len(facts) % 2)
@@ -41,10 +48,6 @@ def identity_table(rows: Sequence[RecordRow]) -> dict[str, object]:
     )
 
 
-def _with_unit(text: str, unit: str) -> str:
-    return text if text == printing.NOTHING or not unit else f"{text} {unit}"
-
-
 _IDENTITY: dict[str, Callable[[RecordRow], str]] = {
     "Event": lambda row: words(row.event),
     "Station": lambda row: words(row.station),
@@ -53,17 +56,15 @@ _IDENTITY: dict[str, Callable[[RecordRow], str]] = {
     "Unit in the file": lambda row: words(row.unit),
     "Licence": lambda row: words(row.licence),
     "Vertical component": lambda row: words(row.vertical_component),
-    "Vertical peak acceleration": lambda row: _with_unit(
+    "Vertical peak acceleration": lambda row: with_unit(
         number(row.vertical_peak_acceleration_m_s2, 4), "m/s²"
     ),
     "Declared scale factor": lambda row: printing.given(row.scale_factor),
     "Samples": lambda row: printing.whole(row.samples),
-    "Time step": lambda row: _with_unit(printing.given(row.time_step_s), "s"),
-    "Duration": lambda row: _with_unit(printing.given(row.duration_s), "s"),
-    "Peak acceleration": lambda row: _with_unit(number(row.peak_acceleration_m_s2, 4), "m/s²"),
-    "Peak velocity": lambda row: _with_unit(number(row.peak_velocity_m_s, 4), "m/s"),
-    "Peak displacement": lambda row: _with_unit(number(row.peak_displacement_m, 4), "m"),
-    "High-pass corner, known": lambda row: _with_unit(printing.given(row.high_pass_frequency_hz), "Hz"),
+    "Time step": lambda row: with_unit(printing.given(row.time_step_s), "s"),
+    "Duration": lambda row: with_unit(printing.given(row.duration_s), "s"),
+    "Peak acceleration": lambda row: with_unit(number(row.peak_acceleration_m_s2, 4), "m/s²"),
+    "High-pass corner, known": lambda row: with_unit(printing.given(row.high_pass_frequency_hz), "Hz"),
     "Processing": lambda row: words(row.processing or "none"),
     "Noticed by the reader": lambda row: words(row.warnings),
 }

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.constants import g
 
-from rocking.pulses import Pulse, VelocityPulse
+from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.measures import record_measures
 from rocking.records.response_spectrum import response_spectrum
@@ -15,7 +15,7 @@ from rocking.reports.style import svg
 
 STEP = 0.01
 PULSE = Pulse(3.0, 2 * math.pi / 0.9, 4.0)
-VELOCITY_PULSE = VelocityPulse(1.7, 0.3, 0.8, 0.3, 12.0, False, 4.5)
+VELOCITY_PULSE = (1.7, 4.5)
 MOVING = Accelerogram(PULSE.acceleration(np.arange(2000) * STEP), STEP)
 
 
