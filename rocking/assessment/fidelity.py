@@ -91,12 +91,15 @@ def limits_for(tolerance: float, risk: float, table: Sequence[Limits] = LIMITS) 
 def known_error(mechanism: Mechanism, block: EquivalentBlock) -> float:
     """Return how far `block` misses `mechanism` as it lifts: the largest |ln| of two ratios, over the sides.
 
-    The restoring acceleration at rest, g G(0)/I(0) over p² φ_cr, and the uplift multiplier of one over the other's. The
-    rotation of a structure that turns little and soon is wrong by about as much.
+    The restoring acceleration at rest, g G(0)/I(0) over the block's, and the uplift multiplier of one over the other's.
+    The rotation of a structure that turns little and soon is wrong by about as much. A block exact at rest misses by
+    its two defects instead.
     """
-    blocks = (block,) if block.other_side is None else (block, block.other_side)
+    if block.rotation_map is not None:
+        defects = mechanism.block_defects
+        return max(defects.restoring, abs(math.log1p(defects.forcing)))
     misses = []
-    for side, each in zip(mechanism.sides, blocks, strict=True):
+    for side, each in zip(mechanism.sides, block.sides, strict=True):
         restoring = GRAVITY * side.at("gravity", 0.0) / side.at("inertia", 0.0)
         misses.append(abs(math.log(restoring / (each.frequency_parameter**2 * each.critical_rotation))))
         misses.append(abs(math.log(each.uplift_multiplier / side.uplift_multiplier)))

@@ -10,7 +10,7 @@ from rocking.errors import MotionError
 from rocking.motion import linear_kernel, nonlinear_kernel
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.integration import TOLERANCES, Rocking, reduce
-from rocking.motion.linear import blocks_of, samples_of, sides_of, solvable_exactly
+from rocking.motion.linear import blocks_of, samples_of, solvable_exactly
 from rocking.motion.nonlinear import STEP_SHARE, failure
 from rocking.motion.table import Table, linear_table, table_of
 from rocking.quantities import within
@@ -167,7 +167,7 @@ def _stepped(
 def _exact(
     block: EquivalentBlock, forcing: Forcing, horizontal: np.ndarray, restitution: np.ndarray | None
 ) -> MemberResponses:
-    sides = sides_of(block)
+    sides = block.sides
     status, peaks, impacts = _room(horizontal.size)
     own = sides[0].restitution, sides[-1].restitution
     linear_kernel.rock_linear_members(
@@ -179,6 +179,8 @@ def _exact(
         peaks,
         impacts,
     )
+    for column, side in enumerate((sides[0], sides[-1])):
+        peaks[:, column] = side.rotation_ratios(peaks[:, column])
     return _concluded(status, peaks, impacts)
 
 
@@ -203,7 +205,7 @@ def _concluded(status: np.ndarray, ratios: np.ndarray, impacts: np.ndarray) -> M
     """status, impacts: (m,) as the kernels leave them. ratios: (m, 2), the largest φ/φ_cr of each side."""
     ratio = ratios.max(axis=1)
     side = np.where(ratios[:, 0] >= ratios[:, 1], 1, -1)
-    ratio[status == nonlinear_kernel.OVERTURNS] = np.inf
+    ratio[status == nonlinear_kernel.OVERTURNS] = np.inf  # and beyond the end of the mechanism
     side[status == 0] = 0
     failed = np.flatnonzero(status > nonlinear_kernel.OVERTURNS)
     ratio[failed], side[failed] = np.nan, 0

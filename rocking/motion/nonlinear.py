@@ -22,7 +22,7 @@ def follow(
     table: Table, forcing: Forcing, tolerance: float, start: tuple[float, float, int], history: bool
 ) -> Response:
     """Integrate the table's mechanism through the forcing. start: rotation, rate outward, side (0: at rest)."""
-    state = kernel.Start(*(_initial(table, *start) if start[2] else (0.0, 0.0, 0)))
+    state = kernel.Start(*(initial_arc(table, *start) if start[2] else (0.0, 0.0, 0)))
     member = kernel.Member(forcing.factor, forcing.factor if forcing.vertical else 0.0, table.restitution)
     peaks = np.empty((2, 2))
     (status, impacts, uplift, last_side, steps, _), log = logged_run(
@@ -35,7 +35,7 @@ def follow(
     response = concluded(
         status, ratios, when, impacts, uplift, last_side, steps, forcing.start_time, tolerance
     )
-    return with_history(response, *_states(table, log), forcing.start_time) if history else response
+    return with_history(response, *states(table, log), forcing.start_time) if history else response
 
 
 def logged_run(run, arguments: tuple, expected: int) -> tuple[tuple, np.ndarray]:
@@ -59,10 +59,13 @@ def concluded(
     start_time: float,
     tolerance: float,
 ) -> Response:
-    """The Response of a finished run; raises MotionError for a run that has no answer."""
+    """The Response of a finished run, overturned where a ratio is past the end of the mechanism.
+
+    Raises MotionError for a run that has no answer.
+    """
     if status not in OUTCOMES:
         raise failure(status, impacts)
-    outcome = OUTCOMES[status]
+    outcome = OUTCOMES[status] if math.isfinite(max(ratios)) else Outcome.OVERTURNS
     largest = 0 if ratios[0] >= ratios[1] else 1
     rocks = outcome is Outcome.ROCKS
     return Response(
@@ -97,26 +100,27 @@ def with_history(
     )
 
 
-def _initial(table: Table, rotation: float, velocity: float, sign: int) -> tuple[float, float, int]:
+def initial_arc(table: Table, rotation: float, velocity: float, sign: int) -> tuple[float, float, int]:
     """The initial state in the arc; raises MotionError beyond the end of the mechanism."""
     side = table.side(sign)
     arc = float(side.arc(np.array(rotation)))
     if not arc < side.end:
         raise MotionError(f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.")
-    return arc, velocity * float(side.stretch(np.array(rotation))), sign
+    return arc, velocity / float(side.slope(arc)), sign
 
 
 def _ratio(side: SideTable, arc: float) -> float:
     return float(side.rotation(arc)) / side.critical_rotation if arc > 0 else 0.0
 
 
-def _states(table: Table, log: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def states(table: Table, log: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Times, rotations and angular velocities, signed, of the lines of a log, which holds arcs."""
     times, arcs, speeds = log.T
     rotation, velocity = np.empty_like(arcs), np.empty_like(arcs)
     negative = (arcs < 0) | ((arcs == 0) & (speeds < 0))
     for sign, rows in ((1, ~negative), (-1, negative)):
         side = table.side(sign)
-        magnitude = side.rotation(np.minimum(np.abs(arcs[rows]), side.end))
-        rotation[rows] = sign * magnitude
-        velocity[rows] = speeds[rows] / side.stretch(magnitude)
+        within = np.minimum(np.abs(arcs[rows]), side.end)
+        rotation[rows] = sign * side.rotation(within)
+        velocity[rows] = speeds[rows] * side.slope(within)
     return times, rotation, velocity

@@ -12,11 +12,11 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from rocking.errors import MotionError
-from rocking.motion.arc import arc_of
 from rocking.motion.forcing import Forcing
 from rocking.motion.nonlinear_kernel import REST_ENERGY, Sides
 from rocking.quantities import GRAVITY
-from rocking.structures.mechanism import EquivalentBlock, Function, Mechanism, Side
+from rocking.structures.arc import Function, RotationMap, arc_of
+from rocking.structures.mechanism import CUTS, EquivalentBlock, Mechanism, Side
 
 DEGREE = 7
 ACCURACY = 1e-12
@@ -32,8 +32,6 @@ _NEAR = 1 / 64
 _MOST_PIECES = 4096
 _GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(40)
 _NODES = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
-_CUTS = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.4)
-"""Shares that may be cut off beyond φ_cr, where a mechanism locks and its inertia has no bound."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +44,7 @@ class SideTable:
     hold: (m,) smallest −G/|B| from each piece on: a smaller ground acceleration, in g, cannot bring the side back.
     critical, end: in arc. lift: G̃(0), B̃(0). reaching_speed: along the arc at φ = 0, just reaches φ_cr, rad/s.
     longest_step: s. near: bounds near rest, as `Sides` has them. arc and stretch: q and dq/dφ at a rotation.
+    rotation_map: that of an equivalent block, which stands for ratios and stretch.
     """
 
     pieces: np.ndarray
@@ -62,10 +61,13 @@ class SideTable:
     critical_rotation: float
     arc: Function
     stretch: Function
+    rotation_map: RotationMap | None = None
 
     def rotation(self, arc: np.ndarray | float) -> np.ndarray:
-        """Return the rotation [rad] at `arc`, any shape, within the table."""
+        """Return the rotation [rad] at `arc`, any shape, within the table; inf beyond the end of a rotation_map."""
         arc = np.asarray(arc, dtype=float)
+        if self.rotation_map is not None:
+            return self.rotation_map.rotation(arc)
         split, inner, inner_count, _, outer, outer_count, *_ = self.grid
         within = np.clip((arc / inner).astype(int), 0, int(inner_count) - 1)
         beyond = np.clip(((arc - split) / outer).astype(int), 0, int(outer_count) - 1)
@@ -76,6 +78,12 @@ class SideTable:
         for power in range(DEGREE - 1, -1, -1):
             ratio = row[..., power] + (arc - centre) * ratio
         return arc * ratio
+
+    def slope(self, arc: np.ndarray | float) -> np.ndarray:
+        """Return dφ/dq at `arc`, any shape."""
+        if self.rotation_map is not None:
+            return self.rotation_map.slope(np.asarray(arc))
+        return 1 / self.stretch(self.rotation(arc))
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,9 +137,8 @@ def table_of(mechanism: Mechanism) -> Table:
 
 @lru_cache(maxsize=1024)
 def linear_table(block: EquivalentBlock) -> Table:
-    """Return the table of an equivalent block: exact, and without an end to its rotation."""
-    others = () if block.other_side is None else (block.other_side,)
-    return _stacked(tuple(_linear_side(each) for each in (block, *others)), block.one_sided)
+    """Return the table of an equivalent block: exact, and without an end unless its rotation_map has one."""
+    return _stacked(tuple(_linear_side(each) for each in block.sides), block.one_sided)
 
 
 def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
@@ -148,7 +155,8 @@ def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
 
 def _linear_side(block: EquivalentBlock) -> SideTable:
     square = block.frequency_parameter**2 / GRAVITY
-    critical, scale = block.critical_rotation, block.acceleration_scale
+    critical = block.critical_arc
+    scale = critical / block.uplift_multiplier
     width, count = critical / 8, 513  # the last one is the outer zone, which has no end
     starts = np.arange(count) * width
     pieces, ratios = np.zeros((count, 2 * DEGREE + 2)), np.zeros((count, DEGREE + 1))
@@ -164,23 +172,24 @@ def _linear_side(block: EquivalentBlock) -> SideTable:
         grid=(starts[-1], width, count - 1, np.inf, width, 1, np.inf, 1 / width, 1 / width),
         hold=(starts - critical) / scale,
         critical=critical,
-        end=np.inf,
+        end=np.inf if block.rotation_map is None else block.rotation_map.end,
         lift=(square * critical, square * scale),
         restitution=block.restitution,
-        reaching_speed=block.frequency_parameter * critical,
+        reaching_speed=block.velocity_scale,
         longest_step=1 / block.frequency_parameter,
         near=_near_rest(
             critical * _NEAR,
             np.array([[critical, (1 - _NEAR) * critical], [scale, scale]]) * square,
         ),
-        critical_rotation=critical,
-        arc=np.asarray,
+        critical_rotation=block.critical_rotation,
+        arc=np.asarray if block.rotation_map is None else np.vectorize(block.rotation_map.arc),
         stretch=np.ones_like,
+        rotation_map=block.rotation_map,
     )
 
 
 def _side_table(side: Side) -> SideTable:
-    for cut in _CUTS:
+    for cut in CUTS:
         last = side.end_rotation - cut * (side.end_rotation - side.critical_rotation)
         with np.errstate(all="ignore"):
             found = _tabulated(side, last)
@@ -194,7 +203,7 @@ def _side_table(side: Side) -> SideTable:
 
 def _tabulated(side: Side, last: float) -> SideTable | None:
     """The table over the rotations up to `last`, or None where it does not reach ACCURACY."""
-    arc = arc_of(side, last, _AIM)
+    arc = arc_of(side.inertia, last, _AIM)
     if arc is None:
         return None
     rest = side.at("inertia", 0.0)

@@ -6,6 +6,7 @@ rotation beyond φ_cr during the pulse is not overturning: the pulse may bring t
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -91,18 +92,30 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     """
     first, second = first_and_second(equivalent_block, pulse)
     one_shape = equivalent_block.other_side is None and first is not None
-    return maximum_of(first, second, 1 if pulse.amplitude < 0 else -1, one_shape)
+    first_side = 1 if pulse.amplitude < 0 else -1
+    positive, negative = equivalent_block.sides[0], equivalent_block.sides[-1]
+    read_back = (positive, negative) if first_side > 0 else (negative, positive)
+    return maximum_of(
+        first, second, first_side, one_shape, (read_back[0].rotation_ratio, read_back[1].rotation_ratio)
+    )
 
 
-def maximum_of(first: Ratios | None, second: Ratios | None, first_side: int, one_shape: bool) -> Maximum:
+def maximum_of(
+    first: Ratios | None,
+    second: Ratios | None,
+    first_side: int,
+    one_shape: bool,
+    read_back: tuple[Callable[[float], float], Callable[[float], float]] = (float, float),
+) -> Maximum:
     """Return the maximum from the ratios of the side that the pulse's first half lifts, and of the other one.
 
     first_side: the sign of the first one's rotation. one_shape: whether the pulse's first half lifts the block and what
-    it lands on next is the same again, as Eq. 15 takes for granted.
+    it lands on next is the same again, as Eq. 15 takes for granted. read_back: φ/φ_cr of x on the first side and on the
+    other.
     """
     course = _Course((first, second))
     course.follow()
-    return course.maximum(first_side, one_shape)
+    return course.maximum(first_side, one_shape, read_back)
 
 
 @dataclass
@@ -112,12 +125,11 @@ class _Course:
     sides: tuple[Ratios | None, Ratios | None]
     impacts: int = 0
     contacts_in_pulse: int = 0
-    peak: float = 0.0
-    peak_impacts: int = 0
-    peak_side: int | None = None
+    peaks: list[float] = field(default_factory=lambda: [0.0, 0.0])
+    peak_impacts: list[int] = field(default_factory=lambda: [-1, -1])
     margin: float = 1.0
     unresolved: bool = False
-    overturned: bool = field(default=False)
+    overturned: bool = False
 
     def follow(self) -> None:
         """Follow the block from rest at the pulse's start to its last relevant flight."""
@@ -126,22 +138,42 @@ class _Course:
             rest = self._rock(*start)
             start = None if rest is None else self._next_uplift(rest)
 
-    def maximum(self, first_side: int, one_shape: bool) -> Maximum:
+    def maximum(
+        self,
+        first_side: int,
+        one_shape: bool,
+        read_back: tuple[Callable[[float], float], Callable[[float], float]],
+    ) -> Maximum:
         """Return what was found; `first_side` is the sign of sides[0]."""
         if self.unresolved:
             return Maximum(math.nan, Outcome.FAILED, Regime.UNRESOLVED, self.impacts, 0, math.nan)
-        if self.peak_side is None:
+        if max(self.peak_impacts) < 0:
             return Maximum(0.0, Outcome.NO_UPLIFT, Regime.NO_UPLIFT)
-        side = first_side if self.peak_side == 0 else -first_side
-        outcome = Outcome.OVERTURNS if self.overturned else Outcome.ROCKS
-        return Maximum(self.peak, outcome, self._regime(one_shape), self.peak_impacts, side, self.margin)
+        ratios = [read(peak) for read, peak in zip(read_back, self.peaks, strict=True)]
+        index = self._larger(ratios)
+        impacts, ratio = self.peak_impacts[index], ratios[index]
+        overturns = math.isinf(ratio)
+        return Maximum(
+            rotation_ratio=ratio,
+            outcome=Outcome.OVERTURNS if overturns else Outcome.ROCKS,
+            regime=self._regime(overturns, impacts, one_shape),
+            impacts=impacts,
+            peak_side=first_side if index == 0 else -first_side,
+            overturning_margin=-math.inf if overturns and not self.overturned else self.margin,
+        )
 
-    def _regime(self, one_shape: bool) -> Regime:
-        if self.overturned:
-            return Regime.OVERTURNS_AFTER_IMPACTS if self.peak_impacts else Regime.OVERTURNS_WITHOUT_IMPACT
+    def _larger(self, ratios: list[float]) -> int:
+        """The side of the larger ratio; of two that are equal, that which was reached first."""
+        early = min((0, 1), key=lambda k: (self.peak_impacts[k] < 0, self.peak_impacts[k]))
+        late = 1 - early
+        return late if self.peak_impacts[late] >= 0 and ratios[late] > ratios[early] * (1 + 1e-12) else early
+
+    def _regime(self, overturns: bool, impacts: int, one_shape: bool) -> Regime:
+        if overturns:
+            return Regime.OVERTURNS_AFTER_IMPACTS if impacts else Regime.OVERTURNS_WITHOUT_IMPACT
         if self.contacts_in_pulse:
             return Regime.CONTACT_DURING_PULSE
-        if not self.peak_impacts:
+        if not impacts:
             return Regime.BEFORE_FIRST_IMPACT
         return Regime.PRINTED_EXACT if one_shape else Regime.AFTER_FIRST_IMPACT
 
@@ -191,10 +223,15 @@ class _Course:
     def _land(self, flight: Flight) -> Landing:
         remaining = max(0.0, (_PULSE_END - flight.phase) / flight.omega)
         duration = min(remaining, LONGEST_TIME)
-        landing = flight.hop(duration, self.peak) or flight.land(duration)
+        landing = flight.hop(duration, self._unseen()) or flight.land(duration)
         if landing.contact or duration == remaining:
             return landing
         return landing._replace(velocity=math.inf)
+
+    def _unseen(self) -> float:
+        """The x below which a peak on either side cannot be the largest rotation."""
+        one, other = self.sides
+        return max(self.peaks) if one is None or other is None or one == other else min(self.peaks)
 
     def _impact(self, index: int, speed: float) -> tuple[int, float]:
         """Return the side and the velocity after landing on side `index` with `speed`."""
@@ -204,8 +241,8 @@ class _Course:
         return following, old.restitution * speed * old.velocity_scale / new.velocity_scale
 
     def _record(self, peak: float, index: int) -> None:
-        if self.peak_side is None or peak > self.peak * (1 + 1e-12):
-            self.peak, self.peak_impacts, self.peak_side = peak, self.impacts, index
+        if self.peak_impacts[index] < 0 or peak > self.peaks[index] * (1 + 1e-12):
+            self.peaks[index], self.peak_impacts[index] = peak, self.impacts
 
     def _after_pulse(self, index: int, end: Landing) -> None:
         """Follow the free motion from the pulse's end: x − 1 + x' > 0 overturns, else (x − 1)² − x'² is conserved."""
@@ -245,7 +282,7 @@ class _Course:
         least = min(1 - _largest_force(side.amplitude_ratio, phase, end) for side in sides)
         scale = self._side(index).velocity_scale
         v = velocity * max(scale / side.velocity_scale for side in sides)
-        if least <= 0 or v * v > least * least / 2 or v * v / least > self.peak:
+        if least <= 0 or v * v > least * least / 2 or v * v / least > self._unseen():
             return None
         omega = max(side.frequency_ratio for side in sides)
         steepest = max(side.amplitude_ratio * side.frequency_ratio for side in sides)

@@ -15,6 +15,7 @@ _LARGEST_EXPONENT = 709.0
 def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     """Return φ_max/φ_cr by Eq. 15 exactly as the paper prints it: 1 − √(1 − η² (1 − D₀)).
 
+    For a block that measures the rotation otherwise, a positive value is read back as φ/φ_cr.
     nan where the radicand is negative, which the paper reads as overturning; 0.0 where the pulse lifts nothing
     (a ≤ 1), where Eq. 16 is not defined. It may be negative, and it is wrong outside the regime
     `Regime.PRINTED_EXACT`; `predict_maximum` is not. For a block with two different sides it takes
@@ -30,7 +31,10 @@ def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     if drop > 1:
         return math.nan
     root = math.sqrt(1 - drop)
-    return drop / (1 + root) if drop > -1 else 1 - root
+    maximum = drop / (1 + root) if drop > -1 else 1 - root
+    positive_first = first is not None and pulse.amplitude < 0
+    own = equivalent_block.sides[0 if positive_first or first is None else -1]
+    return own.rotation_ratio(maximum) if maximum > 0 else maximum
 
 
 def pulse_end_measure(frequency_ratio: float, amplitude_ratio: float) -> float:

@@ -17,7 +17,7 @@ class Ratios:
     """One side of a block under one pulse.
 
     frequency_ratio: ω = ω_g/p. amplitude_ratio: a = |a_g|/(gλ). restitution: η of the impact that ends rocking here.
-    velocity_scale: p φ_cr, rad/s, which turns d(φ/φ_cr)/d(pt) into an angular velocity.
+    velocity_scale: the block's, which turns dx/d(pt) into an angular velocity.
     Raises PulseError when a ratio lies outside LARGEST_RATIO.
     """
 
@@ -56,7 +56,7 @@ def ratios(block: EquivalentBlock, pulse: Pulse) -> Ratios:
         frequency_ratio=pulse.circular_frequency / block.frequency_parameter,
         amplitude_ratio=abs(pulse.amplitude) / (GRAVITY * block.uplift_multiplier),
         restitution=block.restitution,
-        velocity_scale=block.frequency_parameter * block.critical_rotation,
+        velocity_scale=block.velocity_scale,
     )
 
 

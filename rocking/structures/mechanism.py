@@ -8,7 +8,6 @@ Uplift from rest to the side s = −sign(ü_g) when |ü_g| / (g + ü_v) exceeds 
 motion on this side; the angular velocity of the next flight is `restitution` times the one of arrival.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
@@ -17,15 +16,21 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, positive, shown, within
+from rocking.structures.arc import Arc, Function, RotationMap, arc_of, rotation_map
+from rocking.structures.equivalent_block import BlockDefects
+from rocking.structures.equivalent_block import EquivalentBlock as EquivalentBlock
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Function = Callable[[np.ndarray], np.ndarray]
-"""A function of the rotation φ [rad], any shape in, the same shape out."""
+Scale = Literal["rest", "linearised", "uplift", "mean"]
+"""Which equivalent block: exact at rest, or linearised about φ_cr with a_sc, a_sc,alt = φ_cr/λ, or their mean."""
 
-Scale = Literal["linearised", "uplift", "mean"]
-"""Which acceleration scale an equivalent block carries: a_sc, a_sc,alt = φ_cr/λ, or their mean."""
+_ARC_ACCURACY, _MAP_ACCURACY = 2e-14, 1e-14
+CUTS = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.4)
+"""Shares that may be cut off beyond φ_cr, where a mechanism locks and its inertia has no bound."""
+
+_DEFECT_SAMPLES = 401
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -102,10 +107,29 @@ class Side:
         critical = self.critical_rotation
         return -self.at("ground", critical) / self.at("gravity_slope", critical)
 
+    @cached_property
+    def arc(self) -> tuple[Arc, RotationMap]:
+        """The arc q = ∫ √(I/I(0)) dφ as far as it is smooth, and its inverse.
+
+        Raises StructureError where it is not smooth even near φ_cr.
+        """
+        beyond = self.end_rotation - self.critical_rotation
+        for cut in CUTS:
+            with np.errstate(all="ignore"):
+                arc = arc_of(self.inertia, self.end_rotation - cut * beyond, _ARC_ACCURACY)
+                found = None if arc is None else rotation_map(arc, _MAP_ACCURACY)
+            if arc is not None and found is not None:
+                return arc, found
+        raise StructureError(
+            f"the mechanism's inertia is not smooth up to {self.critical_rotation!r} rad, its critical_rotation, but "
+            "must be for a block that is exact at rest; take the one linearised about φ_cr."
+        )
+
     def scaled_acceleration(self, scale: Scale) -> float:
-        """a_sc, a_sc,alt = φ_cr/λ (Eq. 13), or their mean."""
+        """a_sc, a_sc,alt = φ_cr/λ (Eq. 13), or their mean; that of the block exact at rest is a_sc,alt."""
         alternative = self.critical_rotation / self.uplift_multiplier
         scales = {
+            "rest": alternative,
             "linearised": self.acceleration_scale,
             "uplift": alternative,
             "mean": (self.acceleration_scale + alternative) / 2,
@@ -172,11 +196,25 @@ class Mechanism:
         negative = None if self.negative is None else replace(self.negative, restitution=restitution)
         return replace(self, positive=replace(self.positive, restitution=restitution), negative=negative)
 
-    def equivalent_block(self, scale: Scale = "linearised") -> "EquivalentBlock":
-        """Return the block that this mechanism linearises to about φ_cr (Eqs. 9–13)."""
+    def equivalent_block(self, scale: Scale = "rest") -> EquivalentBlock:
+        """Return the linear block that stands for this mechanism.
+
+        scale: "rest", exact as it lifts and in the place of its unstable equilibrium (theory: section 9); or the
+        paper's, linearised about φ_cr (Eqs. 9–13), with the acceleration scale "linearised", "uplift"
+        or "mean" (Eq. 13).
+        Raises StructureError for another scale.
+        """
         block = _equivalent(self.positive, scale)
         other = None if self.negative is None else _equivalent(self.negative, scale)
         return replace(block, other_side=other, one_sided=self.one_sided)
+
+    @cached_property
+    def block_defects(self) -> BlockDefects:
+        """What the block exact at rest leaves out, of the worse side."""
+        found = [_defects(side) for side in self.sides]
+        return BlockDefects(
+            max(each.restoring for each in found), max((each.forcing for each in found), key=abs)
+        )
 
     def plot(self, axes: "Axes | None" = None) -> "Axes":
         """Draw I, G and B against the rotation, on `axes` or on new ones, and return the axes."""
@@ -185,50 +223,35 @@ class Mechanism:
         return plot_mechanism(self, axes)
 
 
-@dataclass(frozen=True)
-class EquivalentBlock:
-    """φ'' = p² (φ − φ_cr − s a_sc ü_g/g): the linear rocking block (Eq. 10).
-
-    frequency_parameter: p, rad/s. critical_rotation: φ_cr, rad. acceleration_scale: a_sc, -. restitution: η in [0, 1].
-    other_side: the block of the negative side when the two differ; None when they mirror each other.
-    one_sided: rocks to the positive side only and is thrown back at φ = 0.
-    """
-
-    frequency_parameter: float
-    critical_rotation: float
-    acceleration_scale: float
-    restitution: float
-    other_side: "EquivalentBlock | None" = None
-    one_sided: bool = False
-
-    def __post_init__(self) -> None:
-        for name, unit in (
-            ("frequency_parameter", "rad/s"),
-            ("critical_rotation", "rad"),
-            ("acceleration_scale", ""),
-        ):
-            object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), unit))
-        object.__setattr__(self, "restitution", within(StructureError, "restitution", self.restitution, 0, 1))
-        if self.other_side is not None and (self.one_sided or self.other_side.other_side is not None):
-            raise StructureError(
-                "other_side is given, but a one-sided block has none and another side has no further one."
-            )
-
-    @property
-    def uplift_multiplier(self) -> float:
-        """λ of the positive side = φ_cr/a_sc, the ground acceleration in g that starts rocking (Eq. 12)."""
-        return self.critical_rotation / self.acceleration_scale
-
-    @property
-    def symmetric(self) -> bool:
-        """Whether both directions are alike."""
-        return self.other_side is None and not self.one_sided
-
-
 def _equivalent(side: Side, scale: Scale) -> EquivalentBlock:
+    if scale == "rest":
+        return _exact_at_rest(side)
     return EquivalentBlock(
         frequency_parameter=side.frequency_parameter,
         critical_rotation=side.critical_rotation,
         acceleration_scale=side.scaled_acceleration(scale),
         restitution=side.restitution,
     )
+
+
+def _exact_at_rest(side: Side) -> EquivalentBlock:
+    """p² = g G(0)/(I(0) q_cr) and the true λ, in x = q/q_cr with the arc q (theory: section 9)."""
+    arc, rotation_map = side.arc
+    stiffness = GRAVITY * side.at("gravity", 0.0) / side.at("inertia", 0.0)
+    return EquivalentBlock(
+        frequency_parameter=float(np.sqrt(stiffness / arc.at(side.critical_rotation))),
+        critical_rotation=side.critical_rotation,
+        acceleration_scale=side.critical_rotation / side.uplift_multiplier,
+        restitution=side.restitution,
+        rotation_map=rotation_map,
+    )
+
+
+def _defects(side: Side) -> BlockDefects:
+    arc, _ = side.arc
+    rotation = np.linspace(0.0, side.critical_rotation, _DEFECT_SAMPLES)
+    x = arc.at(rotation) / arc.at(side.critical_rotation)
+    stretch = arc.stretch(rotation)
+    restoring = side.gravity(rotation) / side.at("gravity", 0.0) / stretch - (1 - x)
+    forcing = side.at("ground", side.critical_rotation) / side.at("ground", 0.0) / stretch[-1] - 1
+    return BlockDefects(float(np.abs(restoring).max()), float(forcing))

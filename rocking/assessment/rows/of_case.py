@@ -43,7 +43,9 @@ class PredictionRow(CaseRow):
 
     method: Method = column(METHOD)
     pulse_rank: int = column("Rank of the pulse among those that its method offers")
-    acceleration_scale_choice: str = column("linearised (a_sc), uplift (a_sc,alt) or their mean")
+    acceleration_scale_choice: str = column(
+        "rest (exact at rest), linearised (a_sc), uplift (a_sc,alt) or mean"
+    )
     frequency_parameter_rad_s: float = column(FREQUENCY_PARAMETER, equation="Eq. 11")
     critical_rotation_rad: float = column("Critical rotation")
     acceleration_scale: float = column("Acceleration scale of the equivalent block", equation="Eqs. 11, 13")

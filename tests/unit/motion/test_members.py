@@ -12,7 +12,7 @@ from rocking.motion import Members, integrate, integrate_batch, integrate_member
 from rocking.motion import linear_kernel as linear
 from rocking.motion import nonlinear_kernel as kernel
 from rocking.motion.forcing import forcing_of
-from rocking.motion.linear import blocks_of, samples_of, sides_of
+from rocking.motion.linear import blocks_of, samples_of
 from rocking.motion.table import table_of
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
@@ -114,7 +114,7 @@ def test_the_same_of_equivalent_blocks():
     for _ in range(200):
         mechanism, motion = random_case(rng)
         block = mechanism.equivalent_block()
-        sides = sides_of(block)
+        sides = block.sides
         if isinstance(motion, Pulse):
             continue
         runs = []

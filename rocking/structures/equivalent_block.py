@@ -1,0 +1,95 @@
+"""The equivalent block: a mechanism's motion made linear, and what that leaves out."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from rocking.errors import StructureError
+from rocking.quantities import positive, within
+from rocking.structures.arc import RotationMap
+
+
+@dataclass(frozen=True)
+class EquivalentBlock:
+    """x'' = p² (x − 1 − s ü_g/(gλ)): the linear rocking block, with x = φ/φ_cr (Eq. 10) or a measure of the rotation.
+
+    frequency_parameter: p, rad/s. critical_rotation: φ_cr, rad. acceleration_scale: a_sc = φ_cr/λ, -. restitution: η of
+    the angular velocity, in [0, 1]. other_side: the block of the negative side when the two differ; None when they
+    mirror each other. one_sided: rocks to the positive side only and is thrown back at φ = 0. rotation_map: the
+    rotation as a function of the arc, where x is the arc over that of φ_cr (theory: section 9); None where x = φ/φ_cr.
+    Whatever follows the block reads its answer back through the map, as φ/φ_cr of the structure.
+    """
+
+    frequency_parameter: float
+    critical_rotation: float
+    acceleration_scale: float
+    restitution: float
+    other_side: "EquivalentBlock | None" = None
+    one_sided: bool = False
+    rotation_map: RotationMap | None = field(default=None, repr=False)
+
+    def __post_init__(self) -> None:
+        for name, unit in (
+            ("frequency_parameter", "rad/s"),
+            ("critical_rotation", "rad"),
+            ("acceleration_scale", ""),
+        ):
+            object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), unit))
+        object.__setattr__(self, "restitution", within(StructureError, "restitution", self.restitution, 0, 1))
+        if self.other_side is not None and (self.one_sided or self.other_side.other_side is not None):
+            raise StructureError(
+                "other_side is given, but a one-sided block has none and another side has no further one."
+            )
+
+    @property
+    def uplift_multiplier(self) -> float:
+        """λ of the positive side = φ_cr/a_sc, the ground acceleration in g that starts rocking (Eq. 12)."""
+        return self.critical_rotation / self.acceleration_scale
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether both directions are alike."""
+        return self.other_side is None and not self.one_sided
+
+    @property
+    def sides(self) -> "tuple[EquivalentBlock, ...]":
+        """The distinct sides, positive first."""
+        return (self,) if self.other_side is None else (self, self.other_side)
+
+    @cached_property
+    def critical_arc(self) -> float:
+        """The arc at φ_cr, rad: what x = 1 is, and what turns x' into an angular velocity at φ = 0."""
+        if self.rotation_map is None:
+            return self.critical_rotation
+        return self.rotation_map.arc(self.critical_rotation)
+
+    @property
+    def velocity_scale(self) -> float:
+        """Angular velocity at φ = 0, rad/s, for each unit of dx/d(pt)."""
+        return self.frequency_parameter * self.critical_arc
+
+    def rotation_ratio(self, x: float) -> float:
+        """Return φ/φ_cr of the positive side at one x; inf beyond the end of the mechanism."""
+        if self.rotation_map is None:
+            return x
+        return self.rotation_map.rotation_at(x * self.critical_arc) / self.critical_rotation
+
+    def rotation_ratios(self, x: np.ndarray) -> np.ndarray:
+        """The same of many, any shape."""
+        if self.rotation_map is None:
+            return x
+        return self.rotation_map.rotation(x * self.critical_arc) / self.critical_rotation
+
+
+@dataclass(frozen=True)
+class BlockDefects:
+    """How far the equation of the block exact at rest is from the mechanism's, known without any ground motion.
+
+    restoring: the largest difference between the two restoring accelerations up to φ_cr, over the one at rest. forcing:
+    by how much the mechanism's response to the ground has grown at φ_cr, over that at rest; the block's stays as it is,
+    so that a positive value errs on the unsafe side. Of two unlike sides, the worse (theory: section 9).
+    """
+
+    restoring: float
+    forcing: float
