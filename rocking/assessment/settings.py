@@ -22,8 +22,8 @@ class AssessmentSettings:
 
     acceleration_scale: Scale = setting(
         "rest",
-        "of the equivalent block: rest (exact as it lifts, in arc length), or linearised about the critical rotation with "
-        "uplift (a_sc,alt), linearised (a_sc) or mean",
+        "of the equivalent block: rest (exact as it lifts, in arc length), or linearised about the critical rotation "
+        "with uplift (a_sc,alt), linearised (a_sc) or mean",
     )
     tolerance: float = setting(
         1e-6, "of the nonlinear integration, relative to the critical rotation", ge=1e-13, le=0.1

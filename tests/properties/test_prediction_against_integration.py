@@ -2,13 +2,15 @@
 
 import math
 
+import numpy as np
 import pytest
 from scipy.constants import g
 
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.sine_pulse import Regime, predict_maximum
-from rocking.structures.mechanism import EquivalentBlock
+from rocking.structures import Arch, Block, Wall
+from rocking.structures.mechanism import EquivalentBlock, Mechanism
 from rocking.structures.outcome import Outcome
 
 TOLERANCE = 1e-12
@@ -52,8 +54,12 @@ def test_the_grid_covers_every_regime_of_a_symmetric_block() -> None:
     [
         EquivalentBlock(1.7, 0.30, 0.9, 0.85, other_side=EquivalentBlock(2.4, 0.18, 0.7, 0.95)),
         EquivalentBlock(2.2, 0.2, 1.1, 0.7, one_sided=True),
+        Mechanism(
+            Wall(1.5, 1.5, 0.4).mechanism().positive,
+            Arch(10.0, 2.5, math.radians(120), restitution=0.9).mechanism().positive,
+        ).equivalent_block(),
     ],
-    ids=["asymmetric", "one-sided"],
+    ids=["asymmetric", "one-sided", "asymmetric, exact at rest"],
 )
 def test_other_blocks_agree_too_for_both_signs(block: EquivalentBlock) -> None:
     regimes = {
@@ -78,3 +84,34 @@ def test_beyond_the_critical_rotation_and_back() -> None:
     compare(block, pulse)
     assert 1 < predict_maximum(block, pulse).rotation_ratio < math.inf
     assert predict_maximum(block, pulse).outcome is Outcome.ROCKS
+
+
+def nine_structures() -> list[Mechanism]:
+    """Two blocks, three walls and four arches: what the block exact at rest is judged on."""
+    walls = [Wall(1.5, 1.5, 0.4), Wall(2.0, 1.0, 0.3), Wall(1.0, 2.0, 0.3)]
+    arches = [
+        Arch(10.0, thickness, math.radians(angle), restitution=0.9)
+        for angle, thickness in ((157.5, 1.5), (140.0, 1.5), (150.0, 1.0), (120.0, 1.5))
+    ]
+    return [each.mechanism() for each in (Block(1.52, 0.165), Block(2.0, 0.4), *walls, *arches)]
+
+
+def test_the_block_exact_at_rest_stands_for_the_mechanism() -> None:
+    """A sample of 36 pulses each of nine structures, of the 400 that the documentation quotes.
+
+    A median error of at most 3 % and 95 % of the verdicts the same; the block linearised about φ_cr with the
+    true uplift misses by 10 %, the one with a_sc by 26 %.
+    """
+    errors, agree = [], []
+    for mechanism in nine_structures():
+        block = mechanism.equivalent_block()
+        for a in np.geomspace(1.1, 10, 6):
+            for omega in np.geomspace(0.8, 10, 6):
+                pulse = Pulse(a * g * mechanism.uplift_multiplier, omega * block.frequency_parameter)
+                found, truth = predict_maximum(block, pulse), integrate(mechanism, pulse)
+                agree.append(found.outcome is truth.outcome)
+                if found.outcome is truth.outcome is Outcome.ROCKS:
+                    errors.append(abs(found.rotation_ratio / truth.rotation_ratio - 1))
+    assert len(agree) == 324 and len(errors) > 80
+    assert np.median(errors) <= 0.03
+    assert np.mean(agree) >= 0.95

@@ -1,0 +1,195 @@
+"""The block that is exact at rest: its identities, its map, its defects, and what it says of the mechanism."""
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+from scipy.constants import g
+from scipy.integrate import quad
+
+from rocking.errors import StructureError
+from rocking.motion import integrate, integrate_batch
+from rocking.pulses.pulse import Pulse
+from rocking.records.accelerogram import Accelerogram
+from rocking.sine_pulse import predict_maximum
+from rocking.structures import Arch, Block, EquivalentBlock, Mechanism, Side, Wall
+
+BLOCK, WALL = Block(1.52, 0.165, restitution=0.85), Wall(1.5, 1.5, 0.4)
+ARCH = Arch(10.0, 1.5, np.deg2rad(157.5), restitution=0.9)
+STRUCTURES = {"block": BLOCK, "wall": WALL, "arch": ARCH, "unequal wall": Wall(1.0, 2.0, 0.3)}
+TWO_SIDES = Mechanism(WALL.mechanism().positive, STRUCTURES["unequal wall"].mechanism().positive)
+
+
+def straight(p, critical, multiplier, eta):
+    """I constant and G linear, as a mechanism."""
+    square = p**2 / g
+    return Side(
+        inertia=lambda r: 1.0 + 0.0 * r,
+        inertia_slope=lambda r: 0.0 * r,
+        gravity=lambda r: square * (critical - r),
+        gravity_slope=lambda r: -square + 0.0 * r,
+        ground=lambda r: square * critical / multiplier + 0.0 * r,
+        critical_rotation=critical,
+        end_rotation=5 * critical,
+        restitution=eta,
+    )
+
+
+def test_a_linear_mechanism_is_its_own_block():
+    block = Mechanism(straight(2.3, 0.17, 0.21, 0.9)).equivalent_block()
+    assert block.frequency_parameter == pytest.approx(2.3, rel=1e-12)
+    assert block.uplift_multiplier == pytest.approx(0.21, rel=1e-12)
+    assert block.critical_arc == pytest.approx(0.17, rel=1e-12)
+    x = np.linspace(0, 4.9, 50)
+    assert block.rotation_ratios(x) == pytest.approx(x, rel=1e-12, abs=0)
+    plain = EquivalentBlock(2.3, 0.17, 0.17 / 0.21, 0.9)
+    for pulse in (Pulse(4.0, 6.0), Pulse(7.0, 14.0), Pulse(-5.0, 9.0)):
+        found, expected = predict_maximum(block, pulse), predict_maximum(plain, pulse)
+        assert found.rotation_ratio == pytest.approx(expected.rotation_ratio, rel=1e-12)
+        assert (found.regime, found.impacts, found.peak_side) == (
+            expected.regime,
+            expected.impacts,
+            expected.peak_side,
+        )
+
+
+@pytest.mark.parametrize("name", STRUCTURES)
+def test_the_map_is_the_integral_of_the_root_of_the_inertia(name):
+    """x(φ) = ∫√I dφ by adaptive quadrature to 1e-13, from small rotations to far beyond φ_cr, and back."""
+    side = STRUCTURES[name].mechanism().positive
+    block = STRUCTURES[name].mechanism().equivalent_block()
+
+    def x(rotation):
+        return quad(lambda r: math.sqrt(side.at("inertia", r)), 0, rotation, epsabs=0, epsrel=1e-13)[0]
+
+    critical = x(side.critical_rotation)
+    for share in (1e-9, 1e-3, 0.3, 0.8, 1.0, 1.3, 1.7):
+        rotation = share * side.critical_rotation
+        ratio = x(rotation) / critical
+        assert block.rotation_ratio(ratio) == pytest.approx(share, rel=1e-11)
+        assert float(block.rotation_ratios(np.array(ratio))) == pytest.approx(share, rel=1e-11)
+        assert block.rotation_map.arc(rotation) / block.critical_arc == pytest.approx(ratio, rel=1e-11)
+        slope = math.sqrt(side.at("inertia", 0.0) / side.at("inertia", rotation))
+        assert float(block.rotation_map.slope(block.rotation_map.arc(rotation))) == pytest.approx(
+            slope, rel=1e-9
+        )
+
+
+@pytest.mark.parametrize("name", STRUCTURES)
+def test_exact_as_it_lifts(name):
+    """The uplift multiplier, the acceleration that pulls it back at rest, and the unstable equilibrium."""
+    side, block = STRUCTURES[name].mechanism().positive, STRUCTURES[name].mechanism().equivalent_block()
+    assert block.uplift_multiplier == pytest.approx(side.uplift_multiplier, rel=1e-14)
+    angular = g * side.at("gravity", 0.0) / side.at("inertia", 0.0)
+    assert block.frequency_parameter * block.velocity_scale == pytest.approx(angular, rel=1e-13)
+    assert block.rotation_ratio(1.0) == pytest.approx(1.0, rel=1e-14)
+
+
+def test_beyond_the_end_of_the_mechanism_it_has_overturned():
+    block = ARCH.mechanism().equivalent_block()
+    end = block.rotation_map.end / block.critical_arc
+    side = ARCH.mechanism().positive
+    assert block.rotation_ratio(end * (1 - 1e-12)) <= side.end_rotation / side.critical_rotation
+    assert block.rotation_ratio(end * (1 + 1e-12)) == math.inf
+    assert np.isinf(block.rotation_ratios(np.array([end * 1.001]))).all()
+
+
+def test_defects_of_the_table():
+    """The table of the theory, section 9, to its printed digits."""
+    expected = {
+        (0.002, 0.01): BLOCK,
+        (0.010, 0.09): Block(2.0, 0.4),
+        (0.051, 0.13): WALL,
+        (0.019, 0.06): Wall(2.0, 1.0, 0.3),  # 5.5 % is printed as 6
+        (0.019, 0.12): ARCH,
+        (0.006, 0.18): Arch(10.0, 1.5, np.deg2rad(140)),
+        (0.015, 0.07): Arch(10.0, 1.0, np.deg2rad(150)),
+        (0.072, 0.30): Arch(10.0, 1.5, np.deg2rad(120)),
+    }
+    for (restoring, forcing), structure in expected.items():
+        defects = structure.mechanism().block_defects
+        assert defects.restoring == pytest.approx(restoring, abs=5.001e-4)
+        assert defects.forcing == pytest.approx(forcing, abs=0.006)
+    assert TWO_SIDES.block_defects == STRUCTURES["unequal wall"].mechanism().block_defects
+    assert Mechanism(straight(2.0, 0.1, 0.2, 0.9)).block_defects.restoring < 1e-14
+
+
+def crests(structure, start):
+    """The first two crests after the release from a rotation: of the other side, and of the first one again."""
+    still = Accelerogram(np.zeros(1000), 0.002)
+    rotation = integrate(structure, still, 1e-11, history=True, initial_rotation=start).rotation
+    size = np.abs(rotation)
+    crest = np.flatnonzero((size[1:-1] > size[:-2]) & (size[1:-1] >= size[2:])) + 1
+    return rotation[crest[:2]]
+
+
+def test_small_rocking_on_two_unlike_sides_is_that_of_the_mechanism():
+    """The difference vanishes in proportion to the rotation; η is that of the angular velocity on both."""
+    errors = []
+    for share in (0.04, 0.02, 0.01):
+        start = share * TWO_SIDES.positive.critical_rotation
+        ours, theirs = (crests(structure, start) for structure in (TWO_SIDES.equivalent_block(), TWO_SIDES))
+        assert (np.sign(theirs) == (-1, 1)).all()
+        errors.append(np.abs(ours / theirs - 1).max())
+    assert errors[0] < 0.02
+    assert np.array(errors[1:]) / errors[:-1] == pytest.approx([0.5, 0.5], abs=0.1)
+
+
+def test_history_and_maximum_agree():
+    """The largest rotation of the history is φ_max of the structure, on either side, in closed form and stepped."""
+    mechanism = TWO_SIDES
+    block = mechanism.equivalent_block()
+    samples = (
+        1.25 * g * max(side.uplift_multiplier for side in mechanism.sides) * np.sin(np.arange(400) * 0.3)
+    )
+    record, still = Accelerogram(samples, 0.01), Accelerogram(np.zeros(400), 0.01)
+    for vertical in (None, still):
+        response = integrate(block, record, 1e-11, history=True, vertical=vertical)
+        assert response.outcome == "rocks"
+        ratios = [
+            abs(response.rotation).max(initial=0, where=np.sign(response.rotation) == sign)
+            / side.critical_rotation
+            for sign, side in ((1, mechanism.positive), (-1, mechanism.negative))
+        ]
+        assert max(ratios) == pytest.approx(response.rotation_ratio, rel=1e-9)
+        assert response.peak_side == (1, -1)[int(np.argmax(ratios))]
+    exact, stepped = (integrate(block, record, 1e-12, vertical=v) for v in (None, still))
+    assert stepped.rotation_ratio == pytest.approx(exact.rotation_ratio, rel=1e-9)
+    assert integrate_batch([block], record)[0, 0] == pytest.approx(exact.rotation_ratio, rel=1e-12)
+
+
+def test_velocity_of_the_history_is_the_slope_of_the_rotation():
+    response = integrate(
+        ARCH.mechanism().equivalent_block(),
+        Accelerogram(np.zeros(400), 0.002),
+        history=True,
+        initial_rotation=0.05,
+    )
+    first = np.flatnonzero(response.rotation <= 0)[0]
+    times, rotation = response.times[: first - 1], response.rotation[: first - 1]
+    slope = np.gradient(rotation, times, edge_order=2)
+    assert response.angular_velocity[: first - 1][1:-1] == pytest.approx(slope[1:-1], rel=1e-3, abs=1e-5)
+
+
+def test_one_side_only():
+    structure = Block(1.5, 0.2, restitution=0.5, one_sided=True)
+    block = structure.mechanism().equivalent_block()
+    assert block.one_sided
+    pulse = Pulse(3.0, 8.0)
+    assert predict_maximum(block, pulse).peak_side == 1
+    assert predict_maximum(block, pulse).rotation_ratio == pytest.approx(
+        integrate(structure, pulse).rotation_ratio, rel=0.02
+    )
+
+
+def test_other_forms_and_words():
+    mechanism = ARCH.mechanism()
+    assert mechanism.equivalent_block("uplift").rotation_map is None
+    assert mechanism.equivalent_block() == mechanism.equivalent_block("rest")
+    with pytest.raises(
+        StructureError, match="scale is 'rests', but must be one of rest, linearised, uplift, mean"
+    ):
+        mechanism.equivalent_block("rests")
+    copy = pickle.loads(pickle.dumps(mechanism.equivalent_block()))
+    assert copy.rotation_ratio(0.5) == mechanism.equivalent_block().rotation_ratio(0.5)
