@@ -16,6 +16,7 @@ from rocking.motion.response import Response
 from rocking.pulses.analysis import PulseAnalysis
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
+from rocking.reports.dimension_lines import draw_dimensions, draw_marks
 from rocking.structures.drawing import Dimension
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.outcome import Outcome
@@ -126,6 +127,8 @@ def plot_structure(
     if dimensions:
         for dimension in structure.dimensions():
             _plot_dimension(axes, dimension)
+    draw_dimensions(axes, structure.dimensions(), np.transpose)
+    draw_marks(axes, structure.marks(rotation), np.transpose)
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.06)
     return axes

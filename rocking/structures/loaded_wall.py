@@ -326,7 +326,7 @@ class LoadedWall(Structure):
             drawn.append(Mark("load", text, line(1, self._bearing(rotation < 0), 1j * size)))
         for height in self.tie_heights if rotation >= 0 else ():
             block = 0 if height <= self.lower_height else 1
-            tail = complex(-self.thickness - 2 * size, 0.0)
+            tail = complex(-self.thickness - 3 * size, 0.0)
             text = f"{self.tie_stiffness / 1e3:.6g} kN/m²"
             drawn.append(Mark("tie", text, line(block, complex(self.thickness / 2, height), tail)))
         return tuple(drawn)

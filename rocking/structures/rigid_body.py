@@ -110,10 +110,10 @@ class RigidBody(Structure):
         return np.array([[self.right, 0.0]])
 
     def _dimensions(self) -> dict[str, Path]:
-        apart, centre = [0.0, -0.12 * self.centre_height], [0.0, self.centre_height]
+        apart, centre = np.array([0.0, -0.12 * self.centre_height]), [0.0, self.centre_height]
         return {
             "left": span([-self.left, 0.0], [0.0, 0.0], apart),
-            "right": span([0.0, 0.0], [self.right, 0.0], apart),
+            "right": span([0.0, 0.0], [self.right, 0.0], 2 * apart),
             "centre_height": span([0.0, 0.0], centre),
         }
 

@@ -7,23 +7,26 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rocking.reports.dimension_lines import draw_dimensions, draw_marks
 from rocking.reports.style import TEXT_WIDTH, elided, new_figure, styled
 from rocking.structures.structure import Structure
 
 _COLUMNS = 5
-_CELL_HEIGHT = 36.0
+_CELL_HEIGHT = 40.0
 """Height of one drawing with its title and its scale bar, mm."""
 _DRAWN_WIDTH, _DRAWN_HEIGHT = 29.0, 23.5
 """Room for the structure itself, mm."""
 _DRAWN_SHARE = 0.6
 """Share of the critical rotation at which the displaced structure is drawn; more where that is hard to see."""
-_SEEN_ROTATION = 0.12
-"""Rotation that can be seen at this size, rad."""
+_SEEN_ROTATION, _MOST_ROTATION = 0.12, 0.3
+"""Rotation that can be seen at this size, and beyond which a structure is hard to recognise, rad."""
 
 
 @styled
 def structure_drawings(structures: Sequence[tuple[str, Structure]]) -> Figure:
     """Draw each (label, structure) to its own scale: at rest dashed, displaced in grey, hinges as circles.
+
+    Dimension lines carry letters, and below the label stands what they measure; loads, thrusts and ties are drawn.
 
     One panel holds them all, in millimetres of paper.
     """
@@ -38,6 +41,8 @@ def structure_drawings(structures: Sequence[tuple[str, Structure]]) -> Figure:
         foot = np.array([(column + 0.5) * width, -(row + 1) * _CELL_HEIGHT + 7.0])
         _draw(panel, structure, foot)
         panel.text(foot[0], -row * _CELL_HEIGHT - 1, elided(label, 22), ha="center", va="top")
+        sizes = ", ".join(f"{each.letter} = {each.text}" for each in structure.dimensions())
+        panel.text(foot[0], -row * _CELL_HEIGHT - 4.5, elided(sizes, 36), ha="center", va="top", fontsize=5)
     return figure
 
 
@@ -45,7 +50,9 @@ def _draw(panel: Axes, structure: Structure, foot: np.ndarray) -> None:
     """Draw one structure with the middle of its lower edge at `foot`, mm of paper."""
     rotation = drawn_rotation(structure)
     displaced, rest = structure.outline(rotation), structure.outline()
-    points = np.vstack([*displaced, *rest])
+    dimensions, marks = structure.dimensions(), structure.marks(rotation)
+    lines = [each.line for each in dimensions] + [each.line for each in marks]
+    points = np.vstack([*displaced, *rest, *lines])
     low, high = points.min(axis=0), points.max(axis=0)
     scale = min(np.array([_DRAWN_WIDTH, _DRAWN_HEIGHT]) / (high - low))
     origin = np.array([(low[0] + high[0]) / 2, low[1]])
@@ -53,6 +60,10 @@ def _draw(panel: Axes, structure: Structure, foot: np.ndarray) -> None:
         panel.fill(*_placed(outline, origin, scale, foot), facecolor="0.85", edgecolor="0.4", linewidth=0.5)
     for outline in rest:
         panel.fill(*_placed(outline, origin, scale, foot), fill=False, linewidth=0.7, linestyle="--")
+    draw_dimensions(
+        panel, dimensions, lambda at: _placed(at, origin, scale, foot), values=False, fontsize=5.5
+    )
+    draw_marks(panel, marks, lambda at: _placed(at, origin, scale, foot), values=False)
     hinges = _placed(structure.hinges(rotation), origin, scale, foot)
     panel.plot(*hinges, "o", color="white", markeredgecolor="black", markersize=3.5)
     _scale_bar(panel, scale, foot)
@@ -66,7 +77,8 @@ def _placed(points: np.ndarray, origin: np.ndarray, scale: float, foot: np.ndarr
 def drawn_rotation(structure: Structure) -> float:
     """Return the rotation of the displaced drawing, rad: a share of φ_cr, more where that is hard to see."""
     side = structure.mechanism().positive
-    return min(max(_DRAWN_SHARE * side.critical_rotation, _SEEN_ROTATION), 0.8 * side.end_rotation)
+    wished = min(max(_DRAWN_SHARE * side.critical_rotation, _SEEN_ROTATION), _MOST_ROTATION)
+    return min(wished, 0.8 * side.end_rotation)
 
 
 def _scale_bar(panel: Axes, scale: float, foot: np.ndarray) -> None:
