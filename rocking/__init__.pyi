@@ -1,3 +1,6 @@
+from .assessment.single import StructureAssessment as StructureAssessment
+from .assessment.single import assess as assess
+from .assessment.verdict import Verdict as Verdict
 from .errors import CatalogueError as CatalogueError
 from .errors import ConfigurationError as ConfigurationError
 from .errors import MotionError as MotionError

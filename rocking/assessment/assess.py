@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from time import process_time
 
+from rocking.assessment.ensemble import Ensemble, GroundMotions, ensemble
 from rocking.assessment.fidelity import Answer, cheapest_answer, limits_for
 from rocking.assessment.method import Method
 from rocking.assessment.settings import AssessmentSettings
@@ -54,7 +55,7 @@ class Case:
     """One structure under one accelerogram. prediction is None where the record has no pulse.
 
     check: whether the model held along the response of the mechanism to the record. answer: of the mechanism on the
-    record, or of the cheapest method that is trusted in its stead.
+    record, or of the cheapest method that is trusted in its stead. ensemble: None where none was asked for.
     """
 
     structure: str
@@ -63,6 +64,7 @@ class Case:
     responses: Mapping[Method, Response]
     check: ModelCheck
     answer: Answer
+    ensemble: Ensemble | None = None
 
 
 @dataclass(frozen=True)
@@ -91,7 +93,7 @@ class Assessment:
     """CPU time of each stage, s."""
 
 
-def assess(
+def assess_structures(
     accelerogram: Accelerogram,
     structures: Mapping[str, Structure],
     settings: AssessmentSettings | None = None,
@@ -183,7 +185,17 @@ def _case(
         responses = {} if answer.response is None else {answer.integrated: answer.response}
     on_record = responses.get(Method.MECHANISM_ON_RECORD)
     check = check_model(structure, on_record, accelerogram, vertical) if on_record else UNKNOWN
-    return Case(name, mechanism, prediction, responses, check, answer)
+    sure = None
+    if full and settings.ensemble.members:
+        motions = GroundMotions.of(accelerogram, vertical)
+        sure = ensemble(
+            mechanism,
+            motions,
+            settings.ensemble,
+            nominal=answer.rotation_ratio,
+            tolerance=settings.tolerance,
+        )
+    return Case(name, mechanism, prediction, responses, check, answer, sure)
 
 
 def _cheapest(

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Literal
 
+from rocking.assessment.ensemble import EnsembleSettings
 from rocking.errors import ConfigurationError
 from rocking.pulses import DEFAULT_PULSE_METHOD, PULSE_METHODS, PulseSettings
 from rocking.quantities import check_settings, setting
@@ -32,6 +33,7 @@ class AssessmentSettings:
         0.01, "relative change of the ground motion that must not flip a verdict", ge=0, le=0.5
     )
     pulse: PulseSettings = field(default_factory=PulseSettings)
+    ensemble: EnsembleSettings = field(default_factory=EnsembleSettings)
     bootstrap_replicates: int = setting(
         0, f"of the pulse's 90 % interval, at least {FEWEST_REPLICATES}; 0: no interval", ge=0, le=10_000
     )

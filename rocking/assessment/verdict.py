@@ -1,4 +1,4 @@
-"""Verdict: does a predicted rotation err against the integrated one, and on which side? Each word is defined here once.
+"""Verdicts, and how a prediction stands to the integration: each word and each threshold is defined here once.
 
 A structure rests, rocks or overturns. It rests up to `NEGLIGIBLE` of its critical rotation, lifted or not: whether a
 rotation is exactly zero hangs on the last digit of the uplift acceleration, and a tremor below a thousandth of the
@@ -13,19 +13,43 @@ from enum import StrEnum
 
 NEGLIGIBLE = 1e-3
 """Largest rotation over critical rotation at which a structure counts as resting."""
+CLOSE = 0.1
+"""Relative difference up to which a prediction and the integration are not told apart in words."""
 
 
 class Verdict(StrEnum):
+    """What can be said of a structure under a ground motion, all considered that is not known."""
+
+    STANDS = "stands"
+    OVERTURNS = "overturns"
+    UNDECIDED = "undecided"
+    UNKNOWN = "unknown"
+    """Nothing could be computed."""
+
+
+class Agreement(StrEnum):
     """How a prediction stands to the integration."""
 
-    AGREE = "agree"
+    SAME = "same outcome"
     """Both rest, both rock or both overturn."""
-    UNSAFE = "unsafe"
-    """The prediction says less than happens."""
-    SAFE = "safe"
+    TOO_LOW = "too low"
+    """The prediction says less than happens: the unsafe side."""
+    TOO_HIGH = "too high"
     """The prediction says more than happens."""
     UNKNOWN = "unknown"
     """One of the two is not known."""
+
+
+def verdict(probability: float, error: float, risk: float) -> Verdict:
+    """Return what a probability of overturning, known to ± `error`, says where `risk` of the opposite can be borne.
+
+    A probability that may lie on either side of a limit decides nothing.
+    """
+    if math.isnan(probability):
+        return Verdict.UNKNOWN
+    if probability + error <= risk:
+        return Verdict.STANDS
+    return Verdict.OVERTURNS if 1 - probability + error <= risk else Verdict.UNDECIDED
 
 
 def rests(rotation_ratio: float) -> bool:
@@ -38,17 +62,51 @@ def rocks(rotation_ratio: float) -> bool:
     return NEGLIGIBLE < rotation_ratio < math.inf
 
 
-def verdict(predicted: float, integrated: float) -> Verdict:
+def agreement(predicted: float, integrated: float) -> Agreement:
     """Compare two rotation ratios (inf: overturns, nan: not known)."""
     if math.isnan(predicted) or math.isnan(integrated):
-        return Verdict.UNKNOWN
+        return Agreement.UNKNOWN
     difference = _severity(predicted) - _severity(integrated)
-    return Verdict.AGREE if difference == 0 else Verdict.SAFE if difference > 0 else Verdict.UNSAFE
+    return Agreement.SAME if difference == 0 else Agreement.TOO_HIGH if difference > 0 else Agreement.TOO_LOW
 
 
 def ratio(predicted: float, integrated: float) -> float:
     """Return predicted over integrated rotation ratio where both are lifted and stay up, else nan."""
     return predicted / integrated if 0 < predicted < math.inf and 0 < integrated < math.inf else math.nan
+
+
+def ratio_in_words(predicted: float, integrated: float) -> str:
+    """Say how a predicted rotation ratio stands to the integrated one: "20 × too low", "within 10 %".
+
+    Two digits at the most; "" where one of them is not known.
+    """
+    if math.isnan(predicted) or math.isnan(integrated):
+        return ""
+    kinds = _severity(predicted), _severity(integrated)
+    if kinds != (1, 1):
+        return _WORDS[kinds]
+    found = predicted / integrated
+    factor = max(found, 1 / found)
+    if factor <= 1 + CLOSE:
+        return f"within {CLOSE:.0%}".replace("%", " %")
+    return f"{_two_digits(factor)} × too {'high' if found > 1 else 'low'}"
+
+
+_WORDS = {
+    (0, 0): "both at rest",
+    (0, 1): "misses the rocking",
+    (0, 2): "misses the overturning",
+    (1, 0): "rocks instead of resting",
+    (1, 2): "misses the overturning",
+    (2, 0): "overturns instead of resting",
+    (2, 1): "overturns instead of rocking",
+    (2, 2): "both overturn",
+}
+"""By predicted and integrated severity: rests, rocks, overturns."""
+
+
+def _two_digits(value: float) -> str:
+    return f"{value:.1f}" if value < 10 else f"{float(f'{value:.2g}'):.0f}"
 
 
 def within_factor_two(predicted: float, integrated: float) -> bool | None:

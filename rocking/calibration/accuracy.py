@@ -16,7 +16,7 @@ import numpy as np
 
 from rocking.assessment.method import Method
 from rocking.assessment.rows import TradeRow
-from rocking.assessment.verdict import Verdict, ratio, rocks, verdict
+from rocking.assessment.verdict import Agreement, agreement, ratio, rocks
 from rocking.calibration.settings import TradeSettings
 from rocking.errors import MotionError, PulseError, RockingError
 from rocking.motion.integration import integrate
@@ -212,8 +212,8 @@ def _timed(method: str, tolerance: float, run: Callable[[], float], preparation:
 
 
 def _row(case: TradeCase, timed: Timed, truth: float) -> TradeRow:
-    said = verdict(timed.rotation_ratio, truth)
-    agrees = said is Verdict.AGREE
+    said = agreement(timed.rotation_ratio, truth)
+    agrees = said is Agreement.SAME
     miss = abs(ratio(timed.rotation_ratio, truth) - 1)
     return TradeRow(
         record=case.record,
@@ -227,7 +227,7 @@ def _row(case: TradeCase, timed: Timed, truth: float) -> TradeRow:
         rotation_ratio=timed.rotation_ratio,
         reference_rotation_ratio=truth,
         error=0.0 if agrees and not rocks(truth) else miss,
-        verdict_agrees=None if said is Verdict.UNKNOWN else agrees,
+        verdict_agrees=None if said is Agreement.UNKNOWN else agrees,
         duration_s=timed.duration,
         repeats=timed.repeats,
         preparation_s=timed.preparation,

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from rocking.assessment.fidelity import LADDER, Limits
 from rocking.assessment.method import Method
-from rocking.assessment.verdict import Verdict, rocks, verdict
+from rocking.assessment.verdict import Agreement, agreement, rocks
 from rocking.calibration.lights import distinct_components, grid_of_blocks
 from rocking.calibration.trials import Trial, trials
 from rocking.records import Accelerogram
@@ -66,7 +66,7 @@ def halves(everything: Sequence[Trial]) -> tuple[list[Trial], list[Trial]]:
 
 def is_right(answer: float, truth: float, tolerance: float) -> bool:
     """Whether the verdict agrees and the rotation is within the tolerance."""
-    if verdict(answer, truth) is not Verdict.AGREE:
+    if agreement(answer, truth) is not Agreement.SAME:
         return False
     return not rocks(truth) or abs(answer / truth - 1) <= tolerance
 
@@ -168,7 +168,7 @@ def _answers(pairs: Iterable[tuple[Trial, Method]], tolerance: float) -> tuple[l
         answer, truth = trial.rotation_ratio(method), trial.mechanism_ratio
         right.append(is_right(answer, truth, tolerance))
         unsafe.append(is_unsafe(answer, truth, tolerance))
-        verdicts.append(verdict(answer, truth) is Verdict.UNSAFE)
+        verdicts.append(agreement(answer, truth) is Agreement.TOO_LOW)
     return right, unsafe, verdicts
 
 

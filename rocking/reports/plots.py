@@ -23,6 +23,7 @@ from rocking.structures.outcome import Outcome
 from rocking.structures.structure import Structure
 
 if TYPE_CHECKING:
+    from rocking.assessment.single import StructureAssessment
     from rocking.motion.spectrum import RockingSpectrum
 
 _TIME = "time [s]"
@@ -72,6 +73,25 @@ def plot_response(response: Response, axes: Axes | None = None) -> Axes:
         place = int(np.abs(response.rotation).argmax())
         axes.plot(response.times[place], response.rotation[place], "o", fillstyle="none", color="black")
     axes.set_title(response.outcome.of(response.rotation_ratio))
+    return axes
+
+
+def plot_assessment(assessment: "StructureAssessment", axes: Axes | None = None) -> Axes:
+    """Draw the rotation ratio of the case as given against time, and the 5–95 % of the members' largest as a band."""
+    response = assessment.response
+    if response.times is None or response.rotation is None:
+        raise MotionError("the history of the response is not there; assess the structure again to plot it.")
+    critical = next(iter(assessment.cases.values())).mechanism.critical_rotation
+    axes = _ready(axes, _TIME, "rotation / critical rotation [-]")
+    axes.plot(response.times, response.rotation / critical, linewidth=0.9, label="as given")
+    low, high = (min(value, 1.0) for value in (assessment.rotation_ratio_low, assessment.rotation_ratio_high))
+    for sign in (1, -1):
+        label = f"largest of {assessment.members} members, 5–95 %" if sign > 0 else None
+        axes.axhspan(sign * low, sign * high, color="C1", alpha=0.2, label=label)
+    axes.set_ylim(-1.15, 1.15)
+    probability = assessment.overturning_probability
+    axes.set_title(f"{assessment.verdict}: overturns in {100 * probability:.0f} % of the members")
+    axes.legend(loc="upper right")
     return axes
 
 

@@ -6,9 +6,18 @@ from functools import cached_property
 from pathlib import Path
 from time import process_time
 
-from rocking.assessment.assess import Assessment, Failure, assess
+from rocking.assessment.assess import Assessment, Failure, assess_structures
+from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.horizontal_motion import horizontal_motions
-from rocking.assessment.rows import Identity, RecordTables, TimingRow, candidate_rows, processing_rows
+from rocking.assessment.rows import (
+    BOTH_COMPONENTS,
+    Identity,
+    RecordTables,
+    TimingRow,
+    candidate_rows,
+    ensemble_row,
+    processing_rows,
+)
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, processed, processed_variants
 from rocking.errors import RockingError
@@ -110,17 +119,45 @@ def write_tables(
     accelerograms, vertical = opened
     for accelerogram, motion in zip(accelerograms, horizontal_motions(accelerograms), strict=True):
         beside = None if vertical is None else aligned(vertical, accelerogram)
-        assessment = assess(accelerogram, study.structures, study.assessment, beside)
+        assessment = assess_structures(accelerogram, study.structures, study.assessment, beside)
         identity = Identity(record.id, accelerogram, study.settings_sha256)
         tables.add(identity, assessment, study.assessment, record.licence, beside, motion)
         varied = process_time()
         _vary(identity, assessment, study, tables)
         spent = {"variations": process_time() - varied, **assessment.durations}
         durations |= {stage: durations.get(stage, 0.0) + duration for stage, duration in spent.items()}
+    started = process_time()
+    _assess_directions(record, opened, study, tables)
+    durations["directions"] = process_time() - started
     for stage, duration in durations.items():
         tables.timings.append(TimingRow(record=record.id, stage=stage, duration_s=duration))
     tables.write(folder)
     return [failure.message for failure in tables.failures]
+
+
+def _assess_directions(record: CatalogueRecord, opened: Opened, study: Study, tables: RecordTables) -> None:
+    """Append the ensembles over directions, where the record has two horizontal components."""
+    accelerograms, vertical = opened
+    settings = study.assessment.ensemble
+    if len(accelerograms) != 2 or not settings.members or study.assessment.fidelity != "full":
+        return
+    identity = Identity(record.id, accelerograms[0], study.settings_sha256)
+    nominal: dict[str, float] = {}
+    for alone in tables.ensemble:
+        nominal[alone.structure] = max(nominal.get(alone.structure, 0.0), alone.nominal_rotation_ratio)
+    try:
+        motions = GroundMotions.of_pair(accelerograms[0], accelerograms[1], vertical)
+        for name, largest in nominal.items():
+            found = ensemble(
+                study.structures[name],
+                motions,
+                settings,
+                nominal=largest,
+                tolerance=study.assessment.tolerance,
+            )
+            tables.ensemble.append(ensemble_row(identity, name, found, settings, BOTH_COMPONENTS))
+    except RockingError as error:
+        tables.fail(record.id, BOTH_COMPONENTS, Failure("directions", "", str(error)))
 
 
 def _vary(identity: Identity, assessment: Assessment, study: Study, tables: RecordTables) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, is_dataclass
 from typing import Any, Literal
 
+from rocking.assessment.ensemble import EnsembleSettings
 from rocking.assessment.settings import AssessmentSettings
 from rocking.calibration.settings import TradeSettings
 from rocking.pulses.settings import PulseSettings
@@ -67,6 +68,17 @@ class DominantPulseSettings:
 
 
 @dataclass(frozen=True)
+class StudyEnsembleSettings:
+    """What is not known of a case."""
+
+    members: int = _of(EnsembleSettings, "members")
+    amplitude_range: float = _of(EnsembleSettings, "amplitude_range")
+    restitution_range: float = _of(EnsembleSettings, "restitution_range")
+    polarity: bool = _of(EnsembleSettings, "polarity")
+    risk: float = _of(EnsembleSettings, "risk")
+
+
+@dataclass(frozen=True)
 class StudyTradeSettings:
     """How much is tried where error is measured against time."""
 
@@ -112,6 +124,9 @@ class Settings:
     fidelity: Literal["full", "auto"] = _of(AssessmentSettings, "fidelity")
     fidelity_tolerance: float = _of(AssessmentSettings, "fidelity_tolerance")
     fidelity_risk: float = _of(AssessmentSettings, "fidelity_risk")
+    ensemble: StudyEnsembleSettings = _section(
+        StudyEnsembleSettings, "Ensemble: what is not known of a case varies within these ranges"
+    )
     trade: StudyTradeSettings = _section(StudyTradeSettings, "Trade of error for time: snakemake trade")
     reports: bool = _own(
         True, "PDF reports; the tables are written either way", heading="Output", numbers=False
@@ -127,7 +142,9 @@ class Settings:
     def assessment(self) -> AssessmentSettings:
         """What a record is compared with."""
         return AssessmentSettings(
-            **self._values(AssessmentSettings), pulse=PulseSettings(**self._values(PulseSettings))
+            **self._values(AssessmentSettings),
+            pulse=PulseSettings(**self._values(PulseSettings)),
+            ensemble=EnsembleSettings(**self._values(EnsembleSettings)),
         )
 
     @property

@@ -11,6 +11,7 @@ from rocking.assessment.rows import (
     SUMMARY_TABLES,
     AgreementRow,
     ComparisonRow,
+    EnsembleRow,
     EquivalenceRow,
     FailureRow,
     MaximumRow,
@@ -29,7 +30,14 @@ from rocking.assessment.rows.of_study import AGREEMENT_COLUMNS
 from rocking.structures import Structure
 from rocking.tables import Row, data_package, frame, read_rows, write_rows, write_whole
 
-_COPIED: tuple[type[Row], ...] = (RecordRow, PulseRow, ComparisonRow, FailureRow, TimingRow)
+_COPIED: tuple[type[Row], ...] = (
+    RecordRow,
+    PulseRow,
+    ComparisonRow,
+    EnsembleRow,
+    FailureRow,
+    TimingRow,
+)
 
 
 def write_summary(folders: Iterable[Path], structures: Mapping[str, Structure], target: Path) -> None:

@@ -12,6 +12,7 @@ from rocking.assessment.rows.of_case import (
     maximum_row,
     processing_rows,
 )
+from rocking.assessment.rows.of_ensemble import BOTH_COMPONENTS, EnsembleRow, ensemble_row
 from rocking.assessment.rows.of_folder import PER_RECORD, RECORD_TABLES, RecordTables
 from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow, TimingRow, failure_row
 from rocking.assessment.rows.of_study import (
@@ -32,6 +33,7 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     RecordRow,
     PulseRow,
     ComparisonRow,
+    EnsembleRow,
     AgreementRow,
     MaximumRow,
     StructureRow,
@@ -42,6 +44,7 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
 """The rows of the tables of the summary folder."""
 
 __all__ = [
+    "BOTH_COMPONENTS",
     "PER_RECORD",
     "RECORD_TABLES",
     "SUMMARY_TABLES",
@@ -50,6 +53,7 @@ __all__ = [
     "CaseRow",
     "ComparisonRow",
     "ComponentRow",
+    "EnsembleRow",
     "EquivalenceRow",
     "FailureRow",
     "Identity",
@@ -67,6 +71,7 @@ __all__ = [
     "agreement_rows",
     "candidate_rows",
     "comparison_row",
+    "ensemble_row",
     "equivalence_rows",
     "failure_row",
     "maximum_row",

@@ -22,7 +22,7 @@ from rocking.assessment.rows.shared import (
     Identity,
 )
 from rocking.assessment.variations import Candidate, Variant, governing
-from rocking.assessment.verdict import Verdict, ratio, verdict, within_factor_two
+from rocking.assessment.verdict import Agreement, agreement, ratio, within_factor_two
 from rocking.motion.contact_check import UNKNOWN
 from rocking.motion.response import Response
 from rocking.pulses import Light
@@ -123,8 +123,8 @@ class ComparisonRow(CaseRow):
         "Share of overturnings that such predictions found, from the shipped calibration; empty if there were none"
     )
     reliability_records: int = column("Independent records behind those two shares")
-    verdict: Verdict = column(
-        "agree, unsafe (overturning or rocking missed) or safe (predicted, did not happen)"
+    agreement: Agreement = column(
+        "Rest, rocking or overturning in the closed form and in the integration: same outcome, too low or too high"
     )
     regime: Regime | None = column(REGIME)
     light: Light | None = column(LIGHT)
@@ -277,7 +277,7 @@ def comparison_row(identity: Identity, case: Case) -> ComparisonRow:
         answer_method=case.answer.method,
         prediction_over_integration=ratio(predicted, integrated),
         within_factor_two=within_factor_two(predicted, integrated),
-        verdict=verdict(predicted, integrated),
+        agreement=agreement(predicted, integrated),
         regime=prediction.maximum.regime if prediction else None,
         light=prediction.light if prediction else None,
         sensitivity=reference.sensitivity,

@@ -15,6 +15,7 @@ from rocking.assessment.rows.of_case import (
     prediction_rows,
     response_rows,
 )
+from rocking.assessment.rows.of_ensemble import EnsembleRow, ensemble_row
 from rocking.assessment.rows.of_record import (
     FailureRow,
     PulseRow,
@@ -35,6 +36,7 @@ RECORD_TABLES: tuple[type[Row], ...] = (
     PredictionRow,
     ResponseRow,
     ComparisonRow,
+    EnsembleRow,
     CandidateRow,
     ProcessingRow,
 )
@@ -52,6 +54,7 @@ class RecordTables:
     predictions: list[PredictionRow] = field(default_factory=list)
     responses: list[ResponseRow] = field(default_factory=list)
     comparison: list[ComparisonRow] = field(default_factory=list)
+    ensemble: list[EnsembleRow] = field(default_factory=list)
     candidates: list[CandidateRow] = field(default_factory=list)
     processing: list[ProcessingRow] = field(default_factory=list)
     failures: list[FailureRow] = field(default_factory=list)
@@ -93,6 +96,8 @@ class RecordTables:
             self.predictions.extend(prediction_rows(identity, case, settings.acceleration_scale))
             self.responses.extend(response_rows(identity, case, settings.friction_coefficient))
             self.comparison.append(comparison_row(identity, case))
+            if case.ensemble is not None:
+                self.ensemble.append(ensemble_row(identity, case.structure, case.ensemble, settings.ensemble))
         for failure in assessment.failures:
             self.fail(identity.record, assessment.accelerogram.component, failure)
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from rocking.assessment.method import Method
 from rocking.assessment.rows import ComparisonRow, PredictionRow, PulseRow
-from rocking.assessment.verdict import NEGLIGIBLE, Verdict
+from rocking.assessment.verdict import NEGLIGIBLE, Agreement
 from rocking.motion.response import Response
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY
@@ -143,7 +143,7 @@ def history_picture(
 
 
 def _demand(row: ComparisonRow) -> tuple[bool, float]:
-    return row.verdict is Verdict.UNSAFE or bool(row.fragile), row.integrated_rotation_ratio
+    return row.agreement is Agreement.TOO_LOW or bool(row.fragile), row.integrated_rotation_ratio
 
 
 def _history(label: str, row: ComparisonRow, mechanism: Mechanism, response: Response) -> History:

@@ -5,16 +5,16 @@ from collections.abc import Mapping, Sequence
 
 from rocking.assessment.method import Method
 from rocking.assessment.rows import ComparisonRow, RecordRow, RecordTables, ResponseRow
-from rocking.assessment.verdict import Verdict, rests
+from rocking.assessment.verdict import Agreement, rests
 from rocking.pulses import Light
 from rocking.reports import printing
 from rocking.reports.printing import number, ratio, strong, table_of, words
 
 _VERDICTS = {
-    Verdict.AGREE: "in agreement",
-    Verdict.UNSAFE: "UNSAFE: too low",
-    Verdict.SAFE: "safe: too high",
-    Verdict.UNKNOWN: "unknown",
+    Agreement.SAME: "in agreement",
+    Agreement.TOO_LOW: "UNSAFE: too low",
+    Agreement.TOO_HIGH: "safe: too high",
+    Agreement.UNKNOWN: "unknown",
 }
 
 
@@ -38,7 +38,7 @@ def verdict_table(rows: Sequence[ComparisonRow], numbers: Mapping[str, str]) -> 
             "The closed form is",
             "1.05",
             "l",
-            lambda row: strong(_VERDICTS[row.verdict], row.verdict is Verdict.UNSAFE),
+            lambda row: strong(_VERDICTS[row.agreement], row.agreement is Agreement.TOO_LOW),
         ),
         ("Regime of the closed form", "1.5", "l", lambda row: words(row.regime)),
         ("Sensi\u00adtivity", "0.45", "r", lambda row: number(row.sensitivity)),
@@ -66,7 +66,7 @@ def verdict_sentences(rows: Sequence[ComparisonRow]) -> list[str]:
 
 
 def _doubts(rows: Sequence[ComparisonRow]) -> list[str]:
-    missed = [row for row in rows if row.verdict is Verdict.UNSAFE]
+    missed = [row for row in rows if row.agreement is Agreement.TOO_LOW]
     unsafe = [row.structure for row in sorted(missed, key=lambda row: -row.integrated_rotation_ratio)]
     fragile = [row.structure for row in rows if row.fragile]
     sentences = []

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.rows import AgreementRow, ComparisonRow, FailureRow, RecordRow
-from rocking.assessment.verdict import Verdict
+from rocking.assessment.verdict import Agreement
 from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.style import svg
@@ -30,7 +30,7 @@ def summary_report(tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any
 def summary_data(tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any]) -> dict[str, object]:
     """Return what the template of the summary is given: texts, tables and figures."""
     comparison = tables["comparison"]
-    worst = comparison[comparison["verdict"] == Verdict.UNSAFE].sort_values(
+    worst = comparison[comparison["agreement"] == Agreement.TOO_LOW].sort_values(
         "integrated_rotation_ratio", ascending=False, kind="stable"
     )
     unsafe = Listing.of(ComparisonRow, worst)

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rocking.assessment.assess import AssessmentSettings, Method, assess, predict
-from rocking.assessment.verdict import NEGLIGIBLE, ratio, rests, verdict, within_factor_two
+from rocking.assessment.assess import AssessmentSettings, Method, assess_structures, predict
+from rocking.assessment.verdict import NEGLIGIBLE, agreement, ratio, rests, within_factor_two
 from rocking.errors import ConfigurationError, StructureError
 from rocking.pulses import PULSE_METHODS, Light, Pulse, extract_pulses
 from rocking.records import Accelerogram
@@ -44,7 +44,7 @@ class Impossible(Structure):
 
 @pytest.fixture(scope="module")
 def case():
-    return assess(RECORD, {"block": BLOCK}, SETTINGS).cases[0]
+    return assess_structures(RECORD, {"block": BLOCK}, SETTINGS).cases[0]
 
 
 def test_a_record_that_is_one_pulse_is_predicted_by_its_pulse(case):
@@ -67,7 +67,7 @@ def test_the_band_holds_the_prediction_where_nothing_disturbs_the_pulse(case):
 
 
 def test_a_structure_that_fails_costs_no_other_its_result():
-    found = assess(RECORD, {"bad": Impossible(), "block": BLOCK}, SETTINGS)
+    found = assess_structures(RECORD, {"bad": Impossible(), "block": BLOCK}, SETTINGS)
     assert [case.structure for case in found.cases] == ["block"]
     assert [(f.stage, f.structure) for f in found.failures] == [("responses", "bad")]
     assert "0.2 m" in found.failures[0].message
@@ -75,7 +75,7 @@ def test_a_structure_that_fails_costs_no_other_its_result():
 
 def test_a_record_without_a_pulse_is_integrated_all_the_same():
     still = Accelerogram(np.zeros(1000), STEP)
-    found = assess(still, {"block": BLOCK}, SETTINGS)
+    found = assess_structures(still, {"block": BLOCK}, SETTINGS)
     assert found.analysis is None
     assert found.failures[0].stage == "pulses"
     assert found.cases[0].prediction is None
@@ -94,7 +94,7 @@ def test_choice_by_demand_never_asks_less_than_choice_by_energy():
 
 @pytest.mark.parametrize("name", PULSE_METHODS)
 def test_every_pulse_method_predicts(name):
-    found = assess(RECORD, {"block": BLOCK}, AssessmentSettings(pulse_choice=name))
+    found = assess_structures(RECORD, {"block": BLOCK}, AssessmentSettings(pulse_choice=name))
     assert not found.failures
     assert found.cases[0].prediction.pulse == found.candidates[found.cases[0].prediction.rank - 1].pulse
 
@@ -102,7 +102,7 @@ def test_every_pulse_method_predicts(name):
 def test_a_pulse_method_that_finds_nothing_costs_no_integration():
     # 1.1 s of record hold a sine of 0.5 s, but no wavelet of T_p = 0.24 s, which is 1.19 s long
     short = Accelerogram(Pulse(3.0, 4 * np.pi, 0.3).acceleration(np.arange(110) * STEP), STEP)
-    found = assess(short, {"block": BLOCK}, AssessmentSettings(pulse_choice="velocity"))
+    found = assess_structures(short, {"block": BLOCK}, AssessmentSettings(pulse_choice="velocity"))
     assert [failure.stage for failure in found.failures] == ["pulses"]
     assert found.cases[0].prediction is None and found.analysis is not None
     assert found.cases[0].responses[Method.MECHANISM_ON_RECORD].rotation_ratio > 0
@@ -117,32 +117,36 @@ def test_a_steady_vertical_acceleration_scales_gravity():
     # −0.2 g for the whole record: λ and p² fall by a fifth, so what 0.8 of the motion does to a block of 0.8 g is done.
     vertical = Accelerogram(np.full(1000, -0.2 * 9.80665), STEP)
     lifted = (
-        assess(RECORD, {"block": BLOCK}, SETTINGS, vertical).cases[0].responses[Method.MECHANISM_ON_RECORD]
+        assess_structures(RECORD, {"block": BLOCK}, SETTINGS, vertical)
+        .cases[0]
+        .responses[Method.MECHANISM_ON_RECORD]
     )
-    plain = assess(RECORD, {"block": BLOCK}, SETTINGS).cases[0].responses[Method.MECHANISM_ON_RECORD]
+    plain = (
+        assess_structures(RECORD, {"block": BLOCK}, SETTINGS).cases[0].responses[Method.MECHANISM_ON_RECORD]
+    )
     assert lifted.rotation_ratio > plain.rotation_ratio
 
 
 @pytest.mark.parametrize(
     ("predicted", "integrated", "expected"),
     [
-        (math.inf, math.inf, "agree"),
-        (0.9, math.inf, "unsafe"),
-        (0.0, 0.1, "unsafe"),
-        (0.0, 1e-6, "agree"),
-        (math.inf, 0.4, "safe"),
+        (math.inf, math.inf, "same outcome"),
+        (0.9, math.inf, "too low"),
+        (0.0, 0.1, "too low"),
+        (0.0, 1e-6, "same outcome"),
+        (math.inf, 0.4, "too high"),
         (math.nan, 0.4, "unknown"),
     ],
 )
-def test_verdict(predicted, integrated, expected):
-    assert verdict(predicted, integrated) == expected
+def test_agreement(predicted, integrated, expected):
+    assert agreement(predicted, integrated) == expected
 
 
-def test_a_verdict_changes_where_rest_ends():
+def test_agreement_changes_where_rest_ends():
     above = math.nextafter(NEGLIGIBLE, 1.0)
     assert rests(NEGLIGIBLE) and not rests(above) and not rests(math.nan)
-    assert verdict(NEGLIGIBLE, above) == "unsafe"
-    assert verdict(above, NEGLIGIBLE) == "safe"
+    assert agreement(NEGLIGIBLE, above) == "too low"
+    assert agreement(above, NEGLIGIBLE) == "too high"
 
 
 @pytest.mark.parametrize(
@@ -170,5 +174,7 @@ def test_the_wall_rocks_where_its_uplift_multiplier_says():
     multiplier = wall.mechanism().uplift_multiplier
     for factor, outcome in ((0.999, Outcome.NO_UPLIFT), (1.001, Outcome.ROCKS)):
         record = RECORD.scaled(factor * multiplier * 9.80665 / RECORD.peak_acceleration)
-        response = assess(record, {"wall": wall}, SETTINGS).cases[0].responses[Method.MECHANISM_ON_RECORD]
+        response = (
+            assess_structures(record, {"wall": wall}, SETTINGS).cases[0].responses[Method.MECHANISM_ON_RECORD]
+        )
         assert response.outcome is outcome

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.constants import g
 
-from rocking.assessment.assess import AssessmentSettings, Method, assess
+from rocking.assessment.assess import AssessmentSettings, Method, assess_structures
 from rocking.assessment.fidelity import (
     LIMITS,
     Limits,
@@ -296,10 +296,10 @@ def test_halves_share_no_site():
 
 def test_a_study_answers_with_the_cheapest():
     settings = AssessmentSettings(fidelity="auto", bootstrap_replicates=0)
-    (case,) = assess(record(1.5), {"block": BLOCK}, settings).cases
+    (case,) = assess_structures(record(1.5), {"block": BLOCK}, settings).cases
     assert set(case.responses) <= {Method.BLOCK_ON_RECORD, Method.MECHANISM_ON_RECORD}
     assert len(case.responses) == 1
-    (whole,) = assess(record(1.5), {"block": BLOCK}, replace(settings, fidelity="full")).cases
+    (whole,) = assess_structures(record(1.5), {"block": BLOCK}, replace(settings, fidelity="full")).cases
     assert whole.answer.method is Method.MECHANISM_ON_RECORD
     assert case.answer.rotation_ratio == pytest.approx(whole.answer.rotation_ratio, rel=0.1)
 
@@ -307,7 +307,7 @@ def test_a_study_answers_with_the_cheapest():
 def test_a_report_says_what_answered():
     """A cheap method says that the block overturns, and the report must not call that nothing."""
     settings = AssessmentSettings(fidelity="auto", bootstrap_replicates=0)
-    assessment = assess(record(12.0), {"block": BLOCK}, settings)
+    assessment = assess_structures(record(12.0), {"block": BLOCK}, settings)
     assert assessment.cases[0].answer.method in (Method.CLOSED_FORM, Method.BLOCK_ON_RECORD)
     identity = Identity("r", assessment.accelerogram, "")
     rows = [comparison_row(identity, case) for case in assessment.cases]
@@ -347,7 +347,9 @@ def test_a_study_follows_the_rule_that_was_calibrated(components):
     limits = limits_for(0.1, 0.01)
     expected = [t.method(limits) for t in trials(name, accelerogram, blocks) if t.scale_factor == 1]
     settings = AssessmentSettings(fidelity="auto", bootstrap_replicates=0)
-    assert [case.answer.method for case in assess(accelerogram, blocks, settings).cases] == expected
+    assert [
+        case.answer.method for case in assess_structures(accelerogram, blocks, settings).cases
+    ] == expected
     assert len(set(expected)) > 1
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rocking.assessment.assess import AssessmentSettings, assess
+from rocking.assessment.assess import AssessmentSettings, assess_structures
 from rocking.assessment.rows import (
     AgreementRow,
     ComparisonRow,
@@ -65,7 +65,7 @@ def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[st
     """Compute every table of `record`."""
     tables = RecordTables()
     for accelerogram in accelerograms:
-        computed = assess(accelerogram, structures, ASSESSMENT)
+        computed = assess_structures(accelerogram, structures, ASSESSMENT)
         identity = Identity(record, accelerogram, "cd" * 32)
         tables.add(identity, computed, ASSESSMENT, "CC0-1.0")
         records = processed(accelerogram)

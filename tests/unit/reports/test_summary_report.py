@@ -15,7 +15,7 @@ from rocking.assessment.rows import (
     TradeRow,
     agreement_rows,
 )
-from rocking.assessment.verdict import Verdict, ratio, verdict, within_factor_two
+from rocking.assessment.verdict import Agreement, agreement, ratio, within_factor_two
 from rocking.pulses import Light
 from rocking.reports.style import svg
 from rocking.reports.summary.figures import prediction_scatter
@@ -45,7 +45,7 @@ def case(
         reliability_within_factor_two=math.nan,
         reliability_overturnings_found=math.nan,
         reliability_records=0,
-        verdict=verdict(predicted, integrated),
+        agreement=agreement(predicted, integrated),
         regime=Regime.PRINTED_EXACT,
         sensitivity=2.5,
         fragile=fragile,
@@ -181,7 +181,7 @@ def test_tables_read_from_files_give_the_report_of_rows_in_memory(example, tmp_p
 
 def test_long_lists_are_cut_and_say_how_much_was_left_out():
     unsafe = [case("red", 0.0, place / 1000) for place in range(2, 102)]
-    assert {row.verdict for row in unsafe} == {Verdict.UNSAFE}
+    assert {row.agreement for row in unsafe} == {Agreement.TOO_LOW}
     fallen = [case("red", 0.1, math.inf, "fallen")]
     records = [scaled(f"r{place}") for place in range(250)]
     data = summary_data(summary_tables([*unsafe, *fallen], record=records), SETTINGS)

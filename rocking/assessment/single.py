@@ -1,0 +1,163 @@
+"""One structure under one record, in one call: what can be said of it, and how sure that is."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from rocking.assessment.assess import Case, assess_structures
+from rocking.assessment.ensemble import Ensemble, EnsembleSettings, GroundMotions, ensemble
+from rocking.assessment.method import Method
+from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.verdict import Verdict, ratio_in_words
+from rocking.errors import ConfigurationError, RockingError
+from rocking.motion.response import Response
+from rocking.records import Accelerogram
+from rocking.structures import Structure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from pandas import DataFrame
+
+_NAME = "structure"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StructureAssessment:
+    """What came of one structure. cases: by component. ensemble: over all that is not known, directions included."""
+
+    cases: Mapping[str, Case]
+    ensemble: Ensemble
+
+    @property
+    def verdict(self) -> Verdict:
+        """Stands, overturns or undecided, from the ensemble."""
+        return self.ensemble.verdict
+
+    @property
+    def overturning_probability(self) -> float:
+        """Share of the members that overturn."""
+        return self.ensemble.overturning_probability
+
+    @property
+    def rotation_ratio(self) -> float:
+        """Largest rotation over critical rotation of the case as given, the worse component; inf if it overturns."""
+        return self.ensemble.nominal
+
+    @property
+    def rotation_ratio_low(self) -> float:
+        """5 % quantile of the members'."""
+        return self.ensemble.low
+
+    @property
+    def rotation_ratio_median(self) -> float:
+        """Median of the members'."""
+        return self.ensemble.median
+
+    @property
+    def rotation_ratio_high(self) -> float:
+        """95 % quantile of the members'; inf where more than 5 % overturn."""
+        return self.ensemble.high
+
+    @property
+    def members(self) -> int:
+        """Members of the ensemble."""
+        return self.ensemble.members
+
+    @property
+    def response(self) -> Response:
+        """The integration of the mechanism as given, with its history; of the worse component."""
+        responses = [case.responses[Method.MECHANISM_ON_RECORD] for case in self.cases.values()]
+        return max(responses, key=lambda response: response.rotation_ratio)
+
+    def __repr__(self) -> str:
+        return (
+            f"<{self.verdict}: overturns in {self.ensemble.overturning} of {self.members} members; as given "
+            f"{_shown(self.rotation_ratio)}, 5–95 % {_shown(self.rotation_ratio_low)} to "
+            f"{_shown(self.rotation_ratio_high)} of the critical rotation>"
+        )
+
+    def frame(self) -> "DataFrame":
+        """One row per method and component: its rotation ratio, and how that stands to the integration, in words."""
+        from pandas import DataFrame  # slow to import, and needed by those alone who ask for a frame
+
+        return DataFrame(row for component, case in self.cases.items() for row in _rows(component, case))
+
+    def plot(self, axes: "Axes | None" = None) -> "Axes":
+        """Draw the rotation of the case as given against time, with the members' 5–95 % beside it; return the axes."""
+        from rocking.reports.plots import plot_assessment
+
+        return plot_assessment(self, axes)
+
+
+def assess(
+    record: Accelerogram | Sequence[Accelerogram],
+    structure: Structure,
+    *,
+    settings: AssessmentSettings | None = None,
+    vertical: Accelerogram | None = None,
+) -> StructureAssessment:
+    """Say whether `structure` survives `record`, and how sure that is.
+
+    record: one accelerogram, or both horizontal components, which then make one ensemble with the direction in which
+    their acceleration peaks. vertical: sample by sample as the record; half of the members feel it.
+    Raises ConfigurationError for no record or more than two, RockingError where it cannot be followed.
+    """
+    records = [record] if isinstance(record, Accelerogram) else list(record)
+    if len(records) not in (1, 2):
+        raise ConfigurationError(
+            f"record holds {len(records)} accelerograms, but must hold one or two horizontal ones."
+        )
+    settings = settings or AssessmentSettings()
+    if settings.fidelity != "full":
+        settings = replace(settings, fidelity="full")
+    if settings.ensemble.members == 0:
+        settings = replace(settings, ensemble=replace(settings.ensemble, members=EnsembleSettings().members))
+    cases = {}
+    for place, each in enumerate(records, start=1):
+        found = assess_structures(each, {_NAME: structure}, settings, vertical)
+        if not found.cases:
+            raise RockingError(found.failures[-1].message)
+        cases[each.component or f"component {place}"] = found.cases[0]
+    return StructureAssessment(cases, _over_all(records, structure, cases, settings, vertical))
+
+
+def _over_all(
+    records: Sequence[Accelerogram],
+    structure: Structure,
+    cases: Mapping[str, Case],
+    settings: AssessmentSettings,
+    vertical: Accelerogram | None,
+) -> Ensemble:
+    alone = [case.ensemble for case in cases.values() if case.ensemble is not None]
+    if len(records) == 1:
+        return alone[0]
+    return ensemble(
+        structure,
+        GroundMotions.of_pair(records[0], records[1], vertical),
+        settings.ensemble,
+        nominal=max(each.nominal for each in alone),
+        tolerance=settings.tolerance,
+    )
+
+
+def _rows(component: str, case: Case) -> list[dict[str, Any]]:
+    integrated = case.responses[Method.MECHANISM_ON_RECORD].rotation_ratio
+    ratios = {method: response.rotation_ratio for method, response in case.responses.items()}
+    if case.prediction is not None:
+        ratios[Method.CLOSED_FORM] = case.prediction.maximum.rotation_ratio
+    return [
+        {
+            "component": component,
+            "method": str(method),
+            "rotation_ratio": ratios[method],
+            "in_words": ""
+            if method is Method.MECHANISM_ON_RECORD
+            else ratio_in_words(ratios[method], integrated),
+        }
+        for method in Method
+        if method in ratios
+    ]
+
+
+def _shown(rotation_ratio: float) -> str:
+    return "overturns" if rotation_ratio == float("inf") else f"{rotation_ratio:.2g}"

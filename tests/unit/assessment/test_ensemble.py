@@ -1,0 +1,185 @@
+"""The ensemble: its members are those that `integrate` follows one by one, and its words keep to its numbers."""
+
+import math
+
+import numpy as np
+import pytest
+
+import rocking
+from rocking.assessment.design import SIZES, lattice
+from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn, ensemble
+from rocking.assessment.single import assess
+from rocking.assessment.verdict import Verdict, ratio_in_words, verdict
+from rocking.errors import ConfigurationError
+from rocking.motion import integrate
+from rocking.records import Accelerogram
+from rocking.structures import Block
+
+STEP = 0.01
+TIMES = np.arange(0, 4, STEP)
+BLOCK = Block(2.0, 0.2, restitution=0.9)
+FACADE = Block(2.0, 0.2, restitution=0.5, one_sided=True)
+FIXED = EnsembleSettings(amplitude_range=0.0, restitution_range=0.0)
+
+
+def _record(amplitude: float, component: str = "made") -> Accelerogram:
+    """A wave that grows and fades; it overturns the block from somewhat above 5 m/s²."""
+    wave = amplitude * np.sin(2 * np.pi * TIMES / 0.9) * np.exp(-((TIMES - 1.5) ** 2))
+    return Accelerogram(wave, STEP, component=component)
+
+
+def _boundary() -> float:
+    """An amplitude beside which the block overturns and beside which it does not."""
+    amplitudes = np.arange(3, 12, 0.1)
+    falls = np.array([math.isinf(integrate(BLOCK, _record(a)).rotation_ratio) for a in amplitudes])
+    return float(amplitudes[np.flatnonzero(np.diff(falls))[0]])
+
+
+@pytest.mark.parametrize("size", SIZES[:-1])
+def test_a_lattice_holds_the_smaller_one_and_fills_each_stratum_once(size):
+    points = lattice(size, CAUSES)
+    assert np.all((points > 0) & (points < 1))
+    assert np.array_equal(lattice(4 * size, CAUSES)[:size], points)
+    for column in points.T:
+        assert len(set(np.floor(column * size))) == size
+
+
+def test_members_are_what_integrate_says_of_each():
+    motions, points = GroundMotions.of(_record(5.0)), lattice(16, CAUSES)
+    found = drawn(BLOCK, motions, points, EnsembleSettings())
+    for ratio, factor, offset in zip(
+        found.rotation_ratios, found.causes["amplitude"], found.causes["restitution"], strict=True
+    ):
+        alone = integrate(Block(2.0, 0.2, restitution=0.9 + offset), _record(5.0 * factor))
+        assert ratio == pytest.approx(alone.rotation_ratio, rel=1e-6)
+
+
+def test_nothing_unknown_leaves_every_member_as_the_case_itself():
+    found = ensemble(BLOCK, GroundMotions.of(_record(5.0)), FIXED)
+    assert np.unique(found.rotation_ratios).size == 1 and found.causes == {}
+    assert found.low == found.median == found.high == found.rotation_ratios[0]
+
+
+def test_the_probability_is_the_share_of_the_range_that_overturns():
+    settings = EnsembleSettings(restitution_range=0.0, amplitude_range=0.2)
+    record = _record(_boundary())
+    found = ensemble(BLOCK, GroundMotions.of(record), settings)
+    factors = np.linspace(0.8, 1.2, 801)[1::2]
+    falls = np.isinf(rocking.integrate_batch([BLOCK], record, factors)[0]).mean()
+    assert 0.02 < falls < 0.98
+    assert found.overturning_probability == pytest.approx(falls, abs=2 / 64), (
+        "two strata may be cut by the boundary"
+    )
+
+
+def test_the_sign_of_the_motion_is_a_cause_for_unlike_sides_alone():
+    one_pulse = Accelerogram(
+        np.where(TIMES < 0.5, -3.0, 0.0) * np.sin(2 * np.pi * np.minimum(TIMES, 0.5)), STEP
+    )
+    found = ensemble(FACADE, GroundMotions.of(one_pulse), EnsembleSettings())
+    assert set(np.unique(found.causes["polarity"])) == {-1.0, 1.0}
+    lifts = {
+        sign: (found.rotation_ratios[found.causes["polarity"] == sign] > 0).all() for sign in (-1.0, 1.0)
+    }
+    assert lifts == {-1.0: False, 1.0: True}
+    assert found.shares["polarity"] > 0.8
+    assert "polarity" not in ensemble(BLOCK, GroundMotions.of(one_pulse), EnsembleSettings()).causes
+
+
+def test_shares_of_an_additive_answer_are_those_of_its_variance():
+    points = lattice(256, CAUSES)
+    found = drawn(BLOCK, GroundMotions.of(_record(5.0)), points, EnsembleSettings())
+    answer = 0.3 + 0.2 * points[:, 0] + 0.1 * points[:, 1]
+    made = type(found)(answer, found.causes, 0.5, 0.05)
+    assert made.shares["amplitude"] == pytest.approx(0.8, abs=0.03), "eight strata explain 63/64 of it"
+    assert made.shares["restitution"] == pytest.approx(0.2, abs=0.03)
+
+
+def test_an_ensemble_at_rest_ends_early_and_one_in_doubt_goes_on():
+    assert ensemble(BLOCK, GroundMotions.of(_record(0.5))).members == 16
+    assert ensemble(BLOCK, GroundMotions.of(_record(4.0))).members == 64
+    doubtful = [ensemble(BLOCK, GroundMotions.of(_record(a))).members for a in np.arange(4.5, 8, 0.1)]
+    assert set(doubtful) <= {64, 256} and 256 in doubtful
+
+
+def test_two_components_make_one_ensemble_with_the_direction_of_their_peak():
+    first, second = _record(3.0, "first"), _record(4.0, "second")
+    motions = GroundMotions.of_pair(first, second)
+    turned = motions.directions[2]
+    assert motions.horizontal[turned, ""].peak_acceleration == pytest.approx(
+        5 / 4 * second.peak_acceleration, rel=1e-3
+    ), "3, 4, 5; directions a degree apart miss the peak by less than 4e-5"
+    found = assess([first, second], BLOCK)
+    assert set(found.ensemble.causes["direction"]) == set(motions.directions)
+    assert found.rotation_ratio == integrate(BLOCK, second).rotation_ratio
+
+
+@pytest.mark.parametrize(
+    ("probability", "error", "said"),
+    [
+        (0.0, 0.0, Verdict.STANDS),
+        (0.04, 0.005, Verdict.STANDS),
+        (0.04, 0.02, Verdict.UNDECIDED),
+        (0.5, 0.0, Verdict.UNDECIDED),
+        (0.97, 0.015, Verdict.OVERTURNS),
+        (0.97, 0.05, Verdict.UNDECIDED),
+        (math.nan, 0.0, Verdict.UNKNOWN),
+    ],
+)
+def test_verdict(probability, error, said):
+    assert verdict(probability, error, 0.05) is said
+
+
+@pytest.mark.parametrize(
+    ("predicted", "integrated", "words"),
+    [
+        (0.02, 0.4, "20 × too low"),
+        (0.4, 0.02, "20 × too high"),
+        (0.39, 0.4, "within 10 %"),
+        (0.5, 0.2, "2.5 × too high"),
+        (0.454, 0.001001, "450 × too high"),
+        (0.3, math.inf, "misses the overturning"),
+        (math.inf, 0.3, "overturns instead of rocking"),
+        (math.inf, math.inf, "both overturn"),
+        (0.0, 0.0005, "both at rest"),
+        (math.nan, 0.3, ""),
+    ],
+)
+def test_ratio_in_words(predicted, integrated, words):
+    assert ratio_in_words(predicted, integrated) == words
+
+
+def test_assess_says_in_one_call_what_its_parts_say():
+    record = _record(4.0)
+    found = rocking.assess(record, BLOCK)
+    assert found.verdict == "stands" and found.overturning_probability == 0
+    assert found.rotation_ratio == integrate(BLOCK, record).rotation_ratio
+    assert found.rotation_ratio_low <= found.rotation_ratio_median <= found.rotation_ratio_high
+    assert found.rotation_ratio_low < found.rotation_ratio < found.rotation_ratio_high
+    assert "stands: overturns in 0 of 64" in repr(found)
+    frame = found.frame().set_index("method")
+    assert frame.loc["mechanism on record", "rotation_ratio"] == found.rotation_ratio
+    assert found.plot().get_ylabel() == "rotation / critical rotation [-]"
+
+
+def test_settings_out_of_range_are_refused():
+    with pytest.raises(ConfigurationError, match="members is 50, but must be 0, 16, 64"):
+        EnsembleSettings(members=50)
+    with pytest.raises(ConfigurationError, match="record holds 0 accelerograms"):
+        assess([], BLOCK)
+
+
+@pytest.mark.real_records
+def test_the_slender_block_under_rinaldi_is_undecided(real_records):
+    """It stands at 0.994 and 0.9985 of the record, and overturns at 0.99 and 1.01."""
+    (record,) = rocking.read(real_records / "northridge1994_rinaldi" / "NGA_no_1063_RRS228.AT2")
+    block = Block.of_size(0.5, 3.0)
+    assert [
+        math.isinf(r) for r in rocking.integrate_batch([block], record, (0.99, 0.994, 0.9985, 1.01))[0]
+    ] == [
+        True,
+        False,
+        False,
+        True,
+    ]
+    assert rocking.assess(record, block).verdict is Verdict.UNDECIDED
