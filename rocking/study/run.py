@@ -126,9 +126,10 @@ def write_tables(
         _vary(identity, assessment, study, tables)
         spent = {"variations": process_time() - varied, **assessment.durations}
         durations |= {stage: durations.get(stage, 0.0) + duration for stage, duration in spent.items()}
-    started = process_time()
-    _assess_directions(record, opened, study, tables)
-    durations["directions"] = process_time() - started
+    if len(accelerograms) == 2 and study.assessment.ensemble.members and study.assessment.fidelity == "full":
+        started = process_time()
+        _assess_directions(record, opened, study, tables)
+        durations["directions"] = process_time() - started
     for stage, duration in durations.items():
         tables.timings.append(TimingRow(record=record.id, stage=stage, duration_s=duration))
     tables.write(folder)
@@ -139,8 +140,6 @@ def _assess_directions(record: CatalogueRecord, opened: Opened, study: Study, ta
     """Append the ensembles over directions, where the record has two horizontal components."""
     accelerograms, vertical = opened
     settings = study.assessment.ensemble
-    if len(accelerograms) != 2 or not settings.members or study.assessment.fidelity != "full":
-        return
     identity = Identity(record.id, accelerograms[0], study.settings_sha256)
     nominal: dict[str, float] = {}
     for alone in tables.ensemble:
