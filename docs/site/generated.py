@@ -64,6 +64,15 @@ def equations(_: Path) -> str:
     return table(head, body)
 
 
+def pulse_methods(_: Path) -> str:
+    """The pulse methods of the registry, the default first."""
+    from rocking.pulses import PULSE_METHODS
+
+    return table(
+        ("choice", "the pulse that predicts"), ((m.name, m.description) for m in PULSE_METHODS.values())
+    )
+
+
 def lights(_: Path) -> str:
     """The lights, their conditions and what was measured."""
     from rocking.pulses.evidence import THRESHOLDS, Light
@@ -115,7 +124,7 @@ def api(_: Path) -> str:
 
 GENERATED: Mapping[str, Callable[[Path], str]] = {
     part.__name__: part
-    for part in (formats, units, settings, structures, tables, equations, lights, regimes, api)
+    for part in (formats, units, settings, structures, tables, equations, pulse_methods, lights, regimes, api)
 }
 """What may stand behind `generated:` in a page."""
 

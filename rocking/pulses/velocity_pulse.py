@@ -236,6 +236,8 @@ def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, c
 
 
 def _orientation(first: float, second: float = 0.0) -> float:
+    if not second:
+        return 0.0
     return math.atan(second / first) if first else math.pi / 2
 
 
