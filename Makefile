@@ -37,6 +37,7 @@ check: setup
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy rocking
+	$(BIN)/snakefmt --check Snakefile workflow
 
 # What the package's own fields say, written where the workflow reads it; a test compares.
 schema: setup

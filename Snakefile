@@ -12,13 +12,14 @@ if not workflow.overwrite_configfiles:
 
 report: "workflow/report/study.rst"
 
+
 include: "workflow/rules/study.smk"
 
 
 rule all:
+    default_target: True
     input:
         TARGETS,
-    default_target: True
 
 
 include: "workflow/rules/compile.smk"

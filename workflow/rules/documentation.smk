@@ -9,8 +9,7 @@ rule documentation:
             if path.suffix in (".css", ".js", ".md", ".py", ".yml")
         ),
         schemas=[
-            f"{workflow.basedir}/workflow/schemas/{name}.schema.yaml"
-            for name in ("config", "structures")
+            f"{workflow.basedir}/workflow/schemas/{name}.schema.yaml" for name in ("config", "structures")
         ],
         settings=f"{workflow.basedir}/workflow/config.yaml",
     output:
@@ -18,7 +17,6 @@ rule documentation:
     log:
         f"{SUMMARY}/logs/documentation.log",
     params:
-        home=workflow.basedir,
         package_sha256=PACKAGE,
     message:
         "Set the documentation"

@@ -5,9 +5,7 @@ rule paper:
     input:
         catalogue=SETTINGS.calibration_catalogue,
         source=sorted(
-            str(path)
-            for path in Path(workflow.basedir, "docs", "paper").iterdir()
-            if path.is_file()
+            str(path) for path in Path(workflow.basedir, "docs", "paper").iterdir() if path.is_file()
         ),
     output:
         directory(f"{RESULTS}/paper"),
@@ -16,7 +14,6 @@ rule paper:
     benchmark:
         f"{SUMMARY}/benchmarks/paper.tsv"
     params:
-        home=workflow.basedir,
         mirror=SETTINGS.mirror,
         package_sha256=PACKAGE,
     message:

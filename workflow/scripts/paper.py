@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 if __name__ == "__main__":
-    sys.path.append(snakemake.params.home)
+    sys.path.append(str(Path(snakemake.scriptdir).parents[1]))  # docs/ lies beside workflow/
     from docs.paper.write import write_paper
 
     files, mirror = snakemake.input, snakemake.params.mirror

@@ -1,0 +1,69 @@
+"""What the Snakemake workflow catalogue and a citation ask for: files that are there and true, rules in its style."""
+
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+
+import rocking
+from rocking.structures.registry import TYPES
+
+ROOT = Path(rocking.__file__).parents[1]
+WAIVED = {"Specify a conda environment or container for each rule."}
+"""Lints that stay: one locked environment serves every rule, and holds the workflow itself."""
+
+
+def loaded(name: str):
+    return yaml.safe_load((ROOT / name).read_text(encoding="utf-8"))
+
+
+def run(*command: str) -> subprocess.CompletedProcess:
+    return subprocess.run(
+        [sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+
+
+def test_the_rules_are_formatted():
+    pytest.importorskip("snakefmt", reason="snakefmt, of the extra test, checks the rules")
+    done = run("snakefmt", "--check", "Snakefile", "workflow")
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.slow
+def test_the_rules_are_lint_free_but_for_what_is_waived():
+    done = run("snakemake", "--lint")
+    said = done.stdout + done.stderr
+    assert "Lints for rule" in said, said
+    assert set(re.findall(r"^ +\* (.*):$", said, re.M)) == WAIVED
+
+
+def test_the_catalogue_finds_how_it_is_used():
+    usage = loaded(".snakemake-workflow-catalog.yml")["usage"]
+    assert set(usage) == {"mandatory-flags", "software-stack-deployment", "report"}
+    flags = usage["mandatory-flags"]["flags"].split()
+    assert flags[0] == "--workflow-profile" and (ROOT / flags[1] / "config.yaml").is_file()
+
+
+def test_every_setting_and_type_that_the_configuration_page_names_exists():
+    text = (ROOT / "config" / "README.md").read_text(encoding="utf-8")
+    schema = loaded("workflow/schemas/config.schema.yaml")["properties"]
+    for name in re.findall(r"^\| `([\w.]+)` \|", text, re.M):
+        top, _, inner = name.partition(".")
+        assert top in schema and (not inner or inner in schema[top]["properties"]), name
+    (kinds,) = re.findall(r"a `type` \((.*?)\)", text)
+    assert kinds.split(", ") == list(TYPES)
+    for entry in yaml.safe_load(re.findall(r"```yaml\n(.*?)```", text, re.S)[0]):
+        rocking.structure_from_config(entry)
+
+
+def test_the_citation_is_of_this_version():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    citation = loaded("CITATION.cff")
+    assert citation["version"] == citation["preferred-citation"]["version"] == project["version"]
+    assert citation["license"] == project["license"]
+    for reference in citation["references"]:
+        assert reference["title"] and all(author["family-names"] for author in reference["authors"])
