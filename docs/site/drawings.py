@@ -26,7 +26,8 @@ def drawing(kind: str, form: Form) -> Figure:
     rest, displaced = figure.subplots(1, 2)
     structure.plot(axes=rest, dimensions=True)
     side = structure.mechanism().positive
-    structure.plot(min(max(0.6 * side.critical_rotation, 0.12), 0.8 * side.end_rotation), axes=displaced)
+    seen = min(max(0.6 * side.critical_rotation, 0.12), 0.3)
+    structure.plot(min(seen, 0.8 * side.end_rotation), axes=displaced)
     for axes in (rest, displaced):
         axes.axis("off")
     return figure

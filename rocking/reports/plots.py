@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.axes import Axes
-from matplotlib.patches import FancyArrowPatch
-from matplotlib.path import Path
 
 from rocking.errors import MotionError
 from rocking.motion.response import Response
@@ -17,7 +15,6 @@ from rocking.pulses.analysis import PulseAnalysis
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports.dimension_lines import draw_dimensions, draw_marks
-from rocking.structures.drawing import Dimension
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.outcome import Outcome
 from rocking.structures.structure import Structure
@@ -29,8 +26,6 @@ if TYPE_CHECKING:
 _TIME = "time [s]"
 _ACCELERATION = "ground acceleration [m/s²]"
 _POINTS = 400
-_LETTER_DISTANCE = 7.0
-"""From a dimension line to its letter, points."""
 _LEVELS = (0.05, 0.1, 0.2, 0.5, 1.0)
 """Rotation ratios that get a line in a rocking spectrum."""
 
@@ -145,42 +140,11 @@ def plot_structure(
             axes.fill(*outline.T, fill=False, linewidth=0.8, linestyle="--")
         axes.plot(*structure.hinges(rotation).T, "o", color="white", markeredgecolor="black")
     if dimensions:
-        for dimension in structure.dimensions():
-            _plot_dimension(axes, dimension)
-    draw_dimensions(axes, structure.dimensions(), np.transpose)
-    draw_marks(axes, structure.marks(rotation), np.transpose)
+        draw_dimensions(axes, structure.dimensions(), np.transpose, values=False)
+    draw_marks(axes, structure.marks(rotation), np.transpose, values=not dimensions)
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.06)
     return axes
-
-
-def _plot_dimension(axes: Axes, dimension: Dimension) -> None:
-    line = dimension.line
-    for foot, end in zip(dimension.feet, (line[0], line[-1]), strict=True):
-        axes.plot(*np.array([foot, end]).T, color="0.5", linewidth=0.5)
-    axes.plot(*line.T, color="C0", linewidth=0.6)
-    heads = FancyArrowPatch(path=Path(line), arrowstyle="<|-|>", mutation_scale=7, shrinkA=0, shrinkB=0)
-    heads.set(linewidth=0.6, color="C0")
-    axes.add_patch(heads)
-    middle = line[line.shape[0] // 2] if line.shape[0] > 2 else line.mean(axis=0)
-    axes.annotate(
-        dimension.letter,
-        middle,
-        tuple(_LETTER_DISTANCE * _outward(dimension)),
-        textcoords="offset points",
-        color="C0",
-        ha="center",
-        va="center",
-    )
-
-
-def _outward(dimension: Dimension) -> np.ndarray:
-    """The unit vector (2,) from what is measured to its line; across the line where the two are one."""
-    away = dimension.line.mean(axis=0) - dimension.feet.mean(axis=0)
-    if not np.any(away):
-        along = dimension.line[-1] - dimension.line[0]
-        away = np.array([-along[1], along[0]])
-    return away / np.hypot(*away)
 
 
 def _plot_side(axes: Axes, side: Side, sign: int) -> None:
