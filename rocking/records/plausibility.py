@@ -24,6 +24,8 @@ _FACTORS = {
     1000.0: "mg against g, or mm/s² against m/s²",
     10.0: "g/10 against g",
 }
+_ROUNDING = 1e-3
+"""Share by which a stated peak may be off for its rounding, beyond its last digit: fifty times what real files show."""
 _NEAR = 0.02
 """How close a ratio must come to a factor between units to be explained by it."""
 _PLAUSIBLE = (0.005, 1.5)
@@ -40,9 +42,10 @@ def agree_with_header(
 ) -> Accelerogram:
     """Return `record` after comparing its peak with the one its header states in `unit`, within 1 % or half a digit.
 
-    at: time of the stated peak, s after the first sample; where the samples there are smaller than the peak, the record
-    gets a warning. samples: (n,) m/s² as the file holds them, where the record's are cleared of an offset or resampled.
-    Nothing is checked when the header states no peak or zero. Raises RecordError with the factor that would explain it.
+    A peak that is more than 0.1 % off, or out of its place, is a warning of the record. at: time of the stated peak,
+    s after the first sample. samples: (n,) m/s² as the file holds them, where the record's are cleared of an offset or
+    resampled. Nothing is checked when the header states no peak or zero. Raises RecordError with the factor that would
+    explain it.
     """
     if not peak:
         return record
@@ -55,6 +58,12 @@ def agree_with_header(
             f"{found:.6g} m/s², but the file's header states {stated:.6g} m/s²"
             f"{_explain(found / stated)}; the two must agree within 1 %."
         )
+    if abs(found - stated) > max(_ROUNDING * stated, half_digit * acceleration_factor(unit)):
+        sentence = (
+            f"The peak is {found:.6g} m/s², but the header states {stated:.6g} m/s², which is more than rounding: "
+            "a number or a factor is damaged."
+        )
+        record = replace(record, warnings=(*record.warnings, sentence))
     return record if at is None else _peak_in_place(record, magnitudes, at)
 
 

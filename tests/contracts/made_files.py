@@ -36,7 +36,13 @@ def peer_2008() -> str:
 def cosmos(stated: float = 1.0) -> str:
     reals = np.full(100, -999.0)
     gal = 100 * TRUE
-    reals[33], reals[63] = STEP, stated * gal[np.abs(gal).argmax()]
+    place = np.abs(gal).argmax()
+    reals[33], reals[61], reals[62] = (
+        STEP / 2,
+        1000 * STEP,
+        N * STEP,
+    )  # the recorder's step is not the series'
+    reals[63], reals[64] = stated * gal[place], place * STEP
     return (
         "Corrected acceleration    (Format v01.20 with 13 text lines) Src: made.txt\nRcrd of Some Day\n"
         "Hypocenter:\nOrigin:\nStatn No: 01-1  Code:CE-J1  Made\nCoords:\nRecorder:\nRcrd start time:\n"
@@ -86,11 +92,13 @@ def smc(stated: float = 1.0) -> str:
     )
 
 
-def volume1(first: str, chan: str, units: str, last: str) -> str:
+def volume1(first: str, chan: str, units: str, last: str, rate: float = 0.0) -> str:
+    reals = np.zeros(50)
+    reals[8] = rate
     return (
         f"{first}\nQUAKE\n1/2/99\n1\n{chan}\nUNIVERSIDAD DE CHILE - RENADIC\nx\nx\nx\nINSTR PERIOD\n"
         f"NO. OF POINTS =   {N}  RECORD LENGTH = {N * STEP:.3f} SEC\n{units}\nRMS\n"
-        + columns(np.zeros(100, int), 16, "5d") + columns(np.zeros(50), 8, "10.3f") + "{}" + last
+        + columns(np.zeros(100, int), 16, "5d") + columns(reals, 8, "10.3f") + "{}" + last
     )  # fmt: skip
 
 
@@ -116,7 +124,7 @@ def renadic(stated: float = 1.0) -> str:
 
 
 def bhrc() -> str:
-    head = volume1("* VOL1DS FILE:  1/01", "COMP L1", "UNITS ARE SECONDS AND G/10", "/&\n")
+    head = volume1("* VOL1DS FILE:  1/01", "COMP L1", "UNITS ARE SECONDS AND G/10", "/&\n", rate=1 / STEP)
     head = head.replace("RECORD LENGTH =", "DURATION =").replace(
         "1/2/99\n1\n", "1/2/99\nAzimuth L 45 T 135\n"
     )
@@ -139,7 +147,8 @@ def knet(stated: float = 1.0) -> str:
 def dyna(stated: float = 1.0) -> str:
     values = 100 * TRUE
     pairs = {"EVENT_NAME": "MADE", "STATION_CODE": "X", "SAMPLING_INTERVAL_S": STEP, "NDATA": N, "STREAM": "HNE",
-             "UNITS": "cm/s^2", "PGA_CM/S^2": f"{stated * np.abs(values).max():.6f}", "LOW_CUT_FREQUENCY_HZ": "0.1",
+             "UNITS": "cm/s^2", "DURATION_S": f"{N * STEP:.3f}", "TIME_PGA_S": f"{np.abs(values).argmax() * STEP:.6f}",
+             "PGA_CM/S^2": f"{stated * np.abs(values).max():.6f}", "LOW_CUT_FREQUENCY_HZ": "0.1",
              "DATA_TYPE": "ACCELERATION", "USER1": ""}  # fmt: skip
     return "".join(f"{key}: {value}\n" for key, value in pairs.items()) + columns(values, 1, ".6f")
 
@@ -177,12 +186,16 @@ def geonet(stated: float = 1.0) -> str:
 
 def unam(stated: float = 1.0) -> str:
     gal = np.column_stack([100 * TRUE, 50 * TRUE])
+    place = np.abs(TRUE).argmax() + 1
     peak = stated * np.abs(gal).max()
     return (
         "*****\nARCHIVO ESTANDAR DE ACELERACION:\nCLAVE DE LA ESTACION                   : ACAC\n"
         "ORIENTACION C1-C6 (rumbo;orientacion)  : /N45E/V\nINTERVALO DE MUESTREO, C1-C6 (s)       : /0.01/0.01\n"
         f"NUM. TOTAL DE MUESTRAS, C1-C6          : /{N}/{N}\n"
         f"ACEL. MAX.(Gal), C1-C6                 : /{peak:.4f}/{peak / 2:.4f}\n"
+        f"ACEL. MAX., C1-C6, EN LA MUESTRA       : /{place}/{place}\n"
+        "VEL. DE MUESTREO, C1-C6 (muestras/s)   : /100/100\n"
+        f"DURACION DEL REGISTRO (s), C1-C6       : /{N * STEP:.2f}/{N * STEP:.2f}\n"
         "UNIDADES DE LOS DATOS                  : Gal (cm/s/s)\nFORMATO DATOS (FORTRAN,10 campos/dato) : 2F10.4\n"
         f"DATOS DE ACELERACION:\n{'-' * 79}\n CANAL-1 CANAL-2\n N45E V\n{'-' * 79}\n" + columns(gal.ravel(), 2, "10.4f")
     )  # fmt: skip

@@ -1,12 +1,15 @@
 """Each text format from a small file made here: values, one recogniser, truncation, line ends, foreign characters."""
 
+import ast
 import re
+from pathlib import Path
 
 import made_files
 import numpy as np
 import pytest
 from made_files import MADE, MADE_BINARY, MADE_REFUSED, STEP, TRUE, N, format_of
 
+import rocking
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
 from rocking.records.formats import FORMATS, Format, Options
@@ -82,6 +85,42 @@ def test_what_is_no_number_is_refused(name: str, token: str) -> None:
     lines[at] = lines[at][: lines[at].rindex(old)] + token.rjust(4)
     with pytest.raises(RecordError):
         read_made(name, "\n".join(lines) + "\n")
+
+
+@pytest.mark.parametrize(("code", "component", "azimuth", "borehole"), [
+    ("1", "NS", 0.0, True), ("2", "EW", 90.0, True), ("3", "UD", None, True),
+    ("4", "NS", 0.0, False), ("5", "EW", 90.0, False), ("6", "UD", None, False),
+])  # fmt: skip
+def test_the_directions_of_kiknet(code: str, component: str, azimuth: float | None, borehole: bool) -> None:
+    """1 to 3 are NS, EW and UD at the bottom of the hole, 4 to 6 the same at the surface (NIED, KiK-net format)."""
+    (record,) = read_made("K-NET/KiK-net", made_files.knet().replace("E-W", code))
+    assert (record.component, record.azimuth, record.borehole) == (component, azimuth, borehole)
+    assert record.vertical == (component == "UD")
+
+
+def test_the_corner_of_smc_is_the_low_cut() -> None:
+    """Real value 33 is the corner of the high-pass, 34 the roll-off (USGS, SMC format): 0.1 Hz in the made file."""
+    (record,) = read_made("USGS SMC")
+    assert record.high_pass_frequency == 0.1
+    other = made_files.smc().replace(f"{0.1:15.7E}", f"{0.25:15.7E}", 1)
+    assert read_made("USGS SMC", other)[0].high_pass_frequency == 0.25
+
+
+def test_obspy_is_told_the_format_of_each_file_it_opens() -> None:
+    """obspy.read without a format tries every plug-in it has, and one of them unpickles."""
+    calls = []
+    for path in sorted(Path(rocking.__file__).parent.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            name = ast.unparse(node.func) if isinstance(node, ast.Call) else ""
+            if name in (
+                "obspy.read",
+                "read_inventory",
+                "obspy.read_inventory",
+                "read_events",
+                "obspy.read_events",
+            ):
+                calls.append((path.name, {word.arg for word in node.keywords}))
+    assert len(calls) >= 3 and all("format" in words for _, words in calls), calls
 
 
 WITHOUT_PEAK = {"PEER AT2", "PEER AT2: of 2008", "USC Volume 1", "BHRC", "titled column", "titled column: two headers",

@@ -54,16 +54,21 @@ class Whole:
 
 def made() -> list[Whole]:
     """Return a file of each format, made with more samples than the contract tests take."""
-    made_files.N = SAMPLES
     times = np.arange(SAMPLES) * made_files.STEP
+    before = made_files.N, made_files.TRUE
+    made_files.N = SAMPLES
     made_files.TRUE = 0.9 * np.sin(7 * times) * np.exp(-((times - 2) ** 2)) + 0.01 * np.sin(61 * times)
-    found = []
-    for label, (make, _, options) in (made_files.MADE | made_files.MADE_BINARY).items():
-        content = make()
-        found.append(
-            Whole(label, content if isinstance(content, bytes) else content.encode("latin-1"), options)
-        )
-    return found
+    try:
+        contents = {
+            label: make() for label, (make, _, _) in (made_files.MADE | made_files.MADE_BINARY).items()
+        }
+    finally:
+        made_files.N, made_files.TRUE = before
+    return [
+        Whole(label, made if isinstance(made, bytes) else made.encode("latin-1"), options)
+        for label, made in contents.items()
+        for _, _, options in [(made_files.MADE | made_files.MADE_BINARY)[label]]
+    ]
 
 
 def real(folder: Path) -> list[Whole]:

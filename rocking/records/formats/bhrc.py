@@ -5,7 +5,7 @@ import re
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.directions import is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram, without_offset
-from rocking.records.formats.header import magnitude, optional, optional_number, starts
+from rocking.records.formats.header import check_equal, magnitude, optional, optional_number, starts
 from rocking.records.formats.text import filled
 from rocking.records.formats.volume1 import Block, channels
 
@@ -21,6 +21,9 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
 
 def _record(block: Block, name: str, options: Options) -> Accelerogram:
     values = filled(name, block.rows, block.declared, _PER_LINE, _WIDTH)
+    step = block.duration / block.declared
+    if block.rate:
+        check_equal(name, "the interval", step, 1 / block.rate)
     unit = options.unit_of(name, "g/10")
     values, offset = without_offset(name, values, unit)
     component = optional(r"^COMP\s+(\S+)", block.head)
@@ -30,7 +33,7 @@ def _record(block: Block, name: str, options: Options) -> Accelerogram:
         BHRC.name,
         unit,
         values,
-        options.time_step_of(name, block.duration / block.declared),
+        options.time_step_of(name, step),
         component=component,
         station=optional(r"FILE:\s*(\w+)", block.head),
         event=_event(block.head),

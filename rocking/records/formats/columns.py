@@ -1,7 +1,7 @@
 """Plain columns: time and acceleration, several named channels, or one series wrapped over lines (OpenSees)."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -21,7 +21,9 @@ _TIME = re.compile(
 )
 _UNIT = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
-_HEAD = 12
+_DECIMALS = re.compile(r"[.]?(\d*)(?:[eE][+-]?\d+)?\s*$")
+_HEAD, _TAIL = 12, 4000
+"""Lines and bytes that are looked at, of the beginning and of the end."""
 _BLANK, _LINE_END, _RETURN = 32, 10, 13
 _COMMENTED_FORMAT = b"#Earthquake Information"
 """CWB's header, which looks like comments above columns."""
@@ -91,11 +93,25 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     if _EMPTY_CELL.search(body):
         raise RecordError(f"{name}: a cell is empty; every column needs a number on every line.")
     values = numbers(name, body.replace(b",", b" ").replace(b";", b" "))
+    cut = _cut_number(body)
     wrapped = width > 2 and not table.names and not _time_first(values, width)
     _check_rows(name, body, width, last_may_be_short=wrapped)
     if width == 1 or wrapped:
-        return [_series(name, values, options, table.names[0] if table.names else "")]
-    return _channels(name, values.reshape(-1, width), table.names, options)
+        found = [_series(name, values, options, table.names[0] if table.names else "")]
+    else:
+        found = _channels(name, values.reshape(-1, width), table.names, options)
+    return [replace(record, warnings=record.warnings + cut) for record in found]
+
+
+def _cut_number(body: bytes) -> tuple[str, ...]:
+    """Return a warning when the last number has fewer decimals than all above it, and no line end: the file is cut."""
+    if body.endswith((b"\n", b"\r")):
+        return ()
+    last = [_DECIMALS.search(line) for line in lines(body[-_TAIL:])[1:] if line.strip()]
+    decimals = [len(found[1]) for found in last if found]
+    if len(decimals) < 3 or decimals[-1] >= min(decimals[:-1]):
+        return ()
+    return ("The last number has fewer decimals than those above it and no line end: the file may be cut.",)
 
 
 def _time_first(values: np.ndarray, width: int) -> bool:

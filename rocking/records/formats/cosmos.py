@@ -115,10 +115,11 @@ def _reals(head: list[str], name: str):
             values = fields(
                 name, head[i + 1 : i + 1 + count(name, "real-header lines", found[2])], int(found[3]) or 1
             )
-            if values.size > _PEAK_TIME:
+            if values.size == count(name, "real-header values", found[1]) > _PEAK_TIME:
                 return values
     raise RecordError(
-        f"{name}: the real header does not hold the {_PEAK_TIME + 1} values that give step and peak."
+        f"{name}: the real header does not hold the values it announces, of which {_PEAK_TIME + 1} give step and peak; "
+        "the file is damaged."
     )
 
 

@@ -11,7 +11,7 @@ _FREE = re.compile(r"\bfree[- ]?field\b", re.I)
 _DOWN_HOLE = re.compile(
     r"\b(down-?hole|bore-?hole|depth|below (?:ground|surface))\b|-\s*\d+(?:\.\d+)?\s*m\b", re.I
 )
-_CODE = re.compile(r"[A-Z]([HLMP])[ENZ123]")
+_CODE = re.compile(r"[A-Z]([HLMP])[ENZ123](\d\d)?")
 
 
 def site_warnings(place: str) -> tuple[str, ...]:

@@ -75,7 +75,12 @@ def fields(name: str, rows: list[str], width: int, margin: int = 0) -> np.ndarra
     try:
         return numbers(name, "\n".join(rows).encode("latin-1"))
     except RecordError:
-        pieces = [row[i : i + width] for row in rows for i in range(margin, len(row.rstrip()), width)]
+        pieces = [row[i : i + width].strip() for row in rows for i in range(margin, len(row.rstrip()), width)]
+        broken = next((piece for piece in pieces if len(piece.split()) != 1), None)
+        if broken is not None:
+            raise RecordError(
+                f"{name}: a column of {width} characters holds {broken!r}, but must hold one number: it is damaged."
+            ) from None
         return numbers(name, " ".join(pieces).encode("latin-1"))
 
 

@@ -7,9 +7,9 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.formats.header import blocks, check_nothing_left, required
-from rocking.records.formats.text import count, fields, number, whole
+from rocking.records.formats.text import count, fields, is_number, number, whole
 
-_HEADER = 27
+_HEADER, _REALS, _RATE = 27, 20, 8
 _TEXT = 13
 
 
@@ -21,6 +21,8 @@ class Block:
     declared: int
     duration: float
     rows: list[str]
+    rate: float | None
+    """Samples per second, where the reals of the header say it."""
 
 
 def channels(content: bytes, first_line: re.Pattern[str], name: str) -> list[Block]:
@@ -42,7 +44,15 @@ def volume1_block(lines: list[str], name: str) -> Block:
     end = next((i for i, row in enumerate(body) if row.startswith("/&")), len(body))
     check_nothing_left(name, body[end + 1 :])
     rows = [row for row in body[:end] if row.strip()]
-    return Block(head, count(name, "NO. OF POINTS", said[1]), number(name, "duration", said[2]), rows)
+    return Block(
+        head, count(name, "NO. OF POINTS", said[1]), number(name, "duration", said[2]), rows, _rate(lines)
+    )
+
+
+def _rate(lines: list[str]) -> float | None:
+    reals = " ".join(lines[_REALS : _REALS + 2]).split()
+    found = reals[_RATE] if len(reals) > _RATE and is_number(reals[_RATE]) else "0"
+    return float(found) if 1 <= float(found) <= 1e4 else None
 
 
 def pairs(block: Block, name: str, margin: int) -> tuple[np.ndarray, np.ndarray]:

@@ -98,8 +98,9 @@ def test_channels_that_the_header_speaks_of_are_missed(monkeypatch: pytest.Monke
     ("DYNA (ESM, ITACA, AFAD)", "UNITS", f"DURATION_S: {2 * N * STEP}\nUNITS"),
     ("GeoNet V1A/V2A", "    Duration", f"    Duration {2 * N * STEP:.2f} s"),
     ("CSMNC", "   AT 1 SEC", f"   AT 1 SEC    DURATION: {2 * N * STEP:.2f} SEC"),
-    ("UNAM/CICESE", "UNIDADES", f"DURACION DEL REGISTRO (s), C1-C6  : /{2 * N * STEP}/{2 * N * STEP}\nUNIDADES"),
-    ("UNAM/CICESE", "UNIDADES", "VEL. DE MUESTREO, C1-C6 (muestras/s)   : /200/200\nUNIDADES"),
+    ("UNAM/CICESE", f"/{N * STEP:.2f}/{N * STEP:.2f}", f"/{2 * N * STEP:.2f}/{2 * N * STEP:.2f}"),
+    ("UNAM/CICESE", "/100/100", "/200/200"),
+    ("BHRC", f"{1 / STEP:.3f}", f"{2 / STEP:.3f}"),
     ("CSMIP V1/V2: of 1983", "INTERVALS OF    0.010", "INTERVALS OF    0.020"),
     ("CSMIP V1/V2: of 1983", f"  {N} POINTS OF INSTRUMENT", f"  {N + 8} POINTS OF INSTRUMENT"),
     ("CSMIP V1/V2: raw", f"LENGTH = {N * STEP:.3f}", f"LENGTH = {2 * N * STEP:.3f}"),
@@ -111,6 +112,37 @@ def test_a_header_that_contradicts_itself_is_refused(name: str, old: str, new: s
     assert old in text
     with pytest.raises(RecordError, match="made"):
         read_text(text.replace(old, new, 1))
+
+
+def test_a_peak_half_a_percent_off_is_warned_of() -> None:
+    """A digit of a scale factor: real headers agree with their samples to 2e-5 beyond their last digit."""
+    (record,) = read_text(made("K-NET/KiK-net").replace("2000(gal)", "2010(gal)"))
+    assert "a number or a factor is damaged" in record.warnings[0]
+    assert not read_text(made("K-NET/KiK-net").replace("2000(gal)", "2001(gal)"))[0].warnings
+
+
+def test_numbers_that_run_into_one_another_are_not_parted_anew() -> None:
+    """Bytes lost within a line shift its columns: what then stands in one is no number, or two."""
+    text = made("GeoNet V1A/V2A").rstrip("\n").split("\n")
+    text[-3] = text[-3][:6] + text[-3][44:]
+    with pytest.raises(RecordError, match="made"):
+        read_text("\n".join(text) + "\n")
+
+
+def test_a_last_number_cut_short_is_warned_of() -> None:
+    text = made("columns of numbers")
+    assert not read_text(text.rstrip("\n"))[0].warnings
+    assert "fewer decimals" in read_text(text[:-3])[0].warnings[0]
+
+
+def test_cosmos_has_the_step_of_its_series() -> None:
+    """Real value 34 is the recorder's step, 62 that of the series in ms (COSMOS format 1.20): one may be resampled."""
+    text = made("COSMOS V1/V2")
+    assert f"{STEP / 2:13.6f}" in text and read_text(text)[0].time_step == STEP
+    (record,) = read_text(text.replace(f"{1000 * STEP:13.6f}", f"{-999:13.6f}", 1))
+    assert record.time_step == STEP / 2 and "a length of 0.4 s, but its samples last 0.2 s" in " ".join(
+        record.warnings
+    )
 
 
 @pytest.mark.parametrize(("name", "old", "new"), [
