@@ -1,6 +1,9 @@
 from .assessment.single import StructureAssessment as StructureAssessment
 from .assessment.single import assess as assess
 from .assessment.verdict import Verdict as Verdict
+from .calibration.identification import BlockPrior as BlockPrior
+from .calibration.identification import Identification as Identification
+from .calibration.identification import identify as identify
 from .errors import CatalogueError as CatalogueError
 from .errors import ConfigurationError as ConfigurationError
 from .errors import MotionError as MotionError

@@ -102,6 +102,7 @@ WINGS = {
     "sine_pulse": "Closed form under one sine pulse",
     "motion": "Integration",
     "assessment": "Assessment",
+    "calibration": "Identification from tests",
     "study": "Studies",
     "errors": "Errors",
 }

@@ -10,6 +10,7 @@ import numpy as np
 from rocking.errors import MotionError, RockingError
 from rocking.motion.forcing import GroundMotion, forcing_of
 from rocking.motion.integration import TOLERANCES, Rocking, reduce
+from rocking.motion.many_blocks import all_solvable, follow_blocks
 from rocking.motion.members import Members, follow_members
 from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
@@ -39,6 +40,8 @@ def integrate_batch(
     members, forcing = Members(scale_factors), forcing_of(record, vertical)
     factors = members.scale_factor
     ratios = np.full((len(structures), factors.size), math.nan)
+    if factors.size == 1 and len(structures) > 1 and all_solvable(structures, forcing):
+        return follow_blocks(structures, forcing.scaled(factors[0]))[:, None]
     workers = workers or os.cpu_count() or 1
     chunk = _chunk(len(structures), factors.size, workers)
 

@@ -1,0 +1,1 @@
+"""Validation: predictions held against shake-table tests that took no part in the fit."""
