@@ -32,6 +32,7 @@ from .sine_pulse import Regime as Regime
 from .sine_pulse import predict_maximum as predict_maximum
 from .sine_pulse import printed_maximum as printed_maximum
 from .structures import Arch as Arch
+from .structures import ArchOnPiers as ArchOnPiers
 from .structures import Block as Block
 from .structures import EquivalentBlock as EquivalentBlock
 from .structures import Facade as Facade

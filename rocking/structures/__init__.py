@@ -1,6 +1,7 @@
 """Structures: a geometry in, a Mechanism out."""
 
 from rocking.structures.arch import Arch
+from rocking.structures.arch_on_piers import ArchOnPiers
 from rocking.structures.block import Block
 from rocking.structures.config import structure_from_config
 from rocking.structures.facade import Facade
@@ -15,6 +16,7 @@ from rocking.structures.wall import Wall
 
 __all__ = [
     "Arch",
+    "ArchOnPiers",
     "Block",
     "EquivalentBlock",
     "Facade",

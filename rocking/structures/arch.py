@@ -9,7 +9,8 @@ from typing import ClassVar
 import numpy as np
 
 from rocking.errors import StructureError, StructureWarning
-from rocking.quantities import finite, length
+from rocking.quantities import finite, length, within
+from rocking.structures.arch_fill import Fill
 from rocking.structures.arch_linkage import Linkage
 from rocking.structures.arch_onset import (
     NoMechanism,
@@ -24,7 +25,14 @@ from rocking.structures.arch_ring import PATTERN, Ring
 from rocking.structures.bars import Bodies, cross
 from rocking.structures.contacts import Contacts, MotionState, dalembert, resolved
 from rocking.structures.drawing import Path, span, swept
-from rocking.structures.fields import Form, angle_field, count_field, length_field, restitution_field
+from rocking.structures.fields import (
+    Form,
+    angle_field,
+    count_field,
+    length_field,
+    number_field,
+    restitution_field,
+)
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import (
     Restitution,
@@ -39,12 +47,57 @@ _SMALLEST_EMBRACE, _LARGEST_EMBRACE = np.radians(_EMBRACE_DEG)
 _MOST_VOUSSOIRS = 1000
 
 
+FORM = Form(
+    "Circular arch with radial joints; radius of the centreline",
+    (
+        length_field("radius_m", "radius", "Radius of the centreline", 10.0, (0.3, 50), "r"),
+        length_field("thickness_m", "thickness", "Radial thickness", 1.5, (0.03, 5), "t"),
+        angle_field(
+            "embrace_angle_deg",
+            "embrace_angle",
+            "Embrace angle",
+            157.5,
+            (60, 240),
+            "β",
+            {"minimum": _EMBRACE_DEG[0], "maximum": _EMBRACE_DEG[1]},
+        ),
+        count_field(
+            "voussoirs",
+            "How many equal voussoirs; left out when hinges may open anywhere",
+            7,
+            (3, _MOST_VOUSSOIRS),
+            required=False,
+        ),
+        number_field(
+            "fill_depth_m",
+            "fill_depth",
+            "Depth of level fill above the extrados at the crown; left out without fill",
+            "m",
+            0.2,
+            (0, 3),
+            "f",
+        ),
+        number_field(
+            "fill_density_ratio",
+            "fill_density_ratio",
+            "Density of the fill over that of the masonry",
+            "",
+            0.8,
+            (0.3, 1.2),
+        ),
+        restitution_field("momentum"),
+    ),
+)
+"""How a file describes an arch."""
+
+
 @dataclass(frozen=True)
 class Arch(Structure):
     """A circular arch of radial joints, its bars exact annular sectors; φ is the rotation of the bar AB.
 
     radius: r of the centreline, m. thickness: t, m. embrace_angle: β, rad. voussoirs: how many equal ones,
-    hinges at their joints only; None when a hinge may open anywhere.
+    hinges at their joints only; None when a hinge may open anywhere. fill_depth: of level fill that lies on the
+    extrados and moves with it, above the crown, m; None without. fill_density_ratio: its density over the masonry's.
     restitution: η in [0, 1], 0.9 by default as in the paper, or "momentum": the mirrored mechanism's
     balance. That balance assumes an impulse line inside the ring, which it leaves in every practical case; a
     StructureWarning says so. Raises StructureError when it cannot stand, or has no four-hinge mechanism; the
@@ -52,38 +105,15 @@ class Arch(Structure):
     """
 
     type_name: ClassVar[str] = "arch"
-    forms: ClassVar[tuple[Form, ...]] = (
-        Form(
-            "Circular arch with radial joints; radius of the centreline",
-            (
-                length_field("radius_m", "radius", "Radius of the centreline", 10.0, (0.3, 50), "r"),
-                length_field("thickness_m", "thickness", "Radial thickness", 1.5, (0.03, 5), "t"),
-                angle_field(
-                    "embrace_angle_deg",
-                    "embrace_angle",
-                    "Embrace angle",
-                    157.5,
-                    (60, 240),
-                    "β",
-                    {"minimum": _EMBRACE_DEG[0], "maximum": _EMBRACE_DEG[1]},
-                ),
-                count_field(
-                    "voussoirs",
-                    "How many equal voussoirs; left out when hinges may open anywhere",
-                    7,
-                    (3, _MOST_VOUSSOIRS),
-                    required=False,
-                ),
-                restitution_field("momentum"),
-            ),
-        ),
-    )
+    forms: ClassVar[tuple[Form, ...]] = (FORM,)
 
     radius: float
     thickness: float
     embrace_angle: float
     voussoirs: int | None = None
     restitution: Restitution = None
+    fill_depth: float | None = None
+    fill_density_ratio: float = 0.8
 
     def __post_init__(self) -> None:
         for name in ("radius", "thickness"):
@@ -100,13 +130,25 @@ class Arch(Structure):
                 "0.08727 rad (5°), flatter than which is no arch, and 4.7124 rad (270°)."
             )
         object.__setattr__(self, "voussoirs", _voussoirs(self.voussoirs))
+        if self.fill_depth is not None:
+            object.__setattr__(
+                self, "fill_depth", within(StructureError, "fill_depth", self.fill_depth, 0, 1e3, "m")
+            )
+        ratio = within(StructureError, "fill_density_ratio", self.fill_density_ratio, 0, 10)
+        object.__setattr__(self, "fill_density_ratio", ratio)
         check_restitution(self.restitution, ("momentum",))
         self.onset  # noqa: B018  an arch that cannot stand or rock is refused at birth
 
     @property
     def ring(self) -> Ring:
         """The arch with a centreline radius of 1."""
-        return Ring(self.thickness / self.radius, self.embrace_angle, self.voussoirs)
+        return Ring(self.thickness / self.radius, self.embrace_angle, self.voussoirs, self._fill)
+
+    @property
+    def _fill(self) -> Fill | None:
+        return (
+            None if self.fill_depth is None else Fill(self.fill_depth / self.radius, self.fill_density_ratio)
+        )
 
     @cached_property
     def onset(self) -> Onset:
@@ -114,12 +156,12 @@ class Arch(Structure):
         try:
             return static_onset(self.ring)
         except TooThin:
-            bound = minimum_thickness(self.embrace_angle, self.voussoirs) * self.radius
+            bound = minimum_thickness(self.embrace_angle, self.voussoirs, self._fill) * self.radius
             raise StructureError(
                 f"{self._sentence} stands only above a thickness of {bound:.9g} m."
             ) from None
         except NoMechanism:
-            bound = maximum_thickness(self.embrace_angle, self.voussoirs) * self.radius
+            bound = maximum_thickness(self.embrace_angle, self.voussoirs, self._fill) * self.radius
             raise StructureError(
                 f"{self._sentence} has a four-hinge mechanism only below a thickness of {bound:.9g} m; "
                 "make it thinner or the embrace angle larger."
@@ -128,6 +170,7 @@ class Arch(Structure):
     @property
     def _sentence(self) -> str:
         joints = "" if self.voussoirs is None else f" and {self.voussoirs} voussoirs"
+        joints += "" if self.fill_depth is None else f" under {self.fill_depth!r} m of fill"
         return (
             f"thickness is {self.thickness!r} m, but an arch of radius {self.radius!r} m and embrace_angle "
             f"{self.embrace_angle:.6g} rad ({np.degrees(self.embrace_angle):.6g}°){joints}"
@@ -152,7 +195,7 @@ class Arch(Structure):
         from scipy.optimize import brentq  # slow to import, and needed by arches only
 
         linkage, radius = self.linkage, self.radius
-        end = linkage.straightening()
+        end = linkage.last_rotation()
         if not linkage.gravity(end) < 0:
             raise StructureError(
                 f"{self._sentence} finds no unstable equilibrium before its hinges come into line."
@@ -223,14 +266,19 @@ class Arch(Structure):
         thrusts = np.stack([at_b - forces[0], at_b, at_b + forces[1], at_b + forces[1] + forces[2]])
         fixed = np.zeros_like(motion.angles[:1])
         faces = np.concatenate([fixed, motion.angles, fixed])
-        tangents = np.exp(1j * ((faces[1:] + faces[:-1]) / 2 - self._hinge_sections[:, None]))
-        mass = self.embrace_angle / self.radius
+        tangents = np.exp(1j * ((faces[1:] + faces[:-1]) / 2 + self._joint_angles()[:, None]))
+        mass = self.ring.mass / self.radius
         return resolved(("A", "B", "C", "D"), thrusts / mass, tangents)
+
+    def _joint_angles(self) -> np.ndarray:
+        """(4,) angles [rad] at which the thrust runs square through the joints of the hinges, from left to right."""
+        return -self._hinge_sections
 
     def _outline(self, rotation: float) -> list[np.ndarray]:
         """What stays at the springings, the bars, or the voussoirs of both; about the centre of the arch."""
         motion, hinges = self.linkage.motion(rotation), self._hinge_sections
-        edges = np.unique(np.concatenate([self.ring.sections() if self.voussoirs else self._ends, hinges]))
+        joints = self.ring.sections() if self.voussoirs else self._ends
+        edges = np.unique(np.clip(np.concatenate([joints, hinges]), *self._ends))
         edges = edges[np.append(True, np.diff(edges) > 1e-9)]
         drawn = []
         for first, last in pairwise(edges):
@@ -262,6 +310,9 @@ class Arch(Structure):
         return {
             "radius": span([0.0, 0.0], self.radius * aside),
             "thickness": span([0.0, inner], [0.0, outer]),
+            "fill_depth": span(
+                [0.0, outer], [0.0, outer + (self.fill_depth or 0.0)], [0.3 * self.radius, 0.0]
+            ),
             "embrace_angle": swept([0.0, 0.0], 0.3 * self.radius, -half, half),
         }
 

@@ -94,6 +94,17 @@ class Linkage:
         """B = Σ m x'."""
         return _sum(self.bars.masses, self.motion(rotation).velocities.real)
 
+    def last_rotation(self) -> float:
+        """The rotation [rad] up to which the motion is followed: A, B and C in line, or just before the bars lock."""
+        end = self.straightening()
+        places = np.linspace(0.0, end if np.isfinite(end) else np.pi / 2, 513)
+        with np.errstate(all="ignore"):
+            inertia = self.inertia(places)
+        moves = np.isfinite(inertia) & (inertia > 0)
+        if moves.all():
+            return float(places[-1])
+        return float(0.98 * places[int(np.argmin(moves)) - 1])
+
     def straightening(self) -> float:
         """The rotation [rad] at which A, B and C come into line: the linkage snaps through and CD turns back.
 

@@ -9,12 +9,13 @@ between joints (a continuous ring) each touching section then slides to where th
 it with the smallest multiplier over all four-hinge mechanisms, by virtual work.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
 
 from rocking.errors import StructureError
+from rocking.structures.arch_fill import Fill
 from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Ring
 
 _DOWN = np.array([0.0, 0.0, 0.0, -1.0])
@@ -127,7 +128,7 @@ def _exchange(rows: np.ndarray, basis: np.ndarray) -> tuple[np.ndarray, np.ndarr
 
 def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Newton's method on the sections where the gap of a continuous ring is smallest. Returns (hinges, unknowns)."""
-    edge, spacing = ring.embrace_angle / 2, ring.embrace_angle / (CONTINUOUS_SECTIONS - 1)
+    spacing = ring.embrace_angle / (CONTINUOUS_SECTIONS - 1)
     coincident = np.diff(hinges, prepend=-np.inf) <= 0  # two on one section would be singular
     hinges = hinges + spacing / 2 * coincident
     for _ in range(_ROUNDS):
@@ -139,7 +140,7 @@ def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.n
         step = np.where(
             curvature > 0, -slope / np.where(curvature > 0, curvature, 1.0), -np.sign(slope) * spacing
         )
-        moved = np.clip(hinges + np.clip(step, -spacing, spacing), -edge, edge)
+        moved = ring.kept(hinges + np.clip(step, -spacing, spacing))
         if np.abs(moved - hinges).max() < 1e-13:
             break
         hinges = moved
@@ -154,29 +155,27 @@ def thrust_line(ring: Ring, onset: Onset, sections: np.ndarray) -> np.ndarray:
     unknowns = np.array([*onset.reaction, onset.multiplier, 1.0])
     gap = ring.gaps(sections, np.full(sections.shape, INTRADOS)) @ unknowns
     _, vertical, horizontal = onset.reaction
-    load = sections + ring.embrace_angle / 2
+    load = ring.loads(sections)[0].weight
     normal = (horizontal + onset.multiplier * load) * np.cos(sections) - (vertical - load) * np.sin(sections)
     return (ring.contact_radius(INTRADOS) + gap / normal) * 1j * np.exp(-1j * sections)
 
 
-def minimum_thickness(embrace_angle: float, voussoirs: int | None = None) -> float:
+def minimum_thickness(embrace_angle: float, voussoirs: int | None = None, fill: Fill | None = None) -> float:
     """Return the smallest t/r at which the ring stands under its own weight (λ = 0), to 1e-13."""
-    return _boundary(embrace_angle, voussoirs, TooThin, below=True)
+    return _boundary(Ring(1.0, embrace_angle, voussoirs, fill), TooThin, below=True)
 
 
-def maximum_thickness(embrace_angle: float, voussoirs: int | None = None) -> float:
+def maximum_thickness(embrace_angle: float, voussoirs: int | None = None, fill: Fill | None = None) -> float:
     """Return the largest t/r at which a four-hinge mechanism exists; a thicker ring slides instead, to 1e-13."""
-    return _boundary(embrace_angle, voussoirs, NoMechanism, below=False)
+    return _boundary(Ring(1.0, embrace_angle, voussoirs, fill), NoMechanism, below=False)
 
 
-def _boundary(
-    embrace_angle: float, voussoirs: int | None, failure: type[StructureError], below: bool
-) -> float:
+def _boundary(ring: Ring, failure: type[StructureError], below: bool) -> float:
     """Bisect the t/r at which static_onset starts (below) or stops (above) to fail in one way."""
 
     def fails(thickness: float) -> bool:
         try:
-            static_onset(Ring(thickness, embrace_angle, voussoirs))
+            static_onset(replace(ring, thickness=thickness))
         except (TooThin, NoMechanism) as reason:
             return isinstance(reason, failure)
         return False

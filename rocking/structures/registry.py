@@ -13,6 +13,7 @@ _CLASSES = (
     "rocking.structures.rigid_body.RigidBody",
     "rocking.structures.facade.Facade",
     "rocking.structures.loaded_wall.LoadedWall",
+    "rocking.structures.arch_on_piers.ArchOnPiers",
 )
 
 

@@ -11,6 +11,7 @@ import yaml
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.structures import (
     Arch,
+    ArchOnPiers,
     Block,
     Facade,
     Frame,
@@ -73,6 +74,18 @@ CASES = [
             "tie_stiffness_kN_m2": 100,
         },
         Facade((3.5, 3), (0.6, 0.5), 20e3, (12e3, 6e3), tie_heights=(3.4,), tie_stiffness=1e5),
+    ),
+    (
+        {
+            "type": "arch_on_piers",
+            "radius_m": 5,
+            "thickness_m": 0.8,
+            "embrace_angle_deg": 150,
+            "fill_depth_m": 0.3,
+            "pier_width_m": 2.6,
+            "pier_height_m": 4,
+        },
+        ArchOnPiers(5, 0.8, np.radians(150), fill_depth=0.3, pier_width=2.6, pier_height=4),
     ),
     (
         {
