@@ -7,13 +7,13 @@ the largest coefficient over all orientations; the five largest are pulses that 
 
 import math
 from dataclasses import dataclass
-from functools import cache, lru_cache
 
 import numpy as np
 
 from rocking.errors import PulseError
 from rocking.pulses.components import same_sampling
 from rocking.pulses.pulse import Pulse
+from rocking.pulses.wavelet import SUPPORT, coefficient_at, coefficients, overlap, transform
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import integral
 
@@ -23,6 +23,8 @@ SCALES = 50
 """Steps of the first search over scales; the best is then refined to one sample."""
 RESOLUTION = 64
 """Samples of a wavelet's unit of time that its search needs; more are averaged, which changes it by less than 0.1 %."""
+MOST_SAMPLES = 2_000_000
+"""Samples of the longest record that is searched, hours of any recorder; ten million would take gigabytes."""
 POTENTIAL_PULSES = 5
 """Pulses that the indicator judges, by size."""
 WAVELETS = 10
@@ -35,8 +37,6 @@ PULSE_START = 0.05
 """Share of the pulse's squared velocity that marks its start."""
 UNLIKE_PERIODS = 2.0
 """Factor between T_p and the period of a sine from which the two are not the same feature of the motion."""
-SUPPORT = 7.0
-"""Length of db4 in its own time; its centre frequency is 5 cycles over it."""
 PERIOD_OF_SCALE = SUPPORT / 5
 """T_p over the scale in s: the period of the largest Fourier amplitude of db4 (Baker 2007)."""
 
@@ -102,6 +102,11 @@ def largest_velocity_pulse(accelerogram: Accelerogram) -> tuple[float, float]:
 
 
 def _velocities(accelerations: np.ndarray, step: float) -> np.ndarray:
+    if accelerations.shape[1] > MOST_SAMPLES:
+        raise PulseError(
+            f"The motion holds {accelerations.shape[1]} samples, but a velocity pulse is sought in at most "
+            f"{MOST_SAMPLES}; cut the record to its earthquake."
+        )
     if not np.any(accelerations):
         raise PulseError(
             "The motion is zero throughout, but a velocity pulse needs one that moves; check the file."
@@ -133,72 +138,37 @@ def searched_scales(time_step: float, count: int) -> np.ndarray:
     return scales
 
 
-@cache
-def _table() -> tuple[np.ndarray, np.ndarray]:
-    import pywt
-
-    _, wavelet, places = pywt.Wavelet("db4").wavefun(level=10)
-    return places, wavelet
-
-
-def _half_length(scale: float) -> int:
-    return math.floor(SUPPORT / 2 * scale)
-
-
-def _wavelet(scale: float) -> np.ndarray:
-    """db4 stretched to `scale` samples per unit and of unit energy, centred on the middle sample (odd count)."""
-    half = _half_length(scale)
-    places, wavelet = _table()
-    return np.interp(np.arange(-half, half + 1) / scale + SUPPORT / 2, places, wavelet) / math.sqrt(scale)
-
-
-def _coefficients(velocities: np.ndarray, scale: int, low: int, high: int) -> np.ndarray:
-    """Coefficients of one scale centred at the samples [low, high); only what they see is transformed."""
-    begin = max(0, low - _half_length(scale))
-    return _transform(velocities[begin : high + _half_length(scale)], scale)[low - begin : high - begin]
-
-
-def _transform(velocities: np.ndarray, scale: float) -> np.ndarray:
-    """Coefficient of the wavelet of one scale centred at each sample of (n,) velocities, real or complex."""
-    from scipy import fft
-
-    size = fft.next_fast_len(velocities.size + 2 * _half_length(scale))
-    full = fft.ifft(fft.fft(velocities, size) * _reversed_spectrum(scale, size))
-    return np.roll(full, _half_length(scale))[: velocities.size]
-
-
-@lru_cache(maxsize=64)
-def _reversed_spectrum(scale: float, size: int) -> np.ndarray:
-    """Fourier transform of the wavelet read backwards: the conjugate of its own, as it is real."""
-    from scipy import fft
-
-    return np.conj(fft.fft(_wavelet(scale), size))
-
-
 def _largest(
     velocities: np.ndarray, scales: np.ndarray, count: int = POTENTIAL_PULSES
 ) -> list[tuple[int, int]]:
     """(scale index, sample) of the largest coefficients over all orientations, c₁² + c₂², each keeping its room."""
     # one complex transform serves two components
     both = velocities[0] if len(velocities) == 1 else velocities[0] + 1j * velocities[1]
-    squares = np.array([_squares(both, int(scale)) for scale in scales])
+    squares = [_squares(both, int(scale)) for scale in scales]
     found = []
     for _ in range(count):
-        row, column = (int(place) for place in np.unravel_index(np.argmax(squares), squares.shape))
+        row = max(range(len(squares)), key=lambda row: squares[row].max())
         scale = int(scales[row])
-        found.append((row, _settled(both, scale, column)))
-        room = NEIGHBOURHOOD * scale
-        squares[:, max(0, math.ceil(column - room)) : math.floor(column + room) + 1] = 0
+        column = _settled(both, scale, int(np.argmax(squares[row])) * _together(scale))
+        found.append((row, column))
+        for values, each in zip(squares, scales, strict=True):
+            _clear(values, _together(int(each)), column, NEIGHBOURHOOD * scale)
     return found
 
 
 def _squares(both: np.ndarray, scale: int) -> np.ndarray:
-    """Squared coefficients (n,) of one scale, of means over as many samples as the wavelet does not resolve."""
+    """Squared coefficients of one scale, of means over as many samples as the wavelet does not resolve."""
     together = _together(scale)
     whole = both.size // together * together
     means = both[:whole].reshape(-1, together).mean(axis=1)
-    squares = together * np.square(np.abs(_transform(means, scale / together)))
-    return np.concatenate((np.repeat(squares, together), np.zeros(both.size - whole)))
+    return together * np.square(np.abs(transform(means, scale / together)))
+
+
+def _clear(squares: np.ndarray, together: int, column: int, room: float) -> None:
+    """Set to zero what stands within `room` samples of `column`, of values of `together` samples each."""
+    middle = column - (together - 1) / 2
+    low, high = math.ceil((middle - room) / together), math.floor((middle + room) / together)
+    squares[max(0, low) : max(0, high + 1)] = 0
 
 
 def _together(scale: int) -> int:
@@ -211,12 +181,12 @@ def _settled(both: np.ndarray, scale: int, column: int) -> int:
     if together == 1:
         return column
     low, high = max(0, column - together), min(column + 2 * together, both.size)
-    return low + int(np.argmax(np.abs(_coefficients(both, scale, low, high))))
+    return low + int(np.argmax(np.abs(coefficients(both, scale, low, high))))
 
 
 def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, column: int) -> VelocityPulse:
     """Extract the pulse at one coefficient in its own orientation and judge it."""
-    amplitudes = [_at(velocity, int(scales[row]), column) for velocity in velocities]
+    amplitudes = [coefficient_at(velocity, int(scales[row]), column) for velocity in velocities]
     orientation = _orientation(*amplitudes)
     axis = (math.cos(orientation), math.sin(orientation))
     velocity = sum(share * part for share, part in zip(axis, velocities, strict=False))
@@ -247,16 +217,10 @@ def _refined_scale(velocity: np.ndarray, scales: np.ndarray, row: int, column: i
     stride = math.isqrt(high - low) or 1
 
     def size(scale: int) -> float:
-        return abs(_at(velocity, scale, column))
+        return abs(coefficient_at(velocity, scale, column))
 
     near = max(range(low, high + 1, stride), key=size)  # the size has one peak there, many strides wide
     return max(range(max(low, near - stride), min(high, near + stride) + 1), key=size)
-
-
-def _at(velocity: np.ndarray, scale: int, column: int) -> float:
-    """Coefficient of one wavelet at one sample."""
-    begin, end, wavelet = _overlap(velocity.size, scale, column)
-    return float((velocity[begin:end] * wavelet).sum())
 
 
 def _extracted(velocity: np.ndarray, scale: int, column: int) -> tuple[np.ndarray, int]:
@@ -264,21 +228,13 @@ def _extracted(velocity: np.ndarray, scale: int, column: int) -> tuple[np.ndarra
     pulse, centre, reach = np.zeros_like(velocity), column, math.ceil(NEIGHBOURHOOD * scale)
     for number in range(WAVELETS):
         low, high = max(0, centre - reach), min(centre + reach + 1, velocity.size)
-        coefficients = _coefficients(velocity - pulse, scale, low, high).real
-        best = int(np.argmax(np.abs(coefficients)))
-        begin, end, wavelet = _overlap(velocity.size, scale, low + best)
-        pulse[begin:end] += coefficients[best] * wavelet
+        found = coefficients(velocity - pulse, scale, low, high).real
+        best = int(np.argmax(np.abs(found)))
+        begin, end, wavelet = overlap(velocity.size, scale, low + best)
+        pulse[begin:end] += found[best] * wavelet
         if number == 0:
             centre = low + best
     return pulse, centre
-
-
-def _overlap(count: int, scale: int, column: int) -> tuple[int, int, np.ndarray]:
-    """First and last sample of the wavelet centred at `column` inside `count` samples, and that part of it."""
-    wavelet = _wavelet(scale)
-    begin = column - wavelet.size // 2
-    low, high = max(begin, 0), min(begin + wavelet.size, count)
-    return low, high, wavelet[low - begin : high - begin]
 
 
 def _late(velocity: np.ndarray, pulse: np.ndarray) -> bool:

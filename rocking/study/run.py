@@ -117,7 +117,11 @@ def write_tables(
     tables = tables or RecordTables()
     durations = {"read": read_duration}
     accelerograms, vertical = opened
-    for accelerogram, motion in zip(accelerograms, horizontal_motions(accelerograms), strict=True):
+    started = process_time()
+    motions = horizontal_motions(accelerograms)
+    if accelerograms:
+        durations["velocity pulse"] = process_time() - started
+    for accelerogram, motion in zip(accelerograms, motions, strict=True):
         beside = None if vertical is None else aligned(vertical, accelerogram)
         assessment = assess_structures(accelerogram, study.structures, study.assessment, beside)
         identity = Identity(record.id, accelerogram, study.settings_sha256)

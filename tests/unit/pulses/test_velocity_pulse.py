@@ -73,6 +73,9 @@ def test_what_cannot_hold_a_velocity_pulse_is_refused():
     zero = Accelerogram(np.zeros(3000), STEP)
     with pytest.raises(PulseError, match="zero throughout"):
         velocity_pulse(zero, zero)
+    endless = Accelerogram(np.ones(2_000_001), STEP)
+    with pytest.raises(PulseError, match="2000001 samples"):
+        velocity_pulse(endless, endless)
     short = Accelerogram(np.ones(100), STEP)
     with pytest.raises(PulseError, match="100 samples"):
         velocity_pulse(short, short)
