@@ -29,6 +29,9 @@ from .records import Accelerogram as Accelerogram
 from .records import read as read
 from .sine_pulse import Maximum as Maximum
 from .sine_pulse import Regime as Regime
+from .sine_pulse import overturning_amplitudes as overturning_amplitudes
+from .sine_pulse import overturning_margins as overturning_margins
+from .sine_pulse import predict_maxima as predict_maxima
 from .sine_pulse import predict_maximum as predict_maximum
 from .sine_pulse import printed_maximum as printed_maximum
 from .structures import Arch as Arch

@@ -64,6 +64,11 @@ class EquivalentBlock:
             return self.critical_rotation
         return self.rotation_map.arc(self.critical_rotation)
 
+    @cached_property
+    def end(self) -> float:
+        """x beyond which the mechanism ends; inf where x = φ/φ_cr, which has no end."""
+        return np.inf if self.rotation_map is None else self.rotation_map.end / self.critical_arc
+
     @property
     def velocity_scale(self) -> float:
         """Angular velocity at φ = 0, rad/s, for each unit of dx/d(pt)."""

@@ -27,6 +27,7 @@ ONLY_IN = {
         "motion/nonlinear_kernel.py",
         "pulses/refinement.py",
         "pulses/scan.py",
+        "sine_pulse/kernel.py",
     ),
     "matplotlib": ("reports/",),
     "typst": ("reports/",),

@@ -9,7 +9,7 @@ from scipy.constants import g
 
 from rocking.pulses.pulse import Pulse
 from rocking.sine_pulse import Maximum, Regime, predict_maximum, printed_maximum
-from rocking.sine_pulse.flight import Flight
+from rocking.sine_pulse.kernel import flight, state
 from rocking.structures.mechanism import EquivalentBlock
 from rocking.structures.outcome import Outcome
 
@@ -69,7 +69,7 @@ def test_half_sine_overturning_without_impact(omega: float, a: float) -> None:
     def falls(amplitude: float) -> bool:
         slope = math.sqrt((amplitude - 1) * (amplitude + 1))
         start = math.atan2(1.0, slope)
-        x, velocity, _ = Flight(omega, amplitude, start, 0.0, 0.0, slope).state((math.pi - start) / omega)
+        x, velocity, _ = state(flight(omega, amplitude, start, 0.0, 0.0, slope), (math.pi - start) / omega)
         return x + velocity > 1
 
     assert threshold(falls, 1.0001, 20.0) == pytest.approx(a, abs=5e-7)

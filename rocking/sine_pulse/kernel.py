@@ -1,0 +1,494 @@
+"""The compiled course of an equivalent block under one full sine pulse: flight by flight, exactly.
+
+On one side, with x = φ/φ_cr (or what the block measures in its stead), time t in units of 1/p and the forcing
+f = a sin θ (a signed: positive where the ground lifts this side), θ = θ₀ + ωt, the block obeys x'' = x − 1 + f
+(Eq. 10), and from x = 0, x' = v
+
+    x = P (cosh t − 1) + Q sinh t + [f₀ (1 − cos ωt) − k sin ωt] / (1 + ω²) ,   k = a cos θ₀ ,
+    P = (f₀ − 1 − ω²) / (1 + ω²) ,   Q = v + ωk / (1 + ω²) .
+
+The zeros of x' are isolated exactly. With the homogeneous part h = P sinh t + Q cosh t and c = a cos θ,
+(x'/c)' has the sign of r = h'c + ωhf, and r' = (1 + ω²) h c: between zeros of h and c, r is monotonic; between those
+of r as well, x'/c is; between those of x', x is. No sampling, so no extreme and no contact can be missed.
+
+numba stores compiled code under the file that defines it and looks at no other: functions that call each other stand
+in one file, and so do the tuples that they take.
+"""
+
+import math
+from typing import NamedTuple
+
+from numba import njit
+
+LONGEST_TIME = 60.0
+"""Flight time, in 1/p, after which e^t outweighs every term of the pulse by more than doubles can hold."""
+
+REST_ENERGY = 1e-24
+"""An impact that leaves less than this share of the energy needed to overturn leaves the block at rest."""
+
+MOST_IMPACTS = 10_000
+"""Impacts followed during the pulse before the prediction gives up; only a restitution within 1e-3 of 1 gets here."""
+
+_PULSE_END = 2 * math.pi
+_SHORT, _VERY_SHORT = 0.3, 1e-3
+"""Below these values of max(t, ωt) the motion is summed as a power series of 14 and of 8 terms."""
+
+_CONVERGED = 1e-10
+"""A Newton step of this relative size is the last: the error after it is its square."""
+
+_EQUAL = 1 + 1e-12
+"""Of peaks that are equal to within this the first counts."""
+
+_POSITION, _VELOCITY, _MINUS_VELOCITY, _MONOTONY, _MINUS_MONOTONY = 0, 1, 2, 3, 4
+
+compiled = njit(cache=True, nogil=True, error_model="numpy")
+
+
+class Side(NamedTuple):
+    """One side of a block under one pulse; see `rocking.sine_pulse.ratios.Ratios`.
+
+    end: x beyond which the mechanism ends. exists: whether the block rocks to this side at all.
+    """
+
+    frequency_ratio: float
+    amplitude_ratio: float
+    restitution: float
+    velocity_scale: float
+    end: float
+    exists: bool
+
+
+class Course(NamedTuple):
+    """What came of it, by side: 0 the one that the pulse's first half lifts, 1 the other.
+
+    peaks: largest x, inf overturns. peak_impacts: impacts before it, −1 where the side never rocks. contacts: impacts
+    during the pulse. impacts: all that were followed. margin: smallest 1 − x − x' at the start of a flight after the
+    pulse. unresolved: too many impacts.
+    """
+
+    peaks: tuple[float, float]
+    peak_impacts: tuple[int, int]
+    contacts: int
+    impacts: int
+    margin: float
+    unresolved: bool
+
+
+class Flight(NamedTuple):
+    """The motion from φ = 0 at phase θ₀ with velocity v ≥ 0. excess: f₀ − 1. slope: k = a cos θ₀. P and Q."""
+
+    omega: float
+    amplitude: float
+    phase: float
+    velocity: float
+    excess: float
+    slope: float
+    share: float
+    cosine: float
+    sine: float
+
+
+@compiled
+def flight(omega, amplitude, phase, velocity, excess, slope):
+    """The flight with its coefficients."""
+    share = 1 / (1 + omega * omega)
+    cosine, sine = (excess - omega * omega) * share, velocity + omega * slope * share
+    return Flight(omega, amplitude, phase, velocity, excess, slope, share, cosine, sine)
+
+
+@compiled
+def _series(f, t, terms):
+    """Sum the power series of x, x', x'': yₙ tⁿ/n! with y₁ = v, y₂ = f₀ − 1 and y₍ₙ₊₂₎ = yₙ + f⁽ⁿ⁾."""
+    y, following, square = f.velocity, f.excess, -f.omega * f.omega
+    odd, even = f.slope * f.omega, (1 + f.excess) * square
+    before, now = 0.0, 1.0  # tⁿ⁻²/(n−2)! and tⁿ⁻¹/(n−1)!
+    x = velocity = acceleration = 0.0
+    for n in range(1, terms):
+        after = now * t / n
+        x += y * after
+        velocity += y * now
+        acceleration += y * before
+        before, now = now, after
+        y, following, odd, even = following, y + odd, even, odd * square
+    return x, velocity, acceleration
+
+
+@compiled
+def state(f, t):
+    """x, x', x'' at time t ≥ 0."""
+    u = f.omega * t
+    if t < _SHORT and u < _SHORT:
+        return _series(f, t, 8 if t < _VERY_SHORT and u < _VERY_SHORT else 14)
+    half, sin, half_sin = math.sinh(t / 2), math.sin(u), math.sin(u / 2)
+    rise, versine = 2 * half * half, 2 * half_sin * half_sin
+    sinh = 2 * half * math.sqrt(1 + half * half)
+    f0, k = 1 + f.excess, f.slope
+    x = f.cosine * rise + f.sine * sinh + f.share * (f0 * versine - k * sin)
+    forced = f.omega * f.share * (f0 * sin - k * (1 - versine))
+    velocity = f.cosine * sinh + f.sine * (1 + rise) + forced
+    return x, velocity, x - 1 + f0 * (1 - versine) + k * sin
+
+
+@compiled
+def _monotony(f, t):
+    """r and r' of the module's docstring."""
+    u = f.omega * t
+    growing = math.exp(t)
+    sinh, cosh = math.sinh(t), 0.5 * (growing + 1 / growing)
+    sin, cos = math.sin(u), math.cos(u)
+    h, rate = f.cosine * sinh + f.sine * cosh, f.cosine * cosh + f.sine * sinh
+    f0 = 1 + f.excess
+    c, force = f.slope * cos - f0 * sin, f0 * cos + f.slope * sin
+    return rate * c + f.omega * h * force, h * c / f.share
+
+
+@compiled
+def _value(f, kind, t):
+    """What a root is sought of, and its slope."""
+    if kind == _POSITION:
+        x, velocity, _ = state(f, t)
+        return x, velocity
+    if kind <= _MINUS_VELOCITY:
+        _, velocity, acceleration = state(f, t)
+        return (velocity, acceleration) if kind == _VELOCITY else (-velocity, -acceleration)
+    r, slope = _monotony(f, t)
+    return (r, slope) if kind == _MONOTONY else (-r, -slope)
+
+
+@compiled
+def root(f, kind, low, high, guess):
+    """Where a value falls through zero between low (value > 0) and high (value < 0).
+
+    Newton's iteration, kept inside the bracket and replaced by bisection where it does not halve the value.
+    """
+    t, last = guess, math.inf
+    for _ in range(200):
+        value, slope = _value(f, kind, t)
+        if value > 0:
+            low = t
+        else:
+            high = t
+        newton = t - value / slope if slope != 0 else math.nan
+        if abs(newton - t) <= _CONVERGED * t:
+            return min(max(newton, low), high)
+        bisect = not low <= newton <= high or abs(value) > last / 2
+        t, last = ((low + high) / 2 if bisect else newton), abs(value)
+        if high - low <= 4e-16 * high:
+            break
+    return t
+
+
+@compiled
+def _contact(f, low, high, guess, peak):
+    """contact, time, x, x' and peak of a flight that lands between two times."""
+    time = root(f, _POSITION, low, high, guess)
+    x, velocity, _ = state(f, time)
+    return True, time, x, velocity, peak
+
+
+@compiled
+def _quarter(f, which, duration):
+    """When the pulse's phase is π/2 or 3π/2, or infinity outside the flight."""
+    time = ((0.5 if which == 0 else 1.5) * math.pi - f.phase) / f.omega
+    return time if 0 < time < duration else math.inf
+
+
+@compiled
+def _breaks(f, duration):
+    """The zeros of c and of h within the flight, ascending, infinity in place of those that do not exist."""
+    a, b = _quarter(f, 0, duration), _quarter(f, 1, duration)
+    c = math.atanh(-f.sine / f.cosine) if abs(f.sine) < abs(f.cosine) else math.inf
+    c = c if 0 < c < duration else math.inf
+    return min(a, b, c), max(min(a, b), min(max(a, b), c)), max(a, b, c)
+
+
+@compiled
+def _follow(f, high, low, rising, peak):
+    """Follow x' to the next time between which and the last x'/c is monotonic.
+
+    Returns the way it ends (whether it lands in between, and that landing), the new low, whether it rises, and peak.
+    """
+    x, velocity, _ = state(f, high)
+    landing = False, 0.0, x, velocity, peak
+    if rising and velocity < 0:
+        low = root(f, _VELOCITY, low, high, (low + high) / 2)
+        peak, rising = max(peak, state(f, low)[0]), False
+    elif not rising and velocity > 0:
+        turn = root(f, _MINUS_VELOCITY, low, high, (low + high) / 2)
+        if state(f, turn)[0] <= 0:
+            return _contact(f, low, turn, (low + turn) / 2, peak), low, rising, peak
+        low, rising = turn, True
+    if not rising and x <= 0:
+        return _contact(f, low, high, (low + high) / 2, peak), low, rising, peak
+    return landing, high, rising, peak
+
+
+@compiled
+def land(f, duration):
+    """Follow the flight for `duration` (1/p) at most, or to its first contact: contact, time, x, x', highest peak."""
+    breaks, start, before = _breaks(f, duration), 0.0, _monotony(f, 0.0)[0]
+    low, rising, peak = 0.0, True, 0.0
+    x = velocity = 0.0
+    for n in range(4):
+        high = min(breaks[n] if n < 3 else duration, duration)
+        after = _monotony(f, high)[0]
+        if before * after < 0:
+            kind = _MONOTONY if before > 0 else _MINUS_MONOTONY
+            node = root(f, kind, start, high, (start + high) / 2)
+            landing, low, rising, peak = _follow(f, node, low, rising, peak)
+            if landing[0]:
+                return landing
+        landing, low, rising, peak = _follow(f, high, low, rising, peak)
+        if landing[0]:
+            return landing
+        _, _, x, velocity, _ = landing
+        if high == duration:
+            break
+        start, before = high, after
+    return False, duration, x, velocity, max(peak, x)
+
+
+@compiled
+def hop(f, duration, peak):
+    """Follow a short flight whose acceleration is proved negative throughout: whether it can be proved, and the rest.
+
+    With d = 1 − f₀ > 0, f changing by at most d/2 and x ≤ d/4 within the time 8v/d, x'' ≤ −d/4 there: the flight
+    lands within that time, no higher than 2v²/d, and is in the air at v/d, since x'' ≥ −3d/2 as well.
+    The peak is sought only where it can exceed `peak`.
+    """
+    d, v = -f.excess, f.velocity
+    none = False, 0.0, 0.0, 0.0, 0.0
+    if d <= 0 or v * v > d * d / 8:
+        return False, none
+    latest = 8 * v / d
+    if latest > duration or abs(f.amplitude) * f.omega * latest > d / 2:
+        return False, none
+    if 2 * v * v / d > peak:
+        peak = state(f, root(f, _VELOCITY, 0.0, latest, v / d))[0]
+    bend = 2 * v / (3 * d * d) * (v + f.omega * f.slope)
+    return True, _contact(f, v / d, latest, 2 * v / d * (1 + bend), peak)
+
+
+@compiled
+def _uplift_slope(side):
+    """s = √(a² − 1), the slope of a sin θ where it reaches 1."""
+    a = side.amplitude_ratio
+    return math.sqrt((a - 1) * (a + 1))
+
+
+@compiled
+def _next_uplift(sides, phase):
+    """The phase, at or after `phase`, at which a resting block is lifted, and the side; −1 where it is not."""
+    first, index = math.inf, -1
+    for k in range(2):
+        side = sides[k]
+        if not side.exists or side.amplitude_ratio <= 1:
+            continue
+        uplift = math.atan2(1.0, _uplift_slope(side))
+        if phase < (k + 1) * math.pi - uplift:
+            start = max(phase, k * math.pi + uplift)
+            if start < first:
+                first, index = start, k
+    return first, index
+
+
+@compiled
+def _flight_of(side, index, phase, velocity):
+    """The flight of a side from rest at its uplift, or from an impact."""
+    amplitude = side.amplitude_ratio * (1 - 2 * index)
+    slope = _uplift_slope(side) if side.amplitude_ratio > 1 else 0.0
+    if velocity == 0 and side.amplitude_ratio > 1 and phase == index * math.pi + math.atan2(1.0, slope):
+        return flight(side.frequency_ratio, amplitude, phase, velocity, 0.0, slope)
+    excess = amplitude * math.sin(phase) - 1
+    return flight(side.frequency_ratio, amplitude, phase, velocity, excess, amplitude * math.cos(phase))
+
+
+@compiled
+def _impact(sides, index, speed):
+    """The side and the velocity after landing on side `index` with `speed`."""
+    following = 1 - index if sides[1 - index].exists else index
+    scale = sides[index].velocity_scale / sides[following].velocity_scale
+    return following, sides[index].restitution * speed * scale
+
+
+@compiled
+def _largest_force(amplitude_ratio, start, end):
+    """The largest a |sin θ| for θ in [start, end], rad."""
+    if start < 0.5 * math.pi < end or start < 1.5 * math.pi < end:
+        return amplitude_ratio
+    return amplitude_ratio * max(abs(math.sin(start)), abs(math.sin(end)))
+
+
+@compiled
+def _settles(sides, phase, index, velocity, unseen):
+    """A phase by which the chain of impacts is proved to be over, or −1 if that is not proved.
+
+    Halfway to the next uplift, d bounds 1 − f on both sides from below. A flight launched with v² ≤ d²/2 has
+    x'' ≤ −d/2: it lasts 4v/d at most, rises v²/d at most, and lands with at most v √(1 + 8aωv/d²), so two flights
+    multiply the velocity by ρ² = η₁η₂ (1 + 8aωv/d²) at most. If ρ² < 1 the times of all flights sum to
+    8v/(d (1 − ρ²)). The chain is over if that ends in time and v²/d does not exceed the peak on record.
+    """
+    following, lifted = _next_uplift(sides, phase)
+    end = _PULSE_END if lifted < 0 else phase + (following - phase) / 2
+    least, v, omega, steepest, restitution = math.inf, 0.0, 0.0, 0.0, 1.0
+    for k in range(2):
+        side = sides[k] if sides[k].exists else sides[1 - k]
+        least = min(least, 1 - _largest_force(side.amplitude_ratio, phase, end))
+        v = max(v, velocity * (sides[index].velocity_scale / side.velocity_scale))
+        omega = max(omega, side.frequency_ratio)
+        steepest = max(steepest, side.amplitude_ratio * side.frequency_ratio)
+        restitution *= side.restitution
+    if least <= 0 or v * v > least * least / 2 or v * v / least > unseen:
+        return -1.0
+    shrink = restitution * (1 + 8 * steepest * v / (least * least))
+    over = shrink < 1 and phase + 8 * omega * v / (least * (1 - shrink)) <= end
+    return end if over else -1.0
+
+
+@compiled
+def _raised(peaks, impacts_then, index, peak, impacts):
+    """The peaks and their impacts with one more peak of a side; of equal ones the first stays."""
+    if impacts_then[index] >= 0 and not peak > peaks[index] * _EQUAL:
+        return peaks, impacts_then
+    if index == 0:
+        return (peak, peaks[1]), (impacts, impacts_then[1])
+    return (peaks[0], peak), (impacts_then[0], impacts)
+
+
+@compiled
+def _after_pulse(sides, index, x, velocity, peaks, at, impacts, margin):
+    """The free motion from the pulse's end: x − 1 + x' > 0 overturns, else (x − 1)² − x'² is conserved."""
+    energy = x * (2 - x) + velocity * velocity
+    unstable, rising = x + velocity, velocity > 0
+    for turn in range(3):
+        margin = min(margin, 1 - unstable)
+        if unstable > 1:
+            peaks, at = _raised(peaks, at, index, math.inf, impacts)
+            break
+        if rising or turn > 0:
+            peak = energy / (1 + math.sqrt(max(1 - energy, 0.0)))
+            peaks, at = _raised(peaks, at, index, peak, impacts)
+        if turn == 2:
+            break
+        impacts += 1
+        index, velocity = _impact(sides, index, math.sqrt(max(energy, 0.0)))
+        energy, unstable = velocity * velocity, velocity
+    return peaks, at, impacts, margin
+
+
+@compiled
+def course(first, second):
+    """Follow the block from rest at the pulse's start to its last relevant flight.
+
+    first: the side that the pulse's first half lifts; second: the other one.
+    """
+    sides = first, second
+    alike = not (first.exists and second.exists) or (
+        first.frequency_ratio == second.frequency_ratio
+        and first.amplitude_ratio == second.amplitude_ratio
+        and first.restitution == second.restitution
+        and first.velocity_scale == second.velocity_scale
+        and first.end == second.end
+    )
+    peaks, at, impacts, contacts, margin = (0.0, 0.0), (-1, -1), 0, 0, 1.0
+    velocity = 0.0
+    phase, index = _next_uplift(sides, 0.0)
+    while index >= 0:
+        f = _flight_of(sides[index], index, phase, velocity)
+        remaining = max(0.0, (_PULSE_END - f.phase) / f.omega)
+        duration = min(remaining, LONGEST_TIME)
+        unseen = max(peaks) if alike else min(peaks)
+        short, landing = hop(f, duration, unseen)
+        if not short:
+            landing = land(f, duration)
+        contact, time, x, speed, peak = landing
+        peaks, at = _raised(peaks, at, index, peak, impacts)
+        if not contact:
+            speed = speed if duration == remaining else math.inf
+            peaks, at, impacts, margin = _after_pulse(sides, index, x, speed, peaks, at, impacts, margin)
+            break
+        phase += f.omega * time
+        impacts, contacts = impacts + 1, contacts + 1
+        index, velocity = _impact(sides, index, -speed)
+        unseen = max(peaks) if alike else min(peaks)
+        rest = (
+            phase if velocity * velocity <= REST_ENERGY else _settles(sides, phase, index, velocity, unseen)
+        )
+        if rest >= 0:
+            velocity = 0.0
+            phase, index = _next_uplift(sides, rest)
+        elif impacts >= MOST_IMPACTS:
+            return Course(peaks, at, contacts, impacts, math.nan, True)
+    if peaks[0] > first.end or peaks[1] > second.end:
+        if max(peaks) != math.inf:
+            margin = -math.inf
+        peaks = (
+            math.inf if peaks[0] > first.end else peaks[0],
+            math.inf if peaks[1] > second.end else peaks[1],
+        )
+    return Course(peaks, at, contacts, impacts, margin, False)
+
+
+@compiled
+def courses(positive, negative, signs, frequencies, amplitudes, peaks, margins):
+    """`course` of every block (m,) under every pulse (n,): fill peaks (m, n, 2), positive side first, and margins.
+
+    positive, negative: (m, 6) p, gλ, η, velocity scale, end and existence of each side. signs: (n,) +1 where the
+    pulse's first half lifts the positive side, else −1. frequencies, amplitudes: (n,) ω_g, |a_g|. nan: unresolved.
+    """
+    for i in range(positive.shape[0]):
+        for j in range(frequencies.size):
+            one = _side_of(positive[i], frequencies[j], amplitudes[j])
+            other = _side_of(negative[i], frequencies[j], amplitudes[j])
+            found = course(one, other) if signs[j] > 0 else course(other, one)
+            first = 0 if signs[j] > 0 else 1
+            peaks[i, j, first], peaks[i, j, 1 - first] = found.peaks
+            margins[i, j] = found.margin
+            if found.unresolved:
+                peaks[i, j] = math.nan
+
+
+@compiled
+def _side_of(row, frequency, amplitude):
+    """A side of `courses` under one pulse."""
+    return Side(frequency / row[0], amplitude / row[1], row[2], row[3], row[4], row[5] != 0)
+
+
+@compiled
+def thresholds(positive, negative, sign, frequencies, amplitudes):
+    """Fill amplitudes (m, n) with the smallest one at which each block (m,) overturns under a sine of each frequency.
+
+    positive, negative, sign: as `courses` takes them. In steps of 2 % from the uplift acceleration, then by halving.
+    """
+    for i in range(positive.shape[0]):
+        one, other = (positive[i], negative[i]) if sign > 0 else (negative[i], positive[i])
+        lift = min(one[1] if one[5] != 0 else math.inf, other[1] if other[5] != 0 else math.inf)
+        for j in range(frequencies.size):
+            high = lift
+            while high <= 1000 * lift and not _overturns(one, other, frequencies[j], high):
+                high *= 1.02
+            low = high / 1.02
+            while high <= 1000 * lift and high - low > 1e-9 * high:
+                middle = 0.5 * (low + high)
+                if _overturns(one, other, frequencies[j], middle):
+                    high = middle
+                else:
+                    low = middle
+            amplitudes[i, j] = high if high <= 1000 * lift else math.inf
+
+
+@compiled
+def _overturns(one, other, frequency, amplitude):
+    """Whether a block overturns; one: the row of the side that the pulse's first half lifts."""
+    found = course(_side_of(one, frequency, amplitude), _side_of(other, frequency, amplitude))
+    return max(found.peaks) == math.inf
+
+
+@compiled
+def spectrum(frequency_ratios, amplitude_ratios, restitution, ratios):
+    """Fill ratios (m, n) with the largest x of the symmetric block of each ω and a; nan where it is unresolved."""
+    for i in range(frequency_ratios.size):
+        for j in range(amplitude_ratios.size):
+            side = Side(frequency_ratios[i], amplitude_ratios[j], restitution, 1.0, math.inf, True)
+            found = course(side, side)
+            ratios[i, j] = math.nan if found.unresolved else max(found.peaks)

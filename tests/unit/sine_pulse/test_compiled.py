@@ -1,0 +1,127 @@
+"""The compiled prediction against the same in plain Python, case by case, and many at a call."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from interpreted import interpreted_maximum
+from scipy.constants import g
+
+from rocking.errors import PulseError
+from rocking.pulses.pulse import Pulse
+from rocking.sine_pulse import overturning_amplitudes, overturning_margins, predict_maxima, predict_maximum
+from rocking.structures import Arch, Block, EquivalentBlock, Mechanism, Wall
+from rocking.structures.outcome import Outcome
+
+WALL, OTHER = Wall(1.5, 1.5, 0.4).mechanism(), Wall(1.0, 2.0, 0.3).mechanism()
+KINDS = {
+    "symmetric": EquivalentBlock(2.0, 0.25, 0.8, 0.9),
+    "two sides": EquivalentBlock(1.7, 0.30, 0.9, 0.85, other_side=EquivalentBlock(2.4, 0.18, 0.7, 0.95)),
+    "one side": EquivalentBlock(2.2, 0.2, 1.1, 0.7, one_sided=True),
+    "arch": Arch(10.0, 1.5, math.radians(157.5), restitution=0.9).mechanism().equivalent_block(),
+    "two unlike walls": Mechanism(WALL.positive, OTHER.positive).equivalent_block(),
+    "facade": Block(3.0, 0.1, restitution=0.5, one_sided=True).mechanism().equivalent_block(),
+}
+
+
+def random_case(rng: np.random.Generator, block: EquivalentBlock) -> tuple[EquivalentBlock, Pulse]:
+    """Any restitution, signs, ratios from far below to far beyond what lifts and overturns."""
+    eta = rng.choice([0.0, rng.uniform(0, 0.95), rng.uniform(0.95, 0.998)])
+    block = replace(block, restitution=float(eta))
+    a, omega = 10 ** rng.uniform(-0.1, 1.4), 10 ** rng.uniform(-0.7, 1.5)
+    amplitude = rng.choice([-1, 1]) * a * g * block.uplift_multiplier
+    return block, Pulse(float(amplitude), float(omega * block.frequency_parameter))
+
+
+def compared(kind: str, count: int, seed: int) -> None:
+    """Outcome and regime are the same; the rotation to 1e-12, and to 1e-9 where a change of 1e-13 in a tells."""
+    rng, rocks = np.random.default_rng(seed), 0
+    for _ in range(count):
+        block, pulse = random_case(rng, KINDS[kind])
+        found, expected = predict_maximum(block, pulse), interpreted_maximum(block, pulse)
+        assert found.outcome is expected.outcome, (block, pulse)
+        assert found.regime is expected.regime, (block, pulse)
+        assert (found.peak_side, found.impacts) == (expected.peak_side, expected.impacts), (block, pulse)
+        nudged = predict_maximum(block, Pulse(pulse.amplitude * (1 + 1e-13), pulse.circular_frequency))
+        change = abs(nudged.rotation_ratio - found.rotation_ratio) if found.outcome is Outcome.ROCKS else 0.0
+        bound = 1e-9 if change > 1e-12 * found.rotation_ratio else 1e-12
+        assert found.rotation_ratio == pytest.approx(expected.rotation_ratio, rel=bound, abs=1e-30), (
+            block,
+            pulse,
+        )
+        rocks += found.outcome is Outcome.ROCKS
+    assert rocks > count / 8
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_compiled_equals_plain_python(kind: str) -> None:
+    compared(kind, 300, 1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+def test_compiled_equals_plain_python_in_ten_thousand_cases(kind: str) -> None:
+    compared(kind, 1700, 2)
+
+
+def test_many_equal_one_at_a_time() -> None:
+    blocks = list(KINDS.values())
+    pulses = [
+        Pulse(sign * a, omega)
+        for sign in (1, -1)
+        for a in (1.0, 2.5, 4.0, 9.0, 30.0)
+        for omega in (3.0, 8.0, 20.0)
+    ]
+    ratios, margins = predict_maxima(blocks, pulses), overturning_margins(blocks, pulses)
+    assert ratios.shape == margins.shape == (len(blocks), len(pulses))
+    for i, block in enumerate(blocks):
+        for j, pulse in enumerate(pulses):
+            alone = predict_maximum(block, pulse)
+            assert ratios[i, j] == pytest.approx(alone.rotation_ratio, rel=1e-13)
+            assert margins[i, j] == pytest.approx(alone.overturning_margin, rel=1e-12)
+            assert (margins[i, j] < 0) == (alone.outcome is Outcome.OVERTURNS)
+    assert np.isinf(ratios).any() and (ratios == 0).any() and ((ratios > 0) & (ratios < 1)).any()
+
+
+def test_none_at_all() -> None:
+    assert predict_maxima([], []).shape == (0, 0)
+    assert predict_maxima(list(KINDS.values()), []).shape == (len(KINDS), 0)
+
+
+@pytest.mark.parametrize("polarity", [1, -1])
+def test_amplitudes_that_overturn(polarity: int) -> None:
+    """Just below, the block stands; just above, it does not. A façade needs the half that pushes it off its wall."""
+    frequencies = np.array([1.0, 6.0, 15.0])
+    amplitudes = overturning_amplitudes(list(KINDS.values()), frequencies, polarity)
+    for block, row in zip(KINDS.values(), amplitudes, strict=True):
+        for frequency, amplitude in zip(frequencies, row, strict=True):
+            below, above = (
+                predict_maximum(block, Pulse(polarity * amplitude * factor, float(frequency))).outcome
+                for factor in (1 - 1e-8, 1 + 1e-8)
+            )
+            assert (below, above) == (Outcome.ROCKS, Outcome.OVERTURNS)
+
+
+def test_nothing_overturns_below_the_amplitude_that_overturns() -> None:
+    """p = gλ = 1, ω = 5, η = 0.9: nothing overturns below the first threshold, with impacts or without."""
+    block = EquivalentBlock(1.0, 1.0, g, 0.9)
+    threshold = overturning_amplitudes([block], [5.0])[0, 0]
+    assert np.isfinite(
+        predict_maxima([block], [Pulse(a, 5.0) for a in np.linspace(1, threshold * 0.9999, 500)])
+    ).all()
+    assert predict_maximum(block, Pulse(threshold * 1.0001, 5.0)).outcome is Outcome.OVERTURNS
+
+
+def test_what_is_refused() -> None:
+    block = KINDS["symmetric"]
+    with pytest.raises(
+        PulseError, match="ω_g/p, a pulse's circular_frequency over a block's frequency_parameter"
+    ):
+        predict_maxima([block], [Pulse(1.0, 1e14)])
+    with pytest.raises(PulseError, match="a_g/"):
+        predict_maxima([block], [Pulse(1e15, 1.0)])
+    with pytest.raises(PulseError, match="polarity is 2, but must be 1 or -1"):
+        overturning_amplitudes([block], [1.0], 2)
+    with pytest.raises(PulseError, match="circular_frequencies must be"):
+        overturning_amplitudes([block], [0.0])
