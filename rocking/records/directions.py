@@ -18,6 +18,10 @@ _VERTICAL = {
     "VERTICAL",
     "UPDO",
     "U/D",
+    "UPWARD",
+    "UP-DOWN",
+    "UP/DOWN",
+    "VERT.",
 }
 _NAMED = {
     "N": 0.0, "NS": 0.0, "N-S": 0.0, "S-N": 180.0, "NORTH": 0.0, "E": 90.0, "EW": 90.0, "E-W": 90.0, "W-E": 90.0,

@@ -84,7 +84,7 @@ def recognise(content: bytes, name: str) -> Format:
         names = ", ".join(form.name for form in found)
         raise UnknownFormatError(f"{name}: several readers recognise this file ({names}); none is preferred.")
     raise UnknownFormatError(
-        f"{name}: no reader recognises this file, which begins with {_beginning(content)}; "
+        f"{name[:120]}: no reader recognises this file, which begins with {_beginning(content)}; "
         "rocking read --details says what each of them looked for.",
         details=tuple(f"{form.name}: no {form.sought}" for form in FORMATS),
     )

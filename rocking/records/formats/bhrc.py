@@ -5,7 +5,7 @@ import re
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.directions import is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram, without_offset
-from rocking.records.formats.header import check_equal, magnitude, optional, optional_number, starts
+from rocking.records.formats.header import magnitude, optional, optional_number, starts
 from rocking.records.formats.text import filled
 from rocking.records.formats.volume1 import Block, channels
 
@@ -22,8 +22,11 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
 def _record(block: Block, name: str, options: Options) -> Accelerogram:
     values = filled(name, block.rows, block.declared, _PER_LINE, _WIDTH)
     step = block.duration / block.declared
-    if block.rate:
-        check_equal(name, "the interval", step, 1 / block.rate)
+    told: tuple[str, ...] = ()
+    if block.rate and abs(block.rate * step - 1) > 1e-3:
+        told = (
+            f"The header gives a rate of {block.rate:g} Hz, but duration and number of points a step of {step:g} s.",
+        )
     unit = options.unit_of(name, "g/10")
     values, offset = without_offset(name, values, unit)
     component = optional(r"^COMP\s+(\S+)", block.head)
@@ -41,6 +44,7 @@ def _record(block: Block, name: str, options: Options) -> Accelerogram:
             *(optional(rf"^Epicenter\b.*\b{scale} ?(\d[\d.]*)", block.head) for scale in _SCALES)
         ),
         processing=(offset,),
+        warnings=told,
         vertical=is_vertical(letter),
         azimuth=_azimuth(block.head, letter),
     )

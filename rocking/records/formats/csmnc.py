@@ -45,7 +45,14 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         processed=optional(r"^((?:UN)?CORRECTED) ", head).upper() == "CORRECTED",
     )
     if duration := optional(r"\bDURATION:\s*([\d.]+)", head):
-        check_duration(name, "DURATION", duration, values.size, record.time_step)
+        check_duration(
+            name,
+            "DURATION",
+            duration,
+            values.size,
+            record.time_step,
+            rounding=None if "." in duration else 1.0,
+        )
     peak = optional_number(r"^PEAK VALUE:\s*(-?[\d.]+)", head)
     at = optional_number(r"^PEAK VALUE:.*?\bAT\s+([\d.]+)\s*SEC", head)
     return [agree_with_header(record, peak, "cm/s2", half_digit=5e-4, at=at)]

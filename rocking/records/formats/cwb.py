@@ -51,7 +51,7 @@ def _step(name: str, times, pairs: dict[str, str]) -> float:
             f"{name}: SampleRate is {rate:g} Hz, but the times are not spaced so; the file is damaged."
         )
     check_duration(
-        name, "RecordLength(sec)", valued(name, pairs, "RECORDLENGTH(SEC)"), times.size, step, exact=True
+        name, "RecordLength(sec)", valued(name, pairs, "RECORDLENGTH(SEC)"), times.size, step, rounding=0.0
     )
     return step
 

@@ -36,7 +36,7 @@ def _check_frames(content: bytes, name: str) -> None:
     while content[at : at + 1] == b"K" and at + _TAG.size <= len(content):
         _, _, _, _, kind, head, body, _, checksum = _TAG.unpack_from(content, at)
         frame = content[at + _TAG.size : at + _TAG.size + head + body]
-        if len(frame) < head + body or sum(frame) & 0xFFFF != checksum or (kind == 1) != (at == 0):
+        if len(frame) < head + body or checksum not in (0, sum(frame) & 0xFFFF) or (kind == 1) != (at == 0):
             raise RecordError(
                 f"{name}: the frame at byte {at} is cut or damaged: its sum differs; fetch it again."
             )

@@ -82,17 +82,17 @@ def distance(kilometres: str) -> float | None:
 
 
 def check_duration(
-    name: str, field: str, text: str, samples: int, time_step: float, *, exact: bool = False
+    name: str, field: str, text: str, samples: int, time_step: float, *, rounding: float | None = None
 ) -> None:
-    """Check `samples` against the duration printed as `text`, s, within a step and half its last digit.
+    """Check `samples` against the duration printed as `text`, s, within a step and what the print rounds.
 
-    A record of n samples lasts n steps for some agencies and n - 1 for others. exact: the recorder writes whole
-    seconds of n steps, so that the print rounds nothing. Raises RecordError when they disagree.
+    A record of n samples lasts n steps for some agencies and n - 1 for others. rounding: s, where it is not half of the
+    last digit printed. Raises RecordError when they disagree.
     """
     declared = number(name, field, text)
-    half_digit = 0.5 * 10.0 ** -len(text.strip().partition(".")[2])
-    allowed = 0.5 * time_step if exact else 1.001 * time_step + half_digit
-    if abs(samples * time_step - declared) > allowed:
+    if rounding is None:
+        rounding = 0.5 * 10.0 ** -len(text.strip().partition(".")[2])
+    if abs(samples * time_step - declared) > 1.001 * time_step + rounding:
         raise RecordError(
             f"{name}: {field} is {declared:g} s, but the {samples} samples last {samples * time_step:g} s: "
             "it is truncated or its header belongs to another record; fetch the whole file."

@@ -41,7 +41,14 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     time_step = options.time_step_of(
         name, 1 / _positive(name, "Sampling Freq(Hz)", fields["Sampling Freq(Hz)"])
     )
-    check_duration(name, "Duration Time(s)", fields["Duration Time(s)"], counts.size, time_step, exact=True)
+    check_duration(
+        name,
+        "Duration Time(s)",
+        fields["Duration Time(s)"],
+        counts.size,
+        time_step,
+        rounding=-0.5 * time_step,
+    )
     values, offset = without_offset(name, counts * _scale(name, fields["Scale Factor"]), "gal")
     direction = fields["Dir."]
     component = _KIKNET.get(direction, direction)

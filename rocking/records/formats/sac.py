@@ -65,13 +65,13 @@ def _check_header(name: str, stats, data: np.ndarray) -> None:
     low, high = (float(stats.sac.get(key, _UNDEFINED)) for key in ("depmin", "depmax"))
     allowed = 1e-4 * max(abs(low), abs(high))
     for key, stated, found in (("DEPMIN", low, data.min()), ("DEPMAX", high, data.max())):
-        if stated != _UNDEFINED and not abs(stated - found) <= allowed:
+        if allowed and stated != _UNDEFINED and not abs(stated - found) <= allowed:
             raise RecordError(
                 f"{name}: the header states {key} = {stated:g}, but the samples reach {found:g}; the file is damaged "
                 "or its header belongs to another record."
             )
     begin, end = (float(stats.sac.get(key, _UNDEFINED)) for key in ("b", "e"))
-    if _UNDEFINED not in (begin, end):
+    if _UNDEFINED not in (begin, end) and end != begin:
         step = _step(stats)
         # Single precision keeps seven digits of the times.
         if abs(end - begin - step * (stats.npts - 1)) > 0.5 * step + 3e-7 * max(abs(begin), abs(end)):

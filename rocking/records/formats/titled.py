@@ -35,6 +35,8 @@ def _titled(content: bytes) -> tuple[str, str] | None:
     if found is None:
         return None
     rows = [row.split() for row in head[2:-1] if row.strip()]
+    if {len(row) for row in rows} == {2} and len(head[0].split()) == 2:
+        return None  # two columns below their names
     return found if rows and all(is_number(cell) for row in rows for cell in row) else None
 
 

@@ -82,8 +82,10 @@ def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tupl
 
 def _record(i: int, values, told, pairs: dict[str, str], name: str, options: Options) -> Accelerogram:
     step = number(name, "INTERVALO DE MUESTREO", _at(pairs, "INTERVALO DE MUESTREO", i))
-    if rate := _at(pairs, "VEL. DE MUESTREO", i):
-        check_equal(name, "the interval", step, 1 / max(1e-9, number(name, "VEL. DE MUESTREO", rate)))
+    rate, thinned = _at(pairs, "VEL. DE MUESTREO", i), pairs.get("FACTOR DE DECIMACION", "1")
+    if rate:
+        factor = float(thinned) if is_number(thinned) else 1.0
+        check_equal(name, "the interval", step, factor / max(1e-9, number(name, "VEL. DE MUESTREO", rate)))
     record = accelerogram(
         name,
         UNAM.name,

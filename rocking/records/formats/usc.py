@@ -13,7 +13,7 @@ from rocking.records.formats.volume1 import Block, channels, pairs
 _FIRST = re.compile(r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", re.I)
 _STEP = 0.005
 """s; the even step to which Volume 1 film records are interpolated."""
-_LONGEST_GAP = 0.1
+_LONGEST_GAP = 0.25
 """s; points were digitised where the trace bends, a dozen to a hundred a second: more is a part lost."""
 
 

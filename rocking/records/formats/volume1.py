@@ -71,7 +71,7 @@ def pairs(block: Block, name: str, margin: int) -> tuple[np.ndarray, np.ndarray]
 def _check_end(name: str, times: np.ndarray, duration: float) -> None:
     """Check the last time against the duration, which counts a last step or does not."""
     step = (times[-1] - times[0]) / (times.size - 1)
-    if not -0.001 <= duration - times[-1] <= 2 * step + 0.001:
+    if abs(duration - times[-1]) > 2 * step + 0.001:
         raise RecordError(
             f"{name}: the header declares a length of {duration:g} s, but the last sample stands at {times[-1]:g} s; "
             "the file is damaged or its header belongs to another record."

@@ -1,12 +1,16 @@
 """The formats that obspy reads: opened from bytes we have recognised, under a name we give, never guessed."""
 
 import io
+import re
 import warnings
 
 import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.formats.sampling import LARGEST_SERIES
+
+_DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be read|corrupt|mismatch", re.I)
+"""What libmseed warns of when the numbers are not those that were written."""
 
 
 def stream(content: bytes, form: str, name: str, **options):
@@ -25,7 +29,7 @@ def stream(content: bytes, form: str, name: str, **options):
             raise RecordError(
                 f"{name}: damaged {form} file, {_first_line(error)}; fetch it again."
             ) from error
-    if form == "MSEED" and (damage := [w for w in caught if "MSEED" in w.category.__name__]):
+    if form == "MSEED" and (damage := [w for w in caught if _DAMAGE.search(str(w.message))]):
         raise RecordError(f"{name}: damaged {form} file, {_first_line(damage[0].message)}; fetch it again.")
     if not any(trace.stats.npts for trace in result):
         raise RecordError(f"{name}: the {form} file holds no samples.")
@@ -46,7 +50,7 @@ def _check_size(content: bytes, form: str, name: str) -> None:
             heads = obspy.read(io.BytesIO(content), format=form, check_compression=False, headonly=True)
     except Exception as error:
         raise RecordError(f"{name}: damaged {form} file, {_first_line(error)}; fetch it again.") from error
-    if told.get("excess_bytes"):
+    if told.get("excess_bytes") and not _records_end_well(content):
         raise RecordError(
             f"{name}: the last record of {told['record_length']} bytes is cut after {told['excess_bytes']}: "
             "the file is truncated; fetch the whole file."
@@ -56,6 +60,19 @@ def _check_size(content: bytes, form: str, name: str) -> None:
         raise RecordError(
             f"{name}: the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first."
         )
+
+
+def _records_end_well(content: bytes) -> bool:
+    """Whether the records, which may differ in length, end where the file does."""
+    from obspy.io.mseed.util import get_record_information
+
+    at = 0
+    try:
+        while at < len(content):
+            at += get_record_information(io.BytesIO(content), offset=at)["record_length"]
+    except Exception:
+        return False
+    return at == len(content)
 
 
 def joined(result, name: str):

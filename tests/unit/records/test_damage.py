@@ -1,5 +1,6 @@
 """Damage that header or structure tell of: refused or warned of, never read in silence."""
 
+import contextlib
 import gzip
 import io
 import struct
@@ -16,7 +17,7 @@ from made_files import MADE, STEP, TRUE, N, format_of
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
-from rocking.records.formats import Options
+from rocking.records.formats import Options, waveform
 from rocking.records.formats.header import check_duration
 from rocking.records.read import LARGEST_FILE, read_content, unpacked
 
@@ -49,10 +50,11 @@ def test_a_duration_is_checked_to_its_last_digit() -> None:
     for text, samples in (("0.40", 42), ("0.40", 38), ("0.4", 47), ("0", 53)):
         with pytest.raises(RecordError, match="D is"):
             check_duration("made", "D", text, samples, 0.01)
-    check_duration("made", "D", "102", 10200, 0.01, exact=True)
-    for samples in (10199, 10201):
+    for samples in (10199, 10200, 10201):
+        check_duration("made", "D", "102", samples, 0.01, rounding=0.0)
+    for samples in (10198, 10202):
         with pytest.raises(RecordError, match="last"):
-            check_duration("made", "D", "102", samples, 0.01, exact=True)
+            check_duration("made", "D", "102", samples, 0.01, rounding=0.0)
 
 
 BLOCKS = ("GeoNet V1A/V2A", "COSMOS V1/V2", "CSMIP V1/V2", "CSMIP V1/V2: of 1983", "CSMIP V1/V2: raw", "BHRC",
@@ -100,7 +102,6 @@ def test_channels_that_the_header_speaks_of_are_missed(monkeypatch: pytest.Monke
     ("CSMNC", "   AT 1 SEC", f"   AT 1 SEC    DURATION: {2 * N * STEP:.2f} SEC"),
     ("UNAM/CICESE", f"/{N * STEP:.2f}/{N * STEP:.2f}", f"/{2 * N * STEP:.2f}/{2 * N * STEP:.2f}"),
     ("UNAM/CICESE", "/100/100", "/200/200"),
-    ("BHRC", f"{1 / STEP:.3f}", f"{2 / STEP:.3f}"),
     ("CSMIP V1/V2: of 1983", "INTERVALS OF    0.010", "INTERVALS OF    0.020"),
     ("CSMIP V1/V2: of 1983", f"  {N} POINTS OF INSTRUMENT", f"  {N + 8} POINTS OF INSTRUMENT"),
     ("CSMIP V1/V2: raw", f"LENGTH = {N * STEP:.3f}", f"LENGTH = {2 * N * STEP:.3f}"),
@@ -127,6 +128,12 @@ def test_numbers_that_run_into_one_another_are_not_parted_anew() -> None:
     text[-3] = text[-3][:6] + text[-3][44:]
     with pytest.raises(RecordError, match="made"):
         read_text("\n".join(text) + "\n")
+
+
+def test_a_rate_that_contradicts_the_duration_is_warned_of() -> None:
+    assert not read_text(made("BHRC"))[0].warnings
+    (record,) = read_text(made("BHRC").replace(f"{1 / STEP:.3f}", f"{2 / STEP:.3f}"))
+    assert "a rate of 200 Hz" in record.warnings[0]
 
 
 def test_a_last_number_cut_short_is_warned_of() -> None:
@@ -193,6 +200,19 @@ def test_the_peak_is_looked_at_before_a_mean_is_removed(counts: np.ndarray) -> N
     content = written("SAC", (9000 + counts / 1e4).astype(np.float32))
     with pytest.raises(RecordError, match="no recorder is off by"):
         read_content(content, "made", Options(unit="m/s2"))
+
+
+def test_miniseed_of_records_of_two_lengths_is_whole(counts: np.ndarray) -> None:
+    """A gap of a sample lies between the two pieces, which makes two channels of one: refused, but not as cut."""
+    content = written("MSEED", counts, reclen=4096, encoding="STEIM2") + written(
+        "MSEED", counts[:200], reclen=512
+    )
+    with pytest.raises(RecordError) as caught:
+        read_content(content[:-1], "made", Options(unit="mm/s2"))
+    assert "is cut" in str(caught.value)
+    with contextlib.suppress(RecordError):
+        read_content(content, "made", Options(unit="mm/s2"))
+    assert waveform._records_end_well(content) and not waveform._records_end_well(content[:-1])
 
 
 @pytest.mark.parametrize("cut", [1, 100, 511])
@@ -301,6 +321,13 @@ def test_a_velocity_file_is_called_so_and_no_unit_is_offered(name: str, text: st
             text.encode(), name, Options(unit=None if "ARCHIVO" in text or "POINTS" in text else "g")
         )
     assert "divided" not in str(caught.value)
+
+
+def test_the_shear_wave_velocity_of_a_site_is_no_quantity_of_the_record() -> None:
+    text = "# Vs30 = 760 m/s, velocity of shear waves\n" + "".join(
+        f"{i * STEP:.2f} {v:.4f}\n" for i, v in enumerate(TRUE)
+    )
+    assert read_text(text, unit="m/s2")[0].acceleration.size == N
 
 
 def test_velocity_beside_acceleration_is_left_out() -> None:

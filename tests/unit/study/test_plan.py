@@ -1,5 +1,6 @@
 """The plan of a study: what is refused, how records are shared out, what makes a job run again."""
 
+import hashlib
 import shutil
 from pathlib import Path
 
@@ -78,6 +79,15 @@ def test_a_catalogue_without_rows_is_refused(tmp_path: Path) -> None:
 
 def test_a_hash_that_is_none_is_refused(tmp_path: Path) -> None:
     assert "sha256 is 'abc'" in _refusal(_write(tmp_path, "a,a.AT2,abc\n"))
+
+
+def test_a_blank_hash_is_filled_in_and_checked_from_then_on(tmp_path: Path) -> None:
+    (tmp_path / "a.AT2").write_bytes(b"one")
+    settings = _write(tmp_path, "a,a.AT2,\nb,b.AT2,\n")
+    first = make_plan(settings)
+    assert first.records["a"].sha256 == hashlib.sha256(b"one").hexdigest() and first.records["b"].sha256 == ""
+    (tmp_path / "a.AT2").write_bytes(b"two")
+    assert make_plan(settings).records["a"].sha256 == first.records["a"].sha256
 
 
 def test_all_defects_of_all_three_files_stand_in_one_message(tmp_path: Path) -> None:
