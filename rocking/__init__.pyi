@@ -20,7 +20,6 @@ from .motion.members import Members as Members
 from .motion.members import integrate_members as integrate_members
 from .motion.response import Response as Response
 from .motion.spectrum import rocking_spectrum as rocking_spectrum
-from .pulses import Light as Light
 from .pulses import Pulse as Pulse
 from .pulses import PulseAnalysis as PulseAnalysis
 from .pulses import PulseSettings as PulseSettings

@@ -1,4 +1,4 @@
-"""The parts of the pages that the code itself knows: formats, settings, structures, tables, equations, lights."""
+"""The parts of the pages that the code itself knows: formats, settings, structures, tables, equations."""
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -73,21 +73,6 @@ def pulse_methods(_: Path) -> str:
     )
 
 
-def lights(_: Path) -> str:
-    """The lights, their conditions and what was measured."""
-    from rocking.pulses.evidence import THRESHOLDS, Light
-
-    energy, ratio = THRESHOLDS.green_explained_energy, f"a_g/(g λ) ≥ {THRESHOLDS.amplitude_ratio:g}"
-    amber = f"{THRESHOLDS.amber_explained_energy:g} ≤ explained energy < {energy:g}"
-    conditions = {
-        Light.GREEN: f"{ratio} and explained energy ≥ {energy:g}",
-        Light.AMBER: f"{ratio} and {amber}",
-        Light.RED: "otherwise",
-    }
-    rows = ((light.value, condition, light.sentence) for light, condition in conditions.items())
-    return f"{table(('light', 'condition', 'meaning'), rows)}\n\nMeasured on {THRESHOLDS.evidence}"
-
-
 def regimes(_: Path) -> str:
     """The regimes of the closed form."""
     from rocking.sine_pulse import Regime
@@ -125,7 +110,7 @@ def api(_: Path) -> str:
 
 GENERATED: Mapping[str, Callable[[Path], str]] = {
     part.__name__: part
-    for part in (formats, units, settings, structures, tables, equations, pulse_methods, lights, regimes, api)
+    for part in (formats, units, settings, structures, tables, equations, pulse_methods, regimes, api)
 }
 """What may stand behind `generated:` in a page."""
 

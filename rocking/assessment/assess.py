@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from time import process_time
 
 from rocking.assessment.ensemble import Ensemble, GroundMotions, ensemble
-from rocking.assessment.fidelity import Answer, cheapest_answer, limits_for
+from rocking.assessment.fidelity import Answer, cheapest_answer
 from rocking.assessment.method import Method
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import PulseError, RockingError
@@ -15,12 +15,10 @@ from rocking.motion.integration import integrate
 from rocking.motion.response import Response
 from rocking.pulses import (
     PULSE_METHODS,
-    Light,
     Pulse,
     PulseAnalysis,
     PulseEvidence,
     extract_pulses,
-    light,
     predicting_pulse,
 )
 from rocking.pulses.interval import PulseInterval, pulse_interval
@@ -32,7 +30,7 @@ from rocking.structures import EquivalentBlock, Mechanism, Structure
 
 @dataclass(frozen=True)
 class Prediction:
-    """The closed forms of one structure under one pulse, and how far to trust them.
+    """The closed forms of one structure under one pulse.
 
     rank: of the pulse among those that its method offers. low, high: 90 % band from the interval of the pulse, nan
     without one.
@@ -47,7 +45,6 @@ class Prediction:
     maximum: Maximum
     low: float
     high: float
-    light: Light
 
 
 @dataclass(frozen=True)
@@ -153,7 +150,6 @@ def predict(
         maximum=predict_maximum(block, pulse),
         low=low,
         high=high,
-        light=light(chosen.explained_energy, amplitude_ratio),
     )
 
 
@@ -181,7 +177,7 @@ def _case(
         if prediction is not None:
             responses |= _pulse_responses(mechanism, prediction, settings)
     else:
-        answer = _cheapest(mechanism, prediction, accelerogram, settings, vertical)
+        answer = cheapest_answer(mechanism, accelerogram, settings.tolerance, vertical)
         responses = {} if answer.response is None else {answer.integrated: answer.response}
     on_record = responses.get(Method.MECHANISM_ON_RECORD)
     check = check_model(structure, on_record, accelerogram, vertical) if on_record else UNKNOWN
@@ -196,25 +192,6 @@ def _case(
             tolerance=settings.tolerance,
         )
     return Case(name, mechanism, prediction, responses, check, answer, sure)
-
-
-def _cheapest(
-    mechanism: Mechanism,
-    prediction: Prediction | None,
-    accelerogram: Accelerogram,
-    settings: AssessmentSettings,
-    vertical: Accelerogram | None,
-) -> Answer:
-    return cheapest_answer(
-        mechanism,
-        mechanism.equivalent_block(settings.acceleration_scale),
-        accelerogram,
-        (prediction.light, prediction.maximum) if prediction else None,
-        limits_for(settings.fidelity_tolerance, settings.fidelity_risk),
-        integration_tolerance=settings.tolerance,
-        fragility_change=settings.fragility_change,
-        vertical=vertical,
-    )
 
 
 def _responses(

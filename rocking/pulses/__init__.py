@@ -1,7 +1,6 @@
 """The dominant sine pulse of a record, its rivals, and the evidence to trust or refuse it."""
 
 from rocking.pulses.analysis import PulseAnalysis, PulseEvidence
-from rocking.pulses.evidence import THRESHOLDS, Light, Thresholds, light
 from rocking.pulses.extraction import energy_map, extract_pulses
 from rocking.pulses.flags import Flag
 from rocking.pulses.interval import PulseInterval, pulse_interval
@@ -15,9 +14,7 @@ from rocking.pulses.velocity_pulse import VelocityPulse, velocity_pulse
 __all__ = [
     "DEFAULT_PULSE_METHOD",
     "PULSE_METHODS",
-    "THRESHOLDS",
     "Flag",
-    "Light",
     "OrientedAnalysis",
     "Pulse",
     "PulseAnalysis",
@@ -25,12 +22,10 @@ __all__ = [
     "PulseInterval",
     "PulseMethod",
     "PulseSettings",
-    "Thresholds",
     "VelocityPulse",
     "energy_map",
     "extract_pulses",
     "extract_pulses_oriented",
-    "light",
     "predicting_pulse",
     "pulse_interval",
     "pulse_method",

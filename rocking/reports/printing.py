@@ -30,7 +30,6 @@ _UNITS = dict.fromkeys(_LENGTHS, " m") | dict.fromkeys(("slenderness", "angle"),
 _LARGEST_PLAIN = 1e6
 """Numbers up to here are printed without a power of ten."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-LIGHT_SYMBOLS = {"green": "● green", "amber": "▲ amber", "red": "■ red"}
 
 
 def number(value: float | None, digits: int = 3) -> str:
@@ -68,11 +67,6 @@ def words(text: str | Sequence[str] | None) -> str:
 def yes_or_no(value: bool | None) -> str:
     """Return YES or no, or a dash where it is not known."""
     return NOTHING if value is None else "YES" if value else "no"
-
-
-def lamp(light: str | None) -> str:
-    """Return the light as symbol and word, so that it is read without colour."""
-    return LIGHT_SYMBOLS.get(light or "", words(light))
 
 
 def ratio(value: float | None, digits: int = 3) -> str:

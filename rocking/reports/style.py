@@ -21,9 +21,6 @@ MAXIMUM_POINTS = 4000
 Margins = tuple[float, float, float, float]
 MARGINS: Margins = (14.0, 2.0, 8.5, 4.0)
 """Left, right, bottom, top, mm: room for tick labels and one line of axis label."""
-LIGHT_COLOURS = {"green": "#009E73", "amber": "#E69F00", "red": "#D55E00"}
-LIGHT_MARKERS = {"green": "o", "amber": "^", "red": "s"}
-"""A light is told by its marker as well as by its colour."""
 _MILLIMETRES_PER_INCH = 25.4
 
 P = ParamSpec("P")

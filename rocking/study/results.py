@@ -19,7 +19,7 @@ class Results:
     """The folder of a study's results: each table is an attribute, read when it is asked for.
 
     >>> results = rocking.open_results("results")
-    >>> results.comparison.groupby("light")["within_factor_two"].mean()
+    >>> results.comparison.groupby("structure")["within_factor_two"].mean()
 
     A table that the summary does not hold, as `responses`, is gathered from the folders of the records.
     """

@@ -131,8 +131,6 @@ def _line(row: ComparisonRow, outcome: str) -> str:
     if not math.isnan(predicted):
         said = "overturning" if math.isinf(predicted) else f"{predicted:.4g}"
         parts.append(f"one pulse predicts {said} ({row.regime})")
-    if row.light:
-        parts.append(f"light {row.light}")
     if row.scale_factor != 1:
         parts.append(f"the accelerations of the file were multiplied by {row.scale_factor:g}")
     if row.fragile:

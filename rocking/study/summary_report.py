@@ -23,5 +23,5 @@ def report_summary(folder: Path, settings: Mapping[str, object], trade: Path | N
 
 def draw_summary(comparison: Path, target: Path) -> None:
     """Draw prediction against integration of every row of the comparison table into the SVG file `target`."""
-    columns = ("predicted_rotation_ratio", "integrated_rotation_ratio", "light")
+    columns = ("predicted_rotation_ratio", "integrated_rotation_ratio")
     write_whole(target, svg(prediction_scatter(frame(ComparisonRow, comparison, columns))).encode())

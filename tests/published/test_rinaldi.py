@@ -33,7 +33,6 @@ def test_the_two_methods_nearly_agree_as_fig_8_shows(assessment, case):
     found = assessment.cases[case]
     integrated = found.responses[Method.MECHANISM_ON_RECORD].rotation_ratio
     assert found.prediction.maximum.rotation_ratio == pytest.approx(integrated, rel=0.1)
-    assert found.prediction.light == "green"
 
 
 def test_the_larger_arch_rocks_less(assessment):

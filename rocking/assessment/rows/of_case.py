@@ -2,15 +2,14 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, final
+from typing import final
 
-from rocking.assessment.assess import Case, Prediction
+from rocking.assessment.assess import Case
 from rocking.assessment.method import Method
 from rocking.assessment.rows.shared import (
     FRAGILE,
     FREQUENCY_PARAMETER,
     IMPACTS,
-    LIGHT,
     METHOD,
     OUTCOME,
     REGIME,
@@ -25,8 +24,6 @@ from rocking.assessment.variations import Candidate, Variant, governing
 from rocking.assessment.verdict import Agreement, agreement, ratio, within_factor_two
 from rocking.motion.contact_check import UNKNOWN
 from rocking.motion.response import Response
-from rocking.pulses import Light
-from rocking.pulses.reliability import reliability_of, shipped_reliability
 from rocking.sine_pulse import Regime
 from rocking.structures import Mechanism
 from rocking.structures.outcome import Outcome
@@ -66,7 +63,6 @@ class PredictionRow(CaseRow):
     outcome: Outcome | None = column(OUTCOME)
     regime: Regime | None = column(REGIME)
     impacts: int | None = column(IMPACTS)
-    light: Light = column(LIGHT)
 
 
 @row("responses", "One row per structure and integration")
@@ -101,7 +97,7 @@ class ResponseRow(CaseRow):
     "One row per structure: the closed form under the dominant pulse beside the integration of the whole record",
 )
 class ComparisonRow(CaseRow):
-    """One case: what every method says of it, and how far to trust the closed form."""
+    """One case: what every method says of it."""
 
     printed_rotation_ratio: float = column(
         "Eq. 15 as the paper prints it; empty where its radicand is negative", equation="Eq. 15"
@@ -116,18 +112,10 @@ class ComparisonRow(CaseRow):
     answer_method: Method = column("Which method that was")
     prediction_over_integration: float = column("Predicted over integrated rotation ratio, where both rock")
     within_factor_two: bool | None = column("Whether that ratio lies between 1/2 and 2, where both rock")
-    reliability_within_factor_two: float = column(
-        "Share of comparisons of this light and frequency ratio within a factor two, from the shipped calibration"
-    )
-    reliability_overturnings_found: float = column(
-        "Share of overturnings that such predictions found, from the shipped calibration; empty if there were none"
-    )
-    reliability_records: int = column("Independent records behind those two shares")
     agreement: Agreement = column(
         "Rest, rocking or overturning in the closed form and in the integration: same outcome, too low or too high"
     )
     regime: Regime | None = column(REGIME)
-    light: Light | None = column(LIGHT)
     sensitivity: float = column(SENSITIVITY)
     fragile: bool | None = column(FRAGILE)
 
@@ -181,7 +169,6 @@ class MaximumRow(CaseRow):
     rotation_rad: float = column(ROTATION)
     outcome: Outcome | None = column(OUTCOME)
     regime: Regime | None = column(REGIME)
-    light: Light | None = column(LIGHT)
     error: float = column("Rotation ratio over that of the mechanism on the record, minus 1, where both rock")
     fragile: bool | None = column(FRAGILE)
 
@@ -203,7 +190,6 @@ def prediction_rows(identity: Identity, case: Case, acceleration_scale: str) -> 
         "restitution": block.restitution,
         "amplitude_ratio": prediction.amplitude_ratio,
         "frequency_ratio": prediction.frequency_ratio,
-        "light": prediction.light,
     }
     yield PredictionRow(
         **shared,
@@ -266,7 +252,6 @@ def comparison_row(identity: Identity, case: Case) -> ComparisonRow:
     integrated = reference.rotation_ratio
     return ComparisonRow(
         **identity.columns,
-        **_reliability(prediction),
         structure=case.structure,
         printed_rotation_ratio=prediction.printed if prediction else math.nan,
         predicted_rotation_ratio=predicted,
@@ -279,22 +264,9 @@ def comparison_row(identity: Identity, case: Case) -> ComparisonRow:
         within_factor_two=within_factor_two(predicted, integrated),
         agreement=agreement(predicted, integrated),
         regime=prediction.maximum.regime if prediction else None,
-        light=prediction.light if prediction else None,
         sensitivity=reference.sensitivity,
         fragile=reference.fragile,
     )
-
-
-def _reliability(prediction: Prediction | None) -> dict[str, Any]:
-    """What the shipped calibration says of predictions like this one."""
-    known = prediction and reliability_of(shipped_reliability(), prediction.light, prediction.frequency_ratio)
-    overturnings = known.overturnings_found + known.overturnings_missed if known else 0
-    found = known.overturnings_found / overturnings if known and overturnings else math.nan
-    return {
-        "reliability_within_factor_two": known.within_factor_2 if known else math.nan,
-        "reliability_overturnings_found": found,
-        "reliability_records": known.records if known else 0,
-    }
 
 
 def maximum_row(method: PredictionRow | ResponseRow, comparison: ComparisonRow) -> MaximumRow:
@@ -309,7 +281,6 @@ def maximum_row(method: PredictionRow | ResponseRow, comparison: ComparisonRow) 
         rotation_rad=method.rotation_rad,
         outcome=method.outcome,
         regime=method.regime if isinstance(method, PredictionRow) else None,
-        light=comparison.light,
         error=math.nan if method.method is Method.MECHANISM_ON_RECORD else error,
         fragile=method.fragile if isinstance(method, ResponseRow) else None,
         scale_factor=method.scale_factor,

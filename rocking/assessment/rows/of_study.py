@@ -20,7 +20,6 @@ from rocking.assessment.rows.shared import (
     STRUCTURE,
 )
 from rocking.motion.spectrum import rocking_spectrum
-from rocking.pulses import Light
 from rocking.records import Accelerogram
 from rocking.structures import Structure
 from rocking.structures.equivalence import measure_equivalence
@@ -72,14 +71,14 @@ class EquivalenceRow(Row):
 
 @row(
     "agreement",
-    "One row per light and one for all: the closed form under the dominant pulse against the full integration",
+    "One row per structure and one for all: the closed form under the dominant pulse against the full integration",
 )
 class AgreementRow(Row):
-    """How often the closed form was right under one light."""
+    """How often the closed form was right for one structure."""
 
-    light: str = column("green, amber or red; all for their sum")
+    structure: str = column("Name of the structure in the structure list; empty for all together")
     records: int = column("Records behind the row")
-    cases: int = column("Component and structure pairs with both a prediction and an integration")
+    cases: int = column("Components and structures with both a prediction and an integration")
     both_rock: int = column("Cases in which both rock and stay up")
     within_factor_two: int = column("Those whose predicted over integrated rotation lies in [1/2, 2]")
     median_ratio: float = column("Median of predicted over integrated rotation where both rock")
@@ -87,7 +86,6 @@ class AgreementRow(Row):
     overturning_found: int = column("Those in which the closed form overturns too")
     overturning_missed: int = column("Those in which it does not")
     overturning_false: int = column("Cases in which the closed form alone overturns")
-    fragile: int = column("Cases whose verdict the stated change of amplitude flips")
 
 
 @row(
@@ -180,30 +178,29 @@ def equivalence_rows(structures: Mapping[str, Structure]) -> Iterator[Equivalenc
 
 AGREEMENT_COLUMNS = (
     "record",
-    "light",
+    "structure",
     "predicted_rotation_ratio",
     "integrated_rotation_ratio",
     "prediction_over_integration",
     "within_factor_two",
-    "fragile",
 )
 """What `agreement_rows` needs of the comparison table."""
 
 
 def agreement_rows(comparison: "DataFrame") -> Iterator[AgreementRow]:
-    """Yield the counts of each light and of all, from the comparison table as a data frame."""
+    """Yield the counts of all and of each structure, from the comparison table as a data frame."""
     ratios = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]]
     known = comparison[ratios.notna().all(axis="columns")]
-    for light in Light:
-        yield _agreement_row(light, known[known["light"] == light])
-    yield _agreement_row("all", known)
+    yield _agreement_row("", known)
+    for structure, cases in known.groupby("structure", sort=False):
+        yield _agreement_row(str(structure), cases)
 
 
-def _agreement_row(light: str, cases: "DataFrame") -> AgreementRow:
+def _agreement_row(structure: str, cases: "DataFrame") -> AgreementRow:
     predicted = np.isinf(cases["predicted_rotation_ratio"])
     integrated = np.isinf(cases["integrated_rotation_ratio"])
     return AgreementRow(
-        light=str(light),
+        structure=structure,
         records=cases["record"].nunique(),
         cases=len(cases),
         both_rock=int(cases["prediction_over_integration"].count()),
@@ -213,7 +210,6 @@ def _agreement_row(light: str, cases: "DataFrame") -> AgreementRow:
         overturning_found=int((predicted & integrated).sum()),
         overturning_missed=int((integrated & ~predicted).sum()),
         overturning_false=int((predicted & ~integrated).sum()),
-        fragile=int(cases["fragile"].sum()),
     )
 
 

@@ -159,7 +159,6 @@ def trust_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, o
         _cases(tables),
         ("No.", "auto", "r", lambda case: numbers[case.row.structure]),
         ("Comp.", "auto", "l", lambda case: words(case.row.component)),
-        ("Light", "auto", "l", lambda case: printing.lamp(case.row.light)),
         (
             "Pulse rank",
             "0.6",
@@ -178,9 +177,6 @@ def trust_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, o
             "r",
             lambda case: number(case.prediction and case.prediction.frequency_ratio),
         ),
-        ("Within factor 2 [-]", "1", "r", lambda case: number(case.row.reliability_within_factor_two)),
-        ("Overturnings found [-]", "1.2", "r", lambda case: number(case.row.reliability_overturnings_found)),
-        ("Records behind", "0.8", "r", lambda case: printing.whole(case.row.reliability_records)),
         (
             "Friction needed [-]",
             "1",

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from rocking.assessment.method import Method
 from rocking.assessment.rows import ComparisonRow, RecordRow, RecordTables, ResponseRow
 from rocking.assessment.verdict import Agreement, rests
-from rocking.pulses import Light
 from rocking.reports import printing
 from rocking.reports.printing import number, ratio, strong, table_of, words
 
@@ -24,7 +23,6 @@ def verdict_table(rows: Sequence[ComparisonRow], numbers: Mapping[str, str]) -> 
         rows,
         ("No.", "auto", "r", lambda row: numbers[row.structure]),
         ("Structure", "1.2", "l", lambda row: row.structure),
-        ("Light", "auto", "l", lambda row: printing.lamp(row.light)),
         ("Closed form", "0.65", "r", lambda row: ratio(row.predicted_rotation_ratio)),
         (
             "Full inte\u00adgration",
@@ -78,7 +76,7 @@ def _doubts(rows: Sequence[ComparisonRow]) -> list[str]:
 
 
 def notices(tables: RecordTables) -> list[dict[str, object]]:
-    """Return the warnings that stand above everything: scale factor, red light, nothing moves, what failed."""
+    """Return the warnings that stand above everything: scale factor, nothing moves, what failed."""
     rows = tables.comparison
     found = [(True, scale) for scale in [scale_sentence(tables.record)] if scale]
     if not rows:
@@ -87,9 +85,6 @@ def notices(tables: RecordTables) -> list[dict[str, object]]:
         found.append(
             (False, "No structure uplifts: the ground acceleration never reaches an uplift acceleration.")
         )
-    red = sum(row.light is Light.RED for row in rows)
-    if red:
-        found.append((True, _red_sentence(red, len(rows))))
     whole = [row for row in tables.responses if row.method is Method.MECHANISM_ON_RECORD]
     said = dict.fromkeys(f"{row.structure} ({failing})" for row in whole if (failing := contact_failure(row)))
     if said:
@@ -102,15 +97,6 @@ def notices(tables: RecordTables) -> list[dict[str, object]]:
         )
     found += [(True, f"{row.structure or row.component}: {row.message}") for row in tables.failures]
     return [{"strong": loud, "text": text} for loud, text in found]
-
-
-def _red_sentence(red: int, every: int) -> str:
-    share = "all" if red == every else printing.count(red)
-    of_all = printing.counted(every, "prediction")
-    return (
-        f"Red light for {share} of {of_all}: one pulse does not stand for this record there, and the closed form then "
-        "mostly predicts too little. Use the full integration."
-    )
 
 
 def scale_sentence(rows: Sequence[RecordRow]) -> str:

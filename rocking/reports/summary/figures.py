@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rocking.assessment.verdict import NEGLIGIBLE
-from rocking.reports.style import LIGHT_COLOURS, LIGHT_MARKERS, new_figure, plain_logarithmic, styled
+from rocking.reports.style import new_figure, plain_logarithmic, styled
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -37,21 +37,16 @@ def prediction_scatter(comparison: "DataFrame") -> Figure:
     ratios = comparison[["integrated_rotation_ratio", "predicted_rotation_ratio"]]
     shown = ratios.notna().all(axis="columns") & (ratios.max(axis="columns") > 0)
     places = ratios[shown].clip(lower=0.7 * _SMALLEST).replace(np.inf, _FALLEN)
-    lights = comparison["light"][shown]
-    many = len(places) > _MOST_DRAWN
-    for light, colour in LIGHT_COLOURS.items():
-        integrated, predicted = places[lights == light].to_numpy().T
-        panel.plot(
-            integrated,
-            predicted,
-            LIGHT_MARKERS[light],
-            color="none",
-            markeredgecolor=colour,
-            markeredgewidth=0.8,
-            markersize=4,
-            rasterized=many,
-            label=f"{light} light ({len(integrated)})",
-        )
+    panel.plot(
+        *places.to_numpy().T,
+        "o",
+        color="none",
+        markeredgecolor="#0072B2",
+        markeredgewidth=0.8,
+        markersize=4,
+        rasterized=len(places) > _MOST_DRAWN,
+        label=f"cases ({len(places)})",
+    )
     _frame(panel)
     return figure
 

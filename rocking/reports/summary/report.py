@@ -74,7 +74,7 @@ def _scatter(comparison: "DataFrame") -> list[dict[str, str]]:
     both = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]]
     if not (both.max(axis="columns", skipna=False) > 0).any():
         return []
-    alt = "Scatter of predicted against integrated rotation ratio, marked by light, with factor-two lines."
+    alt = "Scatter of predicted against integrated rotation ratio, with factor-two lines."
     return [{"svg": svg(prediction_scatter(comparison)), "alt": alt}]
 
 

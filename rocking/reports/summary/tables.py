@@ -1,6 +1,6 @@
 """The tables and sentences of the summary, from the rows of its CSV tables."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Generic, TypeVar
 
@@ -39,45 +39,31 @@ class Listing(Generic[R]):
 
 
 def expert_sentences(agreement: Sequence[AgreementRow]) -> list[str]:
-    """Return the three sentences that somebody who knows the method would say about this run."""
-    rows = {row.light: row for row in agreement}
-    if rows["all"].cases == 0:
+    """Return what the comparison of closed form and integration amounts to, in sentences."""
+    every = agreement[0]
+    if every.cases == 0:
         return [
             "There is no case with both a prediction and an integration, so nothing can be said about the closed form."
         ]
-    return [_trust(rows), _overturning(rows), _undecided(rows)]
+    return [_trust(every), _overturning(every)]
 
 
-def _trust(rows: Mapping[str, AgreementRow]) -> str:
-    green, every, red = rows["green"], rows["all"], rows["red"]
-    said = f"One pulse can stand for the record (green) in {green.cases} of {every.cases} cases"
-    if green.both_rock:
-        said += (
-            f"; where both rock there, the closed form is within a factor of two in {green.within_factor_two} of "
-            f"{green.both_rock}, with a median ratio of {number(green.median_ratio)}"
-        )
-    if red.both_rock:
-        said += f" (red: {red.within_factor_two} of {red.both_rock}, median {number(red.median_ratio)})"
-    return f"{said}."
+def _trust(every: AgreementRow) -> str:
+    if not every.both_rock:
+        return f"In none of {every.cases} cases do both the closed form and the integration rock."
+    return (
+        "Where both rock, the closed form is within a factor of two of the integration in "
+        f"{every.within_factor_two} of {every.both_rock} cases, with a median ratio of {number(every.median_ratio)}."
+    )
 
 
-def _overturning(rows: Mapping[str, AgreementRow]) -> str:
-    every, red = rows["all"], rows["red"]
+def _overturning(every: AgreementRow) -> str:
     false = printing.counted(every.overturning_false, "case")
     if every.overturning == 0:
         return f"Nothing overturns in the full integration; the closed form overturns {false}."
     return (
         f"Of {every.overturning} overturnings in the full integration the closed form finds "
-        f"{every.overturning_found} and misses {every.overturning_missed}, {red.overturning_missed} of these "
-        f"under a red light; it overturns {false} that stay up."
-    )
-
-
-def _undecided(rows: Mapping[str, AgreementRow]) -> str:
-    return (
-        f"{printing.sentence(printing.counted(rows['all'].fragile, 'verdict'))} stand so close to a change that they "
-        f"are not decided; {printing.counted(rows['red'].cases, 'case')} have a red light, where only the full "
-        "integration may be used."
+        f"{every.overturning_found} and misses {every.overturning_missed}; it overturns {false} that stay up."
     )
 
 
@@ -107,10 +93,10 @@ def notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> lis
 
 
 def agreement_table(agreement: Sequence[AgreementRow]) -> dict[str, object]:
-    """Return how often the closed form was right, by light."""
+    """Return how often the closed form was right, by structure."""
     return table_of(
         agreement,
-        ("Light", "1", "l", lambda row: printing.lamp(row.light)),
+        ("Structure", "1.6", "l", lambda row: row.structure or "all"),
         ("Records", "0.8", "r", lambda row: whole(row.records)),
         ("Cases", "0.8", "r", lambda row: whole(row.cases)),
         ("Both rock", "0.8", "r", lambda row: whole(row.both_rock)),
@@ -120,7 +106,6 @@ def agreement_table(agreement: Sequence[AgreementRow]) -> dict[str, object]:
         ("found", "0.7", "r", lambda row: whole(row.overturning_found)),
         ("missed", "0.7", "r", lambda row: strong(whole(row.overturning_missed), row.overturning_missed > 0)),
         ("only predicted", "0.9", "r", lambda row: whole(row.overturning_false)),
-        ("Fragile", "0.7", "r", lambda row: whole(row.fragile)),
     )
 
 
@@ -156,7 +141,6 @@ def case_table(cases: Listing[ComparisonRow]) -> dict[str, object]:
         ("Record", "1.4", "l", lambda row: row.record),
         ("Comp.", "0.7", "l", lambda row: words(row.component)),
         ("Structure", "1.4", "l", lambda row: row.structure),
-        ("Light", "auto", "l", lambda row: printing.lamp(row.light)),
         ("Closed form", "auto", "r", lambda row: ratio(row.predicted_rotation_ratio)),
         ("Full integration", "auto", "r", lambda row: strong(ratio(row.integrated_rotation_ratio))),
         ("Regime of the closed form", "1.4", "l", lambda row: words(row.regime)),

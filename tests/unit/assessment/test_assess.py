@@ -9,7 +9,7 @@ import pytest
 from rocking.assessment.assess import AssessmentSettings, Method, assess_structures, predict
 from rocking.assessment.verdict import NEGLIGIBLE, agreement, ratio, rests, within_factor_two
 from rocking.errors import ConfigurationError, StructureError
-from rocking.pulses import PULSE_METHODS, Light, Pulse, extract_pulses
+from rocking.pulses import PULSE_METHODS, Pulse, extract_pulses
 from rocking.records import Accelerogram
 from rocking.structures import Block, Wall
 from rocking.structures.outcome import Outcome
@@ -51,7 +51,6 @@ def test_a_record_that_is_one_pulse_is_predicted_by_its_pulse(case):
     # Sampling a sine every T/80 changes it by (π/80)²/2 of its amplitude: 8e-4, times the sensitivity of the response.
     block = case.responses[Method.BLOCK_ON_RECORD].rotation_ratio
     assert case.prediction.maximum.rotation_ratio == pytest.approx(block, rel=1e-2)
-    assert case.prediction.light is Light.GREEN
 
 
 def test_block_on_pulse_is_the_closed_form(case):
