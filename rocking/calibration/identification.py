@@ -32,15 +32,15 @@ LEVELS = (0.05, 0.5, 0.95)
 class BlockPrior:
     """What may be true of a rigid body on two contact lines before any test: a box, even in the logarithms (η: even).
 
-    uplift_multiplier: λ, geometric mean of the two sides, -. side_ratio: largest λ of one side over the other's, ≥ 1.
-    frequency_parameter: p, rad/s, the same on both sides. restitution: η. Each (lowest, highest).
+    uplift_multiplier: λ, geometric mean of the two sides, -. frequency_parameter: p, rad/s, the same on both sides.
+    side_ratio: largest λ of one side over the other's, ≥ 1. restitution: η. Each but the ratio (lowest, highest).
     size: number of blocks that fill the box, evenly (Sobol), a power of two. seed: of their scrambling.
     Raises ConfigurationError for a range out of order or out of bounds.
     """
 
-    uplift_multiplier: tuple[float, float] = (0.05, 0.2)
-    side_ratio: float = 1.6
-    frequency_parameter: tuple[float, float] = (2.5, 9.0)
+    uplift_multiplier: tuple[float, float]
+    frequency_parameter: tuple[float, float]
+    side_ratio: float = 1.5
     restitution: tuple[float, float] = (0.7, 0.99)
     size: int = 2048
     seed: int = 0
@@ -114,7 +114,7 @@ class Identification:
 def identify(
     records: Sequence[Accelerogram],
     outcomes: Sequence[bool],
-    prior: BlockPrior | Sequence[Rocking] | None = None,
+    prior: BlockPrior | Sequence[Rocking],
     *,
     motions: Sequence[str] | None = None,
     processing: Processing | None = None,
@@ -123,8 +123,8 @@ def identify(
 ) -> Identification:
     """Identify a structure from tests that ended standing (False) or overturned (True).
 
-    records: (n,) what the base of the structure did in each test. prior: blocks to be tried as a BlockPrior (default),
-    or any structures, drawn so that they stand for what is held possible. motions: (n,) label of the input motion of
+    records: (n,) what the base of the structure did in each test. prior: blocks to be tried as a BlockPrior, or
+    any structures, drawn so that they stand for what is held possible. motions: (n,) label of the input motion of
     each test; tests with one label are left out together when the fit chooses how far to trust itself (default: each
     test is a motion of its own). processing: what each record goes through first, here and in predictions.
     members: structures that a prediction follows. workers: threads.
@@ -134,7 +134,7 @@ def identify(
     look at them. What was identified holds for motions like those of the tests.
     Raises ConfigurationError when the sequences differ in length or are empty.
     """
-    structures = prior.blocks() if isinstance(prior, BlockPrior) else tuple(prior or BlockPrior().blocks())
+    structures = prior.blocks() if isinstance(prior, BlockPrior) else tuple(prior)
     labels = [str(k) for k in range(len(records))] if motions is None else list(motions)
     if not len(records) == len(outcomes) == len(labels) > 0:
         raise ConfigurationError(

@@ -29,6 +29,14 @@ VELOCITY_PROCESSING = Processing(baseline="linear", high_pass=0.1, low_pass=30.0
 CLOSED_FORM_CANDIDATES = 256
 """Blocks that are tried under the dominant pulse, the first of the prior's."""
 IDENTIFIED = "identified population"
+TABLE_PRIOR = BlockPrior(
+    uplift_multiplier=(0.03, 0.2),
+    frequency_parameter=(2.5, 9.0),
+    side_ratio=1.6,
+    restitution=(0.6, 0.99),
+    size=4096,
+)
+"""What is tried: λ from a third of what one expects of a boulder on its end, p from half to twice the mesh's."""
 
 Fitted = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """Probabilities (k,) of tests (k,) after a fit to the tests (n,), both by index."""

@@ -7,18 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rocking.calibration.identification import PARAMETERS, BlockPrior, Identification, overturning_table
-from rocking.calibration.validation import scores
-from rocking.calibration.validation.campaign import Campaign
-from rocking.calibration.validation.predictions import (
-    IDENTIFIED,
-    TABLE_PROCESSING,
-    Measured,
-    identified,
-    left_out,
-    measure,
-)
-from rocking.calibration.validation.rows import (
+from rocking.assessment.rows.of_validation import (
     ROW_CLASSES,
     ConfusionRow,
     FailureRow,
@@ -28,6 +17,18 @@ from rocking.calibration.validation.rows import (
     ReliabilityRow,
     ScoreRow,
     TimingRow,
+)
+from rocking.calibration.identification import PARAMETERS, BlockPrior, Identification, overturning_table
+from rocking.calibration.validation import scores
+from rocking.calibration.validation.campaign import Campaign
+from rocking.calibration.validation.predictions import (
+    IDENTIFIED,
+    TABLE_PRIOR,
+    TABLE_PROCESSING,
+    Measured,
+    identified,
+    left_out,
+    measure,
 )
 from rocking.calibration.validation.source import SPECIMENS
 from rocking.calibration.validation.specimen import Specimen, specimen_from_mesh
@@ -46,7 +47,7 @@ def write_validation(catalogue: Path, mirror: Path | None, folder: Path, workers
     catalogue: records/shake_table.csv. mirror: a folder of the campaign, or beside one (`Campaign.open`).
     """
     campaign = Campaign.open(catalogue, mirror)
-    measured = measure(campaign, BlockPrior(), workers)
+    measured = measure(campaign, TABLE_PRIOR, workers)
     rows: dict[type[Row], list[Row]] = {kind: [] for kind in ROW_CLASSES}
     for specimen in range(1, len(SPECIMENS) + 1):
         probability = left_out(measured, specimen)

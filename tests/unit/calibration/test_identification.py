@@ -1,6 +1,7 @@
 """Identification: known structures are found again, and predictions hold on tests that took no part."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from rocking.structures import Block
 
 STEP = 0.02
 TRUTH = (0.13, 0.11, 4.5, 0.9)
-PRIOR = rocking.BlockPrior((0.06, 0.2), 1.5, (2.5, 8.0), (0.75, 0.99), size=256)
+PRIOR = rocking.BlockPrior((0.06, 0.2), (2.5, 8.0), restitution=(0.75, 0.99), size=256)
 
 
 def motion(seed: int, peak: float) -> Accelerogram:
@@ -102,7 +103,7 @@ def test_the_same_processing_goes_before_fit_and_prediction():
         Accelerogram(a - np.polyval(np.polyfit(np.arange(a.size), a, 1), np.arange(a.size)), STEP)
         for a in (each.acceleration for each in records)
     ]
-    prior = rocking.BlockPrior(size=64)
+    prior = replace(PRIOR, size=64)
     with_offset = rocking.identify(shifted, outcomes, prior, processing=Processing(baseline="linear"))
     without = rocking.identify(plain, outcomes, prior)
     assert np.array_equal(with_offset.members, without.members)
@@ -120,7 +121,7 @@ def test_the_table_says_what_integrate_says():
 
 
 def test_the_prior_fills_its_box():
-    values = rocking.BlockPrior((0.1, 0.1), 2.0, (3.0, 6.0), (0.8, 0.9), size=512).parameters()
+    values = rocking.BlockPrior((0.1, 0.1), (3.0, 6.0), 2.0, (0.8, 0.9), size=512).parameters()
     assert np.allclose(values[:, 0] * values[:, 1], 0.01)
     ratio = values[:, 0] / values[:, 1]
     assert 0.5 <= ratio.min() < 0.51
@@ -140,9 +141,9 @@ def test_the_prior_fills_its_box():
 )
 def test_a_prior_out_of_order_is_refused(settings, told):
     with pytest.raises(ConfigurationError, match=told):
-        rocking.BlockPrior(**settings)
+        replace(PRIOR, **settings)
 
 
 def test_sequences_of_unlike_length_are_refused():
     with pytest.raises(ConfigurationError, match="1 records, 2 outcomes and 1 motions"):
-        rocking.identify([motion(1, 2.0)], [True, False])
+        rocking.identify([motion(1, 2.0)], [True, False], PRIOR)

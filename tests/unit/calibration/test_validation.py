@@ -11,11 +11,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rocking.calibration.identification import BlockPrior
 from rocking.calibration.validation import campaign as campaigns
 from rocking.calibration.validation import scores, source
 from rocking.calibration.validation.campaign import Campaign
-from rocking.calibration.validation.predictions import IDENTIFIED, Measured, identified, left_out, measure
+from rocking.calibration.validation.predictions import (
+    IDENTIFIED,
+    TABLE_PRIOR,
+    Measured,
+    identified,
+    left_out,
+    measure,
+)
 from rocking.calibration.validation.specimen import specimen_from_mesh
 from rocking.calibration.validation.write import contradictions, write_validation
 from rocking.calibration.validation.yardsticks import fit_logistic, fit_threshold
@@ -77,7 +83,7 @@ def made(tmp_path_factory) -> tuple[Path, Path]:
 
 @pytest.fixture(scope="module")
 def measured(made) -> Measured:
-    return measure(Campaign.open(made[0], made[1]), BlockPrior(size=128), workers=1)
+    return measure(Campaign.open(made[0], made[1]), replace(TABLE_PRIOR, size=128), workers=1)
 
 
 def test_a_test_is_read_as_it_was_measured(made):
@@ -279,13 +285,13 @@ def test_the_tables_are_written_whole(made, tmp_path, monkeypatch):
         monkeypatch.setattr(module, "SPECIMENS", (record, record))
     for k in (1, 2):
         (made[1] / f"specimen_{k}.obj.gz").write_bytes(gzip.compress(mesh))
-    monkeypatch.setattr("rocking.calibration.validation.write.BlockPrior", lambda: BlockPrior(size=64))
+    monkeypatch.setattr("rocking.calibration.validation.write.TABLE_PRIOR", replace(TABLE_PRIOR, size=64))
     monkeypatch.setattr(scores, "RESAMPLES", 50)
     told = write_validation(made[0], made[1], tmp_path, workers=1)
     assert told.startswith("32 tests")
     package = json.loads((tmp_path / "datapackage.json").read_text())
     assert {each["path"] for each in package["resources"]} == {path.name for path in tmp_path.glob("*.csv")}
-    from rocking.calibration.validation.rows import PredictionRow, ScoreRow
+    from rocking.assessment.rows.of_validation import PredictionRow, ScoreRow
 
     rows = list(read_rows(ScoreRow, tmp_path / "scores.csv"))
     predictions = list(read_rows(PredictionRow, tmp_path / "predictions.csv"))
@@ -322,7 +328,7 @@ def test_a_few_real_motions_left_out_beat_chance(shake_table):
     """Five motions and 128 candidates: the machinery end to end, not the figures of the report."""
     kept = sorted({test.motion for test in shake_table.tests})[::9]
     few = replace(shake_table, tests=tuple(test for test in shake_table.tests if test.motion in kept))
-    seen = measure(few, BlockPrior(size=128))
+    seen = measure(few, replace(TABLE_PRIOR, size=128))
     probability, outcomes = left_out(seen, 1)[IDENTIFIED], seen.outcomes(1)
     share = outcomes.mean()
     assert scores.brier(probability, outcomes) < 0.6 * share * (1 - share)

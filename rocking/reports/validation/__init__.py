@@ -1,0 +1,1 @@
+"""The report of the validation: predictions against shake-table tests."""
