@@ -15,6 +15,7 @@ from rocking.pulses.analysis import PulseAnalysis
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports.dimension_lines import draw_dimensions, draw_marks
+from rocking.structures.capacity import CapacityCurve
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.outcome import Outcome
 from rocking.structures.structure import Structure
@@ -121,6 +122,17 @@ def plot_mechanism(mechanism: Mechanism, axes: Axes | None = None) -> Axes:
     if mechanism.negative is not None:
         _plot_side(axes, mechanism.negative, -1)
     axes.axhline(0, color="0.8", linewidth=0.7, zorder=0)
+    axes.legend()
+    return axes
+
+
+def plot_capacity(curve: CapacityCurve, axes: Axes | None = None) -> Axes:
+    """Draw the load multiplier against the displacement of the control point, from uplift to where nothing holds."""
+    axes = _ready(axes, "horizontal displacement of the control point [m]", "load multiplier G/B [g]")
+    x, y = curve.control_point
+    axes.plot(curve.displacement, curve.multiplier, label=f"control point ({x:.3g}, {y:.3g}) m")
+    axes.axhline(0, color="0.8", linewidth=0.7, zorder=0)
+    axes.set_xlim(left=0)
     axes.legend()
     return axes
 

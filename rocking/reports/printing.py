@@ -1,7 +1,6 @@
 """How a value of a row is printed: rounded, with a real minus, never changed otherwise."""
 
 import math
-import re
 from collections.abc import Callable, Iterable, Sequence
 from typing import TypeVar
 
@@ -25,8 +24,6 @@ _WORDS = [
     "eleven",
     "twelve",
 ]
-_LENGTHS = ["diagonal", "height", "thickness", "radius", "breadth", "width", "diameter", "depth", "length"]
-_UNITS = dict.fromkeys(_LENGTHS, " m") | dict.fromkeys(("slenderness", "angle"), " rad")
 _LARGEST_PLAIN = 1e6
 """Numbers up to here are printed without a power of ten."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -74,23 +71,6 @@ def ratio(value: float | None, digits: int = 3) -> str:
     if value is not None and math.isinf(value):
         return "overturns"
     return "no uplift" if value == 0 else number(value, digits)
-
-
-def geometry(text: str) -> str:
-    """Return the sizes in the description of a structure with their units; what is left at its default is left out."""
-    sizes = [
-        f"{name.replace('_', ' ')} {_size(value)}{_UNITS.get(name.split('_')[-1], '')}"
-        for name, value in re.findall(r"(\w+)=([^,()]+)", text)
-        if value not in ("None", "False") and name != "restitution"
-    ]
-    return ", ".join(sizes) or words(text)
-
-
-def _size(text: str) -> str:
-    try:
-        return f"{float(text):.4g}"
-    except ValueError:
-        return text
 
 
 def count(many: int) -> str:

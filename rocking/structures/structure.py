@@ -11,6 +11,7 @@ import numpy as np
 from rocking.errors import StructureError
 from rocking.quantities import within
 from rocking.structures.bars import Bodies
+from rocking.structures.capacity import CapacityCurve, capacity_curve
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Dimension, Mark, Path
 from rocking.structures.fields import Field, Form
@@ -63,6 +64,10 @@ class Structure(ABC):
         from rocking.reports.plots import plot_structure
 
         return plot_structure(self, rotation, axes, dimensions)
+
+    def capacity_curve(self, side: int = 1, count: int = 41) -> CapacityCurve:
+        """Return the load multiplier against displacement of one side, from rest to the critical rotation."""
+        return capacity_curve(self, side, count)
 
     @abstractmethod
     def bodies(self, rotation: float | np.ndarray) -> Bodies:

@@ -10,6 +10,7 @@ from rocking.assessment.rows import (
     RECORD_TABLES,
     SUMMARY_TABLES,
     AgreementRow,
+    CapacityRow,
     ComparisonRow,
     EnsembleRow,
     EquivalenceRow,
@@ -22,6 +23,7 @@ from rocking.assessment.rows import (
     StructureRow,
     TimingRow,
     agreement_rows,
+    capacity_rows,
     equivalence_rows,
     maximum_row,
     structure_rows,
@@ -48,6 +50,7 @@ def write_summary(folders: Iterable[Path], structures: Mapping[str, Structure], 
     _write(MaximumRow, (row for folder in folders for row in _maxima(folder)), target)
     _write(StructureRow, structure_rows(structures), target)
     _write(EquivalenceRow, equivalence_rows(structures), target)
+    _write(CapacityRow, capacity_rows(structures), target)
     cases = frame(ComparisonRow, target / ComparisonRow.table.file_name, AGREEMENT_COLUMNS)
     _write(AgreementRow, agreement_rows(cases), target)
 

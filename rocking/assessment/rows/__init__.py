@@ -17,11 +17,13 @@ from rocking.assessment.rows.of_folder import PER_RECORD, RECORD_TABLES, RecordT
 from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow, TimingRow, failure_row
 from rocking.assessment.rows.of_study import (
     AgreementRow,
+    CapacityRow,
     EquivalenceRow,
     SpectrumRow,
     StructureRow,
     TradeRow,
     agreement_rows,
+    capacity_rows,
     equivalence_rows,
     spectrum_rows,
     structure_rows,
@@ -38,6 +40,7 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     MaximumRow,
     StructureRow,
     EquivalenceRow,
+    CapacityRow,
     FailureRow,
     TimingRow,
 )
@@ -50,6 +53,7 @@ __all__ = [
     "SUMMARY_TABLES",
     "AgreementRow",
     "CandidateRow",
+    "CapacityRow",
     "CaseRow",
     "ComparisonRow",
     "ComponentRow",
@@ -70,6 +74,7 @@ __all__ = [
     "TradeRow",
     "agreement_rows",
     "candidate_rows",
+    "capacity_rows",
     "comparison_row",
     "ensemble_row",
     "equivalence_rows",

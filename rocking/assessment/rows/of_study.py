@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 AMPLITUDES = (0.1, 0.3, 0.5, 0.7, 0.9)
 """Rotations over φ_cr at which natural periods are compared."""
+CAPACITY_POINTS = 21
+"""Rotations of a capacity curve, from rest to the critical one."""
 ACCELERATIONS = (1.1, 1.5, 2.0, 5.0)
 """Constant ground accelerations over that of uplift under which times to overturn are compared."""
 
@@ -40,7 +42,7 @@ class StructureRow(Row):
 
     structure: str = column(STRUCTURE)
     type: str = column("Type of the structure")
-    geometry: str = column("Its geometry, SI and radians")
+    geometry: str = column("Its sizes with units, as they were given")
     frequency_parameter_rad_s: float = column(FREQUENCY_PARAMETER, equation="Eq. 11")
     critical_rotation_rad: float = column("Critical rotation")
     uplift_multiplier: float = column("Uplift acceleration in g", equation="Eq. 7")
@@ -67,6 +69,27 @@ class EquivalenceRow(Row):
         "Rotation amplitude over critical rotation, or constant ground acceleration over uplift acceleration"
     )
     block_over_structure: float = column("Equivalent block over structure", equation="Figs. 3, 4, 6, 7")
+
+
+@row("capacity", "One row per structure, side and rotation: the static load multiplier against displacement")
+class CapacityRow(Row):
+    """One point of the capacity curve of one side of one structure."""
+
+    structure: str = column(STRUCTURE)
+    side: str = column("positive or negative: the side to which it rocks")
+    rotation_rad: float = column("Rotation")
+    multiplier: float = column(
+        "Horizontal acceleration in g that just holds the structure there", equation="G/B"
+    )
+    displacement_m: float = column(
+        "Horizontal displacement of the control point, the corner of the drawing that moves furthest sideways"
+    )
+    effective_displacement_m: float = column(
+        "d* = d_k Σ P δ²/(δ_k Σ P δ), displacement of the equivalent system"
+    )
+    participating_mass_ratio: float = column(
+        "e* = (Σ P δ)²/(Σ P · Σ P δ²), mass of the equivalent system over all"
+    )
 
 
 @row(
@@ -140,7 +163,7 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
         yield StructureRow(
             structure=name,
             type=type(structure).__name__,
-            geometry=str(structure),
+            geometry=structure.description,
             frequency_parameter_rad_s=side.frequency_parameter,
             critical_rotation_rad=side.critical_rotation,
             uplift_multiplier=mechanism.uplift_multiplier,
@@ -174,6 +197,27 @@ def equivalence_rows(structures: Mapping[str, Structure]) -> Iterator[Equivalenc
                         at=place,
                         block_over_structure=float(value),
                     )
+
+
+def capacity_rows(structures: Mapping[str, Structure]) -> Iterator[CapacityRow]:
+    """Yield the capacity curve of each side of each structure, at CAPACITY_POINTS rotations."""
+    for name, structure in structures.items():
+        signs = (1,) if len(structure.mechanism().sides) == 1 else (1, -1)
+        for sign in signs:
+            curve = structure.capacity_curve(sign, CAPACITY_POINTS)
+            columns = (curve.rotation, curve.multiplier, curve.displacement, curve.effective_displacement)
+            for rotation, multiplier, displacement, effective in zip(
+                *map(np.ndarray.tolist, columns), strict=True
+            ):
+                yield CapacityRow(
+                    structure=name,
+                    side="positive" if sign > 0 else "negative",
+                    rotation_rad=rotation,
+                    multiplier=multiplier,
+                    displacement_m=displacement,
+                    effective_displacement_m=effective,
+                    participating_mass_ratio=curve.participating_mass_ratio,
+                )
 
 
 AGREEMENT_COLUMNS = (

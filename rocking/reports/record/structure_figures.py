@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from textwrap import wrap
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,12 +13,16 @@ from rocking.reports.style import TEXT_WIDTH, elided, new_figure, styled
 from rocking.structures.structure import Structure
 
 _COLUMNS = 5
-_CELL_HEIGHT = 40.0
+_CELL_HEIGHT = 43.0
 """Height of one drawing with its title and its scale bar, mm."""
 _DRAWN_WIDTH, _DRAWN_HEIGHT = 29.0, 23.5
 """Room for the structure itself, mm."""
 _DRAWN_SHARE = 0.6
 """Share of the critical rotation at which the displaced structure is drawn; more where that is hard to see."""
+_LINE = 25
+"""Characters of a line below a label."""
+_SMALL = 7.0
+"""Size of the letters of dimensions and of what they measure, points."""
 _SEEN_ROTATION, _MOST_ROTATION = 0.12, 0.3
 """Rotation that can be seen at this size, and beyond which a structure is hard to recognise, rad."""
 
@@ -41,8 +46,12 @@ def structure_drawings(structures: Sequence[tuple[str, Structure]]) -> Figure:
         foot = np.array([(column + 0.5) * width, -(row + 1) * _CELL_HEIGHT + 7.0])
         _draw(panel, structure, foot)
         panel.text(foot[0], -row * _CELL_HEIGHT - 1, elided(label, 22), ha="center", va="top")
-        sizes = ", ".join(f"{each.letter} = {each.text}" for each in structure.dimensions())
-        panel.text(foot[0], -row * _CELL_HEIGHT - 4.5, elided(sizes, 36), ha="center", va="top", fontsize=5)
+        said = (f"{each.letter} = {each.text}".replace(" ", "\u00a0") for each in structure.dimensions())
+        sizes = ", ".join(said)
+        lines = wrap(elided(sizes, 2 * _LINE), _LINE)[:2]
+        panel.text(
+            foot[0], -row * _CELL_HEIGHT - 4.5, "\n".join(lines), ha="center", va="top", fontsize=_SMALL
+        )
     return figure
 
 
@@ -61,7 +70,7 @@ def _draw(panel: Axes, structure: Structure, foot: np.ndarray) -> None:
     for outline in rest:
         panel.fill(*_placed(outline, origin, scale, foot), fill=False, linewidth=0.7, linestyle="--")
     draw_dimensions(
-        panel, dimensions, lambda at: _placed(at, origin, scale, foot), values=False, fontsize=5.5
+        panel, dimensions, lambda at: _placed(at, origin, scale, foot), values=False, fontsize=_SMALL
     )
     draw_marks(panel, marks, lambda at: _placed(at, origin, scale, foot), values=False)
     hinges = _placed(structure.hinges(rotation), origin, scale, foot)

@@ -118,7 +118,7 @@ def structure_table(rows: Iterable[StructureRow], numbers: Mapping[str, str]) ->
             "Type and geometry",
             "2.4",
             "l",
-            lambda row: f"{words(row.type)}: {printing.geometry(row.geometry)}",
+            lambda row: f"{words(row.type)}: {row.geometry}",
         ),
         ("p [rad/s]", "auto", "r", lambda row: number(row.frequency_parameter_rad_s, 4)),
         ("Critical rotation [rad]", "0.7", "r", lambda row: number(row.critical_rotation_rad, 4)),

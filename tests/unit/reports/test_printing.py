@@ -40,14 +40,3 @@ def test_counts_are_words_up_to_twelve():
     assert printing.counted(1, "case") == "one case"
     assert printing.counted(0, "case") == "no cases"
     assert printing.counted(13, "case") == "13 cases"
-
-
-def test_sizes_carry_their_units_and_defaults_are_left_out():
-    text = (
-        "Arch(radius=10.0, thickness=1.5, embrace_angle=2.748893571891069, voussoirs=None, restitution=None)"
-    )
-    assert printing.geometry(text) == "radius 10 m, thickness 1.5 m, embrace angle 2.749 rad"
-
-
-def test_a_geometry_without_sizes_stands_as_it_is():
-    assert printing.geometry("something else") == "something else"

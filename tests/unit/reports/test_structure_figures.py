@@ -41,10 +41,10 @@ def test_no_drawing_leaves_the_paper_or_meets_its_neighbour():
     cells = {}
     for patch in panel.patches:
         points = patch.get_xy()
-        cell = int(points[:, 0].mean() // 34), int(-points[:, 1].mean() // 40)
+        cell = int(points[:, 0].mean() // 34), int(-points[:, 1].mean() // 43)
         cells.setdefault(cell, []).append(points)
     assert len(cells) == 12
     for (column, row), parts in cells.items():
         points = np.vstack(parts)
         assert 34 * column <= points[:, 0].min() and points[:, 0].max() <= 34 * (column + 1)
-        assert -40 * (row + 1) <= points[:, 1].min() and points[:, 1].max() <= -40 * row
+        assert -43 * (row + 1) <= points[:, 1].min() and points[:, 1].max() <= -43 * row
