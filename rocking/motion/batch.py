@@ -11,7 +11,7 @@ from rocking.errors import MotionError, RockingError
 from rocking.motion.forcing import GroundMotion, forcing_of
 from rocking.motion.integration import TOLERANCES, Rocking, reduce
 from rocking.motion.many_blocks import all_solvable, follow_blocks
-from rocking.motion.members import Members, follow_members
+from rocking.motion.members import Members, follow_factors
 from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
 
@@ -37,8 +37,7 @@ def integrate_batch(
     Raises MotionError for a setting that is wrong for every case.
     """
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
-    members, forcing = Members(scale_factors), forcing_of(record, vertical)
-    factors = members.scale_factor
+    factors, forcing = Members(scale_factors).scale_factor, forcing_of(record, vertical)
     ratios = np.full((len(structures), factors.size), math.nan)
     if factors.size == 1 and len(structures) > 1 and all_solvable(structures, forcing):
         return follow_blocks(structures, forcing.scaled(factors[0]))[:, None]
@@ -49,7 +48,9 @@ def integrate_batch(
         index, start = job
         columns = slice(start, start + chunk)
         try:
-            found = follow_members(reduce(structures[index]), forcing, Members(factors[columns]), tolerance)
+            own = factors[columns]
+            lift = own if forcing.vertical else None
+            found = follow_factors(reduce(structures[index]), forcing, own, lift, None, tolerance)
         except RockingError:
             return
         ratios[index, columns] = found.rotation_ratio

@@ -1,7 +1,7 @@
 """Many responses of one structure to one ground motion in one compiled call: the members of an ensemble."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +12,7 @@ from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.integration import TOLERANCES, Rocking, reduce
 from rocking.motion.linear import blocks_of, samples_of, solvable_exactly
 from rocking.motion.nonlinear import STEP_SHARE, failure
-from rocking.motion.table import Table, linear_table, table_of
+from rocking.motion.table import SideTable, Table, linear_table, table_of
 from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
@@ -117,23 +117,36 @@ def follow_members(
     reduced: Mechanism | EquivalentBlock, forcing: Forcing, members: Members, tolerance: float
 ) -> MemberResponses:
     """`integrate_members` of what is prepared already."""
-    factor, polarity = members.scale_factor, members.polarity
-    lift = np.where(members.vertical, factor, 0.0) if forcing.vertical else np.zeros(factor.size)
-    horizontal = factor * polarity
+    horizontal = members.scale_factor * members.polarity
+    vertical = np.where(members.vertical, members.scale_factor, 0.0) if forcing.vertical else None
+    return follow_factors(reduced, forcing, horizontal, vertical, members.restitution, tolerance)
+
+
+def follow_factors(
+    reduced: Mechanism | EquivalentBlock,
+    forcing: Forcing,
+    horizontal: np.ndarray,
+    vertical: np.ndarray | None,
+    restitution: np.ndarray | None,
+    tolerance: float,
+) -> MemberResponses:
+    """The same from the factors (m,) of the horizontal and of the vertical component; None: no vertical component."""
+    lift = np.zeros(horizontal.size) if vertical is None else vertical
     if isinstance(reduced, Mechanism):
-        return _stepped(table_of(reduced), forcing, horizontal, lift, members.restitution, tolerance)
-    exact = (lift == 0) & solvable_exactly(reduced, forcing)
-    if exact.all():
-        return _exact(reduced, forcing, horizontal, members.restitution)
+        return _stepped(table_of(reduced), forcing, horizontal, lift, restitution, tolerance)
+    if vertical is None and solvable_exactly(reduced, forcing):
+        return _exact(reduced, forcing, horizontal, restitution)
+    still = replace(forcing, vertical=False)
+    exact = (lift == 0) & solvable_exactly(reduced, still)
     if not exact.any():
-        return _stepped(linear_table(reduced), forcing, horizontal, lift, members.restitution, tolerance)
+        return _stepped(linear_table(reduced), forcing, horizontal, lift, restitution, tolerance)
     return _merged(
         exact,
-        lambda rows, eta: _exact(reduced, forcing, horizontal[rows], eta),
+        lambda rows, eta: _exact(reduced, still, horizontal[rows], eta),
         lambda rows, eta: _stepped(
             linear_table(reduced), forcing, horizontal[rows], lift[rows], eta, tolerance
         ),
-        members.restitution,
+        restitution,
     )
 
 
@@ -157,11 +170,11 @@ def _stepped(
         peaks,
         impacts,
     )
-    for column, sign in enumerate((1, -1)):
-        side, arcs = table.side(sign), peaks[:, column]
-        rises = (arcs > 0) & (status == nonlinear_kernel.ROCKS)
-        arcs[rises] = side.rotation(arcs[rises]) / side.critical_rotation
-    return _concluded(status, peaks, impacts)
+
+    def read_back(side: SideTable) -> Callable[[np.ndarray], np.ndarray]:
+        return lambda arcs: side.rotation(arcs) / side.critical_rotation
+
+    return _concluded(status, peaks, impacts, [read_back(side) for side in table.sides])
 
 
 def _exact(
@@ -179,9 +192,7 @@ def _exact(
         peaks,
         impacts,
     )
-    for column, side in enumerate((sides[0], sides[-1])):
-        peaks[:, column] = side.rotation_ratios(peaks[:, column])
-    return _concluded(status, peaks, impacts)
+    return _concluded(status, peaks, impacts, [side.rotation_ratios for side in sides])
 
 
 def _merged(
@@ -201,12 +212,24 @@ def _merged(
     return MemberResponses(ratio, side, reasons)
 
 
-def _concluded(status: np.ndarray, ratios: np.ndarray, impacts: np.ndarray) -> MemberResponses:
-    """status, impacts: (m,) as the kernels leave them. ratios: (m, 2), the largest φ/φ_cr of each side."""
-    ratio = ratios.max(axis=1)
-    side = np.where(ratios[:, 0] >= ratios[:, 1], 1, -1)
-    ratio[status == nonlinear_kernel.OVERTURNS] = np.inf  # and beyond the end of the mechanism
+def _concluded(
+    status: np.ndarray,
+    peaks: np.ndarray,
+    impacts: np.ndarray,
+    read_back: Sequence[Callable[[np.ndarray], np.ndarray]],
+) -> MemberResponses:
+    """status, peaks, impacts: (m,), (m, 2) and (m,) as the kernels leave them. read_back: φ/φ_cr of a side's peaks.
+
+    There is one read_back for sides that mirror each other.
+    """
+    peaks[status != nonlinear_kernel.ROCKS] = 0.0
+    if len(read_back) == 1:
+        side, ratio = np.where(peaks[:, 0] >= peaks[:, 1], 1, -1), read_back[0](peaks.max(axis=1))
+    else:
+        one, other = (read(peaks[:, column]) for column, read in enumerate(read_back))
+        side, ratio = np.where(one >= other, 1, -1), np.maximum(one, other)
     side[status == 0] = 0
+    ratio[status == nonlinear_kernel.OVERTURNS] = np.inf  # as it is where it passed the end of the mechanism
     failed = np.flatnonzero(status > nonlinear_kernel.OVERTURNS)
     ratio[failed], side[failed] = np.nan, 0
     reasons = {int(k): str(failure(int(status[k]), int(impacts[k]))) for k in failed}

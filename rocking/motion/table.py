@@ -69,8 +69,8 @@ class SideTable:
         if self.rotation_map is not None:
             return self.rotation_map.rotation(arc)
         split, inner, inner_count, _, outer, outer_count, *_ = self.grid
-        within = np.clip((arc / inner).astype(int), 0, int(inner_count) - 1)
-        beyond = np.clip(((arc - split) / outer).astype(int), 0, int(outer_count) - 1)
+        within = np.minimum((arc / inner).astype(int), int(inner_count) - 1)
+        beyond = np.minimum(np.maximum((arc - split) / outer, 0.0).astype(int), int(outer_count) - 1)
         inside = arc < split
         centre = np.where(inside, (within + 0.5) * inner, split + (beyond + 0.5) * outer)
         row = self.ratios[np.where(inside, within, int(inner_count) + beyond)]

@@ -5,23 +5,24 @@ Prints times, ratios and exponents; nothing is asserted.
 
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 from numba import njit
 from scipy.constants import g
 from scipy.integrate import solve_ivp
 
-from rocking.motion import integrate, integrate_many
+from rocking.motion import integrate, integrate_batch, integrate_many
 from rocking.motion import nonlinear_kernel as kernel
 from rocking.motion.forcing import forcing_of
 from rocking.motion.spectrum import rocking_spectrum
 from rocking.motion.table import table_of
-from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
-from rocking.structures import Arch, Block
+from rocking.structures import Arch, Block, load_structures
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 
 STEP = 0.005
+STRUCTURES = Path(__file__).parents[2] / "workflow" / "structures.yaml"
 
 
 def record(
@@ -167,14 +168,15 @@ def growth() -> None:
 
 
 @njit(error_model="numpy", fastmath={"contract"})
-def _bare(pieces, grid, ground, time_step, arc, speed, side, steps):
-    """The arithmetic of `steps` steps and nothing else: table, series, new state."""
+def _bare(pieces, grid, ground, time_step, arc, speed, steps):
+    """The arithmetic of `steps` steps and nothing else: table, short series, new state."""
     i = 0
     for _ in range(steps):
         i = i + 1 if i + 2 < ground.size else 0
         slope = (ground[i + 1] - ground[i]) / time_step
-        j, centre, _ = kernel._place(grid[0], arc)
-        x = kernel._series(pieces[0, j], arc - centre, speed, side, ground[i], slope, 9.80665, 0.0, 0.0)
+        j, centre, _ = kernel._place(grid, 0, arc)
+        x = kernel._short_series(pieces, 0, j, arc - centre, speed, ground[i], slope, 9.80665, 0.0)
+        x = (x[0], x[1], x[2], x[3], x[4], x[5], 0.0, 0.0)
         new, pull = arc + kernel._displacement(x, time_step), kernel._speed(x, time_step)
         arc, speed = (
             arc + 1e-9 * (new - arc),
@@ -186,23 +188,66 @@ def _bare(pieces, grid, ground, time_step, arc, speed, side, steps):
 def share_of_the_limit() -> None:
     """Time of the bare arithmetic over the time of the whole run: what events, control and peaks leave."""
     block = Block(3.0, 0.2, restitution=0.9).mechanism()
-    pieces, grid, lift, hold, critical, end, eta, reaching, pace = table_of(block).arrays
+    table = table_of(block)
     for strength, period in ((1.3, 0.8), (1.3, 0.3), (1.1, 0.2)):
         motion = record(40, strength * g * block.uplift_multiplier, period=period)
-        forcing, response = forcing_of(motion), integrate(block, motion)
-        arguments = (
-            pieces, grid, lift, hold, critical, end, eta, reaching * 1e-7, pace, False, forcing.ground, forcing.gravity,
-            forcing.threat, GRAVITY, STEP, 0.0, 0.0, 0.0, 0, 3e-8, np.empty((0, 3)),
-        )  # fmt: skip
+        ground, response = forcing_of(motion).ground, integrate(block, motion)
+        member, start = kernel.Member(1.0, 0.0, table.restitution), kernel.Start(0.0, 0.0, 0)
+        arguments = table.kernel, ground, member, start, 3e-8, False, np.empty((2, 2)), np.empty((0, 3))
         whole = best(lambda a=arguments: kernel.rock(*a), 40)
-        bare = best(
-            lambda f=forcing, r=response: _bare(pieces, grid, f.ground, STEP, 0.01, 0.01, 1, r.steps), 40
-        )
+        alone = table.kernel.pieces, table.kernel.grid, ground.horizontal, STEP, 0.01, 0.01, response.steps
+        bare = best(lambda a=alone: _bare(*a), 40)
         print(
             f"bare arithmetic / whole run: {bare / whole:.0%} "
             f"({response.steps} steps of {whole / response.steps * 1e9:.0f} ns, "
             f"{response.impacts} impacts, {response.outcome})"
         )
+
+
+def batches() -> None:
+    """Responses a second and core of the shipped structures, and what the call costs beside its kernel."""
+    structures = [each.mechanism() for each in load_structures(STRUCTURES).values()]
+    motion = record(20, 3.0, step=0.01, period=0.5)
+    for count in (1, 8, 64):
+        factors = np.geomspace(0.6, 1.6, count)
+        tables, ground, once = (
+            [table_of(each) for each in structures],
+            forcing_of(motion).ground,
+            np.zeros(count),
+        )
+
+        def kernels(factors=factors, tables=tables, ground=ground, once=once, count=count):
+            for table in tables:
+                kernel.rock_members(
+                    table.kernel, ground, factors, once, np.tile(table.restitution, (count, 1)), 3e-8,
+                    np.zeros(count, np.int64), np.zeros((count, 2)), np.zeros(count, np.int64),
+                )  # fmt: skip
+
+        def whole(factors=factors):
+            integrate_batch(structures, motion, factors, workers=1)
+
+        def one_by_one(factors=factors):
+            for structure in structures:
+                for factor in factors:
+                    integrate(structure, motion.scaled(factor))
+
+        bare, taken, singly = cpu(kernels), cpu(whole), cpu(one_by_one)
+        print(
+            f"{len(structures)} structures x {count} factors, 20 s at 100 Hz: "
+            f"{len(structures) * count / taken:,.0f} responses a second and core, {taken / bare - 1:.0%} beside the "
+            f"kernel, {singly / taken:.1f} times as fast as one by one"
+        )
+
+
+def cpu(call: Callable[[], object], repeats: int = 15) -> float:
+    """Least CPU time of several runs, s, after one that warms up."""
+    call()
+    times = []
+    for _ in range(repeats):
+        start = time.process_time()
+        call()
+        times.append(time.process_time() - start)
+    return min(times)
 
 
 def many() -> None:
@@ -242,5 +287,6 @@ def many() -> None:
 if __name__ == "__main__":
     beside_scipy()
     share_of_the_limit()
+    batches()
     growth()
     many()

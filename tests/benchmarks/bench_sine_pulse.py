@@ -12,7 +12,8 @@ from scipy.constants import g
 from scipy.integrate import solve_ivp
 
 from rocking.pulses.pulse import Pulse
-from rocking.sine_pulse import Regime, predict_maximum, printed_maximum, pulse_spectrum
+from rocking.sine_pulse import Regime, predict_maxima, predict_maximum, printed_maximum, pulse_spectrum
+from rocking.structures import Arch, Block
 from rocking.structures.mechanism import EquivalentBlock
 
 ETA = 0.9
@@ -83,6 +84,25 @@ def latency() -> None:
     print(f"  {'Eq. 15 as printed':34s} {1e6 * best(lambda: printed_maximum(BLOCK, pulse), 200):6.0f}")
 
 
+def many() -> None:
+    """A million predictions in one call: blocks exact at rest by pulses."""
+    blocks = [
+        Arch(radius, 0.15 * radius, math.radians(157.5)).mechanism().equivalent_block()
+        for radius in np.linspace(5, 20, 10)
+    ] + [Block(height, 0.2).mechanism().equivalent_block() for height in np.linspace(1, 5, 90)]
+    generator = np.random.default_rng(1)
+    pulses = [
+        Pulse(float(a), float(omega))
+        for a, omega in zip(generator.uniform(0.5, 12, 10_000), generator.uniform(1, 30, 10_000), strict=True)
+    ]
+    predict_maxima(blocks[:1], pulses[:1])
+    start = time.process_time()
+    predict_maxima(blocks, pulses)
+    print(
+        f"{len(blocks) * len(pulses):,} predictions in one call: {time.process_time() - start:.2f} s of CPU"
+    )
+
+
 def spectrum() -> None:
     """The whole map, and the same cells by a scipy loop."""
     seconds = best(lambda: pulse_spectrum(FREQUENCIES, AMPLITUDES, ETA), 3)
@@ -112,4 +132,5 @@ def spectrum() -> None:
 
 if __name__ == "__main__":
     latency()
+    many()
     spectrum()
