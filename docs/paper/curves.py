@@ -106,7 +106,7 @@ def arch_sides() -> dict[str, Side]:
     }
 
 
-def period_curves(sides: dict[str, Side], panel: str) -> list[Curve]:
+def period_curves(sides: dict[str, Side], panel: str, scale: Scale = "linearised") -> list[Curve]:
     """Return block over true period of free rocking against amplitude (Figs. 3a and 6a)."""
     return [
         Curve(
@@ -116,7 +116,10 @@ def period_curves(sides: dict[str, Side], panel: str) -> list[Curve]:
             PERIOD,
             AMPLITUDES,
             np.array(
-                [block_period(side, u) / natural_period(side, u * side.critical_rotation) for u in AMPLITUDES]
+                [
+                    block_period(side, u, scale) / natural_period(side, u * side.critical_rotation)
+                    for u in AMPLITUDES
+                ]
             ),
         )
         for label, side in sides.items()

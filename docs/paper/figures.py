@@ -38,6 +38,9 @@ def _panel(panel: Axes, name: str, curves: Sequence[Curve]) -> None:
     panel.set_xlabel(curves[0].x_quantity)
     panel.set_ylabel(curves[0].y_quantity)
     panel.margins(y=0.06)
+    if curves[0].y_quantity == ROTATION:  # which leaves no room of its own for a legend
+        low, high = panel.get_ylim()
+        panel.set_ylim(low - 0.45 * (high - low), high)
     legend = panel.legend(loc="lower right" if curves[0].y_quantity == ROTATION else "best")
     legend.set_frame_on(True)
     legend.get_frame().set(facecolor="white", edgecolor="none", alpha=0.85)

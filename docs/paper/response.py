@@ -11,11 +11,14 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.reports.style import thinned
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures.arch import Arch
+from rocking.structures.mechanism import Mechanism
 
 RADII = {"c": 10.0, "d": 15.0}
 """Centreline radius of each panel's arch, m; β = 157.5°, t/r = 0.15, η = 0.9 as in the paper."""
 _TIME = "time [s]"
 _POINTS = 1500
+_STYLES = {"Eq. 15 as printed": ":", "paper's block, every regime": "-.", "block exact at rest": "--"}
+"""What is predicted, and the line it gets."""
 
 
 def example_arch(radius: float) -> Arch:
@@ -51,16 +54,16 @@ def _arch_curves(panel: str, radius: float, accelerogram: Accelerogram, pulse: P
     span = np.array([times[0], times[-1]])
     for name, level in predicted_levels(mechanism, pulse).items():
         if np.isfinite(level):
-            curves.append(
-                Curve(panel, name, _TIME, ROTATION, span, np.full(2, level), "-." if "exact" in name else ":")
-            )
+            curves.append(Curve(panel, name, _TIME, ROTATION, span, np.full(2, level), _STYLES[name]))
     return curves
 
 
-def predicted_levels(mechanism, pulse: Pulse) -> Mapping[str, float]:
-    """Return the predictions of the largest rotation ratio, from the block that keeps the true uplift acceleration."""
-    block = mechanism.equivalent_block("uplift")
-    return {
-        "closed form, exact": predict_maximum(block, pulse).rotation_ratio,
-        "Eq. 15 as printed": printed_maximum(block, pulse),
-    }
+def predicted_levels(mechanism: Mechanism, pulse: Pulse) -> Mapping[str, float]:
+    """Return what is predicted as the largest rotation ratio: by the paper's block and formula, and by ours."""
+    paper = mechanism.equivalent_block("uplift")
+    values = (
+        printed_maximum(paper, pulse),
+        predict_maximum(paper, pulse).rotation_ratio,
+        predict_maximum(mechanism.equivalent_block("rest"), pulse).rotation_ratio,
+    )
+    return dict(zip(_STYLES, values, strict=True))

@@ -4,6 +4,7 @@ import shutil
 import tempfile
 from pathlib import Path
 
+from docs.paper.report import equivalence_figures
 from docs.site.drawings import drawings
 from docs.site.pages import FOLDER, filled, illustrated, outlined, written_pages
 from rocking.errors import ConfigurationError
@@ -47,5 +48,6 @@ def write_pages(target: Path, workflow: Path) -> None:
         text, made = illustrated(page.read_text(encoding="utf-8"), page.name)
         (target / page.name).write_text(filled(text, page.name, workflow), encoding="utf-8")
         figures |= made
+    figures |= {f"paper_{each.name}.svg": outlined(each.figure) for each in equivalence_figures()}
     for name, content in figures.items():
         (target / "figures" / name).write_text(content, encoding="utf-8")

@@ -73,6 +73,32 @@ def pulse_methods(_: Path) -> str:
     )
 
 
+def blocks(_: Path) -> str:
+    """The largest error of each equivalent block over a figure of the paper."""
+    from docs.paper.report import equivalence_figures
+
+    head = ("figure", "structure", "quantity", "block", "largest error")
+    shown: dict[tuple[str, ...], float] = {}
+    for figure in equivalence_figures():
+        for row in figure.rows:
+            block = _BLOCKS[figure.name[-1]].get(row.panel)
+            if block:
+                key = (figure.name[-1], row.curve, row.y_quantity.partition(",")[0], block)
+                shown[key] = max(shown.get(key, 0.0), abs(row.y - 1))
+    return table(head, ((*key, f"{100 * error:.1f} %") for key, error in shown.items() if _shown(key[1])))
+
+
+_PERIODS = {"a": "linearised", "c": "exact at rest"}
+_TIMES = {"a": "a_sc", "b": "a_sc,alt", "c": "exact at rest"}
+_BLOCKS = {"3": _PERIODS, "6": _PERIODS, "4": _TIMES, "7": _TIMES}
+"""Block of each panel, by the figure of the paper."""
+
+
+def _shown(curve: str) -> bool:
+    """The curves of the slender, the usual and the stocky structure; the figures show all."""
+    return curve in ("α = 0.1 rad", "α = 0.3 rad", "t/r = 0.13", "t/r = 0.25")
+
+
 def regimes(_: Path) -> str:
     """The regimes of the closed form."""
     from rocking.sine_pulse import Regime
@@ -110,7 +136,18 @@ def api(_: Path) -> str:
 
 GENERATED: Mapping[str, Callable[[Path], str]] = {
     part.__name__: part
-    for part in (formats, units, settings, structures, tables, equations, pulse_methods, regimes, api)
+    for part in (
+        formats,
+        units,
+        settings,
+        structures,
+        tables,
+        equations,
+        pulse_methods,
+        blocks,
+        regimes,
+        api,
+    )
 }
 """What may stand behind `generated:` in a page."""
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, within
-from rocking.structures.mechanism import Scale, Side
+from rocking.structures.mechanism import Mechanism, Scale, Side
 
 SCALES: tuple[Scale, ...] = ("linearised", "uplift", "mean")
 
@@ -79,10 +79,17 @@ def natural_period(side: Side, amplitude: float) -> float:
     return 4 * _integral(rate)
 
 
-def block_period(side: Side, amplitude_ratio: float) -> float:
-    """Return the period [s] of the linearised block at φ₀/φ_cr: (4/p) acosh(1/(1 − φ₀/φ_cr)) (Housner 1963)."""
+def block_period(side: Side, amplitude_ratio: float, scale: Scale = "linearised") -> float:
+    """Return the period [s] of an equivalent block at φ₀/φ_cr: (4/p) acosh(1/(1 − x)) (Housner 1963).
+
+    x is φ₀/φ_cr, or for the block exact at rest its arc over that of φ_cr.
+    """
     _check_amplitude(amplitude_ratio)
-    return float(4 / side.frequency_parameter * np.arccosh(1 / (1 - amplitude_ratio)))
+    block = Mechanism(side).equivalent_block(scale)
+    x = amplitude_ratio
+    if block.rotation_map is not None:
+        x = block.rotation_map.arc(amplitude_ratio * block.critical_rotation) / block.critical_arc
+    return float(4 / block.frequency_parameter * np.arccosh(1 / (1 - x)))
 
 
 def overturning_time(side: Side, acceleration_ratio: float) -> float:
@@ -105,11 +112,11 @@ def overturning_time(side: Side, acceleration_ratio: float) -> float:
 
 
 def block_overturning_time(side: Side, acceleration_ratio: float, scale: Scale = "linearised") -> float:
-    """Return the same time [s] of the equivalent block with that acceleration scale; inf if it does not lift."""
+    """Return the same time [s] of an equivalent block; inf if it does not lift."""
     _check_acceleration(acceleration_ratio)
-    scaled = side.scaled_acceleration(scale) * side.uplift_multiplier / side.critical_rotation
-    excess = acceleration_ratio * scaled - 1
-    return float(np.arccosh(1 + 1 / excess) / side.frequency_parameter) if excess > 0 else np.inf
+    block = Mechanism(side).equivalent_block(scale)
+    excess = acceleration_ratio * side.uplift_multiplier / block.uplift_multiplier - 1
+    return float(np.arccosh(1 + 1 / excess) / block.frequency_parameter) if excess > 0 else np.inf
 
 
 def _integral(rate: Callable[[float], float]) -> float:
