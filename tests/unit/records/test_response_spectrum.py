@@ -69,6 +69,20 @@ def test_noise_against_a_general_solver(period):
     assert found.displacement[0] == pytest.approx(largest, rel=1.3e-2)
 
 
+def test_the_same_motion_in_finer_steps_has_the_same_spectrum():
+    # a stiff oscillator is followed in 7 steps for each of the record's, which the finer record holds already; it ends
+    # on its strongest sample, so that what follows matters
+    coarse = np.random.default_rng(4).standard_normal(50) * np.linspace(0.1, 1.0, 50)
+    coarse[-1] = 4.0
+    fine = np.interp(np.arange(49 * 7 + 1) / 7, np.arange(50), coarse)
+    stiff = np.array([0.06])
+    one, other = (
+        response_spectrum(record, stiff)
+        for record in (Accelerogram(coarse, 0.02), Accelerogram(fine, 0.02 / 7))
+    )
+    assert one.displacement == pytest.approx(other.displacement, rel=1e-9)
+
+
 @pytest.mark.parametrize(("period", "damping", "field"), [(0.0, 0.05, "period"), (1.0, 1.2, "damping")])
 def test_what_no_oscillator_has_is_refused(period, damping, field):
     with pytest.raises(RecordError, match=field):
