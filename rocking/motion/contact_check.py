@@ -35,7 +35,7 @@ def unknown(reason: str) -> ModelCheck:
     return ModelCheck(math.nan, None, reason)
 
 
-UNKNOWN = unknown("contact forces were not asked for")
+UNKNOWN = unknown("contact forces are found along the mechanism on the record only")
 _NO_HISTORY = unknown("the response keeps no history")
 _NO_MOTION = unknown("nothing rocks below the critical rotation")
 

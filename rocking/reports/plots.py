@@ -132,7 +132,7 @@ def plot_capacity(curve: CapacityCurve, axes: Axes | None = None) -> Axes:
     x, y = curve.control_point
     axes.plot(curve.displacement, curve.multiplier, label=f"control point ({x:.3g}, {y:.3g}) m")
     axes.axhline(0, color="0.8", linewidth=0.7, zorder=0)
-    axes.set_xlim(left=0)
+    axes.margins(x=0)
     axes.legend()
     return axes
 
@@ -142,7 +142,8 @@ def plot_structure(
 ) -> Axes:
     """Draw the parts at a rotation [rad], to scale; displaced, also at rest (dashed) and with the hinges (circles).
 
-    dimensions: also draw the lines of its sizes, each with its letter, about the structure at rest.
+    Loads, thrusts and ties are drawn too, and at rest the line of thrust as it starts to rock. dimensions: also draw
+    the lines of its sizes, each with its letter, about the structure at rest.
     """
     axes = _ready(axes, "[m]", "[m]")
     for outline in structure.outline(rotation):
@@ -154,6 +155,9 @@ def plot_structure(
     if dimensions:
         draw_dimensions(axes, structure.dimensions(), np.transpose, values=False)
     draw_marks(axes, structure.marks(rotation), np.transpose, values=not dimensions)
+    if not rotation and len(structure.thrust_line()):
+        axes.plot(*structure.thrust_line().T, color="C3", linewidth=1.0, label="thrust line at uplift")
+        axes.legend(loc="upper right")
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.06)
     return axes

@@ -30,7 +30,8 @@ class ArchOnPiers(Arch):
 
     As `Arch`, with pier_width and pier_height (from the ground to the springing), m, and pier_density_ratio: the piers'
     over the arch's. restitution: η in [0, 1], 0.9 by default. A pier that cracks obliquely or comes apart in leaves is
-    weaker than this monolithic one. Raises StructureError when it cannot stand.
+    weaker than this monolithic one; the wedge between its level head and an inclined springing is left out.
+    Raises StructureError when it cannot stand.
     """
 
     type_name: ClassVar[str] = "arch_on_piers"

@@ -95,6 +95,13 @@ class Structure(ABC):
         """Return the loads, thrusts and ties on it at a signed `rotation` [rad]."""
         return ()
 
+    def thrust_line(self, count: int = 200) -> np.ndarray:
+        """Return the line of thrust as it starts to rock to the positive side, about `count` points (k, 2) in m.
+
+        (0, 2) for a structure of which none is known.
+        """
+        return np.empty((0, 2))
+
     def held_work(self, rotation: float | np.ndarray) -> np.ndarray:
         """Return the work done since rest, at `rotation` ≥ 0 on the positive side, against what is no moving mass.
 

@@ -89,6 +89,7 @@ class ResponseRow(CaseRow):
         "Whether that exceeds the friction coefficient of the settings: the model does not hold"
     )
     bounces: bool | None = column("Whether a contact would have to pull: the model does not hold")
+    contacts_unknown: str = column("Why nothing is known of the contacts; empty where it is")
     reason: str = column("Why it failed, if it did")
 
 
@@ -237,6 +238,7 @@ def response_rows(identity: Identity, case: Case, friction_coefficient: float) -
             friction_needed=check.friction_needed,
             slides=check.slides(friction_coefficient),
             bounces=check.bounces,
+            contacts_unknown=check.reason,
             reason=response.reason,
         )
 
