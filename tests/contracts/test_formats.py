@@ -1,5 +1,6 @@
 """The formats as promised: one reader reads each real file of the manifest rightly, or refuses it by name."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -99,6 +100,26 @@ def test_what_is_not_acceleration_is_refused_by_name(
 def test_broken_files_are_refused(real_records: Path, name: str, declared_samples: int, held: int) -> None:
     with pytest.raises(RecordError, match=f"{name}.*{declared_samples} samples.*holds {held}"):
         read(real_records / "broken_samples" / name)
+
+
+WARNED = {
+    "RSN960_LOS270_one_extra.AT2": "holds 2000",
+    "ARL360_odd_header.at2": "CR CR LF",
+    "RSN10591_ComalTX11-10-20_IU.CCM.BH1.10.AT2": "below 1e-5 g|high-gain seismometer",
+    "RSN175_IMPVALL.H_H-E12140_ASCE7_Matched.AT2": "artificial",
+    "Cosmos12TimeSeriesTest.v1": "in a structure",
+    "20161113_110259_WTMC_20.V1A": "above 3 g",
+    "017m30cc.y0a": "unevenly spaced",
+    "RioDell_CHAN001.V2": "in a structure|17 channels, but the file holds 1",
+}
+"""All that real files are warned of: peaks, lengths, rates and counts of every other header agree with its samples."""
+
+
+def test_no_real_file_is_warned_of_without_reason(real_records: Path, manifest: list[dict[str, str]]) -> None:
+    for file, rows in time_series(manifest).items():
+        told = {s for record in read(real_records / file, **declared(rows[0])) for s in record.warnings}
+        known = WARNED.get(Path(file).name)
+        assert all(known and re.search(known, sentence) for sentence in told), (file, told)
 
 
 @pytest.mark.parametrize(("file", "defect"), [

@@ -115,6 +115,23 @@ def test_a_header_that_contradicts_itself_is_refused(name: str, old: str, new: s
         read_text(text.replace(old, new, 1))
 
 
+UNASKED = {"GeoNet V1A/V2A": "3 components", "UNAM/CICESE: repeated last line": "surplus lines"}
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_a_whole_file_is_read_without_a_word(name: str) -> None:
+    told = {sentence for record in read_text(made(name), **declared(name)) for sentence in record.warnings}
+    assert all(UNASKED[name] in sentence for sentence in told) if name in UNASKED else not told
+
+
+def test_a_cosmos_peak_out_of_its_place_is_warned_of() -> None:
+    place = float(np.abs(TRUE).argmax()) * STEP
+    text = made("COSMOS V1/V2")
+    assert text.count(f"{place:13.6f}") == 1
+    (record,) = read_text(text.replace(f"{place:13.6f}", f"{place + 12 * STEP:13.6f}"))
+    assert "puts the peak" in record.warnings[0]
+
+
 def test_a_peak_half_a_percent_off_is_warned_of() -> None:
     """A digit of a scale factor: real headers agree with their samples to 2e-5 beyond their last digit."""
     (record,) = read_text(made("K-NET/KiK-net").replace("2000(gal)", "2010(gal)"))
