@@ -14,6 +14,11 @@ TRUE = 0.9 * np.sin(np.arange(N) / 3.0) * np.linspace(1, 0.2, N)
 """m/s²; what every sample file holds, each in its own unit and number of digits."""
 
 
+def peak_time() -> float:
+    """Time of the largest sample, s after the first."""
+    return float(np.abs(TRUE).argmax()) * STEP
+
+
 def columns(values: np.ndarray, per_line: int, form: str) -> str:
     rows = (
         "".join(format(v, form) for v in values[i : i + per_line]) for i in range(0, values.size, per_line)
@@ -62,7 +67,7 @@ def csmip(stated: float = 1.0) -> str:
         "Corrected accelerogram   1-2-3       Chan  1: 45 Deg     from\n"
         "Uncorrected Accelerogram Data   Processed: 1/1/12\nStation No. 89146   40.9N, 123.6W\nChan  1: 45 Deg\n"
         "Accelerogram bandpass filtered with 3 dB pts at   .30 and 40.00\n"
-        f"Peak acceleration = {peak:9.3f}    cm/sec/sec  at  1.0 sec.\n"
+        f"Peak acceleration = {peak:9.3f}    cm/sec/sec  at  {peak_time():.3f} sec.\n"
         f" {N} points of accel data equally spaced at  .010 sec, in cm/sec2. (8f10.6)\n"
         + columns(100 * TRUE, 8, "10.5f")
         + "/&  ----------  End of data for channel  1  ----------\n"
@@ -179,7 +184,8 @@ def geonet(stated: float = 1.0) -> str:
         "Uncorrected accelerogram 1 GNS Science\nSite WTMC      42 37 10S\n"
         + "x\n" * 7 + f"Number of points  {N}    Duration\n"
         f"Raw readings in units of 1.00 mm/s/s  at intervals of {STEP:.3f} s\nData is unfiltered\nComponent N45E\n"
-        f"Acceleration:  Peak {stated * np.abs(TRUE).max() * 1000:.1f} mm/s/s at 1 s\nVelocity\nDisplacement\n"
+        f"Acceleration:  Peak {stated * np.abs(TRUE).max() * 1000:.1f} mm/s/s at {peak_time():.2f} s\n"
+        "Velocity\nDisplacement\n"
         + columns(np.zeros(40, int), 10, "8d") + columns(np.zeros(60), 10, "8.3f") + columns(1000 * TRUE, 10, "8.1f")
     )  # fmt: skip
 
@@ -215,7 +221,8 @@ def csmnc(stated: float = 1.0) -> str:
     head = ["065JZC", "01", "QUAKE", "EPICENTER", "MAGNITUDE", "STATION: 65JZC", "SITE", "INSTRUMENT",
             "OBSERVING POINT: GROUND", "COMP. EW", "UNCORRECTED ACCELERATION          UNIT: CM/SEC/SEC",
             f"NO. OF POINTS:  {N}  EQUALLY SPACED INTERVALS OF:  {STEP}  SEC",
-            f"PEAK VALUE: {stated * 100 * np.abs(TRUE).max():.3f}   AT 1 SEC", "PRE-EVENT", "CSMNC", ""]  # fmt: skip
+            f"PEAK VALUE: {stated * 100 * np.abs(TRUE).max():.3f}   AT {peak_time():.2f} SEC",
+            "PRE-EVENT", "CSMNC", ""]  # fmt: skip
     return "\n".join(head) + "\n" + columns(100 * TRUE, 8, "14.6E")
 
 
