@@ -1,4 +1,4 @@
-"""The yardstick of the trade between error and time: scipy's own integrators on I, J, G and B themselves.
+"""The reference solution: scipy's own integrators on I, J, G and B themselves, against which error is measured.
 
 Written from the equation of motion (theory: section 1, "One standard form"); it shares nothing with rocking.motion.
 """
