@@ -30,3 +30,11 @@ include: "workflow/rules/trade.smk"
 include: "workflow/rules/validate.smk"
 include: "workflow/rules/paper.smk"
 include: "workflow/rules/documentation.smk"
+
+
+PLAN.hashes.save()
+
+
+# The tables stand all the same, and say why; but a study of which nothing could be read has not succeeded.
+onsuccess:
+    check_any_read(SUMMARY, PLAN.records)

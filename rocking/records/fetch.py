@@ -3,6 +3,7 @@
 import hashlib
 import time
 import urllib.request
+from contextlib import suppress
 from pathlib import Path
 from urllib.parse import quote
 
@@ -54,6 +55,34 @@ def inventory_of(record: CatalogueRecord, mirror: str | Path | None = None) -> P
             f"{record.id}: inventory {record.inventory!r} is not there; mend the catalogue or add the file."
         )
     return path
+
+
+def local_files(
+    record: CatalogueRecord, mirror: str | Path | None = None, vertical: bool = False
+) -> list[Path]:
+    """Return the files on this machine that opening `record` would read; none that leads out of its folder.
+
+    Its own file, that of its vertical component where `vertical`, and the StationXML it names; for a miniSEED file that
+    names none and declares no unit, every XML file beside it, among which the reader looks.
+    """
+    own = [] if record.example_name else [record.file]
+    named = [*own, record.inventory, *([record.vertical_file] if vertical else [])]
+    found = []
+    for file in filter(None, named):
+        with suppress(RecordError):
+            found += [path] if (path := _beside(record, file, mirror)) else []
+    sought = [] if record.inventory or record.unit else [path for path in found if _may_hold_counts(path)]
+    return [*found, *(xml for path in sought for xml in sorted(path.parent.glob("*.xml")))]
+
+
+def _may_hold_counts(path: Path) -> bool:
+    """Whether a file is miniSEED, or packed so that it may be."""
+    from rocking.records.formats.miniseed import MINISEED
+
+    with suppress(OSError), path.open("rb") as stream:
+        head = stream.read(256)
+        return head.startswith(b"\x1f\x8b") or MINISEED.recognise(head)
+    return False
 
 
 def _local(record: CatalogueRecord, mirror: str | Path | None) -> Path | None:

@@ -1,18 +1,21 @@
 """rocking run: snakemake in a process of its own, its log in a file, and on the terminal what one wants to know."""
 
 import contextlib
+import os
 import re
+import signal
 import subprocess
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import yaml
 
-from rocking.errors import ConfigurationError
+from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted
 from rocking.study.config_file import named_files
+from rocking.study.locks import is_locked, is_stale, mark, only_run, unmark
 from rocking.study.outcome import came_of, closing_lines, paths_to_read
 from rocking.study.plan import Plan, make_plan
 from rocking.study.progress import NewLines, Progress, finished_rule, fitting, planned_jobs
@@ -68,9 +71,9 @@ def run(folder: Path, options: Sequence[str]) -> int:
     plan = _planned(folder)
     command = _command(folder, options)
     if _ANSWERS & {option.partition("=")[0] for option in options}:
-        return subprocess.run(command, check=False).returncode
+        return subprocess.run(command, check=False, env=_environment()).returncode
     target = next((option for option in options[:1] if not option.startswith("-")), None)
-    return _watched(folder, plan, command, target)
+    return _alone(folder, plan, command, target)
 
 
 def _planned(folder: Path) -> Plan:
@@ -114,23 +117,43 @@ def _command(folder: Path, options: Sequence[str]) -> list[str]:
     ]
 
 
-def _watched(folder: Path, plan: Plan, command: Sequence[str], target: str | None) -> int:
+def _alone(folder: Path, plan: Plan, command: Sequence[str], target: str | None) -> int:
+    with only_run(folder) as held:
+        if is_locked(folder):
+            if not is_stale(folder):
+                raise RockingError(
+                    f"{folder}: snakemake locked this study, and may still work in it; "
+                    f"if it does not, take the lock away: {_again(folder)} -- --unlock"
+                )
+            print("A run that was killed left its lock, which is taken away.", flush=True)
+            subprocess.run([*command, "--unlock"], check=True, capture_output=True, env=_environment())
+        return _watched(folder, plan, command, target, held)
+
+
+def _watched(folder: Path, plan: Plan, command: Sequence[str], target: str | None, held: int) -> int:
     results = folder / plan.settings.results
     log = results / "summary" / "logs" / "run.log"
     log.parent.mkdir(parents=True, exist_ok=True)
     print(f"{counted(len(plan.records), 'record')}; log of the scheduler: {log}", flush=True)
     progress = Progress(_records_by_rule(plan), max(map(len, plan.records)))
     jobs = NewLines(log.parent, "[!r]*.log", "r[!u]*.log")
-    with log.open("w", encoding="utf-8") as stream:
-        process = subprocess.Popen(command, stdout=stream, stderr=subprocess.STDOUT)
-    try:
-        _follow(process, log, jobs, progress)
-    except KeyboardInterrupt:
-        process.wait()
-        progress.close()
-        print("Stopped; what was finished stays. To go on: " + _again(folder))
-        return 130
+    stopped = _Stop()
+    with log.open("w", encoding="utf-8") as stream, stopped.listening():
+        process = subprocess.Popen(
+            command,
+            stdout=stream,
+            stderr=subprocess.STDOUT,
+            env=_environment(),
+            pass_fds=[held],
+            start_new_session=True,
+        )
+        mark(folder, process.pid)
+        _follow(process, log, jobs, progress, stopped)
     progress.close()
+    unmark(folder)
+    if stopped.by:
+        print(f"Stopped; what was finished stays. To go on: {_again(folder)}")
+        return 128 + stopped.by
     if process.returncode:
         print(f"Not finished: {_reason(log)}\nMend that, then go on: {_again(folder)}")
         return 1
@@ -142,6 +165,43 @@ def _watched(folder: Path, plan: Plan, command: Sequence[str], target: str | Non
     return int(bool(failures))
 
 
+class _Stop:
+    """A request of the user or the system to stop, which the scheduler and its jobs are told of once."""
+
+    def __init__(self) -> None:
+        self.by = 0
+        """Number of the signal, 0 for none."""
+        self._told = False
+
+    @contextlib.contextmanager
+    def listening(self) -> Iterator[None]:
+        """Note signals instead of dying of them: the scheduler has to end in order first."""
+        known = {number: signal.signal(number, self._note) for number in _STOPPING}
+        try:
+            yield
+        finally:
+            for number, handler in known.items():
+                signal.signal(number, handler)
+
+    def pass_on(self, process: subprocess.Popen[bytes]) -> None:
+        """Tell the scheduler and its jobs, which stand in a process group of their own, once."""
+        if self.by and not self._told:
+            self._told = True
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGINT)
+
+    def _note(self, number: int, _: object) -> None:
+        self.by = self.by or number
+
+
+_STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+def _environment() -> dict[str, str]:
+    """That of the scheduler and its jobs: Python imports nothing from the folder it happens to stand in."""
+    return os.environ | {"PYTHONSAFEPATH": "1"}
+
+
 def _again(folder: Path) -> str:
     return f"rocking run {folder}"
 
@@ -150,11 +210,14 @@ def _records_by_rule(plan: Plan) -> dict[str, int]:
     return {f"{kind}_{job}": len(plan.jobs[job]) for job in plan.jobs for kind in ("assess", "report")}
 
 
-def _follow(process: subprocess.Popen[bytes], log: Path, jobs: NewLines, progress: Progress) -> None:
+def _follow(
+    process: subprocess.Popen[bytes], log: Path, jobs: NewLines, progress: Progress, stopped: _Stop
+) -> None:
     scheduler, known = NewLines(log.parent, log.name), False
     ended = False
     while not ended:
         ended = process.poll() is not None  # before the logs are read, so that their last lines are
+        stopped.pass_on(process)
         for job, line in jobs:
             progress.told(job, line)
         for _, line in scheduler:
@@ -169,8 +232,11 @@ def _follow(process: subprocess.Popen[bytes], log: Path, jobs: NewLines, progres
 
 def _reason(log: Path) -> str:
     """The sentences of this package, else the last line, in the log of a run that broke off."""
-    lines = [line.strip() for line in log.read_text(encoding="utf-8", errors="replace").splitlines()]
-    said = [line.partition(": ")[2] for line in lines if re.match(r"(rocking\.errors\.)?\w+Error: ", line)]
-    return "; ".join(dict.fromkeys(said)) or next(
-        (line for line in reversed(lines) if line), "no reason given"
-    )
+    text = log.read_text(encoding="utf-8", errors="replace")
+    said = [" ".join(match[1].split()) for match in _SAID.finditer(text)]
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    return "; ".join(dict.fromkeys(said)) or (lines[-1] if lines else "snakemake gave no reason")
+
+
+_SAID = re.compile(r"^[ \w.]*Error(?:: | in file .*\n)(.+)", re.MULTILINE)
+"""In a traceback, and as snakemake tells what a Snakefile raised."""

@@ -1,10 +1,11 @@
 """What came of records, in a few lines: which structures overturn, what failed, and where to read on."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
 
 from rocking.assessment.rows import ComparisonRow, FailureRow
 from rocking.assessment.verdict import rests, rocks
+from rocking.errors import RecordError
 from rocking.quantities import counted
 from rocking.tables import read_rows
 
@@ -52,6 +53,24 @@ def closing_lines(cases: Iterable[ComparisonRow], failures: Iterable[FailureRow]
     return [*_overturned(under, len(read)), *([told] if failed else [])]
 
 
+def check_any_read(summary: str | Path, records: Collection[str]) -> None:
+    """Raise RecordError when the summary in a folder says of each of `records` that it could not be read.
+
+    Without a summary, as where another target was asked for, nothing is said.
+    """
+    table = Path(summary) / FailureRow.table.file_name
+    unread = (
+        {row.record: row for row in read_rows(FailureRow, table) if row.stage == "read"}
+        if table.is_file()
+        else {}
+    )
+    if set(unread) >= set(records):
+        first = next(iter(unread.values()))
+        raise RecordError(
+            f"none of {counted(len(records), 'record')} could be read; the first: {first.message}"
+        )
+
+
 def paths_to_read(results: Path) -> Iterator[str]:
     """Yield a line for each of the files that come next for a reader."""
     summary = results / "summary"
@@ -60,6 +79,8 @@ def paths_to_read(results: Path) -> Iterator[str]:
 
 
 def _overturned(under: dict[str, dict[str, bool]], read: int) -> Iterator[str]:
+    if not read:
+        return
     if not under:
         yield f"Nothing overturns under {counted(read, 'record')}."
         return

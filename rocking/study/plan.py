@@ -15,6 +15,7 @@ from rocking.records.catalogue import CatalogueRecord, load_catalogue
 from rocking.records.hashes import fill_hashes
 from rocking.structures import load_structures
 from rocking.study.config_file import named_files, read_settings
+from rocking.study.inputs import ContentHashes, files_sha256, structures_sha256
 from rocking.study.settings import Settings
 
 Found = TypeVar("Found")
@@ -29,7 +30,9 @@ class Plan:
     jobs: Mapping[str, tuple[str, ...]]
     settings_sha256: str
     """Names the settings that change a number, the structure list and the package, in every row."""
+    structures_sha256: str
     package_sha256: str
+    hashes: ContentHashes
 
     def job(self, name: str) -> tuple[CatalogueRecord, ...]:
         """The records of one job."""
@@ -39,15 +42,21 @@ class Plan:
         """Return one hash for the catalogue rows of one job."""
         return records_sha256(self.job(name))
 
-    def local_files(self, name: str) -> list[str]:
-        """The files of one job that lie beside the catalogue, so that an edit of one is noticed."""
-        local = (r.folder / r.file for r in self.job(name) if not r.is_remote and r.example_name is None)
-        return sorted({str(path) for path in local if path.is_file()})
+    def files_sha256(self, *names: str) -> str:
+        """Return one hash for their contents."""
+        records = (record for name in names for record in self.job(name))
+        return files_sha256(records, self.settings, self.hashes)
 
+
+_HASHES = Path(".snakemake") / "rocking_hashes.json"
+"""Beside what snakemake remembers of a study; it may be removed at any time."""
 
 _CHANGE_NO_NUMBER = (
     "reports/",
-    *(f"study/{name}.py" for name in ("cli", "config_file", "launch", "outcome", "progress")),
+    *(
+        f"study/{name}.py"
+        for name in ("cli", "config_file", "inputs", "launch", "locks", "outcome", "progress")
+    ),
     *(f"study/{name}.py" for name in ("record_reports", "single_record", "summary_report", "workspace")),
 )
 """Source whose edit leaves every number of a table as it is."""
@@ -68,13 +77,15 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     _collect(defects, lambda: check_writable(Path(settings.results)))
     if defects:
         raise ConfigurationError("\n".join(defects))
-    package = package_sha256(leave_out=_CHANGE_NO_NUMBER)
+    package, listed = package_sha256(leave_out=_CHANGE_NO_NUMBER), structures_sha256(structures)
     return Plan(
         settings=settings,
         records={record.id: record for record in records},
         jobs=share_out((record.id for record in records), settings.records_per_job),
-        settings_sha256=settings_sha256(settings, structures.read_bytes(), package),
+        settings_sha256=settings_sha256(settings, listed, package),
+        structures_sha256=listed,
         package_sha256=package,
+        hashes=ContentHashes(_HASHES),
     )
 
 
@@ -89,10 +100,10 @@ def check_writable(results: Path) -> None:
         )
 
 
-def settings_sha256(settings: Settings, structures: bytes, package: str) -> str:
-    """Return one hash for the settings that change a number, the structure list and the package."""
-    text = json.dumps(settings.numbers(), sort_keys=True)
-    return hashlib.sha256(b"\0".join((text.encode(), structures, package.encode()))).hexdigest()
+def settings_sha256(settings: Settings, structures: str, package: str) -> str:
+    """Return one hash for the settings that change a number, and those of the structure list and the package."""
+    text = "\0".join((json.dumps(settings.numbers(), sort_keys=True), structures, package))
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def package_sha256(leave_out: Sequence[str] = ()) -> str:

@@ -105,9 +105,7 @@ class Settings:
     structures: str = _own("structures.yaml", "which structures, SI units and degrees", numbers=False)
     results: str = _own("results", "folder of the results", numbers=False)
     calibration_catalogue: str = _own(
-        "records/near_fault.csv",
-        "real records for the targets calibrate and calibrate_fidelity",
-        numbers=False,
+        "records/near_fault.csv", "real near-fault records, for the target paper", numbers=False
     )
     mirror: str | None = _own(None, "folder that already holds the files of remote records", numbers=False)
     processing: ProcessingSettings = _section(ProcessingSettings, "Processing, told in every report")

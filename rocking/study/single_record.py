@@ -23,6 +23,7 @@ from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.read import read
 from rocking.structures import load_structures
+from rocking.study.inputs import structures_sha256
 from rocking.study.plan import package_sha256, settings_sha256
 from rocking.study.run import Opened, Study, write_tables
 from rocking.study.settings import Settings
@@ -79,8 +80,9 @@ def assess_file(
     Raises RecordError or ConfigurationError, before anything is written, when the list cannot be read or the
     record does not hold what is asked of it.
     """
-    sha256 = settings_sha256(settings, structures.read_bytes(), package_sha256())
-    study = _narrowed(Study(load_structures(structures), settings, sha256), name, structures)
+    listed = load_structures(structures)
+    sha256 = settings_sha256(settings, structures_sha256(structures), package_sha256())
+    study = _narrowed(Study(listed, settings, sha256), name, structures)
     opened = study.opened(own.channels, own.record)
     with TemporaryDirectory() as temporary:
         folder = (output or Path(temporary)) / own.record.id

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import math
+import os
 import subprocess
 import sys
 import weakref
@@ -29,6 +30,7 @@ from rocking.tables import (
     rows_of,
     write_rows,
     write_whole,
+    written_together,
 )
 
 
@@ -214,6 +216,54 @@ def test_what_a_killed_writer_left_is_removed_by_the_next(tmp_path: Path) -> Non
     (tmp_path / ".other.csv.abc123.part").write_text("somebody else's")
     write_rows(MadeRow, [], tmp_path / "made.csv")
     assert sorted(entry.name for entry in tmp_path.iterdir()) == [".other.csv.abc123.part", "made.csv"]
+
+
+def _steps(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str]]:
+    """What the system is asked for, in its order: ("sync" or "name", file or folder)."""
+    steps: list[tuple[str, str]] = []
+    sync, replace = os.fsync, os.replace
+
+    def syncing(handle: int) -> None:
+        steps.append(("sync", Path(os.readlink(f"/proc/self/fd/{handle}")).name))
+        sync(handle)
+
+    def naming(temporary: Path, path: Path) -> None:
+        steps.append(("name", Path(path).name))
+        replace(temporary, path)
+
+    monkeypatch.setattr(os, "fsync", syncing)
+    monkeypatch.setattr(os, "replace", naming)
+    return steps
+
+
+@pytest.mark.skipif(not Path("/proc/self/fd").exists(), reason="asks Linux which file a number stands for")
+def test_a_name_is_given_after_the_disk_has_the_content_and_then_kept(tmp_path: Path, monkeypatch) -> None:
+    steps = _steps(monkeypatch)
+    write_whole(tmp_path / "a.csv", b"content")
+    (first, file), *rest = steps
+    assert first == "sync" and file.startswith(".a.csv.")
+    assert rest == [("name", "a.csv"), ("sync", tmp_path.name)]
+
+
+@pytest.mark.skipif(not Path("/proc/self/fd").exists(), reason="asks Linux which file a number stands for")
+def test_files_written_together_appear_when_the_disk_has_them_all(tmp_path: Path, monkeypatch) -> None:
+    steps = _steps(monkeypatch)
+    with written_together():
+        for name in ("a.csv", "b.csv"):
+            write_whole(tmp_path / name, name.encode())
+        assert not list(tmp_path.glob("*.csv")) and not steps
+    assert [what for what, _ in steps] == ["sync", "sync", "name", "name", "sync"]
+    assert steps[-1] == ("sync", tmp_path.name)
+    assert [(tmp_path / name).read_bytes() for name in ("a.csv", "b.csv")] == [b"a.csv", b"b.csv"]
+
+
+def test_of_files_written_together_none_appears_after_an_error(tmp_path: Path) -> None:
+    with pytest.raises(KeyboardInterrupt), written_together():
+        write_whole(tmp_path / "a.csv", b"content")
+        raise KeyboardInterrupt
+    assert not list(tmp_path.iterdir())
+    write_whole(tmp_path / "b.csv", b"alone again")
+    assert (tmp_path / "b.csv").exists()
 
 
 def test_a_disk_that_takes_no_more_is_said_in_a_sentence(tmp_path: Path) -> None:

@@ -66,7 +66,7 @@ class SmallStudy:
             return list(csv.DictReader(stream))
 
     def write_catalogue(self, rows: Sequence[dict[str, str]]) -> None:
-        names = ["id", "file", "sha256", "unit", "component", "time_step_s"]
+        names = ["id", "file", "sha256", "unit", "component", "time_step_s", "inventory"]
         with (self.folder / "records" / "catalogue.csv").open("w", encoding="utf-8", newline="") as stream:
             writer = csv.DictWriter(stream, names, restval="")
             writer.writeheader()

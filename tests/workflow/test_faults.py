@@ -1,17 +1,9 @@
-"""What goes wrong: broken records, bad input, a folder that cannot be written, kills, and two runs at once."""
+"""What goes wrong: broken records, bad input, and a folder that cannot be written."""
 
 import csv
-import os
-import random
-import signal
-import subprocess
-import time
 from pathlib import Path
 
 import pytest
-
-KILLS = int(os.environ.get("ROCKING_KILLS", "2"))
-"""How many runs are killed; ROCKING_KILLS=20 takes some minutes."""
 
 HEAD = "MADE FOR A TEST\nNowhere, 1/1/2000, A, H1\nACCELERATION TIME SERIES IN UNITS OF G\n"
 
@@ -105,59 +97,3 @@ def test_a_full_disk_is_said_and_leaves_nothing_half_written(
         done = study.run()
         assert done.returncode == 0, done.stdout
         assert study.tables() == expected
-
-
-def test_of_two_runs_at_once_one_works_and_the_other_says_why_not(finished, start, tmp_path: Path) -> None:
-    study = start.copy_to(tmp_path / "study")
-    first = _started(study)
-    try:
-        _wait(lambda: any((study.folder / ".snakemake" / "locks").glob("*")), first)
-        second = study.run()
-        assert second.returncode != 0
-        assert "--unlock" in second.stdout
-        assert first.wait(timeout=200) == 0
-    finally:
-        _kill(first)
-    assert study.tables() == finished.tables()
-
-
-def test_killed_runs_are_resumed_to_the_same_bytes(finished, start, tmp_path: Path) -> None:
-    """Each run is killed with all its children at a random moment of its jobs, and resumed as the profile says."""
-    moment = random.Random(8)
-    for number in range(KILLS):
-        study = start.copy_to(tmp_path / f"study_{number}")
-        process = _started(study)
-        try:
-            _wait(lambda study=study: any((study.folder / ".snakemake" / "incomplete").glob("*")), process)
-            time.sleep(moment.uniform(0, 5))
-        finally:
-            _kill(process)
-        expected = finished.tables()
-        assert {path: expected[path] for path in study.tables()} == study.tables(), "half-written"
-        resumed = study.run()
-        if resumed.returncode != 0:
-            assert "--unlock" in resumed.stdout, resumed.stdout
-            assert study.run("--unlock").returncode == 0
-            resumed = study.run()
-        assert resumed.returncode == 0, resumed.stdout
-        assert study.tables() == expected
-        assert not study.unfinished()
-
-
-def _started(study) -> subprocess.Popen[bytes]:
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    return subprocess.Popen(study.command(), start_new_session=True, **quiet, **study.surroundings)
-
-
-def _wait(condition, process: subprocess.Popen[bytes]) -> None:
-    deadline = time.monotonic() + 100
-    while not condition():
-        assert process.poll() is None, "the run ended before it could be disturbed"
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
-
-
-def _kill(process: subprocess.Popen[bytes]) -> None:
-    if process.poll() is None:
-        os.killpg(process.pid, signal.SIGKILL)
-    process.wait(timeout=20)

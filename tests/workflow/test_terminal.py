@@ -44,17 +44,6 @@ def test_the_log_of_the_scheduler_is_named_and_holds_what_is_not_shown(after_a_r
     assert "Finished jobid" in log.read_text()
 
 
-def test_a_study_without_a_failure_ends_in_status_0_and_says_each_verdict(start, tmp_path: Path) -> None:
-    study = start.copy_to(tmp_path / "study")
-    done = study.rocking("run", str(study.folder))
-    assert done.returncode == 0, done.stdout + done.stderr
-    records = [line for line in done.stdout.splitlines() if line.startswith("good_")]
-    assert len(records) == 3
-    for line in records:
-        assert "block" in line and "wall" in line
-        assert any(word in line for word in ("overturns: ", "rocks: ", "rests: "))
-
-
 def test_a_wrong_setting_ends_in_status_2_before_anything_runs(start, tmp_path: Path) -> None:
     study = start.copy_to(tmp_path / "study")
     with (study.folder / "config.yaml").open("a") as stream:

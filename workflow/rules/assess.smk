@@ -7,9 +7,7 @@ for JOB, RECORDS in PLAN.jobs.items():
         name:
             f"assess_{JOB}"
         input:
-            structures=SETTINGS.structures,
             compiled=COMPILED,
-            files=PLAN.local_files(JOB),
         output:
             record_files(RECORDS, *CSV),
         log:
@@ -19,6 +17,8 @@ for JOB, RECORDS in PLAN.jobs.items():
         params:
             records=RECORDS,
             records_sha256=PLAN.records_sha256(JOB),
+            files_sha256=PLAN.files_sha256(JOB),
+            structures_sha256=PLAN.structures_sha256,
             settings_sha256=PLAN.settings_sha256,
         message:
             f"Assess {len(RECORDS)} records (job {JOB})"

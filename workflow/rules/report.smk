@@ -8,7 +8,6 @@ for JOB, RECORDS in PLAN.jobs.items():
             f"report_{JOB}"
         input:
             tables=record_files(RECORDS, *CSV),
-            structures=SETTINGS.structures,
         output:
             [
                 report(
@@ -26,6 +25,8 @@ for JOB, RECORDS in PLAN.jobs.items():
         params:
             records=RECORDS,
             records_sha256=PLAN.records_sha256(JOB),
+            files_sha256=PLAN.files_sha256(JOB),
+            structures_sha256=PLAN.structures_sha256,
             settings_sha256=PLAN.settings_sha256,
             package_sha256=PACKAGE,
         message:

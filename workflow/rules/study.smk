@@ -3,8 +3,11 @@
 from pathlib import Path  # for the rules
 
 from rocking.assessment.rows import PER_RECORD, SUMMARY_TABLES
+from rocking.study.outcome import check_any_read
 from rocking.study.plan import make_plan, package_sha256
 
+# What the user writes (catalogue, records, StationXML, structures) is watched by its content, in params, not as input:
+# snakemake goes by dates, and behind a file that is dated in the future it removes what a job wrote.
 PLAN = make_plan(config)
 SETTINGS = PLAN.settings
 PACKAGE = package_sha256()

@@ -4,7 +4,6 @@
 rule summarise:
     input:
         tables=record_files(PLAN.records, *CSV),
-        structures=SETTINGS.structures,
     output:
         [
             report(
@@ -26,6 +25,7 @@ rule summarise:
         records={record.id: record.sha256 for record in PLAN.records.values()},
         settings=SETTINGS.mapping(),
         settings_sha256=PLAN.settings_sha256,
+        structures_sha256=PLAN.structures_sha256,
         package_sha256=PLAN.package_sha256,
     message:
         "Summarise all records"

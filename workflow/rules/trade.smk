@@ -2,10 +2,6 @@
 
 
 rule trade:
-    input:
-        catalogue=SETTINGS.catalogue,
-        structures=SETTINGS.structures,
-        files=[file for job in PLAN.jobs for file in PLAN.local_files(job)],
     output:
         table=f"{SUMMARY}/trade.csv",
         description=f"{SUMMARY}/trade.json",
@@ -17,6 +13,9 @@ rule trade:
         f"{SUMMARY}/benchmarks/trade.tsv"
     params:
         settings=SETTINGS.mapping()["trade"],
+        records_sha256=[PLAN.records_sha256(job) for job in PLAN.jobs],
+        files_sha256=PLAN.files_sha256(*PLAN.jobs),
+        structures_sha256=PLAN.structures_sha256,
         package_sha256=PACKAGE,
     message:
         "Measure the error and the time of every method"

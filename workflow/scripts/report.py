@@ -2,14 +2,16 @@
 
 from pathlib import Path
 
-from rocking.structures import load_structures
 from rocking.study.config_file import read_settings
+from rocking.study.inputs import check_files, planned_structures
 from rocking.study.plan import planned_records
 from rocking.study.record_reports import report_records
 from rocking.study.run import Study
 
 if __name__ == "__main__":
     settings, params = read_settings(snakemake.config), snakemake.params
-    study = Study(load_structures(snakemake.input.structures), settings, params.settings_sha256)
+    structures = planned_structures(Path(settings.structures), params.structures_sha256)
     records = planned_records(Path(settings.catalogue), params.records, params.records_sha256)
+    check_files(records, settings, params.files_sha256)
+    study = Study(structures, settings, params.settings_sha256)
     report_records(records, study, Path(settings.results), Path(snakemake.log[0]))

@@ -2,14 +2,15 @@
 
 from pathlib import Path
 
-from rocking.structures import load_structures
+from rocking.study.inputs import planned_structures
 from rocking.study.summary import write_description, write_provenance, write_summary
 
 if __name__ == "__main__":
     params = snakemake.params
     results = Path(params.settings["results"])
     folders = [results / record for record in params.records]
-    write_summary(folders, load_structures(Path(snakemake.input.structures)), results / "summary")
+    structures = planned_structures(Path(params.settings["structures"]), params.structures_sha256)
+    write_summary(folders, structures, results / "summary")
     write_description(folders, results / "summary")
     hashes = {"settings": params.settings_sha256, "package": params.package_sha256}
     write_provenance(params.settings, params.records, hashes, results / "summary")

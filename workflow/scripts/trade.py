@@ -5,17 +5,17 @@ from pathlib import Path
 from rocking.calibration.accuracy import write_trade
 from rocking.records import load_catalogue
 from rocking.reports.summary.trade_figures import write_trade_figure
-from rocking.structures import load_structures
 from rocking.study.config_file import read_settings
+from rocking.study.inputs import planned_structures
 from rocking.study.run import Study
 
 if __name__ == "__main__":
-    files, output = snakemake.input, snakemake.output
+    params, output = snakemake.params, snakemake.output
     settings = read_settings(snakemake.config)
-    study = Study(load_structures(files.structures), settings)
+    study = Study(planned_structures(Path(settings.structures), params.structures_sha256), settings)
     records = {
         record.id: lambda record=record: study.open(record)[0]
-        for record in load_catalogue(Path(files.catalogue))
+        for record in load_catalogue(Path(settings.catalogue))
     }
     write_trade(
         records, study.structures, settings.error_against_time, Path(output.table), Path(snakemake.log[0])

@@ -28,7 +28,7 @@ from rocking.assessment.rows.of_record import (
 from rocking.assessment.rows.shared import Identity
 from rocking.assessment.settings import AssessmentSettings
 from rocking.records import Accelerogram
-from rocking.tables import Row, read_rows, write_rows
+from rocking.tables import Row, read_rows, write_rows, written_together
 
 RECORD_TABLES: tuple[type[Row], ...] = (
     RecordRow,
@@ -68,8 +68,9 @@ class RecordTables:
 
     def write(self, folder: Path) -> None:
         """Write every table into `folder`."""
-        for each in PER_RECORD:
-            write_rows(each, getattr(self, each.table.name), folder / each.table.file_name)
+        with written_together():
+            for each in PER_RECORD:
+                write_rows(each, getattr(self, each.table.name), folder / each.table.file_name)
 
     def of_component(self, component: str) -> "RecordTables":
         """Return the rows of one component, without the timings."""

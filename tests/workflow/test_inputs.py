@@ -1,0 +1,79 @@
+"""What is read is told by its content: every edit is seen, and nothing else computes anything again."""
+
+import hashlib
+import os
+import re
+import time
+from pathlib import Path
+
+from rocking.records.synthetic import SyntheticRecord, at2_text
+
+OTHER = at2_text(SyntheticRecord("other", 9, 4.0, 0.7, 1.0, 1.0, 6.0, 0.01)).encode()
+LONG_AGO, IN_TEN_YEARS = 1e9, time.time() + 3e8
+
+
+def _planned(study) -> list[str]:
+    done = study.run("--dry-run")
+    assert done.returncode == 0, done.stdout
+    table = done.stdout.partition("Job stats:")[2].partition("\ntotal ")[0]
+    return sorted(re.findall(r"(?m)^(assess|summarise|report)(?:_\w+)? +\d+ *$", table))
+
+
+def test_a_record_that_changed_is_seen_whatever_its_date_and_costs_no_table(finished, tmp_path: Path) -> None:
+    study = finished.copy_to(tmp_path / "study")
+    file, rows = study.folder / "records" / "good_1.txt", study.rows()
+    file.write_bytes(OTHER)
+    os.utime(file, (LONG_AGO, LONG_AGO))
+    assert _planned(study) == ["assess", "summarise"]
+    os.utime(file, (IN_TEN_YEARS, IN_TEN_YEARS))
+    rows[0]["sha256"] = hashlib.sha256(OTHER).hexdigest()
+    study.write_catalogue(rows)
+    done = study.run()
+    assert done.returncode == 0, done.stdout
+    before, after = finished.tables(), study.tables()
+    assert before["good_1/record.csv"] != after["good_1/record.csv"]
+    assert before["good_2/record.csv"] == after["good_2/record.csv"]
+    assert _planned(study) == [], "the second run has nothing to do, in ten years as now"
+
+
+def test_a_date_or_a_comment_computes_nothing_and_a_number_everything(finished, tmp_path: Path) -> None:
+    study = finished.copy_to(tmp_path / "study")
+    structures = study.folder / "structures.yaml"
+    structures.write_text("# the old pier\n" + structures.read_text())
+    os.utime(structures, (IN_TEN_YEARS, IN_TEN_YEARS))
+    for name in ("good_1.txt", "catalogue.csv"):
+        os.utime(study.folder / "records" / name, (LONG_AGO, LONG_AGO))
+    assert _planned(study) == []
+    structures.write_text(structures.read_text().replace("3.2", "3.3"))
+    assert _planned(study) == ["assess"] * 2 + ["summarise"]
+
+
+def test_a_list_of_structures_edited_while_a_study_runs_stops_it(finished, tmp_path: Path) -> None:
+    """The job looks again, so that no two lists mix under one hash."""
+    study = finished.copy_to(tmp_path / "study")
+    study.add_synthetic("good_4", 4)
+    structures = study.folder / "structures.yaml"
+    script = study.tree / "workflow" / "scripts" / "assess.py"
+    source, status = script.read_text(), script.stat()
+    edit = "from pathlib import Path\np = Path('structures.yaml')\np.write_text(p.read_text().replace('3.2', '3.3'))\n"
+    try:
+        script.write_text(edit + source)
+        done = study.run("--rerun-triggers", "params")
+    finally:
+        script.write_text(source)
+        os.utime(script, ns=(status.st_atime_ns, status.st_mtime_ns))
+    assert done.returncode != 0
+    assert "structures.yaml: the structures changed while the study ran" in done.stdout
+    assert "3.3" in structures.read_text()
+    assert study.tables() == finished.tables()
+
+
+def test_a_study_of_broken_records_only_has_failed(start, tmp_path: Path) -> None:
+    study = start.copy_to(tmp_path / "study")
+    study.write_catalogue([])
+    for name in ("one", "two"):
+        study.add(name, name.encode())
+    done = study.run()
+    assert done.returncode == 1
+    assert "none of 2 records could be read" in done.stdout
+    assert (study.results / "summary" / "failures.csv").read_text().count("\n") == 3, "the tables say why"
