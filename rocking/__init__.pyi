@@ -1,3 +1,5 @@
+from .assessment.fragility import Fragility as Fragility
+from .assessment.fragility import fragility as fragility
 from .assessment.single import StructureAssessment as StructureAssessment
 from .assessment.single import assess as assess
 from .assessment.verdict import Verdict as Verdict

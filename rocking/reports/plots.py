@@ -21,6 +21,7 @@ from rocking.structures.outcome import Outcome
 from rocking.structures.structure import Structure
 
 if TYPE_CHECKING:
+    from rocking.assessment.fragility import Fragility
     from rocking.assessment.single import StructureAssessment
     from rocking.motion.spectrum import RockingSpectrum
 
@@ -88,6 +89,27 @@ def plot_assessment(assessment: "StructureAssessment", axes: Axes | None = None)
     probability = assessment.overturning_probability
     axes.set_title(f"{assessment.verdict}: overturns in {100 * probability:.0f} % of the members")
     axes.legend(loc="upper right")
+    return axes
+
+
+def plot_fragility(fragility: "Fragility", axes: Axes | None = None) -> Axes:
+    """Draw the empirical curve with its 90 % interval, and the lognormal one."""
+    unit = f"[{fragility.unit or '-'}]"
+    event = (
+        "overturning"
+        if np.isinf(fragility.threshold)
+        else f"a rotation above {fragility.threshold:g} of the critical one"
+    )
+    axes = _ready(axes, f"{fragility.measure} {unit}", f"probability of {event} [-]")
+    low, high = fragility.probability_low, fragility.probability_high
+    label = f"{len(fragility.stations)} records of {fragility.independent} stations, 90 %"
+    axes.fill_between(fragility.levels, low, high, color="C0", alpha=0.25, linewidth=0, label=label)
+    axes.plot(fragility.levels, fragility.probability, ".-", color="C0", linewidth=0.7, label="empirical")
+    law = "lognormal" if fragility.lognormal_holds else "lognormal, which does not hold"
+    axes.plot(fragility.levels, fragility.lognormal, "--", color="black", linewidth=0.9, label=law)
+    axes.set_xscale("log")
+    axes.set_ylim(-0.02, 1.02)
+    axes.legend(loc="upper left")
     return axes
 
 

@@ -1,0 +1,16 @@
+"""Fragility: the probability that a structure overturns, or turns far, at a level of shaking."""
+
+from rocking.assessment.fragility.analysis import fragility
+from rocking.assessment.fragility.curve import Fragility, fragility_of
+from rocking.assessment.fragility.intensity import INTENSITY_MEASURES, IntensityMeasure
+from rocking.assessment.fragility.lognormal import LognormalFits, fit_lognormal
+
+__all__ = [
+    "INTENSITY_MEASURES",
+    "Fragility",
+    "IntensityMeasure",
+    "LognormalFits",
+    "fit_lognormal",
+    "fragility",
+    "fragility_of",
+]

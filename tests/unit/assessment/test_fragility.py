@@ -1,0 +1,154 @@
+"""Fragility: fits against scipy's own maximum, intervals against known truths, curves against responses one by one."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+from scipy.stats import norm
+
+import rocking
+from rocking.assessment.ensemble import EnsembleSettings
+from rocking.assessment.fragility import INTENSITY_MEASURES, fit_lognormal, fragility, fragility_of
+from rocking.errors import ConfigurationError
+from rocking.motion import integrate
+from rocking.records import Accelerogram
+from rocking.structures import Block
+
+STEP, TIMES = 0.01, np.arange(0, 4, 0.01)
+BLOCK = Block(2.0, 0.2, restitution=0.9)
+LEVELS = np.geomspace(0.2, 5.0, 20)
+
+
+def _record(period: float, station: str) -> Accelerogram:
+    wave = np.sin(2 * np.pi * TIMES / period) * np.exp(-((TIMES - 1.5) ** 2))
+    return Accelerogram(wave, STEP, component="made", event="made", station=station)
+
+
+RECORDS = [_record(period, f"{k // 2}") for k, period in enumerate((0.6, 0.7, 0.9, 1.0, 1.3, 1.5))]
+
+
+def test_the_fit_is_the_maximum_that_scipy_finds():
+    rng = np.random.default_rng(3)
+    tried = np.full((4, LEVELS.size), 12.0)
+    overturned = rng.binomial(12, norm.cdf(np.log(LEVELS / 0.9) / 0.45), size=(4, LEVELS.size)).astype(float)
+    found = fit_lognormal(LEVELS, overturned, tried)
+    for k in range(4):
+
+        def negative(free, k=k):
+            eta = np.log(LEVELS / math.exp(free[0])) / math.exp(free[1])
+            return -(overturned[k] * norm.logcdf(eta) + (12 - overturned[k]) * norm.logsf(eta)).sum()
+
+        best = minimize(negative, (0.0, -1.0), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-12})
+        # The likelihood is flat to its rounding within the root of the machine precision of the best.
+        assert found.median[k] == pytest.approx(math.exp(best.x[0]), rel=1e-6)
+        assert found.dispersion[k] == pytest.approx(math.exp(best.x[1]), rel=1e-6)
+        assert found.log_likelihood[k] == pytest.approx(-best.fun, rel=1e-9)
+
+
+def _made(rng: np.random.Generator, stations: int, median: float = 1.0, dispersion: float = 0.5):
+    """Thresholds of two components at each station, half of whose variance they share, as outcomes at LEVELS."""
+    shared, own = rng.standard_normal((stations, 1)), rng.standard_normal((stations, 2))
+    threshold = median * np.exp(dispersion * (shared + own) / 2**0.5)
+    exceedance = (threshold.reshape(-1, 1) < LEVELS).astype(float)
+    return exceedance, [str(k // 2) for k in range(2 * stations)]
+
+
+def test_the_intervals_cover_a_known_curve():
+    rng = np.random.default_rng(5)
+    truth = norm.cdf(np.log(LEVELS) / 0.5)
+    middle = (truth > 0.02) & (truth < 0.98)
+    covered, medians = [], []
+    for _ in range(60):
+        found = fragility_of(LEVELS, *_made(rng, 25))
+        inside = (found.probability_low <= truth) & (truth <= found.probability_high)
+        covered.append(inside[middle].mean())
+        medians.append(found.interval[0] <= 1.0 <= found.interval[1])
+    # 60 trials of a coverage of 0.9 scatter by 0.04; three deviations of a single proportion are 0.12.
+    assert np.mean(covered) == pytest.approx(0.9, abs=0.08) and np.mean(medians) >= 0.78
+
+
+def test_a_curve_that_is_no_lognormal_is_called_so():
+    dips = np.where(LEVELS < 0.5, 0.0, np.where(LEVELS < 1.0, 0.9, np.where(LEVELS < 2.0, 0.3, 1.0)))
+    rng = np.random.default_rng(1)
+    exceedance = (rng.random((120, 1)) < dips).astype(float)
+    found = fragility_of(LEVELS, exceedance, [str(k) for k in range(120)])
+    assert not found.lognormal_holds and "not lognormal" in repr(found)
+    assert found.median == pytest.approx(0.5, rel=0.2), "where the empirical curve first reaches one half"
+    assert found.reversals.sum() > 50
+    assert fragility_of(LEVELS, *_made(rng, 60)).lognormal_holds
+
+
+def test_outcomes_are_those_of_single_responses():
+    found = fragility(RECORDS, BLOCK, intensity_measure="pga", levels=[0.3, 0.6, 1.2])
+    for row, record in zip(found.exceedance, RECORDS, strict=True):
+        for level, exceeds in zip(found.levels, row, strict=True):
+            scaled = record.scaled(level * 9.80665 / record.peak_acceleration)
+            assert exceeds == math.isinf(integrate(BLOCK, scaled).rotation_ratio)
+
+
+def test_levels_of_their_own_reach_from_rest_to_overturning():
+    found = rocking.fragility(RECORDS, BLOCK, intensity_measure="pgv")
+    assert found.levels.size == 40 and np.all(np.diff(found.levels) > 0)
+    assert found.probability[0] == 0 and found.probability[-1] == 1
+    assert found.levels[0] < found.median < found.levels[-1]
+    assert found.interval[0] < found.median < found.interval[1]
+    assert found.independent == 3
+    assert found.plot().get_xlabel() == "pgv [m/s]"
+
+
+def test_a_rotation_is_exceeded_sooner_than_overturning():
+    levels = np.geomspace(0.2, 2, 12)
+    falls = fragility(RECORDS, BLOCK, levels=levels)
+    turns = fragility(RECORDS, BLOCK, levels=levels, threshold=0.2)
+    assert np.all(turns.exceedance >= falls.exceedance) and turns.median < falls.median
+
+
+def test_members_make_shares_of_the_outcomes():
+    levels = np.geomspace(0.2, 2, 12)
+    plain = fragility(RECORDS, BLOCK, levels=levels)
+    fixed = EnsembleSettings(amplitude_range=0.0, restitution_range=0.0)
+    assert np.array_equal(
+        fragility(RECORDS, BLOCK, levels=levels, ensemble=fixed).exceedance, plain.exceedance
+    )
+    spread = fragility(RECORDS, BLOCK, levels=levels, ensemble=EnsembleSettings(amplitude_range=0.3))
+    assert ((spread.exceedance > 0) & (spread.exceedance < 1)).any()
+
+
+@pytest.mark.parametrize("name", INTENSITY_MEASURES)
+def test_a_measure_grows_in_proportion_to_the_motion(name):
+    measure, mechanism = INTENSITY_MEASURES[name], BLOCK.mechanism()
+    once, twice = (measure.of(RECORDS[2].scaled(factor), mechanism) for factor in (1.0, 2.0))
+    assert twice == pytest.approx(2 * once, rel=1e-9)
+
+
+def test_a_cloud_keeps_the_records_as_they_are():
+    records = [record.scaled(factor) for factor, record in zip(np.linspace(2, 12, 6), RECORDS, strict=True)]
+    found = fragility(records, BLOCK, method="cloud")
+    assert sorted(found.levels) == pytest.approx(sorted(r.peak_acceleration / 9.80665 for r in records))
+    falls = {r.peak_acceleration: math.isinf(integrate(BLOCK, r).rotation_ratio) for r in records}
+    assert np.diag(found.exceedance).tolist() == [float(falls[peak]) for peak in sorted(falls)]
+
+
+@pytest.mark.parametrize(
+    ("changed", "sentence"),
+    [
+        ({"levels": [0.5, 0.3]}, "levels hold 0.3 after 0.5, but must ascend"),
+        ({"levels": [0.5, math.nan]}, "levels must be at least two finite numbers"),
+        ({"stations": ["one"] * 6}, "come from 1 station, but a fragility needs at least 2"),
+        ({"stations": ["one", "two"]}, "stations names 2, but must name one for each of 6"),
+        ({"intensity_measure": "mmi"}, "intensity_measure is 'mmi', but must be one of pga, pgv"),
+        ({"method": "cloud", "levels": [0.1, 0.2]}, "a cloud has those of its records"),
+    ],
+)
+def test_bad_input_is_one_sentence(changed, sentence):
+    with pytest.raises(ConfigurationError, match=sentence):
+        fragility(RECORDS, BLOCK, **changed)
+
+
+def test_a_record_without_the_measure_is_named():
+    still = Accelerogram(np.zeros(400), STEP, station="still")
+    with pytest.raises(
+        ConfigurationError, match=r"still has a pga of 0\.0, but must have one greater than 0"
+    ):
+        fragility([*RECORDS, still], BLOCK)
