@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+import warnings
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
@@ -18,7 +19,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     options = _parser().parse_args(arguments)
     try:
-        return options.run(options) or 0
+        with warnings.catch_warnings():
+            warnings.showwarning = _say
+            return options.run(options) or 0
     except RockingError as error:
         print(f"rocking: {error}", file=sys.stderr)
         return 2 if isinstance(error, ConfigurationError | CatalogueError) else 1
@@ -28,6 +31,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         print(f"rocking: {error.filename or 'file'}: {error.strerror or error}.", file=sys.stderr)
         return 1
+
+
+def _say(message: Warning | str, *_: object, **__: object) -> None:
+    """A warning as one line for the reader, without the line of code that it came from."""
+    print(f"rocking: {message}", file=sys.stderr)
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -41,7 +41,7 @@ class StructureRow(Row):
     """One structure of the structure list."""
 
     structure: str = column(STRUCTURE)
-    type: str = column("Type of the structure")
+    type: str = column("Type of the structure, as in the structure list")
     geometry: str = column("Its sizes with units, as they were given")
     frequency_parameter_rad_s: float = column(FREQUENCY_PARAMETER, equation="Eq. 11")
     critical_rotation_rad: float = column("Critical rotation")
@@ -162,7 +162,7 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
         linearised = side.scaled_acceleration("linearised")
         yield StructureRow(
             structure=name,
-            type=type(structure).__name__,
+            type=structure.type_name,
             geometry=structure.description,
             frequency_parameter_rad_s=side.frequency_parameter,
             critical_rotation_rad=side.critical_rotation,
