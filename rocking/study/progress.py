@@ -3,24 +3,23 @@
 import re
 import shutil
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import TypeVar
-
-Item = TypeVar("Item")
 
 _FINISHED = re.compile(r"Finished jobid: \d+ \(Rule: (\w+)\)")
 _PLANNED = re.compile(r"(\w+) +(\d+)")
 _COUNTED = re.compile(r"(\d+) of (\d+): .+")
 
 
-def numbered(items: Sequence[Item], names: Sequence[str], log: Path) -> Iterator[Item]:
-    """Yield `items`, and say in `log` which of how many is under way, for the one who waits."""
+def line_writer(log: Path) -> Callable[[str], None]:
+    """Return what adds a line to `log`, begun anew: "3 of 12: ..." is shown to the one who waits."""
     log.write_text("", encoding="utf-8")
-    for number, (item, name) in enumerate(zip(items, names, strict=True), start=1):
+
+    def add(line: str) -> None:
         with log.open("a", encoding="utf-8") as stream:
-            print(f"{number} of {len(items)}: {name}", file=stream)
-        yield item
+            print(line, file=stream)
+
+    return add
 
 
 class NewLines:

@@ -68,12 +68,21 @@ class Measured:
         return np.array([test.overturned[specimen - 1] for test in self.tests])
 
 
-def measure(campaign: Campaign, prior: BlockPrior, workers: int | None = None) -> Measured:
-    """Follow every candidate through every measured motion, one motion in memory at a time."""
+def measure(
+    campaign: Campaign,
+    prior: BlockPrior,
+    workers: int | None = None,
+    tell: Callable[[str], None] = lambda line: None,
+) -> Measured:
+    """Follow every candidate through every measured motion, one motion in memory at a time.
+
+    tell: is given a line as each test begins.
+    """
     candidates = prior.blocks()
     some = candidates[:CLOSED_FORM_CANDIDATES]
     peaks, verdicts, closed = [], [], []
-    for test in campaign.tests:
+    for number, test in enumerate(campaign.tests, start=1):
+        tell(f"{number} of {len(campaign.tests)}: test {test.number}")
         table_motion = campaign.table_motion(test)
         motion = process(table_motion, TABLE_PROCESSING)
         speed = velocity(process(table_motion, VELOCITY_PROCESSING))

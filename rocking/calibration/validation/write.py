@@ -2,7 +2,7 @@
 
 import itertools
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -41,13 +41,19 @@ TIMED = 40
 """Tests on which the time of a prediction is measured, spread evenly."""
 
 
-def write_validation(catalogue: Path, mirror: Path | None, folder: Path, workers: int | None = None) -> str:
-    """Write every table of the validation and its description into `folder`; return what a log should say.
+def write_validation(
+    catalogue: Path,
+    mirror: Path | None,
+    folder: Path,
+    workers: int | None = None,
+    tell: Callable[[str], None] = lambda line: None,
+) -> None:
+    """Write every table of the validation and its description into `folder`; `tell` is given lines for a log.
 
     catalogue: records/shake_table.csv. mirror: a folder of the campaign, or beside one (`Campaign.open`).
     """
     campaign = Campaign.open(catalogue, mirror)
-    measured = measure(campaign, TABLE_PRIOR, workers)
+    measured = measure(campaign, TABLE_PRIOR, workers, tell)
     rows: dict[type[Row], list[Row]] = {kind: [] for kind in ROW_CLASSES}
     for specimen in range(1, len(SPECIMENS) + 1):
         probability = left_out(measured, specimen)
@@ -66,7 +72,7 @@ def write_validation(catalogue: Path, mirror: Path | None, folder: Path, workers
     resources = {kind.table.name: (kind.table, kind.table.file_name) for kind in ROW_CLASSES}
     write_whole(folder / "datapackage.json", data_package("rocking-validation", resources))
     unlisted = f" {len(campaign.unlisted)} tests are not in the catalogue." if campaign.unlisted else ""
-    return f"{len(campaign.tests)} tests of {campaign.folder}.{unlisted}"
+    tell(f"{len(campaign.tests)} tests of {campaign.folder}.{unlisted}")
 
 
 def prediction_rows(

@@ -287,8 +287,10 @@ def test_the_tables_are_written_whole(made, tmp_path, monkeypatch):
         (made[1] / f"specimen_{k}.obj.gz").write_bytes(gzip.compress(mesh))
     monkeypatch.setattr("rocking.calibration.validation.write.TABLE_PRIOR", replace(TABLE_PRIOR, size=64))
     monkeypatch.setattr(scores, "RESAMPLES", 50)
-    told = write_validation(made[0], made[1], tmp_path, workers=1)
-    assert told.startswith("32 tests")
+    told: list[str] = []
+    write_validation(made[0], made[1], tmp_path, workers=1, tell=told.append)
+    assert told[0].startswith("1 of 32: test ") and told[31].startswith("32 of 32: ")
+    assert told[32].startswith("32 tests")
     package = json.loads((tmp_path / "datapackage.json").read_text())
     assert {each["path"] for each in package["resources"]} == {path.name for path in tmp_path.glob("*.csv")}
     from rocking.assessment.rows.of_validation import PredictionRow, ScoreRow

@@ -3,7 +3,7 @@
 import os
 from pathlib import Path
 
-from rocking.study.progress import NewLines, Progress, finished_rule, numbered, planned_jobs
+from rocking.study.progress import NewLines, Progress, finished_rule, line_writer, planned_jobs
 
 SCHEDULER = """Building DAG of jobs...
 Job stats:
@@ -56,7 +56,11 @@ def test_elsewhere_than_on_a_terminal_there_are_plain_lines(capsys) -> None:
     assert capsys.readouterr().out == "one     rests: pier\ntrade: 1 of 12: one, pier: 14 runs\n"
 
 
-def test_what_is_gone_through_is_numbered_in_the_log_as_it_begins(tmp_path: Path) -> None:
+def test_a_line_stands_in_the_log_when_it_is_written(tmp_path: Path) -> None:
     log = tmp_path / "log"
-    seen = [log.read_text().splitlines()[-1] for _ in numbered("ab", ["first", "second"], log)]
-    assert seen == ["1 of 2: first", "2 of 2: second"]
+    log.write_text("of an older run\n")
+    add = line_writer(log)
+    for said in ("1 of 2: first", "2 of 2: second"):
+        add(said)
+        assert log.read_text().splitlines()[-1] == said
+    assert len(log.read_text().splitlines()) == 2
