@@ -112,7 +112,7 @@ def _listed(
     told = tuple(_channel(channel, to_fill) for channel in channels)
     if reason := _unusable(path, folder, name, channels):
         return ListedFile(file, told, unread=reason)
-    doubts = tuple(dict.fromkeys(s for channel in channels for s in _doubts(channel, name)))
+    doubts = _together([(channel.component, _doubts(channel, name)) for channel in channels])
     row = _row(name, channels, declared, taken) | {"note": _note(channels[0], doubts, to_fill)}
     return ListedFile(file, told, row, doubts, to_fill=to_fill)
 
@@ -197,6 +197,15 @@ def _doubts(record: Accelerogram, file: str) -> tuple[str, ...]:
         name = record.component
         return (*record.warnings, f"The file's name says {said[1]}, but {name} is taken as horizontal.")
     return record.warnings
+
+
+def _together(told: Sequence[tuple[str, tuple[str, ...]]]) -> tuple[str, ...]:
+    """Return each sentence once, behind the components that it is of where it is not of all."""
+    of: dict[str, list[str]] = {}
+    for component, sentences in told:
+        for sentence in sentences:
+            of.setdefault(sentence, []).append(component)
+    return tuple(s if len(names) == len(told) else f"{', '.join(names)}: {s}" for s, names in of.items())
 
 
 def _note(first: Accelerogram, doubts: tuple[str, ...], to_fill: tuple[str, ...]) -> str:

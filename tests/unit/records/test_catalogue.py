@@ -378,6 +378,15 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
     assert listed["bare.txt"].row and listed["bare.txt"].to_fill == ("unit", "time_step_s")
     assert listed["bare.txt"].row["note"] == "columns of numbers. Fill in unit and time_step_s."
     assert "HHN" in listed["loud.csv"].status and "above 3 g" in listed["loud.csv"].status
+    assert not listed["table.csv"].doubts
+    named(
+        folder,
+        "mixed.csv",
+        "time,NS (g),EW (g)\n" + "".join(f"{i / 100},{i % 2},{4 * (i % 2)}\n" for i in range(99)),
+    )
+    (mixed,) = (found for found in list_folder(folder) if found.file == "mixed.csv")
+    assert mixed.status.startswith("EW: The peak acceleration is 4 g, above 3 g")
+    (folder / "mixed.csv").unlink()
     assert "says UP, but a is taken as horizontal" in listed["quake-UP.csv"].status
     assert listed["tale.txt"].status.startswith("not read: tale.txt: no reader recognises")
     text = listing_text(list_folder(folder))
