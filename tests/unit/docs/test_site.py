@@ -81,6 +81,17 @@ def test_the_examples_of_a_page_run(path, tmp_path):
     assert done.returncode == 0, done.stderr
 
 
+def test_the_example_of_the_readme_runs():
+    """Where a reader would run it: at the top of the repository."""
+    (code,) = python_blocks(written(ROOT / "README.md"))
+    environment = os.environ | {"MPLBACKEND": "agg"}
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert "members" in done.stdout
+
+
 @pytest.mark.slow
 def test_the_readme_leads_to_the_report_of_an_own_record(tmp_path):
     """Its commands as they stand, in an empty folder with one accelerogram."""
