@@ -28,6 +28,7 @@ include: "workflow/rules/summarise.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/trade.smk"
 include: "workflow/rules/validate.smk"
+include: "workflow/rules/compare.smk"
 include: "workflow/rules/paper.smk"
 include: "workflow/rules/documentation.smk"
 

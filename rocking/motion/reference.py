@@ -37,6 +37,14 @@ def reference_maximum(mechanism: Mechanism, accelerogram: Accelerogram, budget: 
     return _Run(mechanism, accelerogram, "DOP853", REFERENCE_TOLERANCE, budget, restart=True).maximum()
 
 
+def reference_landings(
+    mechanism: Mechanism, accelerogram: Accelerogram, budget: float = math.inf
+) -> tuple[float, np.ndarray]:
+    """Return what `reference_maximum` returns, and (k, 2) time [s] and speed of arrival [rad/s] of every landing."""
+    run = _Run(mechanism, accelerogram, "DOP853", REFERENCE_TOLERANCE, budget, restart=True)
+    return run.maximum(), np.array(run.landings, dtype=float).reshape(-1, 2)
+
+
 def event_maximum(
     mechanism: Mechanism,
     accelerogram: Accelerogram,
@@ -72,6 +80,7 @@ class _Run:
         if not mechanism.one_sided:
             self.sides[-1] = mechanism.negative or mechanism.positive
         self.peak, self.overturned, self.still_landings = 0.0, False, 0
+        self.landings: list[tuple[float, float]] = []
 
     def maximum(self) -> float:
         """Follow the motion and return its largest rotation ratio."""
@@ -86,6 +95,7 @@ class _Run:
                 if self.overturned:
                     return math.inf
                 if landed:
+                    self.landings.append((now, -state[1]))
                     self.still_landings += until > self.duration
                     if self.still_landings == STILL_LANDINGS:
                         return self.peak

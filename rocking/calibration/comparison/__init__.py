@@ -1,0 +1,1 @@
+"""Comparison: work against precision of this package and of the codes that engineers know."""

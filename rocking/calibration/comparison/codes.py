@@ -1,0 +1,117 @@
+"""The codes: scipy's integrators, RockingBC of OpenSees, LMGC90, and this package, each driven through one case.
+
+OpenSees and LMGC90 keep one model per process and print as they go; each case runs in a process of its own.
+"""
+
+import json
+import math
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from rocking.calibration.comparison.cases import BLOCK_BREADTH, BLOCK_HEIGHT, CodeCase
+from rocking.errors import MotionError
+from rocking.motion.integration import integrate
+from rocking.motion.reference import event_maximum
+from rocking.motion.response import Response
+
+SLOWEST = 1e-3
+"""Speed of arrival, in p φ_cr, of the weakest impact that is counted."""
+TIMEOUT = 300.0
+"""Seconds that a process of another code may take."""
+_DRIVERS = {
+    "LMGC90 (compas_lmgc90), NSCD": "rocking.calibration.comparison.lmgc90",
+    "OpenSees RockingBC": "rocking.calibration.comparison.opensees",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What a code said: φ_max/φ_cr (nan: nothing), half its error bar, processor time [s], and landings (k,) [s]."""
+
+    rotation_ratio: float
+    duration: float
+    error_bar: float = math.nan
+    landings: np.ndarray | None = None
+    reason: str = ""
+
+
+Code = Callable[[CodeCase], Answer]
+
+
+def inner_codes() -> Mapping[str, Code]:
+    """Return this package and scipy, which take every case."""
+    ours = {f"rocking, tolerance {tolerance:.0e}": _ours(tolerance) for tolerance in (1e-3, 1e-6, 1e-9)}
+    return {
+        **ours,
+        "scipy RK45, 1e-6": _scipy("RK45"),
+        "scipy DOP853, 1e-6": _scipy("DOP853"),
+    }
+
+
+def outer_codes() -> Mapping[str, Code]:
+    """Return the other codes, which take the block."""
+    return {name: _outer(module) for name, module in _DRIVERS.items()}
+
+
+def landings_of(response: Response) -> np.ndarray:
+    """Return the times (k,) s of the impacts of a response with history: two lines at rest angle at one instant."""
+    if response.times is None or response.rotation is None:
+        return np.empty(0)
+    same = (np.diff(response.times) == 0) & (response.rotation[:-1] == 0) & (response.rotation[1:] == 0)
+    return response.times[:-1][same]
+
+
+def _ours(tolerance: float) -> Code:
+    def run(case: CodeCase) -> Answer:
+        integrate(case.mechanism, case.motion, tolerance)  # the table of the mechanism, and the compiled code
+        start = time.process_time()
+        ratio = integrate(case.mechanism, case.motion, tolerance).rotation_ratio
+        spent = time.process_time() - start
+        history = integrate(case.mechanism, case.motion, tolerance, history=True)
+        return Answer(ratio, spent, landings=landings_of(history))
+
+    return run
+
+
+def _scipy(method) -> Code:
+    def run(case: CodeCase) -> Answer:
+        start = time.process_time()
+        try:
+            ratio = event_maximum(case.mechanism, case.motion, method, 1e-6, TIMEOUT)
+        except MotionError as error:
+            return Answer(math.nan, time.process_time() - start, reason=str(error))
+        return Answer(ratio, time.process_time() - start)
+
+    return run
+
+
+def _outer(module: str) -> Code:
+    def run(case: CodeCase) -> Answer:
+        given = {
+            "breadth": BLOCK_BREADTH,
+            "height": BLOCK_HEIGHT,
+            "critical_rotation": case.mechanism.critical_rotation,
+            "frequency_parameter": case.mechanism.positive.frequency_parameter,
+            "acceleration": case.motion.acceleration.tolist(),
+            "time_step": case.motion.time_step,
+        }
+        try:
+            done = subprocess.run(
+                [sys.executable, "-m", module],
+                input=json.dumps(given), capture_output=True, text=True, timeout=TIMEOUT, check=False,
+            )  # fmt: skip
+            found = json.loads(done.stdout.strip().splitlines()[-1])
+        except subprocess.TimeoutExpired:
+            return Answer(math.nan, TIMEOUT, reason=f"It took more than {TIMEOUT:.0f} s.")
+        except (IndexError, ValueError):
+            return Answer(
+                math.nan, math.nan, reason=(done.stderr.strip().splitlines() or ["It said nothing."])[-1]
+            )
+        return Answer(found["rotation_ratio"], found["duration"], found["error_bar"], reason=found["reason"])
+
+    return run

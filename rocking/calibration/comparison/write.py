@@ -1,0 +1,110 @@
+"""The comparison as a table."""
+
+import math
+import random
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from rocking.assessment.rows.of_comparison import CodeRow
+from rocking.calibration.comparison.cases import SEED, CodeCase, pulse_cases, record_cases
+from rocking.calibration.comparison.codes import SLOWEST, Answer, Code, inner_codes, outer_codes
+from rocking.errors import MotionError
+from rocking.motion.reference import reference_landings
+from rocking.records import Accelerogram
+from rocking.tables import data_package, write_rows, write_whole
+
+REFERENCE = "scipy DOP853, 1e-12 (reference)"
+REFERENCE_BUDGET = 120.0
+"""Seconds that the reference may take for one case."""
+SAMPLED = {"LMGC90 (compas_lmgc90), NSCD": 24, "OpenSees RockingBC": 4}
+"""Blocks that each slow code is run on, drawn with the seed of the cases."""
+
+
+def write_comparison(records: Sequence[Accelerogram], folder: Path, log: Path) -> None:
+    """Write codes.csv and its description into `folder`, and a line for each case into `log`."""
+    cases = [*pulse_cases(), *record_cases(records)]
+    with log.open("w", encoding="utf-8") as stream:
+
+        def rows() -> Iterator[CodeRow]:
+            for case in cases:
+                found = list(code_rows(case, _codes_of(case, cases)))
+                print(f"{case.name}: {len(found)} codes", file=stream, flush=True)
+                yield from found
+
+        write_rows(CodeRow, rows(), folder / CodeRow.table.file_name)
+    package = data_package(
+        "rocking-comparison", {CodeRow.table.name: (CodeRow.table, CodeRow.table.file_name)}
+    )
+    write_whole(folder / "datapackage.json", package)
+
+
+def code_rows(case: CodeCase, codes: Mapping[str, Code]) -> Iterator[CodeRow]:
+    """Yield the rows of one case, the reference first; the reference alone where it has no answer in its time."""
+    start = time.process_time()
+    try:
+        truth, landings = reference_landings(case.mechanism, case.motion, REFERENCE_BUDGET)
+    except MotionError as error:
+        yield _row(case, REFERENCE, Answer(math.nan, math.nan, reason=str(error)), math.nan, np.empty(0))
+        return
+    spent = time.process_time() - start
+    forced = landings[landings[:, 0] <= case.motion.duration]
+    fast = forced[forced[:, 1] > SLOWEST * _speed(case), 0]
+    yield _row(case, REFERENCE, Answer(truth, spent, landings=fast), truth, fast)
+    for name, code in codes.items():
+        yield _row(case, name, code(case), truth, fast)
+
+
+def missed(landings: np.ndarray, expected: np.ndarray, within: float) -> int:
+    """Return how many of the instants `expected` (k,) have none of `landings` (n,) within a time [s]."""
+    if not expected.size:
+        return 0
+    if not landings.size:
+        return expected.size
+    return int((np.abs(expected[:, None] - landings).min(axis=1) > within).sum())
+
+
+def _codes_of(case: CodeCase, cases: Sequence[CodeCase]) -> Mapping[str, Code]:
+    """The codes that take a case: this package and scipy all, the slow ones a drawn few of the blocks."""
+    blocks = [each.name for each in cases if each.structure == "block"]
+    slow = {
+        name: code
+        for name, code in outer_codes().items()
+        if case.name in random.Random(SEED).sample(blocks, min(SAMPLED[name], len(blocks)))
+    }
+    return {**inner_codes(), **slow}
+
+
+def _speed(case: CodeCase) -> float:
+    side = case.mechanism.positive
+    return side.frequency_parameter * side.critical_rotation
+
+
+def _row(case: CodeCase, code: str, answer: Answer, truth: float, expected: np.ndarray) -> CodeRow:
+    ratio = answer.rotation_ratio
+    known = not math.isnan(ratio) and not math.isnan(truth)
+    agrees = _kind(ratio) == _kind(truth) if known else None
+    rocks = agrees and 0 < truth < math.inf
+    within = 0.02 / case.mechanism.positive.frequency_parameter
+    return CodeRow(
+        case=case.name,
+        structure=case.structure,
+        motion=case.kind,
+        code=code,
+        rotation_ratio=ratio,
+        rotation_ratio_error=answer.error_bar,
+        reference_rotation_ratio=truth,
+        error=abs(ratio / truth - 1) if rocks else 0.0 if agrees else math.nan,
+        verdict_agrees=agrees,
+        duration_s=answer.duration,
+        reference_impacts=expected.size,
+        missed_impacts=None if answer.landings is None else missed(answer.landings, expected, within),
+        reason=answer.reason,
+    )
+
+
+def _kind(ratio: float) -> int:
+    """0 at rest, 1 rocking, 2 overturned; a rotation beyond 1.5 critical ones at the end of a run has overturned."""
+    return 0 if ratio == 0 else 2 if ratio > 1.5 else 1

@@ -1,0 +1,115 @@
+"""The comparison of codes: cases that come again, limits and impacts against what is known, ours without a miss."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rocking.calibration.comparison import lmgc90
+from rocking.calibration.comparison.cases import PULSES, RECORDS, SAMPLES, pulse_cases, record_cases
+from rocking.calibration.comparison.codes import inner_codes, landings_of
+from rocking.calibration.comparison.extrapolation import limit_of
+from rocking.calibration.comparison.write import code_rows, missed
+from rocking.motion.integration import integrate
+from rocking.motion.reference import reference_landings
+from rocking.records import Accelerogram
+from rocking.reports.comparison.report import comparison_data
+
+
+def test_as_many_cases_as_are_asked_for_and_the_same_each_time():
+    assert PULSES >= 200
+    assert RECORDS >= 40
+    first, again = (
+        [(case.name, case.motion.sha256) for case in pulse_cases(12)],
+        [(case.name, case.motion.sha256) for case in pulse_cases(12)],
+    )
+    assert first == again
+    assert len({name for name, _ in first}) == 12
+    assert {case.structure for case in pulse_cases(6)} == {"block", "frame", "arch"}
+
+
+def test_a_record_is_cut_and_scaled_to_rock():
+    draw = np.random.default_rng(1)
+    record = Accelerogram(draw.normal(size=3 * SAMPLES) * np.hanning(3 * SAMPLES), 0.01)
+    for case in record_cases([record], 6):
+        assert case.motion.acceleration.size == SAMPLES
+        ratio = case.motion.peak_acceleration / (9.80665 * case.mechanism.uplift_multiplier)
+        assert 1.3 <= ratio <= 4.0
+
+
+def test_the_limit_of_a_known_order():
+    first, second = ([0.8 + 0.1 * h**order for h in (4, 2, 1)] for order in (1, 2))
+    assert limit_of(first)[0] == pytest.approx(0.8)
+    assert limit_of(second)[0] == pytest.approx(0.8)
+    assert limit_of(first)[1] == pytest.approx(0.1)
+    assert limit_of([0.5, 0.5, 0.5]) == (0.5, 0.0)
+    assert math.isinf(limit_of([math.inf] * 3)[0])
+    assert math.isnan(limit_of([0.9, math.inf, math.inf])[0])
+
+
+def test_missed_impacts_are_those_without_a_counterpart():
+    expected = np.array([1.0, 2.0, 3.0])
+    assert missed(np.array([1.001, 3.0]), expected, 0.01) == 1
+    assert missed(np.empty(0), expected, 0.01) == 3
+    assert missed(expected, np.empty(0), 0.01) == 0
+
+
+@pytest.fixture(scope="module")
+def block_case():
+    """The first block that rocks and does not overturn."""
+    return next(
+        case
+        for case in pulse_cases(60)
+        if case.structure == "block" and 0.05 < integrate(case.mechanism, case.motion).rotation_ratio < 0.9
+    )
+
+
+def test_landings_of_a_history_are_the_impacts(block_case):
+    response = integrate(block_case.mechanism, block_case.motion, 1e-9, history=True)
+    _, landings = reference_landings(block_case.mechanism, block_case.motion)
+    inside = landings[landings[:, 0] <= block_case.motion.duration, 0]
+    assert landings_of(response).size == response.impacts
+    assert missed(landings_of(response), inside, 1e-6) == 0
+
+
+def test_this_package_has_the_reference_s_answer(block_case):
+    ours = {name: code for name, code in inner_codes().items() if name.startswith("rocking")}
+    reference, *rows = code_rows(block_case, ours)
+    assert reference.error == 0.0
+    for row, tolerance in zip(rows, (1e-3, 1e-6, 1e-9), strict=True):
+        assert row.verdict_agrees
+        assert row.error <= 3 * tolerance
+        assert row.missed_impacts == 0
+    table = comparison_data([reference, *rows])["table"]
+    assert [line[2] for line in table["rows"]] == ["1"] * 4
+
+
+def test_the_base_of_lmgc90_moves_as_the_accelerogram():
+    """Its velocity is the integral of straight lines between the samples."""
+    given = {"acceleration": [0.0, 2.0, -1.0, 0.0], "time_step": 0.1, "frequency_parameter": 10.0}
+    times, speed = lmgc90._base(given, 0.01)
+    fine = np.linspace(0, times[-1], 200_001)
+    acceleration = np.interp(fine, np.arange(4) * 0.1, given["acceleration"], right=0.0)
+    exact = np.concatenate([[0], np.cumsum((acceleration[1:] + acceleration[:-1]) / 2 * np.diff(fine))])
+    assert speed == pytest.approx(np.interp(times, fine, exact), abs=1e-6)
+
+
+def test_lmgc90_tends_to_the_same_block(block_case):
+    """First order in time: the error bar of its extrapolation holds the reference."""
+    pytest.importorskip("compas_lmgc90", reason="install the extra compare to run this test")
+    from rocking.calibration.comparison.codes import outer_codes
+
+    answer = outer_codes()["LMGC90 (compas_lmgc90), NSCD"](block_case)
+    truth = integrate(block_case.mechanism, block_case.motion, 1e-9).rotation_ratio
+    assert answer.reason == ""
+    assert answer.rotation_ratio == pytest.approx(truth, abs=3 * answer.error_bar)
+
+
+def test_a_code_that_is_not_there_says_so(block_case, monkeypatch):
+    from rocking.calibration.comparison import codes
+
+    monkeypatch.setattr(codes, "_DRIVERS", {"nothing": "rocking.calibration.comparison.absent"})
+    answer = codes.outer_codes()["nothing"](replace(block_case))
+    assert math.isnan(answer.rotation_ratio)
+    assert "No module named" in answer.reason
