@@ -18,10 +18,9 @@ from rocking.records.formats.header import (
     optional_number,
     starts,
 )
-from rocking.records.formats.sampling import even_step, resampled
 from rocking.records.formats.site import site_warnings
 from rocking.records.formats.text import column_width, count, filled, lines, number
-from rocking.records.formats.volume1 import pairs, volume1_block
+from rocking.records.formats.volume1 import evened, pairs, volume1_block
 from rocking.records.plausibility import agree_with_header
 
 _VOLUME_1 = re.compile(r"Uncorrected Accelerogram Data\s+Processed", re.I)
@@ -150,13 +149,8 @@ def _film(block: list[str], name: str, options: Options, channels: int) -> Accel
     """Return a raw channel digitised from film: (t, a) pairs in seconds and tenths of g."""
     film = volume1_block(block, name)
     times, values = pairs(film, name, margin=0)
-    step = even_step(name, times)
-    told: tuple[str, ...] = ()
+    step, even, told = evened(name, times, values)
     unit = options.unit_of(name, "g/10")
-    even = values
-    if step is None:
-        step, at, sentence = resampled(name, times)
-        even, told = np.interp(at, times, values), (sentence,)
     named = _named(film.head, channels)
     named["warnings"] = (*told, *named["warnings"])
     record = accelerogram(

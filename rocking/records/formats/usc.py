@@ -2,19 +2,12 @@
 
 import re
 
-import numpy as np
-
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import optional, starts
-from rocking.records.formats.sampling import check_no_gap, even_step
-from rocking.records.formats.volume1 import Block, channels, pairs
+from rocking.records.formats.volume1 import Block, channels, evened, pairs
 
 _FIRST = re.compile(r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", re.I)
-_STEP = 0.005
-"""s; the even step to which Volume 1 film records are interpolated."""
-_LONGEST_GAP = 0.25
-"""s; points were digitised where the trace bends, a dozen to a hundred a second: more is a part lost."""
 
 
 def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
@@ -23,15 +16,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
 
 def _record(block: Block, name: str, options: Options) -> Accelerogram:
     times, values = pairs(block, name, margin=1)
-    step = even_step(name, times)
-    told: tuple[str, ...] = ()
-    if step is None:
-        check_no_gap(name, times, _LONGEST_GAP)
-        step, even = _STEP, np.arange(round(times[0] / _STEP), int(times[-1] / _STEP + 1e-6) + 1) * _STEP
-        values = np.interp(even, times, values)
-        told = (
-            f"The {times.size} samples are unevenly spaced; interpolated linearly to {even.size}, {_STEP:g} s apart.",
-        )
+    step, values, told = evened(name, times, values)
     component = optional(r"^COMP\s+(\S+)", block.head)
     return accelerogram(
         name,

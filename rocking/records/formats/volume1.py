@@ -7,10 +7,15 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.formats.header import blocks, check_nothing_left, required
+from rocking.records.formats.sampling import check_no_gap, even_step
 from rocking.records.formats.text import count, fields, is_number, number, whole
 
 _HEADER, _REALS, _RATE = 27, 20, 8
 _TEXT = 13
+_STEP = 0.005
+"""s; the even step to which film records are interpolated."""
+_LONGEST_GAP = 0.25
+"""s."""
 
 
 @dataclass(frozen=True)
@@ -76,3 +81,17 @@ def _check_end(name: str, times: np.ndarray, duration: float) -> None:
             f"{name}: the header declares a length of {duration:g} s, but the last sample stands at {times[-1]:g} s; "
             "the file is damaged or its header belongs to another record."
         )
+
+
+def evened(name: str, times: np.ndarray, values: np.ndarray) -> tuple[float, np.ndarray, tuple[str, ...]]:
+    """Return (step, samples at even times, sentences) of a trace digitised from film: linear between its points.
+
+    Raises RecordError at a gap: points were digitised where the trace bends, a dozen to a hundred a second.
+    """
+    step = even_step(name, times)
+    if step is not None:
+        return step, values, ()
+    check_no_gap(name, times, _LONGEST_GAP)
+    even = np.arange(round(times[0] / _STEP), int(times[-1] / _STEP + 1e-6) + 1) * _STEP
+    sentence = f"The {times.size} samples are unevenly spaced; interpolated linearly to {even.size}, {_STEP:g} s apart."
+    return _STEP, np.interp(even, times, values), (sentence,)

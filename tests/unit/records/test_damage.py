@@ -318,6 +318,24 @@ def test_a_gap_is_not_bridged_by_a_line() -> None:
         read_text("".join(rows[:10] + rows[16:]), unit="m/s2")
 
 
+def test_film_is_evened_out_but_for_a_gap_and_its_peak_is_its_own() -> None:
+    """Points of film stand where the trace bends; the peak is compared as digitised, not as interpolated."""
+    times = np.cumsum(np.where(np.arange(N) % 3, 0.004, 0.013)) - 0.013
+    values = TRUE / 0.980665
+
+    def film(times: np.ndarray) -> str:
+        pairs = made_files.columns(np.column_stack([times, values]).ravel(), 10, "7.3f")
+        text = made_files.csmip_film().replace(made_files.columns(made_files.pairs(), 10, "7.3f"), pairs)
+        return text.replace(f"LENGTH = {N * STEP:.3f}", f"LENGTH = {times[-1]:.3f}")
+
+    (record,) = read_text(film(times))
+    assert record.time_step == 0.005 and "unevenly spaced" in record.warnings[0]
+    even = np.interp(np.arange(record.acceleration.size) * 0.005, np.round(times, 3), TRUE)
+    assert np.abs(record.acceleration - even).max() < 1e-3
+    with pytest.raises(RecordError, match="not bridged"):
+        read_text(film(times + 0.3 * (np.arange(N) > 20)))
+
+
 def test_a_missing_line_does_not_pass_for_rounding() -> None:
     """Times of two digits and a step of one hundredth: the last digit is the step, so nothing is rounded."""
     rows = [f"{i * STEP:.2f} {v:.5f}\n" for i, v in enumerate(TRUE)]
