@@ -3,7 +3,7 @@
 
 rule validate:
     input:
-        catalogue=workflow.source_path("../../records/shake_table.csv"),
+        catalogue=f"{workflow.basedir}/records/shake_table.csv",
     output:
         tables=[
             f"{RESULTS}/validation/{table}.csv"
