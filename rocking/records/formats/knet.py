@@ -27,15 +27,7 @@ def _recognise(content: bytes) -> bool:
 
 
 def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    head = lines(content, len(_FIELDS))
-    fields = {
-        key: row[len(key) :].strip() for key, row in zip(_FIELDS, head, strict=False) if row.startswith(key)
-    }
-    missing = [key for key in _FIELDS if key not in fields]
-    if missing:
-        raise RecordError(
-            f"{name}: the header has no line {missing[0]!r}; a K-NET header has {len(_FIELDS)} lines."
-        )
+    fields = _header(content, name)
     options.unit_of(name, "gal")
     counts = numbers(name, _body(content))
     time_step = options.time_step_of(
@@ -69,6 +61,20 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     )
     peak = number(name, "Max. Acc. (gal)", fields["Max. Acc. (gal)"])
     return [agree_with_header(record, peak, "gal", half_digit=5e-4)]
+
+
+def _header(content: bytes, name: str) -> dict[str, str]:
+    """Return the header by its fields. Raises RecordError when a line is missing."""
+    head = lines(content, len(_FIELDS))
+    fields = {
+        key: row[len(key) :].strip() for key, row in zip(_FIELDS, head, strict=False) if row.startswith(key)
+    }
+    missing = [key for key in _FIELDS if key not in fields]
+    if missing:
+        raise RecordError(
+            f"{name}: the header has no line {missing[0]!r}; a K-NET header has {len(_FIELDS)} lines."
+        )
+    return fields
 
 
 def _body(content: bytes) -> bytes:
