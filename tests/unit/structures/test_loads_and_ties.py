@@ -289,3 +289,64 @@ def test_a_facade_cracks_where_it_is_weakest():
     }
     assert multipliers == list(expected.values())
     assert multipliers[weakest] == min(multipliers)
+
+
+def second_derivative(path, step=4e-3):
+    """Of a function of time at 0, by central differences of eighth order; truncation near 1e-13."""
+    weights = {0: -205 / 72, 1: 8 / 5, 2: -1 / 5, 3: 8 / 315, 4: -1 / 560}
+    return sum(weights[abs(k)] * path(k * step) for k in range(-4, 5)) / step**2
+
+
+@pytest.mark.parametrize("case", [case for case in CASES if case.startswith("façade")])
+def test_the_toe_carries_mass_times_acceleration_and_what_hangs_on_it(case):
+    """Σ m (a + g) of the moving masses, differentiated along a motion, plus held weights and ties, less the thrust."""
+    facade, _ = CASES[case]
+    ground, vertical = 1.7, -0.9
+
+    def rotation(time):
+        return 0.05 + 0.02 * np.sin(3 * (time + 0.3))
+
+    speed, turn = 0.06 * np.cos(0.9), -0.18 * np.sin(0.9)
+    masses = facade.bodies(0.0).masses
+    pushed = masses @ (
+        second_derivative(lambda time: facade.bodies(rotation(time)).centres)
+        + ground
+        + 1j * (vertical + GRAVITY)
+    )
+    held = sum(facade.floor_loads[1:]) if facade.loads_held else 0.0
+    stretch = 2.9 * np.sin(rotation(0.0))  # the upper tie is 2.9 m above the crack, on the outer face
+    tie = facade.tie_pretension + facade.tie_stiffness * stretch
+    # bodies are in weights: forces times g
+    pushed += 1j * held * (GRAVITY + vertical) + GRAVITY * tie - facade.thrust * (GRAVITY + vertical)
+    found = contact_forces(facade, rotation(0.0), speed, turn, ground, vertical)
+    assert found.normal[0, 0] == pytest.approx(pushed.imag / masses.sum(), abs=1e-8)
+    assert found.tangential[0, 0] == pytest.approx(pushed.real / masses.sum(), abs=1e-8)
+
+
+@pytest.mark.parametrize("case", [case for case in CASES if case.startswith("wall")])
+def test_the_lower_block_is_in_balance_under_the_force_at_the_hinge(case):
+    """The hinge's force comes from the upper block; the moments of the lower one about the base must then vanish."""
+    wall, _ = CASES[case]
+    rotation, speed, ground = 0.04, 0.25, 1.3
+    turn = float(angular_acceleration(wall.mechanism(), rotation, speed, ground))
+    found = contact_forces(wall, rotation, speed, turn, ground)
+    motion = wall.wall.linkage.motion(rotation)
+    thrust = complex(found.normal[1, 0], found.tangential[1, 0]) * 1j * np.exp(0.5j * motion.angles.sum())
+    base, hinge = motion.hinges[:2]
+    mass, radius = wall.lower_height / wall.height, np.hypot(wall.lower_height, wall.thickness) / 2
+    arm = motion.centroids[0] - base
+    # clockwise turn: the centre moves with −iφ'·arm
+    acceleration = -1j * turn * arm - speed**2 * arm
+    inertial = -mass * (acceleration + ground + 1j * GRAVITY)
+    couple = mass * (wall.lower_height**2 + wall.thickness**2) / 12 * turn
+
+    def moment(at, force):
+        return (at - base).real * force.imag - (at - base).imag * force.real
+
+    total = moment(motion.centroids[0], inertial) + couple + moment(hinge, -thrust)
+    for height in wall.tie_heights:
+        if height <= wall.lower_height:
+            point = base + 1j * height * np.exp(-1j * rotation)
+            force = wall.tie_pretension + wall.tie_stiffness * (point.real - wall.thickness / 2)
+            total += moment(point, complex(-force * GRAVITY / wall.weight))
+    assert abs(total) < 1e-10 * GRAVITY * radius
