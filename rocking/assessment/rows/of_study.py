@@ -52,6 +52,12 @@ class StructureRow(Row):
         "Uplift acceleration of the linearised block over the true one", equation="Eq. 12"
     )
     restitution: float = column(RESTITUTION, equation="Eq. 2")
+    restoring_defect: float = column(
+        "Largest error of the restoring acceleration of the block exact at rest up to φ_cr, over that at rest"
+    )
+    forcing_defect: float = column(
+        "Growth of the true forcing at φ_cr over that at rest, which that block leaves out; above 0 is unsafe"
+    )
 
 
 @row(
@@ -171,6 +177,8 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
             acceleration_scale_uplift=side.scaled_acceleration("uplift"),
             linearised_over_true_uplift=side.critical_rotation / linearised / side.uplift_multiplier,
             restitution=side.restitution,
+            restoring_defect=mechanism.block_defects.restoring,
+            forcing_defect=mechanism.block_defects.forcing,
         )
 
 
