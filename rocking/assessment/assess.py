@@ -207,8 +207,6 @@ def _responses(
         tolerance=settings.tolerance,
         history=True,
         vertical=vertical,
-        sensitivity=True,
-        fragility_change=settings.fragility_change,
     )
     on_block = integrate(block, accelerogram, tolerance=settings.tolerance, vertical=vertical)
     return {Method.MECHANISM_ON_RECORD: whole, Method.BLOCK_ON_RECORD: on_block}

@@ -29,9 +29,6 @@ class AssessmentSettings:
     tolerance: float = setting(
         1e-6, "of the nonlinear integration, relative to the critical rotation", ge=1e-13, le=0.1
     )
-    fragility_change: float = setting(
-        0.01, "relative change of the ground motion that must not flip a verdict", ge=0, le=0.5
-    )
     pulse: PulseSettings = field(default_factory=PulseSettings)
     ensemble: EnsembleSettings = field(default_factory=EnsembleSettings)
     bootstrap_replicates: int = setting(

@@ -16,7 +16,7 @@ from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted
 from rocking.study.config_file import named_files
 from rocking.study.locks import is_locked, is_stale, mark, only_run, unmark
-from rocking.study.outcome import came_of, closing_lines, paths_to_read
+from rocking.study.outcome import CameOf, closing_lines, paths_to_read
 from rocking.study.plan import Plan, make_plan
 from rocking.study.progress import NewLines, Progress, finished_rule, fitting, planned_jobs
 from rocking.study.workspace import workflow_folder
@@ -160,9 +160,9 @@ def _watched(folder: Path, plan: Plan, command: Sequence[str], target: str | Non
     if target is not None:
         print(f"Finished: {target}; what it wrote lies in {results}")
         return 0
-    cases, failures = came_of(results / "summary")
-    print(*map(fitting, closing_lines(cases, failures)), *paths_to_read(results), sep="\n", flush=True)
-    return int(bool(failures))
+    came = CameOf.read(results / "summary")
+    print(*map(fitting, closing_lines(came)), *paths_to_read(results), sep="\n", flush=True)
+    return int(bool(came.failures))
 
 
 class _Stop:

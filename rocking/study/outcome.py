@@ -1,54 +1,82 @@
 """What came of records, in a few lines: which structures overturn, what failed, and where to read on."""
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
-from rocking.assessment.rows import ComparisonRow, FailureRow
-from rocking.assessment.verdict import rests, rocks
+from rocking.assessment.rows import ComparisonRow, EnsembleRow, FailureRow, governing_ensembles
+from rocking.assessment.verdict import Verdict, rests, rocks
 from rocking.errors import RecordError
 from rocking.quantities import counted
 from rocking.tables import read_rows
 
+_ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, "rocks", Verdict.STANDS, "rests", Verdict.UNKNOWN)
 _MOST = 6
 """Rows of a list at the end; a screen should hold it beside the lines of a dozen records."""
 
 
-def came_of(folder: Path) -> tuple[Iterator[ComparisonRow], list[FailureRow]]:
-    """Return the cases, one at a time, and the failures in the tables of a record or of a summary in `folder`."""
-    return (
-        read_rows(ComparisonRow, folder / ComparisonRow.table.file_name),
-        list(read_rows(FailureRow, folder / FailureRow.table.file_name)),
-    )
+@dataclass(frozen=True)
+class CameOf:
+    """The cases, failures and ensembles in the tables of a record or of a summary."""
+
+    cases: Iterable[ComparisonRow]
+    failures: Sequence[FailureRow] = ()
+    ensembles: Iterable[EnsembleRow] = ()
+
+    @classmethod
+    def read(cls, folder: Path) -> "CameOf":
+        """Read the tables in `folder`, cases and ensembles one at a time as they are asked for."""
+        return cls(
+            read_rows(ComparisonRow, folder / ComparisonRow.table.file_name),
+            list(read_rows(FailureRow, folder / FailureRow.table.file_name)),
+            read_rows(EnsembleRow, folder / EnsembleRow.table.file_name),
+        )
+
+    def verdicts(self) -> dict[tuple[str, str], tuple[str, float, str]]:
+        """Verdict, rotation ratio of the worst component, and what stands behind a doubt, by record and structure.
+
+        The verdict is that of the ensemble; without one it is what the worst component does by itself.
+        """
+        worst: dict[tuple[str, str], float] = {}
+        for case in self.cases:
+            key = case.record, case.structure
+            worst[key] = max(worst.get(key, 0.0), case.found_rotation_ratio)
+        ensembles = governing_ensembles(self.ensembles)
+        return {key: _verdict(ratio, ensembles.get(key)) for key, ratio in worst.items()}
 
 
-def record_line(cases: Iterable[ComparisonRow], failures: Iterable[FailureRow]) -> str:
-    """Say in one line what came of a record: "overturns: pier; rocks: wall 0.55; rests: arch".
+def _verdict(ratio: float, found: EnsembleRow | None) -> tuple[str, float, str]:
+    if found is None:
+        return ("rests" if rests(ratio) else "rocks" if rocks(ratio) else "overturns"), ratio, ""
+    doubtful = found.verdict is Verdict.UNDECIDED
+    return found.verdict, ratio, f"{found.overturning_members} of {found.members}" if doubtful else ""
 
-    The worst of its components counts for each structure. What could not be assessed comes first.
+
+def record_line(came: CameOf) -> str:
+    """Say in one line what came of a record: "overturns: pier; undecided: wall (12 of 64); stands: arch 0.31".
+
+    The numbers are members of the ensemble that overturn, or the largest rotation over the critical one of the worst
+    component. What could not be assessed comes first.
     """
-    worst: dict[str, tuple[float, bool]] = {}
-    for case in cases:
-        found = case.found_rotation_ratio, bool(case.fragile)
-        worst[case.structure] = max(worst.get(case.structure, (0.0, False)), found)
-    parts: dict[str, list[str]] = {word: [] for word in ("overturns", "rocks", "rests")}
-    for name, (ratio, fragile) in worst.items():
-        number = f" {ratio:.2g}" if rocks(ratio) else ""
-        parts[_word(ratio)].append(f"{name}{number}{' (fragile)' if fragile else ''}")
+    parts: dict[str, list[str]] = {word: [] for word in _ORDER}
+    for (_, name), (word, ratio, behind) in came.verdicts().items():
+        number = f" ({behind})" if behind else f" {ratio:.2g}" if rocks(ratio) else ""
+        parts[word].append(name + number)
     verdicts = [f"{word}: {', '.join(names)}" for word, names in parts.items() if names]
+    failures = came.failures
     failed = " ".join(_sentence(failure) for failure in failures)
     return "; ".join([f"failed: {failed}", *verdicts] if failed else verdicts)
 
 
-def closing_lines(cases: Iterable[ComparisonRow], failures: Iterable[FailureRow]) -> list[str]:
-    """Return the table of what overturns under which records, and which records failed."""
+def closing_lines(came: CameOf) -> list[str]:
+    """Return the table of what overturns, or may, under which records, and which records failed."""
     under: dict[str, dict[str, bool]] = {}
     read = set()
-    for case in cases:
-        read.add(case.record)
-        if _word(case.found_rotation_ratio) == "overturns":
-            records = under.setdefault(case.structure, {})
-            records[case.record] = bool(case.fragile) and records.get(case.record, True)
-    failed = sorted({failure.record for failure in failures})
+    for (record, structure), (word, _, _) in came.verdicts().items():
+        read.add(record)
+        if word in (Verdict.OVERTURNS, Verdict.UNDECIDED):
+            under.setdefault(structure, {})[record] = word == Verdict.UNDECIDED
+    failed = sorted({failure.record for failure in came.failures})
     told = f"{counted(len(failed), 'record')} failed, wholly or in part: {', '.join(failed)}"
     return [*_overturned(under, len(read)), *([told] if failed else [])]
 
@@ -84,19 +112,15 @@ def _overturned(under: dict[str, dict[str, bool]], read: int) -> Iterator[str]:
     if not under:
         yield f"Nothing overturns under {counted(read, 'record')}."
         return
-    yield f"Overturns under how many of {counted(read, 'record')} (? where a small change flips it):"
+    yield f"Overturns under how many of {counted(read, 'record')} (? where that is undecided):"
     ordered = sorted(under.items(), key=lambda item: -len(item[1]))
     width = max(len(name) for name, _ in ordered[:_MOST])
     for name, records in ordered[:_MOST]:
-        names = ", ".join(record + ("?" if fragile else "") for record, fragile in records.items())
+        names = ", ".join(record + ("?" if doubtful else "") for record, doubtful in records.items())
         yield f"  {name:<{width}}  {len(records):>3}  {names}"
     if len(ordered) > _MOST:
         left = counted(len(ordered) - _MOST, "more structure")
         yield f"  and {left}, in {ComparisonRow.table.file_name}"
-
-
-def _word(ratio: float) -> str:
-    return "rests" if rests(ratio) else "rocks" if rocks(ratio) else "overturns"
 
 
 def _sentence(failure: FailureRow) -> str:

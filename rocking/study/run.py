@@ -26,7 +26,7 @@ from rocking.records.catalogue import CatalogueRecord, as_declared, horizontal_o
 from rocking.records.processing import process
 from rocking.records.vertical import aligned, open_vertical
 from rocking.structures import Structure
-from rocking.study.outcome import came_of, record_line
+from rocking.study.outcome import CameOf, record_line
 from rocking.study.settings import Settings
 
 Opened = tuple[list[Accelerogram], Accelerogram | None]
@@ -84,7 +84,7 @@ def assess_records(records: Iterable[CatalogueRecord], study: Study, results: Pa
     with log.open("w", encoding="utf-8") as stream:
         for record in records:
             assess_record(record, study, results / record.id)
-            print(f"{record.id}: {record_line(*came_of(results / record.id))}", file=stream, flush=True)
+            print(f"{record.id}: {record_line(CameOf.read(results / record.id))}", file=stream, flush=True)
 
 
 def assess_record(record: CatalogueRecord, study: Study, folder: Path) -> list[str]:

@@ -111,7 +111,6 @@ class Settings:
     processing: ProcessingSettings = _section(ProcessingSettings, "Processing, told in every report")
     acceleration_scale: Scale = _of(AssessmentSettings, "acceleration_scale", heading="Method")
     tolerance: float = _of(AssessmentSettings, "tolerance")
-    fragility_change: float = _of(AssessmentSettings, "fragility_change")
     vertical: bool = _own(False, "let the vertical component act too, where a record has one")
     friction_coefficient: float = _of(AssessmentSettings, "friction_coefficient")
     pulse: DominantPulseSettings = _section(DominantPulseSettings)

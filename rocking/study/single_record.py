@@ -135,6 +135,4 @@ def _line(row: ComparisonRow, outcome: str) -> str:
         parts.append(f"one pulse predicts {said} ({row.regime})")
     if row.scale_factor != 1:
         parts.append(f"the accelerations of the file were multiplied by {row.scale_factor:g}")
-    if row.fragile:
-        parts.append("FRAGILE: a small change of the ground motion flips this")
     return "; ".join(parts)

@@ -12,7 +12,12 @@ from rocking.assessment.rows.of_case import (
     maximum_row,
     processing_rows,
 )
-from rocking.assessment.rows.of_ensemble import BOTH_COMPONENTS, EnsembleRow, ensemble_row
+from rocking.assessment.rows.of_ensemble import (
+    BOTH_COMPONENTS,
+    EnsembleRow,
+    ensemble_row,
+    governing_ensembles,
+)
 from rocking.assessment.rows.of_folder import PER_RECORD, RECORD_TABLES, RecordTables
 from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow, TimingRow, failure_row
 from rocking.assessment.rows.of_study import (
@@ -79,6 +84,7 @@ __all__ = [
     "ensemble_row",
     "equivalence_rows",
     "failure_row",
+    "governing_ensembles",
     "maximum_row",
     "processing_rows",
     "spectrum_rows",

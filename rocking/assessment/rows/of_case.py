@@ -7,7 +7,6 @@ from typing import final
 from rocking.assessment.assess import Case
 from rocking.assessment.method import Method
 from rocking.assessment.rows.shared import (
-    FRAGILE,
     FREQUENCY_PARAMETER,
     IMPACTS,
     METHOD,
@@ -16,12 +15,11 @@ from rocking.assessment.rows.shared import (
     RESTITUTION,
     ROTATION,
     ROTATION_RATIO,
-    SENSITIVITY,
     CaseRow,
     Identity,
 )
 from rocking.assessment.variations import Candidate, Variant, governing
-from rocking.assessment.verdict import Agreement, agreement, ratio, within_factor_two
+from rocking.assessment.verdict import Agreement, agreement, ratio, ratio_in_words, within_factor_two
 from rocking.motion.contact_check import UNKNOWN
 from rocking.motion.response import Response
 from rocking.sine_pulse import Regime
@@ -78,8 +76,6 @@ class ResponseRow(CaseRow):
     peak_side: int = column("Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift")
     peak_time_s: float = column("Time of the largest rotation after the first sample")
     uplift_time_s: float = column("Time of the first uplift after the first sample")
-    sensitivity: float = column(SENSITIVITY)
-    fragile: bool | None = column(FRAGILE)
     tolerance: float = column("Relative tolerance of the integration; 0 for an exact solution")
     steps: int = column("Steps taken")
     friction_needed: float = column(
@@ -112,13 +108,14 @@ class ComparisonRow(CaseRow):
     )
     answer_method: Method = column("Which method that was")
     prediction_over_integration: float = column("Predicted over integrated rotation ratio, where both rock")
+    prediction_in_words: str = column(
+        "How the prediction stands to the integration; empty where one is missing"
+    )
     within_factor_two: bool | None = column("Whether that ratio lies between 1/2 and 2, where both rock")
     agreement: Agreement = column(
         "Rest, rocking or overturning in the closed form and in the integration: same outcome, too low or too high"
     )
     regime: Regime | None = column(REGIME)
-    sensitivity: float = column(SENSITIVITY)
-    fragile: bool | None = column(FRAGILE)
 
     @property
     def spared(self) -> bool:
@@ -171,7 +168,6 @@ class MaximumRow(CaseRow):
     outcome: Outcome | None = column(OUTCOME)
     regime: Regime | None = column(REGIME)
     error: float = column("Rotation ratio over that of the mechanism on the record, minus 1, where both rock")
-    fragile: bool | None = column(FRAGILE)
 
 
 def prediction_rows(identity: Identity, case: Case, acceleration_scale: str) -> Iterator[PredictionRow]:
@@ -231,8 +227,6 @@ def response_rows(identity: Identity, case: Case, friction_coefficient: float) -
             peak_side=response.peak_side,
             peak_time_s=response.peak_time,
             uplift_time_s=response.uplift_time,
-            sensitivity=response.sensitivity,
-            fragile=response.fragile,
             tolerance=response.tolerance,
             steps=response.steps,
             friction_needed=check.friction_needed,
@@ -263,11 +257,10 @@ def comparison_row(identity: Identity, case: Case) -> ComparisonRow:
         answer_rotation_ratio=case.answer.rotation_ratio,
         answer_method=case.answer.method,
         prediction_over_integration=ratio(predicted, integrated),
+        prediction_in_words=ratio_in_words(predicted, integrated),
         within_factor_two=within_factor_two(predicted, integrated),
         agreement=agreement(predicted, integrated),
         regime=prediction.maximum.regime if prediction else None,
-        sensitivity=reference.sensitivity,
-        fragile=reference.fragile,
     )
 
 
@@ -284,7 +277,6 @@ def maximum_row(method: PredictionRow | ResponseRow, comparison: ComparisonRow) 
         outcome=method.outcome,
         regime=method.regime if isinstance(method, PredictionRow) else None,
         error=math.nan if method.method is Method.MECHANISM_ON_RECORD else error,
-        fragile=method.fragile if isinstance(method, ResponseRow) else None,
         scale_factor=method.scale_factor,
         record_sha256=method.record_sha256,
         settings_sha256=method.settings_sha256,

@@ -1,5 +1,6 @@
 """Rows about how sure an answer is: the ensemble of a structure under a component, or under both."""
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -79,6 +80,22 @@ def ensemble_row(
         restitution_range=settings.restitution_range,
         worst_direction=_worst(found, "direction"),
     )
+
+
+def governing_ensembles(rows: Iterable[EnsembleRow]) -> dict[tuple[str, str], EnsembleRow]:
+    """Return by record and structure the ensemble that speaks for all components.
+
+    It is the one over all directions, or where there is none the one that overturns, then rotates, most.
+    """
+    found: dict[tuple[str, str], EnsembleRow] = {}
+    for each in rows:
+        key = each.record, each.structure
+        found[key] = max(found[key], each, key=_weight) if key in found else each
+    return found
+
+
+def _weight(each: EnsembleRow) -> tuple[bool, float, float]:
+    return each.component == BOTH_COMPONENTS, each.overturning_probability, each.rotation_ratio_high
 
 
 def _worst(found: Ensemble, cause: str) -> str:

@@ -143,7 +143,7 @@ def history_picture(
 
 
 def _demand(row: ComparisonRow) -> tuple[bool, float]:
-    return row.agreement is Agreement.TOO_LOW or bool(row.fragile), row.integrated_rotation_ratio
+    return row.agreement is Agreement.TOO_LOW, row.integrated_rotation_ratio
 
 
 def _history(label: str, row: ComparisonRow, mechanism: Mechanism, response: Response) -> History:

@@ -28,8 +28,8 @@ def record_report(
     """Return the PDF of one record.
 
     Every number printed is a cell of `tables` or of the structures table, rounded. Only curves are computed here, from
-    `accelerograms` and the mechanisms of `structures` (by name). settings: at least tolerance, acceleration_scale and
-    fragility_change. vertical: the vertical component, if it acted on the responses of the tables.
+    `accelerograms` and the mechanisms of `structures` (by name). settings: at least tolerance and acceleration_scale.
+    vertical: the vertical component, if it acted on the responses of the tables.
     """
     return compile_document(
         "record/record.typ", record_data(record, accelerograms, structures, tables, settings, vertical)
@@ -150,7 +150,6 @@ def _assumptions(tables: RecordTables, settings: Mapping[str, Any]) -> dict[str,
     warnings = dict.fromkeys(printing.words(row.warnings) for row in tables.record if row.warnings)
     return {
         "tolerance": printing.given(float(settings["tolerance"])),
-        "fragility-change": f"{printing.given(100 * float(settings['fragility_change']))} %",
         "acceleration-scale": str(settings["acceleration_scale"]),
         "friction": _friction(settings),
         "vertical": _vertical(tables.record),

@@ -7,14 +7,7 @@ from rocking.assessment.method import Method
 from rocking.assessment.rows import ComparisonRow, RecordRow, RecordTables, ResponseRow
 from rocking.assessment.verdict import Agreement, rests
 from rocking.reports import printing
-from rocking.reports.printing import number, ratio, strong, table_of, words
-
-_VERDICTS = {
-    Agreement.SAME: "in agreement",
-    Agreement.TOO_LOW: "UNSAFE: too low",
-    Agreement.TOO_HIGH: "safe: too high",
-    Agreement.UNKNOWN: "unknown",
-}
+from rocking.reports.printing import ratio, strong, table_of, words
 
 
 def verdict_table(rows: Sequence[ComparisonRow], numbers: Mapping[str, str]) -> dict[str, object]:
@@ -36,11 +29,9 @@ def verdict_table(rows: Sequence[ComparisonRow], numbers: Mapping[str, str]) -> 
             "The closed form is",
             "1.05",
             "l",
-            lambda row: strong(_VERDICTS[row.agreement], row.agreement is Agreement.TOO_LOW),
+            lambda row: strong(words(row.prediction_in_words), row.agreement is Agreement.TOO_LOW),
         ),
         ("Regime of the closed form", "1.5", "l", lambda row: words(row.regime)),
-        ("Sensi\u00adtivity", "0.45", "r", lambda row: number(row.sensitivity)),
-        ("Fragile", "auto", "l", lambda row: strong(printing.yes_or_no(row.fragile), bool(row.fragile))),
     )
 
 
@@ -66,13 +57,7 @@ def verdict_sentences(rows: Sequence[ComparisonRow]) -> list[str]:
 def _doubts(rows: Sequence[ComparisonRow]) -> list[str]:
     missed = [row for row in rows if row.agreement is Agreement.TOO_LOW]
     unsafe = [row.structure for row in sorted(missed, key=lambda row: -row.integrated_rotation_ratio)]
-    fragile = [row.structure for row in rows if row.fragile]
-    sentences = []
-    if unsafe:
-        sentences.append(f"The closed form misses what happens to {printing.listed(unsafe)}.")
-    if fragile:
-        sentences.append(f"Close to a change of verdict, so not decided: {printing.listed(fragile)}.")
-    return sentences
+    return [f"The closed form misses what happens to {printing.listed(unsafe)}."] if unsafe else []
 
 
 def notices(tables: RecordTables) -> list[dict[str, object]]:

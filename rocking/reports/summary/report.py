@@ -22,7 +22,7 @@ def summary_report(tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any
     """Return the PDF over all records.
 
     tables: the summary tables "record", "pulses", "comparison", "structures", "agreement", "failures" and, where it
-    exists, "trade". settings: at least tolerance, acceleration_scale and fragility_change.
+    exists, "trade". settings: at least tolerance and acceleration_scale.
     """
     return compile_document("summary/summary.typ", summary_data(tables, settings))
 
@@ -34,7 +34,6 @@ def summary_data(tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any])
         "integrated_rotation_ratio", ascending=False, kind="stable"
     )
     unsafe = Listing.of(ComparisonRow, worst)
-    fragile = Listing.of(ComparisonRow, comparison[comparison["fragile"].fillna(False)])
     failures = Listing.of(FailureRow, tables["failures"])
     records = Listing.of(RecordRow, tables["record"], MOST_RECORDS)
     agreement = list(rows_of(AgreementRow, tables["agreement"]))
@@ -49,13 +48,10 @@ def summary_data(tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any])
         "records-note": records.rest("component", "record.csv"),
         "unsafe": summary_tables.case_table(unsafe),
         "unsafe-note": unsafe.rest("case", "comparison.csv"),
-        "fragile": summary_tables.case_table(fragile),
-        "fragile-note": fragile.rest("case", "comparison.csv"),
         "failures": summary_tables.failure_table(failures),
         "failures-note": failures.rest("failure", "failures.csv"),
         "trade": _trade(tables.get("trade")),
         "tolerance": printing.given(float(settings["tolerance"])),
-        "fragility-change": f"{printing.given(100 * float(settings['fragility_change']))} %",
         "acceleration-scale": str(settings["acceleration_scale"]),
     }
 

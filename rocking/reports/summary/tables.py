@@ -144,8 +144,7 @@ def case_table(cases: Listing[ComparisonRow]) -> dict[str, object]:
         ("Closed form", "auto", "r", lambda row: ratio(row.predicted_rotation_ratio)),
         ("Full integration", "auto", "r", lambda row: strong(ratio(row.integrated_rotation_ratio))),
         ("Regime of the closed form", "1.4", "l", lambda row: words(row.regime)),
-        ("Sensi\u00adtivity", "0.6", "r", lambda row: number(row.sensitivity)),
-        ("Fragile", "auto", "l", lambda row: printing.yes_or_no(row.fragile)),
+        ("The closed form is", "1.2", "l", lambda row: words(row.prediction_in_words)),
     )
 
 

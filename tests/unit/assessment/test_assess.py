@@ -162,7 +162,7 @@ def test_ratio_is_known_only_where_both_are_lifted_and_stay_up():
     assert math.isnan(ratio(0.2, 0.0))
 
 
-@pytest.mark.parametrize("field", ["tolerance", "fragility_change", "friction_coefficient"])
+@pytest.mark.parametrize("field", ["tolerance", "friction_coefficient"])
 def test_settings_are_checked_at_birth(field):
     with pytest.raises(ConfigurationError, match=field):
         AssessmentSettings(**{field: -1.0})

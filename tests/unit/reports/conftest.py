@@ -28,9 +28,7 @@ from rocking.tables import frame
 
 SUMMARISED = {"record": RecordRow, "pulses": PulseRow, "comparison": ComparisonRow, "failures": FailureRow}
 ASSESSMENT = AssessmentSettings()
-SETTINGS = {
-    name: getattr(ASSESSMENT, name) for name in ("tolerance", "acceleration_scale", "fragility_change")
-}
+SETTINGS = {name: getattr(ASSESSMENT, name) for name in ("tolerance", "acceleration_scale")}
 HOSTILE = ("$x^$", "#panic(1)", "<b>bold</b>", "W" * 80, "Жёлтый Ω 中文")
 """Names that a template or a figure might take for markup, that no column holds, or that not every font has."""
 

@@ -14,7 +14,7 @@ from rocking.assessment.rows import (
     TradeRow,
     agreement_rows,
 )
-from rocking.assessment.verdict import Agreement, agreement, ratio, within_factor_two
+from rocking.assessment.verdict import Agreement, agreement, ratio, ratio_in_words, within_factor_two
 from rocking.reports.style import svg
 from rocking.reports.summary.figures import prediction_scatter
 from rocking.reports.summary.report import summary_data, summary_report
@@ -24,9 +24,7 @@ from rocking.tables import frame, write_rows
 from .conftest import SETTINGS, SUMMARISED, summarised
 
 
-def case(
-    structure: str, predicted: float, integrated: float, record: str = "one", fragile: bool = False
-) -> ComparisonRow:
+def case(structure: str, predicted: float, integrated: float, record: str = "one") -> ComparisonRow:
     """One row of the comparison table."""
     unknown = ("printed", "pulse", "block", "answer")
     return ComparisonRow(
@@ -38,11 +36,10 @@ def case(
         integrated_rotation_ratio=integrated,
         answer_method=Method.MECHANISM_ON_RECORD,
         prediction_over_integration=ratio(predicted, integrated),
+        prediction_in_words=ratio_in_words(predicted, integrated),
         within_factor_two=within_factor_two(predicted, integrated),
         agreement=agreement(predicted, integrated),
         regime=Regime.PRINTED_EXACT,
-        sensitivity=2.5,
-        fragile=fragile,
         scale_factor=1.0,
         record_sha256="",
         settings_sha256="",
@@ -54,7 +51,7 @@ CASES = [
     case("pier", math.inf, math.inf),
     case("arch", math.inf, 0.8, "two"),
     case("wall", 0.1, math.inf, "two"),
-    case("wall", 0.1, 0.7, "three", True),
+    case("wall", 0.1, 0.7, "three"),
 ]
 
 
@@ -116,9 +113,9 @@ def test_the_sentences_say_the_counts():
     )
 
 
-def test_unsafe_and_fragile_cases_are_listed():
+def test_unsafe_cases_are_listed():
     data = summary_data(summary_tables(CASES), SETTINGS)
-    assert len(data["unsafe"]["rows"]) == len(data["fragile"]["rows"]) == 1
+    assert len(data["unsafe"]["rows"]) == 1 and data["unsafe"]["rows"][0][-1] == "misses the overturning"
     assert data["unsafe"]["rows"][0][4] == {"text": "overturns", "strong": True}
 
 

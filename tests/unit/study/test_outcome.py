@@ -1,21 +1,37 @@
-"""What a person is told of records: each case in the right group, worst component and fragility included."""
+"""What a person is told of records: each case in the right group, worst component and ensemble included."""
 
 import math
 from pathlib import Path
 
-from rocking.assessment.rows import ComparisonRow, FailureRow
-from rocking.study.outcome import closing_lines, paths_to_read, record_line
+from rocking.assessment.rows import ComparisonRow, EnsembleRow, FailureRow
+from rocking.assessment.verdict import Verdict
+from rocking.study.outcome import CameOf, closing_lines, paths_to_read, record_line
 
 
-def _case(record: str, structure: str, ratio: float, fragile: bool = False) -> ComparisonRow:
+def _case(record: str, structure: str, ratio: float) -> ComparisonRow:
     known = {
         "record": record,
         "structure": structure,
         "integrated_rotation_ratio": ratio,
         "answer_rotation_ratio": ratio,
-        "fragile": fragile,
     }
     return ComparisonRow(**dict.fromkeys(ComparisonRow.table.column_names) | known)
+
+
+def _ensemble(
+    record: str, structure: str, verdict: Verdict, overturning: int, component: str = "EW"
+) -> EnsembleRow:
+    known = {
+        "record": record,
+        "component": component,
+        "structure": structure,
+        "verdict": verdict,
+        "overturning_members": overturning,
+        "overturning_probability": overturning / 64,
+        "members": 64,
+        "rotation_ratio_high": 0.5,
+    }
+    return EnsembleRow(**dict.fromkeys(EnsembleRow.table.column_names) | known)
 
 
 def _failure(record: str, structure: str, message: str) -> FailureRow:
@@ -24,25 +40,38 @@ def _failure(record: str, structure: str, message: str) -> FailureRow:
 
 def test_the_worst_component_counts() -> None:
     cases = [
-        *(_case("a", "pier", 0.5), _case("a", "pier", math.inf, True)),
+        *(_case("a", "pier", 0.5), _case("a", "pier", math.inf)),
         *(_case("a", "wall", 0.25), _case("a", "wall", 0.0005), _case("a", "arch", 0.0)),
     ]
-    assert record_line(cases, []) == "overturns: pier (fragile); rocks: wall 0.25; rests: arch"
+    assert record_line(CameOf(cases)) == "overturns: pier; rocks: wall 0.25; rests: arch"
+
+
+def test_the_verdict_is_that_of_the_ensemble_over_all_directions() -> None:
+    cases = [_case("a", "pier", math.inf), _case("a", "wall", 0.25), _case("a", "arch", 0.0)]
+    ensembles = [
+        _ensemble("a", "pier", Verdict.OVERTURNS, 64),
+        _ensemble("a", "pier", Verdict.UNDECIDED, 12, "both"),
+        _ensemble("a", "wall", Verdict.STANDS, 0),
+        _ensemble("a", "arch", Verdict.STANDS, 0),
+    ]
+    line = record_line(CameOf(cases, ensembles=ensembles))
+    assert line == "undecided: pier (12 of 64); stands: wall 0.25, arch"
 
 
 def test_a_failure_stands_first_without_repeating_the_record() -> None:
     failures = [_failure("a", "wall", "it cannot stand."), _failure("a", "", "a: it cannot be read.")]
-    line = record_line([_case("a", "pier", 0.5)], failures)
+    line = record_line(CameOf([_case("a", "pier", 0.5)], failures))
     assert line == "failed: wall: it cannot stand. it cannot be read.; rocks: pier 0.5"
 
 
-def test_the_table_at_the_end_names_records_and_marks_what_is_fragile() -> None:
+def test_the_table_at_the_end_names_records_and_marks_what_is_undecided() -> None:
     cases = [
-        *(_case("a", "pier", math.inf, True), _case("b", "pier", math.inf)),
+        *(_case("a", "pier", math.inf), _case("b", "pier", math.inf)),
         *(_case("a", "wall", math.inf), _case("b", "wall", 0.1), _case("b", "arch", 0.1)),
     ]
-    assert closing_lines(cases, [_failure("c", "", "not read.")]) == [
-        "Overturns under how many of 2 records (? where a small change flips it):",
+    doubts = [_ensemble("a", "pier", Verdict.UNDECIDED, 60)]
+    assert closing_lines(CameOf(cases, [_failure("c", "", "not read.")], doubts)) == [
+        "Overturns under how many of 2 records (? where that is undecided):",
         "  pier    2  a?, b",
         "  wall    1  a",
         "1 record failed, wholly or in part: c",
@@ -50,12 +79,12 @@ def test_the_table_at_the_end_names_records_and_marks_what_is_fragile() -> None:
 
 
 def test_nothing_overturns() -> None:
-    assert closing_lines([_case("a", "pier", 0.1)], []) == ["Nothing overturns under 1 record."]
+    assert closing_lines(CameOf([_case("a", "pier", 0.1)])) == ["Nothing overturns under 1 record."]
 
 
 def test_of_many_structures_those_that_overturn_most_are_listed() -> None:
     cases = [_case(f"r{j}", f"s{i}", math.inf) for i in range(9) for j in range(i + 1)]
-    lines = closing_lines(cases, [])
+    lines = closing_lines(CameOf(cases))
     assert len(lines) == 1 + 6 + 1 and lines[-1] == "  and 3 more structures, in comparison.csv"
     assert [line.split()[0] for line in lines[1:-1]] == ["s8", "s7", "s6", "s5", "s4", "s3"]
 
