@@ -46,13 +46,13 @@ class CodeCase:
 
 
 def pulse_cases(count: int = PULSES, seed: int = SEED) -> Iterator[CodeCase]:
-    """Yield sine pulses of 1.2 to 5 times the acceleration of uplift and 1 to 8 times p, evenly in the logarithm."""
+    """Yield sine pulses of 1.1 to 4 times the acceleration of uplift and 2 to 12 times p, evenly in the logarithm."""
     draw = np.random.default_rng(seed)
     kinds = [(name, structure.mechanism()) for name, structure in structures().items()]
     for k in range(count):
         name, mechanism = kinds[k % len(kinds)]
-        amplitude = mechanism.uplift_multiplier * GRAVITY * math.exp(draw.uniform(math.log(1.2), math.log(5)))
-        frequency = mechanism.positive.frequency_parameter * math.exp(draw.uniform(0, math.log(8)))
+        amplitude = mechanism.uplift_multiplier * GRAVITY * math.exp(draw.uniform(math.log(1.1), math.log(4)))
+        frequency = mechanism.positive.frequency_parameter * math.exp(draw.uniform(math.log(2), math.log(12)))
         pulse = Pulse(amplitude, frequency, 0.0)
         step = pulse.period / PER_PERIOD
         samples = pulse.acceleration(np.arange(PER_PERIOD) * step)

@@ -26,7 +26,7 @@ DAMPING = 0.05
 DENSITY = 2000.0
 STILL = 6.0
 """How long still ground is followed, in units of 1/p."""
-BUDGET = 40.0
+BUDGET = 20.0
 """Processor seconds of one run."""
 _LIBRARIES = ("libquadmath.so.0", "libgfortran.so.4", "libblas.so.3", "liblapack.so.3")
 

@@ -12,6 +12,7 @@ from rocking.assessment.rows.of_comparison import CodeRow
 from rocking.calibration.comparison.cases import SEED, CodeCase, pulse_cases, record_cases
 from rocking.calibration.comparison.codes import SLOWEST, Answer, Code, inner_codes, outer_codes
 from rocking.errors import MotionError
+from rocking.motion.integration import integrate
 from rocking.motion.reference import reference_landings
 from rocking.records import Accelerogram
 from rocking.tables import data_package, write_rows, write_whole
@@ -20,7 +21,9 @@ REFERENCE = "scipy DOP853, 1e-12 (reference)"
 REFERENCE_BUDGET = 120.0
 """Seconds that the reference may take for one case."""
 SAMPLED = {"LMGC90 (compas_lmgc90), NSCD": 24, "OpenSees RockingBC": 4}
-"""Blocks that each slow code is run on, drawn with the seed of the cases."""
+"""Blocks that each slow code is run on, drawn with the seed of the cases from those that rock visibly."""
+VISIBLE = (0.02, 0.95)
+"""Rotation ratios between which a block is said to do so."""
 
 
 def write_comparison(records: Sequence[Accelerogram], folder: Path, log: Path) -> None:
@@ -29,8 +32,9 @@ def write_comparison(records: Sequence[Accelerogram], folder: Path, log: Path) -
     with log.open("w", encoding="utf-8") as stream:
 
         def rows() -> Iterator[CodeRow]:
+            slow = slow_cases(cases)
             for case in cases:
-                found = list(code_rows(case, _codes_of(case, cases)))
+                found = list(code_rows(case, {**inner_codes(), **slow.get(case.name, {})}))
                 print(f"{case.name}: {len(found)} codes", file=stream, flush=True)
                 yield from found
 
@@ -66,15 +70,19 @@ def missed(landings: np.ndarray, expected: np.ndarray, within: float) -> int:
     return int((np.abs(expected[:, None] - landings).min(axis=1) > within).sum())
 
 
-def _codes_of(case: CodeCase, cases: Sequence[CodeCase]) -> Mapping[str, Code]:
-    """The codes that take a case: this package and scipy all, the slow ones a drawn few of the blocks."""
-    blocks = [each.name for each in cases if each.structure == "block"]
-    slow = {
-        name: code
-        for name, code in outer_codes().items()
-        if case.name in random.Random(SEED).sample(blocks, min(SAMPLED[name], len(blocks)))
-    }
-    return {**inner_codes(), **slow}
+def slow_cases(cases: Sequence[CodeCase]) -> Mapping[str, Mapping[str, Code]]:
+    """Return by case the slow codes that take it."""
+    rocking = [
+        case.name
+        for case in cases
+        if case.structure == "block"
+        and VISIBLE[0] < integrate(case.mechanism, case.motion).rotation_ratio < VISIBLE[1]
+    ]
+    chosen: dict[str, dict[str, Code]] = {}
+    for name, code in outer_codes().items():
+        for case_name in random.Random(SEED).sample(rocking, min(SAMPLED[name], len(rocking))):
+            chosen.setdefault(case_name, {})[name] = code
+    return chosen
 
 
 def _speed(case: CodeCase) -> float:

@@ -6,6 +6,7 @@ from pathlib import Path
 from statistics import median
 
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from rocking.assessment.rows.of_comparison import CodeRow
 from rocking.reports import printing
@@ -45,16 +46,12 @@ def comparison_data(rows: Sequence[CodeRow]) -> dict[str, object]:
 @styled
 def work_figure(rows: Sequence[CodeRow]) -> Figure:
     """Draw error against processor time: small marks are cases, large ones the medians of a code and structure."""
-    figure = new_figure(100, margins=(17, 4, 12, 6))
+    figure = new_figure(100, margins=(17, 4, 15, 6))
     panels = figure.subplots(1, len(_STRUCTURES), sharey=True, gridspec_kw={"wspace": 0.06})
     names = list(dict.fromkeys(row.code for row in rows))
     for panel, structure in zip(panels, _STRUCTURES, strict=True):
         for k, name in enumerate(names):
-            own = [
-                row
-                for row in rows
-                if (row.structure, row.code) == (structure, name) and row.error == row.error
-            ]
+            own = [row for row in rows if (row.structure, row.code) == (structure, name) and _rocks(row)]
             if not own or "reference" in name:
                 continue
             times, errors = [r.duration_s for r in own], [max(r.error, SMALLEST_ERROR) for r in own]
@@ -64,10 +61,15 @@ def work_figure(rows: Sequence[CodeRow]) -> Figure:
                 median(times), median(errors), markersize=6.5, markeredgecolor="white", label=name, **look
             )
         panel.set(xscale="log", yscale="log", title=structure, xlabel="processor time of a response (s)")
+        for axis in (panel.xaxis, panel.yaxis):
+            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.0e}"))
+            axis.set_major_locator(LogLocator(numticks=9))
+            axis.set_minor_locator(NullLocator())
+        panel.tick_params(axis="x", rotation=30)
         panel.grid(True)
         panel.set_axisbelow(True)
     panels[0].set_ylabel("error of the largest rotation, relative")
-    panels[0].legend(loc="lower right", fontsize=6.5)
+    panels[0].legend(loc="upper left", fontsize=6.5)
     return figure
 
 
@@ -80,6 +82,7 @@ def _table(rows: Sequence[CodeRow]) -> dict[str, object]:
         ("Structure", "0.6", "l", lambda own: own[0].structure),
         ("Code", "2", "l", lambda own: own[0].code),
         ("Cases", "0.45", "r", lambda own: printing.whole(len(own))),
+        ("Rock", "0.4", "r", lambda own: printing.whole(sum(map(_rocks, own)))),
         ("Median error", "0.8", "r", lambda own: _quantile(own, 0.5)),
         ("95 % error", "0.8", "r", lambda own: _quantile(own, 0.95)),
         (
@@ -108,8 +111,13 @@ def _slow_table(rows: Sequence[CodeRow]) -> dict[str, object]:
     )
 
 
+def _rocks(row: CodeRow) -> bool:
+    """Whether there is an error to speak of: both rock."""
+    return row.error == row.error and 0 < row.reference_rotation_ratio < math.inf
+
+
 def _quantile(rows: Sequence[CodeRow], share: float) -> str:
-    errors = sorted(row.error for row in rows if row.error == row.error)
+    errors = sorted(row.error for row in rows if _rocks(row))
     return number(errors[min(int(share * len(errors)), len(errors) - 1)], 2) if errors else printing.NOTHING
 
 

@@ -10,7 +10,7 @@ from rocking.calibration.comparison import lmgc90
 from rocking.calibration.comparison.cases import PULSES, RECORDS, SAMPLES, pulse_cases, record_cases
 from rocking.calibration.comparison.codes import inner_codes, landings_of
 from rocking.calibration.comparison.extrapolation import limit_of
-from rocking.calibration.comparison.write import code_rows, missed
+from rocking.calibration.comparison.write import SAMPLED, code_rows, missed, slow_cases
 from rocking.motion.integration import integrate
 from rocking.motion.reference import reference_landings
 from rocking.records import Accelerogram
@@ -113,3 +113,16 @@ def test_a_code_that_is_not_there_says_so(block_case, monkeypatch):
     answer = codes.outer_codes()["nothing"](replace(block_case))
     assert math.isnan(answer.rotation_ratio)
     assert "No module named" in answer.reason
+
+
+def test_the_slow_codes_get_a_drawn_few_of_the_blocks_that_rock():
+    cases = list(pulse_cases())
+    chosen, again = slow_cases(cases), slow_cases(cases)
+    assert {name: set(codes) for name, codes in chosen.items()} == {
+        name: set(codes) for name, codes in again.items()
+    }
+    for code, many in SAMPLED.items():
+        assert 0 < sum(code in codes for codes in chosen.values()) <= many
+    for case in cases:
+        if case.name in chosen:
+            assert 0 < integrate(case.mechanism, case.motion).rotation_ratio < 1
