@@ -10,7 +10,7 @@ from docs.paper.curves import ROTATION, Curve
 from rocking.reports.style import new_figure, plain_logarithmic, styled
 from rocking.structures.arch import Arch
 
-_PANEL_WIDTH, _PANEL_HEIGHT = 85.0, 62.0
+_PANEL_WIDTH, _PANEL_HEIGHT = 85.0, 54.0
 _LINES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 2)))
 """Line styles in turn, so that curves are told apart without colour."""
 
