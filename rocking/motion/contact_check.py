@@ -18,12 +18,14 @@ class ModelCheck:
 
     friction_needed: largest friction coefficient that any contact needs while it rocks; inf where one is not pressed,
     nan where `reason` says why nothing is known of it. bounces: whether a contact would open, or None.
-    reason: why nothing is known, in words; "" where it is.
+    reason: why nothing is known, in words; "" where it is. overstressed: what would be beyond its strength at the
+    largest rotation to the positive side, in words; "" where nothing is.
     """
 
     friction_needed: float
     bounces: bool | None
     reason: str = ""
+    overstressed: str = ""
 
     def slides(self, friction_coefficient: float) -> bool | None:
         """Whether a contact needs more friction than `friction_coefficient`; None where the forces are not known."""
@@ -56,7 +58,12 @@ def check_model(
         contacts = contact_history(structure, rotation[rocks], velocity[rocks], ground, lift)
     except UnknownContacts as why:
         return unknown(str(why))
-    return ModelCheck(float(np.max(contacts.friction_needed)), bool(contacts.opens.any()))
+    largest = min(float(rotation.max()), structure.mechanism().positive.end_rotation)
+    return ModelCheck(
+        float(np.max(contacts.friction_needed)),
+        bool(contacts.opens.any()),
+        overstressed=structure.overstressed(largest),
+    )
 
 
 def _at(accelerogram: Accelerogram, times: np.ndarray) -> np.ndarray:

@@ -17,7 +17,7 @@ from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Mark, Path, rectangle, span, turned
 from rocking.structures.facade_checks import checked_facade
 from rocking.structures.fields import ONE_SIDED, Form, flag_field, number_field, restitution_field
-from rocking.structures.load_fields import ECCENTRICITY, TOP_SLAB, UNIT_WEIGHT, tie_fields
+from rocking.structures.load_fields import ECCENTRICITY, TOP_SLAB, UNIT_WEIGHT, overstressed, tie_fields
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
 from rocking.structures.structure import Structure
@@ -36,9 +36,10 @@ class Facade(Structure):
     from the middle of the wall they rest on, inwards positive, m. loads_held: the rest of the building holds their
     mass, so that only their weight acts. top_slab: the uppermost load rests on a "hinged" bearing, or is a slab that
     stays "flat" and so rests on the corner that rises.
-    tie_heights: of elastic ties above the ground, m; tie_stiffness: of each, N/m per m; tie_pretension: N/m. A tie
-    pulls inwards only; one that is tightened needs a façade that cannot rock inwards. thrust: of a vault or a roof
-    outwards, N/m, at thrust_height above the ground, m; None is the top. crack_storey: 1 is the ground floor.
+    tie_heights: of elastic ties above the ground, m; tie_stiffness: of each, N/m per m; tie_pretension and
+    tie_strength: N/m. A tie pulls inwards only; one that is tightened needs a façade that cannot rock inwards. thrust:
+    of a vault or a roof outwards, N/m, at thrust_height above the ground, m; None is the top. crack_storey: 1 is the
+    ground floor.
     restitution: η in [0, 1] or "momentum" (the default), for both sides; inward_restitution: of the inward side
     instead. one_sided: it leans on cross walls and rocks outwards only; restitution must then be a number.
     Raises StructureError when it cannot stand.
@@ -142,6 +143,7 @@ class Facade(Structure):
     tie_heights: tuple[float, ...] = ()
     tie_stiffness: float = 0.0
     tie_pretension: float = 0.0
+    tie_strength: float | None = None
     thrust: float = 0.0
     thrust_height: float | None = None
     crack_storey: int = 1
@@ -252,6 +254,17 @@ class Facade(Structure):
             np.where(there, out.normal, back.normal),
             np.where(there, out.tangential, back.tangential),
         )
+
+    def tie_forces(self, rotation: float) -> dict[float, float]:
+        """Return the force [N/m] of each tie above the crack, by height, at a rotation [rad]; slack inwards."""
+        stretch = np.sin(max(rotation, 0.0))
+        return {
+            z: self.tie_pretension + self.tie_stiffness * (z - self.crack_height) * float(stretch)
+            for z in self._tied
+        }
+
+    def overstressed(self, rotation: float) -> str:
+        return overstressed(self.tie_forces(rotation), self.tie_strength)
 
     def candidate_positions(self, count: int) -> np.ndarray:
         """The foot of every storey."""

@@ -45,7 +45,12 @@ def checked_facade(facade: "Facade") -> dict[str, object]:
         "thrust": finite(StructureError, "thrust", facade.thrust, "N/m"),
         "crack_storey": whole("crack_storey", facade.crack_storey, 1, len(heights)),
         **checked_ties(
-            facade.tie_heights, facade.tie_stiffness, facade.tie_pretension, sum(heights), facade.one_sided
+            facade.tie_heights,
+            facade.tie_stiffness,
+            facade.tie_pretension,
+            facade.tie_strength,
+            sum(heights),
+            facade.one_sided,
         ),
     }
     if facade.thrust_height is not None:

@@ -40,6 +40,7 @@ from rocking.structures.load_fields import (
     checked_eccentricity,
     checked_ties,
     not_negative,
+    overstressed,
     tie_fields,
 )
 from rocking.structures.mechanism import Mechanism, Side
@@ -70,7 +71,7 @@ class LoadedWall(Structure):
     N/m, at `eccentricity` inwards from the middle, m, on a "hinged" bearing, or by a slab that stays "flat" and rests
     on the edge in contact. load_held: only its weight acts; otherwise its mass moves up and down with the top.
     tie_heights: of elastic ties above the base, m; tie_stiffness: of each, N/m per m; tie_pretension: N/m, for a
-    one-sided wall. one_sided: it leans on cross walls and bends outwards only.
+    one-sided wall; tie_strength: N/m. one_sided: it leans on cross walls and bends outwards only.
     restitution: η in [0, 1] or "momentum" (the default). Raises StructureError when it cannot stand.
     """
 
@@ -120,6 +121,7 @@ class LoadedWall(Structure):
     tie_heights: tuple[float, ...] = ()
     tie_stiffness: float = 0.0
     tie_pretension: float = 0.0
+    tie_strength: float | None = None
     restitution: Restitution = None
     one_sided: bool = False
 
@@ -131,7 +133,12 @@ class LoadedWall(Structure):
             "top_load": not_negative("top_load", self.top_load, "N/m"),
             "eccentricity": checked_eccentricity(self.eccentricity, self.thickness),
             **checked_ties(
-                self.tie_heights, self.tie_stiffness, self.tie_pretension, self.height, self.one_sided
+                self.tie_heights,
+                self.tie_stiffness,
+                self.tie_pretension,
+                self.tie_strength,
+                self.height,
+                self.one_sided,
             ),
         }
         check_slab(self.top_slab)
@@ -285,6 +292,18 @@ class LoadedWall(Structure):
                 rise = point.velocity.imag * state.acceleration + point.acceleration.imag * state.velocity**2
                 force = -1j * each.mass * (rise + state.pull.imag)
             yield each.path.block, each.path.start + point.moved, force * factor
+
+    def tie_forces(self, rotation: float) -> dict[float, float]:
+        """Return the force [N/m] of each tie, by height, at a rotation [rad]; inwards they hang slack."""
+        forces = {}
+        for each in self.attached() if rotation >= 0 else ():
+            if isinstance(each.force, Tie) and isinstance(each.path, OnBlock):
+                force = each.force.tension(each.path(np.asarray(rotation)))
+                forces[each.path.start.imag] = float(force) * self.weight * self.wall.linkage.lower_diagonal
+        return forces
+
+    def overstressed(self, rotation: float) -> str:
+        return overstressed(self.tie_forces(rotation), self.tie_strength)
 
     def candidate_positions(self, count: int) -> np.ndarray:
         """Hinge heights that stay a share of the height away from base and top."""

@@ -102,6 +102,10 @@ class Structure(ABC):
         """
         return np.empty((0, 2))
 
+    def overstressed(self, rotation: float) -> str:
+        """Return what would be beyond its strength at a signed `rotation` [rad], in words; "" where nothing is."""
+        return ""
+
     def held_work(self, rotation: float | np.ndarray) -> np.ndarray:
         """Return the work done since rest, at `rotation` ≥ 0 on the positive side, against what is no moving mass.
 
