@@ -27,7 +27,7 @@ Kind = Literal["load", "thrust", "tie"]
 _LENGTHS = {"exclusiveMinimum": 0, "maximum": 1000}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Facade(Structure):
     """Storeys stacked as one rigid body, flush outside, that rocks above the crack at the foot of one storey.
 

@@ -63,7 +63,7 @@ class OnBlock:
         return PointMotion(*carried(self.linkage.bars, self.linkage.motion(rotation), self.block, self.start))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class LoadedWall(Structure):
     """A wall cracked into two blocks between supports, as `Wall`, with what hangs on it; forces per metre of wall.
 

@@ -39,6 +39,9 @@ class Structure(ABC):
     moved: ClassVar[str] = ""
     draws_both_sides: ClassVar[bool] = False
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.description})"
+
     def mechanism(self) -> Mechanism:
         """Return the structure in standard form; the same object at every call."""
         return self._mechanism
