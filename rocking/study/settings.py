@@ -9,6 +9,7 @@ from dataclasses import asdict, dataclass, field, fields, is_dataclass
 from typing import Any, Literal
 
 from rocking.assessment.ensemble import EnsembleSettings
+from rocking.assessment.fragility.settings import FragilitySettings
 from rocking.assessment.settings import AssessmentSettings
 from rocking.calibration.settings import TradeSettings
 from rocking.pulses.settings import PulseSettings
@@ -79,6 +80,16 @@ class StudyEnsembleSettings:
 
 
 @dataclass(frozen=True)
+class StudyFragilitySettings:
+    """What fragility is measured with."""
+
+    intensity_measure: str = _of(FragilitySettings, "intensity_measure", numbers=False)
+    members: bool = _of(FragilitySettings, "members", numbers=False)
+    hazard: str | None = _of(FragilitySettings, "hazard", numbers=False)
+    in_every_run: bool = _own(False, "measure it in every run", numbers=False)
+
+
+@dataclass(frozen=True)
 class StudyTradeSettings:
     """How much is tried where error is measured against time."""
 
@@ -124,6 +135,9 @@ class Settings:
     ensemble: StudyEnsembleSettings = _section(
         StudyEnsembleSettings, "Ensemble: what is not known of a case varies within these ranges"
     )
+    fragility: StudyFragilitySettings = _section(
+        StudyFragilitySettings, "Fragility from all records of the study: snakemake fragility"
+    )
     trade: StudyTradeSettings = _section(StudyTradeSettings, "Trade of error for time: snakemake trade")
     reports: bool = _own(
         True, "PDF reports; the tables are written either way", heading="Output", numbers=False
@@ -148,6 +162,11 @@ class Settings:
     def raw_processing(self) -> Processing:
         """How raw records are processed."""
         return Processing(**self._values(Processing))
+
+    @property
+    def fragility_analysis(self) -> FragilitySettings:
+        """What the target fragility measures with."""
+        return FragilitySettings(**self._values(FragilitySettings))
 
     @property
     def error_against_time(self) -> TradeSettings:

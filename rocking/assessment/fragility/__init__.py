@@ -1,6 +1,10 @@
 """Fragility: the probability that a structure overturns, or turns far, at a level of shaking."""
 
-from rocking.assessment.fragility.analysis import fragility
+from rocking.assessment.fragility.analysis import (
+    IncrementalDynamicAnalysis,
+    fragility,
+    incremental_dynamic_analysis,
+)
 from rocking.assessment.fragility.curve import Fragility, fragility_of
 from rocking.assessment.fragility.intensity import INTENSITY_MEASURES, IntensityMeasure
 from rocking.assessment.fragility.lognormal import LognormalFits, fit_lognormal
@@ -8,9 +12,11 @@ from rocking.assessment.fragility.lognormal import LognormalFits, fit_lognormal
 __all__ = [
     "INTENSITY_MEASURES",
     "Fragility",
+    "IncrementalDynamicAnalysis",
     "IntensityMeasure",
     "LognormalFits",
     "fit_lognormal",
     "fragility",
     "fragility_of",
+    "incremental_dynamic_analysis",
 ]

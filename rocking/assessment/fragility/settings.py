@@ -1,0 +1,27 @@
+"""FragilitySettings: what the fragility of a study is measured with."""
+
+from dataclasses import dataclass
+
+from rocking.assessment.fragility.intensity import INTENSITY_MEASURES
+from rocking.errors import ConfigurationError
+from rocking.quantities import check_settings, setting
+
+
+@dataclass(frozen=True)
+class FragilitySettings:
+    """What fragility is measured with. Raises ConfigurationError when a value is outside what is allowed."""
+
+    intensity_measure: str = setting(
+        "pgv",
+        "of the levels: pga [g], pgv [m/s], p_pgv (p·PGV/(gλ)), pulse (its amplitude over gλ) or sa1 [g]",
+        one_of=tuple(INTENSITY_MEASURES),
+    )
+    members: bool = setting(
+        True, "whether each case is an ensemble, with the ranges above, instead of itself"
+    )
+    hazard: str | None = setting(
+        None, "CSV of a hazard curve with the columns intensity and annual_rate, ascending, or null"
+    )
+
+    def __post_init__(self) -> None:
+        check_settings(ConfigurationError, self)
