@@ -17,7 +17,13 @@ if TYPE_CHECKING:
 _COLUMNS = 2
 _HEIGHT = 52.0
 """Of a row of panels, mm."""
-_UNITS = {"pga": "PGA [g]", "pgv": "PGV [m/s]", "p_pgv": "p·PGV/(gλ) [-]", "pulse": "a_g/(gλ) [-]", "sa1": "Sa(1 s) [g]"}
+_UNITS = {
+    "pga": "PGA [g]",
+    "pgv": "PGV [m/s]",
+    "p_pgv": "p·PGV/(gλ) [-]",
+    "pulse": "a_g/(gλ) [-]",
+    "sa1": "Sa(1 s) [g]",
+}
 _NAME_WIDTH = 62.0
 """Room for a structure's name, mm."""
 
@@ -28,7 +34,9 @@ def fragility_figure(curves: "DataFrame", summary: "DataFrame") -> Figure:
     names = list(dict.fromkeys(curves["structure"]))
     rows = math.ceil(len(names) / _COLUMNS)
     figure = new_figure(_HEIGHT * rows + 14, margins=(16, 3, 12, 7))
-    panels = figure.subplots(rows, _COLUMNS, squeeze=False, sharey=True, gridspec_kw={"hspace": 0.45, "wspace": 0.08})
+    panels = figure.subplots(
+        rows, _COLUMNS, squeeze=False, sharey=True, gridspec_kw={"hspace": 0.45, "wspace": 0.08}
+    )
     for panel in panels.flat[len(names) :]:
         panel.set_axis_off()
     for name, panel in zip(names, panels.flat, strict=False):
@@ -65,7 +73,9 @@ def write_fragility_figure(folder: Path, pdf: Path, picture: Path) -> None:
     """Draw the tables in `folder` into the files `pdf` and `picture` (SVG)."""
     import io
 
-    curves, summary = (frame(each, folder / each.table.file_name) for each in (FragilityRow, FragilitySummaryRow))
+    curves, summary = (
+        frame(each, folder / each.table.file_name) for each in (FragilityRow, FragilitySummaryRow)
+    )
     figure = fragility_figure(curves, summary)
     stream = io.BytesIO()
     figure.savefig(stream, format="pdf", metadata={"CreationDate": None})
