@@ -1,6 +1,6 @@
 """The fragility of every structure of a study under all of its records."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from rocking.assessment.fragility import incremental_dynamic_analysis
@@ -20,13 +20,19 @@ from rocking.assessment.rows.of_fragility import (
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
-from rocking.structures import Structure
 from rocking.study.run import Study
 from rocking.tables import Row, data_package, write_rows, write_whole
 
 
-def write_fragility(records: Iterable[CatalogueRecord], study: Study, folder: Path) -> list[str]:
+def write_fragility(
+    records: Iterable[CatalogueRecord],
+    study: Study,
+    folder: Path,
+    tell: Callable[[str], None] = lambda _: None,
+) -> list[str]:
     """Write the fragility tables of `study` and their description into `folder`; return what could not be used.
+
+    tell: is told of each structure as it is finished.
 
     Raises ConfigurationError, before anything is written, where the records that can be read come from fewer than two
     stations, or the hazard curve is none.
@@ -35,7 +41,7 @@ def write_fragility(records: Iterable[CatalogueRecord], study: Study, folder: Pa
     hazard = read_hazard(Path(settings.hazard)) if settings.hazard else None
     names, accelerograms, unused = _opened(records, study)
     tables: dict[str, list[Row]] = {name: [] for name in FRAGILITY_TABLES}
-    for name, structure in study.structures.items():
+    for count, (name, structure) in enumerate(study.structures.items(), start=1):
         found = incremental_dynamic_analysis(
             accelerograms,
             structure,
@@ -51,6 +57,7 @@ def write_fragility(records: Iterable[CatalogueRecord], study: Study, folder: Pa
         tables[IntensityMeasureRow.table.name] += intensity_measure_rows(
             name, structure.mechanism(), accelerograms, found
         )
+        tell(f"{count} of {len(study.structures)}: {name}")
     for name, row_class in FRAGILITY_TABLES.items():
         write_rows(row_class, tables[name], folder / row_class.table.file_name)  # type: ignore[type-var]
     described = {
@@ -78,13 +85,3 @@ def _opened(
             "no record of the catalogue can be read, but a fragility needs two stations."
         )
     return names, accelerograms, unused
-
-
-def summary_sentences(rows: Iterable[FragilitySummaryRow], structures: Mapping[str, Structure]) -> list[str]:
-    """Say of each structure at which level half of the records overturn it."""
-    return [
-        f"{row.structure}: half of {row.records} records overturn it at a {row.intensity_measure} of {row.median:.3g} "
-        f"(90 %: {row.median_low:.3g} to {row.median_high:.3g})"
-        for row in rows
-        if row.rotation_ratio == float("inf") and row.structure in structures
-    ]

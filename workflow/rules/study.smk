@@ -27,3 +27,5 @@ TARGETS += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json"]
 if SETTINGS.reports:
     TARGETS += record_files(PLAN.records, "report.pdf") + [f"{SUMMARY}/summary.pdf"]
     TARGETS += [f"{SUMMARY}/prediction_against_integration.svg"]
+if SETTINGS.fragility.in_every_run:
+    TARGETS += [f"{RESULTS}/fragility/fragility.pdf"]

@@ -1,5 +1,6 @@
 """The fragility curves of a study: a panel for each structure, with intervals and what decides between the curves."""
 
+import io
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -71,8 +72,6 @@ def _draw(panel: Axes, name: str, curves: "DataFrame", summary: "DataFrame") -> 
 
 def write_fragility_figure(folder: Path, pdf: Path, picture: Path) -> None:
     """Draw the tables in `folder` into the files `pdf` and `picture` (SVG)."""
-    import io
-
     curves, summary = (
         frame(each, folder / each.table.file_name) for each in (FragilityRow, FragilitySummaryRow)
     )
