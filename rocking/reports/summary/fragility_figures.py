@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator
 
 from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow
 from rocking.reports.style import elided, new_figure, plain_logarithmic, styled, svg
@@ -34,7 +35,7 @@ def fragility_figure(curves: "DataFrame", summary: "DataFrame") -> Figure:
     """Draw the curves of each structure from the tables fragility and fragility_summary."""
     names = list(dict.fromkeys(curves["structure"]))
     rows = math.ceil(len(names) / _COLUMNS)
-    figure = new_figure(_HEIGHT * rows + 14, margins=(16, 3, 12, 7))
+    figure = new_figure(_HEIGHT * rows + 20, margins=(16, 3, 12, 11))
     panels = figure.subplots(
         rows, _COLUMNS, squeeze=False, sharey=True, gridspec_kw={"hspace": 0.45, "wspace": 0.08}
     )
@@ -65,6 +66,7 @@ def _draw(panel: Axes, name: str, curves: "DataFrame", summary: "DataFrame") -> 
     panel.set_title(f"{elided(name, _NAME_WIDTH)}\nmedian {median}, {law}", fontsize=8)
     panel.set_xscale("log")
     plain_logarithmic(panel, "x")
+    panel.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     panel.set_ylim(0, 1)
     panel.set_xlabel(_UNITS[falls["intensity_measure"]])
     panel.legend(loc="upper left", fontsize=6.5)

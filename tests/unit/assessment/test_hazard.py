@@ -1,0 +1,56 @@
+"""Annual rates against the closed form of a lognormal fragility under a power-law hazard."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.stats import norm
+
+from rocking.assessment.fragility import fragility_of
+from rocking.assessment.fragility.hazard import HazardRow, annual_rate, read_hazard
+from rocking.errors import ConfigurationError, RockingError
+
+LEVELS = np.geomspace(0.02, 50.0, 400)
+
+
+def _points(levels, rates) -> list[HazardRow]:
+    return [HazardRow(intensity=level, annual_rate=rate) for level, rate in zip(levels, rates, strict=True)]
+
+
+def test_the_rate_is_that_of_the_closed_form():
+    """ν = k₀ x⁻ᵏ and a lognormal of median m and dispersion β: rate = k₀ m⁻ᵏ exp(k²β²/2) (Cornell 1996)."""
+    slope, scale, median, dispersion = 2.5, 1e-3, 1.2, 0.4
+    thresholds = median * np.exp(dispersion * norm.ppf((np.arange(2000) + 0.5) / 2000))
+    curve = fragility_of(LEVELS, (thresholds[:, None] < LEVELS).astype(float), [str(k) for k in range(2000)])
+    found = annual_rate(curve, _points(LEVELS[[0, -1]], scale * LEVELS[[0, -1]] ** -slope))
+    exact = scale * median**-slope * math.exp(slope**2 * dispersion**2 / 2)
+    # Steps of 2 % in the level, half a step of lag in a curve that is counted: 2.5 x 1 % of the rate.
+    assert found.rate == pytest.approx(exact, rel=0.03)
+    assert found.low < found.rate < found.high and found.covered == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("levels", "rates", "sentence"),
+    [
+        (
+            [0.1, 0.2],
+            [1e-3, 2e-3],
+            "says 0.002 a year at 0.2, more than 0.001 at 0.1, but annual_rate must not rise",
+        ),
+        ([0.2, 0.1], [1e-2, 1e-3], "holds 0.1 after 0.2, but intensity must ascend"),
+        ([0.1], [1e-2], "holds 1 points, but must hold at least 2"),
+        ([0.1, 0.2], [1e-2, 0.0], "both must be above 0"),
+    ],
+)
+def test_a_hazard_that_is_none_is_one_sentence(tmp_path, levels, rates, sentence):
+    path = tmp_path / "hazard.csv"
+    lines = [f"{level},{rate}" for level, rate in zip(levels, rates, strict=True)]
+    path.write_text("\n".join(["intensity,annual_rate", *lines]) + "\n")
+    with pytest.raises(ConfigurationError, match=sentence):
+        read_hazard(path)
+
+
+def test_a_file_with_other_columns_is_refused(tmp_path):
+    (tmp_path / "hazard.csv").write_text("im,rate\n0.1,0.01\n")
+    with pytest.raises(RockingError, match=r"hazard\.csv"):
+        read_hazard(tmp_path / "hazard.csv")

@@ -1,0 +1,105 @@
+"""The fragility of a study: its tables say what the curves are, and a bad record costs no other."""
+
+import hashlib
+import math
+from pathlib import Path
+
+import pytest
+
+from rocking.assessment.rows.of_fragility import (
+    FRAGILITY_TABLES,
+    FragilityRow,
+    FragilitySummaryRow,
+    IdaRow,
+    IntensityMeasureRow,
+)
+from rocking.errors import ConfigurationError
+from rocking.records.catalogue import CatalogueRecord
+from rocking.records.synthetic import SyntheticRecord, at2_text
+from rocking.reports.summary.fragility_figures import write_fragility_figure
+from rocking.structures import Block
+from rocking.study.fragility import write_fragility
+from rocking.study.run import Study
+from rocking.study.settings import Settings, StudyFragilitySettings
+from rocking.tables import read_rows
+
+STRUCTURES = {"slender": Block.of_size(0.5, 3.0), "stout": Block.of_size(1.0, 3.0)}
+
+
+def _study(**fragility: object) -> Study:
+    settings = StudyFragilitySettings(**({"members": False} | fragility))
+    return Study(STRUCTURES, Settings(fragility=settings), "made")
+
+
+def _records(folder: Path, count: int) -> list[CatalogueRecord]:
+    made = []
+    for seed in range(count):
+        content = at2_text(
+            SyntheticRecord(f"made{seed}", seed, 4.0, 0.4 + 0.2 * seed, 1.0, 1.0, 6.0, 0.01)
+        ).encode()
+        (folder / f"made{seed}.AT2").write_bytes(content)
+        said = {"unit": "g", "event": "made", "station": str(seed), "folder": folder}
+        made.append(
+            CatalogueRecord(
+                f"made{seed}", f"made{seed}.AT2", sha256=hashlib.sha256(content).hexdigest(), **said
+            )
+        )
+    return made
+
+
+def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
+    records = _records(tmp_path, 3)
+    (tmp_path / "made2.AT2").write_bytes(b"not a record")
+    told: list[str] = []
+    (unused,) = write_fragility(records, _study(), tmp_path / "out", told.append)
+    assert "made2" in unused and told == ["1 of 2: slender", "2 of 2: stout"]
+    rows = {
+        name: list(read_rows(each, tmp_path / "out" / each.table.file_name))
+        for name, each in FRAGILITY_TABLES.items()
+    }
+    curves = [
+        row for row in rows["fragility"] if row.structure == "slender" and math.isinf(row.rotation_ratio)
+    ]
+    for curve in curves:
+        outcomes = [row for row in rows["ida"] if row.structure == "slender" and row.level == curve.level]
+        assert (
+            curve.probability == sum(math.isinf(row.rotation_ratio) for row in outcomes) / len(outcomes)
+            and len(outcomes) == 2
+        )
+    assert {row.records for row in rows["fragility_summary"]} == {2}
+    medians = {
+        row.structure: row.median for row in rows["fragility_summary"] if math.isinf(row.rotation_ratio)
+    }
+    assert medians["slender"] < medians["stout"]
+    assert {row.intensity_measure for row in rows["intensity_measures"]} == {
+        "pga",
+        "pgv",
+        "p_pgv",
+        "pulse",
+        "sa1",
+    }
+    assert all(
+        isinstance(row, kind)
+        for name, kind in zip(
+            rows, (IdaRow, FragilityRow, FragilitySummaryRow, IntensityMeasureRow), strict=True
+        )
+        for row in rows[name]
+    )
+    write_fragility_figure(tmp_path / "out", tmp_path / "curves.pdf", tmp_path / "curves.svg")
+    assert (tmp_path / "curves.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_one_station_is_refused_before_anything_is_written(tmp_path):
+    with pytest.raises(ConfigurationError, match="come from 1 station, but a fragility needs at least 2"):
+        write_fragility(_records(tmp_path, 1), _study(), tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_hazard_curve_gives_annual_rates(tmp_path):
+    hazard = tmp_path / "hazard.csv"
+    hazard.write_text("intensity,annual_rate\n0.01,0.1\n10,0.00001\n")
+    write_fragility(_records(tmp_path, 2), _study(hazard=str(hazard)), tmp_path / "out")
+    rows = list(read_rows(FragilitySummaryRow, tmp_path / "out" / "fragility_summary.csv"))
+    assert all(0 <= row.annual_rate_low <= row.annual_rate <= row.annual_rate_high <= 0.1 for row in rows)
+    by_threshold = [row.annual_rate for row in rows if row.structure == "slender"]
+    assert by_threshold == sorted(by_threshold, reverse=True), "the larger the rotation the rarer"
