@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.assessment.design import lattice
+from rocking.assessment.design import SIZES, lattice
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict, verdict
 from rocking.errors import ConfigurationError
 from rocking.motion.integration import Rocking, reduce
@@ -36,7 +36,12 @@ _STRATA = 8
 class EnsembleSettings:
     """What is not known of a case, and how much of it a verdict bears. Raises ConfigurationError."""
 
-    members: int = setting(64, "members of an ensemble: 16, 64, 256, 1024 or 4096; 0: none", ge=0, le=4096)
+    members: int = setting(
+        64,
+        "members of an ensemble, taken up to the next of 16, 64, 256, 1024 and 4096; 0: none",
+        ge=0,
+        le=4096,
+    )
     amplitude_range: float = setting(
         0.05, "the ground motion is known to plus or minus this share", ge=0, le=0.9
     )
@@ -52,8 +57,11 @@ class EnsembleSettings:
 
     def __post_init__(self) -> None:
         check_settings(ConfigurationError, self)
-        if self.members not in (0, 16, 64, 256, 1024, 4096):
-            raise ConfigurationError(f"members is {self.members}, but must be 0, 16, 64, 256, 1024 or 4096.")
+
+    @property
+    def size(self) -> int:
+        """Members of the design that is used; 0 for none."""
+        return next(size for size in (0, *SIZES) if size >= self.members)
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,9 +217,9 @@ def ensemble(
     """
     settings = settings or EnsembleSettings()
     reduced = reduce(structure)
-    points = lattice(max(settings.members, FIRST, MOST_NEAR_A_LIMIT), CAUSES)
+    points = lattice(max(settings.size, MOST_NEAR_A_LIMIT), CAUSES)
     found = drawn(reduced, motions, points[:FIRST], settings, nominal=nominal, tolerance=tolerance)
-    for size in (settings.members, MOST_NEAR_A_LIMIT):
+    for size in (settings.size, MOST_NEAR_A_LIMIT):
         done = found.rotation_ratios.size
         wanted = not np.all(found.rotation_ratios <= NEGLIGIBLE) if done == FIRST else _near_a_limit(found)
         if size > done and wanted:

@@ -163,8 +163,9 @@ def test_assess_says_in_one_call_what_its_parts_say():
 
 
 def test_settings_out_of_range_are_refused():
-    with pytest.raises(ConfigurationError, match="members is 50, but must be 0, 16, 64"):
-        EnsembleSettings(members=50)
+    with pytest.raises(ConfigurationError, match="members is 5000, but must be"):
+        EnsembleSettings(members=5000)
+    assert [EnsembleSettings(members=members).size for members in (0, 1, 16, 50, 65)] == [0, 16, 16, 64, 256]
     with pytest.raises(ConfigurationError, match="record holds 0 accelerograms"):
         assess([], BLOCK)
 
