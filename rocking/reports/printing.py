@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import TypeVar
 
 Cell = str | dict[str, object]
+"""A text; or a text that is strong, with another below it; or a strip (layout.typ)."""
 T = TypeVar("T")
 
 NOTHING = "–"
@@ -38,6 +39,14 @@ def number(value: float | None, digits: int = 3) -> str:
     if 10**digits <= abs(value) < _LARGEST_PLAIN:
         return _typeset(f"{value:.0f}")
     return _typeset(f"{value:#.{digits}g}".rstrip("."))
+
+
+def to_spread(value: float, spread: float) -> str:
+    """Return `value` to a tenth of the `spread` of what it was drawn from: one to three significant digits."""
+    if value == 0 or not math.isfinite(value) or not 0 < spread < math.inf:
+        return number(value, 2)
+    leading, last = math.floor(math.log10(abs(value))), math.floor(math.log10(spread)) - 1
+    return number(value, min(max(leading - last + 1, 1), 3))
 
 
 def whole(value: int | None) -> str:

@@ -26,6 +26,9 @@ class RecordRow(ComponentRow):
         "Distance to the epicentre, where file or catalogue give it", default=None
     )
     station: str = column("Recording station")
+    start_time: str = column(
+        "Time of the first sample, as the file states it; empty where it does not", default=""
+    )
     file: str = column("File the record was read from")
     format: str = column("Format that recognised the file")
     unit: str = column("Unit of the numbers in the file")
@@ -143,6 +146,7 @@ def record_row(
         **identity.columns,
         event=accelerogram.event,
         station=accelerogram.station,
+        start_time=accelerogram.start_time,
         file=accelerogram.source.path,
         format=accelerogram.source.format,
         unit=accelerogram.source.unit,

@@ -8,6 +8,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.record import curves as record_curves
+from rocking.reports.record import page_one
 from rocking.reports.record import sheet as record_sheet
 from rocking.reports.record import tables as record_tables
 from rocking.reports.record import variations as record_variations
@@ -55,12 +56,17 @@ def record_data(
     scale_note = record_verdict.scale_note(tables.record)
     by_component = {row.component: tables.of_component(row.component) for row in tables.record}
     rows = list(structure_rows(structures))
+    found = page_one.fates(tables, rows)
     return {
         "title": f"Rocking assessment: {record}",
         "subtitle": _subtitle(tables.record),
         "running": f"{record}.{scale_note}" if scale_note else record,
         "scale-note": scale_note,
+        "origin": page_one.origin(tables.record),
         "notices": record_verdict.notices(tables),
+        "headlines": page_one.headlines(found),
+        "remarks": page_one.remarks(found),
+        "fates": page_one.fate_table(found, numbers),
         "verdicts": [
             _verdicts(component, of_it, numbers, scale_note)
             for component, of_it in by_component.items()
@@ -85,6 +91,7 @@ def record_data(
         "processing": record_variations.processing_table(tables.processing, numbers),
         **_pictures(accelerograms, structures, by_component, numbers, float(settings["tolerance"]), vertical),
         **_assumptions(tables, settings),
+        "arch": any("arch" in row.type for row in rows),
     }
 
 
@@ -99,11 +106,11 @@ def _verdicts(
     component: str, tables: RecordTables, numbers: Mapping[str, str], scale_note: str
 ) -> dict[str, object]:
     return {
-        "caption": f"Component {printing.words(component)}: largest rotation over critical rotation by the closed "
-        f"form under the dominant pulse and by full integration under the whole record.{scale_note}",
+        "caption": f"Component {printing.words(component)}: the simple predictions beside the full integration, as "
+        "largest rotation over critical rotation: closed form of the equivalent block under one sine pulse, that block "
+        f"under the whole record, the mechanism under the whole record.{scale_note}",
         "table": record_verdict.verdict_table(tables.comparison, numbers),
-        "sentences": record_verdict.verdict_sentences(tables.comparison)
-        + record_variations.processing_sentences(tables.processing),
+        "sentences": record_verdict.doubts(tables.comparison),
     }
 
 

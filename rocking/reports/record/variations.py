@@ -42,14 +42,3 @@ def processing_table(rows: Sequence[ProcessingRow], numbers: Mapping[str, str]) 
         for case in dict.fromkeys(row.case for row in rows)
     ]
     return table(columns, shown)
-
-
-def processing_sentences(rows: Sequence[ProcessingRow]) -> list[str]:
-    """Return the structures whose outcome the processing of the record decides, as a sentence or nothing."""
-    outcomes: dict[str, set[str]] = {}
-    for row in rows:
-        outcomes.setdefault(row.structure, set()).add(row.outcome)
-    undecided = [name for name, found in outcomes.items() if len(found) > 1]
-    if not undecided:
-        return []
-    return [f"The outcome depends on the processing of the record for {printing.listed(undecided)}."]

@@ -1,24 +1,24 @@
-"""The first page of a record's report: the verdicts, what they amount to, and the warnings above them."""
+"""How the closed form stands to the integration, and the warnings that stand above everything in a report."""
 
-import math
 from collections.abc import Mapping, Sequence
 
 from rocking.assessment.method import Method
 from rocking.assessment.rows import ComparisonRow, RecordRow, RecordTables, ResponseRow
-from rocking.assessment.verdict import Agreement, rests
+from rocking.assessment.verdict import Agreement
 from rocking.reports import printing
 from rocking.reports.printing import ratio, strong, table_of, words
 
 
 def verdict_table(rows: Sequence[ComparisonRow], numbers: Mapping[str, str]) -> dict[str, object]:
-    """Return the first table that a reader sees: one row per structure of one component."""
+    """Return how the simple predictions of one component stand to the integration: one row per structure."""
     return table_of(
         rows,
         ("No.", "auto", "r", lambda row: numbers[row.structure]),
         ("Structure", "1.2", "l", lambda row: row.structure),
-        ("Closed form", "0.65", "r", lambda row: ratio(row.predicted_rotation_ratio)),
+        ("Closed form, one pulse", "0.65", "r", lambda row: ratio(row.predicted_rotation_ratio)),
+        ("Block, whole record", "0.65", "r", lambda row: ratio(row.block_rotation_ratio)),
         (
-            "Full inte\u00adgration",
+            "Mechanism, whole record",
             "0.65",
             "r",
             lambda row: strong(
@@ -35,26 +35,8 @@ def verdict_table(rows: Sequence[ComparisonRow], numbers: Mapping[str, str]) -> 
     )
 
 
-def verdict_sentences(rows: Sequence[ComparisonRow]) -> list[str]:
-    """Return what the verdict table amounts to, in sentences."""
-    found = [row.found_rotation_ratio for row in rows]
-    falling, still, failed = (sum(map(each, found)) for each in (math.isinf, rests, math.isnan))
-    rocking = len(rows) - falling - still - failed
-    parts = [
-        (falling, "overturns", "overturn"),
-        (rocking, "rocks and stays up", "rock and stay up"),
-        (still, "is not lifted or hardly so", "are not lifted or hardly so"),
-        (failed, "gave no result", "gave no result"),
-    ]
-    said = [f"{printing.count(many)} {one if many == 1 else more}" for many, one, more in parts if many]
-    total = printing.counted(len(rows), "structure")
-    spared = any(row.spared for row in rows)
-    how = "by the cheapest trusted method" if spared else "in the full integration"
-    sentences = [printing.sentence(f"of {total} {how}: {', '.join(said)}.")] if rows else []
-    return sentences + _doubts(rows)
-
-
-def _doubts(rows: Sequence[ComparisonRow]) -> list[str]:
+def doubts(rows: Sequence[ComparisonRow]) -> list[str]:
+    """Return what the closed form misses, as a sentence or nothing."""
     missed = [row for row in rows if row.agreement is Agreement.TOO_LOW]
     unsafe = [row.structure for row in sorted(missed, key=lambda row: -row.integrated_rotation_ratio)]
     return [f"The closed form misses what happens to {printing.listed(unsafe)}."] if unsafe else []

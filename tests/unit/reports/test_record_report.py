@@ -10,6 +10,7 @@ import pytest
 
 from rocking.assessment.method import Method
 from rocking.assessment.rows import structure_rows
+from rocking.assessment.verdict import Verdict
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports.record.report import failure_report, record_data, record_report
 from rocking.structures import Block
@@ -21,7 +22,7 @@ from .conftest import HOSTILE, SETTINGS, assessed, shaken
 NUMBER = re.compile(r"[−-]?\d+(?:\.\d+)?(?:×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
 CSV_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 PLAIN = str.maketrans("−⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789")
-TABLES_OF_NUMBERS = ("identity", "structures", "methods", "trust", "candidates", "processing")
+TABLES_OF_NUMBERS = ("fates", "identity", "structures", "methods", "trust", "candidates", "processing")
 
 
 def printed_numbers(text: str) -> list[tuple[float, float]]:
@@ -55,7 +56,7 @@ def cell_texts(data) -> list[str]:
     for table in shown_tables(data):
         first = 1 if table["heads"][0] == "No." else 0
         cells = (cell for row in table["rows"] for cell in row[first:])
-        texts += [cell["text"] if isinstance(cell, dict) else cell for cell in cells]
+        texts += [cell.get("text", "") if isinstance(cell, dict) else cell for cell in cells]
     return texts
 
 
@@ -74,15 +75,79 @@ def test_a_changed_cell_changes_what_is_printed(example):
     changed = replace(first, integrated_rotation_ratio=0.123456789)
     tables = replace(example.tables, comparison=[changed, *others])
     data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
-    assert data["verdicts"][0]["table"]["rows"][0][3] == {"text": "0.123", "strong": True}
+    assert data["verdicts"][0]["table"]["rows"][0][4] == {"text": "0.123", "strong": True}
 
 
 def test_every_number_in_a_sentence_stands_in_a_csv_or_counts_rows(example):
     data = record_data(*example.arguments)
-    sentences = [text for part in data["verdicts"] for text in part["sentences"]]
+    sentences = [*data["remarks"], *(line["names"] for line in data["headlines"])]
+    sentences += [text for part in data["verdicts"] for text in part["sentences"]]
     assert sentences
-    named = "|".join(map(re.escape, example.structures))
-    assert not [text for text in sentences if printed_numbers(re.sub(named, "", text))]
+    named, known = "|".join(map(re.escape, example.structures)), csv_numbers(example)
+    for value, half in printed_numbers(" ".join(re.sub(named, "", text) for text in sentences)):
+        assert np.abs(known - value).min() <= half * (1 + 1e-9), value
+
+
+def test_page_one_begins_with_the_verdicts_by_name(example):
+    data = record_data(*example.arguments)
+    said = {line["verdict"].lower(): line["names"] for line in data["headlines"]}
+    assert list(said) == [word for word in ("overturns", "undecided", "stands") if word in said]
+    for row in example.tables.ensemble:
+        assert row.structure in said[row.verdict]
+        if row.verdict is Verdict.UNDECIDED:
+            assert f"overturns in {row.overturning_members}\u00a0of\u00a0{row.members}" in said[row.verdict]
+    assert len(data["fates"]["rows"]) == len(example.structures)
+
+
+def test_a_band_on_a_strip_is_that_of_the_ensemble(example):
+    data = record_data(*example.arguments)
+    place = data["fates"]["heads"].index("5–95 %, of the critical rotation")
+    for line, row in zip(data["fates"]["rows"], example.tables.ensemble, strict=True):
+        ends = [row.rotation_ratio_low, row.rotation_ratio_median, row.rotation_ratio_high]
+        assert line[place] == {
+            "strip": [min(end, 1.0) for end in ends],
+            "overturns": row.overturning_probability,
+        }
+
+
+def test_what_stands_only_as_it_is_given_is_said_on_page_one(example):
+    fallen = [
+        replace(row, integrated_rotation_ratio=np.inf) if row.governs_record else row
+        for row in example.tables.candidates
+    ]
+    still = [
+        replace(row, integrated_rotation_ratio=0.2, answer_rotation_ratio=0.2)
+        for row in example.tables.comparison
+    ]
+    tables = replace(example.tables, candidates=fallen, comparison=still)
+    data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
+    assert "another height of hinge or crack: wall 3 m (hinge at " in data["remarks"][0]
+
+
+def test_without_an_ensemble_page_one_says_what_the_single_run_does(example):
+    tables = replace(example.tables, ensemble=[])
+    data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
+    for row in tables.comparison:
+        word = (
+            "Overturns"
+            if np.isinf(row.found_rotation_ratio)
+            else "Rests"
+            if row.found_rotation_ratio <= 1e-3
+            else "Rocks"
+        )
+        assert any(
+            line["verdict"].startswith(word) and row.structure in line["names"] for line in data["headlines"]
+        )
+
+
+def test_the_origin_names_version_file_and_time_of_the_record_and_no_time_of_the_run(example):
+    timed = replace(
+        example.tables, record=[replace(example.tables.record[0], start_time="1992-03-13T17:18:39")]
+    )
+    data = record_data(example.record, example.accelerograms, example.structures, timed, SETTINGS)
+    assert data["origin"].startswith(
+        "Recorded 1992-03-13T17:18:39. File: one.at2, SHA-256 abababababababab…. rocking "
+    )
 
 
 def test_the_same_input_gives_the_same_bytes(example):
@@ -164,13 +229,14 @@ def test_a_hundred_structures_are_all_in_the_first_table_and_few_are_drawn(examp
         example.tables,
         comparison=[replace(example.tables.comparison[0], structure=name) for name in named],
         predictions=[replace(example.tables.predictions[0], structure=name) for name in named],
+        ensemble=[],
         candidates=[],
         processing=[],
     )
     structures = {f"block {place}": example.structures["block 4 m"] for place in range(100)}
     data = record_data(example.record, example.accelerograms, structures, tables, SETTINGS)
-    assert len(data["verdicts"][0]["table"]["rows"]) == 100
-    assert "Of 100 structures" in data["verdicts"][0]["sentences"][0]
+    assert len(data["fates"]["rows"]) == len(data["verdicts"][0]["table"]["rows"]) == 100
+    assert "and 88 others" in data["headlines"][0]["names"]
     assert "88 structures" in data["histories"][0]["note"]
 
 
@@ -208,10 +274,11 @@ def test_an_outcome_that_processing_decides_is_said(example):
     processing = list(example.tables.processing)
     place = next(place for place, row in enumerate(processing) if row.structure == "arch 20 m")
     other = Outcome.ROCKS if processing[place].outcome is Outcome.OVERTURNS else Outcome.OVERTURNS
-    processing[place] = replace(processing[place], outcome=other)
+    other_ratio = 0.3 if other is Outcome.ROCKS else np.inf
+    processing[place] = replace(processing[place], outcome=other, rotation_ratio=other_ratio)
     tables = replace(example.tables, processing=processing)
     data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
-    said = [text for text in data["verdicts"][0]["sentences"] if "depends on the processing" in text]
+    said = [text for text in data["remarks"] if "depends on the processing" in text]
     assert "arch 20 m" in said[0]
 
 
