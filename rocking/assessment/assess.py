@@ -5,11 +5,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from time import process_time
 
+from rocking.assessment import intensity
 from rocking.assessment.ensemble import Ensemble, GroundMotions, ensemble
 from rocking.assessment.fidelity import Answer, cheapest_answer
+from rocking.assessment.intensity import Shape
 from rocking.assessment.method import Method
 from rocking.assessment.settings import AssessmentSettings
-from rocking.errors import PulseError, RockingError
+from rocking.assessment.tiers import Expectation, Tier, expect
+from rocking.errors import PulseError, RockingError, StructureError
 from rocking.motion.contact_check import UNKNOWN, ModelCheck, check_model
 from rocking.motion.integration import integrate
 from rocking.motion.response import Response
@@ -62,6 +65,8 @@ class Case:
     check: ModelCheck
     answer: Answer
     ensemble: Ensemble | None = None
+    expectation: Expectation | None = None
+    """What the closed form and the peaks of the record say; None without a pulse, or of an unusual structure."""
 
 
 @dataclass(frozen=True)
@@ -109,10 +114,10 @@ def assess_structures(
     except PulseError as error:
         failures.append(Failure("pulses", "", str(error)))
     extracted = process_time()
-    cases = []
+    cases, shape = [], Shape.of(accelerogram)
     for name, structure in structures.items():
         try:
-            cases.append(_case(name, structure, candidates, interval, accelerogram, settings, vertical))
+            cases.append(_case(name, structure, candidates, interval, shape, settings, vertical))
         except RockingError as error:
             failures.append(Failure("responses", name, str(error)))
     durations = {"pulses": extracted - started, "responses": process_time() - extracted}
@@ -164,10 +169,11 @@ def _case(
     structure: Structure,
     candidates: Sequence[PulseEvidence],
     interval: PulseInterval | None,
-    accelerogram: Accelerogram,
+    shape: Shape,
     settings: AssessmentSettings,
     vertical: Accelerogram | None,
 ) -> Case:
+    accelerogram = shape.accelerogram
     mechanism, full = structure.mechanism(), settings.fidelity == "full"
     prediction = predict(mechanism, candidates, interval if full else None, settings) if candidates else None
     if full:
@@ -177,12 +183,19 @@ def _case(
         if prediction is not None:
             responses |= _pulse_responses(mechanism, prediction, settings)
     else:
-        answer = cheapest_answer(mechanism, accelerogram, settings.tolerance, vertical)
-        responses = {} if answer.response is None else {answer.integrated: answer.response}
+        answer = cheapest_answer(
+            mechanism,
+            shape,
+            risk=settings.fidelity_risk,
+            tolerance=settings.tolerance,
+            vertical=vertical,
+            history=True,
+        )
+        responses = {} if answer.response is None else {Method.MECHANISM_ON_RECORD: answer.response}
     on_record = responses.get(Method.MECHANISM_ON_RECORD)
     check = check_model(structure, on_record, accelerogram, vertical) if on_record else UNKNOWN
     sure = None
-    if full and settings.ensemble.members:
+    if settings.ensemble.members and (full or answer.method is Method.MECHANISM_ON_RECORD):
         motions = GroundMotions.of(accelerogram, vertical)
         sure = ensemble(
             mechanism,
@@ -191,7 +204,17 @@ def _case(
             nominal=answer.rotation_ratio,
             tolerance=settings.tolerance,
         )
-    return Case(name, mechanism, prediction, responses, check, answer, sure)
+    expectation = None if prediction is None else _expectation(mechanism, prediction.pulse, shape)
+    return Case(name, mechanism, prediction, responses, check, answer, sure, expectation)
+
+
+def _expectation(mechanism: Mechanism, pulse: Pulse, shape: Shape) -> Expectation | None:
+    try:
+        block = mechanism.equivalent_block("rest")
+        measures = intensity.of_structure(mechanism) | intensity.of_peaks(shape, block)
+        return expect(Tier.CLOSED_FORM_AND_PEAKS, measures | intensity.of_pulse(pulse, block))
+    except (PulseError, StructureError):
+        return None
 
 
 def _responses(

@@ -1,4 +1,4 @@
-"""How severe a ground motion is for a structure: intensity measures, each the log of a ratio that scales with the motion.
+"""How severe a ground motion is for a structure: intensity measures, most of them logs of ratios.
 
 All are relative to what overturns or lifts the equivalent block, so that one number means the same for every structure.
 """
@@ -59,9 +59,14 @@ def of_peaks(shape: Shape, block: EquivalentBlock) -> dict[str, float]:
     """ln of p PGV/(gλ) and of PGA/(gλ)."""
     uplift = GRAVITY * _uplift(block)
     return {
-        "peak_velocity": _log(block.frequency_parameter * shape.peak_velocity / uplift),
+        "peak_velocity": _log(per_velocity(block) * shape.peak_velocity),
         "peak_acceleration": _log(shape.peak_acceleration / uplift),
     }
+
+
+def per_velocity(block: EquivalentBlock) -> float:
+    """p/(gλ), s/m."""
+    return block.frequency_parameter / (GRAVITY * _uplift(block))
 
 
 def of_pulse(pulse: Pulse, block: EquivalentBlock) -> dict[str, float]:
@@ -124,10 +129,7 @@ def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
 def scaled(measures: Mapping[str, float], factor: float) -> dict[str, float]:
     """The measures, none of which follows the block, under the motion times `factor`."""
     shift = math.log(factor)
-    return {
-        name: _kept(value + shift) if name in SCALING else value
-        for name, value in measures.items()
-    }
+    return {name: _kept(value + shift) if name in SCALING else value for name, value in measures.items()}
 
 
 SCALING = ("peak_velocity", "peak_acceleration", "pulse", "sine", "velocity_change", "push")
@@ -152,7 +154,10 @@ def _uplift(block: EquivalentBlock) -> float:
 
 def _largest_change(course: np.ndarray, samples: int) -> float:
     """Largest difference of two velocities at most `samples` apart."""
-    from scipy.ndimage import maximum_filter1d, minimum_filter1d  # slow to import, and needed by this measure only
+    from scipy.ndimage import (  # slow to import, and needed by this measure only
+        maximum_filter1d,
+        minimum_filter1d,
+    )
 
     highest = maximum_filter1d(course, samples + 1, mode="nearest")
     lowest = minimum_filter1d(course, samples + 1, mode="nearest")
@@ -179,7 +184,7 @@ def _matched(accelerogram: Accelerogram) -> tuple[np.ndarray, np.ndarray]:
     from scipy.signal import fftconvolve  # as above
 
     step, samples = accelerogram.time_step, accelerogram.acceleration
-    kept = _PERIODS[(_PERIODS < samples.size * step) & (_PERIODS > 4 * step)]
+    kept = _PERIODS[(samples.size * step > _PERIODS) & (4 * step < _PERIODS)]
     amplitudes = []
     for period in kept:
         cycle = np.sin(2 * np.pi * np.arange(0, period, step) / period)

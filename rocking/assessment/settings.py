@@ -17,8 +17,7 @@ FEWEST_REPLICATES = 20
 class AssessmentSettings:
     """What a comparison is made with. Raises ConfigurationError when a value is outside what is allowed.
 
-    fidelity: auto takes the cheapest method that rocking.assessment.fidelity trusts to be within fidelity_tolerance of
-    the mechanism, and unsafe in at most fidelity_risk of the answers.
+    fidelity: auto stops at the first method that settles whether a structure overturns to fidelity_risk.
     """
 
     acceleration_scale: Scale = setting(
@@ -42,13 +41,11 @@ class AssessmentSettings:
         one_of=tuple(PULSE_METHODS),
     )
     fidelity: Literal["full", "auto"] = setting(
-        "full", "full: every method, to compare them; auto: per case the cheapest that is trusted"
-    )
-    fidelity_tolerance: float = setting(
-        0.1, "for auto: relative error of the largest rotation that counts as right", ge=0, le=1
+        "full",
+        "full: every method, to compare them; auto: per case what settles the verdict, from the cheapest",
     )
     fidelity_risk: float = setting(
-        0.01, "for auto: share of answers that may be too low by more than that", ge=0, le=1
+        0.01, "for auto: largest probability of a wrong verdict with which it stops; 0: none", ge=0, le=0.2
     )
 
     def __post_init__(self) -> None:

@@ -81,6 +81,8 @@ class TierTerm(Row):
     term: str = column("Intensity measure or property of the structure; empty for the intercept")
     centre: float = column("Subtracted from the term")
     spread: float = column("What it is then divided by")
+    least: float = column("Its smallest value behind the fit")
+    largest: float = column("Its largest value behind the fit")
     coefficient: float = column("Of the log odds of overturning")
     records: int = column("Components behind the fit")
     sites: int = column("Independent sites behind the fit")
@@ -103,7 +105,9 @@ class TierBand(Row):
     """The band from one location up to that of the next row."""
 
     tier: Tier = column("What is known of a case")
-    location_from: float = column("Log odds of overturning, or log of the block's rotation ratio where the tier has it")
+    location_from: float = column(
+        "Log odds of overturning, or log of the block's rotation ratio where the tier has it"
+    )
     low: float = column("5 % quantile of the rotation ratio, over the block's where the tier has it")
     median: float = column("Its median")
     high: float = column("Its 95 % quantile; INF: overturns")
@@ -138,12 +142,6 @@ class Expectation:
         """The band as "between 0.05 and 0.4 φ_cr"."""
         return band_in_words(self.rotation_low, self.rotation_high)
 
-    def settled(self, risk: float) -> bool | None:
-        """Whether it overturns where `risk` of the opposite can be borne, even at the end of the interval; else None."""
-        if self.probability_high <= risk:
-            return False
-        return True if 1 - self.probability_low <= risk else None
-
 
 def probability_in_words(probability: float, low: float = math.nan, high: float = math.nan) -> str:
     """Say a probability of overturning with its interval: "overturns with 30 % (18–45)"; "" for nan."""
@@ -166,13 +164,18 @@ def band_in_words(low: float, high: float) -> str:
     if high <= NEGLIGIBLE:
         return "at rest"
     if high == math.inf:
-        return "anything from rest to overturning" if low <= NEGLIGIBLE else f"at least {low:.1g} φ_cr, or overturns"
+        return (
+            "anything from rest to overturning"
+            if low <= NEGLIGIBLE
+            else f"at least {low:.1g} φ_cr, or overturns"
+        )
     return f"at most {high:.1g} φ_cr" if low <= NEGLIGIBLE else f"between {_two(low, high)} φ_cr"
 
 
 @dataclass(frozen=True, eq=False)
 class TierFit:
-    """One fitted tier. centre, spread, coefficients, covariance: (k,), (k,), (k + 1,), (k + 1, k + 1), intercept first.
+    """One fitted tier. centre, spread, least, largest: (k,) of the terms. coefficients: (k + 1,) and their covariance
+    (k + 1, k + 1), intercept first.
 
     edges: (m,) ascending locations at which the classes of the band begin; bands: (m, 3) low, median and high.
     """
@@ -180,10 +183,21 @@ class TierFit:
     tier: Tier
     centre: np.ndarray
     spread: np.ndarray
+    least: np.ndarray
+    largest: np.ndarray
     coefficients: np.ndarray
     covariance: np.ndarray
     edges: np.ndarray
     bands: np.ndarray
+
+    def knows(self, measures: Mapping[str, float]) -> bool:
+        """Whether structures like this one are behind the fit."""
+        values = np.array([measures[term] for term in STRUCTURE])
+        slack = 0.05 * (self.largest[-len(values) :] - self.least[-len(values) :])
+        inside = (values >= self.least[-len(values) :] - slack) & (
+            values <= self.largest[-len(values) :] + slack
+        )
+        return bool(inside.all())
 
     def design(self, known: np.ndarray) -> np.ndarray:
         """(n, k + 1) of the terms (n, k): an intercept, and what is centred and scaled."""
@@ -194,6 +208,18 @@ class TierFit:
         design = self.design(known)
         variance = np.einsum("ij,jk,ik->i", design, self.covariance, design)
         return design @ self.coefficients, np.sqrt(np.maximum(variance, 0.0))
+
+    def probabilities(self, known: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Of overturning (n,), and the ends of its 90 % interval."""
+        odds, error = self.log_odds(known)
+        middle, low, high = (1 / (1 + np.exp(-(odds + k * NORMAL_95 * error))) for k in (0, -1, 1))
+        return middle, low, high
+
+    def settled(self, known: np.ndarray, risk: float) -> tuple[np.ndarray, np.ndarray]:
+        """Whether the case of each terms (n, k) stands, and whether it overturns, at the worse end of the interval."""
+        odds, error = self.log_odds(known)
+        limit = math.log(risk / (1 - risk))
+        return odds + NORMAL_95 * error <= limit, odds - NORMAL_95 * error >= -limit
 
     def rotations(self, known: np.ndarray) -> np.ndarray:
         """(n, 3) low, median and high of the rotation ratio."""
@@ -217,17 +243,19 @@ OVERTURNED = 10.0
 """Stands for the rotation ratio of a block that overturns."""
 
 
-def expect(tier: Tier, measures: Mapping[str, float], fits: Mapping[Tier, TierFit] | None = None) -> Expectation:
-    """Return what `tier` says of a case whose intensity measures are known. Raises KeyError where one is missing.
+def expect(
+    tier: Tier, measures: Mapping[str, float], fits: Mapping[Tier, TierFit] | None = None
+) -> Expectation | None:
+    """Return what `tier` says of a case whose intensity measures are known; None of a structure unlike all behind it.
 
-    fits: by tier; None: those that the package ships.
+    fits: by tier; None: those that the package ships. Raises KeyError where a measure is missing.
     """
     fit = (fits or shipped_tiers())[tier]
+    if not fit.knows(measures):
+        return None
     known = np.array([[measures[term] for term in tier.terms]])
-    (middle,), (error,) = fit.log_odds(known)
-    low, median, high = fit.rotations(known)[0].tolist()
-    probability, below, above = (float(_share(middle + k * NORMAL_95 * error)) for k in (0, -1, 1))
-    return Expectation(tier, probability, below, above, low, median, high)
+    shares = (float(each[0]) for each in fit.probabilities(known))
+    return Expectation(tier, *shares, *fit.rotations(known)[0].tolist())
 
 
 @lru_cache(maxsize=1)
@@ -238,12 +266,17 @@ def shipped_tiers() -> dict[Tier, TierFit]:
 
 def read_tiers(folder: Path) -> dict[Tier, TierFit]:
     """Return the tiers whose tables lie in `folder`. Raises RockingError for another table."""
-    terms, covariances, bands = (
-        list(read_rows(each, folder / each.table.file_name)) for each in (TierTerm, TierCovariance, TierBand)
-    )
+    terms = list(read_rows(TierTerm, folder / TierTerm.table.file_name))
+    covariances = list(read_rows(TierCovariance, folder / TierCovariance.table.file_name))
+    bands = list(read_rows(TierBand, folder / TierBand.table.file_name))
     return {
-        tier: _fit(tier, *([row for row in rows if row.tier is tier] for rows in (terms, covariances, bands)))  # type: ignore[attr-defined, arg-type]
-        for tier in dict.fromkeys(row.tier for row in terms)
+        tier: _fit(
+            tier,
+            [each for each in terms if each.tier is tier],
+            [each for each in covariances if each.tier is tier],
+            [each for each in bands if each.tier is tier],
+        )
+        for tier in dict.fromkeys(each.tier for each in terms)
     }
 
 
@@ -252,22 +285,20 @@ def _fit(
 ) -> TierFit:
     places = {row.term: k for k, row in enumerate(terms)}
     covariance = np.zeros((len(terms), len(terms)))
-    for row in covariances:
-        i, k = places[row.term], places[row.other_term]
-        covariance[i, k] = covariance[k, i] = row.covariance
+    for each in covariances:
+        i, k = places[each.term], places[each.other_term]
+        covariance[i, k] = covariance[k, i] = each.covariance
     return TierFit(
         tier,
         np.array([row.centre for row in terms[1:]]),
         np.array([row.spread for row in terms[1:]]),
+        np.array([row.least for row in terms[1:]]),
+        np.array([row.largest for row in terms[1:]]),
         np.array([row.coefficient for row in terms]),
         covariance,
         np.array([row.location_from for row in bands]),
         np.array([[row.low, row.median, row.high] for row in bands]),
     )
-
-
-def _share(log_odds: float) -> float:
-    return 1 / (1 + math.exp(-log_odds)) if log_odds > 0 else 1 - 1 / (1 + math.exp(log_odds))
 
 
 def _percent(share: float) -> str:

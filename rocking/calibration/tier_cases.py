@@ -57,7 +57,9 @@ def independent(records: Iterable[tuple[str, Accelerogram]]) -> Iterator[tuple[s
     for name, record in records:
         event, words = _letters(record.event)[:4], re.findall(r"[a-z0-9]+", record.station.lower())
         shared = record.event, record.station
-        place = next((k for k, site in enumerate(sites) if site[0] == event and _begins(site[1], words)), None)
+        place = next(
+            (k for k, site in enumerate(sites) if site[0] == event and _begins(site[1], words)), None
+        )
         if place is None:
             place = len(sites)
             sites.append((event, words, f"{record.event}, {record.station}", set()))
@@ -70,13 +72,13 @@ def independent(records: Iterable[tuple[str, Accelerogram]]) -> Iterator[tuple[s
 
 
 def tier_cases(
-    records: Iterable[tuple[str, Accelerogram]], structures: Mapping[str, Structure] | None = None
+    records: Iterable[tuple[str, str, Accelerogram]], structures: Mapping[str, Structure] | None = None
 ) -> Iterator[TierCase]:
-    """Yield the cases of each independent record, except those that rest, about which nothing is uncertain."""
+    """Yield the cases of each record, as `independent` gives them, except those that rest, which is certain."""
     mechanisms = {name: s.mechanism() for name, s in (structures or structures_tried()).items()}
     blocks = [mechanism.equivalent_block("rest") for mechanism in mechanisms.values()]
     nudged = np.outer(FACTORS, NUDGES)
-    for name, site, record in independent(records):
+    for name, site, record in records:
         shape = Shape.of(record)
         pulse = _pulse(record)
         if pulse is None:

@@ -8,19 +8,19 @@ from pathlib import Path
 import numpy as np
 
 from rocking.assessment.tiers import Tier, TierBand, TierCovariance, TierFit, TierTerm
-from rocking.calibration.tier_cases import TierCase, tier_cases
+from rocking.calibration.answers import AnswerScore, answer_scores, try_answers
+from rocking.calibration.tier_cases import TierCase, independent, tier_cases
+from rocking.calibration.tier_fit import fit_tier, known, logistic, ratios_of, sites_of
 from rocking.records import Accelerogram
 from rocking.tables import Row, column, row, write_rows
 
-RIDGE = 1e-5
-"""Penalty on standardised coefficients per case: keeps those finite that no case contradicts."""
-CLASSES = 30
-"""Of location, between which the band steps."""
 REPLICATES = 500
 BINS = (0.0, 0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
 
 
-@row("tier_scores", "One row per tier and measure on sites left out, with a 90 % interval by resampling sites")
+@row(
+    "tier_scores", "One row per tier and measure on sites left out, with a 90 % interval by resampling sites"
+)
 class TierScore(Row):
     """One measure of one tier."""
 
@@ -48,66 +48,11 @@ class TierReliability(Row):
     sites: int = column("Sites in it")
 
 
-def known(cases: Sequence[TierCase], tier: Tier) -> np.ndarray:
-    """(n, k) of the terms that `tier` takes."""
-    return np.array([[case.measures[term] for term in tier.terms] for case in cases])
-
-
-def fit_tier(tier: Tier, terms: np.ndarray, ratios: np.ndarray, sites: np.ndarray) -> TierFit:
-    """Fit one tier to terms (n, k), rotation ratios (n,) of the mechanism (inf: overturns) and sites (n,)."""
-    centre, spread = terms.mean(axis=0), terms.std(axis=0)
-    spread = np.where(spread > 0, spread, 1.0)
-    design = np.column_stack([np.ones(len(terms)), (terms - centre) / spread])
-    coefficients, covariance = logistic(design, np.isinf(ratios), sites)
-    bare = TierFit(tier, centre, spread, coefficients, covariance, np.zeros(1), np.zeros((1, 3)))
-    edges, bands = _bands(bare.location(terms), ratios / bare.anchor(terms))
-    return TierFit(tier, centre, spread, coefficients, covariance, edges, bands)
-
-
-def logistic(design: np.ndarray, outcomes: np.ndarray, groups: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the coefficients (k,) of a logistic regression by Newton's method, and their covariance (k, k).
-
-    design: (n, k), its first column ones. groups: (n,), what is independent: the covariance is the sandwich of their
-    scores (Liang & Zeger 1986).
-    """
-    penalty = RIDGE * len(design) * np.r_[0.0, np.ones(design.shape[1] - 1)]
-    found = np.zeros(design.shape[1])
-    for _ in range(100):
-        shares = 1 / (1 + np.exp(-design @ found))
-        weights = np.maximum(shares * (1 - shares), 1e-12)
-        curvature = (design * weights[:, None]).T @ design + np.diag(penalty)
-        step = np.linalg.solve(curvature, design.T @ (outcomes - shares) - penalty * found)
-        found = found + step * min(1.0, 4.0 / np.abs(step).max()) if np.abs(step).max() > 0 else found
-        if np.abs(step).max() < 1e-10:
-            break
-    inverse = np.linalg.inv(curvature)
-    scores = design * (outcomes - shares)[:, None]
-    _, places = np.unique(groups, return_inverse=True)
-    summed = np.zeros((places.max() + 1, design.shape[1]))
-    np.add.at(summed, places, scores)
-    many = len(summed)
-    return found, inverse @ (summed.T @ summed * many / max(many - 1, 1)) @ inverse
-
-
-def _bands(location: np.ndarray, ratios: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Classes of about equal numbers by location, and in each the 5, 50 and 95 % quantile, widened to a case."""
-    edges = np.unique(np.quantile(location, np.arange(CLASSES) / CLASSES, method="lower"))
-    place = np.searchsorted(edges, location, side="right") - 1
-    bands = []
-    for k in range(edges.size):
-        inside = ratios[place == k]
-        bands.append(
-            [
-                np.quantile(inside, share, method=method)
-                for share, method in ((0.05, "lower"), (0.5, "nearest"), (0.95, "higher"))
-            ]
-        )
-    return edges, np.array(bands)
-
-
 def left_out(tier: Tier, cases: Sequence[TierCase]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return what `tier` says of each case when fitted without its site: probability and error (n,), rotations (n, 3)."""
-    terms, ratios, sites = known(cases, tier), _ratios(cases), _sites(cases)
+    """Return what `tier` says of each case when fitted without its site.
+
+    Log odds (n,), their error (n,) and the band of the rotation (n, 3)."""
+    terms, ratios, sites = known(cases, tier), ratios_of(cases), sites_of(cases)
     odds, errors, rotations = np.empty(len(cases)), np.empty(len(cases)), np.empty((len(cases), 3))
     for site in np.unique(sites):
         out = sites == site
@@ -121,11 +66,11 @@ def tier_scores(
     cases: Sequence[TierCase], replicates: int = REPLICATES
 ) -> Iterator[tuple[list[TierScore], list[TierReliability]]]:
     """Yield the scores and the reliability of each tier on sites left out."""
-    ratios, sites = _ratios(cases), _sites(cases)
+    ratios, sites = ratios_of(cases), sites_of(cases)
     fallen = np.isinf(ratios).astype(float)
     draws = _draws(sites, replicates)
     for tier in Tier:
-        odds, errors, rotations = left_out(tier, cases)
+        odds, _, rotations = left_out(tier, cases)
         shares = 1 / (1 + np.exp(-odds))
         inside = ((ratios >= rotations[:, 0]) & (ratios <= rotations[:, 2])).astype(float)
         measures: dict[str, Callable[[np.ndarray], float]] = {
@@ -156,22 +101,19 @@ def calibration_slope(odds: np.ndarray, fallen: np.ndarray) -> float:
     return float(coefficients[1])
 
 
-def write_tiers(records: Iterable[tuple[str, Accelerogram]], folder: Path) -> list[TierScore]:
+def write_tiers(
+    records: Iterable[tuple[str, Accelerogram]], folder: Path, replicates: int = REPLICATES
+) -> list[TierScore]:
     """Fit and judge every tier on `records`; write its tables into `folder` and return the scores.
 
     tiers.csv, tier_covariances.csv and tier_bands.csv are what the package ships.
     """
-    hashes: list[str] = []
-
-    def noted() -> Iterator[tuple[str, Accelerogram]]:
-        for name, record in records:
-            hashes.append(record.source.sha256)
-            yield name, record
-
-    cases = list(tier_cases(noted()))
-    ratios, sites = _ratios(cases), _sites(cases)
+    counted = list(independent(records))
+    cases = list(tier_cases(counted))
+    ratios, sites = ratios_of(cases), sites_of(cases)
     fits = {tier: fit_tier(tier, known(cases, tier), ratios, sites) for tier in Tier}
-    sha256 = hashlib.sha256("\n".join(sorted(set(hashes))).encode()).hexdigest()
+    hashes = sorted({record.source.sha256 for _, _, record in counted})
+    sha256 = hashlib.sha256("\n".join(hashes).encode()).hexdigest()
     for row_class, rows in (
         (TierTerm, [r for fit in fits.values() for r in _terms(fit, cases, sha256)]),
         (TierCovariance, [r for fit in fits.values() for r in _covariances(fit)]),
@@ -179,23 +121,32 @@ def write_tiers(records: Iterable[tuple[str, Accelerogram]], folder: Path) -> li
     ):
         write_rows(row_class, rows, folder / row_class.table.file_name)  # type: ignore[arg-type]
     scores, reliability = [], []
-    for found, classes in tier_scores(cases):
+    for found, classes in tier_scores(cases, replicates):
         scores += found
         reliability += classes
     write_rows(TierScore, scores, folder / TierScore.table.file_name)
+    answers = answer_scores(list(try_answers(counted, cases)), replicates)
+    write_rows(AnswerScore, answers, folder / AnswerScore.table.file_name)
     write_rows(TierReliability, reliability, folder / TierReliability.table.file_name)
     return scores
 
 
 def _terms(fit: TierFit, cases: Sequence[TierCase], sha256: str) -> Iterator[TierTerm]:
     names = ("", *fit.tier.terms)
-    centres, spreads = np.r_[0.0, fit.centre], np.r_[1.0, fit.spread]
-    for name, centre, spread, coefficient in zip(names, centres, spreads, fit.coefficients, strict=True):
+    numbers = [
+        np.r_[first, rest]
+        for first, rest in ((0, fit.centre), (1, fit.spread), (1, fit.least), (1, fit.largest))
+    ]
+    for name, centre, spread, least, largest, coefficient in zip(
+        names, *numbers, fit.coefficients, strict=True
+    ):
         yield TierTerm(
             tier=fit.tier,
             term=name,
             centre=float(centre),
             spread=float(spread),
+            least=float(least),
+            largest=float(largest),
             coefficient=float(coefficient),
             records=len({case.record for case in cases}),
             sites=len({case.site for case in cases}),
@@ -255,11 +206,3 @@ def _draws(sites: np.ndarray, replicates: int) -> list[np.ndarray]:
         np.concatenate([rows[place] for place in rng.integers(names.size, size=names.size)])
         for _ in range(replicates)
     ]
-
-
-def _ratios(cases: Sequence[TierCase]) -> np.ndarray:
-    return np.array([case.rotation_ratio for case in cases])
-
-
-def _sites(cases: Sequence[TierCase]) -> np.ndarray:
-    return np.array([case.site for case in cases])

@@ -116,7 +116,9 @@ class Settings:
     structures: str = _own("structures.yaml", "which structures, SI units and degrees", numbers=False)
     results: str = _own("results", "folder of the results", numbers=False)
     calibration_catalogue: str = _own(
-        "records/near_fault.csv", "real near-fault records, for the target paper", numbers=False
+        "records/near_fault.csv",
+        "real near-fault records, for the targets calibrate and paper",
+        numbers=False,
     )
     mirror: str | None = _own(None, "folder that already holds the files of remote records", numbers=False)
     processing: ProcessingSettings = _section(ProcessingSettings, "Processing, told in every report")
@@ -130,7 +132,6 @@ class Settings:
     )
     processing_variants: bool = _own(True, "also meet the record with other baselines and corner frequencies")
     fidelity: Literal["full", "auto"] = _of(AssessmentSettings, "fidelity")
-    fidelity_tolerance: float = _of(AssessmentSettings, "fidelity_tolerance")
     fidelity_risk: float = _of(AssessmentSettings, "fidelity_risk")
     ensemble: StudyEnsembleSettings = _section(
         StudyEnsembleSettings, "Ensemble: what is not known of a case varies within these ranges"

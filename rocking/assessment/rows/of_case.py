@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from typing import final
+from typing import Any, final
 
 from rocking.assessment.assess import Case
 from rocking.assessment.method import Method
@@ -11,6 +11,7 @@ from rocking.assessment.rows.shared import (
     IMPACTS,
     METHOD,
     OUTCOME,
+    PROBABILITY,
     REGIME,
     RESTITUTION,
     ROTATION,
@@ -18,6 +19,7 @@ from rocking.assessment.rows.shared import (
     CaseRow,
     Identity,
 )
+from rocking.assessment.tiers import Expectation
 from rocking.assessment.variations import Candidate, Variant, governing
 from rocking.assessment.verdict import Agreement, agreement, ratio, ratio_in_words, within_factor_two
 from rocking.motion.contact_check import UNKNOWN
@@ -58,6 +60,14 @@ class PredictionRow(CaseRow):
     rotation_ratio_high: float = column(
         "Upper end of the 90 % band of the prediction, from the interval of the pulse"
     )
+    overturning_probability: float = column(PROBABILITY)
+    overturning_probability_low: float = column("Lower end of its 90 % interval")
+    overturning_probability_high: float = column("Upper end of its 90 % interval")
+    expected_rotation_ratio_low: float = column(
+        "5 % quantile of the rotation ratio of the mechanism under records that are alike in the same"
+    )
+    expected_rotation_ratio_high: float = column("95 % quantile of it; INF if it overturns")
+    in_words: str = column("Both, in words")
     outcome: Outcome | None = column(OUTCOME)
     regime: Regime | None = column(REGIME)
     impacts: int | None = column(IMPACTS)
@@ -105,9 +115,17 @@ class ComparisonRow(CaseRow):
     block_rotation_ratio: float = column("Equivalent block under the whole record")
     integrated_rotation_ratio: float = column("Nonlinear mechanism under the whole record")
     answer_rotation_ratio: float = column(
-        "Of the mechanism under the record, or of the cheapest method that fidelity: auto trusts instead"
+        "Of the mechanism under the record, or of what settles the verdict before it with fidelity: auto"
     )
     answer_method: Method = column("Which method that was")
+    answer_reason: str = column("Why that one settled it, where fidelity: auto chose it")
+    overturning_probability: float = column(PROBABILITY)
+    overturning_probability_low: float = column("Lower end of its 90 % interval")
+    overturning_probability_high: float = column("Upper end of its 90 % interval")
+    expected_rotation_ratio_low: float = column(
+        "5 % quantile of the rotation ratio of the mechanism under records that are alike in the same"
+    )
+    expected_rotation_ratio_high: float = column("95 % quantile of it; INF if it overturns")
     prediction_over_integration: float = column("Predicted over integrated rotation ratio, where both rock")
     prediction_in_words: str = column(
         "How the prediction stands to the integration; empty where one is missing"
@@ -196,6 +214,8 @@ def prediction_rows(identity: Identity, case: Case, acceleration_scale: str) -> 
         rotation_rad=prediction.printed * block.critical_rotation,
         rotation_ratio_low=math.nan,
         rotation_ratio_high=math.nan,
+        **_expected(None),
+        in_words="",
         outcome=None,
         regime=None,
         impacts=None,
@@ -207,10 +227,23 @@ def prediction_rows(identity: Identity, case: Case, acceleration_scale: str) -> 
         rotation_rad=rotation(case.mechanism, maximum.rotation_ratio, maximum.peak_side),
         rotation_ratio_low=prediction.low,
         rotation_ratio_high=prediction.high,
+        **_expected(case.expectation),
+        in_words=str(case.expectation or ""),
         outcome=maximum.outcome,
         regime=maximum.regime,
         impacts=maximum.impacts,
     )
+
+
+def _expected(found: Expectation | None) -> dict[str, Any]:
+    """The columns of an expectation, empty without one."""
+    return {
+        "overturning_probability": found.probability if found else math.nan,
+        "overturning_probability_low": found.probability_low if found else math.nan,
+        "overturning_probability_high": found.probability_high if found else math.nan,
+        "expected_rotation_ratio_low": found.rotation_low if found else math.nan,
+        "expected_rotation_ratio_high": found.rotation_high if found else math.nan,
+    }
 
 
 def response_rows(identity: Identity, case: Case, friction_coefficient: float) -> Iterator[ResponseRow]:
@@ -258,6 +291,8 @@ def comparison_row(identity: Identity, case: Case) -> ComparisonRow:
         integrated_rotation_ratio=integrated,
         answer_rotation_ratio=case.answer.rotation_ratio,
         answer_method=case.answer.method,
+        answer_reason=case.answer.reason,
+        **_expected(case.expectation),
         prediction_over_integration=ratio(predicted, integrated),
         prediction_in_words=ratio_in_words(predicted, integrated),
         within_factor_two=within_factor_two(predicted, integrated),

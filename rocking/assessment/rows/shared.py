@@ -8,6 +8,9 @@ from rocking.tables import Row, column, row
 
 ROTATION_RATIO = "Largest rotation over critical rotation; INF if it overturns, 0 without uplift"
 ROTATION = "Largest rotation; INF if it overturns"
+PROBABILITY = (
+    "Of overturning, from closed form, PGV, PGA and structure: calibrated on real records (tiers.csv)"
+)
 METHOD = "How the number was computed"
 OUTCOME = "no uplift, rocks, overturns or failed"
 REGIME = "Regime of the closed form in which the prediction was made"

@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 from scipy.constants import g
 
+from rocking.assessment import intensity
 from rocking.assessment.assess import AssessmentSettings, Method, assess_structures
-from rocking.assessment.fidelity import cheapest_answer, stays_at_rest
+from rocking.assessment.fidelity import cheapest_answer, limits_of, stays_at_rest
+from rocking.assessment.intensity import Shape
+from rocking.assessment.tiers import Tier, expect
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram
 from rocking.structures import Block
@@ -40,12 +43,53 @@ def test_vertical_acceleration_can_end_the_rest():
 
 
 def test_nothing_is_integrated_below_uplift():
-    found = cheapest_answer(MECHANISM, record(0.99))
+    found = cheapest_answer(MECHANISM, Shape.of(record(0.99)))
     assert (found.method, found.rotation_ratio, found.outcome) == (
         Method.NOTHING_TO_INTEGRATE,
         0.0,
         Outcome.NO_UPLIFT,
     )
+
+
+@pytest.mark.parametrize("peak", [1.02, 40.0])
+def test_what_the_peak_velocity_settles_is_not_integrated(peak):
+    found = cheapest_answer(MECHANISM, Shape.of(record(peak)))
+    assert found.method is Method.PEAK_VELOCITY and found.response is None
+    assert min(found.expectation.probability_high, 1 - found.expectation.probability_low) <= 0.01
+    assert np.isinf(found.rotation_ratio) == np.isinf(integrate(MECHANISM, record(peak)).rotation_ratio)
+    assert "1 %" in found.reason
+
+
+def test_what_it_does_not_settle_is_integrated():
+    for shape, settings in (
+        (Shape.of(record(4.0)), {}),
+        (Shape.of(record(40.0)), {"risk": 0.0}),
+        (Shape.of(record(40.0)), {"vertical": Accelerogram(np.zeros(400), STEP)}),
+    ):
+        found = cheapest_answer(MECHANISM, shape, **settings)
+        assert found.method is Method.MECHANISM_ON_RECORD
+        assert found.rotation_ratio == integrate(MECHANISM, shape.accelerogram).rotation_ratio
+
+
+def test_limits_are_where_the_tier_says():
+    limits, block = limits_of(MECHANISM, 0.01), MECHANISM.equivalent_block("rest")
+    for severity, share in ((limits.stands, 0.01), (limits.overturns, 0.99)):
+        measures = intensity.of_structure(MECHANISM) | {"peak_velocity": np.log(severity)}
+        found = expect(Tier.PEAK_VELOCITY, measures)
+        edge = found.probability_high if share < 0.5 else found.probability_low
+        # a step of the grid is 0.5 % of the severity and changes the odds by a few per cent
+        assert edge == pytest.approx(share, abs=5e-4)
+    assert limits.per_velocity == intensity.per_velocity(block)
+
+
+def test_a_looser_risk_settles_more():
+    strict, loose = limits_of(MECHANISM, 0.001), limits_of(MECHANISM, 0.1)
+    assert strict.stands < loose.stands < loose.overturns < strict.overturns
+
+
+def test_of_a_structure_unlike_those_of_the_calibration_nothing_is_said():
+    bouncing = Block(2.0, 0.2, restitution=0.1).mechanism()
+    assert cheapest_answer(bouncing, Shape.of(record(40.0))).method is Method.MECHANISM_ON_RECORD
 
 
 def test_a_study_answers_with_the_cheapest():
