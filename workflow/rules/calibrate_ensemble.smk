@@ -2,9 +2,6 @@
 
 
 rule calibrate_ensemble:
-    input:
-        catalogue=SETTINGS.calibration_catalogue,
-        structures=SETTINGS.structures,
     output:
         [f"{RESULTS}/calibration/{table}.csv" for table in ("ensemble_trials", "ensemble_accuracy")],
         f"{RESULTS}/calibration/ensemble_reliability.svg",
@@ -13,6 +10,9 @@ rule calibrate_ensemble:
     benchmark:
         f"{SUMMARY}/benchmarks/calibrate_ensemble.tsv"
     params:
+        catalogue=SETTINGS.calibration_catalogue,
+        structures=SETTINGS.structures,
+        structures_sha256=PLAN.structures_sha256,
         mirror=SETTINGS.mirror,
         package_sha256=PLAN.package_sha256,
     message:

@@ -6,17 +6,22 @@ from rocking.calibration.ensembles import EnsembleTrial, write_ensemble_accuracy
 from rocking.records import load_catalogue, open_record
 from rocking.reports.summary.reliability_figure import write_reliability
 from rocking.structures import load_structures
-from rocking.study.progress import numbered
+from rocking.study.progress import line_writer
 from rocking.tables import frame
 
+
+def components(catalogue, mirror, tell):
+    """Yield identifier and accelerogram of every component in the catalogue."""
+    listed = load_catalogue(catalogue)
+    for count, record in enumerate(listed, start=1):
+        tell(f"{count} of {len(listed)}: {record.id}")
+        for accelerogram in open_record(record, mirror=mirror):
+            yield record.id, accelerogram
+
+
 if __name__ == "__main__":
-    files, mirror = snakemake.input, snakemake.params.mirror
-    listed, log = load_catalogue(Path(files.catalogue)), Path(snakemake.log[0])
-    records = (
-        (record.id, accelerogram)
-        for record in numbered(listed, [record.id for record in listed], log)
-        for accelerogram in open_record(record, mirror=mirror)
-    )
-    folder = Path(snakemake.output[0]).parent
-    write_ensemble_accuracy(records, load_structures(Path(files.structures)), folder)
-    write_reliability(frame(EnsembleTrial, folder / EnsembleTrial.table.file_name), Path(snakemake.output[2]))
+    params, folder = snakemake.params, Path(snakemake.output[0]).parent
+    records = components(Path(params.catalogue), params.mirror, line_writer(Path(snakemake.log[0])))
+    write_ensemble_accuracy(records, load_structures(Path(params.structures)), folder)
+    trials = frame(EnsembleTrial, folder / EnsembleTrial.table.file_name)
+    write_reliability(trials, Path(snakemake.output[2]))
