@@ -87,7 +87,7 @@ def test_the_sign_of_the_motion_is_a_cause_for_unlike_sides_alone():
 
 
 def test_shares_of_an_additive_answer_are_those_of_its_variance():
-    points = lattice(256, CAUSES)
+    points = lattice(1024, CAUSES)
     found = drawn(BLOCK, GroundMotions.of(_record(5.0)), points, EnsembleSettings())
     answer = 0.3 + 0.2 * points[:, 0] + 0.1 * points[:, 1]
     made = type(found)(answer, found.causes, 0.5, 0.05)
