@@ -9,7 +9,7 @@ from rocking.reports.summary.figures import prediction_scatter
 from rocking.reports.summary.report import summary_report
 from rocking.tables import frame, write_whole
 
-_SHOWN = ("record", "pulses", "comparison", "structures", "agreement", "failures")
+_SHOWN = ("record", "pulses", "comparison", "ensemble", "structures", "agreement", "failures")
 
 
 def report_summary(folder: Path, settings: Mapping[str, object], trade: Path | None = None) -> None:

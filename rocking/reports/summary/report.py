@@ -8,6 +8,7 @@ from rocking.assessment.verdict import Agreement
 from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.style import svg
+from rocking.reports.summary import fates as summary_fates
 from rocking.reports.summary import tables as summary_tables
 from rocking.reports.summary.figures import prediction_scatter
 from rocking.reports.summary.tables import MOST_RECORDS, Listing
@@ -21,8 +22,8 @@ if TYPE_CHECKING:
 def summary_report(tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any]) -> bytes:
     """Return the PDF over all records.
 
-    tables: the summary tables "record", "pulses", "comparison", "structures", "agreement", "failures" and, where it
-    exists, "trade". settings: at least tolerance and acceleration_scale.
+    tables: the summary tables "record", "pulses", "comparison", "ensemble", "structures", "agreement", "failures" and,
+    where it exists, "trade". settings: at least tolerance and acceleration_scale.
     """
     return compile_document("summary/summary.typ", summary_data(tables, settings))
 
@@ -30,6 +31,7 @@ def summary_report(tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any
 def summary_data(tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any]) -> dict[str, object]:
     """Return what the template of the summary is given: texts, tables and figures."""
     comparison = tables["comparison"]
+    found = summary_fates.fates(comparison, tables["ensemble"])
     worst = comparison[comparison["agreement"] == Agreement.TOO_LOW].sort_values(
         "integrated_rotation_ratio", ascending=False, kind="stable"
     )
@@ -41,6 +43,9 @@ def summary_data(tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any])
         "title": "Rocking assessment: summary",
         "subtitle": _subtitle(tables),
         "notices": summary_tables.notices(tables["record"], comparison, failures.total),
+        "headlines": summary_fates.headlines(found),
+        "structures": summary_fates.structure_table(found),
+        "matrix": summary_fates.matrix(found),
         "sentences": summary_tables.expert_sentences(agreement),
         "scatter": _scatter(comparison),
         "agreement": summary_tables.agreement_table(agreement),

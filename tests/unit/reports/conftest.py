@@ -9,6 +9,7 @@ from rocking.assessment.assess import AssessmentSettings, assess_structures
 from rocking.assessment.rows import (
     AgreementRow,
     ComparisonRow,
+    EnsembleRow,
     FailureRow,
     Identity,
     PulseRow,
@@ -26,7 +27,13 @@ from rocking.records.accelerogram import Accelerogram, Source
 from rocking.structures import Arch, Block, Wall
 from rocking.tables import frame
 
-SUMMARISED = {"record": RecordRow, "pulses": PulseRow, "comparison": ComparisonRow, "failures": FailureRow}
+SUMMARISED = {
+    "record": RecordRow,
+    "pulses": PulseRow,
+    "comparison": ComparisonRow,
+    "ensemble": EnsembleRow,
+    "failures": FailureRow,
+}
 ASSESSMENT = AssessmentSettings()
 SETTINGS = {name: getattr(ASSESSMENT, name) for name in ("tolerance", "acceleration_scale")}
 HOSTILE = ("$x^$", "#panic(1)", "<b>bold</b>", "W" * 80, "Жёлтый Ω 中文")

@@ -5,8 +5,10 @@ import math
 
 from rocking.assessment.method import Method
 from rocking.assessment.rows import (
+    BOTH_COMPONENTS,
     AgreementRow,
     ComparisonRow,
+    EnsembleRow,
     FailureRow,
     PulseRow,
     RecordRow,
@@ -14,7 +16,7 @@ from rocking.assessment.rows import (
     TradeRow,
     agreement_rows,
 )
-from rocking.assessment.verdict import Agreement, agreement, ratio, ratio_in_words, within_factor_two
+from rocking.assessment.verdict import Agreement, Verdict, agreement, ratio, ratio_in_words, within_factor_two
 from rocking.reports.style import svg
 from rocking.reports.summary.figures import prediction_scatter
 from rocking.reports.summary.report import summary_data, summary_report
@@ -79,12 +81,13 @@ def scaled(record: str) -> RecordRow:
     )
 
 
-def summary_tables(comparison, record=(), failures=(), trade=()):
+def summary_tables(comparison, record=(), failures=(), trade=(), ensemble=()):
     cases = frame(ComparisonRow, comparison)
     tables = {
         "record": frame(RecordRow, record),
         "pulses": frame(PulseRow, []),
         "comparison": cases,
+        "ensemble": frame(EnsembleRow, ensemble),
         "structures": frame(StructureRow, []),
         "agreement": frame(AgreementRow, agreement_rows(cases)),
         "failures": frame(FailureRow, failures),
@@ -117,6 +120,64 @@ def test_the_sentences_say_the_counts():
     assert (
         "Of 2 overturnings" in sentences[1] and "finds 1 and misses 1; it overturns one case" in sentences[1]
     )
+
+
+def ensemble(
+    record: str, structure: str, overturning: int, verdict: Verdict, component: str = "EW"
+) -> EnsembleRow:
+    """One row of the ensemble table, of 64 members."""
+    numbers = [each.name for each in EnsembleRow.table.columns if each.holds is float]
+    return EnsembleRow(
+        **dict.fromkeys(numbers, 0.4) | {"overturning_probability": overturning / 64, "scale_factor": 1.0},
+        record=record,
+        component=component,
+        structure=structure,
+        verdict=verdict,
+        overturning_members=overturning,
+        members=64,
+        failed_members=0,
+        worst_direction="",
+        record_sha256="",
+        settings_sha256="",
+    )
+
+
+def test_the_summary_begins_with_the_structures_and_their_worst_record():
+    found = [
+        ensemble("one", "pier", 64, Verdict.OVERTURNS),
+        ensemble("one", "pier", 20, Verdict.UNDECIDED, BOTH_COMPONENTS),
+        ensemble("two", "arch", 0, Verdict.STANDS),
+        ensemble("two", "wall", 63, Verdict.OVERTURNS),
+        ensemble("three", "wall", 12, Verdict.UNDECIDED),
+    ]
+    data = summary_data(summary_tables(CASES, ensemble=found), SETTINGS)
+    assert data["headlines"] == [
+        {"verdict": "Overturns", "names": "wall (1 of 2 records)"},
+        {"verdict": "Undecided at worst", "names": "pier"},
+        {"verdict": "Stands under every record that could be assessed", "names": "arch"},
+    ]
+    rows = {row[1]["text"]: row[2:] for row in data["structures"]["rows"]}
+    assert rows["wall"][:5] == ["1", "1", "0", "two", "63\u00a0of\u00a064"]
+    assert rows["pier"][3:5] == ["one", "20\u00a0of\u00a064"] and rows["pier"][5]["overturns"] == 20 / 64
+
+
+def test_the_matrix_holds_the_shares_with_the_worst_record_first():
+    found = [ensemble("two", "wall", 63, Verdict.OVERTURNS), ensemble("three", "wall", 0, Verdict.STANDS)]
+    shown = summary_data(summary_tables(CASES, ensemble=found), SETTINGS)["matrix"]
+    assert shown["heads"] == ["1", "2", "3"], "pier, arch, wall"
+    assert [row["record"] for row in shown["rows"]] == ["one", "two", "three"]
+    assert [[cell["text"] for cell in row["cells"]] for row in shown["rows"]] == [
+        ["1", "–", "–"],
+        ["–", "0", "0.98"],
+        ["–", "–", "0"],
+    ]
+
+
+def test_a_large_matrix_is_cut_and_says_so():
+    cases = [case(f"s{k}", 0.1, 0.2, f"r{j}") for j in range(50) for k in range(25)]
+    shown = summary_data(summary_tables(cases), SETTINGS)["matrix"]
+    assert len(shown["rows"]) == 40 and len(shown["heads"]) == 20
+    assert shown["note"] == " Not shown, but in ensemble.csv: ten records and five structures."
 
 
 def test_unsafe_cases_are_listed():

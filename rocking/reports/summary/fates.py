@@ -1,0 +1,157 @@
+"""The first page of the summary: what becomes of each structure by its worst record, and of each under each record."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rocking.assessment.rows import BOTH_COMPONENTS
+from rocking.assessment.verdict import Verdict
+from rocking.reports import printing
+from rocking.reports.printing import NOTHING, Cell, strong, table
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+MOST_MATRIX_RECORDS = 40
+"""Records of the matrix, those under which most overturns; ensemble.csv holds all."""
+MOST_MATRIX_STRUCTURES = 20
+"""Structures of the matrix, in the order of the list."""
+_CASE = ["record", "structure"]
+_OF_ENSEMBLE = [
+    "verdict",
+    "overturning_probability",
+    "overturning_members",
+    "members",
+    "rotation_ratio_low",
+    "rotation_ratio_median",
+    "rotation_ratio_high",
+]
+_COUNTED = (Verdict.OVERTURNS, Verdict.UNDECIDED, Verdict.STANDS)
+
+
+def fates(comparison: "DataFrame", ensemble: "DataFrame") -> "DataFrame":
+    """Return one row per record and structure, all components considered.
+
+    The ensemble over all directions speaks, or where there is none the component that overturns, then rotates, most;
+    without any ensemble the single run of the worst component.
+    """
+    ratio = comparison["integrated_rotation_ratio"].fillna(comparison["answer_rotation_ratio"])
+    single = comparison[_CASE].assign(ratio=ratio).groupby(_CASE, sort=False, observed=True, as_index=False)
+    order = ["of_all", "overturning_probability", "rotation_ratio_high"]
+    ordered = ensemble.assign(of_all=ensemble["component"] == BOTH_COMPONENTS).sort_values(
+        order, kind="stable"
+    )
+    governing = ordered.drop_duplicates(_CASE, keep="last")[_CASE + _OF_ENSEMBLE]
+    found = single["ratio"].max().merge(governing, how="left", on=_CASE)
+    falls = np.isinf(found["ratio"])
+    alone = np.where(falls, Verdict.OVERTURNS, Verdict.STANDS)
+    alone[found["ratio"].isna()] = Verdict.UNKNOWN
+    share = found["overturning_probability"].fillna(falls.astype(float).where(found["ratio"].notna()))
+    verdict = found["verdict"].astype(object)
+    return found.assign(
+        probability=share,
+        high=found["rotation_ratio_high"].fillna(found["ratio"]),
+        verdict=np.where(verdict.isna(), alone.astype(object), verdict),
+    )
+
+
+def headlines(found: "DataFrame") -> list[dict[str, str]]:
+    """Return the first lines: what overturns under some record, what is undecided at worst, what always stands."""
+    counts = _counts(found)
+    groups: dict[str, list[str]] = {verdict: [] for verdict in _COUNTED}
+    for name, of_it in counts.items():
+        worst = next((verdict for verdict in _COUNTED if of_it[verdict]), None)
+        if worst is None:
+            continue
+        total = sum(of_it.values())
+        told = "" if worst is Verdict.STANDS or total == 1 else f" ({of_it[worst]} of {total} records)"
+        groups[worst].append(name + told)
+    heads = {
+        Verdict.OVERTURNS: "Overturns",
+        Verdict.UNDECIDED: "Undecided at worst",
+        Verdict.STANDS: "Stands under every record that could be assessed",
+    }
+    return [
+        {"verdict": heads[verdict], "names": printing.listed(names, 12)}
+        for verdict, names in groups.items()
+        if names
+    ]
+
+
+def structure_table(found: "DataFrame") -> dict[str, object]:
+    """Return one row per structure: under how many records it overturns, and the record that is worst for it."""
+    columns = [
+        ("No.", "auto", "r"),
+        ("Structure", "1.4", "l"),
+        *((printing.sentence(verdict), "auto", "r") for verdict in _COUNTED),
+        ("Worst record", "1.4", "l"),
+        ("Overturns there in", "auto", "l"),
+        ("5–95 % there, of the critical rotation", "1.3", "c"),
+    ]
+    counts = _counts(found)
+    rows = []
+    for number, (name, of_it) in enumerate(counts.items(), start=1):
+        worst = _worst(found[found["structure"] == name])
+        shown: list[Cell] = [str(number), strong(name), *(str(of_it[verdict]) for verdict in _COUNTED)]
+        rows.append([*shown, str(worst["record"]), _members(worst), _strip(worst)])
+    return table(columns, rows)
+
+
+def matrix(found: "DataFrame") -> dict[str, object]:
+    """Return the shares that overturn by record (the worst first) and structure (by number)."""
+    numbers = {name: str(place) for place, name in enumerate(found["structure"].unique(), start=1)}
+    shown = list(numbers)[:MOST_MATRIX_STRUCTURES]
+    weight = found.groupby("record", sort=False, observed=True)["probability"].sum()
+    records = weight.sort_values(ascending=False, kind="stable").index[:MOST_MATRIX_RECORDS]
+    cells = found[found["record"].isin(records)].set_index(_CASE)["probability"].to_dict()
+    left = [
+        (weight.size - len(records), "record"),
+        (len(numbers) - len(shown), "structure"),
+    ]
+    rest = " and ".join(printing.counted(many, noun) for many, noun in left if many)
+    return {
+        "heads": [numbers[name] for name in shown],
+        "rows": [
+            {"record": str(record), "cells": [_cell(cells.get((record, name))) for name in shown]}
+            for record in records
+        ],
+        "note": f" Not shown, but in ensemble.csv: {rest}." if rest else "",
+    }
+
+
+def _counts(found: "DataFrame") -> dict[str, dict[str, int]]:
+    counts = {str(name): dict.fromkeys(_COUNTED, 0) for name in found["structure"].unique()}
+    for (name, verdict), many in found.groupby(["structure", "verdict"], observed=True).size().items():
+        if verdict in _COUNTED:
+            counts[str(name)][Verdict(verdict)] = int(many)
+    return counts  # type: ignore[return-value]  # a verdict is a text
+
+
+def _worst(of_it: "DataFrame") -> "dict[str, object]":
+    ordered = of_it.sort_values(["probability", "high"], ascending=False, na_position="last", kind="stable")
+    return dict(ordered.iloc[0])
+
+
+def _members(worst: "dict[str, object]") -> str:
+    many = float(worst["members"])  # type: ignore[arg-type]
+    if not many > 0:
+        return NOTHING
+    return f"{int(worst['overturning_members'])}\u00a0of\u00a0{int(many)}"  # type: ignore[call-overload]
+
+
+def _strip(worst: "dict[str, object]") -> Cell:
+    low, median, high = (
+        float(worst[f"rotation_ratio_{end}"])  # type: ignore[arg-type]
+        for end in ("low", "median", "high")
+    )
+    if np.isnan(low):
+        return NOTHING
+    ends = [min(low, 1.0), min(median, 1.0), min(high, 1.0)]
+    return {"strip": ends, "overturns": float(worst["probability"])}  # type: ignore[arg-type]
+
+
+def _cell(share: float | None) -> dict[str, object]:
+    if share is None or np.isnan(share):
+        return {"text": NOTHING, "share": 0.0}
+    digits = 3 if share > 0.99 else 2
+    return {"text": printing.given(float(f"{share:.{digits}g}")), "share": float(share)}
