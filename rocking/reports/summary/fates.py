@@ -1,6 +1,7 @@
 """The first page of the summary: what becomes of each structure by its worst record, and of each under each record."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -66,7 +67,7 @@ def headlines(found: "DataFrame") -> list[dict[str, str]]:
         total = sum(of_it.values())
         told = "" if worst is Verdict.STANDS or total == 1 else f" ({of_it[worst]} of {total} records)"
         groups[worst].append(name + told)
-    heads = {
+    heads: dict[str, str] = {
         Verdict.OVERTURNS: "Overturns",
         Verdict.UNDECIDED: "Undecided at worst",
         Verdict.STANDS: "Stands under every record that could be assessed",
@@ -120,34 +121,33 @@ def matrix(found: "DataFrame") -> dict[str, object]:
 
 
 def _counts(found: "DataFrame") -> dict[str, dict[str, int]]:
-    counts = {str(name): dict.fromkeys(_COUNTED, 0) for name in found["structure"].unique()}
+    counts: dict[str, dict[str, int]] = {
+        str(name): dict.fromkeys(map(str, _COUNTED), 0) for name in found["structure"].unique()
+    }
     for (name, verdict), many in found.groupby(["structure", "verdict"], observed=True).size().items():
         if verdict in _COUNTED:
             counts[str(name)][Verdict(verdict)] = int(many)
-    return counts  # type: ignore[return-value]  # a verdict is a text
+    return counts
 
 
-def _worst(of_it: "DataFrame") -> "dict[str, object]":
+def _worst(of_it: "DataFrame") -> Mapping[str, Any]:
     ordered = of_it.sort_values(["probability", "high"], ascending=False, na_position="last", kind="stable")
     return dict(ordered.iloc[0])
 
 
-def _members(worst: "dict[str, object]") -> str:
-    many = float(worst["members"])  # type: ignore[arg-type]
+def _members(worst: Mapping[str, Any]) -> str:
+    many = float(worst["members"])
     if not many > 0:
         return NOTHING
-    return f"{int(worst['overturning_members'])}\u00a0of\u00a0{int(many)}"  # type: ignore[call-overload]
+    return f"{int(worst['overturning_members'])}\u00a0of\u00a0{int(many)}"
 
 
-def _strip(worst: "dict[str, object]") -> Cell:
-    low, median, high = (
-        float(worst[f"rotation_ratio_{end}"])  # type: ignore[arg-type]
-        for end in ("low", "median", "high")
-    )
+def _strip(worst: Mapping[str, Any]) -> Cell:
+    low, median, high = (float(worst[f"rotation_ratio_{end}"]) for end in ("low", "median", "high"))
     if np.isnan(low):
         return NOTHING
     ends = [min(low, 1.0), min(median, 1.0), min(high, 1.0)]
-    return {"strip": ends, "overturns": float(worst["probability"])}  # type: ignore[arg-type]
+    return {"strip": ends, "overturns": float(worst["probability"])}
 
 
 def _cell(share: float | None) -> dict[str, object]:
