@@ -57,7 +57,10 @@ _CHANGE_NO_NUMBER = (
         f"study/{name}.py"
         for name in ("cli", "config_file", "inputs", "launch", "locks", "outcome", "progress")
     ),
-    *(f"study/{name}.py" for name in ("record_reports", "single_record", "summary_report", "workspace")),
+    *(
+        f"study/{name}.py"
+        for name in ("explore", "record_reports", "single_record", "summary_report", "workspace")
+    ),
 )
 """Source whose edit leaves every number of a table as it is."""
 
@@ -112,9 +115,16 @@ def package_sha256(leave_out: Sequence[str] = ()) -> str:
     digest = hashlib.sha256()
     for path in sorted(root.rglob("*")):
         name = path.relative_to(root).as_posix()
-        if path.suffix in {".py", ".csv", ".typ", ".yaml", ".mplstyle"} and not name.startswith(
-            tuple(leave_out)
-        ):
+        if path.suffix in {
+            ".py",
+            ".csv",
+            ".typ",
+            ".yaml",
+            ".mplstyle",
+            ".html",
+            ".css",
+            ".js",
+        } and not name.startswith(tuple(leave_out)):
             digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
 

@@ -1,0 +1,1 @@
+"""The page to explore a study: one HTML file without a network."""

@@ -1,0 +1,403 @@
+"use strict";
+(() => {
+  const content = JSON.parse(document.getElementById("content").textContent);
+  const { records, structures, cases } = content;
+  const at = (id) => document.getElementById(id);
+  const SIGNS = { overturns: "▲", undecided: "?", stands: "●", unknown: "–" };
+  const byPlace = new Map(cases.map((each) => [`${each.record},${each.structure}`, each]));
+  const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+
+  // Numbers ---------------------------------------------------------------------------------------------
+  function unpacked(packed) {
+    if (!packed.values) {
+      const bytes = Uint8Array.from(atob(packed.data), (c) => c.charCodeAt(0));
+      const view = new DataView(bytes.buffer);
+      packed.values = Float64Array.from({ length: bytes.length / 2 }, (_, k) => view.getInt16(2 * k, true) * packed.scale);
+    }
+    return packed.values;
+  }
+  const ratio = (value) => (value === null ? "not known" : value === "inf" ? "overturns" : Number(value.toPrecision(3)).toString());
+  const percent = (share) => `${Math.round(100 * share)} %`;
+
+  // Value of a trace of equal stretches of [begin, end] at a time; 0 outside
+  function valueAt(values, [begin, end], time) {
+    const place = ((time - begin) / (end - begin)) * values.length - 0.5;
+    if (place < -0.5 || place > values.length - 0.5) return 0;
+    const low = Math.max(0, Math.min(values.length - 2, Math.floor(place)));
+    const share = Math.max(0, Math.min(1, place - low));
+    return values[low] * (1 - share) + values[low + 1] * share;
+  }
+
+  // Matrix ----------------------------------------------------------------------------------------------
+  function element(name, properties = {}, ...children) {
+    const made = Object.assign(document.createElement(name), properties);
+    made.append(...children);
+    return made;
+  }
+
+  function described(each) {
+    const lines = [
+      `${structures[each.structure].name} under ${records[each.record].id}, component ${each.component || "–"}`,
+      `${each.verdict}; integration: ${ratio(each.integrated)}, closed form: ${ratio(each.predicted)}`,
+    ];
+    if (each.probability !== undefined && each.probability !== null)
+      lines.push(`${percent(each.probability)} of ${each.members} members overturn`);
+    return lines.join("\n");
+  }
+
+  function cellOf(record, structure) {
+    const each = byPlace.get(`${record},${structure}`);
+    const verdict = each ? each.verdict : "unknown";
+    const button = element("button", { type: "button", className: `cell ${verdict}`, tabIndex: -1 });
+    button.dataset.record = record;
+    button.dataset.structure = structure;
+    button.dataset.verdict = verdict;
+    const known = each && each.probability !== undefined && each.probability !== null;
+    const shown = known ? Math.round(100 * each.probability) : each ? (each.integrated === "inf" ? "" : ratio(each.integrated)) : "";
+    button.textContent = `${SIGNS[verdict] || ""} ${shown}`.trim();
+    button.setAttribute("aria-pressed", "false");
+    button.setAttribute("aria-label", each ? described(each) : `${structures[structure].name} under ${records[record].id}: no result. ${records[record].failure}`);
+    return button;
+  }
+
+  function fill() {
+    const heads = structures.map((each, k) => {
+      const head = element("th", { scope: "col", title: `${each.type}: ${each.size}` }, each.name);
+      head.dataset.structure = k;
+      return head;
+    });
+    const body = element("tbody");
+    records.forEach((record, r) => {
+      const row = element("tr", {}, element("th", { scope: "row" }, record.id));
+      structures.forEach((_, s) => row.append(element("td", {}, cellOf(r, s))));
+      body.append(row);
+    });
+    at("matrix").append(element("thead", {}, element("tr", {}, element("td", {}, ""), ...heads)), body);
+    const first = at("matrix").querySelector("button");
+    if (first) first.tabIndex = 0;
+  }
+
+  function filter() {
+    const text = at("text").value.trim().toLowerCase();
+    const verdict = at("verdict").value;
+    const named = structures.map((each) => each.name.toLowerCase().includes(text));
+    const someNamed = text !== "" && named.includes(true);
+    let count = 0;
+    const used = new Set();
+    const rows = [...at("matrix").querySelectorAll("tbody tr")];
+    rows.forEach((row, r) => {
+      const isNamed = records[r].id.toLowerCase().includes(text);
+      let any = false;
+      row.querySelectorAll("button").forEach((button, s) => {
+        const kept = (text === "" || isNamed || (someNamed && named[s])) && (!verdict || button.dataset.verdict === verdict);
+        button.style.visibility = kept ? "" : "hidden";
+        if (kept) { any = true; count += 1; used.add(s); }
+      });
+      row.hidden = !any;
+    });
+    at("matrix").querySelectorAll("thead th").forEach((head, s) => { head.hidden = !used.has(s); });
+    rows.forEach((row) => row.querySelectorAll("td").forEach((cell, s) => { cell.hidden = !used.has(s); }));
+    at("shown").textContent = `${count} of ${records.length * structures.length} cells`;
+    const open = visible();
+    if (open.length && !open.some((each) => each.tabIndex === 0)) roam(open[0], false);
+  }
+
+  const visible = () => [...at("matrix").querySelectorAll("tbody button")].filter((each) => each.offsetParent && each.style.visibility !== "hidden");
+
+  function roam(button, focus = true) {
+    at("matrix").querySelectorAll("button[tabindex='0']").forEach((each) => { each.tabIndex = -1; });
+    button.tabIndex = 0;
+    if (focus) button.focus();
+  }
+
+  function onArrow(event) {
+    const step = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] }[event.key];
+    const from = event.target.closest("button");
+    if (!step || !from) return;
+    event.preventDefault();
+    const [down, right] = step;
+    const [r, s] = [Number(from.dataset.record), Number(from.dataset.structure)];
+    const ahead = visible().map((each) => [each, Number(each.dataset.record) - r, Number(each.dataset.structure) - s]);
+    const along = ahead.filter(([, dr, ds]) => (down ? ds === 0 && dr * down > 0 : dr === 0 && ds * right > 0));
+    along.sort((a, b) => Math.abs(a[1]) + Math.abs(a[2]) - Math.abs(b[1]) - Math.abs(b[2]));
+    if (along.length) roam(along[0][0]);
+  }
+
+  // Histories -------------------------------------------------------------------------------------------
+  const SVG = "http://www.w3.org/2000/svg";
+  const [LEFT, RIGHT] = [72, 610];
+  const PANELS = [{ top: 12, bottom: 190 }, { top: 232, bottom: 415 }];
+
+  function drawn(name, attributes, text) {
+    const made = document.createElementNS(SVG, name);
+    Object.entries(attributes).forEach(([key, value]) => made.setAttribute(key, value));
+    if (text !== undefined) made.textContent = text;
+    at("histories").append(made);
+    return made;
+  }
+
+  function ticks(low, high, wished) {
+    const raw = (high - low) / wished;
+    const power = 10 ** Math.floor(Math.log10(raw));
+    const step = power * [1, 2, 5, 10].find((each) => each * power >= raw);
+    const found = [];
+    for (let k = Math.ceil(low / step); k * step <= high + 1e-9 * step; k += 1) found.push(Number((k * step).toPrecision(6)));
+    return found;
+  }
+
+  function panel({ top, bottom }, span, reach, label) {
+    const x = (time) => LEFT + ((time - span[0]) / (span[1] - span[0])) * (RIGHT - LEFT);
+    const y = (value) => (top + bottom) / 2 - (value / reach) * ((bottom - top) / 2);
+    drawn("rect", { x: LEFT, y: top, width: RIGHT - LEFT, height: bottom - top, fill: "none", stroke: "#555" });
+    ticks(-reach, reach, 5).forEach((value) => {
+      drawn("line", { x1: LEFT, x2: RIGHT, y1: y(value), y2: y(value), stroke: value === 0 ? "#888" : "#e2e2e2" });
+      drawn("text", { x: LEFT - 6, y: y(value) + 4, "text-anchor": "end" }, String(value));
+    });
+    ticks(span[0], span[1], 8).forEach((value) => {
+      drawn("line", { x1: x(value), x2: x(value), y1: bottom, y2: bottom + 4, stroke: "#555" });
+      drawn("text", { x: x(value), y: bottom + 17, "text-anchor": "middle" }, String(value));
+    });
+    drawn("text", { transform: `translate(16 ${(top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, label);
+    return { x, y };
+  }
+
+  function trace(values, own, span, { x, y }, attributes) {
+    const points = [];
+    values.forEach((value, k) => {
+      const time = own[0] + ((k + 0.5) / values.length) * (own[1] - own[0]);
+      if (time >= span[0] && time <= span[1]) points.push(`${x(time).toFixed(1)},${y(value).toFixed(1)}`);
+    });
+    drawn("polyline", { points: points.join(" "), fill: "none", ...attributes });
+  }
+
+  const largest = (values) => values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+
+  function histories(each, motion, span) {
+    at("histories").replaceChildren();
+    if (motion) {
+      const acceleration = unpacked(motion.acceleration);
+      const pulse = motion.pulse && unpacked(motion.pulse.acceleration);
+      const reach = 1.1 * Math.max(largest(acceleration), pulse ? largest(pulse) : 0) || 1;
+      const axes = panel(PANELS[0], span, reach, "acceleration [m/s²]");
+      trace(acceleration, [0, motion.duration], span, axes, { stroke: "#444", "stroke-width": 0.8 });
+      if (pulse) trace(pulse, motion.pulse.span, span, axes, { stroke: "#d55e00", "stroke-width": 2 });
+      drawn("text", { x: RIGHT - 8, y: PANELS[0].top + 16, "text-anchor": "end" }, "grey: record; orange: dominant pulse");
+    }
+    const values = each.history ? unpacked(each.history.ratio) : new Float64Array(2);
+    const predicted = typeof each.predicted === "number" ? each.predicted : 0;
+    const reach = Math.min(3.1, 1.15 * Math.max(largest(values), predicted) || 1);
+    const axes = panel(PANELS[1], span, reach, "rotation / critical rotation [-]");
+    if (each.history) trace(values, each.history.span, span, axes, { stroke: "#000", "stroke-width": 1.1, id: "rotation" });
+    for (const level of predicted > 0 ? [predicted, -predicted] : [])
+      drawn("line", { x1: LEFT, x2: RIGHT, y1: axes.y(level), y2: axes.y(level), stroke: "#0072b2", "stroke-dasharray": "8 3 2 3" });
+    const said = predicted > 0 ? "dash-dot: largest by the closed form" : "closed form: " + (each.predicted === "inf" ? "overturns" : each.predicted === null ? "not known" : "no uplift");
+    drawn("text", { x: RIGHT - 8, y: PANELS[1].top + 16, "text-anchor": "end" }, said);
+    drawn("text", { x: (LEFT + RIGHT) / 2, y: 452, "text-anchor": "middle" }, "time after the first sample [s]");
+    const cursor = drawn("line", { y1: PANELS[0].top, y2: PANELS[1].bottom, stroke: "#009e73", "stroke-width": 1.5, id: "cursor" });
+    return (time) => { cursor.setAttribute("x1", axes.x(time)); cursor.setAttribute("x2", axes.x(time)); };
+  }
+
+  // Mechanism -------------------------------------------------------------------------------------------
+  function framesOf(drawings) {
+    if (drawings.frames) return drawings.frames;
+    const flat = unpacked(drawings.points);
+    let from = 0;
+    const take = (count) => flat.subarray(2 * from, 2 * (from += count));
+    drawings.frames = drawings.rotations.map((rotation, k) => ({
+      rotation, parts: drawings.parts[k].map(take), hinges: take(drawings.hinges[k]),
+    }));
+    return drawings.frames;
+  }
+
+  function mixed(a, b, share) {
+    return a.length === b.length ? a.map((value, k) => value * (1 - share) + b[k] * share) : share < 0.5 ? a : b;
+  }
+
+  // The drawing at a rotation: between two frames of its side, no farther than the last
+  function poseAt(frames, rotation) {
+    const own = frames.filter((each) => each.rotation < 0 === rotation < 0);
+    const side = own.length ? own : frames;
+    const size = Math.abs(rotation);
+    const above = side.findIndex((each) => Math.abs(each.rotation) >= size);
+    if (above <= 0) return above === 0 ? side[0] : side[side.length - 1];
+    const [a, b] = [side[above - 1], side[above]];
+    if (a.parts.length !== b.parts.length) return a;
+    const share = (size - Math.abs(a.rotation)) / (Math.abs(b.rotation) - Math.abs(a.rotation));
+    return { parts: a.parts.map((part, k) => mixed(part, b.parts[k], share)), hinges: mixed(a.hinges, b.hinges, share) };
+  }
+
+  function paintWith(structure, motion, reach) {
+    const canvas = at("mechanism");
+    const paper = canvas.getContext("2d");
+    const frames = framesOf(structure.drawings);
+    const moves = motion ? unpacked(motion.displacement) : null;
+    const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
+    for (const frame of frames.filter((each) => Math.abs(each.rotation) <= reach || Math.abs(each.rotation) < 1e-3))
+      for (const points of frame.parts)
+        points.forEach((value, k) => {
+          low[k % 2] = Math.min(low[k % 2], value);
+          high[k % 2] = Math.max(high[k % 2], value);
+        });
+    const travel = moves ? largest(moves) : 0;
+    const [width, height] = [high[0] - low[0] + 2 * travel, high[1] - low[1]];
+    const scale = Math.min((canvas.width - 40) / width, (canvas.height - 60) / height);
+    const middle = (low[0] + high[0]) / 2;
+    const x = (value) => canvas.width / 2 + (value - middle) * scale;
+    const y = (value) => canvas.height - 36 - (value - low[1]) * scale;
+    return (rotation, time) => {
+      const shift = moves ? valueAt(moves, [0, motion.duration], time) : 0;
+      const pose = poseAt(frames, rotation);
+      const foot = y(Math.max(low[1], Math.min(0, high[1])));
+      paper.clearRect(0, 0, canvas.width, canvas.height);
+      paper.strokeStyle = "#777";
+      paper.lineWidth = 1;
+      paper.beginPath();
+      paper.moveTo(0, foot);
+      paper.lineTo(canvas.width, foot);
+      for (let k = -40; k < 80; k += 1) { // hatches that move with the ground
+        const begin = k * 14 + x(shift) - x(0);
+        paper.moveTo(begin, foot);
+        paper.lineTo(begin - 8, foot + 9);
+      }
+      paper.stroke();
+      paper.lineWidth = 1.3;
+      paper.strokeStyle = "#222";
+      paper.fillStyle = "#d9d4c8";
+      for (const points of pose.parts) {
+        paper.beginPath();
+        for (let k = 0; k < points.length; k += 2) paper.lineTo(x(points[k] + shift), y(points[k + 1]));
+        paper.closePath();
+        paper.fill();
+        paper.stroke();
+      }
+      paper.fillStyle = "#fff";
+      for (let k = 0; k < pose.hinges.length; k += 2) {
+        paper.beginPath();
+        paper.arc(x(pose.hinges[k] + shift), y(pose.hinges[k + 1]), 4.5, 0, 2 * Math.PI);
+        paper.fill();
+        paper.stroke();
+      }
+    };
+  }
+
+  // One case --------------------------------------------------------------------------------------------
+  let show = () => {};
+  let playing = 0;
+
+  function facts(each) {
+    const said = [`Verdict: ${each.verdict}.`];
+    if (each.probability !== undefined && each.probability !== null)
+      said.push(`${percent(each.probability)} of ${each.members} members of the ensemble overturn; rotation ratio from ${ratio(each.low)} to ${ratio(each.high)} (5 % to 95 %).`);
+    said.push(`Largest rotation over critical rotation, as given: ${ratio(each.integrated)} by integration, ${ratio(each.predicted)} by the closed form.`);
+    if (!each.history) said.push("It does not lift enough to be drawn, or its record could not be read again.");
+    return said.join(" ");
+  }
+
+  function choose(record, structure) {
+    stop();
+    at("matrix").querySelectorAll("[aria-pressed='true']").forEach((each) => each.setAttribute("aria-pressed", "false"));
+    const button = at("matrix").querySelector(`button[data-record="${record}"][data-structure="${structure}"]`);
+    button.setAttribute("aria-pressed", "true");
+    const each = byPlace.get(`${record},${structure}`);
+    at("case").hidden = false;
+    at("title").textContent = `${structures[structure].name} (${structures[structure].size}) under ${records[record].id}${each && each.component ? ", component " + each.component : ""}`;
+    document.querySelectorAll("#cases use").forEach((point, k) => point.classList.toggle("chosen", each !== undefined && each.point === k));
+    document.querySelectorAll("#case .pair").forEach((pair) => { pair.hidden = !each; });
+    if (!each) {
+      at("facts").textContent = `No result. ${records[record].failure}`;
+      return;
+    }
+    at("facts").textContent = facts(each);
+    const motion = records[record].motions[each.component];
+    const span = each.history ? each.history.span : [0, motion ? motion.duration : 1];
+    const point = histories(each, motion, span);
+    const values = each.history ? unpacked(each.history.ratio) : null;
+    const rotationOf = (time) => {
+      const found = values ? valueAt(values, span, time) : 0;
+      return found === 0 ? 0 : found * each.history.critical[found < 0 ? 1 : 0];
+    };
+    const most = values ? largest(values) * Math.max(...each.history.critical) : 0;
+    const draw = () => paintWith(structures[structure], motion, Math.max(most * Number(at("magnify").value), 0.02));
+    let paint = draw();
+    at("magnify").onchange = () => { paint = draw(); show(); };
+    show = () => {
+      const time = span[0] + (Number(at("scrub").value) / 1000) * (span[1] - span[0]);
+      paint(rotationOf(time) * Number(at("magnify").value), time);
+      point(time);
+      at("clock").textContent = `${time.toFixed(2)} s`;
+    };
+    show.length_s = span[1] - span[0];
+    at("scrub").value = 0;
+    show();
+  }
+
+  function stop() {
+    cancelAnimationFrame(playing);
+    playing = 0;
+    at("play").textContent = "Play";
+  }
+
+  function play() {
+    if (playing) { stop(); return; }
+    if (Number(at("scrub").value) >= 1000) at("scrub").value = 0;
+    at("play").textContent = "Pause";
+    let place = Number(at("scrub").value);
+    let before = performance.now();
+    const step = (now) => {
+      place += (1000 * (now - before) / 1000 * Number(at("speed").value)) / show.length_s;
+      before = now;
+      at("scrub").value = Math.min(1000, place);
+      show();
+      if (place >= 1000) stop();
+      else playing = requestAnimationFrame(step);
+    };
+    playing = requestAnimationFrame(step);
+  }
+
+  // Points of the figure ---------------------------------------------------------------------------------
+  function tip(text, event) {
+    at("tip").hidden = !text;
+    if (!text) return;
+    at("tip").textContent = text;
+    at("tip").style.left = `${Math.min(event.pageX + 12, window.scrollX + window.innerWidth - 280)}px`;
+    at("tip").style.top = `${event.pageY + 12}px`;
+  }
+
+  function watchPoints() {
+    const ofPoint = new Map(cases.filter((each) => each.point !== undefined).map((each) => [each.point, each]));
+    document.querySelectorAll("#cases use").forEach((point, k) => {
+      const each = ofPoint.get(k);
+      if (!each) return;
+      point.addEventListener("pointermove", (event) => tip(described(each), event));
+      point.addEventListener("pointerleave", () => tip(""));
+      point.addEventListener("click", () => {
+        choose(each.record, each.structure);
+        at("case").scrollIntoView({ block: "start", behavior: still ? "auto" : "smooth" });
+      });
+    });
+  }
+
+  fill();
+  filter();
+  watchPoints();
+  if (!at("agreement").querySelector("svg")) at("agreement").hidden = true;
+  if (!at("fragility").querySelector("svg")) at("fragility").hidden = true;
+  at("text").addEventListener("input", filter);
+  at("verdict").addEventListener("change", filter);
+  at("filters").addEventListener("submit", (event) => event.preventDefault());
+  at("matrix").addEventListener("keydown", onArrow);
+  at("matrix").addEventListener("click", (event) => {
+    const button = event.target.closest("button");
+    if (!button) return;
+    roam(button);
+    choose(Number(button.dataset.record), Number(button.dataset.structure));
+  });
+  at("matrix").addEventListener("pointerover", (event) => {
+    const button = event.target.closest("button");
+    tip(button ? button.getAttribute("aria-label") : "", event);
+  });
+  at("matrix").addEventListener("pointerleave", () => tip(""));
+  at("play").addEventListener("click", play);
+  at("scrub").addEventListener("input", () => { stop(); show(); });
+  document.addEventListener("keydown", (event) => { if (event.key === "Escape") tip(""); });
+})();

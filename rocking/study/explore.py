@@ -1,0 +1,209 @@
+"""The page to explore a study, from its tables, its records and its structures."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.signal import detrend
+
+from rocking.assessment.rows import BOTH_COMPONENTS, ComparisonRow, EnsembleRow, RecordTables
+from rocking.assessment.verdict import NEGLIGIBLE, Verdict
+from rocking.errors import RockingError
+from rocking.motion.integration import integrate
+from rocking.records import Accelerogram, displacement
+from rocking.records.catalogue import CatalogueRecord
+from rocking.records.vertical import aligned
+from rocking.reports.explore.figures import fragility_curves, scatter
+from rocking.reports.explore.packed import drawings, extremes, number, packed
+from rocking.reports.explore.page import explore_page
+from rocking.reports.style import svg
+from rocking.structures import Structure
+from rocking.study.run import Opened, Study
+from rocking.tables import write_whole
+
+Content = dict[str, Any]
+
+_STILL = 0.01
+"""Share of the largest rotation below which a history is cut."""
+_BEFORE, _AFTER = 0.5, 1.0
+"""s of rest that are kept before and after it."""
+_FALLEN = 3.0
+"""Rotation ratio beyond which a fall is not followed."""
+
+
+def write_explore(
+    records: Iterable[CatalogueRecord],
+    study: Study,
+    results: Path,
+    target: Path,
+    tell: Callable[[str], object],
+) -> None:
+    """Write the page of a study whose tables are in `results` to `target`. tell: takes a line for each record."""
+    shown: list[Content] = []
+    cases: list[Content] = []
+    for record in records:
+        said, found = _record(record, study, results / record.id)
+        cases += [{"record": len(shown), **each} for each in found]
+        shown.append(said)
+        tell(f"{record.id}: {len(found)} cases on the page")
+    structures = [
+        {"name": name, "size": structure.size, "type": structure.type_name, "drawings": drawings(structure)}
+        for name, structure in study.structures.items()
+    ]
+    places = {name: place for place, name in enumerate(study.structures)}
+    for case in cases:
+        case["structure"] = places[case["structure"]]
+    figures = {"scatter": _scatter(cases), "fragility": _fragility(results / "fragility" / "fragility.csv")}
+    write_whole(target, explore_page(shown, structures, cases, figures))
+
+
+def _record(record: CatalogueRecord, study: Study, folder: Path) -> tuple[Content, list[Content]]:
+    """What the page says of one record, and of each structure under its worse component."""
+    tables = RecordTables.read(folder)
+    rows = _worse(tables.comparison, study.structures)
+    said: Content = {
+        "id": record.id,
+        "failure": " ".join(failure.message for failure in tables.failures),
+        "motions": {},
+    }
+    verdicts = _verdicts(tables.ensemble)
+    cases = [_case(row, verdicts.get(row.structure)) for row in rows]
+    if rows:
+        try:
+            opened = study.open(record)
+        except RockingError as error:
+            return said | {"failure": str(error)}, cases
+        used = {row.component for row in rows}
+        said["motions"] = {
+            each.component: _motion(each, tables) for each in opened[0] if each.component in used
+        }
+        for row, case in zip(rows, cases, strict=True):
+            if row.integrated_rotation_ratio > NEGLIGIBLE:
+                case["history"] = _history(row, opened, study)
+    return said, cases
+
+
+def _worse(rows: Sequence[ComparisonRow], structures: Mapping[str, Structure]) -> list[ComparisonRow]:
+    """Of each structure the row of the component that turns it farthest."""
+    worse: dict[str, ComparisonRow] = {}
+    for row in rows:
+        known = worse.get(row.structure)
+        if row.structure in structures and (known is None or _demand(row) > _demand(known)):
+            worse[row.structure] = row
+    return list(worse.values())
+
+
+def _demand(row: ComparisonRow) -> float:
+    ratio = row.integrated_rotation_ratio
+    return -1.0 if math.isnan(ratio) else ratio
+
+
+def _verdicts(rows: Sequence[EnsembleRow]) -> dict[str, EnsembleRow]:
+    """Of each structure the ensemble over both components, else the one that overturns most."""
+    found: dict[str, EnsembleRow] = {}
+    for row in rows:
+        known = found.get(row.structure)
+        if known is None or _precedence(row) > _precedence(known):
+            found[row.structure] = row
+    return found
+
+
+def _precedence(row: EnsembleRow) -> tuple[bool, float]:
+    probability = row.overturning_probability
+    return row.component == BOTH_COMPONENTS, -1.0 if math.isnan(probability) else probability
+
+
+def _case(row: ComparisonRow, ensemble: EnsembleRow | None) -> Content:
+    integrated = row.integrated_rotation_ratio
+    case: Content = {
+        "structure": row.structure,
+        "component": row.component,
+        "integrated": number(integrated),
+        "predicted": number(row.predicted_rotation_ratio),
+        "verdict": str(ensemble.verdict if ensemble else _nominal(integrated)),
+    }
+    if ensemble:
+        case |= {
+            "probability": number(ensemble.overturning_probability),
+            "members": ensemble.members,
+            "low": number(ensemble.rotation_ratio_low),
+            "high": number(ensemble.rotation_ratio_high),
+        }
+    return case
+
+
+def _nominal(ratio: float) -> Verdict:
+    if math.isnan(ratio):
+        return Verdict.UNKNOWN
+    return Verdict.OVERTURNS if math.isinf(ratio) else Verdict.STANDS
+
+
+def _motion(accelerogram: Accelerogram, tables: RecordTables) -> Content:
+    """Acceleration [m/s²] and its pulse, and the displacement [m] that moves the drawing, over the whole record."""
+    times, acceleration = accelerogram.times, accelerogram.acceleration
+    kept = partial(extremes, times, begin=0.0, end=accelerogram.duration)
+    said: Content = {
+        "duration": accelerogram.duration,
+        "acceleration": packed(kept(acceleration)),
+        "displacement": packed(kept(detrend(displacement(accelerogram)))),
+    }
+    ranked = [row for row in tables.pulses if row.component == accelerogram.component and row.ranked]
+    if ranked:
+        pulse = min(ranked, key=lambda row: row.rank).pulse
+        inside = np.linspace(pulse.start_time, pulse.end_time, 61)
+        span = [number(pulse.start_time), number(pulse.end_time)]
+        said["pulse"] = {"span": span, "acceleration": packed(pulse.acceleration(inside))}
+    return said
+
+
+def _history(row: ComparisonRow, opened: Opened, study: Study) -> Content | None:
+    """Rotation over critical rotation while it moves; None where there is none."""
+    accelerograms, vertical = opened
+    record = next(each for each in accelerograms if each.component == row.component)
+    mechanism = study.structures[row.structure].mechanism()
+    beside = None if vertical is None else aligned(vertical, record)
+    response = integrate(mechanism, record, study.assessment.tolerance, history=True, vertical=beside)
+    if response.times is None or response.rotation is None or response.times.size < 2:
+        return None
+    critical = np.where(
+        response.rotation < 0, mechanism.sides[-1].critical_rotation, mechanism.sides[0].critical_rotation
+    )
+    times, ratio = response.times, np.clip(response.rotation / critical, -_FALLEN, _FALLEN)
+    moving = np.flatnonzero(np.abs(ratio) > _STILL * np.abs(ratio).max())
+    begin = max(float(times[0]), float(times[moving[0]]) - _BEFORE)
+    end = min(float(times[-1]), float(times[moving[-1]]) + _AFTER)
+    return {
+        "span": [number(begin), number(end)],
+        "ratio": packed(extremes(times, ratio, begin, end)),
+        "critical": [
+            number(mechanism.sides[0].critical_rotation),
+            number(mechanism.sides[-1].critical_rotation),
+        ],
+    }
+
+
+def _scatter(cases: Sequence[Content]) -> str:
+    """The figure of every case that has both rotations and lifts; each of them learns its place among the points."""
+    integrated: list[float] = []
+    predicted: list[float] = []
+    for case in cases:
+        values = case["integrated"], case["predicted"]
+        if None not in values and max(map(float, values)) > 0:
+            case["point"] = len(integrated)
+            integrated.append(float(values[0]))
+            predicted.append(float(values[1]))
+    return svg(scatter(integrated, predicted)) if integrated else ""
+
+
+def _fragility(path: Path) -> str:
+    """The figure of the fragility of this study, "" where it was not asked for."""
+    import pandas as pd
+
+    if not path.exists():
+        return ""
+    curves = pd.read_csv(path)
+    curves["rotation_ratio"] = curves["rotation_ratio"].astype(float)
+    return svg(fragility_curves(curves)) if np.isinf(curves["rotation_ratio"]).any() else ""

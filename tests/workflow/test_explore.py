@@ -1,0 +1,277 @@
+"""The page to explore a study, opened by a browser that reaches no host: choose, filter, play, without a complaint."""
+
+import base64
+import json
+import math
+import re
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rocking.motion.integration import integrate
+from rocking.reports.explore.packed import BINS, drawings, extremes, packed
+from rocking.structures import load_structures
+from rocking.study.config_file import read_settings
+from rocking.study.explore import write_explore
+from rocking.study.run import Study, assess_records
+from tests.workflow.write_study import write_study
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+PATIENCE = 30
+"""s; a loaded machine, not the page, is what takes so long."""
+HOSTILE = '</script><b>"arch"&\''
+STRUCTURES = f"""
+- {{name: pier, type: block, breadth_m: 0.8, height_m: 6.0}}
+- {{name: parapet, type: block, breadth_m: 0.1, height_m: 1.5}}
+- {{name: {json.dumps(HOSTILE)}, type: arch, radius_m: 10, thickness_m: 1.5, embrace_angle_deg: 157.5}}
+- {{name: wall, type: wall, height_m: 3.2, hinge_height_m: 1.6, thickness_m: 0.25}}
+- {{name: colonnade, type: frame, column_breadth_m: 1.1, column_height_m: 8.0, columns: 4, beam_mass_ratio: 0.3}}
+- {{name: spire, type: spire, width_m: 3.0, height_m: 15.0, wall_thickness_m: 0.25, crack_height_m: 5.0}}
+"""
+FRAGILITY = """structure,intensity_measure,rotation_ratio,level,probability,probability_low,probability_high
+pier,pga,INF,0.1,0.0,0.0,0.2
+pier,pga,INF,0.5,0.5,0.3,0.7
+pier,pga,INF,1.0,1.0,0.8,1.0
+"""
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory) -> tuple[Path, Study, list]:
+    """A study of one strong record, assessed, with its page; one record more cannot be read."""
+    from rocking.records.catalogue import load_catalogue
+
+    folder = tmp_path_factory.mktemp("explore") / "study"
+    write_study(folder, 2, duration=8.0)
+    (folder / "structures.yaml").write_text(STRUCTURES, encoding="utf-8")
+    (folder / "records" / "synthetic_00001.AT2").write_text("no record", encoding="utf-8")
+    told = {"ensemble": {"members": 16}, "candidates": 0, "processing_variants": False}
+    settings = read_settings(
+        told | {"catalogue": str(folder / "records" / "catalogue.csv"), "results": str(folder / "results")}
+    )
+    study = Study(load_structures(folder / "structures.yaml"), settings)
+    records = load_catalogue(folder / "records" / "catalogue.csv")
+    results = folder / "results"
+    results.mkdir()
+    assess_records(records, study, results, folder / "log")
+    (results / "fragility").mkdir()
+    (results / "fragility" / "fragility.csv").write_text(FRAGILITY, encoding="utf-8")
+    (results / "summary").mkdir()
+    write_explore(records, study, results, results / "summary" / "study.html", lambda line: None)
+    return results / "summary" / "study.html", study, list(records)
+
+
+@pytest.fixture(scope="module")
+def content(study) -> dict:
+    """What the page carries."""
+    (found,) = re.findall(
+        r'<script type="application/json" id="content">(.*?)</script>', study[0].read_text(encoding="utf-8")
+    )
+    return json.loads(found)
+
+
+def unpacked(said: dict) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(said["data"]), "<i2") * said["scale"]
+
+
+def test_what_is_packed_comes_back_to_its_last_bit():
+    values = np.random.default_rng(1).normal(size=(40, 2))
+    half_a_step = np.abs(values).max() / 32767 / 2
+    assert np.abs(unpacked(packed(values)) - values.ravel()).max() <= half_a_step * (1 + 1e-9)
+    assert np.array_equal(unpacked(packed(np.zeros(3))), np.zeros(3))
+
+
+def test_a_trace_keeps_its_peaks_and_its_places():
+    times = np.arange(0.0, 20.0, 0.001)
+    values = 0.1 * np.sin(times)
+    values[7777] = -3.0
+    kept = extremes(times, values, 0.0, 20.0)
+    assert kept.size == BINS and kept.min() == -3.0
+    assert abs((kept.argmin() + 0.5) * 20 / BINS - times[7777]) < 20 / BINS
+    sparse = extremes(np.array([0.0, 20.0]), np.array([0.0, 1.0]), 0.0, 20.0)
+    assert np.allclose(sparse[1:-1], ((np.arange(BINS) + 0.5) / BINS)[1:-1])
+
+
+def test_drawings_are_those_of_the_structure(study):
+    for structure in study[1].structures.values():
+        said = drawings(structure)
+        points = unpacked(said["points"]).reshape(-1, 2)
+        assert len(points) == sum(map(sum, said["parts"])) + sum(said["hinges"])
+        place = 17
+        begin = sum(map(sum, said["parts"][:place])) + sum(said["hinges"][:place])
+        expected = np.vstack(structure.outline(said["rotations"][place]))
+        assert np.allclose(points[begin : begin + len(expected)], expected, atol=np.abs(points).max() / 32767)
+
+
+def test_the_page_carries_the_rotation_that_was_integrated(content, study):
+    """The history that moves the drawing has the largest rotation of an integration done here."""
+    _, done, records = study
+    rocking = [
+        each for each in content["cases"] if isinstance(each["integrated"], float) and "history" in each
+    ]
+    assert rocking
+    accelerograms, _ = done.open(records[0])
+    for each in rocking:
+        name = content["structures"][each["structure"]]["name"]
+        found = integrate(done.structures[name].mechanism(), accelerograms[0], done.assessment.tolerance)
+        largest = np.abs(unpacked(each["history"]["ratio"])).max()
+        # between the steps of a history the peak may lie a little higher
+        assert math.isclose(largest, found.rotation_ratio, rel_tol=0.01)
+
+
+def test_every_case_and_every_failure_is_on_the_page(content, study):
+    assert [each["id"] for each in content["records"]] == ["synthetic_00000", "synthetic_00001"]
+    assert len(content["cases"]) == len(study[1].structures)
+    assert "sha256" in content["records"][1]["failure"]
+    assert HOSTILE in [each["name"] for each in content["structures"]]
+
+
+def test_the_page_loads_nothing(study):
+    text = study[0].read_text(encoding="utf-8")
+    assert not re.findall(r"""(?:src|href)=["'](?!#|data:)""", re.sub(r"xlink:href=\"#", "#", text))
+    assert "@import" not in text and "fetch(" not in text
+    assert text.count("</script>") == 2  # that of the content and that of the script
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator:
+    """A headless Chromium that can reach no host."""
+    webdriver = pytest.importorskip(
+        "selenium.webdriver", reason="the page is opened by selenium, of the extra test"
+    )
+    binary = next(filter(None, map(shutil.which, BROWSERS)), None)
+    driver = shutil.which("chromedriver")
+    if binary is None or driver is None:
+        pytest.skip("Chromium and chromedriver are not installed; install them to open the page in a browser")
+    options = webdriver.ChromeOptions()
+    options.binary_location = binary
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1400,1600"):
+        options.add_argument(argument)
+    options.add_argument("--host-resolver-rules=MAP * ~NOTFOUND")
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    opened = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
+    yield opened
+    opened.quit()
+
+
+@pytest.fixture
+def page(study, browser) -> Callable:
+    """The page, freshly opened; call it with a selector to get what stands there. It complains of nothing."""
+    browser.get(study[0].as_uri())
+    yield lambda selector: browser.find_elements("css selector", selector)
+    assert [entry for entry in browser.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")] == []
+
+
+def visible(page: Callable) -> list:
+    return [each for each in page("#matrix tbody button") if each.is_displayed()]
+
+
+def moving(page: Callable):
+    """Choose the wall, which rocks, and return its cell."""
+    (cell,) = page("button[data-record='0'][data-structure='3']")
+    cell.click()
+    return cell
+
+
+def picture(browser) -> str:
+    return browser.execute_script("return document.getElementById('mechanism').toDataURL()")
+
+
+def test_a_cell_opens_its_case(page):
+    cell = moving(page)
+    assert cell.get_attribute("aria-pressed") == "true"
+    assert page("#title")[0].text.startswith("wall (") and "synthetic_00000" in page("#title")[0].text
+    assert len(page("#histories #rotation")[0].get_attribute("points").split()) > BINS / 2
+    assert len(page("#cases use.chosen")) == 1
+
+
+def test_scrubbing_moves_the_mechanism_and_the_cursor(page, browser):
+    moving(page)
+    rest, begun = picture(browser), page("#cursor")[0].get_attribute("x1")
+    script = "const s = document.getElementById('scrub'); s.value = 420; s.dispatchEvent(new Event('input'))"
+    browser.execute_script(script)
+    assert picture(browser) != rest
+    assert float(page("#cursor")[0].get_attribute("x1")) > float(begun)
+
+
+def test_it_plays_and_pauses(page, browser):
+    from selenium.webdriver.support.ui import WebDriverWait
+
+    moving(page)
+    rest = picture(browser)
+    (play,) = page("#play")
+    play.click()
+    assert play.text == "Pause"
+    WebDriverWait(browser, PATIENCE).until(lambda at: int(page("#scrub")[0].get_attribute("value")) > 5)
+    assert picture(browser) != rest
+    if play.text == "Pause":  # a slow browser may have come to the end
+        play.click()
+    assert play.text == "Play"
+
+
+def test_every_structure_is_drawn(page, browser):
+    drawn = set()
+    for cell in page("button[data-record='0']"):
+        cell.click()
+        drawn.add(picture(browser))
+    assert len(drawn) == 6
+
+
+def test_the_filters_leave_what_they_name(page):
+    everything = len(visible(page))
+    (text,) = page("#text")
+    text.send_keys("colon")
+    assert {each.get_attribute("data-structure") for each in visible(page)} == {"4"}
+    text.clear()
+    text.send_keys(" ")
+    (choice,) = page("#verdict option:nth-child(5)")
+    choice.click()
+    assert {each.get_attribute("data-verdict") for each in visible(page)} == {"unknown"}
+    assert 0 < len(visible(page)) < everything
+
+
+def test_the_keyboard_is_enough(page, browser):
+    from selenium.webdriver.common.keys import Keys
+
+    (first,) = page("#matrix button[tabindex='0']")
+    first.send_keys(Keys.ARROW_RIGHT)
+    second = browser.switch_to.active_element
+    assert second.get_attribute("data-structure") == "1"
+    second.send_keys(Keys.ENTER)
+    assert page("#title")[0].text.startswith("parapet")
+
+
+def test_a_record_that_failed_says_why(page):
+    (cell,) = page("button[data-record='1'][data-structure='0']")
+    cell.click()
+    assert "sha256" in page("#facts")[0].text
+
+
+def test_a_point_says_its_case_and_opens_it(page, browser):
+    from selenium.webdriver import ActionChains
+
+    point = page("#cases use")[0]
+    browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", point)
+    ActionChains(browser).move_to_element(point).perform()
+    assert "closed form" in page("#tip")[0].text
+    ActionChains(browser).click(point).perform()
+    assert page("#title")[0].text
+
+
+def test_hostile_names_stay_text(page):
+    (cell,) = page("button[data-record='0'][data-structure='2']")
+    cell.click()
+    assert page("#title")[0].text.startswith(HOSTILE)
+    assert not page("#matrix b, #title b, #facts b")
+
+
+def test_fragility_is_drawn_where_it_is_known(page):
+    assert page("#fragility svg")[0].is_displayed()
+
+
+def test_print_and_picture(page, browser):
+    """What would be printed is more than a blank sheet."""
+    moving(page)
+    assert len(base64.b64decode(browser.print_page())) > 20_000

@@ -1,0 +1,23 @@
+"""Write the page to explore the study: one HTML file that needs no network."""
+
+
+rule explore:
+    input:
+        tables=record_files(PLAN.records, *CSV),
+    output:
+        page=f"{SUMMARY}/study.html",
+    log:
+        f"{SUMMARY}/logs/explore.log",
+    benchmark:
+        f"{SUMMARY}/benchmarks/explore.tsv"
+    params:
+        records=list(PLAN.records),
+        records_sha256=[PLAN.records_sha256(job) for job in PLAN.jobs],
+        files_sha256=PLAN.files_sha256(*PLAN.jobs),
+        structures_sha256=PLAN.structures_sha256,
+        settings_sha256=PLAN.settings_sha256,
+        package_sha256=PACKAGE,
+    message:
+        "Write the page to explore the study"
+    script:
+        "../scripts/explore.py"
