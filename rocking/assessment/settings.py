@@ -42,7 +42,7 @@ class AssessmentSettings:
     )
     fidelity: Literal["full", "auto"] = setting(
         "full",
-        "full: every method, to compare them; auto: per case what settles the verdict, from the cheapest",
+        "full: every method, to compare them; auto: per case what settles the verdict, where no PDF reports are made",
     )
     fidelity_risk: float = setting(
         0.01, "for auto: largest probability of a wrong verdict with which it stops; 0: none", ge=0, le=0.2

@@ -1,7 +1,7 @@
 """A study: many records against one list of structures, each record in its own folder of tables."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from time import process_time
@@ -46,8 +46,9 @@ class Study:
 
     @cached_property
     def assessment(self) -> AssessmentSettings:
-        """What a record is compared with."""
-        return self.settings.assessment
+        """What a record is compared with: in full where a report is made, which shows every method."""
+        chosen = self.settings.assessment
+        return replace(chosen, fidelity="full") if self.settings.reports else chosen
 
     def open(self, record: CatalogueRecord) -> Opened:
         """Return the components of `record`, processed as the settings say.

@@ -120,9 +120,14 @@ def _lines(folder: Path) -> Iterator[str]:
     tables = RecordTables.read(folder)
     outcomes = {row.case: row.outcome for row in tables.responses if row.method is Method.MECHANISM_ON_RECORD}
     for row in tables.comparison:
-        yield _line(row, outcomes[row.case])
+        yield _line(row, outcomes.get(row.case) or f"{_settled(row)} ({row.answer_reason})")
     for failure in tables.failures:
         yield f"not assessed: {failure.structure or failure.stage}: {failure.message}"
+
+
+def _settled(row: ComparisonRow) -> str:
+    """Of a case whose mechanism was not integrated."""
+    return "overturns" if math.isinf(row.answer_rotation_ratio) else "does not overturn"
 
 
 def _line(row: ComparisonRow, outcome: str) -> str:

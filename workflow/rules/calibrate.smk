@@ -2,8 +2,6 @@
 
 
 rule calibrate:
-    input:
-        catalogues=[SETTINGS.calibration_catalogue, f"{workflow.basedir}/records/fema_p695.csv"],
     output:
         [
             f"{RESULTS}/calibration/{table}.csv"
@@ -21,6 +19,7 @@ rule calibrate:
     benchmark:
         f"{SUMMARY}/benchmarks/calibrate.tsv"
     params:
+        catalogues=[SETTINGS.calibration_catalogue, f"{workflow.basedir}/records/fema_p695.csv"],
         mirror=SETTINGS.mirror,
         package_sha256=PLAN.package_sha256,
     message:

@@ -4,16 +4,20 @@ from pathlib import Path
 
 from rocking.calibration.tiers import write_tiers
 from rocking.records import load_catalogue, open_record
-from rocking.study.progress import numbered
+from rocking.study.progress import line_writer
+
+
+def components(catalogues, mirror, tell):
+    """Yield identifier and accelerogram of every component in the catalogues."""
+    listed = [record for catalogue in catalogues for record in load_catalogue(catalogue)]
+    for count, record in enumerate(listed, start=1):
+        tell(f"{count} of {len(listed)}: {record.id}")
+        for accelerogram in open_record(record, mirror=mirror):
+            yield record.id, accelerogram
+
 
 if __name__ == "__main__":
-    mirror, log = snakemake.params.mirror, Path(snakemake.log[0])
-    listed = [each for path in snakemake.input.catalogues for each in load_catalogue(Path(path))]
-    records = (
-        (record.id, accelerogram)
-        for record in numbered(listed, [record.id for record in listed], log)
-        for accelerogram in open_record(record, mirror=mirror)
-    )
-    scores = write_tiers(records, Path(snakemake.output[0]).parent)
-    with log.open("a", encoding="utf-8") as stream:
-        print(*scores, sep="\n", file=stream)
+    params, tell = snakemake.params, line_writer(Path(snakemake.log[0]))
+    records = components(params.catalogues, params.mirror, tell)
+    for score in write_tiers(records, Path(snakemake.output[0]).parent):
+        tell(str(score))

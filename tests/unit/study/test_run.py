@@ -16,6 +16,7 @@ from rocking.assessment.rows import (
     MaximumRow,
     PredictionRow,
     PulseRow,
+    RecordTables,
     ResponseRow,
     structure_rows,
 )
@@ -188,3 +189,15 @@ def test_the_structures_table_carries_the_block_of_the_closed_form() -> None:
     assert row.frequency_parameter_rad_s == pytest.approx(
         (0.75 * 9.80665 / 1.5206906325745548) ** 0.5, rel=1e-14
     )
+
+
+def test_auto_computes_what_settles_the_verdict_and_a_report_everything(tmp_path: Path) -> None:
+    record = _record(tmp_path, "good")
+    for reports, methods in ((False, 1), (True, 4)):
+        settings = Settings(fidelity="auto", reports=reports)
+        assess_record(record, Study({"block": Block(1.0, 0.2)}, settings), tmp_path / str(reports))
+        tables = RecordTables.read(tmp_path / str(reports))
+        assert {row.structure for row in tables.comparison} == {"block"}
+        assert len({row.method for row in tables.responses}) <= methods
+        assert bool(tables.comparison[0].answer_reason) is not reports
+    assert len({row.method for row in tables.responses}) > 1
