@@ -96,14 +96,14 @@ def test_the_base_of_lmgc90_moves_as_the_accelerogram():
 
 
 def test_lmgc90_tends_to_the_same_block(block_case):
-    """First order in time: the error bar of its extrapolation holds the reference."""
+    """First order in time, with impacts known to a step: a few percent after extrapolation."""
     pytest.importorskip("compas_lmgc90", reason="install the extra compare to run this test")
     from rocking.calibration.comparison.codes import outer_codes
 
     answer = outer_codes()["LMGC90 (compas_lmgc90), NSCD"](block_case)
     truth = integrate(block_case.mechanism, block_case.motion, 1e-9).rotation_ratio
     assert answer.reason == ""
-    assert answer.rotation_ratio == pytest.approx(truth, abs=3 * answer.error_bar)
+    assert answer.rotation_ratio == pytest.approx(truth, rel=0.05)
 
 
 def test_a_code_that_is_not_there_says_so(block_case, monkeypatch):
