@@ -468,16 +468,19 @@ def rock_linear_blocks(frequency, push, span, restitution, ground, time_step, st
     """
     none, best, start = np.empty((0, 3)), np.zeros((2, 2)), State(0.0, 0.0, 0)
     takeable = np.empty((2, 2, ground.size))
-    highest, lowest = ground.max(), ground.min()
     for m in range(status.size):
         status[m], peaks[m] = 0, 0.0
-        if -lowest * push[m, 0] <= 1 and highest * push[m, 1] <= 1:
+        first = 0
+        while first < ground.size and -ground[first] * push[m, 0] <= 1 and ground[first] * push[m, 1] <= 1:
+            first += 1
+        if first == ground.size:
             continue
+        moving = ground[max(first - 1, 0) :]  # until then it rests
         # With a factor of 1, the positive side is pushed back by positive ü_g, the negative one by negative ü_g.
-        takeback(ground, time_step, frequency[m, 0], 1, takeable[0, 0])
-        takeback(ground, time_step, frequency[m, 1], -1, takeable[1, 1])
+        takeback(moving, time_step, frequency[m, 0], 1, takeable[0, 0])
+        takeback(moving, time_step, frequency[m, 1], -1, takeable[1, 1])
         blocks = Blocks(frequency[m], push[m], span[m], False)
-        samples = Samples(ground, time_step, takeable)
+        samples = Samples(moving, time_step, takeable)
         eta = restitution[m, 0], restitution[m, 1]
         status[m], _, _, _, _, _ = rock_linear(blocks, samples, 1.0, eta, start, True, best, none)
         peaks[m] = best[0]

@@ -19,15 +19,13 @@ from rocking.errors import PulseError
 from rocking.pulses import Pulse, extract_pulses
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import Processing, process, velocity
-from rocking.sine_pulse import predict_maximum
+from rocking.sine_pulse import predict_maxima
 from rocking.structures import EquivalentBlock
 
 TABLE_PROCESSING = Processing(baseline="linear", low_pass=30.0, time_step=0.01)
 """What the measured motions of the table go through: the sensor's offset, of up to 0.02 g, is a seventh of λ."""
 VELOCITY_PROCESSING = Processing(baseline="linear", high_pass=0.1, low_pass=30.0, time_step=0.01)
 """What they go through before they are integrated to a velocity."""
-CLOSED_FORM_CANDIDATES = 256
-"""Blocks that are tried under the dominant pulse, the first of the prior's."""
 IDENTIFIED = "identified population"
 TABLE_PRIOR = BlockPrior(
     uplift_multiplier=(0.03, 0.2),
@@ -46,8 +44,8 @@ Fitted = Callable[[np.ndarray, np.ndarray], np.ndarray]
 class Measured:
     """The tests as every method sees them. peak_acceleration, peak_velocity: (n,) m/s², m/s, of the table as measured.
 
-    overturns: (n, m) verdict of each candidate block on the record. pulse_overturns: (n, k) of the first k candidates,
-    in closed form under the dominant pulse.
+    overturns: (n, m) verdict of each candidate block on the record. pulse_overturns: (n, m) the same in closed form
+    under the dominant pulse.
     """
 
     tests: tuple[TableTest, ...]
@@ -79,8 +77,7 @@ def measure(
     tell: is given a line as each test begins.
     """
     candidates = prior.blocks()
-    some = candidates[:CLOSED_FORM_CANDIDATES]
-    peaks, verdicts, closed = [], [], []
+    peaks, verdicts, pulses = [], [], []
     for number, test in enumerate(campaign.tests, start=1):
         tell(f"{number} of {len(campaign.tests)}: test {test.number}")
         table_motion = campaign.table_motion(test)
@@ -88,11 +85,10 @@ def measure(
         speed = velocity(process(table_motion, VELOCITY_PROCESSING))
         peaks.append((motion.peak_acceleration, float(np.abs(speed).max())))
         verdicts.append(overturning_table(candidates, [motion], workers=workers)[0])
-        closed.append(_closed_form(some, motion))
+        pulses.append(_dominant(motion))
+    closed = pulse_verdicts(candidates, pulses)
     acceleration, speeds = np.array(peaks).T
-    return Measured(
-        campaign.tests, prior, candidates, acceleration, speeds, np.array(verdicts), np.array(closed)
-    )
+    return Measured(campaign.tests, prior, candidates, acceleration, speeds, np.array(verdicts), closed)
 
 
 def left_out(measured: Measured, specimen: int) -> Mapping[str, np.ndarray]:
@@ -159,10 +155,17 @@ def _methods(measured: Measured, specimen: int) -> Mapping[str, Fitted]:
     }
 
 
-def _closed_form(blocks: Sequence[EquivalentBlock], motion: Accelerogram) -> np.ndarray:
-    """(k,) whether each block overturns under the dominant pulse; none does where there is no pulse."""
+def pulse_verdicts(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse | None]) -> np.ndarray:
+    """Return (n, m) whether each block overturns under each pulse, in closed form; none does without a pulse."""
+    found = np.zeros((len(pulses), len(blocks)), dtype=bool)
+    known = [k for k, pulse in enumerate(pulses) if pulse is not None]
+    if known:
+        found[known] = np.isinf(predict_maxima(blocks, [pulse for pulse in pulses if pulse is not None])).T
+    return found
+
+
+def _dominant(motion: Accelerogram) -> Pulse | None:
     try:
-        pulse: Pulse = extract_pulses(motion).dominant
+        return extract_pulses(motion).dominant
     except PulseError:
-        return np.zeros(len(blocks), dtype=bool)
-    return np.array([np.isinf(predict_maximum(block, pulse).rotation_ratio) for block in blocks])
+        return None
