@@ -102,7 +102,8 @@ def response_histories(histories: Sequence[History]) -> Figure:
     for panel in axes[max(0, len(histories) - columns) : len(histories)]:
         panel.tick_params(labelbottom=True)
     figure.text(0.5, 0.5 / figure.get_figheight() / 25.4, "time after the first sample [s]", ha="center")
-    figure.text(0.006, 0.5, "rotation / critical rotation [-]", va="center", rotation="vertical")
+    label = "rotation / critical rotation [-]" if rows > 1 else "rotation ratio [-]"
+    figure.text(0.006, 0.5, label, va="center", rotation="vertical")
     return figure
 
 

@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
+from itertools import accumulate
 
 from rocking.assessment.rows import (
     CandidateRow,
@@ -17,8 +18,8 @@ from rocking.assessment.verdict import Verdict, rests, rocks
 from rocking.reports import printing
 from rocking.reports.printing import NOTHING, Cell, strong, table_of, words
 
-MOST_NAMED = 12
-"""Structures that the first lines name with one verdict; the table below them holds all."""
+MOST_NAMED, MOST_LETTERS = 12, 300
+"""Structures that the first lines name with one verdict, and their letters; the table below them holds all."""
 _ROCKS, _RESTS = "rocks and stays up", "rests"
 _ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, _ROCKS, Verdict.STANDS, _RESTS, Verdict.UNKNOWN)
 
@@ -95,7 +96,7 @@ def headlines(found: Sequence[Fate]) -> list[dict[str, str]]:
     return [
         {
             "verdict": printing.sentence(verdict),
-            "names": printing.listed([_named(fate) for fate in sorted(group, key=_rank)], MOST_NAMED),
+            "names": _listed([_named(fate) for fate in sorted(group, key=_rank)]),
         }
         for verdict, group in groups.items()
         if group
@@ -157,6 +158,12 @@ def origin(rows: Sequence[RecordRow]) -> str:
         + f"rocking {version('rocking')}"
         + (f", settings and structures {', '.join(settings)}…." if settings else ".")
     )
+
+
+def _listed(names: Sequence[str]) -> str:
+    """As many names as the first lines have room for, at least one."""
+    ends = accumulate(len(name) for name in names)
+    return printing.listed(names, max(1, min(MOST_NAMED, sum(end <= MOST_LETTERS for end in ends))))
 
 
 def _known(ratio: float) -> float:

@@ -12,6 +12,7 @@ from rocking.assessment.method import Method
 from rocking.assessment.rows import structure_rows
 from rocking.assessment.verdict import Verdict
 from rocking.records.accelerogram import Accelerogram
+from rocking.reports.record.page_one import fates, headlines
 from rocking.reports.record.report import failure_report, record_data, record_report
 from rocking.structures import Block
 from rocking.structures.outcome import Outcome
@@ -291,3 +292,11 @@ def test_a_vertical_component_is_named_and_changes_the_histories(example):
     assert "vertical component UP acts" in still["vertical"]
     assert still["histories"][0]["svg"] != moved["histories"][0]["svg"]
     assert record_data(*example.arguments)["vertical"] == "The vertical ground acceleration is left out."
+
+
+def test_the_first_lines_hold_few_long_names_and_say_how_many_more(example):
+    many = {f"{place} {'W' * 60}": example.tables.comparison[0] for place in range(12)}
+    comparison = [replace(row, structure=name) for name, row in many.items()]
+    tables = replace(example.tables, comparison=comparison, ensemble=[], candidates=[], processing=[])
+    (line,) = headlines(fates(tables, []))
+    assert len(line["names"]) < 340 and line["names"].endswith("and eight others")
