@@ -81,7 +81,7 @@ def _record(record: CatalogueRecord, study: Study, folder: Path) -> tuple[Conten
             each.component: _motion(each, tables) for each in opened[0] if each.component in used
         }
         for row, case in zip(rows, cases, strict=True):
-            if row.integrated_rotation_ratio > NEGLIGIBLE:
+            if row.found_rotation_ratio > NEGLIGIBLE:
                 case["history"] = _history(row, opened, study)
     return said, cases
 
@@ -97,7 +97,7 @@ def _worse(rows: Sequence[ComparisonRow], structures: Mapping[str, Structure]) -
 
 
 def _demand(row: ComparisonRow) -> float:
-    ratio = row.integrated_rotation_ratio
+    ratio = row.found_rotation_ratio
     return -1.0 if math.isnan(ratio) else ratio
 
 
@@ -117,13 +117,14 @@ def _precedence(row: EnsembleRow) -> tuple[bool, float]:
 
 
 def _case(row: ComparisonRow, ensemble: EnsembleRow | None) -> Content:
-    integrated = row.integrated_rotation_ratio
+    found = row.found_rotation_ratio
     case: Content = {
         "structure": row.structure,
         "component": row.component,
-        "integrated": number(integrated),
+        "integrated": number(row.integrated_rotation_ratio),
+        "found": number(found),
         "predicted": number(row.predicted_rotation_ratio),
-        "verdict": str(ensemble.verdict if ensemble else _nominal(integrated)),
+        "verdict": str(ensemble.verdict if ensemble else _nominal(found)),
     }
     if ensemble:
         case |= {
@@ -165,7 +166,10 @@ def _history(row: ComparisonRow, opened: Opened, study: Study) -> Content | None
     record = next(each for each in accelerograms if each.component == row.component)
     mechanism = study.structures[row.structure].mechanism()
     beside = None if vertical is None else aligned(vertical, record)
-    response = integrate(mechanism, record, study.assessment.tolerance, history=True, vertical=beside)
+    try:
+        response = integrate(mechanism, record, study.assessment.tolerance, history=True, vertical=beside)
+    except RockingError:  # the tables say why
+        return None
     if response.times is None or response.rotation is None or response.times.size < 2:
         return None
     critical = np.where(

@@ -5,7 +5,12 @@ rule explore:
     input:
         tables=record_files(PLAN.records, *CSV),
     output:
-        page=f"{SUMMARY}/study.html",
+        page=report(
+            f"{SUMMARY}/study.html",
+            caption="../report/explore.rst",
+            category="Study",
+            labels={"document": "page to explore the study"},
+        ),
     log:
         f"{SUMMARY}/logs/explore.log",
     benchmark:

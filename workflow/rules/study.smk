@@ -26,6 +26,6 @@ TARGETS = [f"{SUMMARY}/{table}.csv" for table in SUMMARIES]
 TARGETS += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json"]
 if SETTINGS.reports:
     TARGETS += record_files(PLAN.records, "report.pdf") + [f"{SUMMARY}/summary.pdf"]
-    TARGETS += [f"{SUMMARY}/prediction_against_integration.svg"]
+    TARGETS += [f"{SUMMARY}/prediction_against_integration.svg", f"{SUMMARY}/study.html"]
 if SETTINGS.fragility.in_every_run:
     TARGETS += [f"{RESULTS}/fragility/fragility.pdf"]

@@ -53,7 +53,7 @@
     button.dataset.structure = structure;
     button.dataset.verdict = verdict;
     const known = each && each.probability !== undefined && each.probability !== null;
-    const shown = known ? Math.round(100 * each.probability) : each ? (each.integrated === "inf" ? "" : ratio(each.integrated)) : "";
+    const shown = known ? Math.round(100 * each.probability) : each && typeof each.found === "number" ? ratio(each.found) : "";
     button.textContent = `${SIGNS[verdict] || ""} ${shown}`.trim();
     button.setAttribute("aria-pressed", "false");
     button.setAttribute("aria-label", each ? described(each) : `${structures[structure].name} under ${records[record].id}: no result. ${records[record].failure}`);
