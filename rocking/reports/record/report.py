@@ -124,8 +124,9 @@ def _verdicts(
     return {
         "caption": f"Component {printing.words(component)}: the simple predictions beside the full integration, as "
         "largest rotation over critical rotation: closed form of the equivalent block under one sine pulse, that block "
-        f"under the whole record, the mechanism under the whole record.{scale_note}",
-        "table": record_verdict.verdict_table(tables.comparison, numbers),
+        "under the whole record, the mechanism under the whole record. Last column: what becomes "
+        f"of structures alike in closed form and peak values, with the 90 % interval.{scale_note}",
+        "table": record_verdict.verdict_table(tables, numbers),
         "sentences": record_verdict.doubts(tables.comparison),
     }
 

@@ -9,17 +9,18 @@ from rocking.reports import printing
 from rocking.reports.printing import ratio, strong, table_of, words
 
 
-def verdict_table(rows: Sequence[ComparisonRow], numbers: Mapping[str, str]) -> dict[str, object]:
+def verdict_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, object]:
     """Return how the simple predictions of one component stand to the integration: one row per structure."""
+    worth = {row.case: row.in_words for row in tables.predictions if row.method is Method.CLOSED_FORM}
     return table_of(
-        rows,
+        tables.comparison,
         ("No.", "auto", "r", lambda row: numbers[row.structure]),
-        ("Structure", "1.2", "l", lambda row: row.structure),
-        ("Closed form, one pulse", "0.65", "r", lambda row: ratio(row.predicted_rotation_ratio)),
-        ("Block, whole record", "0.65", "r", lambda row: ratio(row.block_rotation_ratio)),
+        ("Structure", "0.8", "l", lambda row: row.structure),
+        ("Closed form, one pulse", "0.58", "r", lambda row: ratio(row.predicted_rotation_ratio)),
+        ("Block, whole record", "0.58", "r", lambda row: ratio(row.block_rotation_ratio)),
         (
             "Mechanism, whole record",
-            "0.65",
+            "0.58",
             "r",
             lambda row: strong(
                 ratio(row.found_rotation_ratio) + (f" ({row.answer_method})" if row.spared else "")
@@ -27,11 +28,11 @@ def verdict_table(rows: Sequence[ComparisonRow], numbers: Mapping[str, str]) -> 
         ),
         (
             "The closed form is",
-            "1.05",
+            "1",
             "l",
             lambda row: strong(words(row.prediction_in_words), row.agreement is Agreement.TOO_LOW),
         ),
-        ("Regime of the closed form", "1.5", "l", lambda row: words(row.regime)),
+        ("Structures alike", "3.2", "l", lambda row: words(worth.get(row.case))),
     )
 
 
