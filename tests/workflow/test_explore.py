@@ -269,6 +269,8 @@ def test_hostile_names_stay_text(page):
 
 def test_fragility_is_drawn_where_it_is_known(page):
     assert page("#fragility svg")[0].is_displayed()
+    words = page("#fragility svg")[0].text
+    assert "pga [g]" in words and "$" not in words
 
 
 def test_print_and_picture(page, browser):

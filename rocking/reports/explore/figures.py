@@ -6,7 +6,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from rocking.reports.style import elided, new_figure, styled
+from rocking.assessment.fragility import INTENSITY_MEASURES
+from rocking.reports.style import elided, new_figure, plain_logarithmic, styled
 from rocking.reports.summary.figures import prediction_scatter
 
 CASES = "cases"
@@ -50,8 +51,9 @@ def fragility_curves(curves: pd.DataFrame) -> Figure:
         panel.fill_between(
             curve["level"], curve["probability_low"], curve["probability_high"], color=colour, alpha=0.1
         )
-    panel.set(xscale="log", ylim=(0, 1))
-    panel.set_xlabel(f"intensity measure {measure}")
+    plain_logarithmic(panel, "x")
+    panel.set_ylim(0, 1)
+    panel.set_xlabel(f"intensity measure {measure} [{INTENSITY_MEASURES[measure].unit or '-'}]")
     panel.set_ylabel("probability of overturning [-]")
     panel.legend(loc="upper left", fontsize=7)
     return figure
