@@ -16,11 +16,11 @@ def verdict_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str,
         tables.comparison,
         ("No.", "auto", "r", lambda row: numbers[row.structure]),
         ("Structure", "0.8", "l", lambda row: row.structure),
-        ("Closed form, one pulse", "0.58", "r", lambda row: ratio(row.predicted_rotation_ratio)),
-        ("Block, whole record", "0.58", "r", lambda row: ratio(row.block_rotation_ratio)),
+        ("Closed form, one pulse", "0.68", "r", lambda row: ratio(row.predicted_rotation_ratio)),
+        ("Block, whole record", "0.68", "r", lambda row: ratio(row.block_rotation_ratio)),
         (
-            "Mechanism, whole record",
-            "0.58",
+            "Mecha\u00adnism, whole record",
+            "0.68",
             "r",
             lambda row: strong(
                 ratio(row.found_rotation_ratio) + (f" ({row.answer_method})" if row.spared else "")
@@ -32,7 +32,7 @@ def verdict_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str,
             "l",
             lambda row: strong(words(row.prediction_in_words), row.agreement is Agreement.TOO_LOW),
         ),
-        ("Structures alike", "3.2", "l", lambda row: words(worth.get(row.case))),
+        ("Structures alike", "3", "l", lambda row: words(worth.get(row.case))),
     )
 
 
