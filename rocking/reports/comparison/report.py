@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from statistics import median
 
+from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
@@ -17,8 +18,8 @@ from rocking.tables import read_rows
 
 SMALLEST_ERROR = 1e-15
 """Smaller errors, down to none, are drawn here."""
-_COLOURS = ("#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#999999")
-_MARKERS = "osD^vPX*"
+_COLOURS = ("#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#666666")
+_MARKERS = "osD^vPXH"
 _STRUCTURES = ("block", "frame", "arch")
 
 
@@ -46,8 +47,8 @@ def comparison_data(rows: Sequence[CodeRow]) -> dict[str, object]:
 @styled
 def work_figure(rows: Sequence[CodeRow]) -> Figure:
     """Draw error against processor time: small marks are cases, large ones the medians of a code and structure."""
-    figure = new_figure(100, margins=(17, 4, 15, 6))
-    panels = figure.subplots(1, len(_STRUCTURES), sharey=True, gridspec_kw={"wspace": 0.06})
+    figure = new_figure(112, margins=(17, 4, 29, 6))
+    panels = figure.subplots(1, len(_STRUCTURES), sharex=True, sharey=True, gridspec_kw={"wspace": 0.06})
     names = list(dict.fromkeys(row.code for row in rows))
     for panel, structure in zip(panels, _STRUCTURES, strict=True):
         for k, name in enumerate(names):
@@ -69,7 +70,11 @@ def work_figure(rows: Sequence[CodeRow]) -> Figure:
         panel.grid(True)
         panel.set_axisbelow(True)
     panels[0].set_ylabel("error of the largest rotation, relative")
-    panels[0].legend(loc="upper left", fontsize=6.5)
+    handles: dict[str, Artist] = {}
+    for panel in panels:
+        panel.margins(x=0.08)
+        handles |= dict(zip(*panel.get_legend_handles_labels()[::-1], strict=True))
+    figure.legend(list(handles.values()), list(handles), loc="lower center", ncols=3)
     return figure
 
 
