@@ -27,7 +27,7 @@ FIRST, MOST_NEAR_A_LIMIT = 16, 256
 UNANIMOUS = 64
 """Members of which none overturns, or none stands, that settle a verdict."""
 LATTICE_ERROR = 4.0
-"""Members times the error of a probability that 95 in 100 cases stay below, measured by `snakemake calibrate`."""
+"""Members times the error of a probability that 95 in 100 cases stay below; see rocking.calibration.ensembles."""
 _STRATA = 8
 """Parts of its range between which the share of a continuous cause is measured."""
 
