@@ -7,8 +7,9 @@ import numpy as np
 SIZES = (16, 64, 256, 1024, 4096)
 """Numbers of points that a design may have; each is contained in the next."""
 _GENERATOR = 1773
-"""Korobov generator of the largest lattice. Modulo 64 it is 45 and modulo 256 it is 237, whose probabilities of
-overturning were nearest to the truth on half of the recording sites (rocking.calibration.ensembles)."""
+"""Korobov generator of the largest lattice. Modulo 64 it is 45, whose probabilities of overturning were nearest to the
+truth on half of the recording sites (rocking.calibration.ensembles). Modulo 256 it is 237, one of two that were alike
+there; it was taken with all sites in view, so no site is left out of that choice."""
 _SHIFT = 0.25 / 64 + 0.5 / SIZES[-1]
 """Of all points, chosen with the generator; half a step of the largest lattice leaves none on a border."""
 
