@@ -2,12 +2,15 @@
 
 import csv
 import os
+import shutil
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 _VARIABLE = "ROCKING_RECORDS"
+_BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 
 sys.path.append(str(Path(__file__).parent / "oracles"))  # what several folders of tests compare with
 
@@ -29,6 +32,35 @@ def manifest(real_records: Path) -> list[dict[str, str]]:
     """The rows of manifest.tsv as mappings of text."""
     with (real_records / "manifest.tsv").open(encoding="utf-8", newline="") as stream:
         return list(csv.DictReader(stream, delimiter="\t"))
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator:
+    """A headless Chromium that can reach no host, or a skip that says what to install."""
+    webdriver = pytest.importorskip(
+        "selenium.webdriver", reason="pages are opened by selenium, of the extra test"
+    )
+    binary = next(filter(None, map(shutil.which, _BROWSERS)), None)
+    driver = shutil.which("chromedriver")
+    if binary is None or driver is None:
+        pytest.skip("Chromium and chromedriver are not installed; install them to open pages in a browser")
+    options = webdriver.ChromeOptions()
+    options.binary_location = binary
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1400,1600"):
+        options.add_argument(argument)
+    options.add_argument("--disable-dev-shm-usage")  # a small /dev/shm, as in a container, fails large pages
+    options.add_argument("--host-resolver-rules=MAP * ~NOTFOUND")
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    opened = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
+    yield opened
+    opened.quit()
+
+
+@pytest.fixture(scope="module")
+def browser(chromium):
+    """The browser, with nothing in its log that an earlier module wrote."""
+    chromium.get_log("browser")
+    return chromium
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -4,8 +4,7 @@ import base64
 import json
 import math
 import re
-import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +18,6 @@ from rocking.study.explore import write_explore
 from rocking.study.run import Study, assess_records
 from tests.workflow.write_study import write_study
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 PATIENCE = 30
 """s; a loaded machine, not the page, is what takes so long."""
 HOSTILE = '</script><b>"arch"&\''
@@ -133,27 +131,6 @@ def test_the_page_loads_nothing(study):
     assert not re.findall(r"""(?:src|href)=["'](?!#|data:)""", re.sub(r"xlink:href=\"#", "#", text))
     assert "@import" not in text and "fetch(" not in text
     assert text.count("</script>") == 2  # that of the content and that of the script
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator:
-    """A headless Chromium that can reach no host."""
-    webdriver = pytest.importorskip(
-        "selenium.webdriver", reason="the page is opened by selenium, of the extra test"
-    )
-    binary = next(filter(None, map(shutil.which, BROWSERS)), None)
-    driver = shutil.which("chromedriver")
-    if binary is None or driver is None:
-        pytest.skip("Chromium and chromedriver are not installed; install them to open the page in a browser")
-    options = webdriver.ChromeOptions()
-    options.binary_location = binary
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1400,1600"):
-        options.add_argument(argument)
-    options.add_argument("--host-resolver-rules=MAP * ~NOTFOUND")
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    opened = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
-    yield opened
-    opened.quit()
 
 
 @pytest.fixture

@@ -8,7 +8,6 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
@@ -31,7 +30,6 @@ ROOT = Path(rocking.__file__).parents[1]
 WORKFLOW = ROOT / "workflow"
 PAGES = written_pages()
 WRITTEN = [*PAGES, ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
-BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 
 
 def written(path: Path) -> str:
@@ -247,27 +245,6 @@ def test_a_missing_package_is_said_in_one_sentence(tmp_path, monkeypatch):
 
 def test_a_bar_in_a_cell_does_not_split_it():
     assert table(("a",), [("float | None",)]).splitlines()[2] == "| float &#124; None |"
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator:
-    """A headless Chromium that can reach no host."""
-    webdriver = pytest.importorskip(
-        "selenium.webdriver", reason="selenium, of the extra test, opens the site"
-    )
-    binary = next(filter(None, map(shutil.which, BROWSERS)), None)
-    driver = shutil.which("chromedriver")
-    if binary is None or driver is None:
-        pytest.skip("Chromium and chromedriver are not installed; install them to open the site in a browser")
-    options = webdriver.ChromeOptions()
-    options.binary_location = binary
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1400,1000"):
-        options.add_argument(argument)
-    options.add_argument("--host-resolver-rules=MAP * ~NOTFOUND")
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    opened = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
-    yield opened
-    opened.quit()
 
 
 @pytest.mark.slow
