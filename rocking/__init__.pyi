@@ -16,7 +16,6 @@ from .errors import StructureError as StructureError
 from .errors import UnknownFormatError as UnknownFormatError
 from .motion.batch import integrate_batch as integrate_batch
 from .motion.integration import integrate as integrate
-from .motion.integration import integrate_many as integrate_many
 from .motion.members import MemberResponses as MemberResponses
 from .motion.members import Members as Members
 from .motion.members import integrate_members as integrate_members

@@ -1,6 +1,5 @@
 from .batch import integrate_batch as integrate_batch
 from .integration import integrate as integrate
-from .integration import integrate_many as integrate_many
 from .members import MemberResponses as MemberResponses
 from .members import Members as Members
 from .members import integrate_members as integrate_members

@@ -1,17 +1,12 @@
 """The front door: follow a structure through a ground motion, one case or many."""
 
 import math
-import os
-from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
-from itertools import chain
 from typing import Protocol
 
 import numpy as np
 
-from rocking.errors import MotionError, RockingError
+from rocking.errors import MotionError
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.linear import follow_exactly, solvable_exactly
 from rocking.motion.nonlinear import follow
@@ -79,44 +74,6 @@ def integrate(
     )
 
 
-def integrate_many(
-    structures: Sequence[Rocking],
-    motions: Iterable[GroundMotion],
-    tolerance: float = 1e-6,
-    *,
-    workers: int | None = None,
-    sensitivity: bool = False,
-    fragility_change: float = 0.01,
-) -> Iterator[list[Response]]:
-    """Yield, for each motion in turn, the responses of all structures, on all cores.
-
-    motions may be a generator: only a few are held at a time, so memory does not grow with their number. A case that
-    cannot be integrated becomes a Response with Outcome.FAILED and the reason; the others go on.
-    workers: threads; all cores if None. Raises MotionError for a setting that is wrong for every case.
-    """
-    within(MotionError, "tolerance", tolerance, *TOLERANCES)
-    structures = list(structures)
-    workers = workers or os.cpu_count() or 1
-    size = max(1, min(64, -(-len(structures) // (2 * workers))))
-    chunks = [structures[k : k + size] for k in range(0, len(structures), size)]
-
-    def job(chunk: list[Rocking], motion: GroundMotion) -> list[Response]:
-        settings = {"sensitivity": sensitivity, "fragility_change": fragility_change}
-        return [_one_of_many(structure, motion, tolerance, settings) for structure in chunk]
-
-    def finished(row: list[Future[list[Response]]]) -> list[Response]:
-        return list(chain.from_iterable(future.result() for future in row))
-
-    with ThreadPoolExecutor(workers) as pool:
-        waiting: deque[list[Future[list[Response]]]] = deque()
-        for motion in motions:
-            waiting.append([pool.submit(job, chunk, motion) for chunk in chunks])
-            if len(waiting) > 2 * workers:
-                yield finished(waiting.popleft())
-        while waiting:
-            yield finished(waiting.popleft())
-
-
 def reduce(structure: Rocking) -> Mechanism | EquivalentBlock:
     """Return the Mechanism or EquivalentBlock of `structure`."""
     if isinstance(structure, Mechanism | EquivalentBlock):
@@ -127,13 +84,6 @@ def reduce(structure: Rocking) -> Mechanism | EquivalentBlock:
             "or have a mechanism() method."
         )
     return structure.mechanism()
-
-
-def _one_of_many(structure: Rocking, motion: GroundMotion, tolerance: float, settings: dict) -> Response:
-    try:
-        return integrate(structure, motion, tolerance, **settings)
-    except RockingError as error:
-        return Response(math.nan, Outcome.FAILED, reason=str(error), tolerance=tolerance)
 
 
 def _start(structure: Rocking, rotation: float, velocity: float) -> tuple[float, float, int]:

@@ -120,5 +120,5 @@ def _candidates(peak: float, divide: bool) -> str:
             if divide
             else ""
         )
-    told = ", ".join(f"by {f:g} ({m})" for f, m in fits)
-    return f"; {word} {told} it would be plausible"
+    factors = ", ".join(f"by {f:g} ({m})" for f, m in fits)
+    return f"; {word} {factors} it would be plausible"

@@ -13,8 +13,8 @@ from rocking.calibration.identification import (
     overturning_table,
 )
 from rocking.calibration.mixture import with_unexplained
+from rocking.calibration.validation.baselines import fit_logistic, fit_threshold, single_best
 from rocking.calibration.validation.campaign import Campaign, TableTest
-from rocking.calibration.validation.yardsticks import fit_logistic, fit_threshold, single_best
 from rocking.errors import PulseError
 from rocking.pulses import Pulse, extract_pulses
 from rocking.records.accelerogram import Accelerogram

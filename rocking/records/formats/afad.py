@@ -29,8 +29,8 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         )
     table = values.reshape(-1, len(columns))
     declared = count(name, "NUMBER OF DATA", valued(name, pairs, "NUMBER OF DATA"))
-    _, told = whole(name, table[:, 0], declared, per_line=1)
-    return [_record(name, pairs, label, table[:, i], told, options) for i, label in enumerate(columns)]
+    _, notes = whole(name, table[:, 0], declared, per_line=1)
+    return [_record(name, pairs, label, table[:, i], notes, options) for i, label in enumerate(columns)]
 
 
 def _columns(line: str) -> list[str]:
@@ -38,7 +38,9 @@ def _columns(line: str) -> list[str]:
     return labels if len(labels) > 1 and all(azimuth(x) is not None or is_vertical(x) for x in labels) else []
 
 
-def _record(name: str, pairs: dict[str, str], component: str, values, told, options: Options) -> Accelerogram:
+def _record(
+    name: str, pairs: dict[str, str], component: str, values, notes, options: Options
+) -> Accelerogram:
     peaks = next((key for key in pairs if "PGA" in key), "")
     record = accelerogram(
         name,
@@ -47,7 +49,7 @@ def _record(name: str, pairs: dict[str, str], component: str, values, told, opti
         values,
         options.time_step_of(name, numeric(name, pairs, "SAMPLING INTERVAL (SEC)")),
         component=component,
-        warnings=told,
+        warnings=notes,
         station=pairs.get("STATION ID", ""),
         event=pairs.get("EARTHQUAKE DATE", ""),
         network="TK",

@@ -22,9 +22,9 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
 def _record(block: Block, name: str, options: Options) -> Accelerogram:
     values = filled(name, block.rows, block.declared, _PER_LINE, _WIDTH)
     step = block.duration / block.declared
-    told: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
     if block.rate and abs(block.rate * step - 1) > 1e-3:
-        told = (
+        notes = (
             f"The header gives a rate of {block.rate:g} Hz, but duration and number of points a step of {step:g} s.",
         )
     unit = options.unit_of(name, "g/10")
@@ -44,7 +44,7 @@ def _record(block: Block, name: str, options: Options) -> Accelerogram:
             *(optional(rf"^Epicenter\b.*\b{scale} ?(\d[\d.]*)", block.head) for scale in _SCALES)
         ),
         processing=(offset,),
-        warnings=told,
+        warnings=notes,
         vertical=is_vertical(letter),
         azimuth=_azimuth(block.head, letter),
     )

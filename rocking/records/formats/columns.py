@@ -165,10 +165,10 @@ def _repeats(values: np.ndarray) -> tuple[str, ...]:
 def _channels(name: str, rows: np.ndarray, names: tuple[str, ...], options: Options) -> list[Accelerogram]:
     labels = names or ("time", *[""] * (rows.shape[1] - 1))
     timed = bool(_TIME.fullmatch(labels[0]))
-    step, resample, told = options.time_step, None, _repeats(rows.ravel())
+    step, resample, notes = options.time_step, None, _repeats(rows.ravel())
     if timed:
-        step, resample, told = _step(name, rows[:, 0])
-    make = partial(_channel, name, step=step, resample=resample, told=told, options=options)
+        step, resample, notes = _step(name, rows[:, 0])
+    make = partial(_channel, name, step=step, resample=resample, notes=notes, options=options)
     kept = [i for i in range(int(timed), rows.shape[1]) if other_quantity(labels[i]) is None]
     return [make(labels[i], rows[:, i]) for i in kept]
 
@@ -183,7 +183,7 @@ def _step(name: str, times: np.ndarray):
 
 
 def _channel(
-    name: str, label: str, values: np.ndarray, *, step, resample, told, options: Options
+    name: str, label: str, values: np.ndarray, *, step, resample, notes, options: Options
 ) -> Accelerogram:
     unit = options.unit_of(name, _unit(label))
     component = _component(label)
@@ -194,8 +194,8 @@ def _channel(
         values if resample is None else resample(values),
         options.time_step_of(name, step),
         component=component,
-        processing=() if resample is None else told,
-        warnings=told,
+        processing=() if resample is None else notes,
+        warnings=notes,
         processed=None,
     )
 

@@ -61,7 +61,7 @@ def _block(block: list[str], name: str, options: Options, held: int) -> Accelero
     values = _samples(block[at + 1 :], data, name)
     time_step = options.time_step_of(name, _step(reals))
     place = optional(r"\bLocation:\s*(.*?)\s*$", head)
-    told = (
+    notes = (
         *missing_channels(head, held),
         *site_warnings(place),
         *_length(values.size * time_step, float(reals[_LENGTH]), time_step),
@@ -74,7 +74,7 @@ def _block(block: list[str], name: str, options: Options, held: int) -> Accelero
         values,
         time_step,
         component=component,
-        warnings=told,
+        warnings=notes,
         station=optional(r"Code:\s*(\S+)", head),
         event=optional(r"(?:Rcrd|Record)?\s*(?:of)?\s*(.*)", block[1]),
         processed=block[0].lower().startswith("corrected"),

@@ -149,12 +149,12 @@ def _film(block: list[str], name: str, options: Options, channels: int) -> Accel
     """Return a raw channel digitised from film: (t, a) pairs in seconds and tenths of g."""
     film = volume1_block(block, name)
     times, values = pairs(film, name, margin=0)
-    step, even, told = evened(name, times, values)
+    step, even, notes = evened(name, times, values)
     unit = options.unit_of(name, "g/10")
     named = _named(film.head, channels)
-    named["warnings"] = (*told, *named["warnings"])
+    named["warnings"] = (*notes, *named["warnings"])
     record = accelerogram(
-        name, CSMIP.name, unit, even, options.time_step_of(name, step), processing=told, **named
+        name, CSMIP.name, unit, even, options.time_step_of(name, step), processing=notes, **named
     )
     return agree_with_header(
         record, *_uncorrected_peak(film.head), samples=values * acceleration_factor(unit)

@@ -29,7 +29,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         name, "points and interval", r"NO\. OF POINTS:\s*(\S+)\s+EQUALLY SPACED INTERVALS OF:\s*(\S+)", head
     )
     values = fields(name, [row for row in text[_HEADER:] if row.strip()], _WIDTH)
-    values, told = whole(name, values, count(name, "NO. OF POINTS", said[1]), _PER_LINE)
+    values, notes = whole(name, values, count(name, "NO. OF POINTS", said[1]), _PER_LINE)
     component = optional(r"^COMP\.\s*(\S+)", head)
     record = accelerogram(
         name,
@@ -38,7 +38,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         values,
         options.time_step_of(name, number(name, "interval", said[2])),
         component=component,
-        warnings=told,
+        warnings=notes,
         station=optional(r"^STATION:\s*(\S+)", head),
         event=text[2].strip()[:60],
         magnitude=magnitude(optional(r"^MAGNITUDE\s+([\d.]+)", head)),

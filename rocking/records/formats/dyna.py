@@ -50,10 +50,10 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         )
     unit = options.unit_of(name, _unit(name, valued(name, pairs, "UNITS")))
     declared = count(name, "NDATA", valued(name, pairs, "NDATA"))
-    values, told = whole(
+    values, notes = whole(
         name, numbers(name, "\n".join(text[length:]).encode("latin-1")), declared, per_line=1
     )
-    record = _record(name, pairs, unit, values, told, options)
+    record = _record(name, pairs, unit, values, notes, options)
     if pairs.get("DURATION_S"):
         check_duration(name, "DURATION_S", pairs["DURATION_S"], declared, record.time_step)
     peak, at = (
@@ -62,7 +62,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     return [agree_with_header(record, peak, "cm/s2", half_digit=5e-4, at=at)]
 
 
-def _record(name: str, pairs: dict[str, str], unit: str, values, told, options: Options) -> Accelerogram:
+def _record(name: str, pairs: dict[str, str], unit: str, values, notes, options: Options) -> Accelerogram:
     component = pairs.get("STREAM", "")
     high_pass = corner(optional_number(r"^\s*([\d.]+)", pairs.get("LOW_CUT_FREQUENCY_HZ", "")))
     return accelerogram(
@@ -74,7 +74,7 @@ def _record(name: str, pairs: dict[str, str], unit: str, values, told, options: 
         component=component,
         station=pairs.get("STATION_CODE", ""),
         network=pairs.get("NETWORK", ""),
-        warnings=told,
+        warnings=notes,
         event=f"{pairs.get('EVENT_NAME', '')} {pairs.get('EVENT_DATE_YYYYMMDD', '')}".strip(),
         start_time=_start(pairs),
         magnitude=magnitude(pairs.get("MAGNITUDE_W", ""), pairs.get("MAGNITUDE_L", "")),

@@ -34,15 +34,15 @@ def _recognise(content: bytes) -> bool:
 
 def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     found = blocks(content, _FIRST)
-    told = (
+    notes = (
         ()
         if len(found) % 3 == 0
         else (f"A GeoNet file holds 3 components, but this one holds {len(found)}.",)
     )
-    return [_record(block, name, options, told) for block in found]
+    return [_record(block, name, options, notes) for block in found]
 
 
-def _record(block: list[str], name: str, options: Options, told: tuple[str, ...]) -> Accelerogram:
+def _record(block: list[str], name: str, options: Options, notes: tuple[str, ...]) -> Accelerogram:
     head = "\n".join(block[:16])
     declared = count(
         name,
@@ -64,7 +64,7 @@ def _record(block: list[str], name: str, options: Options, told: tuple[str, ...]
         values * factor,
         time_step,
         component=component,
-        warnings=told,
+        warnings=notes,
         station=optional(r"^Site\s+(\S+)", head),
         event=optional(r"^(\d{4} \w+ \d+)\s", head),
         network="NZ",

@@ -33,7 +33,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     pairs = mapping(text[:at])
     declared = count(name, "Number of Data", valued(name, pairs, "NUMBER OF DATA"))
     values = fields(name, [row for row in text[at + 1 :] if row.strip()], _WIDTH)
-    values, told = whole(name, values, declared, _PER_LINE)
+    values, notes = whole(name, values, declared, _PER_LINE)
     component, cuts = pairs.get("ORIENTATION", ""), pairs.get("FILTER CUT-OFF FREQUENCY (HZ)", "")
     record = accelerogram(
         name,
@@ -42,7 +42,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         values,
         options.time_step_of(name, numeric(name, pairs, "TIME INCREMENT (S)")),
         component=component,
-        warnings=told,
+        warnings=notes,
         station=pairs.get("STATION CODE / NAME", ""),
         event=pairs.get("EVENT DATE & TIME", ""),
         processed=bool(cuts),

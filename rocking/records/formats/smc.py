@@ -46,11 +46,11 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         )
     body = [row for row in text[first:] if row.strip()]
     width = column_width(body[0]) if body else 10
-    values, told = whole(name, fields(name, body, width), _whole(integers[_SAMPLES], name), 80 // width)
-    return [_record("\n".join(text[:_TEXT]), kind, values, told, reals, name, options)]
+    values, notes = whole(name, fields(name, body, width), _whole(integers[_SAMPLES], name), 80 // width)
+    return [_record("\n".join(text[:_TEXT]), kind, values, notes, reals, name, options)]
 
 
-def _record(head: str, kind: str, values, told, reals, name: str, options: Options) -> Accelerogram:
+def _record(head: str, kind: str, values, notes, reals, name: str, options: Options) -> Accelerogram:
     if not 0 < reals[_RATE] < 1e6:
         raise RecordError(
             f"{name}: samples per second is {reals[_RATE]:g}, but must be greater than 0 and below 1e6."
@@ -64,7 +64,7 @@ def _record(head: str, kind: str, values, told, reals, name: str, options: Optio
         options.time_step_of(name, 1 / float(reals[_RATE])),
         component=component,
         station=optional(r"station\s*=\s*(.*?)\s*component", head),
-        warnings=told,
+        warnings=notes,
         event=optional(r"^\s+\d{4}\s+\d+\s+\d+\s+\d{4}\s+(.*)$", head),
         magnitude=magnitude(
             *(optional(rf"{scale}=\s*([\d.]+)", head) for scale in ("Moment Mag", "Ms", "Ml"))

@@ -50,7 +50,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     declared = count(name, "number of samples", found[0])
     body = after_lines(content, 2)
     per_line = max(len(row.split()) for row in lines(content, _HEAD)[2:])
-    values, told = whole(name, numbers(name, body), declared, per_line)
+    values, notes = whole(name, numbers(name, body), declared, per_line)
     return [
         accelerogram(
             name,
@@ -59,7 +59,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
             values,
             step,
             event=title.strip()[:60],
-            warnings=told,
+            warnings=notes,
             processed=None,
         )
     ]

@@ -40,8 +40,8 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         quantity = f": a file of {word}" if (word := other_quantity(unit)) else ""
         raise RecordError(f"{name}: UNIDADES DE LOS DATOS is {unit!r}, but must be Gal{quantity}.")
     channels = [i for i, label in enumerate(_listed(pairs, _ORIENTATION)) if label.strip(" ;")]
-    table, told = _table(text[rules[1] + 1 :], pairs, channels, name)
-    return [_record(i, table[:, at], told, pairs, name, options) for at, i in enumerate(channels)]
+    table, notes = _table(text[rules[1] + 1 :], pairs, channels, name)
+    return [_record(i, table[:, at], notes, pairs, name, options) for at, i in enumerate(channels)]
 
 
 def _table(rows: list[str], pairs: dict[str, str], channels: list[int], name: str):
@@ -60,9 +60,9 @@ def _table(rows: list[str], pairs: dict[str, str], channels: list[int], name: st
         )
     table = values.reshape(-1, len(channels))
     samples = count(name, "NUM. TOTAL DE MUESTRAS", next(iter(declared), ""))
-    table, told = _without_repeats(table, samples)
+    table, notes = _without_repeats(table, samples)
     _, surplus = whole(name, table[:, 0], samples, per_line=1)
-    return table, told + surplus
+    return table, notes + surplus
 
 
 def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tuple[str, ...]]:
@@ -80,7 +80,7 @@ def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tupl
     return table[:declared], (sentence.format("are" if surplus > 1 else "is"),)
 
 
-def _record(i: int, values, told, pairs: dict[str, str], name: str, options: Options) -> Accelerogram:
+def _record(i: int, values, notes, pairs: dict[str, str], name: str, options: Options) -> Accelerogram:
     step = number(name, "INTERVALO DE MUESTREO", _at(pairs, "INTERVALO DE MUESTREO", i))
     rate, thinned = _at(pairs, "VEL. DE MUESTREO", i), pairs.get("FACTOR DE DECIMACION", "1")
     if rate:
@@ -96,7 +96,7 @@ def _record(i: int, values, told, pairs: dict[str, str], name: str, options: Opt
         station=pairs.get("CLAVE DE LA ESTACION", ""),
         event=pairs.get("FECHA DEL SISMO [GMT]", ""),
         magnitude=magnitude(pairs.get("MAGNITUD(ES)", "")),
-        warnings=told,
+        warnings=notes,
     )
     if duration := _at(pairs, "DURACION DEL REGISTRO", i):
         check_duration(name, "DURACION DEL REGISTRO", duration, len(values), record.time_step)

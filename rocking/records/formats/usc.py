@@ -16,7 +16,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
 
 def _record(block: Block, name: str, options: Options) -> Accelerogram:
     times, values = pairs(block, name, margin=1)
-    step, values, told = evened(name, times, values)
+    step, values, notes = evened(name, times, values)
     component = optional(r"^COMP\s+(\S+)", block.head)
     return accelerogram(
         name,
@@ -27,8 +27,8 @@ def _record(block: Block, name: str, options: Options) -> Accelerogram:
         component=component,
         station=optional(r"^STATION\s+(USC#\s*\d+)", block.head),
         event=block.head.split("\n")[1].strip()[:60],
-        processing=told,
-        warnings=told,
+        processing=notes,
+        warnings=notes,
     )
 
 

@@ -46,13 +46,13 @@ def _check_size(content: bytes, form: str, name: str) -> None:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            told = get_record_information(io.BytesIO(content))
+            notes = get_record_information(io.BytesIO(content))
             heads = obspy.read(io.BytesIO(content), format=form, check_compression=False, headonly=True)
     except Exception as error:
         raise RecordError(f"{name}: damaged {form} file, {_first_line(error)}; fetch it again.") from error
-    if told.get("excess_bytes") and not _records_end_well(content):
+    if notes.get("excess_bytes") and not _records_end_well(content):
         raise RecordError(
-            f"{name}: the last record of {told['record_length']} bytes is cut after {told['excess_bytes']}: "
+            f"{name}: the last record of {notes['record_length']} bytes is cut after {notes['excess_bytes']}: "
             "the file is truncated; fetch the whole file."
         )
     samples = sum(trace.stats.npts for trace in heads)

@@ -81,7 +81,7 @@ def _by_specimen(rows: Sequence[R]) -> list[list[R]]:
 
 
 def _verdict(rows: Sequence[ScoreRow], timing: Sequence[TimingRow]) -> str:
-    """Say plainly whether the identified population beats the yardsticks, and by how much."""
+    """Say plainly whether the identified population beats the baselines, and by how much."""
     ours, others = rows[0], rows[1:]
     nearest = min(others, key=lambda row: row.brier)
     most = max(others, key=lambda row: row.accuracy)

@@ -1,4 +1,4 @@
-"""Validation: the campaign read as measured, scores and yardsticks against what is known, no test sees its motion."""
+"""Validation: the campaign read as measured, scores and baselines against what is known, no test sees its motion."""
 
 import gzip
 import hashlib
@@ -13,6 +13,7 @@ import pytest
 
 from rocking.calibration.validation import campaign as campaigns
 from rocking.calibration.validation import scores, source
+from rocking.calibration.validation.baselines import fit_logistic, fit_threshold
 from rocking.calibration.validation.campaign import Campaign
 from rocking.calibration.validation.predictions import (
     IDENTIFIED,
@@ -24,7 +25,6 @@ from rocking.calibration.validation.predictions import (
 )
 from rocking.calibration.validation.specimen import specimen_from_mesh
 from rocking.calibration.validation.write import contradictions, write_validation
-from rocking.calibration.validation.yardsticks import fit_logistic, fit_threshold
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
 from rocking.structures import Block, RigidBody
@@ -194,7 +194,7 @@ def test_reliability_counts_every_test_once():
     assert all(each.low <= each.observed <= each.high for each in classes)
 
 
-# ---- yardsticks
+# ---- baselines
 
 
 def test_the_threshold_gets_most_right():

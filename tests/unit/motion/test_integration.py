@@ -10,7 +10,7 @@ from motion_cases import MECHANISMS, noise
 from scipy.constants import g
 
 from rocking.errors import MotionError, StructureError
-from rocking.motion import integrate, integrate_many
+from rocking.motion import integrate, integrate_batch
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Block, EquivalentBlock
@@ -30,7 +30,7 @@ def test_tolerance_outside_its_bounds_is_refused(tolerance):
     with pytest.raises(MotionError, match=r"tolerance is .* but must"):
         integrate(BLOCK, RECORD, tolerance)
     with pytest.raises(MotionError, match=r"tolerance is .* but must"):
-        list(integrate_many([BLOCK], [RECORD], tolerance))
+        integrate_batch([BLOCK], RECORD, tolerance=tolerance)
 
 
 @pytest.mark.parametrize("restitution", [-0.1, 1.1, np.nan])
@@ -191,43 +191,9 @@ def test_fragile_verdicts_are_marked():
     assert integrate(BLOCK, scaled(low)).fragile is None
 
 
-def test_many_at_once_equals_one_by_one():
-    structures = [*MECHANISMS.values(), BLOCK, BLOCK.mechanism().equivalent_block()]
-    motions = [noise(seed, 200, 0.01, 5.0) for seed in range(5)] + [Pulse(4.0, 6.0)]
-    rows = list(integrate_many(structures, (motion for motion in motions), workers=2))
-    assert len(rows) == len(motions)
-    for row, motion in zip(rows, motions, strict=True):
-        for response, structure in zip(row, structures, strict=True):
-            alone = integrate(structure, motion)
-            assert (response.rotation_ratio, response.impacts) == (alone.rotation_ratio, alone.impacts)
-
-
-def test_a_case_that_fails_does_not_stop_the_others():
-    rows = list(integrate_many([BLOCK, "a block"], [RECORD, 3.0]))
-    assert rows[0][0].outcome is Outcome.ROCKS
-    for failed in (rows[0][1], rows[1][0], rows[1][1]):
-        assert failed.outcome is Outcome.FAILED
-        assert np.isnan(failed.rotation_ratio)
-        assert failed.reason.startswith("the ")
-
-
-def test_motions_are_taken_a_few_at_a_time():
-    """Memory stays constant: a generator is never read far ahead of what was yielded."""
-    taken = 0
-
-    def motions():
-        nonlocal taken
-        for _ in range(200):
-            taken += 1
-            yield RECORD
-
-    for done, _ in enumerate(integrate_many([BLOCK], motions(), workers=2), start=1):
-        assert taken - done <= 6
-
-
 _INTERPRETED = """
 import numpy as np
-from rocking.motion import integrate
+from rocking.motion import integrate, integrate_batch
 from rocking.motion import nonlinear_kernel as kernel
 from rocking.structures import Block
 from rocking.pulses.pulse import Pulse
