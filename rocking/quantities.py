@@ -6,6 +6,7 @@ Inside, everything is SI and radians. Each check returns the value as a float or
 import math
 from collections.abc import Mapping
 from dataclasses import Field, field, fields
+from functools import cache
 from types import NoneType
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
@@ -112,7 +113,7 @@ def check_settings(error: type[RockingError], made: Any) -> None:
 
     Raises `error` naming the first field that is wrong.
     """
-    hints = get_type_hints(type(made))
+    hints = _type_hints(made.__class__)
     for each in (each for each in fields(made) if "bounds" in each.metadata):
         value = getattr(made, each.name)
         if not is_allowed(hints[each.name], each, value):
@@ -120,6 +121,12 @@ def check_settings(error: type[RockingError], made: Any) -> None:
             must = allowed(hints[each.name], each)
             raise error(f"{each.name} is {value!r}{unit}, but must be {must}.")
         object.__setattr__(made, each.name, as_typed(hints[each.name], value))
+
+
+@cache
+def _type_hints(kind: Any) -> dict[str, Any]:
+    """Of a class: compiled from their texts, which takes longer than all that is done with them."""
+    return get_type_hints(kind)
 
 
 def is_allowed(kind: Any, described: Field[Any], value: object) -> bool:

@@ -149,34 +149,39 @@ def write_rows(row_class: type[R], rows: Iterable[R], path: Path) -> None:
 def csv_lines(row_class: type[R], rows: Iterable[R]) -> Iterator[str]:
     """Yield the CSV lines of `rows`. Raises RockingError for a row of another class."""
     names = row_class.table.column_names
-    yield _line(names)
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+
+    def line(texts: Iterable[str]) -> str:
+        stream.seek(0)
+        stream.truncate()
+        writer.writerow(texts)
+        return stream.getvalue()
+
+    yield line(names)
     for each in rows:
         if type(each) is not row_class:
             raise RockingError(
                 f"{row_class.table.file_name}: {type(each).__name__} is not {row_class.__name__}."
             )
-        yield _line([cell(getattr(each, name)) for name in names])
+        yield line([cell(getattr(each, name)) for name in names])
 
 
 def cell(value: object) -> str:
     """Return the text that stands for `value` in a CSV file."""
+    if isinstance(value, float):
+        return "" if value != value else repr(float(value)).replace("inf", "INF")
+    if isinstance(value, Enum):
+        return str(value.value)
+    if isinstance(value, str):
+        return _guarded(value)
     if value is None:
         return ""
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, Enum):
-        return str(value.value)
-    if isinstance(value, float):
-        return "" if math.isnan(value) else repr(float(value)).replace("inf", "INF")
     if isinstance(value, tuple | list):
         return _guarded("; ".join(str(item) for item in value))
-    return _guarded(value) if isinstance(value, str) else str(value)
-
-
-def _line(cells: Iterable[str]) -> str:
-    stream = io.StringIO()
-    csv.writer(stream, lineterminator="\n").writerow(cells)
-    return stream.getvalue()
+    return str(value)
 
 
 _FORMULA = re.compile(r"'*[=+\-@\t\r]")
@@ -185,6 +190,8 @@ _ESCAPED = re.compile(r"\\(?:(\\)|u([0-9a-f]{4}))")
 
 
 def _guarded(text: str) -> str:
+    if text.isalnum():
+        return text
     text = "'" + text if _FORMULA.match(text) else text
     return _CONTROL.sub(lambda found: "\\\\" if found[0] == "\\" else f"\\u{ord(found[0]):04x}", text)
 

@@ -110,7 +110,7 @@ def initial_arc(table: Table, rotation: float, velocity: float, sign: int) -> tu
 
 
 def _ratio(side: SideTable, arc: float) -> float:
-    return float(side.rotation(arc)) / side.critical_rotation if arc > 0 else 0.0
+    return side.rotation_at(float(arc)) / side.critical_rotation if arc > 0 else 0.0
 
 
 def states(table: Table, log: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -43,13 +43,14 @@ def transform(velocities: np.ndarray, scale: float) -> np.ndarray:
     """Coefficient of the wavelet of one scale centred at each sample of (n,) velocities, real or complex."""
     from scipy import fft
 
-    size = fft.next_fast_len(velocities.size + 2 * _half_length(scale))
+    half = _half_length(scale)
+    size = fft.next_fast_len(velocities.size + 2 * half)
     spectrum = _kept_spectrum(scale, size) if size <= LARGEST_KEPT else _spectrum(scale, size)
     if np.iscomplexobj(velocities):
         full = fft.ifft(fft.fft(velocities, size) * spectrum)
     else:
         full = fft.irfft(fft.rfft(velocities, size) * spectrum[: size // 2 + 1], size)
-    return np.roll(full, _half_length(scale))[: velocities.size]
+    return np.concatenate([full[size - half :], full[: velocities.size]])[: velocities.size]
 
 
 def _spectrum(scale: float, size: int) -> np.ndarray:

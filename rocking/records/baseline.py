@@ -5,7 +5,12 @@ fitted to the velocity before shaking, a polynomial of low degree to that after 
 the acceleration of that drift is subtracted.
 """
 
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
 import numpy as np
+from numpy.polynomial.polynomial import polyfit, polyval
+from numpy.polynomial.polyutils import mapparms
 
 from rocking.errors import RecordError
 
@@ -32,12 +37,12 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
     strong = max(onset + 16, int(np.searchsorted(share, 0.95 * share[-1])))
     last = strong + int(0.85 * (acceleration.size - strong))
     ends = np.unique(np.linspace(strong, min(last, acceleration.size - 16), _CANDIDATES).astype(int))
-    tried = [(end, degree) for end in ends if end > onset + 8 for degree in _DEGREES]
-    drifts = [_drift(velocity, onset, end, degree) for end, degree in tried] or [np.zeros_like(velocity)]
-    best = int(np.argmin([_wandering(velocity - drift, time_step) for drift in drifts]))
+    tried = [int(end) for end in ends if end > onset + 8]
     if not tried:
         return acceleration, "Adaptive baseline left the record as it is: shaking lasts to its end."
-    end, degree = tried[best]
+    drifts = _drifts(velocity, onset, tried)
+    best = int(np.argmin([_wandering(velocity - drift, time_step) for drift in drifts]))
+    end, degree = tried[best // len(_DEGREES)], _DEGREES[best % len(_DEGREES)]
     sentence = (
         f"Adaptive baseline: drift of velocity fitted before {onset * time_step:g} s and after {end * time_step:g} s "
         f"(degree {degree}), bridged between, and its acceleration removed."
@@ -45,22 +50,44 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
     return acceleration - np.gradient(drifts[best], time_step), sentence
 
 
-def _drift(velocity: np.ndarray, onset: int, end: int, degree: int) -> np.ndarray:
-    """Return the drift (n,): a line before the onset, a polynomial after the end, a cubic Hermite bridge between."""
+def _drifts(velocity: np.ndarray, onset: int, ends: Sequence[int]) -> list[np.ndarray]:
+    """Return a drift (n,) for each end and, of each end, for each degree.
+
+    It is a line before the onset, a polynomial after the end, and a cubic Hermite bridge between.
+    """
     index = np.linspace(-1, 1, velocity.size)
-    before = np.polynomial.Polynomial.fit(index[:onset], velocity[:onset], 1)
-    after = np.polynomial.Polynomial.fit(index[end:], velocity[end:], degree)
-    drift = np.where(np.arange(velocity.size) < onset, before(index), after(index))
-    a, b = index[onset], index[end]
-    s = (index[onset:end] - a) / (b - a)
-    slopes = before.deriv()(a) * (b - a), after.deriv()(b) * (b - a)
-    drift[onset:end] = (
-        (1 + 2 * s) * (1 - s) ** 2 * before(a)
-        + s * (1 - s) ** 2 * slopes[0]
-        + s**2 * (3 - 2 * s) * after(b)
-        + s**2 * (s - 1) * slopes[1]
-    )
-    return drift
+    a, line = index[onset], _fitted(index[:onset], velocity[:onset], 1)
+    known, height, slope = line(index[:onset]), line(a), line.slope(a)
+    drifts = []
+    for end in ends:
+        b = index[end]
+        s = (index[onset:end] - a) / (b - a)
+        begun = (1 + 2 * s) * (1 - s) ** 2 * height + s * (1 - s) ** 2 * (slope * (b - a))
+        for degree in _DEGREES:
+            after = _fitted(index[end:], velocity[end:], degree)
+            ended = s**2 * (3 - 2 * s) * after(b), s**2 * (s - 1) * (after.slope(b) * (b - a))
+            drifts.append(np.concatenate([known, begun + ended[0] + ended[1], after(index[end:])]))
+    return drifts
+
+
+class _Polynomial(NamedTuple):
+    """A polynomial in shift + scale x: what numpy's own class computes, without what it costs to make forty of them."""
+
+    coefficients: np.ndarray
+    shift: float
+    scale: float
+
+    def __call__(self, x: Any) -> Any:
+        return polyval(self.shift + self.scale * x, self.coefficients)
+
+    def slope(self, x: float) -> float:
+        derived = [power * (c * self.scale) for power, c in enumerate(self.coefficients.tolist())][1:]
+        return float(polyval(self.shift + self.scale * x, derived))
+
+
+def _fitted(x: np.ndarray, values: np.ndarray, degree: int) -> _Polynomial:
+    shift, scale = mapparms(x[[0, -1]], (-1.0, 1.0))
+    return _Polynomial(polyfit(shift + scale * x, values, degree), shift, scale)
 
 
 def _wandering(velocity: np.ndarray, time_step: float) -> float:

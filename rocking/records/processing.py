@@ -1,6 +1,7 @@
 """Processing: what turns recorded numbers into ground acceleration, each step optional and recorded in the result."""
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -154,14 +155,21 @@ def _padding(record: Accelerogram, processing: Processing) -> int:
 
 
 def _butterworth(values: np.ndarray, time_step: float, kind: str, corner: float, order: int) -> np.ndarray:
-    from scipy.signal import butter, sosfiltfilt
+    from scipy.signal import sosfiltfilt
 
     if not corner < 0.5 / time_step:
         raise RecordError(
             f"the {kind} corner is {corner!r} Hz, but must be below the Nyquist frequency {0.5 / time_step:g} Hz."
         )
-    sections = butter(order, corner, kind, fs=1 / time_step, output="sos")
-    return sosfiltfilt(sections, values, padtype=None)
+    return sosfiltfilt(_sections(order, corner, kind, 1 / time_step), values, padtype=None)
+
+
+@lru_cache(maxsize=32)
+def _sections(order: int, corner: float, kind: str, sampling_rate: float) -> np.ndarray:
+    """The filter in second-order sections, remembered: the records of a study share their steps and corners."""
+    from scipy.signal import butter
+
+    return butter(order, corner, kind, fs=sampling_rate, output="sos")
 
 
 def _cosine_taper(samples: int, share: float) -> np.ndarray:

@@ -202,11 +202,18 @@ class Mechanism:
         scale: "rest", exact as it lifts and in the place of its unstable equilibrium (theory: section 9); or the
         paper's, linearised about φ_cr (Eqs. 9–13), with the acceleration scale "linearised", "uplift"
         or "mean" (Eq. 13).
+        The same object at every call, as what it computes of itself is kept.
         Raises StructureError for another scale.
         """
-        block = _equivalent(self.positive, scale)
-        other = None if self.negative is None else _equivalent(self.negative, scale)
-        return replace(block, other_side=other, one_sided=self.one_sided)
+        if scale not in self._blocks:
+            block = _equivalent(self.positive, scale)
+            other = None if self.negative is None else _equivalent(self.negative, scale)
+            self._blocks[scale] = replace(block, other_side=other, one_sided=self.one_sided)
+        return self._blocks[scale]
+
+    @cached_property
+    def _blocks(self) -> dict[str, EquivalentBlock]:
+        return {}
 
     @cached_property
     def block_defects(self) -> BlockDefects:

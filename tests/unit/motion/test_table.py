@@ -98,3 +98,12 @@ def test_functions_with_a_kink_are_refused():
     side = Side(ones, np.zeros_like, gravity, lambda r: -ones(r), ones, 0.2, 1.0, 0.9)
     with pytest.raises(MotionError, match="cannot be tabulated"):
         table_of(Mechanism(side))
+
+
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_one_rotation_is_that_of_many_to_the_last_bit(name):
+    mechanism = MECHANISMS[name]
+    block = mechanism.equivalent_block()
+    for side in (*table_of(mechanism).sides, *linear_table(block).sides):
+        arcs = np.random.default_rng(5).uniform(0, min(side.end, 3 * side.critical), 200)
+        assert [side.rotation_at(float(arc)) for arc in arcs] == side.rotation(arcs).tolist()
