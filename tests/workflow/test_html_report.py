@@ -50,8 +50,8 @@ def page(study, browser) -> Callable:
     return lambda path: WebDriverWait(browser, PATIENCE).until(lambda at: at.find_elements("xpath", path))
 
 
-def opened(page: Callable, browser, category: str, label: str, button: int, path: str) -> list:
-    """What `path` names after a click on the category, then on the eye (0) or the information (1) of that result.
+def opened(page: Callable, browser, *path: str) -> list:
+    """What the last of `path` names after a click on each menu entry and button before it, in turn.
 
     A click that meets the page while it is drawn anew is lost, so all of it is tried again from a fresh page.
     """
@@ -59,24 +59,44 @@ def opened(page: Callable, browser, category: str, label: str, button: int, path
 
     for _ in range(ATTEMPTS):
         try:
-            page(f"//a[normalize-space()='{category}']")[0].click()
-            page(f"//tr[td[normalize-space()='{label}']]//a[@type='button']")[button].click()
-            return page(path)
+            for step in path[:-1]:
+                page(step)[0].click()
+            return page(path[-1])
         except (StaleElementReferenceException, TimeoutException):
             browser.refresh()
-    pytest.fail(f"{path} is not shown after {ATTEMPTS} attempts")
+    pytest.fail(f"{path[-1]} is not shown after {ATTEMPTS} attempts")
 
 
-def test_the_first_page_says_what_was_studied(page, browser):
-    assert page("//h1[contains(., 'Rocking of structures')]")
-    text = browser.find_element("tag name", "body").text
-    assert "structures.yaml" in text and "records/catalogue.csv" in text
-    assert "comes from an ensemble" in text
+def entry(name: str) -> str:
+    """The XPath of an entry of the menu."""
+    return f"//a[normalize-space()='{name}']"
+
+
+def button(label: str, number: int) -> str:
+    """The XPath of the eye (1) or the information (2) of the result with that label."""
+    return f"//tr[td[normalize-space()='{label}']]/descendant::a[@type='button'][{number}]"
+
+
+def test_the_page_to_explore_is_what_is_seen_first(page, browser):
+    (frame,) = page("//iframe")
+    browser.switch_to.frame(frame)
+    try:
+        assert page("//*[@id='matrix']//button[@data-record]")
+    finally:
+        browser.switch_to.default_content()
+
+
+def test_the_description_says_what_was_studied_and_leads_back(page, browser):
+    (text,) = opened(page, browser, entry("Workflow"), "//div[h1[contains(., 'Rocking of structures')]]")
+    assert "structures.yaml" in text.text and "records/catalogue.csv" in text.text
+    assert "comes from an ensemble" in text.text
+    page("//a[@id='explore']")[0].click()
+    assert page("//iframe")
 
 
 @pytest.mark.parametrize("category", CATEGORIES)
 def test_every_result_stands_in_its_category(page, category):
-    page(f"//a[normalize-space()='{category}']")[0].click()
+    page(entry(category))[0].click()
     for label in CATEGORIES[category]:
         assert page(f"//tr/td[1][normalize-space()='{label}']")
     assert len(page("//tr/td[1]")) == len(CATEGORIES[category])
@@ -86,7 +106,7 @@ def test_the_figure_is_drawn(page, browser):
     from selenium.webdriver.support.ui import WebDriverWait
 
     path = "//img[contains(@src, 'prediction_against')]"
-    (image,) = opened(page, browser, "Study", "prediction against integration", 0, path)
+    (image,) = opened(page, browser, entry("Study"), button("prediction against integration", 1), path)
     WebDriverWait(browser, PATIENCE).until(
         lambda at: at.execute_script("return arguments[0].complete && arguments[0].naturalWidth > 100", image)
     )
@@ -96,15 +116,14 @@ def test_the_figure_is_drawn(page, browser):
     ("category", "label"), [("Study", "report on all records"), ("Records", "synthetic_strong_pulse")]
 )
 def test_the_reports_are_shown(page, browser, category, label):
-    (frame,) = opened(page, browser, category, label, 0, "//iframe")
-    assert frame.get_attribute("src").startswith("data:application/pdf")
+    path = "//iframe[starts-with(@src, 'data:application/pdf')]"
+    (frame,) = opened(page, browser, entry(category), button(label, 1), path)
     assert frame.size["height"] > 300
 
 
-def test_a_table_in_the_page_is_the_file(page, study):
+def test_a_table_in_the_page_is_the_file(page, browser, study):
     """The page offers the table as a download that carries its bytes."""
-    page("//a[normalize-space()='Tables']")[0].click()
-    link = page("//tr[td[normalize-space()='comparison.csv']]//a[@type='button']")[0].get_attribute("href")
+    link = opened(page, browser, entry("Tables"), button("comparison.csv", 1))[0].get_attribute("href")
     assert link.startswith("data:text/csv")
     content = base64.b64decode(unquote(link.partition("base64,")[2]))
     assert content == (study / "results" / "summary" / "comparison.csv").read_bytes()
@@ -126,10 +145,10 @@ def test_a_table_in_the_page_is_the_file(page, study):
 )
 def test_a_result_has_its_caption(page, browser, category, label, begins):
     path = f"//p[starts-with(normalize-space(), '{begins}')]"
-    (caption,) = opened(page, browser, category, label, 1, path)
+    (caption,) = opened(page, browser, entry(category), button(label, 2), path)
     assert caption.is_displayed()
 
 
 def test_the_browser_had_nothing_to_complain_about(page, browser):
-    page("//h1")
-    assert [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"] == []
+    page("//iframe")
+    assert [said for said in browser.get_log("browser") if said["level"] == "SEVERE"] == []
