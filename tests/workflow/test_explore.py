@@ -156,6 +156,12 @@ def picture(browser) -> str:
     return browser.execute_script("return document.getElementById('mechanism').toDataURL()")
 
 
+def test_it_begins_with_a_case_that_moves(page):
+    assert len(page("button[aria-pressed='true']")) == 1
+    assert page("#title")[0].is_displayed() and page("#histories #rotation")[0].get_attribute("points")
+    assert "2 records, 6 structures." in page("header p")[0].text
+
+
 def test_a_cell_opens_its_case(page):
     cell = moving(page)
     assert cell.get_attribute("aria-pressed") == "true"

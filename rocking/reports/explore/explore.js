@@ -287,7 +287,10 @@
   function facts(each) {
     const said = [`Verdict: ${each.verdict}.`];
     if (each.probability !== undefined && each.probability !== null)
-      said.push(`${percent(each.probability)} of ${each.members} members of the ensemble overturn; rotation ratio from ${ratio(each.low)} to ${ratio(each.high)} (5 % to 95 %).`);
+    {
+      const band = each.low === "inf" ? "" : `; rotation ratio from ${ratio(each.low)} to ${ratio(each.high)} (5 % to 95 %)`;
+      said.push(`${percent(each.probability)} of ${each.members} members of the ensemble overturn${band}.`);
+    }
     said.push(`Largest rotation over critical rotation, as given: ${ratio(each.integrated)} by integration, ${ratio(each.predicted)} by the closed form.`);
     if (!each.history) said.push("It does not lift enough to be drawn, or its record could not be read again.");
     return said.join(" ");
@@ -400,4 +403,7 @@
   at("play").addEventListener("click", play);
   at("scrub").addEventListener("input", () => { stop(); show(); });
   document.addEventListener("keydown", (event) => { if (event.key === "Escape") tip(""); });
+  const moving = cases.filter((each) => each.history);
+  const first = moving.find((each) => each.verdict === "overturns") || moving[0];
+  if (first) choose(first.record, first.structure);
 })();

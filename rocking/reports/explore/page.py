@@ -2,8 +2,9 @@
 
 import json
 from collections.abc import Mapping, Sequence
-from html import escape
 from pathlib import Path
+
+from rocking.quantities import counted
 
 _HERE = Path(__file__).parent
 
@@ -26,7 +27,7 @@ def explore_page(
     pieces = {
         "style": (_HERE / "explore.css").read_text(encoding="utf-8"),
         "script": (_HERE / "explore.js").read_text(encoding="utf-8"),
-        "count": escape(f"{len(records)} records, {len(structures)} structures"),
+        "count": f"{counted(len(records), 'record')}, {counted(len(structures), 'structure')}",
         # no text of a user can end the element that holds it
         "content": content.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029"),
         **{name: _inline(figure) for name, figure in figures.items()},
