@@ -1,6 +1,5 @@
 """One record against one list of structures: predictions, integrations, and the two side by side."""
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from time import process_time
@@ -35,8 +34,7 @@ from rocking.structures import EquivalentBlock, Mechanism, Structure
 class Prediction:
     """The closed forms of one structure under one pulse.
 
-    rank: of the pulse among those that its method offers. low, high: 90 % band from the interval of the pulse, nan
-    without one.
+    rank: of the pulse among those that its method offers.
     """
 
     block: EquivalentBlock
@@ -46,8 +44,6 @@ class Prediction:
     frequency_ratio: float
     printed: float
     maximum: Maximum
-    low: float
-    high: float
 
 
 @dataclass(frozen=True)
@@ -117,7 +113,7 @@ def assess_structures(
     cases, shape = [], Shape.of(accelerogram)
     for name, structure in structures.items():
         try:
-            cases.append(_case(name, structure, candidates, interval, shape, settings, vertical))
+            cases.append(_case(name, structure, candidates, shape, settings, vertical))
         except RockingError as error:
             failures.append(Failure("responses", name, str(error)))
     durations = {"pulses": extracted - started, "responses": process_time() - extracted}
@@ -127,13 +123,11 @@ def assess_structures(
 def predict(
     mechanism: Mechanism,
     candidates: Sequence[PulseEvidence],
-    interval: PulseInterval | None = None,
     settings: AssessmentSettings | None = None,
 ) -> Prediction:
     """Return the closed forms of the equivalent block of `mechanism` under the candidate of largest demand.
 
-    candidates: as a pulse method offers them. interval: of one pulse, whose band its prediction then carries; another
-    pulse carries none.
+    candidates: as a pulse method offers them.
     """
     settings = settings or AssessmentSettings()
     block = mechanism.equivalent_block(settings.acceleration_scale)
@@ -144,7 +138,6 @@ def predict(
     chosen = predicting_pulse(candidates, demand)
     pulse = chosen.pulse
     amplitude_ratio = abs(pulse.amplitude) / (GRAVITY * _uplift_multiplier(block, pulse))
-    low, high = interval.band(demand) if interval and interval.pulse == pulse else (math.nan, math.nan)
     return Prediction(
         block=block,
         pulse=pulse,
@@ -153,8 +146,6 @@ def predict(
         frequency_ratio=pulse.circular_frequency / block.frequency_parameter,
         printed=printed_maximum(block, pulse),
         maximum=predict_maximum(block, pulse),
-        low=low,
-        high=high,
     )
 
 
@@ -168,14 +159,13 @@ def _case(
     name: str,
     structure: Structure,
     candidates: Sequence[PulseEvidence],
-    interval: PulseInterval | None,
     shape: Shape,
     settings: AssessmentSettings,
     vertical: Accelerogram | None,
 ) -> Case:
     accelerogram = shape.accelerogram
     mechanism, full = structure.mechanism(), settings.fidelity == "full"
-    prediction = predict(mechanism, candidates, interval if full else None, settings) if candidates else None
+    prediction = predict(mechanism, candidates, settings) if candidates else None
     if full:
         responses = _responses(mechanism, accelerogram, settings, vertical)
         whole = responses[Method.MECHANISM_ON_RECORD]
@@ -196,7 +186,7 @@ def _case(
     check = check_model(structure, on_record, accelerogram, vertical) if on_record else UNKNOWN
     sure = None
     if settings.ensemble.members and (full or answer.method is Method.MECHANISM_ON_RECORD):
-        motions = GroundMotions.of(accelerogram, vertical)
+        motions = GroundMotions.of(accelerogram, vertical, processing=settings.ensemble.processing)
         sure = ensemble(
             mechanism,
             motions,

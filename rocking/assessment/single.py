@@ -133,7 +133,7 @@ def _over_all(
         return alone[0]
     return ensemble(
         structure,
-        GroundMotions.of_pair(records[0], records[1], vertical),
+        GroundMotions.of_pair(records[0], records[1], vertical, processing=settings.ensemble.processing),
         settings.ensemble,
         nominal=max(each.nominal for each in alone),
         tolerance=settings.tolerance,

@@ -7,12 +7,13 @@ from functools import lru_cache
 
 import numpy as np
 
-from rocking.assessment.assess import AssessmentSettings
-from rocking.errors import RecordError, RockingError
+from rocking.assessment.processings import AS_IT_IS
+from rocking.assessment.settings import AssessmentSettings
+from rocking.errors import RockingError
 from rocking.motion.integration import integrate
+from rocking.motion.response import Response
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
-from rocking.records.processing import process, variants
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import Structure
 from rocking.structures.outcome import Outcome
@@ -62,22 +63,21 @@ def governing(values: list[float]) -> int:
     return int(np.argmax(known)) if known.size and known.max() > 0 else -1
 
 
-def processed(accelerogram: Accelerogram) -> dict[str, Accelerogram]:
-    """Return the record as each variant of the processing leaves it, by name; those that do not fit are left out."""
-    records = {}
-    for name, processing in variants().items():
-        with suppress(RecordError):
-            records[name] = process(accelerogram, processing)
-    return records
-
-
 def processed_variants(
-    structure: Structure, records: Mapping[str, Accelerogram], settings: AssessmentSettings
+    structure: Structure,
+    records: Mapping[str, Accelerogram],
+    settings: AssessmentSettings,
+    as_it_is: Response | None = None,
+    vertical: Accelerogram | None = None,
 ) -> Iterator[Variant]:
-    """Yield the response of `structure` to each of `records`, which `processed` gives."""
+    """Yield the response of `structure` to each of `records`, which `processed` gives.
+
+    as_it_is: to the record itself, where it is known. vertical: acts with each.
+    """
     for name, record in records.items():
         with suppress(RockingError):
-            response = integrate(structure, record, settings.tolerance)
+            known = as_it_is if name == AS_IT_IS else None
+            response = known or integrate(structure, record, settings.tolerance, vertical=vertical)
             yield Variant(name, record.peak_acceleration, response.rotation_ratio, response.outcome)
 
 

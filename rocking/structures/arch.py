@@ -46,6 +46,9 @@ _EMBRACE_DEG = (5, 270)
 _SMALLEST_EMBRACE, _LARGEST_EMBRACE = np.radians(_EMBRACE_DEG)
 _MOST_VOUSSOIRS = 1000
 
+UNSAFE_MOMENTUM = "unsafe momentum"
+"""The balance of the mirrored mechanism by its name: it loses more speed than the hinges of a real arch do."""
+
 
 FORM = Form(
     "Circular arch with radial joints; radius of the centreline",
@@ -85,7 +88,7 @@ FORM = Form(
             0.8,
             (0.3, 1.2),
         ),
-        restitution_field("momentum"),
+        restitution_field(UNSAFE_MOMENTUM),
     ),
 )
 """How a file describes an arch."""
@@ -98,10 +101,10 @@ class Arch(Structure):
     radius: r of the centreline, m. thickness: t, m. embrace_angle: β, rad. voussoirs: how many equal ones,
     hinges at their joints only; None when a hinge may open anywhere. fill_depth: of level fill that lies on the
     extrados and moves with it, above the crown, m; None without. fill_density_ratio: its density over the masonry's.
-    restitution: η in [0, 1], 0.9 by default as in the paper, or "momentum": the mirrored mechanism's
+    restitution: η in [0, 1], 0.9 by default as in the paper, or "unsafe momentum": the mirrored mechanism's
     balance. That balance assumes an impulse line inside the ring, which it leaves in every practical case; a
-    StructureWarning says so. Raises StructureError when it cannot stand, or has no four-hinge mechanism; the
-    message names the bound.
+    StructureWarning says so, and "momentum" alone is refused. Raises StructureError when it cannot stand, or has no
+    four-hinge mechanism; the message names the bound.
     """
 
     type_name: ClassVar[str] = "arch"
@@ -116,6 +119,7 @@ class Arch(Structure):
     fill_density_ratio: float = 0.8
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         for name in ("radius", "thickness"):
             object.__setattr__(self, name, length(name, getattr(self, name)))
         embrace = finite(StructureError, "embrace_angle", self.embrace_angle, "rad")
@@ -136,7 +140,13 @@ class Arch(Structure):
             )
         ratio = within(StructureError, "fill_density_ratio", self.fill_density_ratio, 0, 10)
         object.__setattr__(self, "fill_density_ratio", ratio)
-        check_restitution(self.restitution, ("momentum",))
+        if self.restitution == "momentum":
+            raise StructureError(
+                "restitution is 'momentum', but that balance takes more speed from an arch than its hinges do, on "
+                f"the unsafe side; give a number, such as the default of 0.9, or {UNSAFE_MOMENTUM!r} to take it "
+                "all the same."
+            )
+        check_restitution(self.restitution, (UNSAFE_MOMENTUM,))
         self.onset  # noqa: B018  an arch that cannot stand or rock is refused at birth
 
     @property
@@ -214,14 +224,14 @@ class Arch(Structure):
         )
 
     def _resolve_restitution(self) -> float:
-        if self.restitution == "momentum":
+        if self.restitution == UNSAFE_MOMENTUM:
             warnings.warn(
                 "restitution of the arch by momentum balance rests on an impulse line that leaves the ring; "
                 "compare it with a measured value.",
                 StructureWarning,
                 stacklevel=4,
             )
-        return resolve_restitution(self.restitution, 0.9, {"momentum": self.momentum_balance})
+        return resolve_restitution(self.restitution, 0.9, {UNSAFE_MOMENTUM: self.momentum_balance})
 
     def momentum_balance(self) -> float:
         """η = −⟨u, u_m⟩/⟨u_m, u_m⟩ of the two velocity fields of φ' = 1, the mechanism's and its mirror image's."""

@@ -79,6 +79,7 @@ class Block(Structure):
     one_sided: bool = False
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         object.__setattr__(self, "semi_diagonal", length("semi_diagonal", self.semi_diagonal))
         slenderness = finite(StructureError, "slenderness", self.slenderness, "rad")
         if not 0 < slenderness < np.pi / 2:

@@ -1,10 +1,12 @@
 """The door through which structures come in from a mapping: degrees and metres outside, SI and radians inside."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from difflib import get_close_matches
+from typing import Any
 
 from rocking.errors import ConfigurationError
-from rocking.structures.fields import Form, article
+from rocking.structures.fields import RESTITUTION_RANGE, Form, article
 from rocking.structures.registry import TYPES
 from rocking.structures.structure import Structure, typed_text
 
@@ -29,8 +31,14 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
         key: value for key, value in mapping.items() if key not in ("type", "name") and value is not None
     }
     form = _form(kind, given)
-    arguments = {form.keys[key].parameter: form.keys[key].inward(value) for key, value in given.items()}
-    structure = (getattr(TYPES[kind], form.make) if form.make else TYPES[kind])(**arguments)
+    arguments: dict[str, Any] = {
+        form.keys[key].parameter: form.keys[key].inward(value) for key, value in given.items()
+    }
+    known = arguments.pop(RESTITUTION_RANGE.parameter, None)
+    make: Callable[..., Structure] = getattr(TYPES[kind], form.make) if form.make else TYPES[kind]
+    structure = make(**arguments)
+    if known is not None:
+        structure = replace(structure, restitution_range=known)
     structure.typed(given, {key: typed_text(value) for key, value in given.items()} | dict(texts or {}))
     return structure
 

@@ -152,6 +152,7 @@ class Facade(Structure):
     one_sided: bool = False
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         for name, value in checked_facade(self).items():
             object.__setattr__(self, name, value)
         self.mechanism()  # one that is pushed over at rest is refused at birth

@@ -98,13 +98,16 @@ class Field:
 class Form:
     """One way to describe a structure in a file.
 
-    meaning: for the documentation. fields: its keys. make: name of the class method that takes their parameters as
-    keywords; the class itself when "".
+    meaning: for the documentation. fields: its keys; those that every structure may have follow. make: name of the
+    class method that takes their parameters as keywords; the class itself when "".
     """
 
     meaning: str
     fields: tuple[Field, ...]
     make: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "fields", (*self.fields, RESTITUTION_RANGE))
 
     @property
     def keys(self) -> dict[str, Field]:
@@ -195,6 +198,18 @@ def restitution_field(*balances: str, required: bool = False) -> Field:
         "restitution", "restitution", meaning, 0.9, schema, usual=(0.1, 1), letter="η", required=required
     )
 
+
+RESTITUTION_RANGE = number_field(
+    "restitution_range",
+    "restitution_range",
+    "The restitution is known to plus or minus this much; left out: as the settings of the ensemble say",
+    "",
+    0.1,
+    (0, 0.3),
+    bounds={"minimum": 0, "maximum": 1},
+    phrase="restitution known to ± {value}",
+)
+"""How well the restitution is known, of every structure."""
 
 ONE_SIDED = flag_field(
     "one_sided", "Rocks away from what it leans on only; needs a restitution number", "one-sided"

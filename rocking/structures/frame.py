@@ -67,6 +67,7 @@ class Frame(Structure):
     restitution: Restitution = None
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if not isinstance(self.column, Block) or self.column.one_sided:
             raise StructureError(f"column is {self.column!r}, but must be a Block that rocks to both sides.")
         count = finite(StructureError, "columns", self.columns)

@@ -126,6 +126,7 @@ class LoadedWall(Structure):
     one_sided: bool = False
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         for name in ("lower_height", "upper_height", "thickness"):
             object.__setattr__(self, name, getattr(self.wall, name))
         checked = {

@@ -148,12 +148,14 @@ class Mechanism:
     one_sided: the structure leans on something (a façade against side walls) and rocks to the positive side only;
     an impact then throws it back to the same side.
     elastic: G holds forces of springs, which do not grow and fall with g + ü_v.
+    restitution_range: η is known to plus or minus this much on every side; None: nothing is said of it.
     """
 
     positive: Side
     negative: Side | None = None
     one_sided: bool = False
     elastic: bool = False
+    restitution_range: float | None = None
 
     def __post_init__(self) -> None:
         if self.one_sided and self.negative is not None:

@@ -68,6 +68,7 @@ class RigidBody(Structure):
     one_sided: bool = False
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         for name in ("left", "right", "centre_height"):
             object.__setattr__(self, name, length(name, getattr(self, name)))
         object.__setattr__(self, "inertia", squared_length("inertia", self.inertia))

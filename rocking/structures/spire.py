@@ -81,6 +81,7 @@ class Spire(Structure):
     one_sided: bool = False
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         for name in ("width", "height"):
             object.__setattr__(self, name, length(name, getattr(self, name)))
         if self.wall_thickness is not None:

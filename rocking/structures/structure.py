@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
-from dataclasses import fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -26,8 +26,11 @@ HIGHEST_SHARE = 0.95
 """Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
 
 
+@dataclass(frozen=True, repr=False)
 class Structure(ABC):
     """A geometry that reduces to a Mechanism. Subclasses are frozen dataclasses checked at birth.
+
+    restitution_range: its restitution is known to plus or minus this much; None: as the settings say.
 
     type_name: the `type` in a file. forms: the ways to describe it there, the first one that of a structure made
     otherwise. moved: what its candidates move ("hinge height"); "" when it has none. draws_both_sides: whether its own
@@ -38,6 +41,13 @@ class Structure(ABC):
     forms: ClassVar[tuple[Form, ...]] = ()
     moved: ClassVar[str] = ""
     draws_both_sides: ClassVar[bool] = False
+
+    restitution_range: float | None = field(default=None, kw_only=True)
+
+    def __post_init__(self) -> None:
+        if self.restitution_range is not None:
+            checked = within(StructureError, "restitution_range", self.restitution_range, 0, 1)
+            object.__setattr__(self, "restitution_range", checked)
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.description})"
@@ -164,7 +174,9 @@ class Structure(ABC):
 
     @cached_property
     def _mechanism(self) -> Mechanism:
-        return self._build()
+        built = self._build()
+        known = self.restitution_range
+        return built if known is None else replace(built, restitution_range=known)
 
     @property
     def _values(self) -> dict[str, object]:

@@ -85,6 +85,7 @@ class Wall(Structure):
     one_sided: bool = False
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         for name in ("lower_height", "upper_height", "thickness"):
             object.__setattr__(self, name, length(name, getattr(self, name)))
         check_restitution(self.restitution, ("momentum",), self.one_sided)

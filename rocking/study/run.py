@@ -9,6 +9,8 @@ from time import process_time
 from rocking.assessment.assess import Assessment, Failure, assess_structures
 from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.horizontal_motion import horizontal_motions
+from rocking.assessment.method import Method
+from rocking.assessment.processings import processed
 from rocking.assessment.rows import (
     BOTH_COMPONENTS,
     Identity,
@@ -19,7 +21,7 @@ from rocking.assessment.rows import (
     processing_rows,
 )
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.variations import candidates, processed, processed_variants
+from rocking.assessment.variations import candidates, processed_variants
 from rocking.errors import RockingError
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord, as_declared, horizontal_of, open_record, vertical_of
@@ -128,7 +130,7 @@ def write_tables(
         identity = Identity(record.id, accelerogram, study.settings_sha256)
         tables.add(identity, assessment, study.assessment, record.licence, beside, motion)
         varied = process_time()
-        _vary(identity, assessment, study, tables)
+        _vary(identity, assessment, study, tables, beside)
         spent = {"variations": process_time() - varied, **assessment.durations}
         durations |= {stage: durations.get(stage, 0.0) + duration for stage, duration in spent.items()}
     if len(accelerograms) == 2 and study.assessment.ensemble.members and study.assessment.fidelity == "full":
@@ -150,7 +152,9 @@ def _assess_directions(record: CatalogueRecord, opened: Opened, study: Study, ta
     for alone in tables.ensemble:
         nominal[alone.structure] = max(nominal.get(alone.structure, 0.0), alone.nominal_rotation_ratio)
     try:
-        motions = GroundMotions.of_pair(accelerograms[0], accelerograms[1], vertical)
+        motions = GroundMotions.of_pair(
+            accelerograms[0], accelerograms[1], vertical, processing=settings.processing
+        )
         for name, largest in nominal.items():
             found = ensemble(
                 study.structures[name],
@@ -159,12 +163,18 @@ def _assess_directions(record: CatalogueRecord, opened: Opened, study: Study, ta
                 nominal=largest,
                 tolerance=study.assessment.tolerance,
             )
-            tables.ensemble.append(ensemble_row(identity, name, found, settings, BOTH_COMPONENTS))
+            tables.ensemble.append(ensemble_row(identity, name, found, BOTH_COMPONENTS))
     except RockingError as error:
         tables.fail(record.id, BOTH_COMPONENTS, Failure("directions", "", str(error)))
 
 
-def _vary(identity: Identity, assessment: Assessment, study: Study, tables: RecordTables) -> None:
+def _vary(
+    identity: Identity,
+    assessment: Assessment,
+    study: Study,
+    tables: RecordTables,
+    vertical: Accelerogram | None,
+) -> None:
     """Append the rows of candidates and processing, for every structure that gave a result."""
     record = identity.accelerogram
     records = processed(record) if study.settings.processing_variants else {}
@@ -174,7 +184,8 @@ def _vary(identity: Identity, assessment: Assessment, study: Study, tables: Reco
         try:
             found = candidates(structure, record, pulse, study.settings.candidates, study.assessment)
             tables.candidates.extend(candidate_rows(identity, case.structure, found))
-            variants = processed_variants(structure, records, study.assessment)
+            known = case.responses.get(Method.MECHANISM_ON_RECORD)
+            variants = processed_variants(structure, records, study.assessment, known, vertical)
             tables.processing.extend(processing_rows(identity, case.structure, variants))
         except RockingError as error:
             tables.fail(identity.record, record.component, Failure("variations", case.structure, str(error)))

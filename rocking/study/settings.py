@@ -76,6 +76,7 @@ class StudyEnsembleSettings:
     amplitude_range: float = _of(EnsembleSettings, "amplitude_range")
     restitution_range: float = _of(EnsembleSettings, "restitution_range")
     polarity: bool = _of(EnsembleSettings, "polarity")
+    processing: bool = _of(EnsembleSettings, "processing")
     risk: float = _of(EnsembleSettings, "risk")
 
 

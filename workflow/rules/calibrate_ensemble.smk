@@ -10,7 +10,7 @@ rule calibrate_ensemble:
     benchmark:
         f"{SUMMARY}/benchmarks/calibrate_ensemble.tsv"
     params:
-        catalogue=SETTINGS.calibration_catalogue,
+        catalogues=[SETTINGS.calibration_catalogue, f"{workflow.basedir}/records/fema_p695.csv"],
         structures=SETTINGS.structures,
         structures_sha256=PLAN.structures_sha256,
         mirror=SETTINGS.mirror,

@@ -21,7 +21,8 @@ def components(catalogue, mirror, tell):
 
 if __name__ == "__main__":
     params, folder = snakemake.params, Path(snakemake.output[0]).parent
-    records = components(Path(params.catalogue), params.mirror, line_writer(Path(snakemake.log[0])))
-    write_ensemble_accuracy(records, load_structures(Path(params.structures)), folder)
+    tell = line_writer(Path(snakemake.log[0]))
+    near_fault, others = (components(Path(each), params.mirror, tell) for each in params.catalogues)
+    write_ensemble_accuracy(near_fault, others, load_structures(Path(params.structures)), folder)
     trials = frame(EnsembleTrial, folder / EnsembleTrial.table.file_name)
     write_reliability(trials, Path(snakemake.output[2]))

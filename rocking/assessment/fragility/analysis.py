@@ -6,8 +6,8 @@ from typing import Literal
 
 import numpy as np
 
-from rocking.assessment.design import lattice
 from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn
+from rocking.assessment.ensemble.design import lattice
 from rocking.assessment.fragility.curve import Fragility, fragility_of
 from rocking.assessment.fragility.intensity import IntensityMeasure
 from rocking.assessment.fragility.intensity import intensity_measure as measure_named

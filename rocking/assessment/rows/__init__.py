@@ -1,16 +1,11 @@
 """The rows of the result tables: each class says what its columns are, and a function beside it fills them."""
 
 from rocking.assessment.rows.of_case import (
-    CandidateRow,
     ComparisonRow,
     MaximumRow,
-    PredictionRow,
-    ProcessingRow,
     ResponseRow,
-    candidate_rows,
     comparison_row,
     maximum_row,
-    processing_rows,
 )
 from rocking.assessment.rows.of_ensemble import (
     BOTH_COMPONENTS,
@@ -19,6 +14,9 @@ from rocking.assessment.rows.of_ensemble import (
     governing_ensembles,
 )
 from rocking.assessment.rows.of_folder import PER_RECORD, RECORD_TABLES, RecordTables
+from rocking.assessment.rows.of_prediction import (
+    PredictionRow,
+)
 from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow, TimingRow, failure_row
 from rocking.assessment.rows.of_study import (
     AgreementRow,
@@ -32,6 +30,12 @@ from rocking.assessment.rows.of_study import (
     equivalence_rows,
     spectrum_rows,
     structure_rows,
+)
+from rocking.assessment.rows.of_variation import (
+    CandidateRow,
+    ProcessingRow,
+    candidate_rows,
+    processing_rows,
 )
 from rocking.assessment.rows.shared import CaseRow, ComponentRow, Identity
 from rocking.tables import Row

@@ -1,76 +1,30 @@
 """Rows about a structure under a component: predictions, integrations, both side by side, and their variations."""
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, final
+from collections.abc import Iterator
+from typing import final
 
 from rocking.assessment.assess import Case
 from rocking.assessment.method import Method
+from rocking.assessment.rows.of_prediction import PredictionRow, expected_columns
 from rocking.assessment.rows.shared import (
-    FREQUENCY_PARAMETER,
     IMPACTS,
     METHOD,
     OUTCOME,
     PROBABILITY,
     REGIME,
-    RESTITUTION,
     ROTATION,
     ROTATION_RATIO,
     CaseRow,
     Identity,
+    rotation,
 )
-from rocking.assessment.tiers import Expectation
-from rocking.assessment.variations import Candidate, Variant, governing
 from rocking.assessment.verdict import Agreement, agreement, ratio, ratio_in_words, within_factor_two
 from rocking.motion.contact_check import UNKNOWN
 from rocking.motion.response import Response
 from rocking.sine_pulse import Regime
-from rocking.structures import Mechanism
 from rocking.structures.outcome import Outcome
 from rocking.tables import column, row
-
-
-@row(
-    "predictions",
-    "One row per structure and closed form: the equivalent block under the dominant pulse",
-)
-@final
-class PredictionRow(CaseRow):
-    """One closed form of one case."""
-
-    method: Method = column(METHOD)
-    pulse_rank: int = column("Rank of the pulse among those that its method offers")
-    acceleration_scale_choice: str = column(
-        "rest (exact at rest), linearised (a_sc), uplift (a_sc,alt) or mean"
-    )
-    frequency_parameter_rad_s: float = column(FREQUENCY_PARAMETER, equation="Eq. 11")
-    critical_rotation_rad: float = column("Critical rotation")
-    acceleration_scale: float = column("Acceleration scale of the equivalent block", equation="Eqs. 11, 13")
-    uplift_multiplier: float = column("Uplift acceleration of the equivalent block in g", equation="Eq. 12")
-    restitution: float = column(RESTITUTION, equation="Eq. 2")
-    amplitude_ratio: float = column("a = a_g / (g times uplift multiplier)", equation="Eq. 16")
-    frequency_ratio: float = column(
-        "Circular frequency of the pulse over frequency parameter", equation="Eq. 16"
-    )
-    rotation_ratio: float = column(ROTATION_RATIO)
-    rotation_rad: float = column(ROTATION)
-    rotation_ratio_low: float = column(
-        "Lower end of the 90 % band of the prediction, from the interval of the pulse"
-    )
-    rotation_ratio_high: float = column(
-        "Upper end of the 90 % band of the prediction, from the interval of the pulse"
-    )
-    overturning_probability: float = column(PROBABILITY)
-    overturning_probability_low: float = column("Lower end of its 90 % interval")
-    overturning_probability_high: float = column("Upper end of its 90 % interval")
-    expected_rotation_ratio_low: float = column(
-        "5 % quantile of the rotation ratio of the mechanism under records that are alike in the same"
-    )
-    expected_rotation_ratio_high: float = column("95 % quantile of it; INF if it overturns")
-    in_words: str = column("Both, in words")
-    outcome: Outcome | None = column(OUTCOME)
-    regime: Regime | None = column(REGIME)
-    impacts: int | None = column(IMPACTS)
 
 
 @row("responses", "One row per structure and integration")
@@ -147,36 +101,6 @@ class ComparisonRow(CaseRow):
         return self.answer_rotation_ratio if self.spared else self.integrated_rotation_ratio
 
 
-@row(
-    "candidates",
-    "One row per height at which a wall may be hinged or a spire cracked: the governing height is marked",
-)
-@final
-class CandidateRow(CaseRow):
-    """One height at which a structure may crack."""
-
-    position_m: float = column("Height of the hinge or of the crack above the base")
-    predicted_rotation_ratio: float = column("Exact maximum of its equivalent block under the dominant pulse")
-    integrated_rotation_ratio: float = column("Its mechanism under the whole record")
-    governs_pulse: bool = column("Whether it rotates most under the pulse; the lowest of those that overturn")
-    governs_record: bool = column(
-        "Whether it rotates most under the record; the lowest of those that overturn"
-    )
-
-
-@row(
-    "processing",
-    "One row per structure and processing of the record: what the answer owes to baseline and corner frequency",
-)
-class ProcessingRow(CaseRow):
-    """One case under the record processed otherwise."""
-
-    processing: str = column("What was done to the record besides what the record table says")
-    peak_acceleration_m_s2: float = column("Largest magnitude of the acceleration then")
-    rotation_ratio: float = column(ROTATION_RATIO)
-    outcome: Outcome = column(OUTCOME)
-
-
 @row("maxima", "One row per record, component, structure and method")
 class MaximumRow(CaseRow):
     """The largest rotation of one case by one method."""
@@ -187,63 +111,6 @@ class MaximumRow(CaseRow):
     outcome: Outcome | None = column(OUTCOME)
     regime: Regime | None = column(REGIME)
     error: float = column("Rotation ratio over that of the mechanism on the record, minus 1, where both rock")
-
-
-def prediction_rows(identity: Identity, case: Case, acceleration_scale: str) -> Iterator[PredictionRow]:
-    """Yield the rows of Eq. 15 as printed and of the exact closed form; none without a pulse."""
-    prediction = case.prediction
-    if prediction is None:
-        return
-    block, maximum = prediction.block, prediction.maximum
-    shared = identity.columns | {
-        "structure": case.structure,
-        "pulse_rank": prediction.rank,
-        "acceleration_scale_choice": acceleration_scale,
-        "frequency_parameter_rad_s": block.frequency_parameter,
-        "critical_rotation_rad": block.critical_rotation,
-        "acceleration_scale": block.acceleration_scale,
-        "uplift_multiplier": block.uplift_multiplier,
-        "restitution": block.restitution,
-        "amplitude_ratio": prediction.amplitude_ratio,
-        "frequency_ratio": prediction.frequency_ratio,
-    }
-    yield PredictionRow(
-        **shared,
-        method=Method.PRINTED,
-        rotation_ratio=prediction.printed,
-        rotation_rad=prediction.printed * block.critical_rotation,
-        rotation_ratio_low=math.nan,
-        rotation_ratio_high=math.nan,
-        **_expected(None),
-        in_words="",
-        outcome=None,
-        regime=None,
-        impacts=None,
-    )
-    yield PredictionRow(
-        **shared,
-        method=Method.CLOSED_FORM,
-        rotation_ratio=maximum.rotation_ratio,
-        rotation_rad=rotation(case.mechanism, maximum.rotation_ratio, maximum.peak_side),
-        rotation_ratio_low=prediction.low,
-        rotation_ratio_high=prediction.high,
-        **_expected(case.expectation),
-        in_words=str(case.expectation or ""),
-        outcome=maximum.outcome,
-        regime=maximum.regime,
-        impacts=maximum.impacts,
-    )
-
-
-def _expected(found: Expectation | None) -> dict[str, Any]:
-    """The columns of an expectation, empty without one."""
-    return {
-        "overturning_probability": found.probability if found else math.nan,
-        "overturning_probability_low": found.probability_low if found else math.nan,
-        "overturning_probability_high": found.probability_high if found else math.nan,
-        "expected_rotation_ratio_low": found.rotation_low if found else math.nan,
-        "expected_rotation_ratio_high": found.rotation_high if found else math.nan,
-    }
 
 
 def response_rows(identity: Identity, case: Case, friction_coefficient: float) -> Iterator[ResponseRow]:
@@ -292,7 +159,7 @@ def comparison_row(identity: Identity, case: Case) -> ComparisonRow:
         answer_rotation_ratio=case.answer.rotation_ratio,
         answer_method=case.answer.method,
         answer_reason=case.answer.reason,
-        **_expected(case.expectation),
+        **expected_columns(case.expectation),
         prediction_over_integration=ratio(predicted, integrated),
         prediction_in_words=ratio_in_words(predicted, integrated),
         within_factor_two=within_factor_two(predicted, integrated),
@@ -318,37 +185,3 @@ def maximum_row(method: PredictionRow | ResponseRow, comparison: ComparisonRow) 
         record_sha256=method.record_sha256,
         settings_sha256=method.settings_sha256,
     )
-
-
-def candidate_rows(identity: Identity, structure: str, found: Sequence[Candidate]) -> Iterator[CandidateRow]:
-    """Yield the row of each height at which one structure may crack."""
-    on_pulse = governing([candidate.predicted for candidate in found])
-    on_record = governing([candidate.integrated for candidate in found])
-    for place, candidate in enumerate(found):
-        yield CandidateRow(
-            **identity.columns,
-            structure=structure,
-            position_m=candidate.position,
-            predicted_rotation_ratio=candidate.predicted,
-            integrated_rotation_ratio=candidate.integrated,
-            governs_pulse=place == on_pulse,
-            governs_record=place == on_record,
-        )
-
-
-def processing_rows(identity: Identity, structure: str, found: Iterable[Variant]) -> Iterator[ProcessingRow]:
-    """Yield the row of each processing of the record for one structure."""
-    for variant in found:
-        yield ProcessingRow(
-            **identity.columns,
-            structure=structure,
-            processing=variant.processing,
-            peak_acceleration_m_s2=variant.peak_acceleration,
-            rotation_ratio=variant.rotation_ratio,
-            outcome=variant.outcome,
-        )
-
-
-def rotation(mechanism: Mechanism, rotation_ratio: float, side: int) -> float:
-    """Return the rotation in rad that `rotation_ratio` means on `side` (+1 or −1) of `mechanism`."""
-    return rotation_ratio * mechanism.sides[0 if side >= 0 else -1].critical_rotation

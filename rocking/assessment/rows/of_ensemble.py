@@ -1,7 +1,6 @@
 """Rows about how sure an answer is: the ensemble of a structure under a component, or under both."""
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -9,9 +8,6 @@ from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.rows.shared import CaseRow, Identity
 from rocking.assessment.verdict import Verdict
 from rocking.tables import column, row
-
-if TYPE_CHECKING:
-    from rocking.assessment.ensemble import EnsembleSettings
 
 BOTH_COMPONENTS = "both"
 """In place of a component: the ensemble over the directions of a record."""
@@ -43,7 +39,9 @@ class EnsembleRow(CaseRow):
     )
     risk: float = column("Largest probability of the opposite that the verdict may bear")
     amplitude_range: float = column("The motion varied by plus or minus this share")
-    restitution_range: float = column("The restitution varied by plus or minus this much")
+    restitution_range: float = column(
+        "The restitution varied by plus or minus this much, that of the structure or else of the settings"
+    )
     amplitude_share: float = column(_SHARE.format("the amplitude"))
     restitution_share: float = column(_SHARE.format("the restitution"))
     polarity_share: float = column(_SHARE.format("the sign of the motion"))
@@ -51,11 +49,12 @@ class EnsembleRow(CaseRow):
     processing_share: float = column(_SHARE.format("the processing of the record"))
     vertical_share: float = column(_SHARE.format("the vertical motion"))
     worst_direction: str = column("Direction in which it rotates most on average; empty with one direction")
+    worst_processing: str = column(
+        "Processing under which it rotates most on average; empty with one processing", default=""
+    )
 
 
-def ensemble_row(
-    identity: Identity, structure: str, found: Ensemble, settings: "EnsembleSettings", component: str = ""
-) -> EnsembleRow:
+def ensemble_row(identity: Identity, structure: str, found: Ensemble, component: str = "") -> EnsembleRow:
     """Return the row of one ensemble. component: instead of the one of `identity`."""
     shown = identity.columns | ({"component": component} if component else {})
     shown |= {
@@ -75,10 +74,11 @@ def ensemble_row(
         rotation_ratio_low=found.low,
         rotation_ratio_median=found.median,
         rotation_ratio_high=found.high,
-        risk=found.risk,
-        amplitude_range=settings.amplitude_range,
-        restitution_range=settings.restitution_range,
+        risk=found.settings.risk,
+        amplitude_range=found.settings.amplitude_range,
+        restitution_range=found.settings.restitution_range,
         worst_direction=_worst(found, "direction"),
+        worst_processing=_worst(found, "processing"),
     )
 
 

@@ -6,16 +6,16 @@ from pathlib import Path
 from rocking.assessment.assess import Assessment, Failure
 from rocking.assessment.horizontal_motion import HorizontalMotion
 from rocking.assessment.rows.of_case import (
-    CandidateRow,
     ComparisonRow,
-    PredictionRow,
-    ProcessingRow,
     ResponseRow,
     comparison_row,
-    prediction_rows,
     response_rows,
 )
 from rocking.assessment.rows.of_ensemble import EnsembleRow, ensemble_row
+from rocking.assessment.rows.of_prediction import (
+    PredictionRow,
+    prediction_rows,
+)
 from rocking.assessment.rows.of_record import (
     FailureRow,
     PulseRow,
@@ -24,6 +24,10 @@ from rocking.assessment.rows.of_record import (
     failure_row,
     pulse_rows,
     record_row,
+)
+from rocking.assessment.rows.of_variation import (
+    CandidateRow,
+    ProcessingRow,
 )
 from rocking.assessment.rows.shared import Identity
 from rocking.assessment.settings import AssessmentSettings
@@ -98,7 +102,7 @@ class RecordTables:
             self.responses.extend(response_rows(identity, case, settings.friction_coefficient))
             self.comparison.append(comparison_row(identity, case))
             if case.ensemble is not None:
-                self.ensemble.append(ensemble_row(identity, case.structure, case.ensemble, settings.ensemble))
+                self.ensemble.append(ensemble_row(identity, case.structure, case.ensemble))
         for failure in assessment.failures:
             self.fail(identity.record, assessment.accelerogram.component, failure)
 

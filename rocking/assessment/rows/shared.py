@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rocking.records import Accelerogram
+from rocking.structures import Mechanism
 from rocking.tables import Row, column, row
 
 ROTATION_RATIO = "Largest rotation over critical rotation; INF if it overturns, 0 without uplift"
@@ -68,3 +69,8 @@ class Identity:
             "record_sha256": self.accelerogram.source.sha256,
             "settings_sha256": self.settings_sha256,
         }
+
+
+def rotation(mechanism: Mechanism, rotation_ratio: float, side: int) -> float:
+    """Return the rotation in rad that `rotation_ratio` means on `side` (+1 or −1) of `mechanism`."""
+    return rotation_ratio * mechanism.sides[0 if side >= 0 else -1].critical_rotation

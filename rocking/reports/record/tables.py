@@ -138,7 +138,6 @@ def method_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, 
         ("Comp.", "auto", "l", lambda case: words(case.row.component)),
         ("Eq. 15, printed", "1", "r", lambda case: ratio(case.row.printed_rotation_ratio)),
         ("Prediction", "1", "r", lambda case: ratio(case.row.predicted_rotation_ratio)),
-        ("Range over the interval", "1.95", "r", lambda case: _range(case.prediction)),
         ("Mechanism under the pulse", "1", "r", lambda case: ratio(case.row.pulse_rotation_ratio)),
         ("Block under the record", "1", "r", lambda case: ratio(case.row.block_rotation_ratio)),
         (
@@ -185,13 +184,6 @@ def trust_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, o
         ),
         ("Contacts", "1.1", "l", lambda case: _contacts(case.response)),
     )
-
-
-def _range(prediction: PredictionRow | None) -> str:
-    if prediction is None:
-        return printing.NOTHING
-    low, high = ratio(prediction.rotation_ratio_low), ratio(prediction.rotation_ratio_high)
-    return low if low == high else f"{low} to {high}"
 
 
 def _contacts(response: ResponseRow | None) -> Cell:

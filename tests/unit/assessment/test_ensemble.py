@@ -1,18 +1,24 @@
 """The ensemble: its members are those that `integrate` follows one by one, and its words keep to its numbers."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import rocking
-from rocking.assessment.design import SIZES, lattice
 from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn, ensemble
+from rocking.assessment.ensemble.design import SIZES, lattice
+from rocking.assessment.processings import processed
+from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.single import assess
 from rocking.assessment.verdict import Verdict, ratio_in_words, verdict
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
-from rocking.records import Accelerogram
+from rocking.pulses.components import rotated
+from rocking.records import Accelerogram, rotd
+from rocking.records.accelerogram import Source
+from rocking.records.processing import Processing, process
 from rocking.structures import Block
 
 STEP = 0.01
@@ -86,11 +92,71 @@ def test_the_sign_of_the_motion_is_a_cause_for_unlike_sides_alone():
     assert "polarity" not in ensemble(BLOCK, GroundMotions.of(one_pulse), EnsembleSettings()).causes
 
 
+def _raw(amplitude: float, component: str = "made") -> Accelerogram:
+    """The wave on a ramp of 0.1 m/s², from a file that says it is uncorrected."""
+    made = _record(amplitude, component)
+    drift = np.linspace(0, 0.1, TIMES.size)
+    return replace(made, acceleration=made.acceleration + drift, source=Source("raw.evt"), processed=False)
+
+
+def test_the_processing_of_a_raw_record_is_a_cause():
+    record = _raw(5.0)
+    motions = GroundMotions.of(record, processing=True)
+    assert motions.horizontal["made", "unchanged"] is record, "what is there already is not made again"
+    found = drawn(BLOCK, motions, lattice(64, CAUSES), EnsembleSettings())
+    assert set(found.causes["processing"]) == set(motions.processings) == set(processed(record))
+    for k in np.flatnonzero(found.causes["processing"] == "high-pass 0.2 Hz"):
+        motion = process(record, Processing(taper=0.02, high_pass=0.2)).scaled(found.causes["amplitude"][k])
+        alone = integrate(Block(2.0, 0.2, restitution=0.9 + found.causes["restitution"][k]), motion)
+        assert found.rotation_ratios[k] == pytest.approx(alone.rotation_ratio, rel=1e-6)
+    fixed = drawn(BLOCK, motions, lattice(64, CAUSES), FIXED)
+    assert list(fixed.shares) == ["processing"] and fixed.shares["processing"] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("record", "settings"),
+    [
+        (_record(5.0), EnsembleSettings()),  # of an array nobody says that it is raw
+        (replace(_raw(5.0), processed=True), EnsembleSettings()),
+        (replace(_raw(5.0), processed=None), EnsembleSettings()),
+        (_raw(5.0), EnsembleSettings(processing=False)),
+    ],
+)
+def test_the_processing_of_another_record_is_none(record, settings):
+    found = assess(record, BLOCK, settings=AssessmentSettings(ensemble=settings))
+    assert "processing" not in found.ensemble.causes
+
+
+def test_two_raw_components_vary_in_direction_and_processing():
+    first, second = _raw(3.0, "first"), _raw(4.0, "second")
+    motions = GroundMotions.of_pair(first, second, processing=True)
+    assert len(motions.horizontal) == len(motions.directions) * len(motions.processings) == 3 * 6
+    turned = motions.directions[2]
+    azimuth = np.radians(rotd(first, second).azimuth)
+    both = [processed(each)["linear baseline"] for each in (first, second)]
+    expected = rotated(*both, azimuth).acceleration
+    assert np.array_equal(motions.horizontal[turned, "linear baseline"].acceleration, expected)
+    found = assess([first, second], BLOCK)
+    assert {"direction", "processing"} <= set(found.ensemble.causes)
+
+
+def test_a_structure_may_say_how_well_its_restitution_is_known():
+    motions, points = GroundMotions.of(_record(5.0)), lattice(64, CAUSES)
+    for known in (0.0, 0.15):
+        block = Block(2.0, 0.2, restitution=0.8, restitution_range=known)
+        found = drawn(block, motions, points, EnsembleSettings())
+        wide = drawn(
+            Block(2.0, 0.2, restitution=0.8), motions, points, EnsembleSettings(restitution_range=known)
+        )
+        assert np.array_equal(found.rotation_ratios, wide.rotation_ratios)
+        assert found.settings.restitution_range == known and ("restitution" in found.causes) == (known > 0)
+
+
 def test_shares_of_an_additive_answer_are_those_of_its_variance():
     points = lattice(1024, CAUSES)
     found = drawn(BLOCK, GroundMotions.of(_record(5.0)), points, EnsembleSettings())
     answer = 0.3 + 0.2 * points[:, 0] + 0.1 * points[:, 1]
-    made = type(found)(answer, found.causes, 0.5, 0.05)
+    made = type(found)(answer, found.causes, 0.5, found.settings)
     assert made.shares["amplitude"] == pytest.approx(0.8, abs=0.03), "eight strata explain 63/64 of it"
     assert made.shares["restitution"] == pytest.approx(0.2, abs=0.03)
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import AssessmentSettings
-from rocking.assessment.variations import candidates, governing, processed, processed_variants
+from rocking.assessment.processings import processed
+from rocking.assessment.variations import candidates, governing, processed_variants
 from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram

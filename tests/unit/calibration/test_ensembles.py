@@ -55,8 +55,8 @@ def _measured(trials: list[EnsembleTrial]) -> dict[str, float]:
 
 
 def test_trials_are_the_same_at_every_call_and_scatter_about_the_draws():
-    trials = list(try_ensembles(RECORDS, STRUCTURES, draws=400))
-    again = try_ensembles(RECORDS, STRUCTURES, draws=400)
+    trials = list(try_ensembles(RECORDS, [], STRUCTURES, draws=400))
+    again = try_ensembles(RECORDS, [], STRUCTURES, draws=400)
     assert [repr(trial) for trial in again] == [repr(trial) for trial in trials]
     assert len(trials) == 3 * len(RECORDS) and {trial.draws for trial in trials} == {400}
     for trial in trials:
@@ -80,6 +80,14 @@ def test_each_measure_counts_what_it_names():
 def test_halves_are_kept_apart_and_the_tables_can_be_read(tmp_path):
     halves = {row.half for row in ensemble_accuracy([TRIAL, replace(TRIAL, half=LEFT_OUT)], replicates=5)}
     assert halves == {CHOSEN, LEFT_OUT}
-    write_ensemble_accuracy(RECORDS[:1], STRUCTURES, tmp_path)
+    write_ensemble_accuracy(RECORDS[:1], [], STRUCTURES, tmp_path)
     (*trials,) = read_rows(EnsembleTrial, tmp_path / "ensemble_trials.csv")
     assert [trial.structure for trial in trials] == ["slender", "stout", "slender"]
+
+
+def test_a_site_counts_once_and_what_came_later_is_left_out():
+    half = len(RECORDS) // 2
+    trials = list(try_ensembles(RECORDS[:half], RECORDS, STRUCTURES, draws=20))
+    assert [trial.record for trial in trials[::3]] == [name for name, _ in RECORDS]
+    assert {trial.half for trial in trials[3 * half :]} == {LEFT_OUT}
+    assert {trial.half for trial in try_ensembles(RECORDS, [], STRUCTURES, draws=20)} == {CHOSEN}

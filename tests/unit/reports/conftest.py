@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import AssessmentSettings, assess_structures
+from rocking.assessment.processings import processed
 from rocking.assessment.rows import (
     AgreementRow,
     ComparisonRow,
@@ -21,7 +22,7 @@ from rocking.assessment.rows import (
     processing_rows,
     structure_rows,
 )
-from rocking.assessment.variations import candidates, processed, processed_variants
+from rocking.assessment.variations import candidates, processed_variants
 from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.structures import Arch, Block, Wall

@@ -175,7 +175,7 @@ def test_momentum_balance_against_a_sum_over_many_small_masses():
 def test_restitution_of_the_arch():
     assert Arch(1.0, 0.15, np.pi).mechanism().restitution == 0.9
     with pytest.warns(StructureWarning, match="leaves the ring"):
-        arch = Arch(1.0, 0.15, np.pi, restitution="momentum")
+        arch = Arch(1.0, 0.15, np.pi, restitution="unsafe momentum")
         assert arch.mechanism().restitution == arch.momentum_balance()
 
 
@@ -214,7 +214,11 @@ def test_minimum_thickness_is_where_the_kinematic_multiplier_vanishes():
         ),
         (lambda: Arch(-10.0, 1.5, 3.0), "radius is -10.0 m, but must be greater than 0"),
         (lambda: Arch(10.0, 1.5, 3.0, 2), "voussoirs is 2, but must be a whole number from 3 to 1000"),
-        (lambda: Arch(10.0, 1.5, 3.0, restitution="housner"), "restitution is 'housner'.*momentum"),
+        (lambda: Arch(10.0, 1.5, 3.0, restitution="housner"), "restitution is 'housner'.*unsafe momentum"),
+        (
+            lambda: Arch(10.0, 1.5, 3.0, restitution="momentum"),
+            "restitution is 'momentum', but .* on the unsafe side; give a number, .* or 'unsafe momentum'",
+        ),
     ],
 )
 def test_bad_geometry_is_refused_with_its_bound(make, message):

@@ -249,3 +249,18 @@ def test_what_is_not_usual_is_a_warning_and_not_a_refusal(tmp_path):
 def test_a_missing_file_is_refused(tmp_path):
     with pytest.raises(ConfigurationError, match="cannot be read"):
         load_structures(tmp_path / "none.yaml")
+
+
+@pytest.mark.parametrize("kind", TYPES)
+def test_every_structure_may_say_how_well_its_restitution_is_known(kind):
+    form = TYPES[kind].forms[0]
+    entry = {"type": kind, **{each.key: each.example for each in form.fields if each.required}}
+    known = structure_from_config({**entry, "restitution_range": 0.12})
+    assert known.mechanism().restitution_range == 0.12
+    assert "restitution known to ± 0.12" in known.description
+    assert structure_from_config(entry).mechanism().restitution_range is None
+    for wrong in (-0.1, 1.5):
+        with pytest.raises(
+            StructureError, match=f"restitution_range is {wrong}, but must lie between 0 and 1"
+        ):
+            structure_from_config({**entry, "restitution_range": wrong})

@@ -5,9 +5,13 @@ import hashlib
 import numpy as np
 import pytest
 
+from rocking.assessment.method import Method
+from rocking.assessment.rows import RecordTables
 from rocking.records import CatalogueRecord
+from rocking.records.catalogue import load_catalogue
 from rocking.records.synthetic import BUNDLED, at2_text
-from rocking.study.run import Study
+from rocking.structures import Block
+from rocking.study.run import Study, assess_record
 from rocking.study.settings import ProcessingSettings, Settings
 
 STUDY = Study({})
@@ -47,10 +51,22 @@ def test_a_file_that_cannot_say_is_left_as_it_is(columns):
 
 def test_a_raw_file_is_processed_unless_never():
     # The Kinemetrics example that obspy installs: counts of a recorder, offset included.
-    from rocking.records.catalogue import load_catalogue
-
     record = next(r for r in load_catalogue("records/catalogue.csv") if r.id == "STNA_2002_scaled")
     raw = _applied("never").open(record)[0][0]
     done = STUDY.open(record)[0][0]
     assert len(done.processing) > len(raw.processing)
     assert done.high_pass_frequency == 0.1
+
+
+def test_the_ensemble_of_a_raw_record_varies_its_processing(tmp_path):
+    record = next(r for r in load_catalogue("records/catalogue.csv") if r.id == "STNA_2002_scaled")
+    structures = {"block": Block.of_size(0.5, 3.0)}
+    study = Study(structures, Settings(candidates=0))
+    assess_record(record, study, tmp_path)
+    tables = RecordTables.read(tmp_path)
+    row = tables.ensemble[0]
+    assert row.worst_processing in {each.processing for each in tables.processing}
+    assert 0 <= row.processing_share <= 1
+    known = {each.method: each for each in tables.responses if each.component == row.component}
+    given = next(each for each in tables.processing if each.processing == "unchanged")
+    assert given.rotation_ratio == known[Method.MECHANISM_ON_RECORD].rotation_ratio

@@ -1,0 +1,12 @@
+"""The ensemble: what becomes of a structure when all that is not known varies within stated ranges.
+
+Each cause is uniform in its range and independent of the others. What the causes are is an assumption, not a
+measurement; the ensemble says how sure an answer can be if they are right.
+"""
+
+from rocking.assessment.ensemble.distribution import Ensemble
+from rocking.assessment.ensemble.drawn import CAUSES, drawn, ensemble
+from rocking.assessment.ensemble.ground_motions import GroundMotions
+from rocking.assessment.ensemble.settings import EnsembleSettings
+
+__all__ = ["CAUSES", "Ensemble", "EnsembleSettings", "GroundMotions", "drawn", "ensemble"]
