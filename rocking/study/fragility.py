@@ -1,10 +1,18 @@
 """The fragility of every structure of a study under all of its records."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
-from rocking.assessment.fragility import incremental_dynamic_analysis
+from rocking.assessment.fragility import (
+    IncrementalDynamicAnalysis,
+    IntensityMeasure,
+    MultiFidelityAnalysis,
+    incremental_dynamic_analysis,
+    multi_fidelity_analysis,
+)
 from rocking.assessment.fragility.hazard import read_hazard
+from rocking.assessment.fragility.intensity import intensity_measure
 from rocking.assessment.rows.of_fragility import (
     FRAGILITY_TABLES,
     ROTATION_RATIOS,
@@ -20,6 +28,7 @@ from rocking.assessment.rows.of_fragility import (
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
+from rocking.structures import Structure
 from rocking.study.run import Study
 from rocking.tables import Row, data_package, write_rows, write_whole
 
@@ -32,30 +41,26 @@ def write_fragility(
 ) -> list[str]:
     """Write the fragility tables of `study` and their description into `folder`; return what could not be used.
 
-    tell: is told of each structure as it is finished.
+    A record that cannot be read, or lacks the intensity measure, costs no other. tell: is told of each structure as it
+    is finished.
 
-    Raises ConfigurationError, before anything is written, where the records that can be read come from fewer than two
+    Raises ConfigurationError, before anything is written, where the records that are left come from fewer than two
     stations, or the hazard curve is none.
     """
     settings = study.settings.fragility_analysis
     hazard = read_hazard(Path(settings.hazard)) if settings.hazard else None
-    names, accelerograms, unused = _opened(records, study)
+    measure = intensity_measure(settings.intensity_measure)
+    names, accelerograms, unused = _opened(records, study, measure)
     tables: dict[str, list[Row]] = {name: [] for name in FRAGILITY_TABLES}
     for count, (name, structure) in enumerate(study.structures.items(), start=1):
-        found = incremental_dynamic_analysis(
-            accelerograms,
-            structure,
-            intensity_measure=settings.intensity_measure,
-            ensemble=study.assessment.ensemble if settings.members else None,
-            tolerance=study.assessment.tolerance,
-        )
-        tables[IdaRow.table.name] += ida_rows(name, names, found)
+        found, followed, complete = _analysed(accelerograms, structure, study)
+        tables[IdaRow.table.name] += ida_rows(name, names, followed)
         for threshold in ROTATION_RATIOS:
             curve = found.fragility(threshold)
             tables[FragilityRow.table.name] += fragility_rows(name, curve)
             tables[FragilitySummaryRow.table.name].append(fragility_summary_row(name, curve, hazard))
         tables[IntensityMeasureRow.table.name] += intensity_measure_rows(
-            name, structure.mechanism(), accelerograms, found
+            name, structure.mechanism(), accelerograms, complete
         )
         tell(f"{count} of {len(study.structures)}: {name}")
     for name, row_class in FRAGILITY_TABLES.items():
@@ -67,21 +72,43 @@ def write_fragility(
     return unused
 
 
+def _analysed(
+    records: Sequence[Accelerogram], structure: Structure, study: Study
+) -> tuple[
+    IncrementalDynamicAnalysis | MultiFidelityAnalysis, IncrementalDynamicAnalysis, IncrementalDynamicAnalysis
+]:
+    """What the curves come from, what was followed of the mechanism, and what is known of every case."""
+    settings = study.settings.fragility_analysis
+    taken: dict[str, Any] = {
+        "intensity_measure": settings.intensity_measure,
+        "ensemble": study.assessment.ensemble if settings.members else None,
+        "tolerance": study.assessment.tolerance,
+    }
+    if settings.mechanism_runs is None:
+        every = incremental_dynamic_analysis(records, structure, **taken)
+        return every, every, every
+    sample = multi_fidelity_analysis(records, structure, settings.mechanism_runs, **taken)
+    return sample, sample.followed, sample.block
+
+
 def _opened(
-    records: Iterable[CatalogueRecord], study: Study
+    records: Iterable[CatalogueRecord], study: Study, measure: IntensityMeasure
 ) -> tuple[list[str], list[Accelerogram], list[str]]:
+    """Names and records that can be used, and a sentence for each that cannot."""
+    mechanism = next(iter(study.structures.values())).mechanism()
     names, accelerograms, unused = [], [], []
     for record in records:
         try:
             opened, _ = study.open(record)
+            for accelerogram in opened:
+                measure.of(accelerogram, mechanism)
         except RockingError as error:
             unused.append(f"{record.id}: {error}")
             continue
-        for accelerogram in opened:
-            names.append(f"{record.id} {accelerogram.component}".strip())
-            accelerograms.append(accelerogram)
+        names += [f"{record.id} {accelerogram.component}".strip() for accelerogram in opened]
+        accelerograms += opened
     if not accelerograms:
         raise ConfigurationError(
-            "no record of the catalogue can be read, but a fragility needs two stations."
+            "no record of the catalogue can be used, but a fragility needs two stations; the log says why."
         )
     return names, accelerograms, unused

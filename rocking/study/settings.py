@@ -86,6 +86,7 @@ class StudyFragilitySettings:
 
     intensity_measure: str = _of(FragilitySettings, "intensity_measure", numbers=False)
     members: bool = _of(FragilitySettings, "members", numbers=False)
+    mechanism_runs: int | None = _of(FragilitySettings, "mechanism_runs", numbers=False)
     hazard: str | None = _of(FragilitySettings, "hazard", numbers=False)
     in_every_run: bool = _own(False, "measure it in every run", numbers=False)
 

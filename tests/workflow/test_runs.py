@@ -84,6 +84,20 @@ def test_the_trade_of_error_for_time_is_drawn_where_it_is_asked_for(finished) ->
         assert bool(re.search(r"(?m)^trade +1 *$", told)) == wanted, told
 
 
+def test_the_page_waits_for_fragility_where_it_is_asked_for_and_takes_it_up_where_it_was_measured(
+    finished, tmp_path: Path
+) -> None:
+    asked = finished.run("--dry-run", "explore", "--config", "fragility={in_every_run: true}").stdout
+    assert re.search(r"(?m)^fragility +1 *$", asked), asked
+    study = finished.copy_to(tmp_path / "study")
+    assert study.run("explore").returncode == 0
+    assert "Nothing to be done" in study.run("--dry-run", "explore").stdout
+    (study.results / "fragility").mkdir()
+    (study.results / "fragility" / "fragility.csv").write_text("measured since\n", encoding="utf-8")
+    told = study.run("--dry-run", "explore").stdout
+    assert re.search(r"(?m)^explore +1 *$", told) and not re.search(r"(?m)^fragility +1 *$", told), told
+
+
 def _jobs(output: str) -> list[str]:
     """The kinds of jobs in the table that snakemake prints before a run, without the target."""
     table = output.partition("Job stats:")[2].partition("\ntotal ")[0]

@@ -4,6 +4,7 @@
 rule explore:
     input:
         tables=record_files(PLAN.records, *CSV),
+        fragility=FRAGILITY if SETTINGS.fragility.in_every_run else [],
     output:
         page=report(
             f"{SUMMARY}/study.html",
@@ -21,6 +22,8 @@ rule explore:
         files_sha256=PLAN.files_sha256(*PLAN.jobs),
         structures_sha256=PLAN.structures_sha256,
         settings_sha256=PLAN.settings_sha256,
+        # Where the target fragility is run by hand, its curves come onto the page with the next run.
+        fragility_sha256="" if SETTINGS.fragility.in_every_run else PLAN.hashes.of(Path(FRAGILITY)),
         package_sha256=PACKAGE,
     message:
         "Write the page to explore the study"

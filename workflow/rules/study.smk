@@ -15,6 +15,7 @@ RESULTS = SETTINGS.results
 SUMMARY = f"{RESULTS}/summary"
 TABLES = [each.table.name for each in PER_RECORD]
 SUMMARIES = [each.table.name for each in SUMMARY_TABLES]
+FRAGILITY = f"{RESULTS}/fragility/fragility.csv"
 
 
 def record_files(records, *names):

@@ -5,8 +5,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.special import ndtr
-from scipy.stats import beta, norm, t
+from scipy.special import betaincinv, ndtr, ndtri, stdtrit
 
 from rocking.assessment.fragility.lognormal import LognormalFits, fit_lognormal
 
@@ -27,8 +26,9 @@ class Fragility:
     curve and its 90 % interval, point by point; nan where nothing was tried. lognormal, lognormal_low,
     lognormal_high: (k,) the fit by maximum likelihood and its 90 % interval. median, interval: where half exceed, and
     its 90 % interval, of the lognormal where it holds, else of the empirical curve. dispersion: of the fit.
-    misfit: largest distance of the two curves. exceedance: (r, k) share of each record's members above the threshold.
-    stations: (r,) what counts as one independent record.
+    misfit: largest distance of the two curves. exceedance: (r, k) share of each record's members above the threshold;
+    of the block where the mechanism was not followed. stations: (r,) what counts as one independent record. worth:
+    number of independent records whose curve would scatter as much. mechanism_runs: None where every case was followed.
     """
 
     measure: str
@@ -47,14 +47,17 @@ class Fragility:
     misfit: float
     exceedance: np.ndarray
     stations: tuple[str, ...]
+    worth: float
+    mechanism_runs: int | None = None
 
     def __repr__(self) -> str:
         low, high = self.interval
         unit = f" {self.unit}" if self.unit else ""
         law = f"dispersion {self.dispersion:.2f}" if self.lognormal_holds else "not lognormal"
+        runs = "" if self.mechanism_runs is None else f", {self.mechanism_runs} runs of the mechanism"
         return (
             f"<Fragility: median {self.measure} {self.median:.3g}{unit} (90 %: {low:.3g} to {high:.3g}), {law}, "
-            f"{len(self.stations)} records of {self.independent} stations>"
+            f"{len(self.stations)} records of {self.independent} stations{runs}>"
         )
 
     @property
@@ -65,7 +68,7 @@ class Fragility:
     @property
     def lognormal_holds(self) -> bool:
         """Whether the empirical curve lies no farther from the lognormal than chance takes it in 19 of 20 samples."""
-        return self.misfit <= _LILLIEFORS / self.independent**0.5
+        return self.misfit <= _LILLIEFORS / self.worth**0.5
 
     @property
     def reversals(self) -> np.ndarray:
@@ -88,11 +91,13 @@ def fragility_of(
     measure: str = "",
     unit: str = "",
     threshold: float = np.inf,
+    sampled: bool = False,
 ) -> Fragility:
     """Return the curve of outcomes at `levels` (k,) > 0, ascending.
 
     exceedance: (r, k) shares in [0, 1], one row a record. tried: (r, k) 1 where a record was tried, all by default.
     stations: (r,) names; the records of one are resampled together, and half a station counts no more than one.
+    sampled: whether `exceedance` holds estimates from a sample, of any size and sign, whose mean is right.
     """
     tried = np.ones_like(exceedance) if tried is None else tried
     over, trials = _by_station(exceedance * tried, stations), _by_station(tried, stations)
@@ -100,7 +105,7 @@ def fragility_of(
     fit = fit_lognormal(levels, over.sum(axis=0)[None], trials.sum(axis=0)[None])
     weights = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
     again = fit_lognormal(levels, weights @ over, weights @ trials)
-    probability, low, high = _empirical(over, trials)
+    probability, low, high, effective = _empirical(over, trials, sampled)
     misfit = float(np.abs(probability - fit.probability(levels)[0])[trials.sum(axis=0) >= 1].max())
     made = Fragility(
         measure=measure,
@@ -119,15 +124,26 @@ def fragility_of(
         misfit=misfit,
         exceedance=exceedance,
         stations=tuple(stations),
+        worth=_worth(probability, effective) if sampled else float(count),
     )
-    return made if made.lognormal_holds or tried.min() == 0 else _by_crossing(made, over, trials, weights)
+    if made.lognormal_holds or tried.min() == 0:
+        return made
+    return _by_crossing(made, over, trials, weights, sampled)
 
 
-def _by_crossing(made: Fragility, over: np.ndarray, trials: np.ndarray, weights: np.ndarray) -> Fragility:
-    """The same with the median of the empirical curve."""
+def _by_crossing(
+    made: Fragility, over: np.ndarray, trials: np.ndarray, weights: np.ndarray, sampled: bool
+) -> Fragility:
+    """The same with the median of the empirical curve; of the rising one next to it where a sample makes it rough."""
     shares = (weights @ over) / (weights @ trials)
+    level = made.probability
+    if sampled:
+        from scipy.optimize import isotonic_regression  # slow to import, and needed here only
+
+        shares = np.array([isotonic_regression(share).x for share in shares])
+        level = isotonic_regression(level).x
     crossings = np.array([_crossing(made.levels, share) for share in shares])
-    median = _crossing(made.levels, made.probability)
+    median = _crossing(made.levels, level)
     return replace(made, median=median, interval=_median_interval(np.array([median]), crossings, len(over)))
 
 
@@ -138,18 +154,28 @@ def _by_station(values: np.ndarray, stations: Sequence[str]) -> np.ndarray:
     return summed
 
 
-def _empirical(over: np.ndarray, trials: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Share and its 90 % interval after Jeffreys, for as many independent records as the scatter of stations allows."""
+def _empirical(
+    over: np.ndarray, trials: np.ndarray, sampled: bool
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Share, its 90 % interval after Jeffreys, and the independent records that the scatter of stations allows."""
     total, count = trials.sum(axis=0), (trials > 0).sum(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        share = over.sum(axis=0) / total
+        share = np.clip(over.sum(axis=0) / total, 0.0, 1.0)
         scatter = ((over - share * trials) ** 2).sum(axis=0) * count / np.maximum(count - 1, 1) / total**2
-        effective = share * (1 - share) / scatter
-    unanimous = (share == 0) | (share == 1) | ~np.isfinite(effective)
-    effective = np.where(unanimous, count, np.clip(effective, count / 2, total))
+        # An estimate may be 0 by chance, and scatter all the same: then half a record in all is taken for its share.
+        inner = np.clip(share, 0.5 / count, 1 - 0.5 / count) if sampled else share
+        effective = inner * (1 - inner) / scatter
+    unanimous = ~np.isfinite(effective) | ((share == 0) | (share == 1)) & (not sampled)
+    effective = np.where(unanimous, count, np.clip(effective, 1.0 if sampled else count / 2, total))
     yes, no = share * effective + 0.5, (1 - share) * effective + 0.5
-    low = np.where(share == 0, 0.0, beta.ppf(0.05, yes, no))
-    return share, low, np.where(share == 1, 1.0, beta.ppf(0.95, yes, no))
+    low = np.where(share == 0, 0.0, betaincinv(yes, no, 0.05))
+    return share, low, np.where(share == 1, 1.0, betaincinv(yes, no, 0.95)), effective
+
+
+def _worth(share: np.ndarray, effective: np.ndarray) -> float:
+    """Of the levels at which the curve is open."""
+    is_open = (share > 0.1) & (share < 0.9)
+    return float(np.median(effective[is_open] if is_open.any() else effective))
 
 
 def _deviates(levels: np.ndarray, fits: LognormalFits) -> np.ndarray:
@@ -158,7 +184,7 @@ def _deviates(levels: np.ndarray, fits: LognormalFits) -> np.ndarray:
 
 def _interval(found: np.ndarray, replicates: np.ndarray, count: int) -> np.ndarray:
     """5 and 95 % quantiles of replicates, (2, k), wider by what few stations hide: Student's law for the normal."""
-    wider = (count / (count - 1)) ** 0.5 * t.ppf(0.95, count - 1) / norm.ppf(0.95)
+    wider = (count / (count - 1)) ** 0.5 * stdtrit(count - 1, 0.95) / ndtri(0.95)
     return np.asarray(found + wider * (np.quantile(replicates, [0.05, 0.95], axis=0) - found))
 
 

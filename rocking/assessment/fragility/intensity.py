@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -19,18 +20,19 @@ SPECTRAL_PERIOD = 1.0
 
 @dataclass(frozen=True)
 class IntensityMeasure:
-    """name: as settings and tables say it. unit: "" for a ratio. meaning: for axes. value: of a record; it must grow
-    in proportion to the accelerations."""
+    """name: as settings and tables say it. unit: "" for a ratio. meaning: for axes. of_record: what it takes of a
+    record; it must grow in proportion to the accelerations. per: what it is divided by, of a mechanism."""
 
     name: str
     unit: str
     meaning: str
-    value: Callable[[Accelerogram, Mechanism], float]
+    of_record: Callable[[Accelerogram], float]
+    per: Callable[[Mechanism], float] = lambda mechanism: 1.0
 
     def of(self, record: Accelerogram, mechanism: Mechanism) -> float:
         """Return the measure of `record`. Raises ConfigurationError where the record has none."""
         try:
-            found = self.value(record, mechanism)
+            found = self._remembered(record)
         except RockingError as error:
             raise ConfigurationError(
                 f"{record.source.path or record.station or 'a record'} has no {self.name}: {error}"
@@ -40,37 +42,53 @@ class IntensityMeasure:
                 f"{record.source.path or record.station or 'a record'} has a {self.name} of {found!r}, but must have "
                 "one greater than 0; leave the record out."
             )
-        return found
+        return found / self.per(mechanism)
+
+    def _remembered(self, record: Accelerogram) -> float:
+        """Of the record alone, measured once as long as it lives: many structures ask for it."""
+        known = _REMEMBERED.setdefault(record, {})
+        if self.name not in known:
+            known[self.name] = self.of_record(record)
+        return known[self.name]
 
 
-def _velocity(record: Accelerogram, mechanism: Mechanism) -> float:
+_REMEMBERED: WeakKeyDictionary[Accelerogram, dict[str, float]] = WeakKeyDictionary()
+
+
+def _velocity(record: Accelerogram) -> float:
     return record_measures(record).peak_velocity
 
 
-def _velocity_ratio(record: Accelerogram, mechanism: Mechanism) -> float:
-    """p·PGV/(gλ), with p of the block that is exact at rest."""
-    block = mechanism.equivalent_block("rest")
-    return block.frequency_parameter * _velocity(record, mechanism) / (GRAVITY * block.uplift_multiplier)
+def _pulse_amplitude(record: Accelerogram) -> float:
+    return abs(extract_pulses(record).dominant.amplitude)
 
 
-def _pulse_amplitude(record: Accelerogram, mechanism: Mechanism) -> float:
-    return abs(extract_pulses(record).dominant.amplitude) / (GRAVITY * mechanism.uplift_multiplier)
-
-
-def _spectral(record: Accelerogram, mechanism: Mechanism) -> float:
+def _spectral(record: Accelerogram) -> float:
     found = response_spectrum(record, np.array([SPECTRAL_PERIOD]))
     return float(found.pseudo_acceleration[0]) / GRAVITY
+
+
+def _uplift(mechanism: Mechanism) -> float:
+    return GRAVITY * mechanism.uplift_multiplier
+
+
+def _rest_velocity(mechanism: Mechanism) -> float:
+    """gλ/p, m/s, with p of the block that is exact at rest."""
+    block = mechanism.equivalent_block("rest")
+    return GRAVITY * block.uplift_multiplier / block.frequency_parameter
 
 
 INTENSITY_MEASURES: dict[str, IntensityMeasure] = {
     each.name: each
     for each in (
         IntensityMeasure(
-            "pga", "g", "peak ground acceleration", lambda record, _: record.peak_acceleration / GRAVITY
+            "pga", "g", "peak ground acceleration", lambda record: record.peak_acceleration / GRAVITY
         ),
         IntensityMeasure("pgv", "m/s", "peak ground velocity", _velocity),
-        IntensityMeasure("p_pgv", "", "p·PGV/(gλ)", _velocity_ratio),
-        IntensityMeasure("pulse", "", "amplitude of the dominant sine pulse over gλ", _pulse_amplitude),
+        IntensityMeasure("p_pgv", "", "p·PGV/(gλ)", _velocity, _rest_velocity),
+        IntensityMeasure(
+            "pulse", "", "amplitude of the dominant sine pulse over gλ", _pulse_amplitude, _uplift
+        ),
         IntensityMeasure("sa1", "g", "spectral acceleration at 1 s, 5 % damping", _spectral),
     )
 }

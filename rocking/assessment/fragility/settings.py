@@ -6,6 +6,9 @@ from rocking.assessment.fragility.intensity import INTENSITY_MEASURES
 from rocking.errors import ConfigurationError
 from rocking.quantities import check_settings, setting
 
+FEWEST_RUNS = 20
+"""Of a multi-fidelity sample; with fewer the scatter of its corrections says nothing."""
+
 
 @dataclass(frozen=True)
 class FragilitySettings:
@@ -18,6 +21,11 @@ class FragilitySettings:
     )
     members: bool = setting(
         True, "whether each case is an ensemble, with the ranges above, instead of itself"
+    )
+    mechanism_runs: int | None = setting(
+        None,
+        "multi-fidelity: runs of each structure's mechanism, drawn where its block is in doubt; null: every case",
+        ge=FEWEST_RUNS,
     )
     hazard: str | None = setting(
         None, "CSV of a hazard curve with the columns intensity and annual_rate, ascending, or null"

@@ -2,13 +2,20 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import compress
 
 import numpy as np
-from scipy.stats import linregress
 
-from rocking.assessment.fragility import INTENSITY_MEASURES, Fragility, IncrementalDynamicAnalysis
+from rocking.assessment.fragility import (
+    INTENSITY_MEASURES,
+    Fragility,
+    IncrementalDynamicAnalysis,
+    IntensityMeasure,
+)
 from rocking.assessment.fragility.hazard import HazardRow, annual_rate
+from rocking.assessment.fragility.sufficiency import sufficiency
 from rocking.assessment.rows.shared import RECORD, STRUCTURE
+from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
 from rocking.structures import Mechanism
@@ -62,6 +69,9 @@ class FragilitySummaryRow(Row):
     rotation_ratio: float = column(_THRESHOLD)
     records: int = column("Records behind it")
     stations: int = column("Stations behind it")
+    mechanism_runs: int | None = column(
+        "Cases of the multi-fidelity sample that the mechanism was followed in; empty where it was in every case"
+    )
     median: float = column("Level that half of the records exceed it at, of the lognormal where it holds")
     median_low: float = column("Lower end of the 90 % interval of the median")
     median_high: float = column("Upper end of the 90 % interval of the median")
@@ -85,21 +95,23 @@ class IntensityMeasureRow(Row):
 
     structure: str = column(STRUCTURE)
     intensity_measure: str = column(_MEASURE)
-    records: int = column("Records that overturn it at some level")
+    records: int = column("Records that have the measure and overturn it at some level")
     efficiency: float = column(
         "Standard deviation of the logarithm of the level that first overturns; less is better"
     )
     sufficiency: float = column(
-        "p-value of a dependence of that level on PGV/PGA beside the measure; below 0.05 it does not suffice"
+        "p-value, by stations, of a dependence of that level on PGV/PGA; below 0.05 it does not suffice"
     )
 
 
 def ida_rows(structure: str, records: Sequence[str], found: IncrementalDynamicAnalysis) -> Iterator[IdaRow]:
-    """Yield a row for each record and level."""
+    """Yield a row for each record and level that was followed."""
     for name, station, intensity, by_level in zip(
         records, found.stations, found.intensities, found.rotation_ratios, strict=True
     ):
         for level, ratios in zip(found.levels.tolist(), by_level, strict=True):
+            if np.isnan(ratios).all():
+                continue
             yield IdaRow(
                 structure=structure,
                 record=name,
@@ -144,6 +156,7 @@ def fragility_summary_row(
         rotation_ratio=curve.threshold,
         records=len(curve.stations),
         stations=curve.independent,
+        mechanism_runs=curve.mechanism_runs,
         median=curve.median,
         median_low=curve.interval[0],
         median_high=curve.interval[1],
@@ -162,19 +175,24 @@ def intensity_measure_rows(
 ) -> Iterator[IntensityMeasureRow]:
     """Yield how well each measure orders the records, by the scale at which each first overturns the structure."""
     factors = _first_overturning(found)
-    known = np.isfinite(factors)
-    shapes = np.log([_velocity_over_acceleration(record) for record in records])[known]
+    shapes = np.log([_velocity_over_acceleration(record) for record in records])
     for measure in INTENSITY_MEASURES.values():
-        values = np.array([measure.of(record, mechanism) for record in records])
-        capacities = np.log(values * factors)[known]
-        enough = capacities.size > 3 and np.ptp(shapes) > 0
+        capacities = np.log([_or_nan(measure, record, mechanism) for record in records] * factors)
+        known = np.isfinite(capacities)
         yield IntensityMeasureRow(
             structure=structure,
             intensity_measure=measure.name,
             records=int(known.sum()),
-            efficiency=float(capacities.std(ddof=1)) if capacities.size > 1 else math.nan,
-            sufficiency=float(linregress(shapes, capacities).pvalue) if enough else math.nan,
+            efficiency=float(capacities[known].std(ddof=1)) if known.sum() > 1 else math.nan,
+            sufficiency=sufficiency(shapes[known], capacities[known], list(compress(found.stations, known))),
         )
+
+
+def _or_nan(measure: IntensityMeasure, record: Accelerogram, mechanism: Mechanism) -> float:
+    try:
+        return measure.of(record, mechanism)
+    except ConfigurationError:
+        return math.nan
 
 
 def _first_overturning(found: IncrementalDynamicAnalysis) -> np.ndarray:

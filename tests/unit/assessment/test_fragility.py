@@ -140,6 +140,17 @@ def test_a_cloud_keeps_the_records_as_they_are():
         ({"stations": ["one", "two"]}, "stations names 2, but must name one for each of 6"),
         ({"intensity_measure": "mmi"}, "intensity_measure is 'mmi', but must be one of pga, pgv"),
         ({"method": "cloud", "levels": [0.1, 0.2]}, "a cloud has those of its records"),
+        ({"method": "multi-fidelity"}, "mechanism_runs is None with the method multi-fidelity"),
+        ({"mechanism_runs": 100}, "mechanism_runs is 100 with the method scaling"),
+        (
+            {"method": "multi-fidelity", "mechanism_runs": 19, "levels": LEVELS},
+            "mechanism_runs is 19, but must lie between 20 and the 120 cases there are",
+        ),
+        (
+            {"method": "multi-fidelity", "mechanism_runs": 121, "levels": LEVELS},
+            "mechanism_runs is 121, but must lie between",
+        ),
+        ({"method": "multi-fidelity", "mechanism_runs": 50, "levels": [0.5, 0.3]}, "levels hold 0.3 after"),
     ],
 )
 def test_bad_input_is_one_sentence(changed, sentence):

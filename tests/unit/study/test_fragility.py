@@ -95,6 +95,48 @@ def test_one_station_is_refused_before_anything_is_written(tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize(
+    ("hazard", "sentence"),
+    [
+        ("intensity,annual_rate\n0.01,0.1\n10,0.2\n", "annual_rate must not rise"),
+        ("intensity,annual_rate\n10,0.1\n0.01,0.2\n", "intensity must ascend"),
+        ("intensity,annual_rate\n10,0.1\n", "must hold at least 2"),
+    ],
+)
+def test_a_hazard_that_is_none_is_refused_before_anything_is_written(tmp_path, hazard, sentence):
+    (tmp_path / "hazard.csv").write_text(hazard)
+    with pytest.raises(ConfigurationError, match=sentence):
+        write_fragility(_records(tmp_path, 3), _study(hazard=str(tmp_path / "hazard.csv")), tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_record_that_lacks_the_measure_costs_no_other(tmp_path):
+    still = (
+        b"made\nACCELERATION IN UNITS OF G\nmade\nNPTS= 200, DT= .0100 SEC\n" + b"0.0 0.0 0.0 0.0 0.0\n" * 40
+    )
+    (tmp_path / "still.AT2").write_bytes(still)
+    said = {"unit": "g", "event": "made", "station": "still", "folder": tmp_path}
+    record = CatalogueRecord("still", "still.AT2", sha256=hashlib.sha256(still).hexdigest(), **said)
+    (unused,) = write_fragility([record, *_records(tmp_path, 2)], _study(), tmp_path / "out")
+    assert unused.startswith("still: ")
+    rows = list(read_rows(FragilitySummaryRow, tmp_path / "out" / "fragility_summary.csv"))
+    assert {row.records for row in rows} == {2}
+
+
+def test_few_runs_of_the_mechanism_give_the_same_tables(tmp_path):
+    """Of every case the same; of a sample the curves of all levels, and a row for each case that was followed."""
+    records = _records(tmp_path, 3)
+    write_fragility(records, _study(mechanism_runs=40), tmp_path / "few")
+    rows = list(read_rows(IdaRow, tmp_path / "few" / "ida.csv"))
+    assert len(rows) == 2 * 40 and {row.members for row in rows} == {1}
+    summary = list(read_rows(FragilitySummaryRow, tmp_path / "few" / "fragility_summary.csv"))
+    assert {row.mechanism_runs for row in summary} == {40}
+    curves = list(read_rows(FragilityRow, tmp_path / "few" / "fragility.csv"))
+    assert len(curves) == 2 * 4 * 40 and all(0 <= row.probability <= 1 for row in curves)
+    measures = list(read_rows(IntensityMeasureRow, tmp_path / "few" / "intensity_measures.csv"))
+    assert {row.records for row in measures} == {3}, "of the block, which is followed in every case"
+
+
 def test_a_hazard_curve_gives_annual_rates(tmp_path):
     hazard = tmp_path / "hazard.csv"
     hazard.write_text("intensity,annual_rate\n0.01,0.1\n10,0.00001\n")
