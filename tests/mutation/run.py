@@ -1,0 +1,162 @@
+"""Mutate a sample of a group's code, run the group's tests on each mutant, and list those that no test notices.
+
+    python tests/mutation/run.py FOLDER [GROUP ...] [--again]
+
+works in FOLDER, on a clone of the last commit, and prints counts and the survivors' diffs. --again runs only the
+survivors of the last run in FOLDER, with the tests of the present commit. It needs the extra `mutation`.
+"""
+
+import argparse
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tomllib
+from os import environ
+from pathlib import Path
+
+HERE = Path(__file__).parent
+ROOT = HERE.parents[1]
+GROUPS = tomllib.loads((HERE / "groups.toml").read_text(encoding="utf-8"))
+SEED = 1
+PATIENCE = 1800
+"""s of the clock for a mutant; what ends an endless loop is the group's limit of CPU time."""
+
+ARITHMETIC = ("Add", "Sub", "Mul", "Div")
+NONSENSE = ("Is", "IsNot", "Invert", "Not")
+PASSED_OVER = ("RemoveDecorator", "VariableReplacer", "VariableInserter")
+
+
+def sensible(operator: str) -> bool:
+    """Whether an operator makes mistakes that one makes: no `is` for `<`, no `<<` for `+`, no lost decorator."""
+    name = operator.removeprefix("core/")
+    kind, _, change = name.partition("_")
+    if kind == "ReplaceBinaryOperator":
+        old, new = change.split("_")
+        return new in ARITHMETIC and old in (*ARITHMETIC, "FloorDiv", "Mod", "Pow")
+    if kind in ("ReplaceComparisonOperator", "ReplaceUnaryOperator"):
+        return not set(change.split("_")) & set(NONSENSE) or change == "Delete_Not"
+    return name not in PASSED_OVER
+
+
+def key(item) -> tuple[str, str, int]:
+    mutation = item.mutations[0]
+    return str(mutation.module_path), mutation.operator_name, mutation.occurrence
+
+
+def session_of(folder: Path, group: str) -> Path:
+    return folder / f"{group}.sqlite"
+
+
+def prepare(folder: Path, group: str, survivors: set | None) -> None:
+    """Write the session: of all mutants the sample, or the given ones."""
+    from cosmic_ray.commands import init
+    from cosmic_ray.work_db import use_db
+    from cosmic_ray.work_item import WorkerOutcome, WorkResult
+
+    asked = GROUPS[group]
+    modules = sorted(path for pattern in asked["modules"] for path in (folder / "tree").glob(pattern))
+    paths = [path.relative_to(folder / "tree") for path in modules]
+    with use_db(session_of(folder, group)) as session:
+        init(paths, session, {})
+        items = sorted(session.work_items, key=key)
+        possible = [item for item in items if sensible(item.mutations[0].operator_name)]
+        chosen = random.Random(SEED).sample(possible, min(asked["sample"], len(possible)))
+        if survivors is not None:
+            chosen = [item for item in possible if key(item) in survivors]
+        left_out = {item.job_id for item in items} - {item.job_id for item in chosen}
+        session.set_multiple_results(left_out, WorkResult(worker_outcome=WorkerOutcome.SKIPPED))
+    print(f"{group}: {len(possible)} possible mutants, {len(chosen)} to run", flush=True)
+
+
+def survivors_of(folder: Path, group: str) -> set:
+    from cosmic_ray.work_db import use_db
+
+    with use_db(session_of(folder, group)) as session:
+        return {key(i) for i, result in session.completed_work_items if result.test_outcome == "survived"}
+
+
+def execute(folder: Path, group: str) -> None:
+    """Run the tests on each mutant of the session, in the clone."""
+    config = folder / f"{group}.toml"
+    command = f"{sys.executable} {HERE / 'run.py'} {folder} {group} --one"
+    config.write_text(
+        f"[cosmic-ray]\nmodule-path = []\ntimeout = {PATIENCE}.0\nexcluded-modules = []\n"
+        f'test-command = "{command}"\n[cosmic-ray.distributor]\nname = "local"\n'
+    )
+    cosmic_ray = str(Path(sys.executable).with_name("cosmic-ray"))
+    subprocess.run([cosmic_ray, "exec", config, session_of(folder, group)], cwd=folder / "tree", check=True)
+
+
+def bites(folder: Path, group: str) -> int:
+    """Run the group's tests on the tree as it stands: interpreted where that is quick, and compiled afresh."""
+    asked, tree, cache = GROUPS[group], folder / "tree", folder / "numba"
+    for module in (path for pattern in asked["modules"] for path in tree.glob(pattern)):
+        for compiled in cache.glob(f"*/{module.stem}.*"):
+            compiled.unlink()
+    for mode in ("interpreted", "compiled"):
+        surroundings = environ | {"PYTHONPATH": str(tree), "NUMBA_CACHE_DIR": str(cache)}
+        surroundings["NUMBA_DISABLE_JIT"] = str(int(mode == "interpreted"))
+        if mode not in asked:
+            continue
+        # Plain Python divides as numpy does in compiled code, but warns.
+        quiet = ["-W", "ignore::RuntimeWarning"] if mode == "interpreted" else []
+        python = environ.get("ROCKING_PYTHON", sys.executable)
+        command = [python, "-m", "pytest", "-qx", "-m", "not slow", *quiet, *asked[mode]]
+        limit = asked["cpu_seconds"]
+        done = subprocess.run(
+            command,
+            cwd=tree,
+            env=surroundings,
+            check=False,
+            preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5)),
+        )
+        if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+            print("TIME-OUT")
+        if done.returncode:
+            return 1
+    return 0
+
+
+def tell(folder: Path, group: str) -> None:
+    from cosmic_ray.work_db import use_db
+
+    with use_db(session_of(folder, group)) as session:
+        done = [(i, r) for i, r in session.completed_work_items if r.worker_outcome == "normal"]
+    survived = [(item, result) for item, result in done if result.test_outcome == "survived"]
+    late = sum("TIME-OUT" in result.output or result.output == "timeout" for _, result in done)
+    killed = len(done) - len(survived) - late
+    print(f"{group}: {len(done)} run, {killed} killed, {late} timed out, {len(survived)} survived")
+    for item, result in survived:
+        print(f"\n{item.mutations[0].operator_name} in {item.mutations[0].definition_name}\n{result.diff}")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("groups", nargs="*", default=list(GROUPS))
+    for flag in ("--again", "--one", "--tell"):
+        parser.add_argument(flag, action="store_true")
+    options = parser.parse_args()
+    folder = options.folder.resolve()
+    if options.one:
+        return bites(folder, options.groups[0])
+    folder.mkdir(parents=True, exist_ok=True)
+    for group in options.groups:
+        if not options.tell:
+            survivors = survivors_of(folder, group) if options.again else None
+            shutil.rmtree(folder / "tree", ignore_errors=True)
+            subprocess.run(["git", "clone", "--quiet", ROOT, folder / "tree"], check=True)
+            if bites(folder, group):
+                raise SystemExit(f"{group}: its tests fail on the code as it is")
+            session_of(folder, group).unlink(missing_ok=True)
+            prepare(folder, group, survivors)
+            execute(folder, group)
+        tell(folder, group)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
