@@ -40,6 +40,11 @@ include: "workflow/rules/documentation.smk"
 PLAN.hashes.save()
 
 
+# Not before: a dry run leaves the catalogue as it is.
+onstart:
+    PLAN.begin()
+
+
 # The tables stand all the same, and say why; but a study of which nothing could be read has not succeeded.
 onsuccess:
     check_any_read(SUMMARY, PLAN.records)

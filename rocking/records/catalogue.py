@@ -15,6 +15,7 @@ from rocking.records.channels import is_unnamed
 from rocking.records.directions import azimuth, is_vertical
 from rocking.records.fetch import fetch, inventory_of
 from rocking.records.folder import catalogue_from_folder, write_catalogue_rows
+from rocking.records.plausibility import scaled
 from rocking.records.read import plain, read
 
 __all__ = [
@@ -186,7 +187,7 @@ def _named(channel: Accelerogram, component: str) -> Accelerogram:
 
 def as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
     """Return a channel with what its row says of name, scale, station, event, corner, magnitude and distance."""
-    channel = channel.scaled(record.scale_factor) if record.scale_factor != 1 else channel
+    channel = scaled(channel, record.scale_factor) if record.scale_factor != 1 else channel
     return replace(
         channel,
         source=replace(channel.source, path=record.file),

@@ -3,7 +3,7 @@
 import csv
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import StringIO
 from pathlib import Path
 
@@ -71,12 +71,21 @@ def list_folder(
         raise RecordError(f"{folder}: this is no folder; give the folder that holds the records.")
     listed: list[ListedFile] = []
     taken: set[str] = set()
+    known: dict[str, str] = {}
     for path in sorted(p for p in folder.rglob("*") if p.is_file() and not _passed_over(p)):
         found = _listed(path, folder, unit, time_step, taken)
-        listed.append(found)
         if found.row:
             taken.add(found.row["id"].lower())
+            first = known.setdefault(found.row["sha256"], found.file)
+            found = found if first == found.file else _repeated(found, found.row, first)
+        listed.append(found)
     return listed
+
+
+def _repeated(found: ListedFile, row: Row, first: str) -> ListedFile:
+    sentence = f"Its content is that of {first}: as two records it would count twice."
+    note = {"note": f"{row['note']} {sentence}"}
+    return replace(found, row=row | note, doubts=(*found.doubts, sentence))
 
 
 def catalogue_from_folder(

@@ -2,6 +2,7 @@
 
 import csv
 import hashlib
+from collections.abc import Iterable
 from dataclasses import replace
 from io import StringIO
 from pathlib import Path
@@ -35,6 +36,39 @@ def fill_hashes(path: str | Path, mirror: str | Path | None = None) -> tuple[str
     writer.writerows(row | found.get(row["id"].strip(), {}) for row in rows)
     write_whole(path, text.getvalue().encode())
     return tuple(found)
+
+
+def filled(record: CatalogueRecord, mirror: str | Path | None = None) -> CatalogueRecord:
+    """Return `record` as it stands in the catalogue once fill_hashes has been there."""
+    cells = _blanks(record, mirror)
+    return replace(
+        record,
+        sha256=cells.get("sha256", record.sha256),
+        vertical_sha256=cells.get("vertical_sha256", record.vertical_sha256),
+    )
+
+
+def repeated(records: Iterable[CatalogueRecord]) -> tuple[str, ...]:
+    """Return a sentence for each record that is an earlier one again: one content and scale, a component in common."""
+    sentences: list[str] = []
+    known: dict[tuple[str, float], list[CatalogueRecord]] = {}
+    for record in records:
+        if not record.sha256:
+            continue
+        same = known.setdefault((record.sha256, record.scale_factor), [])
+        if earlier := next((other for other in same if _overlap(record, other)), None):
+            sentences.append(
+                f"{record.id} ({record.file}): its content is that of {earlier.id} ({earlier.file}), "
+                "so that one motion counts twice; leave one of them out."
+            )
+        same.append(record)
+    return tuple(sentences)
+
+
+def _overlap(one: CatalogueRecord, other: CatalogueRecord) -> bool:
+    """Whether two rows of the same content take a component in common; a row that names none takes all."""
+    chosen = set(one.components), set(other.components)
+    return not all(chosen) or bool(chosen[0] & chosen[1])
 
 
 def _has(found: dict[str, dict[str, str]], name: str) -> bool:

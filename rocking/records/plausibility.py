@@ -84,6 +84,19 @@ def _peak_in_place(record: Accelerogram, magnitudes: np.ndarray, at: float) -> A
     return replace(record, warnings=(*record.warnings, sentence))
 
 
+def scaled(record: Accelerogram, factor: float) -> Accelerogram:
+    """Return `record` multiplied by `factor`, with a warning where that, and not the file, takes its peak above 3 g."""
+    enlarged = record.scaled(factor)
+    peak = enlarged.peak_acceleration
+    if peak <= max(RARE_PEAK, record.peak_acceleration):
+        return enlarged
+    sentence = (
+        f"Multiplied by {factor:g} the peak acceleration is {peak / GRAVITY:.3g} g, above 3 g: "
+        "almost no ground moves so; check the factor."
+    )
+    return replace(enlarged, warnings=(*enlarged.warnings, sentence))
+
+
 def pass_limits(record: Accelerogram) -> tuple[str, ...]:
     """Return warnings on a peak that is below 1e-5 g or above 3 g; raise RecordError when it is above 5 g."""
     peak = record.peak_acceleration / GRAVITY

@@ -133,6 +133,7 @@ def _run(options: argparse.Namespace) -> int:
 
 def _read(options: argparse.Namespace) -> None:
     from rocking.records import read
+    from rocking.records.plausibility import scaled
 
     try:
         records = read(options.file, unit=options.unit, time_step=options.time_step)
@@ -141,7 +142,7 @@ def _read(options: argparse.Namespace) -> None:
             print("\n".join(error.details))
         raise
     for found in records:
-        accelerogram = found if options.scale == 1 else found.scaled(options.scale)
+        accelerogram = found if options.scale == 1 else scaled(found, options.scale)
         peak = accelerogram.peak_acceleration
         print(
             f"{accelerogram.source.format}: {accelerogram.event or 'event not named'}, "

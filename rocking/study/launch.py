@@ -15,7 +15,7 @@ import yaml
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted
 from rocking.study.config_file import named_files
-from rocking.study.locks import is_locked, is_stale, mark, only_run, unmark
+from rocking.study.locks import ends_with, is_locked, is_stale, mark, only_run, unmark
 from rocking.study.outcome import CameOf, closing_lines, paths_to_read
 from rocking.study.plan import Plan, make_plan
 from rocking.study.progress import NewLines, Progress, finished_rule, fitting, planned_jobs
@@ -134,7 +134,12 @@ def _watched(folder: Path, plan: Plan, command: Sequence[str], target: str | Non
     results = folder / plan.settings.results
     log = results / "summary" / "logs" / "run.log"
     log.parent.mkdir(parents=True, exist_ok=True)
-    print(f"{counted(len(plan.records), 'record')}; log of the scheduler: {log}", flush=True)
+    print(
+        *plan.doubts,
+        f"{counted(len(plan.records), 'record')}; log of the scheduler: {log}",
+        sep="\n",
+        flush=True,
+    )
     progress = Progress(_records_by_rule(plan), max(map(len, plan.records)))
     jobs = NewLines(log.parent, "[!r]*.log", "r[!u]*.log")
     stopped = _Stop()
@@ -146,6 +151,7 @@ def _watched(folder: Path, plan: Plan, command: Sequence[str], target: str | Non
             env=_environment(),
             pass_fds=[held],
             start_new_session=True,
+            preexec_fn=ends_with(os.getpid()),
         )
         mark(folder, process.pid)
         _follow(process, log, jobs, progress, stopped)

@@ -1,8 +1,12 @@
 """One run at a time in a study: who works there, and whether a lock was left by a run that is no more."""
 
+import ctypes
 import fcntl
 import json
+import os
+import signal
 import socket
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -48,6 +52,25 @@ def is_stale(folder: Path) -> bool:
     while any(_working(folder, _is_job)):
         time.sleep(_POLL)
     return True
+
+
+def ends_with(parent: int) -> Callable[[], None]:
+    """Return what a process calls at birth to be asked to end when `parent`, which starts it, dies of whatever cause.
+
+    Linux tells it by a signal; elsewhere it does not learn of it, and works to its end.
+    """
+    tell = getattr(ctypes.CDLL(None), "prctl", None) if sys.platform == "linux" else None
+
+    def ask() -> None:
+        if tell is not None:
+            tell(_PR_SET_PDEATHSIG, signal.SIGTERM)
+            if os.getppid() != parent:  # it died before
+                os.kill(os.getpid(), signal.SIGTERM)
+
+    return ask
+
+
+_PR_SET_PDEATHSIG = 1
 
 
 def mark(folder: Path, scheduler: int) -> None:

@@ -5,14 +5,13 @@ import json
 import math
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records.catalogue import CatalogueRecord, load_catalogue
-from rocking.records.hashes import fill_hashes
+from rocking.records.hashes import fill_hashes, filled, repeated
 from rocking.structures import load_structures
 from rocking.study.config_file import named_files, read_settings
 from rocking.study.inputs import ContentHashes, files_sha256, structures_sha256
@@ -33,6 +32,15 @@ class Plan:
     structures_sha256: str
     package_sha256: str
     hashes: ContentHashes
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What to tell the user before the run, one sentence each."""
+        return repeated(self.records.values())
+
+    def begin(self) -> None:
+        """Write the hashes that the catalogue leaves blank: the files are checked against them from now on."""
+        fill_hashes(self.settings.catalogue, self.settings.mirror)
 
     def job(self, name: str) -> tuple[CatalogueRecord, ...]:
         """The records of one job."""
@@ -66,27 +74,26 @@ _CHANGE_NO_NUMBER = (
 
 
 def make_plan(config: Mapping[str, Any]) -> Plan:
-    """Check `config`, the catalogue and the structures it names, and share out the records.
+    """Check `config`, the catalogue and the structures it names, and share out the records; write nothing.
 
     Raises ConfigurationError with every defect of the three, and of the place for the results, in one message.
     """
     defects: list[str] = []
     settings = _collect(defects, lambda: read_settings(config)) or named_files(config)
     structures = Path(settings.structures)
-    with suppress(RockingError):  # what is wrong with the catalogue is told by loading it
-        fill_hashes(settings.catalogue, settings.mirror)
-    records = _collect(defects, lambda: load_catalogue(settings.catalogue)) or ()
+    listed = _collect(defects, lambda: load_catalogue(settings.catalogue)) or ()
+    records = [filled(record, settings.mirror) for record in listed]
     _collect(defects, lambda: load_structures(structures))
     _collect(defects, lambda: check_writable(Path(settings.results)))
     if defects:
         raise ConfigurationError("\n".join(defects))
-    package, listed = package_sha256(leave_out=_CHANGE_NO_NUMBER), structures_sha256(structures)
+    package, described = package_sha256(leave_out=_CHANGE_NO_NUMBER), structures_sha256(structures)
     return Plan(
         settings=settings,
         records={record.id: record for record in records},
         jobs=share_out((record.id for record in records), settings.records_per_job),
-        settings_sha256=settings_sha256(settings, listed, package),
-        structures_sha256=listed,
+        settings_sha256=settings_sha256(settings, described, package),
+        structures_sha256=described,
         package_sha256=package,
         hashes=ContentHashes(_HASHES),
     )

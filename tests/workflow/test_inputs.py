@@ -36,6 +36,28 @@ def test_a_record_that_changed_is_seen_whatever_its_date_and_costs_no_table(fini
     assert _planned(study) == [], "the second run has nothing to do, in ten years as now"
 
 
+def test_a_dry_run_leaves_the_study_as_it_is_and_a_run_fills_in_the_hash(start, tmp_path: Path) -> None:
+    study = start.copy_to(tmp_path / "study")
+    rows = study.rows()
+    hashes = [row["sha256"] for row in rows]
+    study.write_catalogue([row | {"sha256": ""} for row in rows])
+
+    def contents() -> dict[Path, bytes]:
+        """Of all but what snakemake keeps for itself."""
+        own = (path for path in study.folder.rglob("*") if ".snakemake" not in path.parts)
+        return {path: path.read_bytes() for path in own if path.is_file()}
+
+    before = contents()
+    assert "summarise" in _planned(study)
+    told = study.rocking("run", str(study.folder), "--", "--dry-run")
+    assert told.returncode == 0, told.stderr
+    assert contents() == before
+    done = study.run()
+    assert done.returncode == 0, done.stdout
+    assert [row["sha256"] for row in study.rows()] == hashes
+    assert _planned(study) == []
+
+
 def test_a_date_or_a_comment_computes_nothing_and_a_number_everything(finished, tmp_path: Path) -> None:
     study = finished.copy_to(tmp_path / "study")
     structures = study.folder / "structures.yaml"

@@ -69,6 +69,24 @@ def test_one_request_to_stop_ends_in_order(start, tmp_path: Path, number: int, s
     assert not _schedulers(study), "snakemake or a job is still there"
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells a process that its parent died")
+def test_the_scheduler_ends_in_order_when_the_command_alone_is_killed(start, tmp_path: Path) -> None:
+    study = start.copy_to(tmp_path / "study")
+    process = _started(study)
+    try:
+        _wait(lambda: _jobs_run(study), process)
+        process.kill()
+        process.wait(timeout=60)
+        deadline = time.monotonic() + 200
+        while _schedulers(study):
+            assert time.monotonic() < deadline, "snakemake works on without its command"
+            time.sleep(0.1)
+    finally:
+        _kill_all(study, process)
+    assert not is_locked(study.folder) and not study.unfinished()
+    assert not (study.results / "summary" / "provenance.json").exists(), "it took up all further jobs"
+
+
 def test_after_a_kill_the_same_command_goes_on_to_the_same_bytes(finished, start, tmp_path: Path) -> None:
     """Killed with all its processes: the first time in the midst of the first jobs, then at random moments."""
     moment = random.Random(8)

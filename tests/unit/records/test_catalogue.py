@@ -11,7 +11,7 @@ import threading
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -23,7 +23,7 @@ from rocking.records import fetch as fetching
 from rocking.records.catalogue import COLUMNS, catalogue_from_folder, write_catalogue_rows
 from rocking.records.fetch import fetch, source_address
 from rocking.records.folder import list_folder
-from rocking.records.hashes import fill_hashes
+from rocking.records.hashes import fill_hashes, repeated
 from rocking.records.listing import listing_text
 
 TABLE = "time,NS (gal),EW (gal),UD (gal)\n" + "".join(
@@ -392,6 +392,33 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
     text = listing_text(list_folder(folder))
     assert len(text.splitlines()) == 1 + 3 + 1 + 1 + 1 + 1 and "to fill: unit, time_step_s" in text
     assert "table.csv" in text and "columns of numbers" in text and "0.00408" in text
+
+
+def test_a_file_under_two_names_is_told_where_it_comes_again(folder: Path) -> None:
+    named(folder, "again.csv")
+    named(folder, "other.csv", TABLE.replace("1,", "2,", 1))
+    listed = {found.file: found for found in list_folder(folder)}
+    assert [name for name, found in listed.items() if found.doubts] == ["table.csv"]
+    assert "Its content is that of again.csv" in listed["table.csv"].status
+    assert listed["table.csv"].row and "again.csv" in listed["table.csv"].row["note"]
+
+
+def test_rows_that_are_one_motion_are_told() -> None:
+    """Again under another name it is; another component, factor or content of the same name it is not."""
+
+    def sentences(**cells: Any) -> tuple[str, ...]:
+        first = CatalogueRecord("one", "a.csv", SHA, component="NS;EW")
+        return repeated([first, dataclasses.replace(first, **({"id": "two", "file": "b.csv"} | cells))])
+
+    assert ["two (b.csv)" in s and "one (a.csv)" in s for s in sentences()] == [True]
+    assert len(sentences(component="")) == len(sentences(component="UD;EW")) == 1
+    for other in ({"component": "UD"}, {"scale_factor": 2.0}, {"sha256": "1" * 64}, {"sha256": ""}):
+        assert sentences(**other) == ()
+
+
+@pytest.mark.parametrize("name", ["catalogue.csv", "near_fault.csv", "fema_p695.csv"])
+def test_no_shipped_catalogue_holds_a_motion_twice(name: str) -> None:
+    assert repeated(load_catalogue(SHIPPED / name)) == ()
 
 
 def test_a_file_without_a_unit_keeps_a_row_to_fill(tmp_path: Path) -> None:

@@ -72,6 +72,14 @@ def test_the_version_is_told(capsys):
     assert capsys.readouterr().out == f"rocking {version('rocking')}\n"
 
 
+@pytest.mark.parametrize(("scale", "warned"), [("5.9", False), ("6.1", True), ("-80", True), ("1", False)])
+def test_a_factor_that_takes_the_peak_above_three_g_is_told(record, capsys, scale, warned):
+    """The file reaches 0.5 g: six times that is the limit."""
+    assert main(["read", str(record), "--unit", "g", f"--scale={scale}"]) == 0
+    text = capsys.readouterr().out
+    assert (f"Multiplied by {float(scale):g} the peak acceleration is" in text) == warned
+
+
 def test_read_says_what_a_file_is(record, capsys):
     assert main(["read", str(record), "--unit", "g"]) == 0
     text = capsys.readouterr().out

@@ -84,8 +84,13 @@ def test_a_hash_that_is_none_is_refused(tmp_path: Path) -> None:
 def test_a_blank_hash_is_filled_in_and_checked_from_then_on(tmp_path: Path) -> None:
     (tmp_path / "a.AT2").write_bytes(b"one")
     settings = _write(tmp_path, "a,a.AT2,\nb,b.AT2,\n")
+    before = Path(str(settings["catalogue"])).read_bytes()
     first = make_plan(settings)
+    assert Path(str(settings["catalogue"])).read_bytes() == before, "a plan alone writes nothing"
     assert first.records["a"].sha256 == hashlib.sha256(b"one").hexdigest() and first.records["b"].sha256 == ""
+    first.begin()
+    (job,) = first.jobs
+    planned_records(Path(str(settings["catalogue"])), first.jobs[job], first.records_sha256(job))
     (tmp_path / "a.AT2").write_bytes(b"two")
     assert make_plan(settings).records["a"].sha256 == first.records["a"].sha256
 
