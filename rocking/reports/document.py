@@ -5,13 +5,11 @@ from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
-import matplotlib
 import typst
 
-from rocking.reports.style import glyphs
+from rocking.reports.paper.letters import FONT_FOLDER, glyphs
 
 _FOLDER = Path(__file__).parent
-_FONT_FOLDER = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 
 
 def compile_document(template: str | Path, data: Mapping[str, object]) -> bytes:
@@ -37,7 +35,7 @@ def compile_document(template: str | Path, data: Mapping[str, object]) -> bytes:
 @cache
 def _fonts(system: bool) -> typst.Fonts:
     """The fonts that typst and matplotlib carry, and the machine's where another script needs them."""
-    return typst.Fonts(include_system_fonts=system, font_paths=[_FONT_FOLDER])
+    return typst.Fonts(include_system_fonts=system, font_paths=[FONT_FOLDER])
 
 
 @cache

@@ -14,6 +14,7 @@ from rocking.motion.response import Response
 from rocking.pulses.analysis import PulseAnalysis
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
+from rocking.reports.axes_pen import AxesPen
 from rocking.reports.dimension_lines import draw_dimensions, draw_marks
 from rocking.structures.capacity import CapacityCurve
 from rocking.structures.mechanism import Mechanism, Side
@@ -175,8 +176,8 @@ def plot_structure(
             axes.fill(*outline.T, fill=False, linewidth=0.8, linestyle="--")
         axes.plot(*structure.hinges(rotation).T, "o", color="white", markeredgecolor="black")
     if dimensions:
-        draw_dimensions(axes, structure.dimensions(), np.transpose, values=False)
-    draw_marks(axes, structure.marks(rotation), np.transpose, values=not dimensions)
+        draw_dimensions(AxesPen(axes), structure.dimensions(), np.transpose, values=False)
+    draw_marks(AxesPen(axes), structure.marks(rotation), np.transpose, values=not dimensions)
     if not rotation and len(structure.thrust_line()):
         axes.plot(*structure.thrust_line().T, color="C3", linewidth=1.0, label="thrust line at uplift")
         axes.legend(loc="upper right")

@@ -1,23 +1,18 @@
-"""The one style of every figure, and how a figure becomes bytes."""
+"""The one style of the figures that matplotlib draws, and how such a figure becomes bytes."""
 
 import io
-import itertools
 from collections.abc import Callable
 from functools import cache, wraps
 from pathlib import Path
 from typing import ParamSpec, TypeVar
 
 import matplotlib
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.font_manager import get_font
 from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 
-TEXT_WIDTH = 170.0
-"""Width of the text on the page, mm; a figure is set at its own size, so its type keeps its size."""
-MAXIMUM_POINTS = 4000
-"""Points of the longest trace that is drawn."""
+from rocking.reports.paper.canvas import TEXT_WIDTH
+
 Margins = tuple[float, float, float, float]
 MARGINS: Margins = (14.0, 2.0, 8.5, 4.0)
 """Left, right, bottom, top, mm: room for tick labels and one line of axis label."""
@@ -61,40 +56,6 @@ def svg(figure: Figure) -> str:
     stream = io.StringIO()
     figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     return stream.getvalue()
-
-
-def thinned(
-    times: np.ndarray, values: np.ndarray, limit: int = MAXIMUM_POINTS
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the envelope of a trace in at most `limit` points: least and largest value of each stretch, in order."""
-    if values.size <= limit:
-        return times, values
-    edges = np.linspace(0, values.size, limit // 2 + 1).astype(int)
-    low = [begin + int(values[begin:end].argmin()) for begin, end in itertools.pairwise(edges)]
-    high = [begin + int(values[begin:end].argmax()) for begin, end in itertools.pairwise(edges)]
-    kept = np.unique(np.concatenate([low, high]))
-    return times[kept], values[kept]
-
-
-@cache
-def glyphs() -> frozenset[int]:
-    """Return the code points that the fonts of the figures and of the page hold."""
-    return frozenset(
-        get_font(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / "DejaVuSans.ttf").get_charmap()
-    )
-
-
-def elided(text: str, length: float) -> str:
-    """Return `text` as a figure can show it: cut to the width of about `length` small letters, the last one an
-    ellipsis if something was cut, and a box for each character that no font of the figure holds.
-    """
-    width = 0.0
-    shown = "".join(letter if ord(letter) in glyphs() else "□" for letter in text)
-    for place, letter in enumerate(shown):
-        width += 1.0 if letter.isascii() and not letter.isupper() else 1.6
-        if width > length:
-            return shown[: max(place - 1, 0)] + "…"
-    return shown
 
 
 def plain_logarithmic(panel: Axes, which: str) -> None:

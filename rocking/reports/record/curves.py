@@ -13,15 +13,12 @@ from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
-from rocking.reports.record.motion_figures import (
-    History,
-    ground_motion,
-    response_histories,
-    rocking_spectrum_figure,
-)
+from rocking.reports.paper.canvas import TEXT_WIDTH
+from rocking.reports.record.ground_figure import ground_motion
+from rocking.reports.record.history_figure import History, response_histories
 from rocking.reports.record.pulse_figures import energy_map, orientation
+from rocking.reports.record.spectrum_figure import rocking_spectrum_figure
 from rocking.reports.record.structure_figures import structure_drawings
-from rocking.reports.style import TEXT_WIDTH, svg
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.structure import Structure
 
@@ -50,7 +47,7 @@ def motion_picture(
     figure = ground_motion(accelerogram, pulses[0] if pulses else None, uplift, height)
     component = printing.words(accelerogram.component)
     alt = f"Time histories of component {component}: acceleration, pulse and residual."
-    return {"component": component, "svg": svg(figure), "alt": alt}
+    return {"component": component, "svg": figure.svg(), "alt": alt}
 
 
 def ranked_pulses(rows: Sequence[PulseRow]) -> list[Pulse]:
@@ -69,7 +66,7 @@ def map_picture(accelerogram: Accelerogram, rows: Sequence[PulseRow], width: flo
     figure = energy_map(starts * accelerogram.time_step, 1 / frequencies, pooled, ranked_pulses(rows), width)
     component = printing.words(accelerogram.component)
     alt = f"Map of the energy that one sine pulse explains in component {component}, over onset and period."
-    return {"component": component, "svg": svg(figure), "alt": alt}
+    return {"component": component, "svg": figure.svg(), "alt": alt}
 
 
 def orientation_picture(accelerograms: Sequence[Accelerogram]) -> Picture | None:
@@ -88,7 +85,7 @@ def orientation_picture(accelerograms: Sequence[Accelerogram]) -> Picture | None
     names = printing.words(horizontal[0].component), printing.words(horizontal[1].component)
     figure = orientation(angles, oriented.gain(angles), oriented.angle, names)
     alt = f"Polar plot of the energy of the dominant pulse along every axis of components {names[0]}, {names[1]}."
-    return {"svg": svg(figure), "alt": alt}
+    return {"svg": figure.svg(), "alt": alt}
 
 
 def drawing_pictures(structures: Mapping[str, Structure], numbers: Mapping[str, str]) -> list[Picture]:
@@ -101,7 +98,7 @@ def drawing_pictures(structures: Mapping[str, Structure], numbers: Mapping[str, 
     if len(drawn) > len(shown):
         caption += " The others are like these in kind and stand in the table alone."
     alt = f"Drawings to scale of {printing.counted(len(shown), 'structure')} at rest and displaced, with hinges."
-    return [{"svg": svg(structure_drawings(shown)), "alt": alt, "caption": caption}]
+    return [{"svg": structure_drawings(shown).svg(), "alt": alt, "caption": caption}]
 
 
 def history_picture(
@@ -139,7 +136,7 @@ def history_picture(
     )
     component = printing.words(accelerogram.component)
     alt = f"Rotation histories of {printing.counted(len(chosen), 'structure')} under component {component}."
-    return {"component": component, "svg": svg(figure), "alt": alt, "note": note}
+    return {"component": component, "svg": figure.svg(), "alt": alt, "note": note}
 
 
 def _demand(row: ComparisonRow) -> tuple[bool, float]:
@@ -184,7 +181,7 @@ def spectrum_picture(
     alt = f"Rocking spectrum of component {component} over p and uplift acceleration, with the structures."
     return {
         "component": component,
-        "svg": svg(figure),
+        "svg": figure.svg(),
         "alt": alt,
         "restitution": printing.number(restitution),
     }

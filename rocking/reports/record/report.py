@@ -1,14 +1,13 @@
 """The report of one record: what an engineer hands to a client."""
 
-import gc
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rocking.assessment.rows import RecordRow, RecordTables, structure_rows
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
 from rocking.reports.document import compile_document
+from rocking.reports.paper.canvas import TEXT_WIDTH
 from rocking.reports.record import curves as record_curves
 from rocking.reports.record import page_one
 from rocking.reports.record import sheet as record_sheet
@@ -16,7 +15,6 @@ from rocking.reports.record import tables as record_tables
 from rocking.reports.record import variations as record_variations
 from rocking.reports.record import verdict as record_verdict
 from rocking.reports.record.sheet_figures import SHEET_HEIGHTS
-from rocking.reports.style import TEXT_WIDTH
 from rocking.structures.structure import Structure
 
 
@@ -34,23 +32,8 @@ def record_report(
     `accelerograms` and the mechanisms of `structures` (by name). settings: at least tolerance and acceleration_scale.
     vertical: the vertical component, if it acted on the responses of the tables.
     """
-    with _collected_at_the_end():
-        return compile_document(
-            "record/record.typ", record_data(record, accelerograms, structures, tables, settings, vertical)
-        )
-
-
-@contextmanager
-def _collected_at_the_end() -> Iterator[None]:
-    """Collect the figures of a report at once: to look for garbage while they are drawn takes a third of the time."""
-    collects = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if collects:
-            gc.enable()
-            gc.collect(0)
+    data = record_data(record, accelerograms, structures, tables, settings, vertical)
+    return compile_document("record/record.typ", data)
 
 
 def failure_report(record: str, message: str) -> bytes:

@@ -10,7 +10,6 @@ from rocking.reports.printing import number, with_unit, words
 from rocking.reports.record.curves import Picture, placed_structures, ranked_pulses
 from rocking.reports.record.sheet_figures import RecordSheet, record_sheet
 from rocking.reports.record.tables import facts_table
-from rocking.reports.style import svg
 
 
 def sheet_picture(
@@ -39,7 +38,7 @@ def sheet_picture(
     )
     component = words(accelerogram.component)
     alt = f"Response spectrum, pulse, Husid plot, velocity and displacement of component {component}."
-    return {"component": component, "svg": svg(figure), "alt": alt}
+    return {"component": component, "svg": figure.svg(), "alt": alt}
 
 
 def sheet_table(rows: Sequence[RecordRow]) -> dict[str, object]:

@@ -2,14 +2,14 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from textwrap import wrap
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from rocking.reports.dimension_lines import draw_dimensions, draw_marks
-from rocking.reports.style import TEXT_WIDTH, elided, new_figure, styled
+from rocking.reports.dimension_lines import Across, Along, draw_dimensions, draw_marks
+from rocking.reports.paper.canvas import SMALL, TEXT_WIDTH, Canvas
+from rocking.reports.paper.letters import elided
 from rocking.structures.structure import Structure
 
 _COLUMNS = 5
@@ -21,42 +21,71 @@ _DRAWN_SHARE = 0.6
 """Share of the critical rotation at which the displaced structure is drawn; more where that is hard to see."""
 _LINE = 25
 """Characters of a line below a label."""
-_SMALL = 7.0
-"""Size of the letters of dimensions and of what they measure, points."""
 _SEEN_ROTATION, _MOST_ROTATION = 0.12, 0.3
 """Rotation that can be seen at this size, and beyond which a structure is hard to recognise, rad."""
+_THIN, _LOAD, _TIE = "#595959", "#009E73", "#0072B2"
 
 
-@styled
-def structure_drawings(structures: Sequence[tuple[str, Structure]]) -> Figure:
+@dataclass(frozen=True)
+class _Paper:
+    """The pen of dimension lines and marks on paper; places are in mm, y upwards from the upper edge."""
+
+    canvas: Canvas
+
+    def line(self, line: np.ndarray, colour: str, width: float) -> None:
+        self.canvas.path(_down(line), colour, width)
+
+    def thin(self, line: np.ndarray) -> None:
+        self.line(line, _THIN, 0.4)
+
+    def head(self, tip: np.ndarray, before: np.ndarray) -> None:
+        self._head(tip, before, 1.2, _THIN)
+
+    def arrow(self, tail: np.ndarray, tip: np.ndarray) -> None:
+        self.line(np.stack([tail, tip], axis=1), _LOAD, 1.0)
+        self._head(tip, tail, 2.2, _LOAD)
+
+    def tie(self, ends: np.ndarray) -> None:
+        self.line(ends, _TIE, 1.0)
+        for place, half in zip(ends.T, (1.2, 0.9), strict=True):
+            up = np.array([0, half])
+            self.line(np.stack([place - up, place + up], axis=1), _TIE, 1.6)
+
+    def letters(self, place: np.ndarray, text: str, across: Across, along: Along, paper: bool) -> None:
+        air = 0.5 * np.array([{"left": 1, "middle": 0, "right": -1}[across], 0])
+        self.canvas.text(
+            _down((place + air)[:, np.newaxis])[0], text.strip(), SMALL, across, along, paper=paper
+        )
+
+    def _head(self, tip: np.ndarray, before: np.ndarray, length: float, colour: str) -> None:
+        along = (before - tip) / max(float(np.hypot(*(before - tip))), 1e-12) * length
+        side = 0.3 * np.array([-along[1], along[0]])
+        self.canvas.areas([_down(np.stack([tip, tip + along + side, tip + along - side], axis=1))], colour)
+
+
+def structure_drawings(structures: Sequence[tuple[str, Structure]]) -> Canvas:
     """Draw each (label, structure) to its own scale: at rest dashed, displaced in grey, hinges as circles.
 
     Dimension lines carry letters, and below the label stands what they measure; loads, thrusts and ties are drawn.
-
-    One panel holds them all, in millimetres of paper.
     """
-    rows = math.ceil(len(structures) / _COLUMNS)
-    figure = new_figure(_CELL_HEIGHT * rows, margins=(0, 0, 0, 0))
-    panel = figure.subplots()
-    panel.set(xlim=(0, TEXT_WIDTH), ylim=(-_CELL_HEIGHT * rows, 0))
-    panel.axis("off")
-    width = TEXT_WIDTH / _COLUMNS
+    columns = min(_COLUMNS, len(structures))
+    rows = math.ceil(len(structures) / columns)
+    canvas = Canvas(TEXT_WIDTH, _CELL_HEIGHT * rows)
+    width = TEXT_WIDTH / columns
     for place, (label, structure) in enumerate(structures):
-        row, column = divmod(place, _COLUMNS)
-        foot = np.array([(column + 0.5) * width, -(row + 1) * _CELL_HEIGHT + 7.0])
-        _draw(panel, structure, foot)
-        panel.text(foot[0], -row * _CELL_HEIGHT - 1, elided(label, 22), ha="center", va="top")
+        row, column = divmod(place, columns)
+        middle, top = (column + 0.5) * width, row * _CELL_HEIGHT
+        _draw(canvas, structure, np.array([middle, -top - _CELL_HEIGHT + 7.0]))
+        canvas.text((middle, top + 1), elided(label, 22), across="middle", along="top")
         said = (f"{each.letter} = {each.text}".replace(" ", "\u00a0") for each in structure.dimensions())
-        sizes = ", ".join(said)
-        lines = wrap(elided(sizes, 2 * _LINE), _LINE)[:2]
-        panel.text(
-            foot[0], -row * _CELL_HEIGHT - 4.5, "\n".join(lines), ha="center", va="top", fontsize=_SMALL
-        )
-    return figure
+        lines = wrap(elided(", ".join(said), 2 * _LINE), _LINE)[:2]
+        for line, text in enumerate(lines):
+            canvas.text((middle, top + 4.5 + 3.0 * line), text, SMALL, "middle", "top")
+    return canvas
 
 
-def _draw(panel: Axes, structure: Structure, foot: np.ndarray) -> None:
-    """Draw one structure with the middle of its lower edge at `foot`, mm of paper."""
+def _draw(canvas: Canvas, structure: Structure, foot: np.ndarray) -> None:
+    """Draw one structure with the middle of its lower edge at `foot`, mm of paper, y upwards."""
     rotation = drawn_rotation(structure)
     displaced, rest = structure.outline(rotation), structure.outline()
     dimensions, marks = structure.dimensions(), structure.marks(rotation)
@@ -65,22 +94,25 @@ def _draw(panel: Axes, structure: Structure, foot: np.ndarray) -> None:
     low, high = points.min(axis=0), points.max(axis=0)
     scale = min(np.array([_DRAWN_WIDTH, _DRAWN_HEIGHT]) / (high - low))
     origin = np.array([(low[0] + high[0]) / 2, low[1]])
+
+    def placed(at: np.ndarray) -> np.ndarray:
+        return ((np.asarray(at) - origin) * scale + foot).T
+
     for outline in displaced:
-        panel.fill(*_placed(outline, origin, scale, foot), facecolor="0.85", edgecolor="0.4", linewidth=0.5)
+        canvas.path(_down(placed(outline)), "#666666", 0.5, fill="#d9d9d9", closed=True)
     for outline in rest:
-        panel.fill(*_placed(outline, origin, scale, foot), fill=False, linewidth=0.7, linestyle="--")
-    draw_dimensions(
-        panel, dimensions, lambda at: _placed(at, origin, scale, foot), values=False, fontsize=_SMALL
-    )
-    draw_marks(panel, marks, lambda at: _placed(at, origin, scale, foot), values=False)
-    hinges = _placed(structure.hinges(rotation), origin, scale, foot)
-    panel.plot(*hinges, "o", color="white", markeredgecolor="black", markersize=3.5)
-    _scale_bar(panel, scale, foot)
+        canvas.path(_down(placed(outline)), "black", 0.7, "dashed", closed=True)
+    pen = _Paper(canvas)
+    draw_dimensions(pen, dimensions, placed, values=False)
+    draw_marks(pen, marks, placed, values=False)
+    for hinge in _down(placed(structure.hinges(rotation))):
+        canvas.circle(hinge, 0.6, "black")
+    _scale_bar(canvas, scale, foot)
 
 
-def _placed(points: np.ndarray, origin: np.ndarray, scale: float, foot: np.ndarray) -> np.ndarray:
-    """Points (k, 2) in m as (2, k) in mm of paper."""
-    return ((np.asarray(points) - origin) * scale + foot).T
+def _down(line: np.ndarray) -> np.ndarray:
+    """From (2, k) with y upwards to the (k, 2) of a canvas."""
+    return (line * np.array([[1.0], [-1.0]])).T
 
 
 def drawn_rotation(structure: Structure) -> float:
@@ -90,11 +122,11 @@ def drawn_rotation(structure: Structure) -> float:
     return min(wished, 0.8 * side.end_rotation)
 
 
-def _scale_bar(panel: Axes, scale: float, foot: np.ndarray) -> None:
+def _scale_bar(canvas: Canvas, scale: float, foot: np.ndarray) -> None:
     length = round_length(0.5 * _DRAWN_WIDTH / scale)
-    half = length * scale / 2
-    panel.plot([foot[0] - half, foot[0] + half], [foot[1] - 2] * 2, color="black", linewidth=1.5)
-    panel.text(foot[0], foot[1] - 2.7, f"{length:g} m", ha="center", va="top")
+    half, height = length * scale / 2, -foot[1] + 2
+    canvas.path(np.array([[foot[0] - half, height], [foot[0] + half, height]]), "black", 1.5)
+    canvas.text((foot[0], height + 0.7), f"{length:g} m", SMALL, "middle", "top")
 
 
 def round_length(length: float) -> float:

@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
 from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow
-from rocking.reports.style import elided, new_figure, plain_logarithmic, styled, svg
+from rocking.reports.paper.letters import elided
+from rocking.reports.style import new_figure, plain_logarithmic, styled, svg
 from rocking.tables import frame, write_whole
 
 if TYPE_CHECKING:

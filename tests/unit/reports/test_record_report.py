@@ -19,6 +19,7 @@ from rocking.structures.outcome import Outcome
 from rocking.tables import cell
 
 from .conftest import HOSTILE, SETTINGS, assessed, shaken
+from .drawn import texts
 
 NUMBER = re.compile(r"[−-]?\d+(?:\.\d+)?(?:×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
 CSV_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
@@ -171,10 +172,9 @@ def test_every_picture_has_an_alternative_text_and_no_type_under_seven_points(ex
     assert len(pictures) == 5
     for picture in pictures:
         assert len(picture["alt"]) > 20
-        # 72 points and 72 SVG units to the inch
-        sizes = [float(size) for size in re.findall(r"font:[^;\"]*?([\d.]+)px", picture["svg"])]
-        sizes += [float(size) for size in re.findall(r"font-size: ?([\d.]+)px", picture["svg"])]
-        assert sizes and min(sizes) >= 7
+        sizes = [each.size for each in texts(picture["svg"])]
+        # sizes are whole units of 0.01 mm
+        assert sizes and min(sizes) >= 7 - 0.02
 
 
 def extracted(document: bytes) -> str:

@@ -6,6 +6,8 @@ import pytest
 from rocking.reports.record.structure_figures import drawn_rotation, round_length, structure_drawings
 from rocking.structures import Arch, Block, Wall
 
+from .drawn import paths, texts
+
 STRUCTURES = [
     ("block", Block.of_size(1.0, 4.0)),
     ("wall", Wall(1.6, 1.4, 0.4)),
@@ -25,26 +27,23 @@ def test_the_drawn_rotation_exists(structure):
 
 def test_a_structure_is_drawn_to_the_scale_of_its_bar():
     """A block 1 m wide at rest is as many bar lengths wide as the bar says."""
-    panel = structure_drawings(STRUCTURES[:1]).axes[0]
-    at_rest = next(patch for patch in panel.patches if not patch.get_fill())
-    width = np.ptp(at_rest.get_xy()[:, 0])
-    bar = next(line for line in panel.lines if line.get_linewidth() == 1.5)
+    svg = structure_drawings(STRUCTURES[:1]).svg()
+    at_rest = next(line for line in paths(svg, "black") if len(line) == 4)
+    bar = next(line for line in paths(svg, "black", stroke_width="52.9") if len(line) == 2)
     metres = float(
-        next(text.get_text() for text in panel.texts if text.get_text().endswith(" m")).removesuffix(" m")
+        next(each.text for each in texts(svg) if each.text.endswith(" m") and "=" not in each.text)[:-2]
     )
-    assert width / np.ptp(bar.get_xdata()) * metres == pytest.approx(1.0, rel=1e-9)
+    # whole hundredths of a millimetre
+    assert np.ptp(at_rest[:, 0]) / np.ptp(bar[:, 0]) * metres == pytest.approx(1.0, rel=0.01)
 
 
 def test_no_drawing_leaves_the_paper_or_meets_its_neighbour():
-    figure = structure_drawings(STRUCTURES * 4)
-    panel = figure.axes[0]
+    svg = structure_drawings(STRUCTURES * 4).svg()
     cells = {}
-    for patch in panel.patches:
-        points = patch.get_xy()
-        cell = int(points[:, 0].mean() // 34), int(-points[:, 1].mean() // 43)
-        cells.setdefault(cell, []).append(points)
+    for points in paths(svg, "#666666") + [line for line in paths(svg, "black") if len(line) > 2]:
+        cells.setdefault((int(points[:, 0].mean() // 34), int(points[:, 1].mean() // 43)), []).append(points)
     assert len(cells) == 12
     for (column, row), parts in cells.items():
         points = np.vstack(parts)
         assert 34 * column <= points[:, 0].min() and points[:, 0].max() <= 34 * (column + 1)
-        assert -43 * (row + 1) <= points[:, 1].min() and points[:, 1].max() <= -43 * row
+        assert 43 * row <= points[:, 1].min() and points[:, 1].max() <= 43 * (row + 1)
