@@ -1,21 +1,26 @@
 """Every record at every scale: the largest rotations of one structure, and the levels that are worth knowing."""
 
+import os
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn
 from rocking.assessment.ensemble.design import lattice
+from rocking.assessment.fragility.intensity import INTENSITY_MEASURES
+from rocking.assessment.intensity import per_velocity
 from rocking.errors import ConfigurationError
 from rocking.motion.batch import integrate_batch
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import EquivalentBlock, Mechanism
 
-COARSE, FINE = 20, 20
-"""Levels spread evenly over the range of the curve, and levels put where it moves."""
-LARGEST_UPLIFT = 64.0
-"""Times the uplift acceleration to which records are scaled in search of the level at which all overturn."""
+LEVELS, COARSE, MOST_SPREAD = 40, 20, 30
+"""Levels in all; those spread evenly over the range of the curve, at first and where it reaches farther. The others are
+put where it moves."""
+SEVERE = 3.0
+"""p PGV/(gλ) from which nearly every structure overturns under nearly every record."""
 MEMBERS = 16
 """Of each ensemble, where a case is not taken as it is."""
 
@@ -45,9 +50,12 @@ class Cases:
 
     def at_levels(self, levels: np.ndarray) -> np.ndarray:
         """(r, k, m) for every record scaled to every level. Raises ConfigurationError where one cannot be followed."""
-        return np.array(
-            [self.followed(k, self._ratios(k, levels / im)) for k, im in enumerate(self.intensities)]
-        )
+
+        def follow(record: int) -> np.ndarray:
+            return self.followed(record, self._ratios(record, levels / self.intensities[record]))
+
+        with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+            return np.array(list(pool.map(follow, range(len(self.records)))))
 
     def followed(self, record: int, ratios: np.ndarray) -> np.ndarray:
         """The ratios of a record. Raises ConfigurationError where one of them is nan."""
@@ -59,28 +67,30 @@ class Cases:
         return ratios
 
     def at_adapted_levels(self) -> tuple[np.ndarray, np.ndarray]:
-        """Levels spread from the first uplift to where all overturn, then as many more where the share moves."""
-        coarse = self._coarse_levels()
-        ratios = self.at_levels(coarse)
-        between = _where_it_moves(coarse, np.isinf(ratios).mean(axis=(0, 2)))
-        levels, both = np.concatenate([coarse, between]), np.hstack([ratios, self.at_levels(between)])
+        """Levels spread from the first uplift to where all overturn, then more where the share moves; LEVELS in all."""
+        levels, ratios = self._spread_levels()
+        between = _where_it_moves(levels, np.isinf(ratios).mean(axis=(0, 2)), LEVELS - levels.size)
+        levels, ratios = np.concatenate([levels, between]), np.hstack([ratios, self.at_levels(between)])
         order = np.argsort(levels)
-        return levels[order], both[:, order]
+        return levels[order], ratios[:, order]
 
-    def _coarse_levels(self) -> np.ndarray:
+    def _spread_levels(self) -> tuple[np.ndarray, np.ndarray]:
         peaks = np.array([record.peak_acceleration for record in self.records])
         uplift = self.intensities * self.mechanism.uplift_multiplier * GRAVITY / peaks
-        lowest, highest = float(uplift.min()), float(uplift.min())
-        standing = list(range(len(self.records)))
-        while standing and highest < LARGEST_UPLIFT * uplift.max():
-            highest *= 1.5
-            standing = [k for k in standing if not self._overturns(k, highest)]
-        return np.geomspace(lowest, highest, COARSE)
+        lowest = float(uplift.min())
+        levels = np.geomspace(lowest, max(float(self._likely_overturning().max()), 2 * lowest), COARSE)
+        ratios = self.at_levels(levels)
+        while not np.isinf(ratios).any(axis=(1, 2)).all() and levels.size < MOST_SPREAD:
+            more = levels[-1] * np.array([1.5, 2.25])
+            levels, ratios = np.concatenate([levels, more]), np.hstack([ratios, self.at_levels(more)])
+        return levels, ratios
 
-    def _overturns(self, record: int, level: float) -> bool:
-        factor = level / self.intensities[record]
-        found = integrate_batch([self.mechanism], self.records[record], [factor], tolerance=self.tolerance)
-        return bool(np.isinf(found[0, 0]))
+    def _likely_overturning(self) -> np.ndarray:
+        """(r,) level at which p PGV/(gλ) reaches SEVERE, up to which levels are spread at first."""
+        reduced = self.mechanism
+        block = reduced if isinstance(reduced, EquivalentBlock) else reduced.equivalent_block("rest")
+        velocities = np.array([INTENSITY_MEASURES["pgv"].remembered(record) for record in self.records])
+        return np.asarray(self.intensities * SEVERE / (per_velocity(block) * velocities))
 
     def members_at(self, record: int, levels: np.ndarray, members: np.ndarray) -> np.ndarray:
         """(k,) of one record at levels (k,), each as the member (k,) of its ensemble; as it is without an ensemble."""
@@ -100,10 +110,14 @@ class Cases:
     def _ratios(self, record: int, factors: np.ndarray) -> np.ndarray:
         """(k, m) at each scale factor."""
         if self.ensemble is None:
-            motion = self.records[record]
-            return integrate_batch([self.mechanism], motion, factors, tolerance=self.tolerance)[0][:, None]
+            return self._nominal(record, factors)[:, None]
         points = lattice(MEMBERS, CAUSES)
         return np.array([self._drawn(self.ensemble, record, factor, points) for factor in factors])
+
+    def _nominal(self, record: int, factors: np.ndarray) -> np.ndarray:
+        """(k,) of the case as it is."""
+        motion = self.records[record]
+        return integrate_batch([self.mechanism], motion, factors, tolerance=self.tolerance, workers=1)[0]
 
     def _drawn(
         self, ensemble: EnsembleSettings, record: int, factor: float, points: np.ndarray
@@ -112,8 +126,8 @@ class Cases:
         return drawn(self.mechanism, motions, points, ensemble, tolerance=self.tolerance).rotation_ratios
 
 
-def _where_it_moves(levels: np.ndarray, share: np.ndarray) -> np.ndarray:
-    """FINE levels at equal steps of how far the curve has moved, up or down."""
+def _where_it_moves(levels: np.ndarray, share: np.ndarray, count: int) -> np.ndarray:
+    """`count` levels at equal steps of how far the curve has moved, up or down."""
     moved = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(share)) + 1e-3)])
-    places = (np.arange(FINE) + 0.5) / FINE * moved[-1]
+    places = (np.arange(count) + 0.5) / count * moved[-1]
     return np.asarray(np.exp(np.interp(places, moved, np.log(levels))))

@@ -104,8 +104,9 @@ def fragility_of(
     count = len(over)
     fit = fit_lognormal(levels, over.sum(axis=0)[None], trials.sum(axis=0)[None])
     weights = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
-    again = fit_lognormal(levels, weights @ over, weights @ trials)
+    again = fit_lognormal(levels, weights @ over, weights @ trials, fit)
     probability, low, high, effective = _empirical(over, trials, sampled)
+    lognormal_low, lognormal_high = ndtr(_interval(_deviates(levels, fit), _deviates(levels, again), count))
     misfit = float(np.abs(probability - fit.probability(levels)[0])[trials.sum(axis=0) >= 1].max())
     made = Fragility(
         measure=measure,
@@ -116,8 +117,8 @@ def fragility_of(
         probability_low=low,
         probability_high=high,
         lognormal=fit.probability(levels)[0],
-        lognormal_low=ndtr(_interval(_deviates(levels, fit), _deviates(levels, again), count)[0]),
-        lognormal_high=ndtr(_interval(_deviates(levels, fit), _deviates(levels, again), count)[1]),
+        lognormal_low=lognormal_low,
+        lognormal_high=lognormal_high,
         median=float(fit.median[0]),
         interval=_median_interval(fit.median, again.median, count),
         dispersion=float(fit.dispersion[0]),

@@ -32,7 +32,7 @@ class IntensityMeasure:
     def of(self, record: Accelerogram, mechanism: Mechanism) -> float:
         """Return the measure of `record`. Raises ConfigurationError where the record has none."""
         try:
-            found = self._remembered(record)
+            found = self.remembered(record)
         except RockingError as error:
             raise ConfigurationError(
                 f"{record.source.path or record.station or 'a record'} has no {self.name}: {error}"
@@ -44,7 +44,7 @@ class IntensityMeasure:
             )
         return found / self.per(mechanism)
 
-    def _remembered(self, record: Accelerogram) -> float:
+    def remembered(self, record: Accelerogram) -> float:
         """Of the record alone, measured once as long as it lives: many structures ask for it."""
         known = _REMEMBERED.setdefault(record, {})
         if self.name not in known:
