@@ -24,6 +24,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import MISSING, dataclass, field, fields
 from enum import Enum, StrEnum
+from itertools import islice
 from pathlib import Path
 from types import NoneType
 from typing import (
@@ -141,13 +142,30 @@ def _column(name: str, hint: Any, known: Mapping[str, Any]) -> Column:
 
 def write_rows(row_class: type[R], rows: Iterable[R], path: Path) -> None:
     """Write `rows` to `path` as CSV, row by row, whole or not at all."""
+    with rows_written(row_class, path) as write:
+        write(rows)
+
+
+@contextmanager
+def rows_written(row_class: type[R], path: Path) -> Iterator[Callable[[Iterable[R]], None]]:
+    """Yield what adds rows to the CSV file at `path`, which appears whole at the end, or not at all."""
     with _whole(path) as stream:
-        for line in csv_lines(row_class, rows):
-            stream.write(line.encode())
+        stream.write(head(row_class))
+
+        def write(rows: Iterable[R]) -> None:
+            for line in islice(csv_lines(row_class, rows), 1, None):
+                stream.write(line.encode())
+
+        yield write
+
+
+def head(row_class: type[Row]) -> bytes:
+    """Return the first line of the CSV file of a table."""
+    return next(csv_lines(row_class, ())).encode()
 
 
 def csv_lines(row_class: type[R], rows: Iterable[R]) -> Iterator[str]:
-    """Yield the CSV lines of `rows`. Raises RockingError for a row of another class."""
+    """Yield the CSV lines of `rows`, below the names of the columns. Raises RockingError for a row of another class."""
     names = row_class.table.column_names
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
@@ -202,10 +220,10 @@ def _unguarded(text: str) -> str:
     return text[1:] if text[:1] == "'" and _FORMULA.match(text) else text
 
 
-def write_whole(path: Path, content: bytes) -> None:
-    """Write `content` to `path` through a temporary file beside it, so that it appears whole."""
+def write_whole(path: Path, content: bytes | Iterable[bytes]) -> None:
+    """Write `content`, or its pieces, to `path` through a temporary file beside it, so that it appears whole."""
     with _whole(path) as stream:
-        stream.write(content)
+        stream.writelines([content] if isinstance(content, bytes) else content)
 
 
 @contextmanager

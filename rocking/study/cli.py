@@ -56,6 +56,9 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument(
         "snakemake", nargs="*", help="a target such as trade; what follows -- goes to snakemake: -- --dry-run"
     )
+    tables = _verb(verbs, "tables", _tables, "write the tables of records of a study that has been run")
+    tables.add_argument("results", type=Path, help="folder of the results of a study")
+    tables.add_argument("record", nargs="+", help="identifier in the catalogue")
     reading = _record_verb(verbs, "read", _read, "read a file and say what it is")
     reading.add_argument(
         "--details", action="store_true", help="of a file that is not recognised: what each reader looked for"
@@ -129,6 +132,14 @@ def _run(options: argparse.Namespace) -> int:
     from rocking.study.launch import run
 
     return run(options.folder, options.snakemake)
+
+
+def _tables(options: argparse.Namespace) -> None:
+    from rocking.study.results import open_results
+
+    results = open_results(options.results)
+    for record in options.record:
+        print(results.write_record(record)[0].parent)
 
 
 def _read(options: argparse.Namespace) -> None:

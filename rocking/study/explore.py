@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from rocking.reports.explore.packed import drawings, extremes, number, packed
 from rocking.reports.explore.page import explore_page
 from rocking.reports.style import svg
 from rocking.structures import Structure
+from rocking.study.parts import read_part
 from rocking.study.run import Opened, Study
 from rocking.tables import write_whole
 
@@ -35,20 +37,27 @@ _FALLEN = 3.0
 
 
 def write_explore(
-    records: Iterable[CatalogueRecord],
+    records: Sequence[CatalogueRecord],
     study: Study,
+    parts: Iterable[Path],
     results: Path,
     target: Path,
     tell: Callable[[str], object],
 ) -> None:
-    """Write the page of a study whose tables are in `results` to `target`. tell: takes a line for each record."""
+    """Write the page of a study in `results`, with its tables in `parts`, to `target`.
+
+    tell: takes a line for each record.
+    """
+    by_identifier = {record.id: record for record in records}
+    known: dict[str, tuple[Content, list[Content]]] = {}
+    for identifier, tables in chain.from_iterable(map(read_part, parts)):
+        known[identifier] = _record(by_identifier[identifier], study, tables)
+        tell(f"{identifier}: {len(known[identifier][1])} cases on the page")
     shown: list[Content] = []
     cases: list[Content] = []
-    for record in records:
-        said, found = _record(record, study, results / record.id)
+    for said, found in (known[record.id] for record in records):
         cases += [{"record": len(shown), **each} for each in found]
         shown.append(said)
-        tell(f"{record.id}: {len(found)} cases on the page")
     structures = [
         {"name": name, "size": structure.size, "type": structure.type_name, "drawings": drawings(structure)}
         for name, structure in study.structures.items()
@@ -60,9 +69,8 @@ def write_explore(
     write_whole(target, explore_page(shown, structures, cases, figures))
 
 
-def _record(record: CatalogueRecord, study: Study, folder: Path) -> tuple[Content, list[Content]]:
+def _record(record: CatalogueRecord, study: Study, tables: RecordTables) -> tuple[Content, list[Content]]:
     """What the page says of one record, and of each structure under its worse component."""
-    tables = RecordTables.read(folder)
     rows = _worse(tables.comparison, study.structures)
     said: Content = {
         "id": record.id,

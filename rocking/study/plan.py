@@ -4,7 +4,7 @@ import hashlib
 import json
 import math
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -46,9 +46,9 @@ class Plan:
         """The records of one job."""
         return tuple(self.records[identifier] for identifier in self.jobs[name])
 
-    def records_sha256(self, name: str) -> str:
-        """Return one hash for the catalogue rows of one job."""
-        return records_sha256(self.job(name))
+    def records_sha256(self, name: str | None = None) -> str:
+        """Return one hash for the catalogue rows of one job, or of all."""
+        return records_sha256(self.records.values() if name is None else self.job(name))
 
     def files_sha256(self, *names: str) -> str:
         """Return one hash for their contents."""
@@ -141,13 +141,15 @@ def records_sha256(records: Iterable[CatalogueRecord]) -> str:
     return hashlib.sha256("\n".join(map(repr, records)).encode()).hexdigest()
 
 
-def planned_records(catalogue: Path, identifiers: Sequence[str], sha256: str) -> tuple[CatalogueRecord, ...]:
-    """Return the rows `identifiers` of `catalogue`, which must be those that were planned.
+def planned_records(
+    catalogue: Path, identifiers: Collection[str] | None, sha256: str
+) -> tuple[CatalogueRecord, ...]:
+    """Return the rows of `catalogue`, those of `identifiers` or all, which must be those that were planned.
 
     Raises ConfigurationError when the catalogue was edited since.
     """
-    rows = {record.id: record for record in load_catalogue(catalogue)}
-    records = tuple(rows[identifier] for identifier in identifiers if identifier in rows)
+    rows = load_catalogue(catalogue)
+    records = tuple(row for row in rows if identifiers is None or row.id in identifiers)
     if records_sha256(records) != sha256:
         raise ConfigurationError(
             f"{catalogue}: the catalogue changed while the study ran; start the study again."

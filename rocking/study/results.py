@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from rocking.assessment.rows import PER_RECORD, SUMMARY_TABLES, TradeRow
 from rocking.errors import RockingError
+from rocking.study.parts import copy_tables, parts_in
 from rocking.tables import Row, frame
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ class Results:
     >>> results = rocking.open_results("results")
     >>> results.comparison.groupby("structure")["within_factor_two"].mean()
 
-    A table that the summary does not hold, as `responses`, is gathered from the folders of the records.
+    A table that the summary does not hold, as `responses`, is gathered from those of the jobs, sorted by record.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -34,13 +35,24 @@ class Results:
         if name not in _TABLES:
             raise RockingError(f"table is {name!r}, but must be one of {', '.join(_TABLES)}.")
         row_class = _TABLES[name]
-        file, kept = row_class.table.file_name, None if columns is None else list(columns)
+        file = row_class.table.file_name
+        kept = list(row_class.table.column_names if columns is None else columns)
         if (self.folder / "summary" / file).exists():
             return frame(row_class, self.folder / "summary" / file, kept)
-        found = [frame(row_class, path, kept) for path in sorted(self.folder.glob(f"*/{file}"))]
-        if not found:
+        own = sorted(self.folder.glob(f"*/{file}"))  # of records that were assessed one by one
+        paths = [path for part in parts_in(self.folder) if (path := part / file).exists()] or own
+        if not paths:
             raise RockingError(f"{self.folder} holds no {file}; name the folder of a study's results.")
-        return pd.concat(found, ignore_index=True)
+        found = pd.concat([frame(row_class, path, ["record", *kept]) for path in paths])
+        return found.sort_values("record", kind="stable", ignore_index=True)[kept]
+
+    def write_record(self, record: str, folder: Path | str | None = None) -> list[Path]:
+        """Write the tables of one record as CSV into `folder`, else beside its report, and return their paths.
+
+        A copy as the tables are now: the next run that assesses the record removes it from there. Raises RockingError
+        where there is no such record.
+        """
+        return copy_tables(self.folder, record, self.folder / record if folder is None else Path(folder))
 
     def __getattr__(self, name: str) -> "DataFrame":
         if name not in _TABLES:

@@ -1,4 +1,4 @@
-"""A study: many records against one list of structures, each record in its own folder of tables."""
+"""A study: many records against one list of structures."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
@@ -29,6 +29,7 @@ from rocking.records.processing import process
 from rocking.records.vertical import aligned, open_vertical
 from rocking.structures import Structure
 from rocking.study.outcome import CameOf, record_line
+from rocking.study.parts import written_part
 from rocking.study.settings import Settings
 
 Opened = tuple[list[Accelerogram], Accelerogram | None]
@@ -82,19 +83,18 @@ class Study:
         return process(accelerogram, self.settings.raw_processing) if wanted else accelerogram
 
 
-def assess_records(records: Iterable[CatalogueRecord], study: Study, results: Path, log: Path) -> None:
-    """Write the tables of each record into its folder below `results`, and a line for each into `log`."""
-    with log.open("w", encoding="utf-8") as stream:
+def assess_records(records: Iterable[CatalogueRecord], study: Study, folder: Path, log: Path) -> None:
+    """Write the tables of `records`, one record after another, into `folder`, and a line for each into `log`."""
+    with log.open("w", encoding="utf-8") as stream, written_part(folder) as add:
         for record in records:
-            assess_record(record, study, results / record.id)
-            print(f"{record.id}: {record_line(CameOf.read(results / record.id))}", file=stream, flush=True)
+            found = assess_record(record, study)
+            add(found)
+            came = CameOf(found.comparison, found.failures, found.ensemble)
+            print(f"{record.id}: {record_line(came)}", file=stream, flush=True)
 
 
-def assess_record(record: CatalogueRecord, study: Study, folder: Path) -> list[str]:
-    """Write the tables of `record` into `folder`; what fails becomes a row of its failures table.
-
-    Returns the sentences of what failed.
-    """
+def assess_record(record: CatalogueRecord, study: Study) -> RecordTables:
+    """Return the tables of `record`; what fails becomes a row of its failures."""
     started = process_time()
     tables = RecordTables()
     try:
@@ -102,21 +102,17 @@ def assess_record(record: CatalogueRecord, study: Study, folder: Path) -> list[s
     except RockingError as error:
         tables.fail(record.id, "", Failure("read", "", str(error)))
         opened = [], None
-    return write_tables(record, opened, study, folder, tables, process_time() - started)
+    return assess_components(record, opened, study, tables, process_time() - started)
 
 
-def write_tables(
+def assess_components(
     record: CatalogueRecord,
     opened: Opened,
     study: Study,
-    folder: Path,
     tables: RecordTables | None = None,
     read_duration: float = 0.0,
-) -> list[str]:
-    """Write the tables of the components that were `opened` into `folder`, and return the sentences of what failed.
-
-    tables: what is known already.
-    """
+) -> RecordTables:
+    """Return the tables of the components that were `opened`. tables: what is known already."""
     tables = tables or RecordTables()
     durations = {"read": read_duration}
     accelerograms, vertical = opened
@@ -139,8 +135,7 @@ def write_tables(
         durations["directions"] = process_time() - started
     for stage, duration in durations.items():
         tables.timings.append(TimingRow(record=record.id, stage=stage, duration_s=duration))
-    tables.write(folder)
-    return [failure.message for failure in tables.failures]
+    return tables
 
 
 def _assess_directions(record: CatalogueRecord, opened: Opened, study: Study, tables: RecordTables) -> None:

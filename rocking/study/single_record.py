@@ -5,7 +5,6 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -25,7 +24,7 @@ from rocking.records.read import read
 from rocking.structures import load_structures
 from rocking.study.inputs import structures_sha256
 from rocking.study.plan import package_sha256, settings_sha256
-from rocking.study.run import Opened, Study, write_tables
+from rocking.study.run import Opened, Study, assess_components
 from rocking.study.settings import Settings
 from rocking.tables import write_rows
 
@@ -84,12 +83,11 @@ def assess_file(
     sha256 = settings_sha256(settings, structures_sha256(structures), package_sha256())
     study = _narrowed(Study(listed, settings, sha256), name, structures)
     opened = study.opened(own.channels, own.record)
-    with TemporaryDirectory() as temporary:
-        folder = (output or Path(temporary)) / own.record.id
-        write_tables(own.record, opened, study, folder)
-        if output is not None:
-            _write_report(own.record, opened, study, output)
-        return list(_lines(folder))
+    tables = assess_components(own.record, opened, study)
+    if output is not None:
+        tables.write(output / own.record.id)
+        _write_report(own.record, opened, study, output)
+    return list(_lines(tables))
 
 
 def write_spectrum(accelerograms: Sequence[Accelerogram], restitution: float, target: Path) -> None:
@@ -111,13 +109,13 @@ def _write_report(record: CatalogueRecord, opened: Opened, study: Study, output:
     # Matplotlib and typst take a second to import: only for those who ask for a report.
     from rocking.study.record_reports import write_report
 
-    write_report(record, lambda: opened, study, output / record.id)
+    folder = output / record.id
+    write_report(record.id, lambda: opened, RecordTables.read(folder), study, folder)
     table = output / "summary" / StructureRow.table.file_name
     write_rows(StructureRow, structure_rows(study.structures), table)
 
 
-def _lines(folder: Path) -> Iterator[str]:
-    tables = RecordTables.read(folder)
+def _lines(tables: RecordTables) -> Iterator[str]:
     outcomes = {row.case: row.outcome for row in tables.responses if row.method is Method.MECHANISM_ON_RECORD}
     for row in tables.comparison:
         yield _line(row, outcomes.get(row.case) or f"{_settled(row)} ({row.answer_reason})")

@@ -107,6 +107,16 @@ class SmallStudy:
             if path.is_file() and path.suffix in {".csv", ".json"} and path.name not in MEASURED
         }
 
+    def rows_of(self, record: str) -> dict[str, list[bytes]]:
+        """The lines of one record in the tables of all jobs, by table, but for what may differ between runs."""
+        found: dict[str, list[bytes]] = {}
+        for path in sorted((self.results / "summary" / "jobs").glob("*/*.csv")):
+            if path.name not in MEASURED:
+                lines = path.read_bytes().splitlines()
+                own = [line for line in lines if line.startswith(f"{record},".encode())]
+                found[path.name] = found.get(path.name, []) + own
+        return found
+
     def unfinished(self) -> list[Path]:
         """Temporary files that somebody left behind."""
         return list(self.results.rglob("*.part"))

@@ -53,12 +53,13 @@ def study(tmp_path_factory) -> tuple[Path, Study, list]:
     records = load_catalogue(folder / "records" / "catalogue.csv")
     results = folder / "results"
     results.mkdir()
-    assess_records(records, study, results, folder / "log")
+    assess_records(records, study, results / "part", folder / "log")
     (results / "fragility").mkdir()
     (results / "fragility" / "fragility.csv").write_text(FRAGILITY, encoding="utf-8")
     (results / "summary").mkdir()
-    write_explore(records, study, results, results / "summary" / "study.html", lambda line: None)
-    return results / "summary" / "study.html", study, list(records)
+    page = results / "summary" / "study.html"
+    write_explore(records, study, [results / "part"], results, page, lambda line: None)
+    return page, study, list(records)
 
 
 @pytest.fixture(scope="module")

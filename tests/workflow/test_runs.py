@@ -10,10 +10,16 @@ import pytest
 from rocking.assessment.rows import PER_RECORD
 
 
-def test_a_run_makes_every_table_of_every_record(finished) -> None:
+def test_a_run_makes_every_table_of_every_record(finished, tmp_path: Path) -> None:
+    study = finished.copy_to(tmp_path / "study")
     for number in (1, 2, 3):
+        done = study.rocking("tables", str(study.results), f"good_{number}")
+        assert done.returncode == 0, done.stderr
+        folder = study.results / f"good_{number}"
         for table in (each.table for each in PER_RECORD):
-            assert (finished.results / f"good_{number}" / table.file_name).is_file()
+            with (folder / table.file_name).open(newline="") as stream:
+                assert {row["record"] for row in csv.DictReader(stream)} <= {f"good_{number}"}
+        assert (folder / "responses.csv").read_text().count("\n") > 2
     with (finished.results / "summary" / "maxima.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert {row["record"] for row in rows} == {"good_1", "good_2", "good_3"}
@@ -62,16 +68,37 @@ def test_an_edit_of_the_package_runs_again_what_depends_on_it(
 
 def test_a_record_more_computes_its_own_job_only(finished, tmp_path: Path) -> None:
     study = finished.copy_to(tmp_path / "study")
-    before = study.tables()
+    before = {name: study.rows_of(name) for name in ("good_1", "good_2", "good_3")}
     study.add_synthetic("good_4", 4)
     done = study.run()
     assert done.returncode == 0, done.stdout
     assert _jobs(done.stdout) == ["assess", "summarise"], done.stdout
-    after = study.tables()
-    assert {path: after[path] for path in before if path.startswith("good_")} == {
-        path: content for path, content in before.items() if path.startswith("good_")
-    }
-    assert b"good_4" in after["summary/maxima.csv"]
+    assert all(rows["responses.csv"] for rows in before.values())
+    assert {name: study.rows_of(name) for name in before} == before
+    assert b"good_4" in study.tables()["summary/maxima.csv"]
+
+
+def test_jobs_of_another_size_leave_no_row_twice(finished, tmp_path: Path) -> None:
+    study = finished.copy_to(tmp_path / "study")
+    before = {name: study.rows_of(name) for name in ("good_1", "good_2", "good_3")}
+    done = study.run("--config", "records_per_job=3")
+    assert done.returncode == 0, done.stdout
+    assert [path.name for path in (study.results / "summary" / "jobs").iterdir()] == ["00000_of_00001"]
+    assert {name: study.rows_of(name) for name in before} == before
+    for name in ("comparison.csv", "maxima.csv"):
+        path = f"summary/{name}"
+        assert study.tables()[path] == finished.tables()[path], "in the order of the catalogue"
+
+
+def test_a_copy_of_the_tables_of_a_record_does_not_outlive_them(finished, tmp_path: Path) -> None:
+    """Else it would lie beside a report that says something else."""
+    study = finished.copy_to(tmp_path / "study")
+    assert study.rocking("tables", str(study.results), "good_1").returncode == 0
+    file = study.folder / "records" / "good_1.txt"
+    file.write_bytes(file.read_bytes().replace(b"-", b"+", 1))
+    done = study.run("--config", "records_per_job=1")
+    assert done.returncode == 0, done.stdout
+    assert not list((study.results / "good_1").iterdir())
 
 
 def test_the_trade_of_error_for_time_is_drawn_where_it_is_asked_for(finished) -> None:

@@ -9,7 +9,7 @@ for JOB, RECORDS in PLAN.jobs.items():
         input:
             compiled=COMPILED,
         output:
-            record_files(RECORDS, *CSV),
+            tables_of(JOB),
         log:
             f"{SUMMARY}/logs/assess_{JOB}.log",
         benchmark:

@@ -3,7 +3,7 @@
 
 rule explore:
     input:
-        tables=record_files(PLAN.records, *CSV),
+        tables=tables_of(*PLAN.jobs),
         fragility=FRAGILITY if SETTINGS.fragility.in_every_run else [],
     output:
         page=report(
@@ -17,8 +17,8 @@ rule explore:
     benchmark:
         f"{SUMMARY}/benchmarks/explore.tsv"
     params:
-        records=list(PLAN.records),
-        records_sha256=[PLAN.records_sha256(job) for job in PLAN.jobs],
+        jobs=list(PLAN.jobs),
+        records_sha256=PLAN.records_sha256(),
         files_sha256=PLAN.files_sha256(*PLAN.jobs),
         structures_sha256=PLAN.structures_sha256,
         settings_sha256=PLAN.settings_sha256,

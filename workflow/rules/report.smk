@@ -7,7 +7,7 @@ for JOB, RECORDS in PLAN.jobs.items():
         name:
             f"report_{JOB}"
         input:
-            tables=record_files(RECORDS, *CSV),
+            tables=tables_of(JOB),
         output:
             [
                 report(

@@ -2,8 +2,9 @@
 
 from pathlib import Path  # for the rules
 
-from rocking.assessment.rows import PER_RECORD, SUMMARY_TABLES
+from rocking.assessment.rows import SUMMARY_TABLES
 from rocking.study.outcome import check_any_read
+from rocking.study.parts import IN_PARTS, part
 from rocking.study.plan import make_plan, package_sha256
 
 # What the user writes (catalogue, records, StationXML, structures) is watched by its content, in params, not as input:
@@ -13,20 +14,19 @@ SETTINGS = PLAN.settings
 PACKAGE = package_sha256()
 RESULTS = SETTINGS.results
 SUMMARY = f"{RESULTS}/summary"
-TABLES = [each.table.name for each in PER_RECORD]
 SUMMARIES = [each.table.name for each in SUMMARY_TABLES]
 FRAGILITY = f"{RESULTS}/fragility/fragility.csv"
 
 
-def record_files(records, *names):
-    return [f"{RESULTS}/{record}/{name}" for record in records for name in names]
+def tables_of(*jobs):
+    """The tables of jobs, each of which holds the rows of all its records."""
+    return [f"{part(Path(RESULTS), job)}/{each.table.file_name}" for job in jobs for each in IN_PARTS]
 
 
-CSV = [f"{table}.csv" for table in TABLES]
 TARGETS = [f"{SUMMARY}/{table}.csv" for table in SUMMARIES]
 TARGETS += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json"]
 if SETTINGS.reports:
-    TARGETS += record_files(PLAN.records, "report.pdf") + [f"{SUMMARY}/summary.pdf"]
+    TARGETS += [f"{RESULTS}/{record}/report.pdf" for record in PLAN.records] + [f"{SUMMARY}/summary.pdf"]
     TARGETS += [f"{SUMMARY}/prediction_against_integration.svg", f"{SUMMARY}/study.html"]
 if SETTINGS.fragility.in_every_run:
     TARGETS += [f"{RESULTS}/fragility/fragility.pdf"]

@@ -1,9 +1,9 @@
-"""Gather the tables of all records and describe where they came from."""
+"""Gather the tables of all jobs and describe where they came from."""
 
 
 rule summarise:
     input:
-        tables=record_files(PLAN.records, *CSV),
+        tables=tables_of(*PLAN.jobs),
     output:
         [
             report(
@@ -22,7 +22,8 @@ rule summarise:
     benchmark:
         f"{SUMMARY}/benchmarks/summarise.tsv"
     params:
-        records={record.id: record.sha256 for record in PLAN.records.values()},
+        jobs=list(PLAN.jobs),
+        records_sha256=PLAN.records_sha256(),
         settings=SETTINGS.mapping(),
         settings_sha256=PLAN.settings_sha256,
         structures_sha256=PLAN.structures_sha256,

@@ -11,7 +11,8 @@ from rocking.study.run import Study
 if __name__ == "__main__":
     settings, params = read_settings(snakemake.config), snakemake.params
     structures = planned_structures(Path(settings.structures), params.structures_sha256)
-    records = planned_records(Path(settings.catalogue), params.records, params.records_sha256)
+    records = planned_records(Path(settings.catalogue), set(params.records), params.records_sha256)
     check_files(records, settings, params.files_sha256)
     study = Study(structures, settings, params.settings_sha256)
-    report_records(records, study, Path(settings.results), Path(snakemake.log[0]))
+    part = Path(snakemake.input.tables[0]).parent
+    report_records(records, study, part, Path(settings.results), Path(snakemake.log[0]))

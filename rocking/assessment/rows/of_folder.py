@@ -1,5 +1,6 @@
-"""The tables of one record's folder: filled by an assessment, written, and read again as rows."""
+"""The tables of one record: filled by an assessment, written, and read again as rows."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -7,8 +8,10 @@ from rocking.assessment.assess import Assessment, Failure
 from rocking.assessment.horizontal_motion import HorizontalMotion
 from rocking.assessment.rows.of_case import (
     ComparisonRow,
+    MaximumRow,
     ResponseRow,
     comparison_row,
+    maximum_row,
     response_rows,
 )
 from rocking.assessment.rows.of_ensemble import EnsembleRow, ensemble_row
@@ -44,9 +47,9 @@ RECORD_TABLES: tuple[type[Row], ...] = (
     CandidateRow,
     ProcessingRow,
 )
-"""The rows of the tables of one record's folder that hold results."""
+"""The rows of the tables of one record that hold results."""
 PER_RECORD: tuple[type[Row], ...] = (*RECORD_TABLES, FailureRow, TimingRow)
-"""The rows of every table of one record's folder."""
+"""The rows of every table of one record."""
 
 
 @dataclass(frozen=True)
@@ -75,6 +78,15 @@ class RecordTables:
         with written_together():
             for each in PER_RECORD:
                 write_rows(each, getattr(self, each.table.name), folder / each.table.file_name)
+
+    @property
+    def maxima(self) -> Iterator[MaximumRow]:
+        """The largest rotations by every method beside one another."""
+        comparison = {row.case: row for row in self.comparison}
+        for predicted in self.predictions:
+            yield maximum_row(predicted, comparison[predicted.case])
+        for integrated in self.responses:
+            yield maximum_row(integrated, comparison[integrated.case])
 
     def of_component(self, component: str) -> "RecordTables":
         """Return the rows of one component, without the timings."""

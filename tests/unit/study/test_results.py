@@ -5,9 +5,11 @@ from pathlib import Path
 import pytest
 
 import rocking
-from rocking.assessment.rows import SUMMARY_TABLES, StructureRow, TimingRow
+from rocking.assessment.rows import PER_RECORD, SUMMARY_TABLES, StructureRow, TimingRow
 from rocking.errors import RockingError
-from rocking.tables import write_rows
+from rocking.study.cli import main
+from rocking.study.parts import part
+from rocking.tables import read_rows, write_rows
 
 
 def _timing(record: str) -> TimingRow:
@@ -19,8 +21,10 @@ def folder(tmp_path: Path) -> Path:
     for each in SUMMARY_TABLES:
         if each is not TimingRow:
             write_rows(each, [], tmp_path / "summary" / each.table.file_name)
-    for record in ("b", "a"):
-        write_rows(TimingRow, [_timing(record)], tmp_path / record / "timings.csv")
+    for number, record in enumerate(("b", "a")):
+        folder = part(tmp_path, f"0000{number}_of_00002")
+        for each in PER_RECORD:
+            write_rows(each, [_timing(record)] if each is TimingRow else [], folder / each.table.file_name)
     return tmp_path
 
 
@@ -30,7 +34,7 @@ def test_a_table_of_the_summary_is_an_attribute(folder: Path) -> None:
     assert {"comparison", "responses", "trade"} <= set(dir(results))
 
 
-def test_a_table_of_the_records_is_gathered(folder: Path) -> None:
+def test_a_table_of_the_jobs_is_gathered(folder: Path) -> None:
     results = rocking.open_results(str(folder))
     assert results.timings["record"].tolist() == ["a", "b"]
     assert list(results.table("timings", ["duration_s"])) == ["duration_s"]
@@ -40,9 +44,24 @@ def test_what_is_not_there_is_said(folder: Path) -> None:
     results = rocking.open_results(folder)
     with pytest.raises(AttributeError, match="no table 'verdicts'"):
         _ = results.verdicts
-    with pytest.raises(RockingError, match=r"holds no responses\.csv"):
-        _ = results.responses
+    with pytest.raises(RockingError, match=r"holds no trade\.csv"):
+        _ = results.trade
     with pytest.raises(RockingError, match="must be one of"):
         results.table("verdicts")
     with pytest.raises(RockingError, match="is no folder"):
         rocking.open_results(folder / "nowhere")
+
+
+def test_the_tables_of_a_record_are_written_where_they_are_asked_for(folder: Path, capsys) -> None:
+    assert main(["tables", str(folder), "a"]) == 0
+    assert capsys.readouterr().out == f"{folder / 'a'}\n"
+    assert [row.record for row in read_rows(TimingRow, folder / "a" / "timings.csv")] == ["a"]
+    assert len(rocking.open_results(folder).write_record("b", folder / "elsewhere")) == len(PER_RECORD)
+    assert main(["tables", str(folder), "c"]) == 1
+    assert "holds no tables of 'c'" in capsys.readouterr().err
+
+
+def test_the_tables_of_records_assessed_one_by_one_are_gathered(tmp_path: Path) -> None:
+    for record in ("b", "a"):
+        write_rows(TimingRow, [_timing(record)], tmp_path / record / "timings.csv")
+    assert rocking.open_results(tmp_path).timings["record"].tolist() == ["a", "b"]

@@ -4,6 +4,7 @@ import hashlib
 import math
 import pickle
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 import pytest
@@ -14,20 +15,18 @@ from rocking.assessment.rows import (
     ComparisonRow,
     FailureRow,
     MaximumRow,
-    PredictionRow,
     PulseRow,
-    RecordTables,
-    ResponseRow,
     structure_rows,
 )
-from rocking.errors import StructureError
+from rocking.errors import RockingError, StructureError
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.structures import Block
+from rocking.study.parts import IN_PARTS, copy_tables, part, read_part, remove_other_parts
 from rocking.study.run import Study, assess_record, assess_records
 from rocking.study.settings import Settings
 from rocking.study.summary import write_summary
-from rocking.tables import read_rows
+from rocking.tables import csv_lines, read_rows, write_rows
 
 ROOT = Path(__file__).parents[3]
 CONTENT = at2_text(SyntheticRecord("made", 1, 4.0, 0.6, 1.0, 1.0, 6.0, 0.01)).encode()
@@ -54,12 +53,19 @@ def _record(
     return CatalogueRecord(identifier, f"{identifier}.AT2", **made)
 
 
+def _assessed(record: CatalogueRecord, study: Study, folder: Path) -> list[str]:
+    """Write the tables of `record` into `folder` and return the sentences of what failed."""
+    tables = assess_record(record, study)
+    tables.write(folder)
+    return [failure.message for failure in tables.failures]
+
+
 def test_a_structure_that_fails_does_not_take_the_record_with_it(tmp_path: Path) -> None:
     study = _study(impossible=Impossible(), block=Block.of_size(0.5, 3.0))
-    assert assess_record(_record(tmp_path), study, tmp_path / "out") == ["it cannot stand."]
+    assert _assessed(_record(tmp_path), study, tmp_path / "out") == ["it cannot stand."]
     (failure,) = read_rows(FailureRow, tmp_path / "out" / "failures.csv")
     assert (failure.structure, failure.stage) == ("impossible", "responses")
-    alone = assess_record(_record(tmp_path), _study(), tmp_path / "alone")
+    alone = _assessed(_record(tmp_path), _study(), tmp_path / "alone")
     assert alone == []
     for name in ("responses.csv", "comparison.csv", "pulses.csv"):
         assert (tmp_path / "out" / name).read_bytes() == (tmp_path / "alone" / name).read_bytes()
@@ -67,7 +73,7 @@ def test_a_structure_that_fails_does_not_take_the_record_with_it(tmp_path: Path)
 
 def test_a_record_that_fails_has_all_its_tables_and_says_why(tmp_path: Path) -> None:
     record = _record(tmp_path, content=b"not a record")
-    (sentence,) = assess_record(record, _study(), tmp_path / "out")
+    (sentence,) = _assessed(record, _study(), tmp_path / "out")
     assert "made.AT2" in sentence
     for each in PER_RECORD:
         rows = list(read_rows(each, tmp_path / "out" / each.table.file_name))
@@ -80,7 +86,7 @@ def test_a_file_is_not_read_before_its_hash_is_checked(
     import rocking.records.catalogue as catalogue
 
     monkeypatch.setattr(catalogue, "read", lambda *_, **__: pytest.fail("read before its hash was checked"))
-    (sentence,) = assess_record(_record(tmp_path, sha256="0" * 64), _study(), tmp_path / "out")
+    (sentence,) = _assessed(_record(tmp_path, sha256="0" * 64), _study(), tmp_path / "out")
     assert "sha256" in sentence
 
 
@@ -94,7 +100,7 @@ def test_a_pickle_is_never_opened(tmp_path: Path, head: bytes) -> None:
     """obspy.read would: it unpickles whatever says obspy.core.stream in its first 100 bytes."""
     trap = Path("/tmp/rocking_ran_a_pickle")
     content = pickle.dumps((head.decode(), _Trap()), protocol=0)
-    (sentence,) = assess_record(_record(tmp_path, content=content), _study(), tmp_path / "out")
+    (sentence,) = _assessed(_record(tmp_path, content=content), _study(), tmp_path / "out")
     assert not trap.exists()
     assert "made.AT2" in sentence
 
@@ -139,38 +145,97 @@ def test_the_log_has_a_line_for_each_record(tmp_path: Path) -> None:
 
 def test_two_assessments_of_the_same_record_are_equal_byte_for_byte(tmp_path: Path) -> None:
     for name in ("one", "two"):
-        assess_record(_record(tmp_path), _study(), tmp_path / name)
+        _assessed(_record(tmp_path), _study(), tmp_path / name)
     for path in (tmp_path / "one").iterdir():
         if path.name != "timings.csv":
             assert path.read_bytes() == (tmp_path / "two" / path.name).read_bytes()
 
 
-def test_the_summary_holds_every_row_of_every_record(tmp_path: Path) -> None:
-    study = _study()
-    folders = []
-    for number in (1, 2):
-        folders.append(tmp_path / f"record_{number}")
-        assess_record(_record(tmp_path, f"record_{number}"), study, folders[-1])
-    write_summary(folders, study.structures, tmp_path / "summary")
-    for each in (PulseRow, ComparisonRow, FailureRow):
-        file = each.table.file_name
-        parts = [row for folder in folders for row in read_rows(each, folder / file)]
-        assert list(map(repr, read_rows(each, tmp_path / "summary" / file))) == list(map(repr, parts))
-    maxima = read_rows(MaximumRow, tmp_path / "summary" / "maxima.csv")
-    wanted = [
-        (row.record, row.method, row.rotation_ratio)
-        for folder in folders
-        for each in (PredictionRow, ResponseRow)
-        for row in read_rows(each, folder / each.table.file_name)
-    ]
-    assert [(row.record, row.method, row.rotation_ratio) for row in maxima] == wanted
+@pytest.fixture
+def in_two_jobs(tmp_path: Path) -> tuple[Path, list[CatalogueRecord]]:
+    """Results with the parts of two jobs, and the records in the order of their catalogue: no job has neighbours."""
+    contents = {"one": CONTENT, "bad": b"no record", "three": CONTENT, "two": CONTENT}
+    records = [_record(tmp_path, name, content) for name, content in contents.items()]
+    for place in (0, 1):
+        folder = part(tmp_path / "results", f"0000{place}_of_00002")
+        assess_records(records[place::2], _study(), folder, tmp_path / "log")
+    return tmp_path / "results", records
+
+
+def _parts(results: Path) -> list[Path]:
+    return [part(results, f"0000{place}_of_00002") for place in (1, 0)]
+
+
+def test_the_summary_holds_every_row_of_every_record_in_its_order(in_two_jobs) -> None:
+    results, records = in_two_jobs
+    write_summary(_parts(results), [record.id for record in records], {}, results / "summary")
+    for each in (PulseRow, ComparisonRow, MaximumRow, FailureRow):
+        found = [getattr(assess_record(record, _study()), each.table.name) for record in records]
+        lines = list(csv_lines(each, chain.from_iterable(found)))
+        assert "".join(lines) == (results / "summary" / each.table.file_name).read_text(encoding="utf-8")
+        assert each is FailureRow or len(lines) > 3
+
+
+def test_the_records_of_a_job_are_read_one_after_another(in_two_jobs) -> None:
+    results, records = in_two_jobs
+    for folder, expected in zip(_parts(results), (records[1::2], records[0::2]), strict=True):
+        found = dict(read_part(folder))
+        assert list(found) == [record.id for record in expected]
+        for record in expected:
+            again = assess_record(record, _study())
+            for each in (PulseRow, ComparisonRow, FailureRow):
+                lines = [
+                    list(csv_lines(each, getattr(one, each.table.name))) for one in (found[record.id], again)
+                ]
+                assert lines[0] == lines[1]
+
+
+def test_rows_out_of_place_are_said(in_two_jobs) -> None:
+    folder = _parts(in_two_jobs[0])[1]
+    rows = list(read_rows(PulseRow, folder / "pulses.csv"))
+    write_rows(PulseRow, reversed(rows), folder / "pulses.csv")
+    with pytest.raises(RockingError, match=r"pulses\.csv holds one out of place"):
+        list(read_part(folder))
+
+
+def test_the_tables_of_one_record_are_those_that_it_has_alone(in_two_jobs, tmp_path: Path) -> None:
+    results, records = in_two_jobs
+    for record in records:
+        written = copy_tables(results, record.id, tmp_path / "copy" / record.id)
+        assert [path.name for path in written] == [each.table.file_name for each in PER_RECORD]
+        _assessed(record, _study(), tmp_path / "alone")
+        for path in written:
+            if path.name != "timings.csv":
+                assert path.read_bytes() == (tmp_path / "alone" / path.name).read_bytes()
+    with pytest.raises(RockingError, match="holds no tables of 'four'"):
+        copy_tables(results, "four", tmp_path)
+
+
+def test_a_job_that_breaks_off_leaves_nothing(tmp_path: Path) -> None:
+    class Broken(Block):
+        def mechanism(self) -> None:
+            raise MemoryError
+
+    with pytest.raises(MemoryError):
+        assess_records(
+            [_record(tmp_path)], _study(broken=Broken(1.0, 0.2)), tmp_path / "part", tmp_path / "log"
+        )
+    assert not list((tmp_path / "part").iterdir())
+
+
+def test_parts_of_jobs_that_are_no_more_are_removed(in_two_jobs) -> None:
+    results, _ = in_two_jobs
+    (part(results, "mine") / "notes.txt").parent.mkdir()
+    remove_other_parts(results, ["00001_of_00002"])
+    assert {path.name for path in part(results, "").iterdir()} == {"00001_of_00002", "mine"}
+    assert {path.stem for path in part(results, "00001_of_00002").iterdir()} == {
+        each.table.name for each in IN_PARTS
+    }
 
 
 def test_the_error_of_each_method_is_against_the_mechanism_on_the_record(tmp_path: Path) -> None:
     study = _study(stout=Block.of_size(1.0, 3.0))
-    assess_record(_record(tmp_path), study, tmp_path / "made")
-    write_summary([tmp_path / "made"], study.structures, tmp_path / "summary")
-    maxima = {row.method: row for row in read_rows(MaximumRow, tmp_path / "summary" / "maxima.csv")}
+    maxima = {row.method: row for row in assess_record(_record(tmp_path), study).maxima}
     reference = maxima.pop(Method.MECHANISM_ON_RECORD)
     assert 0 < reference.rotation_ratio < 1, "the record was made so that the block rocks"
     assert math.isnan(reference.error)
@@ -195,8 +260,7 @@ def test_auto_computes_what_settles_the_verdict_and_a_report_everything(tmp_path
     record = _record(tmp_path, "good")
     for reports, methods in ((False, 1), (True, 4)):
         settings = Settings(fidelity="auto", reports=reports)
-        assess_record(record, Study({"block": Block(1.0, 0.2)}, settings), tmp_path / str(reports))
-        tables = RecordTables.read(tmp_path / str(reports))
+        tables = assess_record(record, Study({"block": Block(1.0, 0.2)}, settings))
         assert {row.structure for row in tables.comparison} == {"block"}
         assert len({row.method for row in tables.responses}) <= methods
         assert bool(tables.comparison[0].answer_reason) is not reports
