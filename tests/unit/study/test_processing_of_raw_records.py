@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from rocking.assessment.method import Method
-from rocking.assessment.rows import RecordTables
 from rocking.records import CatalogueRecord
 from rocking.records.catalogue import load_catalogue
 from rocking.records.synthetic import BUNDLED, at2_text
@@ -58,12 +57,11 @@ def test_a_raw_file_is_processed_unless_never():
     assert done.high_pass_frequency == 0.1
 
 
-def test_the_ensemble_of_a_raw_record_varies_its_processing(tmp_path):
+def test_the_ensemble_of_a_raw_record_varies_its_processing():
     record = next(r for r in load_catalogue("records/catalogue.csv") if r.id == "STNA_2002_scaled")
     structures = {"block": Block.of_size(0.5, 3.0)}
     study = Study(structures, Settings(candidates=0))
-    assess_record(record, study, tmp_path)
-    tables = RecordTables.read(tmp_path)
+    tables = assess_record(record, study)
     row = tables.ensemble[0]
     assert row.worst_processing in {each.processing for each in tables.processing}
     assert 0 <= row.processing_share <= 1
