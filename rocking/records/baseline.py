@@ -17,6 +17,8 @@ from rocking.errors import RecordError
 _CANDIDATES = 20
 _DEGREES = (1, 2)
 _FEWEST = 64
+_LEFT = 16
+"""Samples after shaking, at least: fewer say nothing of a drift."""
 
 
 def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.ndarray, str]:
@@ -24,7 +26,8 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
 
     Onset and end of shaking are where 0.1 % and 95 % of the squared acceleration have passed; the end is moved among
     20 places up to 85 % of what remains, each tried with degrees 1 and 2; the drift that leaves the smallest
-    displacement wins.
+    displacement wins. At least 8 samples are taken as rest before the onset, and 16 as shaking;
+    where fewer than 16 are left after it, the record stays as it is.
     Raises RecordError for fewer than 64 samples or a record without motion.
     """
     if acceleration.size < _FEWEST or not np.any(acceleration):
@@ -35,11 +38,10 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
     share = np.cumsum(acceleration**2)
     onset = max(8, int(np.searchsorted(share, 1e-3 * share[-1])))
     strong = max(onset + 16, int(np.searchsorted(share, 0.95 * share[-1])))
-    last = strong + int(0.85 * (acceleration.size - strong))
-    ends = np.unique(np.linspace(strong, min(last, acceleration.size - 16), _CANDIDATES).astype(int))
-    tried = [int(end) for end in ends if end > onset + 8]
-    if not tried:
+    if strong > acceleration.size - _LEFT:
         return acceleration, "Adaptive baseline left the record as it is: shaking lasts to its end."
+    last = min(strong + int(0.85 * (acceleration.size - strong)), acceleration.size - _LEFT)
+    tried = np.unique(np.linspace(strong, last, _CANDIDATES).astype(int)).tolist()
     drifts = _drifts(velocity, onset, tried)
     best = int(np.argmin([_wandering(velocity - drift, time_step) for drift in drifts]))
     end, degree = tried[best // len(_DEGREES)], _DEGREES[best % len(_DEGREES)]

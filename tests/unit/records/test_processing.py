@@ -74,6 +74,14 @@ def test_filters_pass_without_shift_and_halve_at_the_corner(
         assert np.abs(got - gain * wave[middle]).max() < 2e-3
 
 
+@pytest.mark.parametrize("order", [1, 10])
+def test_a_filter_may_have_any_order_from_one_to_ten(order: int) -> None:
+    """Run both ways its gain is 1/(1 + (f_c/f)^2n), at frequencies far below 50 Hz to 1 %."""
+    wave, middle = sine(1.0, 80.0), slice(3500, 4500)
+    got = process(record(wave), Processing(high_pass=0.9, order=order)).acceleration[middle]
+    assert np.abs(got - wave[middle] / (1 + 0.9 ** (2 * order))).max() < 0.01
+
+
 def test_padding_is_stripped_unless_kept() -> None:
     values = sine(1.0)
     assert process(record(values), Processing(high_pass=0.1)).acceleration.size == values.size
@@ -95,6 +103,7 @@ def test_resampling() -> None:
     wave = record(sine(1.0))
     finer = process(wave, Processing(time_step=DT / 2))
     assert np.array_equal(finer.acceleration[::2], wave.acceleration) and finer.time_step == DT / 2
+    assert process(wave, Processing(time_step=DT * (1 + 1e-13))) is wave
     coarser = process(record(sine(1.0) + sine(45.0)), Processing(time_step=0.02))
     middle = slice(500, 1500)
     # 45 Hz would fold to 5 Hz at full amplitude; the low-pass leaves less than a thousandth
@@ -162,7 +171,8 @@ def test_settings_out_of_range(settings: dict, field: str) -> None:
 
 
 @pytest.mark.parametrize(("settings", "message"), [
-    ({"pre_event": 50.0}, "pre_event"), ({"low_pass": 60.0}, "Nyquist"), ({"time_step": 1e-9}, "samples"),
+    ({"pre_event": 40.0}, "pre_event"), ({"pre_event": 50.0}, "pre_event"),
+    ({"low_pass": 60.0}, "Nyquist"), ({"time_step": 1e-9}, "samples"),
     ({"time_step": 100.0}, "samples"),
 ])  # fmt: skip
 def test_settings_that_do_not_fit_the_record(settings: dict, message: str) -> None:
