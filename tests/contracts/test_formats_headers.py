@@ -1,0 +1,161 @@
+"""What each format's header says beside the numbers: names, directions, corner, earthquake, state of processing."""
+
+from typing import Any
+
+import pytest
+from made_files import MADE, MADE_BINARY, format_of, knet, peer, table
+
+from rocking.errors import RecordError
+from rocking.records import Accelerogram
+from rocking.records.formats import FORMATS, Options
+from rocking.records.formats.header import magnitude
+from rocking.records.read import read_content
+
+
+def read_text(text: str | bytes, **declared: Any) -> list[Accelerogram]:
+    content = text if isinstance(text, bytes) else text.encode("latin-1")
+    return read_content(content, "made", Options(**declared))
+
+
+FIELDS = ("component", "azimuth", "station", "network", "event", "processed", "high_pass_frequency")
+SAID: dict[str, list[tuple[Any, ...]]] = {
+    "PEER AT2": [("45", 45.0, "Station", "", "Quake", True, None)],
+    "PEER AT2: of 2008": [("045", 45.0, "STATION", "", "QUAKE", True, None)],
+    "COSMOS V1/V2": [("45", 45.0, "CE-J1", "", "Some Day", True, 0.3)],
+    "CSMIP V1/V2": [("45", 45.0, "89146", "", "", True, 0.3)],
+    "CSMIP V1/V2: of 1983": [("45", 45.0, "36456", "", "MADE EARTHQUAKE", True, 0.05)],
+    "CSMIP V1/V2: raw": [("45", 45.0, "", "", "MADE EARTHQUAKE", False, None)],
+    "CSMIP V1/V2: film": [("45", 45.0, "", "", "MADE EARTHQUAKE", False, None)],
+    "USGS SMC": [("45", 45.0, "Made", "", "Quake", True, 0.1)],
+    "USC Volume 1": [("N45E", 45.0, "", "", "QUAKE", False, None)],
+    "RENADIC": [("EW", 90.0, "", "", "", False, None)],
+    "BHRC": [("L1", 45.0, "1", "", "", False, None)],
+    "K-NET/KiK-net": [("E-W", 90.0, "MADE01", "BO", "2018/01/24 19:51:00 M6.2", False, None)],
+    "DYNA (ESM, ITACA, AFAD)": [("HNE", 90.0, "X", "", "MADE", True, 0.1)],
+    "AFAD/NSMN text": [
+        ("N-S", 0.0, "0921", "TK", "", False, None),
+        ("E-W", 90.0, "0921", "TK", "", False, None),
+        ("U-D", None, "0921", "TK", "", False, None),
+    ],
+    "RESORCE": [("NS", 0.0, "", "", "2009-04-06 01:32:39", True, 0.1)],
+    "GeoNet V1A/V2A": [("N45E", 45.0, "WTMC", "NZ", "", False, None)],
+    "UNAM/CICESE": [("N45E", 45.0, "ACAC", "", "", False, None), ("V", None, "ACAC", "", "", False, None)],
+    "CWB": [("U", None, "EAS", "TW", "", False, None), ("N", 0.0, "EAS", "TW", "", False, None)],
+    "CSMNC": [("EW", 90.0, "65JZC", "", "QUAKE", False, None)],
+    "titled column": [("channel 1", None, "", "", "made", None, None)],
+    "titled column: two headers": [
+        ("channel 1", None, "", "", "Made, Kobe 000, acceleration in g", None, None)
+    ],
+    "columns of numbers": [("NS", 0.0, "", "", "", None, None), ("EW", 90.0, "", "", "", None, None)],
+    "miniSEED": [("HNE", 90.0, "MADE", "XX", "", False, None)],
+    "SAC": [("HNE", 90.0, "MADE", "XX", "", False, None)],
+    "Kinemetrics EVT": [("X", None, "MADE", "", "2011-09-09", False, None)],
+}
+"""By hand from the text of each made file; the two of UNAM that differ in their lines of numbers say the same."""
+VERTICAL = {"U-D", "V", "U"}
+
+
+def test_every_format_has_its_header_here() -> None:
+    assert {format_of(name) for name in SAID} == {format_of(name) for name in MADE | MADE_BINARY}
+    assert {form.name for form in FORMATS} >= {format_of(name) for name in SAID}
+
+
+@pytest.mark.parametrize("name", SAID)
+def test_what_a_header_says(name: str) -> None:
+    make, _, options = (MADE | MADE_BINARY)[name]
+    made = make()
+    content = made if isinstance(made, bytes) else made.encode("latin-1")
+    records = read_content(content, "made", options)
+    assert [tuple(getattr(record, field) for field in FIELDS) for record in records] == SAID[name]
+    assert [record.vertical for record in records] == [record.component in VERTICAL for record in records]
+    assert {record.source.format for record in records} == {format_of(name)}
+
+
+EARTHQUAKES: dict[str, tuple[str, str, float | None, float | None]] = {
+    "USGS SMC": (
+        "component=     45\n*\n*\n",
+        "component=     45\nepicentral dist =  12.5        pk acc =\nMoment Mag= 6.9   Ms=  7.1   Ml= \n",
+        6.9,
+        12500.0,
+    ),
+    "DYNA (ESM, ITACA, AFAD)": (
+        "USER1: ",
+        "MAGNITUDE_W: \nMAGNITUDE_L: 4.6\nEPICENTRAL_DISTANCE_KM: 88.1",
+        4.6,
+        88100.0,
+    ),
+    "AFAD/NSMN text": ("Copyright", "EARTHQUAKE MAGNITUDE    : 5.1 (Ml)\nCopyright", 5.1, None),
+    "GeoNet V1A/V2A": (
+        "Site WTMC      42 37 10S\nx",
+        "Site WTMC\nEpicentre Dist 9.5 km ML  7.82",
+        7.82,
+        None,
+    ),
+    "UNAM/CICESE": ("UNIDADES", "MAGNITUD(ES)                           : /M=7.1\nUNIDADES", 7.1, None),
+    "CWB": ("#RecordLength", "#Magnitude(Ml): 6.0\n#RecordLength", 6.0, None),
+    "CSMNC": ("MAGNITUDE", "MAGNITUDE   4.0(Ms)", 4.0, None),
+}
+
+
+@pytest.mark.parametrize("name", EARTHQUAKES)
+def test_the_earthquake_that_a_header_tells_of(name: str) -> None:
+    old, new, size, distance = EARTHQUAKES[name]
+    text = MADE[name][0]()
+    assert old in text
+    records = read_text(text.replace(old, new, 1))
+    assert {(record.magnitude, record.epicentral_distance) for record in records} == {(size, distance)}
+
+
+@pytest.mark.parametrize(("text", "found"), [("10", 10.0), ("10.1", None), ("0.1", 0.1)])
+def test_a_magnitude_lies_between_0_and_10(text: str, found: float | None) -> None:
+    assert magnitude(text) == found
+
+
+@pytest.mark.parametrize(("line", "corner"), [
+    ("PGA= 0.1 G, HP=0.13 HZ, LP=40.0 HZ", 0.13), ("HP= 1 HZ", 1.0), ("HP= 0.0 HZ", None), ("HP=0.1.2 HZ", None),
+    ("FILTER POINTS: HP=. HZ", None), ("4 POLE @ 30. HZ LOW, 4 POLE @ .15 HZ HIGH", 0.15),
+    ("4 POLE @ 30. HZ LOW, 0 POLE @ .15 HZ HIGH", None), ("4 POLE @ 30. HZ", None), ("", None),
+])  # fmt: skip
+def test_the_corner_that_a_peer_header_tells(line: str, corner: float | None) -> None:
+    line = line.replace("PGA= 0.1 G, ", "")
+    (record,) = read_text(peer().replace("NPTS=", f"{line}\nNPTS=" if line else "NPTS="))
+    assert record.high_pass_frequency == corner
+
+
+def test_the_title_of_two_headers_may_give_the_step_first() -> None:
+    text = MADE["titled column"][0]()
+    (record,), (turned,) = (read_text(t, unit="m/s2") for t in (text, text.replace("40 0.01", "0.01 40")))
+    assert turned.time_step == record.time_step == 0.01 and turned.acceleration.size == 40
+
+
+def test_a_single_row_of_numbers_is_no_table() -> None:
+    with pytest.raises(RecordError, match="no reader recognises"):
+        read_text("0.01 0.5 0.7\n")
+
+
+@pytest.mark.parametrize(("rows", "warned"), [(4, True), (3, False)])
+def test_a_number_cut_short_is_seen_beside_two_whole_ones(rows: int, warned: bool) -> None:
+    """The first of the lines looked at may itself be cut, by the looking."""
+    lines = [f"{i * 0.01:.2f} {0.1 + i * 0.01:.6f}" for i in range(rows)]
+    found = read_text("\n".join(lines)[:-2], unit="g")
+    assert any("may be cut" in sentence for sentence in found[0].warnings) == warned
+
+
+def test_unam_columns_are_ten_wide_where_the_header_names_no_width() -> None:
+    text = MADE["UNAM/CICESE"][0]()
+    (plain, _), (other, _) = (read_text(t) for t in (text, text.replace(": 2F10.4", ": libre")))
+    assert (plain.acceleration == other.acceleration).all()
+
+
+@pytest.mark.parametrize(("sampling", "duration"), [("100Hz", "0.4"), ("200Hz", "0.2")])
+def test_the_step_of_knet_follows_its_frequency(sampling: str, duration: str) -> None:
+    text = knet().replace("100Hz", sampling).replace("Duration Time(s)  0.4", f"Duration Time(s)  {duration}")
+    assert read_text(text)[0].time_step == pytest.approx(float(duration) / 40)
+
+
+def test_names_of_columns_are_components_without_their_unit() -> None:
+    text = table().replace("time,acc_NS(m/s2),acc_EW(m/s2)", "time [s];a_N10E [g];quake [cm/s^2]")
+    one, two = read_text(text.replace(",", ";"))
+    assert (one.component, one.azimuth, one.source.unit) == ("N10E", 10.0, "g")
+    assert (two.component, two.source.unit) == ("quake", "cm/s2")
+    assert one.peak_acceleration == pytest.approx(2 * 9.80665 / 0.01 * two.peak_acceleration / 4, rel=1e-6)
