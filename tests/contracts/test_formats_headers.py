@@ -87,7 +87,7 @@ EARTHQUAKES: dict[str, tuple[str, str, float | None, float | None]] = {
     "AFAD/NSMN text": ("Copyright", "EARTHQUAKE MAGNITUDE    : 5.1 (Ml)\nCopyright", 5.1, None),
     "GeoNet V1A/V2A": (
         "Site WTMC      42 37 10S\nx",
-        "Site WTMC\nEpicentre Dist 9.5 km ML  7.82",
+        "Site WTMC\nEpicentre 42 38S Dist 9.5 km ML 7.82",
         7.82,
         None,
     ),
