@@ -89,7 +89,7 @@ EARTHQUAKES: dict[str, tuple[str, str, float | None, float | None]] = {
         "Site WTMC      42 37 10S\nx",
         "Site WTMC\nEpicentre 42 38S Dist 9.5 km ML 7.82",
         7.82,
-        None,
+        9500.0,
     ),
     "UNAM/CICESE": ("UNIDADES", "MAGNITUD(ES)                           : /M=7.1\nUNIDADES", 7.1, None),
     "CWB": ("#RecordLength", "#Magnitude(Ml): 6.0\n#RecordLength", 6.0, None),
