@@ -147,7 +147,7 @@ class Settings:
     )
     records_per_job: int | None = _own(
         None,
-        "about; null: the square root of their number, an eighth of it from 64, 64 from 512",
+        "about; null: the square root of their number, an eighth of it from 64, 200 from 1600",
         numbers=False,
         ge=1,
     )
