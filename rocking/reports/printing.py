@@ -99,6 +99,11 @@ def listed(names: Sequence[str], most: int = 6) -> str:
     return shown if more <= 0 else f"{shown} and {counted(more, 'other')}"
 
 
+def short(name: str, most: int = 44) -> str:
+    """Return a name that stands in full in a table before, cut to `most` characters."""
+    return name if len(name) <= most else f"{name[: most - 1].rstrip()}…"
+
+
 def sentence(text: str) -> str:
     """Return the text with a capital first letter."""
     return text[:1].upper() + text[1:]

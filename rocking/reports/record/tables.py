@@ -17,7 +17,7 @@ from rocking.assessment.rows import (
 )
 from rocking.pulses.flags import Flag
 from rocking.reports import printing
-from rocking.reports.printing import Cell, number, ratio, strong, table, table_of, with_unit, words
+from rocking.reports.printing import Cell, number, ratio, short, strong, table, table_of, with_unit, words
 from rocking.reports.record.verdict import contact_failure
 
 
@@ -113,7 +113,7 @@ def structure_table(rows: Iterable[StructureRow], numbers: Mapping[str, str]) ->
     return table_of(
         rows,
         ("No.", "auto", "r", lambda row: numbers[row.structure]),
-        ("Structure", "1.2", "l", lambda row: row.structure),
+        ("Structure", "1.4", "l", lambda row: short(row.structure)),
         (
             "Type and geometry",
             "2.4",
