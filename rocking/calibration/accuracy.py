@@ -1,106 +1,122 @@
-"""What accuracy costs: every method's error against its time, on a user's own records and structures.
+"""What accuracy costs, case by case: every method's error and time, on a user's own records and structures.
 
-Records are cut to their strongest stretch, because the reference takes seconds for what the kernel does in less than
-a millisecond; every method is given the same stretch.
+Every method but scipy follows whole records, and is held against the mechanism at a tight tolerance. Scipy takes
+seconds for what the kernel does in less than a millisecond, so that it is tried in few cases, cut to the strongest
+stretch of their record; there it is the reference.
 """
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, product
-from pathlib import Path
+from itertools import product
 from statistics import median
-from time import perf_counter
+from time import process_time
 
 import numpy as np
 
-from rocking.assessment.method import Method
-from rocking.assessment.rows import TradeRow
+from rocking.assessment.ensemble import EnsembleSettings, GroundMotions, ensemble
+from rocking.assessment.rows.of_trade import TradeMethod, TradeRow
 from rocking.assessment.verdict import Agreement, agreement, ratio, rocks
 from rocking.calibration.settings import TradeSettings
 from rocking.errors import MotionError, PulseError, RockingError
 from rocking.motion.integration import integrate
 from rocking.motion.reference import REFERENCE_TOLERANCE, Scipy, event_maximum, reference_maximum
 from rocking.motion.table import table_of
-from rocking.pulses import PulseSettings, extract_pulses
-from rocking.quantities import counted
+from rocking.pulses import Pulse, PulseSettings, extract_pulses
+from rocking.pulses.methods.sine_by_demand import CANDIDATES
 from rocking.records import Accelerogram
-from rocking.sine_pulse import predict_maximum, printed_maximum
-from rocking.structures import Mechanism, Structure
-from rocking.structures.mechanism import Scale
-from rocking.tables import data_package, write_rows, write_whole
+from rocking.sine_pulse import predict_maximum
+from rocking.structures import EquivalentBlock, Mechanism, Structure
 
-TOLERANCES = tuple(10.0**-power for power in range(2, 11))
-"""Of the mechanism on the record."""
-SCIPY_METHODS: tuple[Scipy, ...] = ("RK45", "DOP853")
-SCIPY_TOLERANCES = (1e-3, 1e-6, 1e-9)
-REPEATS = 7
-"""Timed runs of each method, after one that is not; scipy's, which take seconds, are run once."""
-MOST_RECORDS = 40
-"""Records among which the cases are sought, spread evenly over the catalogue."""
+TOLERANCES = (1e-3, 1e-6, 1e-9)
+"""Of the mechanism, and of scipy."""
+DEFAULT_TOLERANCE = 1e-6
+SCIPY_METHODS: Mapping[TradeMethod, Scipy] = {TradeMethod.RK45: "RK45", TradeMethod.DOP853: "DOP853"}
+REPEATS = 5
+"""Timed runs of each method, after one that is not; an ensemble is run once, and scipy."""
 LEAST_ROTATION = 0.01
 """Rotation ratio below which a case says nothing that matters to anyone."""
 
 
 @dataclass(frozen=True)
 class TradeCase:
-    """One record, cut to its strongest stretch, and one structure that rocks under it visibly."""
+    """One record and one structure. sensitivity: of the largest rotation to the amplitude."""
 
     record: str
     accelerogram: Accelerogram
     structure: str
     mechanism: Mechanism
-    sensitivity: float
+    sensitivity: float = math.nan
+
+
+@dataclass(frozen=True)
+class Pulses:
+    """The best-ranked sines of a record, and the processor time that finding them took, s."""
+
+    sines: tuple[Pulse, ...]
+    cpu: float
+    reason: str = ""
+
+    @classmethod
+    def of(cls, accelerogram: Accelerogram, settings: PulseSettings) -> "Pulses":
+        """Find them; none where the record has none."""
+        started = process_time()
+        try:
+            ranked = extract_pulses(accelerogram, settings=settings).ranked
+        except PulseError as error:
+            return cls((), process_time() - started, str(error))
+        return cls(tuple(each.pulse for each in ranked[:CANDIDATES]), process_time() - started)
 
 
 @dataclass(frozen=True)
 class Timed:
-    """What one method said: its answer (nan if it failed), what it took [s] and how often, and what went before."""
+    """What one method said: its answer (nan if it failed), and what it took, s."""
 
     method: str
     tolerance: float
     rotation_ratio: float
-    duration: float = math.nan
-    repeats: int = 0
-    preparation: float = 0.0
+    cpu: float = math.nan
+    preparation_record: float = 0.0
+    preparation_structure: float = 0.0
     reason: str = ""
 
 
-def write_trade(
-    records: Mapping[str, Callable[[], list[Accelerogram]]],
-    structures: Mapping[str, Structure],
-    settings: TradeSettings,
-    table: Path,
-    log: Path,
-) -> None:
-    """Write the table of cases chosen among `records`, each given by what opens it, and a line for each into `log`.
+def whole_record_rows(case: TradeCase, pulses: Pulses, settings: EnsembleSettings) -> Iterator[TradeRow]:
+    """Yield the rows of one case under its whole record. Raises MotionError where the mechanism cannot be followed."""
+    truth = integrate(case.mechanism, case.accelerogram, REFERENCE_TOLERANCE).rotation_ratio
+    block, block_cpu = _equivalent_block(case.mechanism)
+    for timed in (
+        *_sines(block, pulses, block_cpu),
+        _timed(TradeMethod.BLOCK, lambda: _rotation(block, case), preparation_structure=block_cpu),
+        *_mechanism(case),
+        _ensemble(case, settings),
+    ):
+        yield trade_row(case, timed, truth, beside_scipy=False)
 
-    Beside the table comes its description, a Frictionless data package of the same name.
+
+def scipy_rows(case: TradeCase, budget: float) -> Iterator[TradeRow]:
+    """Yield scipy's rows and the mechanism's for a case that is cut; a row that says so where the budget, s, is spent.
+
+    What the reference leaves of the budget is that of scipy at looser tolerances.
     """
-    with log.open("w", encoding="utf-8") as stream:
-
-        def motions() -> Iterator[tuple[str, Accelerogram]]:
-            names = list(records)
-            places = np.unique(np.linspace(0, len(names) - 1, min(MOST_RECORDS, len(names))).astype(int))
-            for name in (names[place] for place in places):
-                try:
-                    yield from ((name, accelerogram) for accelerogram in records[name]())
-                except RockingError as error:
-                    print(f"{name}: {error}", file=stream, flush=True)
-
-        def rows() -> Iterator[TradeRow]:
-            cases = choose_cases(motions(), structures, settings.cases, settings.samples)
-            for number, case in enumerate(cases, start=1):
-                where = f"{number} of {len(cases)}: {case.record}, {case.structure}"
-                found = list(trade_rows(case, settings))
-                print(f"{where}: {counted(len(found), 'run')}", file=stream, flush=True)
-                yield from found
-
-        write_rows(TradeRow, rows(), table)
-    write_whole(
-        table.with_suffix(".json"),
-        data_package("rocking-trade", {TradeRow.table.name: (TradeRow.table, table.name)}),
-    )
+    end = process_time() + budget
+    try:
+        truth = reference_maximum(case.mechanism, case.accelerogram, budget)
+    except MotionError as error:
+        yield trade_row(
+            case, Timed(TradeMethod.DOP853, REFERENCE_TOLERANCE, math.nan, reason=str(error)), math.nan
+        )
+        return
+    for timed in _mechanism(case):
+        yield trade_row(case, timed, truth)
+    for tolerance, (method, name) in product(TOLERANCES, SCIPY_METHODS.items()):
+        started = process_time()
+        try:
+            found = event_maximum(case.mechanism, case.accelerogram, name, tolerance, end - started)
+        except MotionError as error:
+            yield trade_row(case, Timed(method, tolerance, math.nan, reason=str(error)), truth)
+        else:
+            yield trade_row(case, Timed(method, tolerance, found, process_time() - started), truth)
 
 
 def strongest_stretch(accelerogram: Accelerogram, samples: int) -> Accelerogram:
@@ -114,12 +130,12 @@ def strongest_stretch(accelerogram: Accelerogram, samples: int) -> Accelerogram:
 
 
 def choose_cases(
-    motions: Iterable[tuple[str, Accelerogram]], structures: Mapping[str, Structure], count: int, samples: int
+    motions: Iterable[tuple[str, Accelerogram]], structures: Mapping[str, Structure], settings: TradeSettings
 ) -> list[TradeCase]:
-    """Return `count` cases that rock: the most sensitive of all, then each structure in turn from its median one."""
+    """Return the cases, cut, that rock: the most sensitive of all, then each structure in turn from its median one."""
     found: dict[str, list[TradeCase]] = {name: [] for name in structures}
     for record, accelerogram in motions:
-        stretch = strongest_stretch(accelerogram, samples)
+        stretch = strongest_stretch(accelerogram, settings.samples)
         for name, structure in structures.items():
             response = integrate(structure, stretch, sensitivity=True)
             if response.rotation_ratio >= LEAST_ROTATION and math.isfinite(response.sensitivity):
@@ -130,88 +146,11 @@ def choose_cases(
     chosen = [max(everything, key=lambda case: abs(case.sensitivity))] if everything else []
     longest = max((len(queue) for queue in queues), default=0)
     turns = [queue[turn] for turn in range(longest) for queue in queues if turn < len(queue)]
-    return [*chosen, *(case for case in turns if case not in chosen)][:count]
+    return [*chosen, *(case for case in turns if case not in chosen)][: settings.cases]
 
 
-def trade_rows(case: TradeCase, settings: TradeSettings) -> Iterator[TradeRow]:
-    """Yield the rows for one case; none but the reference's where that has no answer within its budget.
-
-    What the reference leaves of the budget is scipy's.
-    """
-    scale, pulse, budget = (
-        settings.assessment.acceleration_scale,
-        settings.assessment.pulse,
-        settings.budget_s,
-    )
-    started = perf_counter()
-    try:
-        truth = reference_maximum(case.mechanism, case.accelerogram, budget)
-    except MotionError as error:
-        yield _row(case, Timed("reference", REFERENCE_TOLERANCE, math.nan, reason=str(error)), math.nan)
-        return
-    taken = perf_counter() - started
-    yield _row(case, Timed("reference", REFERENCE_TOLERANCE, truth, taken, 1), truth)
-    runs = (_closed_forms(case, scale, pulse), _integrations(case, scale), _scipy(case, budget - taken))
-    for timed in chain.from_iterable(runs):
-        yield _row(case, timed, truth)
-
-
-def _closed_forms(case: TradeCase, scale: Scale, settings: PulseSettings) -> Iterator[Timed]:
-    block = case.mechanism.equivalent_block(scale)
-    started = perf_counter()
-    try:
-        pulse = extract_pulses(case.accelerogram, settings=settings).dominant
-    except PulseError as error:
-        for method in (Method.PRINTED, Method.CLOSED_FORM):
-            yield Timed(method, math.nan, math.nan, reason=str(error))
-        return
-    once = perf_counter() - started
-    printed = _timed(Method.PRINTED, math.nan, lambda: printed_maximum(block, pulse), once)
-    overturns = math.isnan(printed.rotation_ratio)  # a negative radicand, which the paper reads so
-    yield replace(printed, rotation_ratio=math.inf) if overturns else printed
-    yield _timed(Method.CLOSED_FORM, math.nan, lambda: predict_maximum(block, pulse).rotation_ratio, once)
-
-
-def _integrations(case: TradeCase, scale: Scale) -> Iterator[Timed]:
-    block, motion = case.mechanism.equivalent_block(scale), case.accelerogram
-    yield _timed(Method.BLOCK_ON_RECORD, math.nan, lambda: integrate(block, motion).rotation_ratio)
-    started = perf_counter()
-    table_of(replace(case.mechanism))  # an equal object whose table is not remembered
-    once = perf_counter() - started
-    for tolerance in TOLERANCES:
-
-        def run(tolerance: float = tolerance) -> float:
-            return integrate(case.mechanism, motion, tolerance).rotation_ratio
-
-        yield _timed(Method.MECHANISM_ON_RECORD, tolerance, run, once)
-
-
-def _scipy(case: TradeCase, budget: float) -> Iterator[Timed]:
-    end = perf_counter() + budget
-    for tolerance, method in product(SCIPY_TOLERANCES, SCIPY_METHODS):
-        started = perf_counter()
-        try:
-            found = event_maximum(case.mechanism, case.accelerogram, method, tolerance, end - started)
-        except MotionError as error:
-            yield Timed(f"scipy {method}", tolerance, math.nan, reason=str(error))
-        else:
-            yield Timed(f"scipy {method}", tolerance, found, perf_counter() - started, 1)
-
-
-def _timed(method: str, tolerance: float, run: Callable[[], float], preparation: float = 0.0) -> Timed:
-    try:
-        found = run()
-    except RockingError as error:
-        return Timed(method, tolerance, math.nan, reason=str(error))
-    durations = []
-    for _ in range(REPEATS):
-        started = perf_counter()
-        run()
-        durations.append(perf_counter() - started)
-    return Timed(method, tolerance, found, median(durations), REPEATS, preparation)
-
-
-def _row(case: TradeCase, timed: Timed, truth: float) -> TradeRow:
+def trade_row(case: TradeCase, timed: Timed, truth: float, *, beside_scipy: bool = True) -> TradeRow:
+    """Return what the answer of one method is worth beside `truth`."""
     said = agreement(timed.rotation_ratio, truth)
     agrees = said is Agreement.SAME
     miss = abs(ratio(timed.rotation_ratio, truth) - 1)
@@ -220,19 +159,82 @@ def _row(case: TradeCase, timed: Timed, truth: float) -> TradeRow:
         component=case.accelerogram.component,
         structure=case.structure,
         samples=case.accelerogram.acceleration.size,
-        time_step_s=case.accelerogram.time_step,
-        sensitivity=case.sensitivity,
         method=timed.method,
         tolerance=timed.tolerance,
         rotation_ratio=timed.rotation_ratio,
+        beside_scipy=beside_scipy,
         reference_rotation_ratio=truth,
         error=0.0 if agrees and not rocks(truth) else miss,
         verdict_agrees=None if said is Agreement.UNKNOWN else agrees,
-        duration_s=timed.duration,
-        repeats=timed.repeats,
-        preparation_s=timed.preparation,
+        cpu_s=timed.cpu,
+        preparation_record_s=timed.preparation_record,
+        preparation_structure_s=timed.preparation_structure,
         reason=timed.reason,
     )
+
+
+def _equivalent_block(mechanism: Mechanism) -> tuple[EquivalentBlock, float]:
+    """The block, made anew of an equal mechanism that remembers none, and the time that took."""
+    fresh, started = replace(mechanism), process_time()
+    block = fresh.equivalent_block("rest")
+    return block, process_time() - started
+
+
+def _sines(block: EquivalentBlock, pulses: Pulses, block_cpu: float) -> Iterator[Timed]:
+    for method, many in ((TradeMethod.ONE_SINE, 1), (TradeMethod.SINES, CANDIDATES)):
+        if not pulses.sines:
+            yield Timed(method, math.nan, math.nan, reason=pulses.reason)
+            continue
+
+        def run(many: int = many) -> float:
+            return max(predict_maximum(block, pulse).rotation_ratio for pulse in pulses.sines[:many])
+
+        yield _timed(method, run, preparation_record=pulses.cpu, preparation_structure=block_cpu)
+
+
+def _rotation(structure: EquivalentBlock | Mechanism, case: TradeCase, tolerance: float = 1e-6) -> float:
+    return integrate(structure, case.accelerogram, tolerance).rotation_ratio
+
+
+def _mechanism(case: TradeCase) -> Iterator[Timed]:
+    started = process_time()
+    table_of(replace(case.mechanism))  # an equal object whose table is not remembered
+    once = process_time() - started
+    for tolerance in TOLERANCES:
+        found = _timed(
+            TradeMethod.MECHANISM,
+            lambda tolerance=tolerance: _rotation(case.mechanism, case, tolerance),  # type: ignore[misc]
+            preparation_structure=once,
+        )
+        yield replace(found, tolerance=tolerance)
+
+
+def _ensemble(case: TradeCase, settings: EnsembleSettings) -> Timed:
+    """Its median; of the verdict that overturning is likelier than not."""
+    started = process_time()
+    found = ensemble(case.mechanism, GroundMotions.of(case.accelerogram), settings)
+    taken = process_time() - started
+    overturns = found.overturning_probability > 0.5
+    return Timed(TradeMethod.ENSEMBLE, math.nan, math.inf if overturns else found.median, taken)
+
+
+def _timed(
+    method: TradeMethod,
+    run: Callable[[], float],
+    *,
+    preparation_record: float = 0.0,
+    preparation_structure: float = 0.0,
+) -> Timed:
+    try:
+        found = run()
+    except RockingError as error:
+        return Timed(method, math.nan, math.nan, reason=str(error))
+    durations = []
+    for _ in range(REPEATS):
+        started = process_time()
+        run()
+        durations.append(process_time() - started)
+    return Timed(method, math.nan, found, median(durations), preparation_record, preparation_structure)
 
 
 def _from_the_median(cases: Sequence[TradeCase]) -> list[TradeCase]:

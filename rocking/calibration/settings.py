@@ -9,15 +9,16 @@ from rocking.quantities import check_settings, setting
 
 @dataclass(frozen=True)
 class TradeSettings:
-    """How much is tried. Raises ConfigurationError when a value is outside what is allowed."""
+    """How much is tried with scipy; all else is tried on whole records.
 
-    cases: int = setting(12, "records times structures that are tried", ge=1, le=10_000)
+    Raises ConfigurationError when a value is outside what is allowed.
+    """
+
+    cases: int = setting(6, "records times structures that are also given to scipy", ge=1, le=10_000)
     samples: int = setting(
-        300, "of the strongest stretch of each record, which every method is given", ge=10, le=100_000
+        300, "of the strongest stretch of each record, which scipy is given", ge=10, le=100_000
     )
-    budget_s: float = setting(
-        60.0, "time that scipy, the reference, may take for one case", "s", ge=1, le=1e6
-    )
+    budget_s: float = setting(60.0, "processor time that scipy may take for one case", "s", ge=1, le=1e6)
     assessment: AssessmentSettings = field(default_factory=AssessmentSettings)
 
     def __post_init__(self) -> None:

@@ -4,7 +4,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rocking.assessment.rows import PER_RECORD, SUMMARY_TABLES, TradeRow
+from rocking.assessment.rows import PER_RECORD, SUMMARY_TABLES
+from rocking.assessment.rows.of_trade import TRADE_TABLES
 from rocking.errors import RockingError
 from rocking.study.parts import copy_tables, parts_in
 from rocking.tables import Row, frame
@@ -12,7 +13,7 @@ from rocking.tables import Row, frame
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-_ROWS: tuple[type[Row], ...] = (*PER_RECORD, *SUMMARY_TABLES, TradeRow)
+_ROWS: tuple[type[Row], ...] = (*PER_RECORD, *SUMMARY_TABLES, *TRADE_TABLES.values())
 _TABLES = {each.table.name: each for each in _ROWS}
 
 

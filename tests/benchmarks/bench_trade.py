@@ -3,41 +3,34 @@
 Prints; nothing is asserted. The reference takes seconds for each case.
 """
 
-import math
+import tempfile
 from pathlib import Path
-from statistics import median
 
-from rocking.calibration.accuracy import TradeSettings, choose_cases, trade_rows
+from rocking.assessment.rows.of_trade import TradeMethod, TradeMethodRow
+from rocking.calibration.settings import TradeSettings
+from rocking.calibration.trade import write_trade
 from rocking.records import load_catalogue, open_record
 from rocking.structures import Block, Wall
+from rocking.tables import read_rows
 
 CATALOGUE = Path(__file__).parents[2] / "records" / "catalogue.csv"
 STRUCTURES = {"block": Block(2.0, 0.15), "wall": Wall(1.6, 1.6, 0.25)}
-SETTINGS = TradeSettings(cases=4, samples=400)
+SETTINGS = TradeSettings(cases=4, samples=300)
 
 
 def main() -> None:
-    """Print, for each method and tolerance: median error, median time, and scipy DOP853's time at 1e-6 over it."""
-    records = [record for record in load_catalogue(CATALOGUE) if record.id.startswith("synthetic")]
-    motions = [(record.id, accelerogram) for record in records for accelerogram in open_record(record)]
-    cases = choose_cases(motions, STRUCTURES, SETTINGS.cases, SETTINGS.samples)
-    rows = [row for case in cases for row in trade_rows(case, SETTINGS)]
-    print(f"{len(cases)} cases: " + "; ".join(f"{case.record}, {case.structure}" for case in cases))
-    groups: dict[tuple[str, float | None], list] = {}
+    """Print, for each method: its median error and wrong verdicts, and its time over that of the mechanism."""
+    listed = [record for record in load_catalogue(CATALOGUE) if record.id.startswith("synthetic")]
+    records = {record.id: lambda record=record: open_record(record) for record in listed}
+    with tempfile.TemporaryDirectory() as folder:
+        write_trade(records, STRUCTURES, SETTINGS, Path(folder), print)
+        rows = list(read_rows(TradeMethodRow, Path(folder) / TradeMethodRow.table.file_name))
+    dear = next(row for row in rows if row.method == TradeMethod.MECHANISM)
+    print(f"{'method':22} {'median error':>13} {'wrong':>8} {'CPU':>10} {'over the mechanism':>19}")
     for row in rows:
-        tolerance = None if math.isnan(row.tolerance) else row.tolerance
-        groups.setdefault((row.method, tolerance), []).append(row)
-    scipy = median(row.duration_s for row in groups["scipy DOP853", 1e-6])
-    print(
-        f"{'method':22} {'tolerance':>9} {'median error':>13} {'median time':>12} {'scipy over it':>14} {'wrong':>6}"
-    )
-    for (method, tolerance), found in groups.items():
-        errors = [row.error for row in found if not math.isnan(row.error)]
-        duration = median(row.duration_s for row in found)
-        wrong = sum(row.verdict_agrees is False for row in found)
         print(
-            f"{method:22} {tolerance or '':>9} {median(errors) if errors else math.nan:13.2e} "
-            f"{duration * 1e6:9.1f} us {scipy / duration:14.1f} {wrong:3d}/{len(found)}"
+            f"{row.method:22} {row.error:13.2e} {row.wrong_verdicts:4d}/{row.cases:<3d} {row.cpu_s * 1e6:7.1f} us "
+            f"{row.cpu_s / dear.cpu_s:19.2f}"
         )
 
 

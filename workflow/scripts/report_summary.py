@@ -6,6 +6,6 @@ from rocking.study.summary_report import draw_summary, report_summary
 
 if __name__ == "__main__":
     folder = Path(snakemake.output.document).parent
-    trade = Path(snakemake.input.trade) if snakemake.input.trade else None
+    trade = folder if snakemake.input.trade else None
     report_summary(folder, snakemake.params.settings, trade)
     draw_summary(folder / "comparison.csv", Path(snakemake.output.figure))

@@ -10,13 +10,10 @@ import numpy as np
 from rocking.assessment.rows.shared import (
     COMPONENT,
     FREQUENCY_PARAMETER,
-    METHOD,
-    RECORD,
     RECORD_SHA256,
     RESTITUTION,
     ROTATION_RATIO,
     SCALE_FACTOR,
-    SENSITIVITY,
     STRUCTURE,
 )
 from rocking.motion.spectrum import rocking_spectrum
@@ -131,33 +128,6 @@ class SpectrumRow(Row):
     rotation_ratio: float = column(ROTATION_RATIO)
     scale_factor: float = column(SCALE_FACTOR)
     record_sha256: str = column(RECORD_SHA256)
-
-
-@row(
-    "trade",
-    "One row per case, method and setting: error against a tight integration, and time; differs between runs",
-)
-class TradeRow(Row):
-    """One method at one tolerance on one case."""
-
-    record: str = column(RECORD)
-    component: str = column("Component of the ground motion")
-    structure: str = column(STRUCTURE)
-    samples: int = column("Samples of the strongest stretch, which every method was given")
-    time_step_s: float = column("Time step")
-    sensitivity: float = column(SENSITIVITY)
-    method: str = column(METHOD)
-    tolerance: float = column("Relative tolerance of the method; empty where it has none")
-    rotation_ratio: float = column("Largest rotation over critical rotation; INF if it overturns")
-    reference_rotation_ratio: float = column("The same by DOP853 at 1e-12, restarted at each sample")
-    error: float = column("Magnitude of the relative error where both rock; 0 where neither does")
-    verdict_agrees: bool | None = column("Whether it rocks, overturns or stays as the reference says")
-    duration_s: float = column("Time of one response, median of the repeats, all tables warm")
-    repeats: int = column("Timed runs")
-    preparation_s: float = column(
-        "Time spent once beforehand: on the pulse, or on the table of the mechanism"
-    )
-    reason: str = column("Why there is no number")
 
 
 def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow]:

@@ -1,6 +1,6 @@
 """The report over all records: what a decision is taken from."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.rows import AgreementRow, ComparisonRow, FailureRow, RecordRow
@@ -12,23 +12,26 @@ from rocking.reports.summary import fates as summary_fates
 from rocking.reports.summary import tables as summary_tables
 from rocking.reports.summary.figures import prediction_scatter
 from rocking.reports.summary.tables import MOST_RECORDS, Listing
-from rocking.reports.summary.trade_figures import trade_figure
 from rocking.tables import rows_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
 
-def summary_report(tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any]) -> bytes:
+def summary_report(
+    tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any], trade: Sequence[Mapping[str, str]] = ()
+) -> bytes:
     """Return the PDF over all records.
 
-    tables: the summary tables "record", "pulses", "comparison", "ensemble", "structures", "agreement", "failures" and,
-    where it exists, "trade". settings: at least tolerance and acceleration_scale.
+    tables: the summary tables "record", "pulses", "comparison", "ensemble", "structures", "agreement" and "failures".
+    settings: at least tolerance and acceleration_scale. trade: figure and conclusion, where it was measured.
     """
-    return compile_document("summary/summary.typ", summary_data(tables, settings))
+    return compile_document("summary/summary.typ", summary_data(tables, settings, trade))
 
 
-def summary_data(tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any]) -> dict[str, object]:
+def summary_data(
+    tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any], trade: Sequence[Mapping[str, str]] = ()
+) -> dict[str, object]:
     """Return what the template of the summary is given: texts, tables and figures."""
     comparison = tables["comparison"]
     found = summary_fates.fates(comparison, tables["ensemble"])
@@ -55,7 +58,7 @@ def summary_data(tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any])
         "unsafe-note": unsafe.rest("case", "comparison.csv"),
         "failures": summary_tables.failure_table(failures),
         "failures-note": failures.rest("failure", "failures.csv"),
-        "trade": _trade(tables.get("trade")),
+        "trade": list(trade),
         "tolerance": printing.given(float(settings["tolerance"])),
         "acceleration-scale": str(settings["acceleration_scale"]),
     }
@@ -77,10 +80,3 @@ def _scatter(comparison: "DataFrame") -> list[dict[str, str]]:
         return []
     alt = "Scatter of predicted against integrated rotation ratio, with factor-two lines."
     return [{"svg": svg(prediction_scatter(comparison)), "alt": alt}]
-
-
-def _trade(measured: "DataFrame | None") -> list[dict[str, str]]:
-    if measured is None or measured.empty:
-        return []
-    alt = "Error of the largest rotation against the time of one response, for every method, with medians."
-    return [{"svg": svg(trade_figure(measured)), "alt": alt}]

@@ -13,7 +13,6 @@ from rocking.assessment.rows import (
     PulseRow,
     RecordRow,
     StructureRow,
-    TradeRow,
     agreement_rows,
 )
 from rocking.assessment.verdict import Agreement, Verdict, agreement, ratio, ratio_in_words, within_factor_two
@@ -81,9 +80,9 @@ def scaled(record: str) -> RecordRow:
     )
 
 
-def summary_tables(comparison, record=(), failures=(), trade=(), ensemble=()):
+def summary_tables(comparison, record=(), failures=(), ensemble=()):
     cases = frame(ComparisonRow, comparison)
-    tables = {
+    return {
         "record": frame(RecordRow, record),
         "pulses": frame(PulseRow, []),
         "comparison": cases,
@@ -92,7 +91,6 @@ def summary_tables(comparison, record=(), failures=(), trade=(), ensemble=()):
         "agreement": frame(AgreementRow, agreement_rows(cases)),
         "failures": frame(FailureRow, failures),
     }
-    return tables | ({"trade": frame(TradeRow, trade)} if trade else {})
 
 
 def test_agreement_counts_all_and_each_structure():
@@ -201,32 +199,11 @@ def test_the_summary_of_a_record_is_the_same_twice_and_names_its_factor(hostile)
     assert any("declared factor" in notice["text"] for notice in summary_data(tables, SETTINGS)["notices"])
 
 
-def test_the_trade_is_drawn_where_it_was_measured():
-    def timed(method: str, error: float, duration: float) -> TradeRow:
-        return TradeRow(
-            record="one",
-            component="EW",
-            structure="block",
-            samples=100,
-            time_step_s=0.01,
-            sensitivity=1.0,
-            method=method,
-            tolerance=math.nan,
-            rotation_ratio=0.5,
-            reference_rotation_ratio=0.5,
-            error=error,
-            verdict_agrees=True,
-            duration_s=duration,
-            repeats=7,
-            preparation_s=0.0,
-            reason="",
-        )
-
-    trade = [timed(Method.PRINTED, 0.5, 5e-6), timed(Method.BLOCK_ON_RECORD, 0.02, 2e-5)]
-    (drawn,) = summary_data(summary_tables(CASES, trade=trade), SETTINGS)["trade"]
-    assert "Eq. 15 as printed" in drawn["svg"] and "equivalent block on the record" in drawn["svg"]
+def test_the_trade_is_shown_where_it_was_measured():
+    shown = [{"svg": "<svg xmlns='http://www.w3.org/2000/svg'/>", "alt": "a", "conclusion": "Buy one."}]
+    assert summary_data(summary_tables(CASES), SETTINGS, shown)["trade"] == shown
     assert summary_data(summary_tables(CASES), SETTINGS)["trade"] == []
-    assert summary_report(summary_tables(CASES, trade=trade), SETTINGS).startswith(b"%PDF")
+    assert summary_report(summary_tables(CASES), SETTINGS, shown).startswith(b"%PDF")
 
 
 def test_tables_read_from_files_give_the_report_of_rows_in_memory(example, tmp_path):

@@ -1,0 +1,1 @@
+"""The trade of error for time as a document."""
