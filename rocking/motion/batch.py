@@ -4,6 +4,7 @@ import math
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 
 import numpy as np
 
@@ -11,12 +12,14 @@ from rocking.errors import MotionError, RockingError
 from rocking.motion.forcing import GroundMotion, forcing_of
 from rocking.motion.integration import TOLERANCES, Rocking, reduce
 from rocking.motion.many_blocks import all_solvable, follow_blocks
-from rocking.motion.members import Members, follow_factors
+from rocking.motion.members import Members, follow_factors, stepped_ratios
+from rocking.motion.table import table_of
 from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
+from rocking.structures.mechanism import Mechanism
 
 _SMALLEST_CHUNK = 16
-"""Responses below which a chunk costs more to hand to a thread than it gains."""
+"""Responses below which a job costs more to hand to a thread than it gains."""
 
 
 def integrate_batch(
@@ -37,25 +40,27 @@ def integrate_batch(
     Raises MotionError for a setting that is wrong for every case.
     """
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
-    factors, forcing = Members(scale_factors).scale_factor, forcing_of(record, vertical)
+    factors, forcing = _factors(scale_factors), forcing_of(record, vertical)
     ratios = np.full((len(structures), factors.size), math.nan)
     if factors.size == 1 and len(structures) > 1 and all_solvable(structures, forcing):
         return follow_blocks(structures, forcing.scaled(factors[0]))[:, None]
     workers = workers or os.cpu_count() or 1
-    chunk = _chunk(len(structures), factors.size, workers)
+    lift = factors if forcing.vertical else np.zeros(factors.size)
 
-    def run(job: tuple[int, int]) -> None:
-        index, start = job
-        columns = slice(start, start + chunk)
-        try:
-            own = factors[columns]
-            lift = own if forcing.vertical else None
-            found = follow_factors(reduce(structures[index]), forcing, own, lift, None, tolerance)
-        except RockingError:
-            return
-        ratios[index, columns] = found.rotation_ratio
+    def run(job: Sequence[tuple[int, slice]]) -> None:
+        for index, some in job:
+            with suppress(RockingError):
+                reduced = reduce(structures[index])
+                if isinstance(reduced, Mechanism):
+                    found = stepped_ratios(table_of(reduced), forcing, factors[some], lift[some], tolerance)
+                else:
+                    up = lift[some] if forcing.vertical else None
+                    found = follow_factors(
+                        reduced, forcing, factors[some], up, None, tolerance
+                    ).rotation_ratio
+                ratios[index, some] = found
 
-    jobs = [(index, start) for index in range(len(structures)) for start in range(0, factors.size, chunk)]
+    jobs = _shared_out(len(structures), factors.size, workers)
     if workers == 1 or len(jobs) == 1:
         for job in jobs:
             run(job)
@@ -65,7 +70,25 @@ def integrate_batch(
     return ratios
 
 
-def _chunk(structures: int, factors: int, workers: int) -> int:
-    """Factors per call: all of a structure's, unless there are too few structures to keep the workers busy."""
+def _factors(given: Sequence[float] | np.ndarray) -> np.ndarray:
+    factors = np.array(given, dtype=float, ndmin=1)
+    if factors.ndim == 1 and factors.size and factors.min() > 0 and factors.max() < math.inf:
+        return factors
+    return Members(given).scale_factor  # says what is wrong
+
+
+def _shared_out(structures: int, factors: int, workers: int) -> list[list[tuple[int, slice]]]:
+    """Jobs of calls: place of the structure, and which factors.
+
+    A call takes all factors of a structure, unless there are too few structures to keep the workers busy; a job takes
+    as many calls as are worth a thread.
+    """
     parts = max(1, -(-2 * workers // max(structures, 1))) if workers > 1 else 1
-    return max(_SMALLEST_CHUNK, -(-factors // parts))
+    chunk = max(_SMALLEST_CHUNK, -(-factors // parts))
+    calls = [
+        (index, slice(start, start + chunk))
+        for index in range(structures)
+        for start in range(0, factors, chunk)
+    ]
+    size = max(1, _SMALLEST_CHUNK // min(chunk, factors))
+    return [calls[k : k + size] for k in range(0, len(calls), size)]
