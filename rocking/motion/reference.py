@@ -41,8 +41,7 @@ def reference_landings(
     mechanism: Mechanism, accelerogram: Accelerogram, budget: float = math.inf
 ) -> tuple[float, np.ndarray]:
     """Return what `reference_maximum` returns, and (k, 2) time [s] and speed of arrival [rad/s] of every landing."""
-    run = _Run(mechanism, accelerogram, "DOP853", REFERENCE_TOLERANCE, budget, restart=True)
-    return run.maximum(), np.array(run.landings, dtype=float).reshape(-1, 2)
+    return _Run(mechanism, accelerogram, "DOP853", REFERENCE_TOLERANCE, budget, restart=True).answer()
 
 
 def event_maximum(
@@ -57,7 +56,18 @@ def event_maximum(
     No step is longer than a sample. Overturning is a rotation past the end of the mechanism.
     Raises MotionError once it has taken `budget` seconds.
     """
-    return _Run(mechanism, accelerogram, method, relative_tolerance, budget, restart=False).maximum()
+    return event_landings(mechanism, accelerogram, method, relative_tolerance, budget)[0]
+
+
+def event_landings(
+    mechanism: Mechanism,
+    accelerogram: Accelerogram,
+    method: Scipy,
+    relative_tolerance: float,
+    budget: float = math.inf,
+) -> tuple[float, np.ndarray]:
+    """Return what `event_maximum` returns, and (k, 2) time [s] and speed of arrival [rad/s] of every landing."""
+    return _Run(mechanism, accelerogram, method, relative_tolerance, budget, restart=False).answer()
 
 
 class _Run:
@@ -81,6 +91,10 @@ class _Run:
             self.sides[-1] = mechanism.negative or mechanism.positive
         self.peak, self.overturned, self.still_landings = 0.0, False, 0
         self.landings: list[tuple[float, float]] = []
+
+    def answer(self) -> tuple[float, np.ndarray]:
+        """The largest rotation ratio, and time and speed of every landing (k, 2)."""
+        return self.maximum(), np.array(self.landings, dtype=float).reshape(-1, 2)
 
     def maximum(self) -> float:
         """Follow the motion and return its largest rotation ratio."""

@@ -142,6 +142,14 @@ class Settings:
         StudyFragilitySettings, "Fragility from all records of the study: snakemake fragility"
     )
     trade: StudyTradeSettings = _section(StudyTradeSettings, "Trade of error for time: snakemake trade")
+    comparison_share: float = _own(
+        1.0,
+        "share of the cases that are run; 1: as in the documentation",
+        heading="Work against precision of several codes: snakemake compare",
+        numbers=False,
+        ge=0.01,
+        le=1.0,
+    )
     reports: bool = _own(
         True, "PDF reports; the tables are written either way", heading="Output", numbers=False
     )

@@ -14,6 +14,7 @@ rule compare:
         f"{SUMMARY}/benchmarks/compare.tsv"
     params:
         mirror=SETTINGS.mirror,
+        share=SETTINGS.comparison_share,
         package_sha256=PACKAGE,
     message:
         "Run the same cases through every code"

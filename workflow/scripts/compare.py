@@ -12,5 +12,5 @@ if __name__ == "__main__":
     pdf, mirror = Path(snakemake.output.pdf), snakemake.params.mirror
     listed = load_catalogue(Path(snakemake.input.catalogue))
     records = [open_record(record, mirror=mirror)[0] for record in listed[: RECORDS // 3]]
-    write_comparison(records, pdf.parent, Path(snakemake.log[0]))
+    write_comparison(records, pdf.parent, Path(snakemake.log[0]), snakemake.params.share)
     write_whole(pdf, comparison_report(pdf.parent))

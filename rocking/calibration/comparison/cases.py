@@ -22,13 +22,12 @@ SAMPLES = 200
 """Of the strongest stretch of a record that every code is given."""
 PER_PERIOD = 48
 """Samples of a pulse; between them every code sees straight lines, so that all are given the same motion."""
-BLOCK_BREADTH, BLOCK_HEIGHT = 0.6, 3.0
 
 
 def structures() -> dict[str, Structure]:
     """Return the structures by name: m, rad."""
     return {
-        "block": Block.of_size(breadth=BLOCK_BREADTH, height=BLOCK_HEIGHT),
+        "block": Block.of_size(breadth=0.6, height=3.0),
         "frame": Frame(Block.of_size(breadth=0.5, height=4.0), 2, 1.0),
         "arch": Arch(radius=5.0, thickness=0.75, embrace_angle=math.radians(157.5), voussoirs=7),
     }

@@ -13,31 +13,41 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rocking.calibration.comparison.cases import BLOCK_BREADTH, BLOCK_HEIGHT, CodeCase
+from rocking.calibration.comparison.cases import CodeCase
 from rocking.errors import MotionError
 from rocking.motion.integration import integrate
-from rocking.motion.reference import event_maximum
+from rocking.motion.reference import event_landings
 from rocking.motion.response import Response
 
 SLOWEST = 1e-3
 """Speed of arrival, in p φ_cr, of the weakest impact that is counted."""
 TIMEOUT = 300.0
 """Seconds that a process of another code may take."""
+LMGC90, ROCKING_BC = "LMGC90 (compas_lmgc90), NSCD", "OpenSees RockingBC"
+ANOTHER_MODEL = frozenset({("arch", LMGC90)})
+"""What solves a motion other than the reference's: hinges open where they like, and its shocks are its own."""
 _DRIVERS = {
-    "LMGC90 (compas_lmgc90), NSCD": "rocking.calibration.comparison.lmgc90",
-    "OpenSees RockingBC": "rocking.calibration.comparison.opensees",
+    LMGC90: "rocking.calibration.comparison.lmgc90",
+    ROCKING_BC: "rocking.calibration.comparison.opensees",
 }
 
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What a code said: φ_max/φ_cr (nan: nothing), half its error bar, processor time [s], and landings (k,) [s]."""
+    """What a code said: φ_max/φ_cr (nan: nothing), half its error bar, processor time [s], and landings (k,) [s].
+
+    restitution: what a reversal on still ground kept of the speed, and half its error bar. outside_hinges: share of
+    joint rotation outside the hinges of the mechanism at the largest rotation. Both nan where nothing is measured.
+    """
 
     rotation_ratio: float
     duration: float
     error_bar: float = math.nan
     landings: np.ndarray | None = None
     reason: str = ""
+    restitution: float = math.nan
+    restitution_error: float = math.nan
+    outside_hinges: float = math.nan
 
 
 Code = Callable[[CodeCase], Answer]
@@ -54,7 +64,7 @@ def inner_codes() -> Mapping[str, Code]:
 
 
 def outer_codes() -> Mapping[str, Code]:
-    """Return the other codes, which take the block."""
+    """Return the other codes, each in a process of its own."""
     return {name: _outer(module) for name, module in _DRIVERS.items()}
 
 
@@ -82,10 +92,10 @@ def _scipy(method) -> Code:
     def run(case: CodeCase) -> Answer:
         start = time.process_time()
         try:
-            ratio = event_maximum(case.mechanism, case.motion, method, 1e-6, TIMEOUT)
+            ratio, landings = event_landings(case.mechanism, case.motion, method, 1e-6, TIMEOUT)
         except MotionError as error:
             return Answer(math.nan, time.process_time() - start, reason=str(error))
-        return Answer(ratio, time.process_time() - start)
+        return Answer(ratio, time.process_time() - start, landings=landings[:, 0])
 
     return run
 
@@ -93,8 +103,7 @@ def _scipy(method) -> Code:
 def _outer(module: str) -> Code:
     def run(case: CodeCase) -> Answer:
         given = {
-            "breadth": BLOCK_BREADTH,
-            "height": BLOCK_HEIGHT,
+            "structure": case.structure,
             "critical_rotation": case.mechanism.critical_rotation,
             "frequency_parameter": case.mechanism.positive.frequency_parameter,
             "acceleration": case.motion.acceleration.tolist(),
@@ -112,6 +121,7 @@ def _outer(module: str) -> Code:
             return Answer(
                 math.nan, math.nan, reason=(done.stderr.strip().splitlines() or ["It said nothing."])[-1]
             )
-        return Answer(found["rotation_ratio"], found["duration"], found["error_bar"], reason=found["reason"])
+        found["landings"] = np.array(found["landings"]) if found["reason"] == "" else None
+        return Answer(**found)
 
     return run

@@ -2,6 +2,39 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """What a code says at one setting, nan where nothing.
+
+    rotation_ratio: φ_max/φ_cr, inf if it overturns. restitution: of a reversal on still ground. outside_hinges: share
+    of joint rotation outside the hinges of the mechanism at the largest rotation. landings: (k,) s.
+    """
+
+    rotation_ratio: float
+    restitution: float = math.nan
+    outside_hinges: float = math.nan
+    landings: np.ndarray = field(default_factory=lambda: np.empty(0))
+
+
+def answer_of(runs: Sequence[Run], duration: float, reason: str) -> dict:
+    """Return the limits of three runs as a mapping for JSON; reason: why the largest rotation has none, if so."""
+    ratio, bar = limit_of([run.rotation_ratio for run in runs])
+    kept, kept_bar = limit_of([run.restitution for run in runs])
+    return {
+        "rotation_ratio": ratio,
+        "error_bar": bar,
+        "restitution": kept,
+        "restitution_error": kept_bar,
+        "outside_hinges": runs[-1].outside_hinges,
+        "landings": runs[-1].landings.tolist(),
+        "duration": duration,
+        "reason": reason if math.isnan(ratio) else "",
+    }
 
 
 def limit_of(answers: Sequence[float]) -> tuple[float, float]:

@@ -4,35 +4,55 @@ import math
 import random
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from rocking.assessment.rows.of_comparison import CodeRow
-from rocking.calibration.comparison.cases import SEED, CodeCase, pulse_cases, record_cases
-from rocking.calibration.comparison.codes import SLOWEST, Answer, Code, inner_codes, outer_codes
+from rocking.calibration.comparison.cases import PULSES, RECORDS, SEED, CodeCase, pulse_cases, record_cases
+from rocking.calibration.comparison.codes import (
+    ANOTHER_MODEL,
+    LMGC90,
+    ROCKING_BC,
+    SLOWEST,
+    Answer,
+    Code,
+    inner_codes,
+    outer_codes,
+)
 from rocking.errors import MotionError
 from rocking.motion.integration import integrate
 from rocking.motion.reference import reference_landings
 from rocking.records import Accelerogram
+from rocking.structures import Mechanism
 from rocking.tables import data_package, write_rows, write_whole
 
 REFERENCE = "scipy DOP853, 1e-12 (reference)"
 REFERENCE_BUDGET = 120.0
 """Seconds that the reference may take for one case."""
-SAMPLED = {"LMGC90 (compas_lmgc90), NSCD": 24, "OpenSees RockingBC": 4}
-"""Blocks that each slow code is run on, drawn with the seed of the cases from those that rock visibly."""
+SAMPLED = {
+    LMGC90: {"block": 24, "frame": 24, "arch": 24},
+    ROCKING_BC: {"block": 12, "frame": 3},
+}
+"""Cases of each structure that a slow code is run on, drawn with the seed of the cases from those that rock visibly."""
 VISIBLE = (0.02, 0.95)
 """Rotation ratios between which a block is said to do so."""
 
 
-def write_comparison(records: Sequence[Accelerogram], folder: Path, log: Path) -> None:
-    """Write codes.csv and its description into `folder`, and a line for each case into `log`."""
-    cases = [*pulse_cases(), *record_cases(records)]
+def write_comparison(records: Sequence[Accelerogram], folder: Path, log: Path, share: float = 1.0) -> None:
+    """Write codes.csv and its description into `folder`, and a line for each case into `log`.
+
+    share: of the cases, in (0, 1], for a shorter run.
+    """
+    cases = [
+        *pulse_cases(math.ceil(share * PULSES)),
+        *record_cases(records, math.ceil(share * RECORDS)),
+    ]
     with log.open("w", encoding="utf-8") as stream:
 
         def rows() -> Iterator[CodeRow]:
-            slow = slow_cases(cases)
+            slow = slow_cases(cases, share)
             for case in cases:
                 found = list(code_rows(case, {**inner_codes(), **slow.get(case.name, {})}))
                 print(f"{case.name}: {len(found)} codes", file=stream, flush=True)
@@ -70,18 +90,18 @@ def missed(landings: np.ndarray, expected: np.ndarray, within: float) -> int:
     return int((np.abs(expected[:, None] - landings).min(axis=1) > within).sum())
 
 
-def slow_cases(cases: Sequence[CodeCase]) -> Mapping[str, Mapping[str, Code]]:
-    """Return by case the slow codes that take it."""
-    rocking = [
-        case.name
-        for case in cases
-        if case.structure == "block"
-        and VISIBLE[0] < integrate(case.mechanism, case.motion).rotation_ratio < VISIBLE[1]
-    ]
+def slow_cases(cases: Sequence[CodeCase], share: float = 1.0) -> Mapping[str, Mapping[str, Code]]:
+    """Return by case the slow codes that take it, of each code that share of its sample."""
+    rocking: dict[str, list[str]] = {}
+    for case in cases:
+        if VISIBLE[0] < integrate(case.mechanism, case.motion).rotation_ratio < VISIBLE[1]:
+            rocking.setdefault(case.structure, []).append(case.name)
     chosen: dict[str, dict[str, Code]] = {}
     for name, code in outer_codes().items():
-        for case_name in random.Random(SEED).sample(rocking, min(SAMPLED[name], len(rocking))):
-            chosen.setdefault(case_name, {})[name] = code
+        for structure, most in SAMPLED[name].items():
+            names = rocking.get(structure, [])
+            for case_name in random.Random(SEED).sample(names, min(math.ceil(share * most), len(names))):
+                chosen.setdefault(case_name, {})[name] = code
     return chosen
 
 
@@ -91,26 +111,41 @@ def _speed(case: CodeCase) -> float:
 
 
 def _row(case: CodeCase, code: str, answer: Answer, truth: float, expected: np.ndarray) -> CodeRow:
-    ratio = answer.rotation_ratio
+    ratio, other = answer.rotation_ratio, (case.structure, code) in ANOTHER_MODEL
     known = not math.isnan(ratio) and not math.isnan(truth)
     agrees = _kind(ratio) == _kind(truth) if known else None
     rocks = agrees and 0 < truth < math.inf
     within = 0.02 / case.mechanism.positive.frequency_parameter
+    found = None if other else answer.landings
     return CodeRow(
         case=case.name,
         structure=case.structure,
         motion=case.kind,
         code=code,
+        another_model=other,
         rotation_ratio=ratio,
         rotation_ratio_error=answer.error_bar,
         reference_rotation_ratio=truth,
-        error=abs(ratio / truth - 1) if rocks else 0.0 if agrees else math.nan,
+        error=math.nan if other else abs(ratio / truth - 1) if rocks else 0.0 if agrees else math.nan,
         verdict_agrees=agrees,
         duration_s=answer.duration,
         reference_impacts=expected.size,
-        missed_impacts=None if answer.landings is None else missed(answer.landings, expected, within),
+        missed_impacts=None if found is None else missed(found, expected, within),
+        reference_restitution=case.mechanism.positive.restitution,
+        restitution=answer.restitution,
+        restitution_error=answer.restitution_error,
+        same_restitution_rotation_ratio=_with_restitution(case, answer.restitution),
+        outside_hinges=answer.outside_hinges,
         reason=answer.reason,
     )
+
+
+def _with_restitution(case: CodeCase, restitution: float) -> float:
+    """Return φ_max/φ_cr of this package with another restitution; nan where that is none."""
+    if not 0 <= restitution <= 1:
+        return math.nan
+    side = replace(case.mechanism.positive, restitution=restitution)
+    return integrate(Mechanism(side), case.motion).rotation_ratio
 
 
 def _kind(ratio: float) -> int:

@@ -1,20 +1,22 @@
 """The comparison of codes: cases that come again, limits and impacts against what is known, ours without a miss."""
 
 import math
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rocking.calibration.comparison import lmgc90
+from rocking.calibration.comparison import lmgc90, write
 from rocking.calibration.comparison.cases import PULSES, RECORDS, SAMPLES, pulse_cases, record_cases
-from rocking.calibration.comparison.codes import inner_codes, landings_of
+from rocking.calibration.comparison.codes import LMGC90, Answer, inner_codes, landings_of, outer_codes
 from rocking.calibration.comparison.extrapolation import limit_of
 from rocking.calibration.comparison.write import SAMPLED, code_rows, missed, slow_cases
 from rocking.motion.integration import integrate
-from rocking.motion.reference import reference_landings
+from rocking.motion.reference import event_landings, reference_landings
 from rocking.records import Accelerogram
 from rocking.reports.comparison.report import comparison_data
+from rocking.structures import Mechanism
 
 
 def test_as_many_cases_as_are_asked_for_and_the_same_each_time():
@@ -69,6 +71,8 @@ def test_landings_of_a_history_are_the_impacts(block_case):
     response = integrate(block_case.mechanism, block_case.motion, 1e-9, history=True)
     _, landings = reference_landings(block_case.mechanism, block_case.motion)
     inside = landings[landings[:, 0] <= block_case.motion.duration, 0]
+    _, by_events = event_landings(block_case.mechanism, block_case.motion, "DOP853", 1e-9)
+    assert missed(by_events[:, 0], landings[:, 0], 1e-6) == 0
     assert landings_of(response).size == response.impacts
     assert missed(landings_of(response), inside, 1e-6) == 0
 
@@ -98,9 +102,7 @@ def test_the_base_of_lmgc90_moves_as_the_accelerogram():
 def test_lmgc90_tends_to_the_same_block(block_case):
     """First order in time, with impacts known to a step: a few percent after extrapolation."""
     pytest.importorskip("compas_lmgc90", reason="install the extra compare to run this test")
-    from rocking.calibration.comparison.codes import outer_codes
-
-    answer = outer_codes()["LMGC90 (compas_lmgc90), NSCD"](block_case)
+    answer = outer_codes()[LMGC90](block_case)
     truth = integrate(block_case.mechanism, block_case.motion, 1e-9).rotation_ratio
     assert answer.reason == ""
     assert answer.rotation_ratio == pytest.approx(truth, rel=0.05)
@@ -115,14 +117,37 @@ def test_a_code_that_is_not_there_says_so(block_case, monkeypatch):
     assert "No module named" in answer.reason
 
 
-def test_the_slow_codes_get_a_drawn_few_of_the_blocks_that_rock():
+def test_the_slow_codes_get_a_drawn_few_of_the_cases_that_rock():
     cases = list(pulse_cases())
     chosen, again = slow_cases(cases), slow_cases(cases)
     assert {name: set(codes) for name, codes in chosen.items()} == {
         name: set(codes) for name, codes in again.items()
     }
-    for code, many in SAMPLED.items():
-        assert 0 < sum(code in codes for codes in chosen.values()) <= many
+    drawn = Counter(
+        (case.structure, code) for case in cases for code in chosen.get(case.name, {}) if case.name in chosen
+    )
+    assert drawn == {(name, code): most for code, each in SAMPLED.items() for name, most in each.items()}
     for case in cases:
         if case.name in chosen:
             assert 0 < integrate(case.mechanism, case.motion).rotation_ratio < 1
+    fewer = slow_cases(cases, 0.25)
+    assert sum(len(codes) for codes in fewer.values()) == sum(
+        math.ceil(most / 4) for each in SAMPLED.values() for most in each.values()
+    )
+
+
+def test_what_solves_another_model_has_no_error(block_case):
+    """Its rotation stands beside the reference and beside ours with its own restitution, in a table of its own."""
+    answer = Answer(0.3, 1.0, 0.01, landings=np.empty(0), restitution=0.5)
+    row = write._row(replace(block_case, structure="arch"), LMGC90, answer, 0.4, np.array([1.0]))
+    assert row.another_model
+    assert math.isnan(row.error)
+    assert row.missed_impacts is None
+    side = replace(block_case.mechanism.positive, restitution=0.5)
+    expected = integrate(Mechanism(side), block_case.motion, 1e-9).rotation_ratio
+    assert row.same_restitution_rotation_ratio == pytest.approx(expected, rel=1e-5)
+    data = comparison_data([row])
+    assert data["table"]["rows"] == []
+    assert data["slow"]["rows"] == []
+    assert len(data["another"]["rows"]) == 1
+    assert data["another"]["rows"][0][3] == "0.750"

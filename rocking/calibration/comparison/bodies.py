@@ -1,0 +1,142 @@
+"""The structures of the comparison as separate rigid bodies, for codes that know contacts and no mechanism."""
+
+import math
+from dataclasses import dataclass
+from functools import singledispatch
+from itertools import pairwise
+
+import numpy as np
+
+from rocking.structures import Arch, Block, Frame, Structure
+
+BASE_DEPTH = 0.5
+"""Of what moves with the ground, m."""
+
+
+@dataclass(frozen=True, eq=False)
+class RigidBodies:
+    """Convex bodies in the plane, and how φ is read off them.
+
+    polygons: (k, 2) corners of each [m], counterclockwise. driven: those that move with the ground.
+    legs: the body whose clockwise turn is φ when it rocks to the right, and that whose counterclockwise turn is φ to
+    the left. hinges: for a chain of bodies the joints that open to the right and to the left; else none.
+    """
+
+    polygons: tuple[np.ndarray, ...]
+    driven: tuple[int, ...]
+    legs: tuple[int, int]
+    hinges: tuple[tuple[int, ...], tuple[int, ...]] = ((), ())
+
+    def masses(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return mass per density and thickness [m²], none for what is driven, and squared gyration [m²], (n,) each."""
+        areas, _, gyrations = (np.array(each) for each in zip(*map(properties, self.polygons), strict=True))
+        areas[list(self.driven)] = 0.0
+        return areas, gyrations
+
+    def rotation(self, turns: np.ndarray) -> np.ndarray:
+        """Return φ [rad], positive to the right, from the counterclockwise turns (n, bodies)."""
+        right, left = -turns[:, self.legs[0]], turns[:, self.legs[1]]
+        return np.where(right > left, right, -left)
+
+    def outside_hinges(self, turns: np.ndarray) -> float:
+        """Return the share of all joint rotation that is outside the joints of the mechanism; turns: (bodies,)."""
+        hinges = self.hinges[0 if self.rotation(turns[None])[0] > 0 else 1]
+        if not hinges:
+            return math.nan
+        opened = np.abs(np.diff(turns))
+        return float(1 - opened[list(hinges)].sum() / opened.sum())
+
+
+def properties(polygon: np.ndarray) -> tuple[float, complex, float]:
+    """Return the area [m²], the centroid (complex, m) and the squared gyration about it [m²] of a polygon (k, 2)."""
+    corner = polygon[:, 0] + 1j * polygon[:, 1]
+    following = np.roll(corner, -1)
+    cross = (corner.conj() * following).imag
+    area = cross.sum() / 2
+    centroid = ((corner + following) * cross).sum() / (6 * area)
+    squares = np.abs(corner) ** 2 + (corner * following.conj()).real + np.abs(following) ** 2
+    return float(area), complex(centroid), float((cross * squares).sum() / (12 * area) - abs(centroid) ** 2)
+
+
+@singledispatch
+def rigid_bodies(structure: Structure) -> RigidBodies:
+    """Return a block, a frame or an arch of voussoirs as bodies on what moves with the ground."""
+    raise TypeError(f"structure is a {type(structure).__name__}, but must be a Block, a Frame or an Arch.")
+
+
+@rigid_bodies.register
+def _block(structure: Block) -> RigidBodies:
+    half = structure.breadth / 2
+    body = _rectangle(-half, half, 0.0, structure.height)
+    return RigidBodies((_rectangle(-10 * half, 10 * half, -BASE_DEPTH, 0.0), body), (0,), (1, 1))
+
+
+@rigid_bodies.register
+def _frame(structure: Frame) -> RigidBodies:
+    """The columns, 0.6 of their height apart, and a beam of their material as deep as its mass asks."""
+    half, height = structure.column_breadth / 2, structure.column_height
+    axes = 0.6 * height * (np.arange(structure.columns) - (structure.columns - 1) / 2)
+    edge = axes[-1] + half
+    depth = structure.beam_mass_ratio * structure.columns * half * height / edge
+    columns = (_rectangle(axis - half, axis + half, 0.0, height) for axis in axes)
+    bodies = (
+        _rectangle(-2 * edge, 2 * edge, -BASE_DEPTH, 0.0),
+        *columns,
+        _rectangle(-edge, edge, height, height + depth),
+    )
+    return RigidBodies(bodies, (0,), (1, 1))
+
+
+@rigid_bodies.register
+def _arch(structure: Arch) -> RigidBodies:
+    """Voussoirs with the joints and the centroids of the annular sectors, on two abutments.
+
+    A code of convex bodies cannot have the curved intrados. The chord in its place lowers the centroid, and a peak of
+    the extrados raises it again, so that masses over one another, centroids and hinges, and with them λ, are those of
+    the arch; the gyration of a voussoir about its own centroid is not quite.
+    """
+    count = structure.voussoirs or 0
+    inner, outer = structure.radius - structure.thickness / 2, structure.radius + structure.thickness / 2
+    joints = np.linspace(structure.embrace_angle / 2, -structure.embrace_angle / 2, count + 1)
+    voussoir = _voussoir(inner, outer, structure.embrace_angle / count)
+    turned = [_turned(voussoir, (left + right) / 2) for left, right in pairwise(joints)]
+    depth = BASE_DEPTH
+    abutment = np.array(
+        [[inner - depth, 0.0], [outer + depth, 0.0], [outer + depth, depth], [inner - depth, depth]]
+    )
+    left = _turned(abutment, math.pi / 2 + joints[0])
+    right = _turned(abutment[::-1] * [1, -1], math.pi / 2 + joints[-1])
+    opened = np.rint(structure.onset.hinges / structure.embrace_angle * count).astype(int)
+    return RigidBodies(
+        (left, *turned, right),
+        (0, count + 1),
+        (1, count),
+        (tuple(opened.tolist()), tuple((count - opened).tolist())),
+    )
+
+
+def _voussoir(inner: float, outer: float, angle: float) -> np.ndarray:
+    """The voussoir about the crown; its peak puts its centroid where that of the sector is."""
+    from scipy.optimize import brentq
+
+    def with_peak(peak: float) -> np.ndarray:
+        edges = np.array([[inner, -1], [inner, 1], [outer, 1], [peak, 0], [outer, -1]])
+        place = edges[:, 0] * np.exp(1j * (np.pi / 2 - edges[:, 1] * angle / 2))
+        return np.stack([place.real, place.imag], axis=1)
+
+    sector = 2 * (outer**3 - inner**3) / (3 * (outer**2 - inner**2)) * np.sinc(angle / (2 * np.pi))
+    return with_peak(
+        brentq(
+            lambda peak: properties(with_peak(peak))[1].imag - sector, outer * math.cos(angle / 2), 2 * outer
+        )
+    )
+
+
+def _rectangle(left: float, right: float, low: float, high: float) -> np.ndarray:
+    return np.array([[left, low], [right, low], [right, high], [left, high]])
+
+
+def _turned(polygon: np.ndarray, angle: float) -> np.ndarray:
+    """Counterclockwise about the origin."""
+    sine, cosine = math.sin(angle), math.cos(angle)
+    return polygon @ np.array([[cosine, sine], [-sine, cosine]])
