@@ -10,7 +10,7 @@ from rocking.assessment.fidelity import Answer, cheapest_answer
 from rocking.assessment.intensity import Shape
 from rocking.assessment.method import Method
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.tiers import Expectation, Tier, expect
+from rocking.assessment.tiers import Expectation, Tier, expect, unlike
 from rocking.errors import PulseError, RockingError, StructureError
 from rocking.motion.contact_check import UNKNOWN, ModelCheck, check_model
 from rocking.motion.integration import integrate
@@ -63,6 +63,8 @@ class Case:
     ensemble: Ensemble | None = None
     expectation: Expectation | None = None
     """What the closed form and the peaks of the record say; None without a pulse, or of an unusual structure."""
+    unexpected: str = ""
+    """Why they say nothing, though there is a pulse."""
 
 
 @dataclass(frozen=True)
@@ -163,48 +165,84 @@ def _case(
     settings: AssessmentSettings,
     vertical: Accelerogram | None,
 ) -> Case:
-    accelerogram = shape.accelerogram
-    mechanism, full = structure.mechanism(), settings.fidelity == "full"
+    mechanism, record = structure.mechanism(), shape.accelerogram
     prediction = predict(mechanism, candidates, settings) if candidates else None
-    if full:
-        responses = _responses(mechanism, accelerogram, settings, vertical)
-        whole = responses[Method.MECHANISM_ON_RECORD]
-        answer = Answer(Method.MECHANISM_ON_RECORD, whole.rotation_ratio, whole.outcome, whole)
-        if prediction is not None:
-            responses |= _pulse_responses(mechanism, prediction, settings)
-    else:
-        answer = cheapest_answer(
-            mechanism,
-            shape,
-            risk=settings.fidelity_risk,
-            tolerance=settings.tolerance,
-            vertical=vertical,
-            history=True,
-        )
-        responses = {} if answer.response is None else {Method.MECHANISM_ON_RECORD: answer.response}
+    answering = _compared if settings.fidelity == "full" else _cheapest
+    answer, responses = answering(mechanism, shape, prediction, settings, vertical)
     on_record = responses.get(Method.MECHANISM_ON_RECORD)
-    check = check_model(structure, on_record, accelerogram, vertical) if on_record else UNKNOWN
-    sure = None
-    if settings.ensemble.members and (full or answer.method is Method.MECHANISM_ON_RECORD):
-        motions = GroundMotions.of(accelerogram, vertical, processing=settings.ensemble.processing)
-        sure = ensemble(
-            mechanism,
-            motions,
-            settings.ensemble,
-            nominal=answer.rotation_ratio,
-            tolerance=settings.tolerance,
-        )
-    expectation = None if prediction is None else _expectation(mechanism, prediction.pulse, shape)
-    return Case(name, mechanism, prediction, responses, check, answer, sure, expectation)
+    check = check_model(structure, on_record, record, vertical) if on_record else UNKNOWN
+    sure = _ensemble(mechanism, record, answer, settings, vertical)
+    expectation, unexpected = (
+        (None, "") if prediction is None else _expectation(mechanism, prediction.pulse, shape)
+    )
+    return Case(name, mechanism, prediction, responses, check, answer, sure, expectation, unexpected)
 
 
-def _expectation(mechanism: Mechanism, pulse: Pulse, shape: Shape) -> Expectation | None:
-    try:
-        block = mechanism.equivalent_block("rest")
-        measures = intensity.of_structure(mechanism) | intensity.of_peaks(shape, block)
-        return expect(Tier.CLOSED_FORM_AND_PEAKS, measures | intensity.of_pulse(pulse, block))
-    except (PulseError, StructureError):
+def _compared(
+    mechanism: Mechanism,
+    shape: Shape,
+    prediction: Prediction | None,
+    settings: AssessmentSettings,
+    vertical: Accelerogram | None,
+) -> tuple[Answer, dict[Method, Response]]:
+    """Every method; the mechanism on the record answers."""
+    responses = _responses(mechanism, shape.accelerogram, settings, vertical)
+    whole = responses[Method.MECHANISM_ON_RECORD]
+    if prediction is not None:
+        responses |= _pulse_responses(mechanism, prediction, settings)
+    return Answer(Method.MECHANISM_ON_RECORD, whole.rotation_ratio, whole.outcome, whole), responses
+
+
+def _cheapest(
+    mechanism: Mechanism,
+    shape: Shape,
+    _: Prediction | None,
+    settings: AssessmentSettings,
+    vertical: Accelerogram | None,
+) -> tuple[Answer, dict[Method, Response]]:
+    """What settles the verdict with the least work, and the response of the mechanism where it took part."""
+    answer = cheapest_answer(
+        mechanism,
+        shape,
+        risk=settings.fidelity_risk,
+        tolerance=settings.tolerance,
+        vertical=vertical,
+        history=True,
+        ensemble_follows=settings.ensemble.members > 0,
+    )
+    return answer, {} if answer.response is None else {Method.MECHANISM_ON_RECORD: answer.response}
+
+
+def _ensemble(
+    mechanism: Mechanism,
+    record: Accelerogram,
+    answer: Answer,
+    settings: AssessmentSettings,
+    vertical: Accelerogram | None,
+) -> Ensemble | None:
+    """The ensemble of a case, unless none is asked for or something cheaper settled it."""
+    if not settings.ensemble.members or answer.method is not Method.MECHANISM_ON_RECORD:
         return None
+    return ensemble(
+        mechanism,
+        GroundMotions.of(record, vertical, processing=settings.ensemble.processing),
+        settings.ensemble,
+        nominal=answer.rotation_ratio,
+        tolerance=settings.tolerance,
+        verdict_only=settings.fidelity == "auto",
+    )
+
+
+def _expectation(mechanism: Mechanism, pulse: Pulse, shape: Shape) -> tuple[Expectation | None, str]:
+    """What may be said, or why nothing may: of a block far from its mechanism the closed form tells nothing."""
+    tier = Tier.CLOSED_FORM_AND_PEAKS
+    try:
+        block, own = mechanism.equivalent_block("rest"), intensity.of_structure(mechanism)
+        if reason := unlike(tier, own):
+            return None, f"no probability: its {reason}"
+        return expect(tier, own | intensity.of_peaks(shape, block) | intensity.of_pulse(pulse, block)), ""
+    except (PulseError, StructureError) as error:
+        return None, f"no probability: {error}"
 
 
 def _responses(

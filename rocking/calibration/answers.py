@@ -1,17 +1,18 @@
 """What `fidelity: auto` does on sites that its tiers have not seen: where it stops, what it costs, where it errs."""
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from time import process_time
+from typing import TypeVar
 
 import numpy as np
 
 from rocking.assessment.ensemble import GroundMotions, ensemble
-from rocking.assessment.fidelity import Limits, cheapest_answer, find_limits
+from rocking.assessment.fidelity import Answer, Limits, cheapest_answer, find_limits
 from rocking.assessment.intensity import Shape
 from rocking.assessment.method import Method
-from rocking.assessment.tiers import Tier
+from rocking.assessment.tiers import Tier, TierFit
 from rocking.assessment.verdict import Verdict
 from rocking.calibration.tier_cases import TierCase, structures_tried
 from rocking.calibration.tier_fit import fit_tier, known, ratios_of, sites_of
@@ -23,7 +24,8 @@ from rocking.tables import Row, column, row
 RISK = 0.01
 FACTORS = (0.5, 1.0, 2.0)
 REPLICATES = 500
-_CHEAP = (Method.NOTHING_TO_INTEGRATE, Method.PEAK_VELOCITY)
+
+Found = TypeVar("Found")
 
 
 @row(
@@ -43,16 +45,24 @@ class AnswerScore(Row):
 
 @dataclass(frozen=True)
 class AnswerTrial:
-    """One structure under one record: what answered, the truths, and the CPU time of each [s]."""
+    """One structure under one record: what answered, the truths, and the CPU time of each [s].
+
+    alone: where the mechanism is the last that is asked. beside: where an ensemble follows. truth: rotation ratio of
+    the case as given. share: of the members of its ensemble that overturn. quick_verdict: of one that may end early.
+    """
 
     site: str
-    method: Method
-    overturns: bool
+    alone: Answer
+    beside: Answer
     truth: float
-    ensemble: Verdict
-    answer_s: float
+    share: float
+    verdict: Verdict
+    quick_verdict: Verdict
+    alone_s: float
+    beside_s: float
     mechanism_s: float
     ensemble_s: float
+    quick_s: float
 
 
 def try_answers(
@@ -63,11 +73,12 @@ def try_answers(
     records: as `independent` gives them. cases: of all of them.
     """
     mechanisms = [structure.mechanism() for structure in structures_tried().values()]
-    terms, ratios, sites = known(cases, Tier.PEAK_VELOCITY), ratios_of(cases), sites_of(cases)
+    ratios, sites = ratios_of(cases), sites_of(cases)
+    terms = {tier: known(cases, tier) for tier in (Tier.PEAK_VELOCITY, Tier.BLOCK_AT_FIVE_SCALES)}
     first = {site: record for _, site, record in reversed(list(records))}
     for site, record in first.items():
         kept = sites != site
-        fits = {Tier.PEAK_VELOCITY: fit_tier(Tier.PEAK_VELOCITY, terms[kept], ratios[kept], sites[kept])}
+        fits = {tier: fit_tier(tier, each[kept], ratios[kept], sites[kept]) for tier, each in terms.items()}
         limits = [find_limits(mechanism, RISK, fits) for mechanism in mechanisms]
         for factor in FACTORS:
             motion = record.scaled(factor)
@@ -75,30 +86,50 @@ def try_answers(
             shape = Shape.of(motion)
             each = (process_time() - started) / len(mechanisms)
             for mechanism, own in zip(mechanisms, limits, strict=True):
-                yield _trial(site, mechanism, shape, own, each)
+                yield _trial(site, mechanism, shape, own, fits, each)
 
 
-def _trial(site: str, mechanism: Mechanism, shape: Shape, limits: Limits, shape_s: float) -> AnswerTrial:
+def _trial(
+    site: str,
+    mechanism: Mechanism,
+    shape: Shape,
+    limits: Limits,
+    fits: Mapping[Tier, TierFit],
+    shape_s: float,
+) -> AnswerTrial:
     record = shape.accelerogram
-    truth = integrate(mechanism, record)
-    times = [process_time()]
-    integrate(mechanism, record)
-    times.append(process_time())
-    found = cheapest_answer(mechanism, shape, risk=RISK, limits=limits)
-    times.append(process_time())
-    sure = ensemble(mechanism, GroundMotions.of(record))
-    times.append(process_time())
-    whole, own, many = np.diff(times).tolist()
+    truth, whole_s = _timed(lambda: integrate(mechanism, record))
+    alone, alone_s = _timed(lambda: cheapest_answer(mechanism, shape, risk=RISK, limits=limits))
+    beside, beside_s = _timed(
+        lambda: cheapest_answer(mechanism, shape, risk=RISK, ensemble_follows=True, limits=limits, fits=fits)
+    )
+    motions = GroundMotions.of(record)
+    sure, many_s = _timed(lambda: ensemble(mechanism, motions))
+    quick, quick_s = _timed(lambda: ensemble(mechanism, motions, verdict_only=True))
     return AnswerTrial(
         site=site,
-        method=found.method,
-        overturns=math.isinf(found.rotation_ratio),
+        alone=alone,
+        beside=beside,
         truth=truth.rotation_ratio,
-        ensemble=sure.verdict,
-        answer_s=own + shape_s,
-        mechanism_s=whole,
-        ensemble_s=many,
+        share=sure.overturning_probability,
+        verdict=sure.verdict,
+        quick_verdict=quick.verdict,
+        alone_s=alone_s + shape_s,
+        beside_s=beside_s + shape_s,
+        mechanism_s=whole_s,
+        ensemble_s=many_s,
+        quick_s=quick_s,
     )
+
+
+def _timed(call: Callable[[], Found]) -> tuple[Found, float]:
+    """What a call returns, and its CPU time the second time."""
+    call()
+    started = process_time()
+    return call(), process_time() - started
+
+
+Measure = Callable[[Sequence[AnswerTrial]], float]
 
 
 def answer_scores(trials: Sequence[AnswerTrial], replicates: int = REPLICATES) -> list[AnswerScore]:
@@ -125,7 +156,7 @@ def answer_scores(trials: Sequence[AnswerTrial], replicates: int = REPLICATES) -
     return scores
 
 
-def _share(which: Callable[[AnswerTrial], bool], among: Callable[[AnswerTrial], bool]):  # type: ignore[no-untyped-def]
+def _share(which: Callable[[AnswerTrial], float], among: Callable[[AnswerTrial], bool]) -> Measure:
     def measure(trials: Sequence[AnswerTrial]) -> float:
         chosen = [trial for trial in trials if among(trial)]
         return sum(map(which, chosen)) / len(chosen) if chosen else math.nan
@@ -133,49 +164,76 @@ def _share(which: Callable[[AnswerTrial], bool], among: Callable[[AnswerTrial], 
     return measure
 
 
-def _wrong(trial: AnswerTrial) -> bool:
-    return trial.overturns != math.isinf(trial.truth)
-
-
-def _unsafe(trial: AnswerTrial) -> bool:
-    return _wrong(trial) and not trial.overturns
-
-
-def _settled(trial: AnswerTrial) -> bool:
-    return trial.method is Method.PEAK_VELOCITY
-
-
-def _opposite(trial: AnswerTrial) -> bool:
-    return trial.ensemble is (Verdict.STANDS if trial.overturns else Verdict.OVERTURNS)
-
-
-def _undecided(trial: AnswerTrial) -> bool:
-    return trial.ensemble is Verdict.UNDECIDED
-
-
 def _any(_: AnswerTrial) -> bool:
     return True
 
 
+def _by(method: Method) -> Callable[[AnswerTrial], bool]:
+    return lambda trial: trial.beside.method is method
+
+
+def _settled(trial: AnswerTrial) -> bool:
+    return trial.beside.method in (Method.PEAK_VELOCITY, Method.BLOCK_ON_RECORD)
+
+
+def _overturns(answer: Answer) -> bool:
+    return math.isinf(answer.rotation_ratio)
+
+
+def _wrong_alone(trial: AnswerTrial) -> bool:
+    return _overturns(trial.alone) != math.isinf(trial.truth)
+
+
+def _wrong(trial: AnswerTrial) -> bool:
+    return _overturns(trial.beside) != math.isinf(trial.truth)
+
+
+def _unsafe(trial: AnswerTrial) -> bool:
+    return _wrong(trial) and not _overturns(trial.beside)
+
+
+def _members_against(trial: AnswerTrial) -> float:
+    return 1 - trial.share if _overturns(trial.beside) else trial.share
+
+
+def _opposite(trial: AnswerTrial) -> bool:
+    return trial.verdict is (Verdict.STANDS if _overturns(trial.beside) else Verdict.OVERTURNS)
+
+
+def _undecided(trial: AnswerTrial) -> bool:
+    return trial.verdict is Verdict.UNDECIDED
+
+
 def _saved_of_mechanism(trials: Sequence[AnswerTrial]) -> float:
-    return 1 - sum(t.answer_s for t in trials) / sum(t.mechanism_s for t in trials)
+    return 1 - sum(t.alone_s for t in trials) / sum(t.mechanism_s for t in trials)
 
 
 def _saved_of_ensemble(trials: Sequence[AnswerTrial]) -> float:
-    """With the ensemble asked for: it is made where nothing cheap settled the case."""
-    spent = sum(t.answer_s + (t.ensemble_s if t.method not in _CHEAP else 0.0) for t in trials)
+    """With the ensemble asked for: it is made, ending early, where nothing cheap settled the case."""
+    made = [t.quick_s if t.beside.method is Method.MECHANISM_ON_RECORD else 0.0 for t in trials]
+    spent = sum(t.beside_s for t in trials) + sum(made)
     return 1 - spent / sum(t.mechanism_s + t.ensemble_s for t in trials)
 
 
-MEASURES: dict[str, Callable[[Sequence[AnswerTrial]], float]] = {
-    "share at rest": _share(lambda t: t.method is Method.NOTHING_TO_INTEGRATE, _any),
-    "share settled by the peak velocity": _share(_settled, _any),
-    "wrong verdicts among those that the peak velocity settles": _share(_wrong, _settled),
-    "wrong verdicts among all": _share(_wrong, _any),
-    "overturnings called standing among all": _share(_unsafe, _any),
+MEASURES: dict[str, Measure] = {
+    "share at rest": _share(_by(Method.NOTHING_TO_INTEGRATE), _any),
+    "share settled by the peak velocity": _share(_by(Method.PEAK_VELOCITY), _any),
+    "share settled by the block": _share(_by(Method.BLOCK_ON_RECORD), _any),
+    "members against the verdict where the peak velocity settles": _share(
+        _members_against, _by(Method.PEAK_VELOCITY)
+    ),
+    "members against the verdict where the block settles": _share(
+        _members_against, _by(Method.BLOCK_ON_RECORD)
+    ),
+    "wrong verdicts among all without an ensemble": _share(_wrong_alone, _any),
+    "wrong verdicts among those settled": _share(_wrong, _settled),
+    "overturnings called standing among those settled": _share(_unsafe, _settled),
+    "opposite verdict of the ensemble among those settled": _share(_opposite, _settled),
+    "undecided in the ensemble among those settled": _share(_undecided, _settled),
+    "verdicts of the ensemble that its early end changes": _share(
+        lambda trial: trial.quick_verdict is not trial.verdict, _any
+    ),
     "CPU saved of the mechanism for all": _saved_of_mechanism,
     "CPU saved of mechanism and ensemble for all": _saved_of_ensemble,
-    "opposite verdict of the ensemble where the peak velocity settles": _share(_opposite, _settled),
-    "undecided in the ensemble where the peak velocity settles": _share(_undecided, _settled),
 }
 """Name, and how it is computed."""

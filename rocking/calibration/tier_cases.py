@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from rocking.assessment import intensity
+from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn
+from rocking.assessment.ensemble.design import lattice
 from rocking.assessment.fidelity import stays_at_rest
 from rocking.assessment.intensity import NUDGES, Shape
 from rocking.errors import PulseError
@@ -19,18 +21,23 @@ FACTORS = (0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8)
 """On each record, so that it speaks for weaker and stronger shaking of the same shape."""
 MOST_COMPONENTS = 2
 """Of a site that count."""
+MEMBERS = 64
+"""Of the ensemble of a case."""
 
 
 @dataclass(frozen=True, eq=False)
 class TierCase:
-    """A structure under a record times a factor: what is known of it by measure, and what the mechanism does."""
+    """A structure under a record times a factor: what is known of it by measure, and what becomes of it.
+
+    rotation_ratios: of the mechanism, (m,), in the members of the case's ensemble.
+    """
 
     record: str
     site: str
     structure: str
     factor: float
     measures: Mapping[str, float]
-    rotation_ratio: float
+    rotation_ratios: np.ndarray
 
 
 def structures_tried() -> dict[str, Structure]:
@@ -74,7 +81,7 @@ def independent(records: Iterable[tuple[str, Accelerogram]]) -> Iterator[tuple[s
 def tier_cases(
     records: Iterable[tuple[str, str, Accelerogram]], structures: Mapping[str, Structure] | None = None
 ) -> Iterator[TierCase]:
-    """Yield the cases of each record, as `independent` gives them, except those that rest, which is certain."""
+    """Yield the cases of each record, as `independent` gives them, but those that rest as given, which is certain."""
     mechanisms = {name: s.mechanism() for name, s in (structures or structures_tried()).items()}
     blocks = [mechanism.equivalent_block("rest") for mechanism in mechanisms.values()]
     nudged = np.outer(FACTORS, NUDGES)
@@ -83,15 +90,19 @@ def tier_cases(
         pulse = _pulse(record)
         if pulse is None:
             continue
-        whole = integrate_batch(list(mechanisms.values()), record, FACTORS)
         on_block = integrate_batch(blocks, record, nudged.ravel()).reshape(len(blocks), *nudged.shape)
         for k, (structure, mechanism) in enumerate(mechanisms.items()):
             known = _known(shape, pulse, mechanism)
             for i, factor in enumerate(FACTORS):
-                if stays_at_rest(mechanism, record.scaled(factor)) or np.isnan(whole[k, i]):
+                motion = record.scaled(factor)
+                if stays_at_rest(mechanism, motion):
                     continue
-                measures = intensity.scaled(known, factor) | intensity.from_nudged(on_block[k, i])
-                yield TierCase(name, site, structure, factor, measures, float(whole[k, i]))
+                members = drawn(
+                    mechanism, GroundMotions.of(motion), lattice(MEMBERS, CAUSES), EnsembleSettings()
+                )
+                if not members.failed:
+                    measures = intensity.scaled(known, factor) | intensity.from_nudged(on_block[k, i])
+                    yield TierCase(name, site, structure, factor, measures, members.rotation_ratios)
 
 
 def _known(shape: Shape, pulse: Pulse, mechanism: Mechanism) -> dict[str, float]:

@@ -20,24 +20,28 @@ def known(cases: Sequence[TierCase], tier: Tier) -> np.ndarray:
 
 
 def fit_tier(tier: Tier, terms: np.ndarray, ratios: np.ndarray, sites: np.ndarray) -> TierFit:
-    """Fit one tier to terms (n, k), rotation ratios (n,) of the mechanism (inf: overturns) and sites (n,)."""
+    """Fit one tier to terms (n, k), rotation ratios (n, m) of the members of each case (inf: overturns) and sites (n,).
+
+    The share of a case that overturns is what its probability is fitted to, one case weighing as much as another.
+    """
     centre, spread = terms.mean(axis=0), terms.std(axis=0)
     spread = np.where(spread > 0, spread, 1.0)
     design = np.column_stack([np.ones(len(terms)), (terms - centre) / spread])
-    coefficients, covariance = logistic(design, np.isinf(ratios), sites)
+    coefficients, covariance = logistic(design, shares_of(ratios), sites)
     least, largest = terms.min(axis=0), terms.max(axis=0)
     fit = TierFit(
         tier, centre, spread, least, largest, coefficients, covariance, np.zeros(1), np.zeros((1, 3))
     )
-    edges, bands = _bands(fit.location(terms), ratios / fit.anchor(terms))
+    edges, bands = _bands(fit.location(terms), ratios / fit.anchor(terms)[:, None])
     return replace(fit, edges=edges, bands=bands)
 
 
 def logistic(design: np.ndarray, outcomes: np.ndarray, groups: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the coefficients (k,) of a logistic regression by Newton's method, and their covariance (k, k).
 
-    design: (n, k), its first column ones. groups: (n,), what is independent: the covariance is the sandwich of their
-    scores (Liang & Zeger 1986).
+    design: (n, k), its first column ones. outcomes: (n,) in [0, 1]; a share counts as that much of a case that
+    overturned beside the rest of one that did not. groups: (n,), what is independent: the covariance is the sandwich of
+    their scores (Liang & Zeger 1986).
     """
     penalty = RIDGE * len(design) * np.r_[0.0, np.ones(design.shape[1] - 1)]
     found = np.zeros(design.shape[1])
@@ -59,7 +63,10 @@ def logistic(design: np.ndarray, outcomes: np.ndarray, groups: np.ndarray) -> tu
 
 
 def _bands(location: np.ndarray, ratios: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Classes of about equal numbers by location, and in each the 5, 50 and 95 % quantile, widened to a case."""
+    """Classes of about equal numbers by location (n,), and in each the 5, 50 and 95 % quantile of all members (n, m).
+
+    A quantile between two members is the outer one.
+    """
     edges = np.unique(np.quantile(location, np.arange(CLASSES) / CLASSES, method="lower"))
     place = np.searchsorted(edges, location, side="right") - 1
     bands = []
@@ -76,7 +83,13 @@ def _bands(location: np.ndarray, ratios: np.ndarray) -> tuple[np.ndarray, np.nda
 
 
 def ratios_of(cases: Sequence[TierCase]) -> np.ndarray:
-    return np.array([case.rotation_ratio for case in cases])
+    """(n, m) of the members of each case."""
+    return np.array([case.rotation_ratios for case in cases])
+
+
+def shares_of(ratios: np.ndarray) -> np.ndarray:
+    """(n,) of the members that overturn."""
+    return np.isinf(ratios).mean(axis=1)
 
 
 def sites_of(cases: Sequence[TierCase]) -> np.ndarray:

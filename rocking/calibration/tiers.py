@@ -1,4 +1,8 @@
-"""What the tiers rest on: fitted to the mechanism under real records, judged by leaving sites out."""
+"""What the tiers rest on: fitted to the ensembles of mechanisms under real records, judged by leaving sites out.
+
+Each member of a case counts as an outcome that a tier is judged by, so that even the true share of a case leaves a
+score: what cannot be known of it.
+"""
 
 import hashlib
 import math
@@ -10,7 +14,7 @@ import numpy as np
 from rocking.assessment.tiers import Tier, TierBand, TierCovariance, TierFit, TierTerm
 from rocking.calibration.answers import AnswerScore, answer_scores, try_answers
 from rocking.calibration.tier_cases import TierCase, independent, tier_cases
-from rocking.calibration.tier_fit import fit_tier, known, logistic, ratios_of, sites_of
+from rocking.calibration.tier_fit import fit_tier, known, logistic, ratios_of, shares_of, sites_of
 from rocking.records import Accelerogram
 from rocking.tables import Row, column, row, write_rows
 
@@ -41,7 +45,7 @@ class TierReliability(Row):
     probability_from: float = column("Lower edge of the class")
     probability_to: float = column("Upper edge of the class")
     said: float = column("Mean probability in it")
-    found: float = column("Share that overturns")
+    found: float = column("Share of the members that overturn")
     found_low: float = column("5 % quantile of that over resampled sites")
     found_high: float = column("95 % quantile of that over resampled sites")
     cases: int = column("Cases in it")
@@ -67,14 +71,15 @@ def tier_scores(
 ) -> Iterator[tuple[list[TierScore], list[TierReliability]]]:
     """Yield the scores and the reliability of each tier on sites left out."""
     ratios, sites = ratios_of(cases), sites_of(cases)
-    fallen = np.isinf(ratios).astype(float)
+    fallen = shares_of(ratios)
     draws = _draws(sites, replicates)
     for tier in Tier:
         odds, _, rotations = left_out(tier, cases)
         shares = 1 / (1 + np.exp(-odds))
-        inside = ((ratios >= rotations[:, 0]) & (ratios <= rotations[:, 2])).astype(float)
+        inside = ((ratios >= rotations[:, :1]) & (ratios <= rotations[:, 2:])).mean(axis=1)
         measures: dict[str, Callable[[np.ndarray], float]] = {
             "Brier skill": lambda rows, p=shares: _skill(p[rows], fallen[rows]),  # type: ignore[misc]
+            "Brier skill of who knew the shares": lambda rows: _skill(fallen[rows], fallen[rows]),
             "calibration slope": lambda rows, z=odds: calibration_slope(z[rows], fallen[rows]),  # type: ignore[misc]
             "share inside the 5-95 % band": lambda rows, i=inside: float(i[rows].mean()),  # type: ignore[misc]
         }
@@ -95,7 +100,7 @@ def tier_scores(
 
 
 def calibration_slope(odds: np.ndarray, fallen: np.ndarray) -> float:
-    """Return the slope of a logistic regression of what happened on the log odds that were said; 1 is right."""
+    """Return the slope of a logistic regression of the shares that overturned on the log odds said; 1 is right."""
     kept = np.clip(odds, -12, 12)
     coefficients, _ = logistic(np.column_stack([np.ones(kept.size), kept]), fallen, np.arange(kept.size))
     return float(coefficients[1])
@@ -194,8 +199,10 @@ def _reliability(
 
 
 def _skill(shares: np.ndarray, fallen: np.ndarray) -> float:
+    """Brier skill over all members: what they differ from the share of their case by counts too."""
     base = fallen.mean()
-    return float(1 - np.mean((shares - fallen) ** 2) / (base * (1 - base))) if 0 < base < 1 else math.nan
+    missed = np.mean((shares - fallen) ** 2 + fallen * (1 - fallen))
+    return float(1 - missed / (base * (1 - base))) if 0 < base < 1 else math.nan
 
 
 def _draws(sites: np.ndarray, replicates: int) -> list[np.ndarray]:

@@ -5,8 +5,8 @@ measurement; the ensemble says how sure an answer can be if they are right.
 """
 
 from rocking.assessment.ensemble.distribution import Ensemble
-from rocking.assessment.ensemble.drawn import CAUSES, drawn, ensemble
 from rocking.assessment.ensemble.ground_motions import GroundMotions
+from rocking.assessment.ensemble.members import CAUSES, drawn, ensemble
 from rocking.assessment.ensemble.settings import EnsembleSettings
 
 __all__ = ["CAUSES", "Ensemble", "EnsembleSettings", "GroundMotions", "drawn", "ensemble"]

@@ -11,7 +11,7 @@ from rocking.assessment.verdict import NEGLIGIBLE, Verdict, verdict
 
 UNANIMOUS = 64
 """Members of which none overturns, or none stands, that settle a verdict."""
-FAR = 0.5
+FAR = 0.3
 """Largest rotation ratio of fewer members up to which they settle that it stands; see rocking.calibration.ensembles."""
 LATTICE_ERROR = 4.0
 """Members times the error of a probability that 95 in 100 cases stay below; see rocking.calibration.ensembles."""

@@ -57,7 +57,7 @@ class PredictionRow(CaseRow):
         "5 % quantile of the rotation ratio of the mechanism under records that are alike in the same"
     )
     expected_rotation_ratio_high: float = column("95 % quantile of it; INF if it overturns")
-    in_words: str = column("Both, in words")
+    in_words: str = column("Both, in words, or why neither is given")
     outcome: Outcome | None = column(OUTCOME)
     regime: Regime | None = column(REGIME)
     impacts: int | None = column(IMPACTS)
@@ -98,7 +98,7 @@ def prediction_rows(identity: Identity, case: Case, acceleration_scale: str) -> 
         rotation_ratio=maximum.rotation_ratio,
         rotation_rad=rotation(case.mechanism, maximum.rotation_ratio, maximum.peak_side),
         **expected_columns(case.expectation),
-        in_words=str(case.expectation or ""),
+        in_words=str(case.expectation or case.unexpected),
         outcome=maximum.outcome,
         regime=maximum.regime,
         impacts=maximum.impacts,

@@ -168,6 +168,18 @@ def test_an_ensemble_at_rest_ends_early_and_one_in_doubt_goes_on():
     assert set(doubtful) <= {64, 256} and 256 in doubtful
 
 
+def test_where_the_verdict_alone_is_asked_it_ends_early_far_from_overturning_only():
+    seen = set()
+    for amplitude in np.arange(2.0, 7.0, 0.5):
+        motions = GroundMotions.of(_record(amplitude))
+        whole, quick = (ensemble(BLOCK, motions, verdict_only=wanted) for wanted in (False, True))
+        far = whole.rotation_ratios[:16].max() <= 0.3
+        assert quick.members == (16 if far else whole.members)
+        assert quick.verdict is whole.verdict
+        seen.add(far)
+    assert seen == {False, True}
+
+
 def test_two_components_make_one_ensemble_with_the_direction_of_their_peak():
     first, second = _record(3.0, "first"), _record(4.0, "second")
     motions = GroundMotions.of_pair(first, second)

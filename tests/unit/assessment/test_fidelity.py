@@ -1,5 +1,6 @@
 """The cheapest answer: what is not integrated."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -8,12 +9,16 @@ from scipy.constants import g
 
 from rocking.assessment import intensity
 from rocking.assessment.assess import AssessmentSettings, Method, assess_structures
+from rocking.assessment.ensemble import EnsembleSettings, GroundMotions, ensemble
 from rocking.assessment.fidelity import cheapest_answer, limits_of, stays_at_rest
 from rocking.assessment.intensity import Shape
+from rocking.assessment.rows import Identity
+from rocking.assessment.rows.of_prediction import prediction_rows
 from rocking.assessment.tiers import Tier, expect
+from rocking.assessment.verdict import Verdict
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram
-from rocking.structures import Block
+from rocking.structures import Block, Facade
 from rocking.structures.outcome import Outcome
 
 STEP = 0.01
@@ -92,8 +97,48 @@ def test_of_a_structure_unlike_those_of_the_calibration_nothing_is_said():
     assert cheapest_answer(bouncing, Shape.of(record(40.0))).method is Method.MECHANISM_ON_RECORD
 
 
+def test_where_an_ensemble_would_follow_the_block_may_settle_it():
+    """A motion that the peak velocity leaves open, far below what overturns the block at any of the five scales."""
+    shape = Shape.of(record(1.1))
+    assert limits_of(MECHANISM, 0.01).settle(shape.peak_velocity) is None
+    assert cheapest_answer(MECHANISM, shape).method is Method.MECHANISM_ON_RECORD
+    found = cheapest_answer(MECHANISM, shape, ensemble_follows=True)
+    assert found.method is Method.BLOCK_ON_RECORD and found.response is None
+    assert found.expectation.probability_high <= 0.01
+    sure = ensemble(MECHANISM, GroundMotions.of(shape.accelerogram))
+    assert sure.verdict is Verdict.STANDS and np.isfinite(found.rotation_ratio)
+    (case,) = assess_structures(
+        shape.accelerogram, {"block": BLOCK}, AssessmentSettings(fidelity="auto")
+    ).cases
+    assert case.answer.method is Method.BLOCK_ON_RECORD and case.ensemble is None
+
+
+def test_a_block_unlike_its_mechanism_settles_nothing_and_gets_no_probability():
+    """A wall on stiff ties: no line is near its restoring force (theory: the equivalent block)."""
+    tied = Facade(
+        (3.5,), (0.6,), 20e3, tie_heights=(3.4,), tie_stiffness=1e6, one_sided=True, restitution=0.5
+    )
+    mechanism = tied.mechanism()
+    assert mechanism.block_defects.restoring > 1
+    motion = record(4.0)
+    strong = motion.scaled(10 * mechanism.uplift_multiplier / MECHANISM.uplift_multiplier)
+    found = cheapest_answer(mechanism, Shape.of(strong), ensemble_follows=True)
+    assert found.method is Method.MECHANISM_ON_RECORD
+    for fidelity in ("full", "auto"):
+        settings = AssessmentSettings(fidelity=fidelity, ensemble=EnsembleSettings(members=16))
+        (case,) = assess_structures(strong, {"tied": tied}, settings).cases
+        assert case.expectation is None
+        assert re.match(
+            r"no probability: its restoring defect is [\d.e+]+, beyond the .* of the calibration",
+            case.unexpected,
+        )
+        rows = list(prediction_rows(Identity("r", strong, ""), case, "rest"))
+        closed = next(row for row in rows if row.method is Method.CLOSED_FORM)
+        assert closed.in_words == case.unexpected and np.isnan(closed.overturning_probability)
+
+
 def test_a_study_answers_with_the_cheapest():
-    settings = AssessmentSettings(fidelity="auto")
+    settings = AssessmentSettings(fidelity="auto", ensemble=EnsembleSettings(members=0))
     (case,) = assess_structures(record(1.5), {"block": BLOCK}, settings).cases
     assert len(case.responses) == 1
     (whole,) = assess_structures(record(1.5), {"block": BLOCK}, replace(settings, fidelity="full")).cases

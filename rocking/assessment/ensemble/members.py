@@ -1,6 +1,6 @@
 """Members drawn at the points of a design, and the ensemble that grows until its verdict is clear."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,15 +10,17 @@ from rocking.assessment.ensemble.distribution import Ensemble
 from rocking.assessment.ensemble.ground_motions import GroundMotions
 from rocking.assessment.ensemble.settings import EnsembleSettings
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
-from rocking.motion.integration import Rocking, reduce
-from rocking.motion.members import Members, integrate_members
+from rocking.errors import MotionError
+from rocking.motion.forcing import forcing_of
+from rocking.motion.integration import TOLERANCES, Rocking, reduce
+from rocking.motion.members import follow_factors
+from rocking.quantities import within
 from rocking.structures import EquivalentBlock, Mechanism
 
 FIRST, MOST_NEAR_A_LIMIT = 16, 256
 """Members with which an ensemble begins, and those it grows to where its verdict is not clear."""
 CAUSES = 6
 """Coordinates of a point of the design: amplitude, restitution, polarity, direction, processing, vertical."""
-_Reduced = Mechanism | EquivalentBlock
 
 
 def ensemble(
@@ -67,71 +69,80 @@ def drawn(
 ) -> Ensemble:
     """Return the members at `points`, (m, 6) in (0, 1): one column for each cause, used where it varies."""
     reduced = reduce(structure)
+    tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
     if isinstance(reduced, Mechanism) and reduced.restitution_range is not None:
         settings = replace(settings, restitution_range=reduced.restitution_range)
     varied = _Varied.of(reduced, motions, points, settings)
     ratios = np.full(len(points), np.nan)
     reasons: dict[int, str] = {}
-    for (direction, processing), motion in motions.horizontal.items():
-        rows = np.flatnonzero((varied.direction == direction) & (varied.processing == processing))
-        if not rows.size:
-            continue
-        responses = integrate_members(
-            reduced, motion, varied.members(reduced, rows), tolerance, vertical=motions.vertical
-        )
-        ratios[rows] = responses.rotation_ratio
-        reasons |= {int(rows[k]): reason for k, reason in responses.reasons.items()}
-    return Ensemble(ratios, varied.causes(reduced, motions, settings), nominal, settings, reasons)
+    for place, motion in enumerate(motions.horizontal.values()):
+        rows = np.flatnonzero(varied.motion == place)
+        if rows.size:
+            forcing = forcing_of(motion, motions.vertical)
+            responses = follow_factors(reduced, forcing, *varied.factors(rows), tolerance)
+            ratios[rows] = responses.rotation_ratio
+            reasons |= {int(rows[k]): reason for k, reason in responses.reasons.items()}
+    return Ensemble(ratios, varied.causes, nominal, settings, reasons)
 
 
 @dataclass(frozen=True, eq=False)
 class _Varied:
-    """The value of each cause by member, (m,): factor on the motion, what is added to η, sign, names, and on or off."""
+    """What differs between the members, (m,) each: factor on the motion, η by side (m, 2), sign, place of the motion
+    among the horizontal ones, and whether the vertical one acts (None: there is none). causes: that vary, by name.
+    """
 
     amplitude: np.ndarray
     restitution: np.ndarray
     polarity: np.ndarray
-    direction: np.ndarray
-    processing: np.ndarray
-    vertical: np.ndarray
+    motion: np.ndarray
+    vertical: np.ndarray | None
+    causes: Mapping[str, np.ndarray]
 
     @classmethod
     def of(
-        cls, reduced: _Reduced, motions: GroundMotions, points: np.ndarray, settings: EnsembleSettings
+        cls,
+        reduced: Mechanism | EquivalentBlock,
+        motions: GroundMotions,
+        points: np.ndarray,
+        settings: EnsembleSettings,
     ) -> "_Varied":
-        amplitude, restitution, polarity, direction, processing, vertical = points.T
-        unlike = settings.polarity and not reduced.symmetric
-        return cls(
-            1 + settings.amplitude_range * (2 * amplitude - 1),
-            settings.restitution_range * (2 * restitution - 1),
-            np.where((polarity < 0.5) & unlike, -1.0, 1.0),
-            _chosen(direction, motions.directions),
-            _chosen(processing, motions.processings),
-            (vertical < 0.5) & (motions.vertical is not None),
-        )
-
-    def members(self, reduced: _Reduced, rows: np.ndarray) -> Members:
+        amplitude = 1 + settings.amplitude_range * (2 * points[:, 0] - 1)
+        offset = settings.restitution_range * (2 * points[:, 1] - 1)
         own = np.array([reduced.sides[0].restitution, reduced.sides[-1].restitution])
-        eta = np.clip(own + self.restitution[rows, None], 0.0, 1.0)
-        return Members(self.amplitude[rows], self.polarity[rows], self.vertical[rows], eta)
-
-    def causes(
-        self, reduced: _Reduced, motions: GroundMotions, settings: EnsembleSettings
-    ) -> dict[str, np.ndarray]:
-        """Those that vary, by name."""
+        unlike = settings.polarity and not reduced.symmetric
+        polarity = np.where(points[:, 2] < 0.5, -1.0, 1.0) if unlike else np.ones(len(points))
+        motion, chosen = _chosen_motions(motions, points[:, 3], points[:, 4])
+        vertical = None if motions.vertical is None else points[:, 5] < 0.5
         varies = {
-            "amplitude": settings.amplitude_range > 0,
-            "restitution": settings.restitution_range > 0,
-            "polarity": settings.polarity and not reduced.symmetric,
-            "direction": len(motions.directions) > 1,
-            "processing": len(motions.processings) > 1,
-            "vertical": motions.vertical is not None,
+            "amplitude": amplitude if settings.amplitude_range else None,
+            "restitution": offset if settings.restitution_range else None,
+            "polarity": polarity if unlike else None,
+            **chosen,
+            "vertical": vertical,
         }
-        return {name: getattr(self, name) for name, does in varies.items() if does}
+        causes = {name: values for name, values in varies.items() if values is not None}
+        return cls(amplitude, np.clip(own + offset[:, None], 0.0, 1.0), polarity, motion, vertical, causes)
+
+    def factors(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray | None, np.ndarray]:
+        """Of the horizontal motion and of the vertical one, and the restitutions, of some members."""
+        factor = self.amplitude[rows]
+        lift = None if self.vertical is None else np.where(self.vertical[rows], factor, 0.0)
+        return factor * self.polarity[rows], lift, self.restitution[rows]
 
 
-def _chosen(places: np.ndarray, names: Sequence[str]) -> np.ndarray:
-    return np.array(names)[np.minimum((places * len(names)).astype(int), len(names) - 1)]
+def _chosen_motions(
+    motions: GroundMotions, along: np.ndarray, done: np.ndarray
+) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """The place of each member's motion, and the names of its direction and of its processing where there are more."""
+    if len(motions.horizontal) == 1:
+        return np.zeros(along.size, dtype=int), {}
+    named = {"direction": (motions.directions, along), "processing": (motions.processings, done)}
+    chosen = {
+        cause: np.array(names)[(places * len(names)).astype(int)] for cause, (names, places) in named.items()
+    }
+    places = {key: place for place, key in enumerate(motions.horizontal)}
+    motion = [places[key] for key in zip(chosen["direction"], chosen["processing"], strict=True)]
+    return np.array(motion), {cause: chosen[cause] for cause, (names, _) in named.items() if len(names) > 1}
 
 
 def _joined(first: Ensemble, more: Ensemble) -> Ensemble:
