@@ -1,0 +1,210 @@
+"""The parts of the compiled exact response, each against arbitrary precision, a matrix exponential or a fine grid."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.linalg import expm
+from scipy.optimize import brentq
+
+from rocking.motion import linear_kernel as kernel
+from rocking.motion.linear_kernel import Blocks
+
+ROUNDING = 4e-15
+
+
+@pytest.mark.parametrize("y", [1e-5, 3e-3, 0.0999, 0.1001, 0.6, 0.999, 1.001, 4.0])
+def test_hyperbolic_functions_keep_their_digits(y: float) -> None:
+    with mpmath.workdps(40):
+        expected = mpmath.cosh(y) - 1, mpmath.sinh(y) - mpmath.mpf(y)
+    for found, true in zip(kernel._hyperbolic(y), expected, strict=True):
+        assert found == pytest.approx(float(true), rel=ROUNDING)
+
+
+@pytest.mark.parametrize("y", [1e-3, 0.05, 0.4, 0.999, 1.001, 3.0])
+def test_weights_are_the_integrals_of_a_linear_drive(y: float) -> None:
+    """q' = q + d and r' = −r − d, d from d₀ to d₁: each weight is ∫ exp(±(y − s)) times the share of that end."""
+    with mpmath.workdps(30):
+        y_ = mpmath.mpf(y)
+        shares = [lambda s: 1 - s / y_, lambda s: s / y_]
+        up = [mpmath.quad(lambda s, w=w: mpmath.exp(y_ - s) * w(s), [0, y_]) for w in shares]
+        down = [mpmath.quad(lambda s, w=w: mpmath.exp(s - y_) * w(s), [0, y_]) for w in shares]
+        expected = [mpmath.exp(y_), mpmath.exp(-y_), *up, *down]
+    # what cancels between two weights of the same end costs digits as y gets small
+    assert kernel._weights(y) == pytest.approx([float(value) for value in expected], rel=1e-15 / min(y, 0.1))
+
+
+@pytest.mark.parametrize("y", [0.02, 0.7, 0.999, 1.001, 2.5])
+def test_the_exact_step_is_the_matrix_exponential(y: float) -> None:
+    rng = np.random.default_rng(1)
+    for x, w, drive, ramp in rng.normal(size=(10, 4)).tolist():
+        matrix = np.array([[0, 1, 0, 0], [1, 0, 1, 0], [0, 0, 0, 1], [0, 0, 0, 0.0]])
+        after = expm(matrix * y) @ [x, w, drive, ramp]
+        found = kernel._exact(x, w, drive, ramp, y)
+        assert found == pytest.approx((after[0], after[1], after[0] + after[2]), rel=1e-12, abs=1e-13)
+
+
+def test_events_within_a_sample_are_those_on_a_fine_grid() -> None:
+    """The first contact from above, and the largest turn before it."""
+    rng, landed, turned = np.random.default_rng(2), 0, 0
+    for _ in range(800):
+        span = float(rng.choice([0.3, 1.5]))
+        x, w = float(rng.uniform(0, 0.5)), float(rng.normal() * 0.8)
+        drive, ramp = float(rng.normal() * 2), float(rng.normal() * 4)
+        grid = np.linspace(0, span, 1501)
+        states = np.array([kernel._exact(x, w, drive, ramp, float(y))[:2] for y in grid[::10]])
+        places = grid[::10]
+        below = np.flatnonzero(states[1:, 0] <= 0) + 1
+        end = below[0] if below.size else places.size - 1
+        turns = [k for k in range(end) if states[k, 1] > 0 >= states[k + 1, 1]]
+        landing, peak, at = kernel._sample_events(x, w, drive, ramp, span)
+        close = np.abs(states[1:, 0]).min() < 3e-3 or np.abs(np.diff(np.sign(states[:, 1]))).sum() > 2
+        if close:  # the grid cannot tell a touch from a miss
+            continue
+        assert (landing > 0) == bool(below.size)
+        if below.size:
+            assert places[end - 1] <= landing <= places[end]
+            assert abs(kernel._exact(x, w, drive, ramp, landing)[0]) < 1e-14 * max(1, abs(drive) + abs(ramp))
+            landed += 1
+        assert (peak > 0) == bool(turns)
+        if turns:
+            assert places[turns[0]] <= at <= places[turns[0] + 1]
+            top = kernel._exact(x, w, drive, ramp, at)
+            assert top[0] == peak and abs(top[1]) < 1e-13 * max(1, abs(drive) + abs(ramp))
+            turned += 1
+    assert landed > 60 and turned > 60
+
+
+def taken(ground: np.ndarray, step: float, p: float, i: int) -> float:
+    """The largest p ∫ ü_g exp(−p (t − t_i)) dt from sample i up to any later instant, on a fine grid."""
+    times = np.linspace(i * step, (ground.size - 1) * step, (ground.size - 1 - i) * 400 + 1)
+    rate = p * np.interp(times, np.arange(ground.size) * step, ground) * np.exp(-p * (times - times[0]))
+    return float(max(0.0, np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(times)).max()))
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_what_a_record_can_take_back(side: float) -> None:
+    rng, p, step = np.random.default_rng(4), 2.0, 0.05
+    for ground in (rng.uniform(0.5, 2, 12), rng.normal(size=12)):
+        out = np.empty(12)
+        kernel.takeback(side * ground, step, p, side, out)
+        assert out[-1] == 0
+        for i in range(11):
+            true = taken(ground, step, p, i)
+            # no less; more by the negative part of one sample at the most, which the bound of a part of it leaves out
+            spare = p * step * np.abs(ground[i:]).max() if (ground < 0).any() else 0.0
+            assert true * (1 - 1e-5) - 1e-9 <= out[i] <= true * (1 + 1e-5) + spare
+
+
+BLOCKS = Blocks(np.array([2.0, 3.0]), np.array([0.5, 0.4]), np.array([0.2, 0.15]), False)
+
+
+@pytest.mark.parametrize("one_sided", [False, True])
+def test_the_first_uplift_is_the_first_crossing(one_sided: bool) -> None:
+    """The positive side lifts where −0.5 ü_g > 1, the negative where 0.4 ü_g > 1."""
+    blocks, rng, lifted = BLOCKS._replace(one_sided=one_sided), np.random.default_rng(3), []
+    for _ in range(200):
+        ground, factor = rng.normal(size=6) * 2, float(rng.choice([-1.0, 0.7, 1.3]))
+        start, offset = int(rng.integers(4)), float(rng.choice([0.0, 0.03]))
+        i, tau, side = kernel._uplift(blocks, ground, factor, 0.1, start, offset)
+        times = np.linspace(start * 0.1 + offset, 0.5, 40_001)
+        push = factor * np.interp(times, np.arange(6) * 0.1, ground)
+        positive, negative = -0.5 * push - 1, 0.4 * push - 1
+        first = np.flatnonzero((positive if one_sided else np.maximum(positive, negative)) > 0)
+        assert (side == 0) == (first.size == 0)
+        if side:
+            assert i * 0.1 + tau == pytest.approx(times[first[0]], abs=2e-5)
+            assert side == (1 if one_sided or positive[first[0]] >= negative[first[0]] else -1)
+        lifted.append(side)
+    assert lifted.count(1) > 30 and lifted.count(0) > 20 and (one_sided or lifted.count(-1) > 30)
+
+
+MIRRORED = Blocks(np.array([2.0]), np.array([0.5]), np.array([0.2]), False)
+
+
+def dies(speed: float, samples=(0.0, 0.5), tau=0.0, best=np.inf) -> bool:
+    """Whether a chain of the block p = 2, φ_cr = 0.2, gλ = 2, η = 0.8 is proved to end."""
+    return bool(
+        kernel._dies_out(
+            MIRRORED, np.array(samples), 1.0, 0.1, (0.7, 0.8), 0, tau, speed, np.array([best, best])
+        )
+    )
+
+
+@pytest.mark.parametrize("tau", [0.0, 0.03])
+def test_a_chain_of_impacts_is_over_when_its_flights_fit_into_the_time(tau: float) -> None:
+    """d = φ_cr p² (1 − 1/16 − 0.25) = 0.55; Δ = 0.8 · 0.25/0.1 · 2v/d in time and p² v²/2d by rising."""
+    d = 0.55
+
+    def over(v: float) -> float:
+        change = 2 * 2 * v / d + 4 * v * v / (2 * d)
+        return 2 * v / d / (1 - 0.8 * (1 + change / (2 * d))) - (0.1 - tau)
+
+    limit = brentq(over, 1e-6, 0.01)
+    assert dies(0.9999 * limit, tau=tau) and not dies(1.0001 * limit, tau=tau)
+
+
+def test_a_chain_that_could_grow_higher_than_the_peaks_is_followed() -> None:
+    """It rises v²/2d at most; 1/16 of φ_cr is where the bounds end."""
+    speed = 0.003
+    share = speed**2 / 1.1 / 0.2
+    assert dies(speed, best=1.001 * share) and not dies(speed, best=0.999 * share)
+    assert not dies(1e-9, samples=(0.0, 1.88)) and dies(1e-9, samples=(1.87, 1.87))
+
+
+@pytest.mark.parametrize(("x", "w", "side"), [(0.3, 0.4, 1), (0.5, -0.2, -1), (0.0, 0.9, 1), (0.2, 0.9, -1)])
+def test_free_rocking_follows_the_equation_of_motion(x: float, w: float, side: int) -> None:
+    """Flights by time integration of φ'' = p² (φ − φ_cr), with the velocity ratio of the side that lands."""
+    best, log, restitution = np.zeros((2, 2)), np.zeros((40, 3)), (0.9, 0.7)
+    k = 0 if side > 0 else 1
+    status, impacts, _, logged = kernel._free(x, w, side, k, 1.5, BLOCKS, restitution, best, 0, log, 0)
+    if x + w >= 1:
+        assert status == kernel.OVERTURNS
+        return
+    time, peaks, landings, state, now = (
+        1.5,
+        {},
+        0,
+        [x * BLOCKS.span[k], w * BLOCKS.span[k] * BLOCKS.frequency[k]],
+        k,
+    )
+    for _ in range(3):
+        p, span = BLOCKS.frequency[now], BLOCKS.span[now]
+
+        def turns(_, s):
+            return s[1]
+
+        def lands(_, s):
+            return s[0]
+
+        lands.terminal, lands.direction, turns.direction = True, -1, -1
+        found = solve_ivp(
+            lambda t, s, p=p, span=span: [s[1], p * p * (s[0] - span)],
+            (0, 50), state, "DOP853", events=(turns, lands), rtol=1e-12, atol=1e-14,
+        )  # fmt: skip
+        if found.t_events[0].size and now not in peaks:
+            peaks[now] = found.y_events[0][0][0] / span, time + found.t_events[0][0]
+        if len(peaks) == 2:
+            break
+        time += found.t_events[1][0]
+        state = [0.0, -found.y_events[1][0][1] * restitution[now]]
+        now, landings = 1 - now, landings + 1
+    assert status == kernel.ROCKS and impacts == landings
+    for place, (peak, at) in peaks.items():
+        assert best[0, place] == pytest.approx(peak, rel=1e-9)
+        assert best[1, place] == pytest.approx(at, rel=1e-8)
+    assert logged == len(peaks) + landings
+    assert (np.diff(log[:logged, 0]) > 0).all()
+    turned = log[:logged][log[:logged, 2] == 0]
+    assert np.abs(turned[:, 1]) == pytest.approx([best[0, 0 if r > 0 else 1] * BLOCKS.span[0 if r > 0 else 1]
+                                                  for r in turned[:, 1]], rel=1e-12)  # fmt: skip
+
+
+def test_a_root_is_found_to_rounding() -> None:
+    """x = cosh y − 1.5 sinh y has its zero at atanh(2/3); its velocity at atanh(1.5⁻¹) mirrored."""
+    found = kernel._exact_root(1.0, -1.5, 0.0, 0.0, 0.0, 2.0, 1.0, math.cosh(2) - 1.5 * math.sinh(2), False)
+    assert found == pytest.approx(math.atanh(2 / 3), rel=1e-14)
+    turn = kernel._exact_root(1.5, -1.0, 0.0, 0.0, 0.0, 2.0, -1.0, 1.5 * math.sinh(2) - math.cosh(2), True)
+    assert turn == pytest.approx(math.atanh(2 / 3), rel=1e-14)
