@@ -72,7 +72,9 @@ def test_events_within_a_sample_are_those_on_a_fine_grid() -> None:
         if turns:
             assert places[turns[0]] <= at <= places[turns[0] + 1]
             top = kernel._exact(x, w, drive, ramp, at)
-            assert top[0] == peak and abs(top[1]) < 1e-13 * max(1, abs(drive) + abs(ramp))
+            assert top[0] == pytest.approx(peak, rel=1e-14) and abs(top[1]) < 1e-13 * max(
+                1, abs(drive) + abs(ramp)
+            )
             turned += 1
     assert landed > 60 and turned > 60
 
