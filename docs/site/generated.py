@@ -10,6 +10,7 @@ import yaml
 import rocking
 from docs.site.drawings import forms
 from rocking.assessment.rows import PER_RECORD, SUMMARY_TABLES, SpectrumRow
+from rocking.assessment.rows.of_histories import HistoryRow
 from rocking.quantities import ACCELERATION_UNITS
 from rocking.records.formats import FORMATS
 from rocking.structures.fields import Form
@@ -42,7 +43,7 @@ def structures(_: Path) -> str:
 
 def tables(_: Path) -> str:
     """Every column of every table."""
-    known = dict.fromkeys((*PER_RECORD, *SUMMARY_TABLES, SpectrumRow))
+    known = dict.fromkeys((*PER_RECORD, HistoryRow, *SUMMARY_TABLES, SpectrumRow))
     return "\n\n".join(_table_section(described.table) for described in known)
 
 

@@ -59,6 +59,12 @@ def given(value: float | None) -> str:
     return NOTHING if value is None or math.isnan(value) else _typeset(f"{value:.6g}")
 
 
+def percent(share: float) -> str:
+    """Return a share in percent: one digit below 10, whole from there on, 0 where it is rounding."""
+    value = 100 * share
+    return _typeset(f"{value:.0f}" if abs(value) >= 10 or abs(value) < 1e-6 else f"{value:.1g}")
+
+
 def with_unit(text: str, unit: str) -> str:
     """Return a printed number with its unit; a dash stays a dash."""
     return text if text == NOTHING else f"{text} {unit}"
@@ -97,6 +103,11 @@ def listed(names: Sequence[str], most: int = 6) -> str:
     shown = ", ".join(names[:most])
     more = len(names) - most
     return shown if more <= 0 else f"{shown} and {counted(more, 'other')}"
+
+
+def short(name: str, most: int = 44) -> str:
+    """Return a name that stands in full in a table before, cut to `most` characters."""
+    return name if len(name) <= most else f"{name[: most - 1].rstrip()}…"
 
 
 def sentence(text: str) -> str:

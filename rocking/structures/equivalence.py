@@ -106,7 +106,7 @@ def overturning_time(side: Side, acceleration_ratio: float) -> float:
     def rate(u: float) -> float:
         return 2 * math.sqrt(critical * side.at("inertia", critical * u**2) / (2 * GRAVITY * work(u)))
 
-    if min(work(u) for u in np.linspace(0.0, 1.0, 33)) <= 0:
+    if _least(work) <= 0:
         return np.inf
     return _integral(rate)
 
@@ -117,6 +117,17 @@ def block_overturning_time(side: Side, acceleration_ratio: float, scale: Scale =
     block = Mechanism(side).equivalent_block(scale)
     excess = acceleration_ratio * side.uplift_multiplier / block.uplift_multiplier - 1
     return float(np.arccosh(1 + 1 / excess) / block.frequency_parameter) if excess > 0 else np.inf
+
+
+def _least(work: Callable[[float], float]) -> float:
+    """Return the smallest of a smooth function on [0, 1]."""
+    from scipy.optimize import minimize_scalar  # slow to import too
+
+    places = np.linspace(0.0, 1.0, 33)
+    values = [work(u) for u in places]
+    near = int(np.argmin(values))
+    between = places[max(near - 1, 0)], places[min(near + 1, 32)]
+    return min(values[near], float(minimize_scalar(work, bounds=between, method="bounded").fun))
 
 
 def _integral(rate: Callable[[float], float]) -> float:

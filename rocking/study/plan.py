@@ -161,9 +161,8 @@ def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, 
     """Share out records to jobs by a hash of their identifier, so that adding one record changes one job.
 
     size: about how many records a job takes; None chooses about the square root of their number, but more rather than
-    start more than eight jobs, and at most 64, so that neither starting a job nor losing one costs much: a job costs as
-    much as a dozen records, and snakemake compares every file of a job with every other. The number of jobs is a power
-    of two; only where it doubles, every job changes.
+    start more than eight jobs, and at most 200, so that neither starting a job nor losing one costs much: a start costs
+    as much as twenty records. The number of jobs is a power of two; only where it doubles, every job changes.
     Returns the identifiers of each job that has any, in their order, by the name of the job.
     """
     identifiers = tuple(identifiers)
@@ -177,7 +176,7 @@ def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, 
     return {name: tuple(shared[name]) for name in sorted(shared)}
 
 
-_FEW_JOBS, _MANY_RECORDS = 8, 64
+_FEW_JOBS, _MANY_RECORDS = 8, 200
 
 
 def _collect(defects: list[str], load: Callable[[], Found]) -> Found | None:

@@ -153,9 +153,12 @@ class Settings:
     reports: bool = _own(
         True, "PDF reports; the tables are written either way", heading="Output", numbers=False
     )
+    histories: bool = _own(
+        False, "rotation histories of every response too, as histories.csv of each record", numbers=False
+    )
     records_per_job: int | None = _own(
         None,
-        "about; null: the square root of their number, an eighth of it from 64, 64 from 512",
+        "about; null: the square root of their number, an eighth of it from 64, 200 from 1600",
         numbers=False,
         ge=1,
     )

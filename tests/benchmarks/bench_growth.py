@@ -1,9 +1,10 @@
-"""How the cost of a study grows with its records: python bench_growth.py [10 100 1000 ...] [KEY=VALUE ...].
+"""How the cost of a study grows: python bench_growth.py [10 100 1000 ...] [KEY=VALUE ...].
 
-Records of 40 s at 100 Hz made by the seeded generator, with the shipped structures and settings, on two cores. For each
-number of records: CPU per record by stage, the share of everything that is not a stage, the largest process, and the
-time of a second run that has nothing to do. KEY=VALUE changes a setting: reports=True sets the PDFs too, and with
-records_per_job=64 the jobs of few records are as large as those of many.
+First the cost of one record against its samples, its structures and the members of its ensembles, with the exponents.
+Then whole studies of so many records of 40 s at 100 Hz, made by the seeded generator, with the shipped structures and
+settings, on two cores: CPU per record by stage, the share of snakemake's own process, that of everything that is
+neither, the largest process, and the time of a second run that has nothing to do. KEY=VALUE changes a setting:
+reports=True sets the PDFs too, structures=FILE takes another list.
 """
 
 import csv
@@ -14,47 +15,66 @@ import sys
 import tempfile
 import time
 from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from time import process_time
+
+import numpy as np
+import psutil
+
+from rocking.records.catalogue import load_catalogue
+from rocking.structures import load_structures
+from rocking.study.config_file import read_settings
+from rocking.study.run import Study, assess_record
 
 ROOT = Path(__file__).parents[2]
 DURATION = 40.0
+SOME, REPEATS = 4, 3
+"""Records whose cost is added up, as they differ, and how often each is assessed; the least counts."""
 
 
 @dataclass(frozen=True)
 class Measured:
-    """One study: its records, wall and CPU time [s], CPU by stage [s], largest process [MB], time of a re-run [s]."""
+    """One study: its records, wall and CPU time [s], CPU by stage [s], largest process [MB], time of a re-run [s].
+
+    scheduler: CPU time of snakemake's own process, without its jobs, s.
+    """
 
     records: int
     wall: float
     cpu: float
+    scheduler: float
     stages: dict[str, float]
     memory: float
     again: float
 
     @property
-    def overhead(self) -> float:
-        """Share of the CPU time that is spent outside the stages."""
-        return 1 - sum(self.stages.values()) / self.cpu
+    def rest(self) -> float:
+        """Share of the CPU time that goes neither into the stages nor into the scheduler."""
+        return 1 - (sum(self.stages.values()) + self.scheduler) / self.cpu
 
 
-def snakemake(folder: Path, *options: str) -> str:
-    """Run the workflow on the study in `folder` and return what it printed."""
+def snakemake(folder: Path, *options: str) -> tuple[str, float]:
+    """Run the workflow on the study in `folder`; return what it printed and the CPU time of its own process, s."""
     command = [
-        sys.executable,
-        "-m",
-        "snakemake",
-        "--snakefile",
-        str(ROOT / "Snakefile"),
-        "--directory",
-        str(folder),
+        *(sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile")),
+        *("--directory", str(folder), "--configfile", str(folder / "config.yaml"), "--cores", "2", "--quiet"),
+        *("--workflow-profile", str(ROOT / "workflow" / "profiles" / "default"), *options),
     ]
-    command += ["--configfile", str(folder / "config.yaml"), "--cores", "2", "--quiet", *options]
-    command += ["--workflow-profile", str(ROOT / "workflow" / "profiles" / "default")]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise SystemExit(done.stdout + done.stderr)
-    return done.stdout + done.stderr
+    own = 0.0
+    with tempfile.TemporaryFile("w+") as output:
+        process = psutil.Popen(command, stdout=output, stderr=subprocess.STDOUT)
+        while process.poll() is None:
+            with suppress(psutil.Error):
+                own = sum(process.cpu_times()[:2])
+            time.sleep(0.05)
+        output.seek(0)
+        told = output.read()
+    if process.returncode:
+        raise SystemExit(told)
+    return told, own
 
 
 def cpu_of_children() -> float:
@@ -63,67 +83,108 @@ def cpu_of_children() -> float:
     return used.ru_utime + used.ru_stime
 
 
-def measure(folder: Path, records: int, changed: list[str]) -> Measured:
+def measure(folder: Path, records: int, changed: Sequence[str]) -> Measured:
     """Run a study of `records` records in `folder`, twice, with the settings `changed` ("KEY=VALUE")."""
-    subprocess.run(
-        [sys.executable, ROOT / "tests" / "workflow" / "write_study.py", folder, str(records), str(DURATION)],
-        check=True,
-    )
+    write_study(folder, records, DURATION)
     options = ["--config", "reports=False", *changed]
     started, before = time.perf_counter(), cpu_of_children()
-    snakemake(folder, *options)
+    _, scheduler = snakemake(folder, *options)
     wall, cpu = time.perf_counter() - started, cpu_of_children() - before
     started = time.perf_counter()
-    if "Nothing to be done" not in snakemake(folder, *options):
+    told, _ = snakemake(folder, *options)
+    if "Nothing to be done" not in told:
         raise SystemExit("the second run did something")
     again = time.perf_counter() - started
-    summary = folder / "results" / "summary"
     stages: Counter[str] = Counter()
-    for row in rows(summary / "timings.csv", ","):
+    for row in rows(folder / "results" / "summary" / "timings.csv"):
         stages[row["stage"]] += float(row["duration_s"])
     # The largest child so far: growing studies make it that of this one.
     memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
-    return Measured(records, wall, cpu, dict(stages), memory, again)
+    return Measured(records, wall, cpu, scheduler, dict(stages), memory, again)
 
 
-def rows(path: Path, delimiter: str) -> list[dict[str, str]]:
+def write_study(folder: Path, records: int, duration: float) -> None:
+    """Write a study of synthetic records."""
+    script = ROOT / "tests" / "workflow" / "write_study.py"
+    subprocess.run([sys.executable, script, folder, str(records), str(duration)], check=True)
+
+
+def rows(path: Path) -> Iterator[dict[str, str]]:
     """The rows of a table."""
     with path.open(encoding="utf-8", newline="") as stream:
-        return list(csv.DictReader(stream, delimiter=delimiter))
+        yield from csv.DictReader(stream)
 
 
-def main(arguments: list[str]) -> None:
-    """Measure each number of records and print one line for it, in rising order."""
-    changed = [word for word in arguments if "=" in word]
-    numbers = sorted(int(word) for word in arguments if "=" not in word) or [10, 100, 1000]
-    with tempfile.TemporaryDirectory() as folder:
-        measure(Path(folder) / "warm", 2, changed)  # compiles, so that the first number does not pay for it
-        print(f"load of the machine before: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
-        previous = None
-        for number in numbers:
-            now = measure(Path(folder) / str(number), number, changed)
-            report(now, previous)
-            previous = now
-        print(f"load of the machine after: {os.getloadavg()[0]:.1f}")
+def of_a_record(folder: Path, duration: float = DURATION, structures: int = 10, members: int = 64) -> float:
+    """CPU time of one record, s, on average over some, against so many structures: the shipped ones, repeated."""
+    study_folder = folder / f"{duration:g}"
+    if not study_folder.exists():
+        write_study(study_folder, SOME, duration)
+    catalogue = study_folder / "records" / "catalogue.csv"
+    settings = {"catalogue": str(catalogue), "reports": False, "ensemble": {"members": members}}
+    shipped = list(load_structures(study_folder / "structures.yaml").values())
+    listed = {f"structure {k}": shipped[k % len(shipped)] for k in range(structures)}
+    study, spent = Study(listed, read_settings(settings)), []
+    for record in load_catalogue(catalogue):
+        times = []
+        for _ in range(REPEATS):
+            started = process_time()
+            assess_record(record, study)
+            times.append(process_time() - started)
+        spent.append(min(times))
+    return float(np.mean(spent))
+
+
+def growth(folder: Path) -> None:
+    """Print what one record costs against each thing it grows with, and the exponent over the larger half."""
+    of_a_record(folder)  # imports, tables and what is compiled
+    for name, numbers, without in (
+        ("duration", (20.0, 40.0, 80.0, 160.0, 320.0), False),
+        ("duration", (20.0, 40.0, 80.0, 160.0, 320.0), True),
+        ("structures", (5, 10, 20, 40, 80), False),
+        ("members", (16, 64, 256, 1024), False),
+    ):
+        fixed = {"members": 0} if without else {}
+        spent = [of_a_record(folder, **fixed | {name: number}) for number in numbers]
+        half = len(numbers) // 2
+        exponent = np.polyfit(np.log(numbers[half:]), np.log(spent[half:]), 1)[0]
+        shown = ", ".join(
+            f"{number:g}: {1000 * each:.0f} ms" for number, each in zip(numbers, spent, strict=True)
+        )
+        print(
+            f"{name}{' without ensemble' if without else ''} ^ {exponent:.2f} in the end; {shown}", flush=True
+        )
 
 
 def report(now: Measured, before: Measured | None) -> None:
     """Print what one study took, and how its cost per record compares with that of the study before."""
     stages = ", ".join(f"{stage} {1000 * spent / now.records:.1f} ms" for stage, spent in now.stages.items())
+    each = 1000 * now.cpu / now.records
+    print(f"{now.records} records: {now.wall:.1f} s, CPU {now.cpu:.1f} s = {each:.1f} ms each")
+    shares = f"snakemake {now.scheduler:.1f} s = {now.scheduler / now.cpu:.0%}, the rest {now.rest:.0%}"
+    print(f"  stages, CPU each: {stages}; {shares}")
     print(
-        f"{now.records} records: {now.wall:.1f} s, CPU {now.cpu:.1f} s = {1000 * now.cpu / now.records:.1f} ms each"
+        f"  largest process {now.memory:.0f} MB; run again with nothing to do {now.again:.1f} s", flush=True
     )
-    print(f"  stages, CPU each: {stages}; overhead {now.overhead:.0%}")
-    print(f"  largest process {now.memory:.0f} MB; run again with nothing to do {now.again:.1f} s")
     if before is not None:
-        work, whole = (
-            (measured(now) / now.records) / (measured(before) / before.records)
-            for measured in (lambda m: sum(m.stages.values()), lambda m: m.cpu)
-        )
-        print(
-            f"  cost per record over that of {before.records} records: stages {work:.2f}, all {whole:.2f}",
-            flush=True,
-        )
+        exponent = np.log(now.cpu / before.cpu) / np.log(now.records / before.records)
+        print(f"  records ^ {exponent:.2f} since {before.records} records", flush=True)
+
+
+def main(arguments: Sequence[str]) -> None:
+    """Measure one record, then each number of records in rising order, and print a line for each."""
+    changed = [word for word in arguments if "=" in word]
+    numbers = sorted(int(word) for word in arguments if "=" not in word) or [10, 100, 1000]
+    print(f"load of the machine before: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
+    with tempfile.TemporaryDirectory() as folder:
+        growth(Path(folder) / "growth")
+        measure(Path(folder) / "warm", 2, changed)  # compiles, so that the first number does not pay for it
+        previous = None
+        for number in numbers:
+            now = measure(Path(folder) / str(number), number, changed)
+            report(now, previous)
+            previous = now
+    print(f"load of the machine after: {os.getloadavg()[0]:.1f}")
 
 
 if __name__ == "__main__":

@@ -28,5 +28,7 @@ TARGETS += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json"]
 if SETTINGS.reports:
     TARGETS += [f"{RESULTS}/{record}/report.pdf" for record in PLAN.records] + [f"{SUMMARY}/summary.pdf"]
     TARGETS += [f"{SUMMARY}/prediction_against_integration.svg", f"{SUMMARY}/study.html"]
+if SETTINGS.histories:
+    TARGETS += [f"{RESULTS}/{record}/histories.csv" for record in PLAN.records]
 if SETTINGS.fragility.in_every_run:
     TARGETS += [f"{RESULTS}/fragility/fragility.pdf"]

@@ -1,47 +1,46 @@
 """Numbers beside marks so that none stands on another: neighbours share one, and each finds a free place."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from rocking.reports.paper.canvas import SMALL, Box, Canvas, text_box
 
-_RADII = (1.6, 2.4, 3.6, 5.5, 8.0, 12.0, 20.0, 40.0, 400.0)
+_RADII = (1.6, 2.4, 3.2, 4.5, 6.0, 8.0, 12.0, 20.0, 40.0, 400.0)
 """Nearness at which marks share a label, mm, tried in turn until every label has a place."""
-_DISTANCES = (1.1, 3.0, 6.0, 10.0)
-"""From a group of marks to its label, mm; beyond the first a line leads there."""
-_SIDES = (
-    ("left", "bottom", 1, -1),
-    ("right", "bottom", -1, -1),
-    ("left", "top", 1, 1),
-    ("right", "top", -1, 1),
-)
-_AXES = (
-    ("middle", "bottom", 0, -1),
-    ("left", "middle", 1, 0),
-    ("right", "middle", -1, 0),
-    ("middle", "top", 0, 1),
-)
 _MARK = 0.9
 """Half the room of a mark, mm."""
-_CROSSED = 0.3
-"""What a point of a curve below a label counts, when a mark below it counts 1."""
+_REACH, _STEP = 24.0, 1.5
+"""How far from its mark a label is sought a place, and in what steps, mm."""
+_ADJACENT = 1.3
+"""Up to this distance a label needs no line to its mark, mm."""
+_CROSSED = 3.0
+"""What a point of a curve below a label counts, mm of distance from its mark."""
 
 
 @dataclass(frozen=True)
 class Label:
-    """A text at a place of the paper (mm), and where the line begins that leads to it (None: it stands beside)."""
+    """A text about its middle (mm of the paper), and the marks (k, 2) that it names."""
 
     text: str
-    place: tuple[float, float]
-    across: str
-    along: str
-    leader: tuple[float, float] | None
+    middle: tuple[float, float]
+    marks: np.ndarray
 
     @property
     def box(self) -> Box:
-        return text_box(self.place, self.text, SMALL, self.across, self.along)
+        return text_box(self.middle, self.text, SMALL, "middle", "middle")
+
+    @property
+    def line(self) -> np.ndarray:
+        """The line (2, 2) from the nearest mark to the label; none (0, 2) where it stands beside its only mark."""
+        box = self.box
+        ends = np.clip(self.marks, (box.left, box.top), (box.right, box.bottom))
+        away = np.hypot(*(ends - self.marks).T)
+        nearest = int(away.argmin())
+        if len(self.marks) == 1 and away[nearest] <= _ADJACENT:
+            return np.empty((0, 2))
+        return np.stack((self.marks[nearest], ends[nearest]))
 
 
 def ranges(numbers: Sequence[int]) -> str:
@@ -56,98 +55,118 @@ def ranges(numbers: Sequence[int]) -> str:
 
 
 def placed_labels(
-    places: np.ndarray, numbers: Sequence[int], box: Box, curve: np.ndarray | None = None
+    places: np.ndarray,
+    numbers: Sequence[int],
+    box: Box,
+    curve: np.ndarray | None = None,
+    shared: float = _RADII[-1],
 ) -> list[Label]:
-    """Return the labels of marks at `places` (k, 2) mm within `box`, none on another.
+    """Return the labels of marks at `places` (k, 2) mm within `box`, none on another or on a mark.
 
-    numbers: what each mark is called. curve: (m, 2) mm, points that a label had better not cover.
+    numbers: what each mark is called. curve: (m, 2) mm, points that a label had better not cover. shared: up to how
+    near marks may share a label, mm; where that leaves some without a place, there is none at all.
     """
-    if not len(places):
-        return []
-    for radius in _RADII:
+    shown = np.empty((0, 2)) if curve is None else curve
+    for radius in _RADII if len(places) else ():
+        if radius > shared:
+            break
         groups = _groups(places, radius)
-        found = _placed(
-            [places[group] for group in groups],
-            [ranges([numbers[each] for each in group]) for group in groups],
-            box,
-            places,
-            curve,
-        )
+        texts = [ranges([numbers[each] for each in group]) for group in groups]
+        found = _placed([places[group] for group in groups], texts, box, places, shown)
         if len(found) == len(groups):
             return found
-    return found
+    return []
 
 
 def draw_labels(canvas: Canvas, labels: Sequence[Label], colour: str = "black") -> None:
     """Write labels with the lines that lead to them."""
     for label in labels:
-        if label.leader is not None:
-            ends = np.array([label.leader, _nearest(label.box, label.leader)])
-            canvas.path(ends, colour, 0.3)
-        canvas.text(label.place, label.text, SMALL, label.across, label.along, colour, paper=True)
+        canvas.path(label.line, colour, 0.3)
+        canvas.text(label.middle, label.text, SMALL, "middle", "middle", colour, paper=True)
 
 
 def _groups(places: np.ndarray, radius: float) -> list[list[int]]:
-    """Indices of marks that a chain of steps of `radius` joins."""
-    near = np.hypot(*(places[:, np.newaxis] - places[np.newaxis]).transpose(2, 0, 1)) < radius
-    left, groups = set(range(len(places))), []
-    while left:
-        group, reached = set(), {min(left)}
-        while reached:
-            group |= reached
-            reached = {int(each) for each in np.flatnonzero(near[list(reached)].any(axis=0))} - group
-        left -= group
-        groups.append(sorted(group))
-    return groups
+    """Indices of marks, from left to right, each with the first group that begins within `radius` of it."""
+    groups: list[list[int]] = []
+    for mark in np.lexsort(places.T[::-1]).tolist():
+        near = (group for group in groups if np.hypot(*(places[mark] - places[group[0]])) < radius)
+        group = next(near, None)
+        if group is None:
+            groups.append([mark])
+        else:
+            group.append(mark)
+    return [sorted(group) for group in groups]
 
 
 def _placed(
-    groups: Sequence[np.ndarray], texts: Sequence[str], box: Box, marks: np.ndarray, curve: np.ndarray | None
+    groups: Sequence[np.ndarray], texts: Sequence[str], box: Box, marks: np.ndarray, curve: np.ndarray
 ) -> list[Label]:
-    """The labels that find a place, those of the groups with the least room first."""
+    """The labels that find a place clear of marks, labels and the lines to them; the longest chooses first."""
     found: list[Label] = []
     for which in sorted(range(len(groups)), key=lambda each: -len(texts[each])):
-        candidates = [each for each in _candidates(groups[which], texts[which]) if box.holds(each.box)]
-        free = [each for each in candidates if not any(each.box.meets(other.box) for other in found)]
-        if not free:
-            return found
-        found.append(min(free, key=lambda each: _cost(each, marks, curve)))
+        label = _best(groups[which], texts[which], box, marks, curve, found)
+        if label is None:
+            break
+        found.append(label)
     return found
 
 
-def _candidates(group: np.ndarray, text: str) -> Iterator[Label]:
-    (left, top), (right, bottom) = group.min(axis=0), group.max(axis=0)
-    middle = ((left + right) / 2, (top + bottom) / 2)
-    for distance in _DISTANCES:
-        for across, along, x, y in (*_SIDES, *_AXES):
-            away = distance / np.hypot(x, y)
-            edge = (
-                right if x > 0 else left if x < 0 else middle[0],
-                bottom if y > 0 else top if y < 0 else middle[1],
-            )
-            place = (float(edge[0] + x * away), float(edge[1] + y * away))
-            near = group[np.hypot(*(group - place).T).argmin()]
-            leader = (
-                None if distance == _DISTANCES[0] and len(group) == 1 else (float(near[0]), float(near[1]))
-            )
-            yield Label(text, place, across, along, leader)
+def _best(
+    group: np.ndarray, text: str, box: Box, marks: np.ndarray, curve: np.ndarray, others: Sequence[Label]
+) -> Label | None:
+    """The label of a group in the free place nearest to it; None where there is none."""
+    about = text_box((0.0, 0.0), text, SMALL, "middle", "middle")
+    reach = np.array([[about.left, about.top], [about.right, about.bottom]])
+    lines = np.vstack([np.empty((0, 2)), *(_along(each.line) for each in others)])
+    for middles in (_beside(group, reach), _around(group)):
+        low, high = middles + reach[0], middles + reach[1]
+        free = (low >= (box.left, box.top)).all(axis=1) & (high <= (box.right, box.bottom)).all(axis=1)
+        for each in (other.box for other in others):
+            free &= ~((low < (each.right, each.bottom)) & (high > (each.left, each.top))).all(axis=1)
+        middles, low, high = middles[free], low[free], high[free]
+        free = (_covered(low - _MARK, high + _MARK, marks) == 0) & (_covered(low, high, lines) == 0)
+        middles, low, high = middles[free], low[free], high[free]
+        ends = np.clip(group, low[:, np.newaxis], high[:, np.newaxis])
+        away = np.hypot(*np.moveaxis(ends - group, 2, 0)).min(axis=1)
+        for place in np.argsort(away + _CROSSED * _covered(low, high, curve), kind="stable"):
+            label = Label(text, (float(middles[place, 0]), float(middles[place, 1])), group)
+            if not any(_meets(each.box, label.line) for each in others):
+                return label
+    return None
 
 
-def _cost(label: Label, marks: np.ndarray, curve: np.ndarray | None) -> float:
-    """Marks and points of the curve below a label, and how far it stands from its own mark."""
-    box = label.box
-    covered = float(_within(box, marks, _MARK)) + (
-        0.0 if curve is None else _CROSSED * _within(box, curve, 0.0)
+def _beside(group: np.ndarray, reach: np.ndarray) -> np.ndarray:
+    """Middles of the eight places about a group of marks, (8, 2). reach: of a label from its middle, (2, 2)."""
+    low, high = group.min(axis=0) - reach[1] - _MARK - 0.1, group.max(axis=0) - reach[0] + _MARK + 0.1
+    return np.array(
+        [
+            ((low[0], middle[0], high[0])[x + 1], (low[1], middle[1], high[1])[y + 1])
+            for middle in [(low + high) / 2]
+            for x in (1, 0, -1)
+            for y in (-1, 0, 1)
+            if x or y
+        ]
     )
-    away = 0.0 if label.leader is None else float(np.hypot(*np.subtract(label.place, label.leader)))
-    return covered + 0.1 * away
 
 
-def _within(box: Box, points: np.ndarray, air: float) -> int:
-    x, y = points.T
-    inside = (x > box.left - air) & (x < box.right + air) & (y > box.top - air) & (y < box.bottom + air)
-    return int(inside.sum())
+def _around(group: np.ndarray) -> np.ndarray:
+    """Middles of a grid of places about a group of marks, (k, 2)."""
+    steps = np.arange(-_REACH, _REACH + _STEP, _STEP)
+    grid = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    return (group.min(axis=0) + group.max(axis=0)) / 2 + grid
 
 
-def _nearest(box: Box, place: tuple[float, float]) -> tuple[float, float]:
-    return min(max(place[0], box.left), box.right), min(max(place[1], box.top), box.bottom)
+def _covered(low: np.ndarray, high: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """How many of `points` (m, 2) lie in each box from `low` to `high`, (k, 2) each."""
+    inside = (points > low[:, np.newaxis]) & (points < high[:, np.newaxis])
+    return inside.all(axis=2).sum(axis=1)
+
+
+def _along(line: np.ndarray) -> np.ndarray:
+    """Points along a line, (k, 2)."""
+    return np.linspace(line[0], line[1], 25) if len(line) else line
+
+
+def _meets(box: Box, line: np.ndarray) -> bool:
+    corners = np.array([[box.left, box.top], [box.right, box.bottom]])
+    return bool(_covered(corners[:1], corners[1:], _along(line)).any())

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -98,7 +99,13 @@ def drawing_pictures(structures: Mapping[str, Structure], numbers: Mapping[str, 
     if len(drawn) > len(shown):
         caption += " The others are like these in kind and stand in the table alone."
     alt = f"Drawings to scale of {printing.counted(len(shown), 'structure')} at rest and displaced, with hinges."
-    return [{"svg": structure_drawings(shown).svg(), "alt": alt, "caption": caption}]
+    return [{"svg": _drawn(tuple(shown)), "alt": alt, "caption": caption}]
+
+
+@lru_cache(maxsize=4)
+def _drawn(structures: tuple[tuple[str, Structure], ...]) -> str:
+    """The drawings, which are the same for every record of a study."""
+    return structure_drawings(structures).svg()
 
 
 def history_picture(
@@ -166,7 +173,7 @@ def spectrum_picture(
     numbers: Mapping[str, str],
     width: float = TEXT_WIDTH,
 ) -> Picture | None:
-    """Return the rocking spectrum with the equivalent blocks of the `predictions` rows on it; None without rows."""
+    """Return the rocking spectrum with the equivalent blocks of `rows` on it; None without rows or where all rest."""
     from rocking.motion.spectrum import rocking_spectrum
 
     placed = placed_structures(rows, numbers)
@@ -176,6 +183,8 @@ def spectrum_picture(
     uplift_multipliers = _around([place[2] for place in placed])
     restitution = sorted(row.restitution for row in rows)[len(rows) // 2]
     ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, restitution)
+    if not ratios.any():
+        return None
     figure = rocking_spectrum_figure(frequency_parameters, uplift_multipliers, ratios, placed, width)
     component = printing.words(accelerogram.component)
     alt = f"Rocking spectrum of component {component} over p and uplift acceleration, with the structures."

@@ -13,7 +13,8 @@ from rocking.reports.paper.scales import Scale
 
 _PREDICTED = "#0072B2"
 _COLUMNS = 3
-_PANEL_HEIGHT, _MARGIN_HEIGHT = 25.0, 6.0
+_PANEL_HEIGHT, _ALONE_HEIGHT, _MARGIN_HEIGHT = 25.0, 38.0, 6.0
+"""Of a row among several, of a single one, and of what stands below them, mm."""
 _STILL = 0.01
 """Share of the largest rotation below which a history is cut from the figure."""
 _HIGHEST = 1.4
@@ -39,7 +40,7 @@ def response_histories(histories: Sequence[History]) -> Canvas:
     """Draw each response in its own panel: the integration solid, the predicted maximum dash-dot (as Fig. 8)."""
     columns = min(_COLUMNS, len(histories))
     rows = math.ceil(len(histories) / columns)
-    height = _PANEL_HEIGHT * rows + _MARGIN_HEIGHT
+    height = (_PANEL_HEIGHT * rows if rows > 1 else _ALONE_HEIGHT) + _MARGIN_HEIGHT
     canvas = Canvas(TEXT_WIDTH, height)
     boxes = panels_in(canvas, Box(15, 4, TEXT_WIDTH - 2, height - 9.5), rows, columns, (13, 6.5))
     time = Scale(*_window(histories))

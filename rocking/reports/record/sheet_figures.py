@@ -22,6 +22,8 @@ SHEET_HEIGHTS = (105.0, 72.0)
 """Height of the sheet of a single component, and of each of several, mm: two stand on a page with their table."""
 ZOOM_PERIODS = 2.0
 """Periods of the pulse that are shown before and after its middle."""
+SHARED = 2.4
+"""Up to how near structures share a number, mm; where there are too many for that, none has one."""
 _VELOCITY_PULSE = "#009E73"
 _ASIDE = 9.5
 """From the axes of the right half to their labels, mm."""
@@ -98,7 +100,8 @@ def _spectrum_panel(canvas: Canvas, box: Box, sheet: RecordSheet) -> None:
     panel.line(periods, acceleration, "black", 1.0)
     places = panel.places(*blocks.T)
     panel.marks(places, UPLIFT)
-    draw_labels(canvas, placed_labels(places, [int(label) for label, _, _ in sheet.structures], box, curve))
+    numbers = [int(label) for label, _, _ in sheet.structures]
+    draw_labels(canvas, placed_labels(places, numbers, box, curve, SHARED))
     _period_lines(panel, sheet)
     panel.frame("period T, or 2π/p of a structure [s]", f"PSA, {100 * sheet.spectrum.damping:g} % [m/s²]")
 

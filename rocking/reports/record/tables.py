@@ -17,8 +17,22 @@ from rocking.assessment.rows import (
 )
 from rocking.pulses.flags import Flag
 from rocking.reports import printing
-from rocking.reports.printing import Cell, number, ratio, strong, table, table_of, with_unit, words
+from rocking.reports.printing import (
+    Cell,
+    number,
+    percent,
+    ratio,
+    short,
+    strong,
+    table,
+    table_of,
+    with_unit,
+    words,
+)
 from rocking.reports.record.verdict import contact_failure
+
+NO_BLOCK = 1.0
+"""Defect from which on the block means nothing: it is as large as what is described."""
 
 
 def structure_numbers(structures: Iterable[str], comparison: Iterable[CaseRow]) -> dict[str, str]:
@@ -113,7 +127,7 @@ def structure_table(rows: Iterable[StructureRow], numbers: Mapping[str, str]) ->
     return table_of(
         rows,
         ("No.", "auto", "r", lambda row: numbers[row.structure]),
-        ("Structure", "1.2", "l", lambda row: row.structure),
+        ("Structure", "1.4", "l", lambda row: short(row.structure)),
         (
             "Type and geometry",
             "2.4",
@@ -125,9 +139,17 @@ def structure_table(rows: Iterable[StructureRow], numbers: Mapping[str, str]) ->
         ("Uplift λ [g]", "0.55", "r", lambda row: number(row.uplift_multiplier, 4)),
         ("Scale, linear\u00adised [-]", "0.6", "r", lambda row: number(row.acceleration_scale_linearised, 4)),
         ("Scale, uplift [-]", "0.55", "r", lambda row: number(row.acceleration_scale_uplift, 4)),
-        ("Linear\u00adised λ / λ [-]", "0.6", "r", lambda row: number(row.linearised_over_true_uplift, 4)),
+        ("A block to", "0.95", "l", _defects),
         ("Resti\u00adtution [-]", "0.55", "r", lambda row: number(row.restitution, 4)),
     )
+
+
+def _defects(row: StructureRow) -> Cell:
+    """How far the structure is from the block that is exact at rest, in words."""
+    if math.isnan(row.restoring_defect + row.forcing_defect):
+        return printing.NOTHING
+    restoring, forcing = (f"{percent(each)} %" for each in (row.restoring_defect, row.forcing_defect))
+    return strong(f"{restoring} in restoring, {forcing} in forcing", row.restoring_defect >= NO_BLOCK)
 
 
 def method_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, object]:

@@ -137,7 +137,7 @@ def _spread(kind: str, many: int) -> np.ndarray:
 @pytest.mark.parametrize("many", [1, 3, 10, 40])
 def test_every_mark_is_named_once_and_no_label_stands_on_another(kind, many):
     labels = placed_labels(_spread(kind, many), range(1, many + 1), PAPER)
-    boxes = [text_box(label.place, label.text, 7.0, label.across, label.along) for label in labels]
+    boxes = [text_box(label.middle, label.text, 7.0, "middle", "middle") for label in labels]
     for place, box in enumerate(boxes):
         assert PAPER.holds(box)
         assert not any(box.meets(other) for other in boxes[:place])

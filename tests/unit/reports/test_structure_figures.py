@@ -5,6 +5,8 @@ import pytest
 
 from rocking.reports.record.structure_figures import drawn_rotation, round_length, structure_drawings
 from rocking.structures import Arch, Block, Wall
+from rocking.structures.config import structure_from_config
+from rocking.structures.registry import TYPES
 
 from .drawn import paths, texts
 
@@ -47,3 +49,19 @@ def test_no_drawing_leaves_the_paper_or_meets_its_neighbour():
         points = np.vstack(parts)
         assert 34 * column <= points[:, 0].min() and points[:, 0].max() <= 34 * (column + 1)
         assert 43 * row <= points[:, 1].min() and points[:, 1].max() <= 43 * (row + 1)
+
+
+def example_of(kind):
+    example = {
+        field.key: field.example for field in TYPES[kind].forms[0].fields if field.required or field.unit
+    }
+    return structure_from_config({"type": kind, **example})
+
+
+@pytest.mark.parametrize("kind", TYPES)
+def test_every_type_is_drawn_with_the_letters_of_its_dimensions(kind):
+    structure = example_of(kind)
+    svg = structure_drawings([("one", structure)]).svg()
+    written = {each.text for each in texts(svg)}
+    assert {"one"} | {dimension.letter for dimension in structure.dimensions()} <= written
+    assert hash(structure) == hash(example_of(kind))  # a study's drawings are kept by it

@@ -109,6 +109,8 @@ def test_agreement_counts_all_and_each_structure():
         overturning_false=1,
     )
     assert rows["pier"].median_ratio == 1.25
+    more = [*CASES, case("pier", 0.8, 0.1, "two")]
+    assert next(agreement_rows(frame(ComparisonRow, more))).median_ratio == 1.25  # of 1/7, 5/4 and 8
 
 
 def test_the_sentences_say_the_counts():

@@ -97,6 +97,37 @@ def test_quadrature_of_the_linear_block_gives_its_closed_forms():
         np.testing.assert_allclose(ratio, 1.0, rtol=1e-8)
 
 
+def stiffening():
+    """A side whose gravity moment first grows: 0.3 (1 + 8 x)(1 − x) with x = φ/φ_cr, under a constant B of 0.7.
+
+    The push a gλ does more than gravity takes up to x if a > 1 + 7 x/2 − 8 x²/3, at most 2.1484375 at x = 21/32.
+    """
+    side = Block(2.0, 0.2).mechanism().positive
+    return type(side)(
+        inertia=lambda r: 2.0 + 0 * r,
+        inertia_slope=lambda r: 0 * r,
+        gravity=lambda r: 0.3 * (1 + 8 * r / 0.3) * (1 - r / 0.3),
+        gravity_slope=lambda r: 7 - 16 * r / 0.3,
+        ground=lambda r: 0.7 + 0 * r,
+        critical_rotation=0.3,
+        end_rotation=1.0,
+        restitution=0.9,
+    )
+
+
+@pytest.mark.parametrize("share", [1e-1, 1e-4, 1e-8])
+def test_a_push_that_gravity_outdoes_on_the_way_never_overturns(share):
+    limit = 2.1484375
+    assert overturning_time(stiffening(), limit * (1 - share)) == np.inf
+    assert 0 < overturning_time(stiffening(), limit * (1 + share)) < np.inf
+
+
+def test_a_push_that_just_outdoes_gravity_takes_the_time_of_the_integration():
+    side = stiffening()
+    time = time_until(side, 0.0, side.critical_rotation, -2.2 * side.uplift_multiplier * GRAVITY)
+    assert overturning_time(side, 2.2) == pytest.approx(time, rel=1e-8)
+
+
 def test_period_approaches_housners_quadratically_in_slenderness():
     """Housner 1963: T = (4/p) acosh(1/(1 − θ₀/α)) in the slender limit; the observed order of the error in α is 2."""
     errors = [1 - measure_equivalence(Block(2.0, a).mechanism().positive, [0.5], [2.0]).period_ratio[0]

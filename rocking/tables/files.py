@@ -1,0 +1,96 @@
+"""Files that appear whole or not at all, and after the disk has them."""
+
+import glob
+import os
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from pathlib import Path
+from typing import BinaryIO
+
+from rocking.errors import RockingError
+
+
+def write_whole(path: Path, content: bytes | Iterable[bytes]) -> None:
+    """Write `content`, or its pieces, to `path` through a temporary file beside it, so that it appears whole."""
+    with whole(path) as stream:
+        stream.writelines([content] if isinstance(content, bytes) else content)
+
+
+@contextmanager
+def whole(path: Path) -> Iterator[BinaryIO]:
+    path = Path(path)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        for left_by_a_kill in path.parent.glob(f".{glob.escape(path.name)}.*.part"):
+            left_by_a_kill.unlink(missing_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
+    except OSError as error:
+        raise _unwritten(path, error) from error
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            yield stream
+        os.chmod(temporary, 0o644)
+        written = {path: Path(temporary)}
+        if (group := _TOGETHER.get()) is None:
+            _put_in_place(written)
+        else:
+            group |= written
+    except BaseException as error:
+        Path(temporary).unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.filename in (None, temporary):
+            raise _unwritten(path, error) from error
+        raise
+
+
+_TOGETHER: ContextVar[dict[Path, Path] | None] = ContextVar("_TOGETHER", default=None)
+"""The files that wait for the end of written_together, with their temporary ones."""
+
+
+@contextmanager
+def written_together() -> Iterator[None]:
+    """Let the files that are written within appear at its end, when the disk has them all; none after an error.
+
+    The disk takes them side by side: to wait for it after each of the nine tables of a record takes ten times as long.
+    """
+    waiting: dict[Path, Path] = {}
+    before = _TOGETHER.set(waiting)
+    try:
+        yield
+        _put_in_place(waiting)
+    except OSError as error:
+        raise _unwritten(next(iter(waiting), Path()), error) from error
+    finally:
+        _TOGETHER.reset(before)
+        for temporary in waiting.values():
+            temporary.unlink(missing_ok=True)
+
+
+def _put_in_place(written: Mapping[Path, Path]) -> None:
+    """Rename temporary files, after the disk has them: else a power cut may leave a name with nothing behind it."""
+    if len(written) == 1:
+        _sync(*written.values())
+    elif written:
+        from concurrent.futures import ThreadPoolExecutor  # of which few readers of tables have need
+
+        with ThreadPoolExecutor(len(written)) as threads:
+            list(threads.map(_sync, written.values()))
+    for path, temporary in written.items():
+        os.replace(temporary, path)
+    for folder in {path.parent for path in written}:
+        _sync(folder)
+
+
+def _sync(path: Path) -> None:
+    """Wait until the disk holds a file, or the names in a folder."""
+    handle = os.open(os.fspath(path), os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+def _unwritten(path: Path, error: OSError) -> RockingError:
+    reason = error.strerror or str(error)
+    return RockingError(f"{path} cannot be written: {reason}; mend that, then start again.")
