@@ -39,6 +39,7 @@ rule report_summary:
     input:
         tables=[f"{SUMMARY}/{table}.csv" for table in SUMMARIES],
         trade=f"{SUMMARY}/trade_methods.csv" if SETTINGS.trade.in_summary else [],
+        fragility=FRAGILITY if SETTINGS.fragility.in_every_run else [],
     output:
         document=report(
             f"{SUMMARY}/summary.pdf",
@@ -58,6 +59,8 @@ rule report_summary:
         f"{SUMMARY}/benchmarks/report_summary.tsv"
     params:
         settings=SETTINGS.mapping(),
+        # Where the target fragility is run by hand, its curves come into the report with the next run.
+        fragility_sha256="" if SETTINGS.fragility.in_every_run else PLAN.hashes.of(Path(FRAGILITY)),
         package_sha256=PACKAGE,
     message:
         "Report on all records"

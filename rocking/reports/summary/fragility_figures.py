@@ -70,7 +70,7 @@ def _draw(panel: Axes, name: str, curves: "DataFrame", summary: "DataFrame") -> 
     panel.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     panel.set_ylim(0, 1)
     panel.set_xlabel(_UNITS[falls["intensity_measure"]])
-    panel.legend(loc="upper left", fontsize=6.5)
+    panel.legend(loc="upper left", fontsize=7)
 
 
 def write_fragility_figure(folder: Path, pdf: Path, picture: Path) -> None:

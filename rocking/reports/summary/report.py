@@ -11,6 +11,7 @@ from rocking.reports.style import svg
 from rocking.reports.summary import fates as summary_fates
 from rocking.reports.summary import tables as summary_tables
 from rocking.reports.summary.figures import prediction_scatter
+from rocking.reports.summary.fragility import fragility_data
 from rocking.reports.summary.tables import MOST_RECORDS, Listing
 from rocking.tables import rows_of
 
@@ -23,8 +24,9 @@ def summary_report(
 ) -> bytes:
     """Return the PDF over all records.
 
-    tables: the summary tables "record", "pulses", "comparison", "ensemble", "structures", "agreement" and "failures".
-    settings: at least tolerance and acceleration_scale. trade: figure and conclusion, where it was measured.
+    tables: the summary tables "record", "pulses", "comparison", "ensemble", "structures", "agreement" and "failures", and
+    where they exist "fragility", "fragility_summary" and "ida". settings: at least tolerance and acceleration_scale.
+    trade: figure and conclusion, where it was measured.
     """
     return compile_document("summary/summary.typ", summary_data(tables, settings, trade))
 
@@ -49,6 +51,7 @@ def summary_data(
         "headlines": summary_fates.headlines(found),
         "structures": summary_fates.structure_table(found),
         "matrix": summary_fates.matrix(found),
+        "fragility": fragility_data(tables),
         "sentences": summary_tables.expert_sentences(agreement),
         "scatter": _scatter(comparison),
         "agreement": summary_tables.agreement_table(agreement),
