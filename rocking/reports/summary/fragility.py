@@ -44,8 +44,10 @@ def fragility_data(tables: Mapping[str, "DataFrame"]) -> dict[str, object]:
 
 
 def _figures(tables: Mapping[str, "DataFrame"], names: list[str]) -> Iterator[dict[str, str]]:
-    for first in range(0, len(names), ON_A_PAGE):
-        shown = names[first : first + ON_A_PAGE]
+    pages = math.ceil(len(names) / ON_A_PAGE)
+    each_page = 2 * math.ceil(len(names) / (2 * pages)) if pages else 1
+    for first in range(0, len(names), each_page):
+        shown = names[first : first + each_page]
         curves, summary = (
             tables[name][tables[name]["structure"].isin(shown)] for name in ("fragility", "fragility_summary")
         )

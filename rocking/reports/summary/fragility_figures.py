@@ -52,7 +52,7 @@ def fragility_figure(curves: "DataFrame", summary: "DataFrame") -> Figure:
 def _draw(panel: Axes, name: str, curves: "DataFrame", summary: "DataFrame") -> None:
     for place, (threshold, curve) in enumerate(curves.groupby("rotation_ratio")):
         overturns = math.isinf(float(threshold))  # type: ignore[arg-type]
-        colour = "black" if overturns else f"C{place}"
+        colour = "black" if overturns else f"C{place + 1}"
         label = "overturns" if overturns else f"φ > {threshold:g} φ_cr".replace("φ_cr", "φcr")
         levels = curve["level"]
         if overturns:

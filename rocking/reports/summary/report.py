@@ -24,9 +24,9 @@ def summary_report(
 ) -> bytes:
     """Return the PDF over all records.
 
-    tables: the summary tables "record", "pulses", "comparison", "ensemble", "structures", "agreement" and "failures", and
-    where they exist "fragility", "fragility_summary" and "ida". settings: at least tolerance and acceleration_scale.
-    trade: figure and conclusion, where it was measured.
+    tables: the summary tables "record", "pulses", "comparison", "ensemble", "structures", "agreement" and "failures",
+    and where they exist "fragility", "fragility_summary" and "ida". settings: at least tolerance and
+    acceleration_scale. trade: figure and conclusion, where it was measured.
     """
     return compile_document("summary/summary.typ", summary_data(tables, settings, trade))
 

@@ -3,6 +3,8 @@
 import json
 import math
 
+import pandas
+
 from rocking.assessment.method import Method
 from rocking.assessment.rows import (
     BOTH_COMPONENTS,
@@ -15,6 +17,7 @@ from rocking.assessment.rows import (
     StructureRow,
     agreement_rows,
 )
+from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow
 from rocking.assessment.verdict import Agreement, Verdict, agreement, ratio, ratio_in_words, within_factor_two
 from rocking.reports.style import svg
 from rocking.reports.summary.figures import prediction_scatter
@@ -256,3 +259,90 @@ def test_a_case_without_a_prediction_is_not_counted_in_the_scatter():
     figure = prediction_scatter(frame(ComparisonRow, cases))
     labels = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     assert labels == ["cases (2)"]
+
+
+FRAGILITY = {
+    "ida": pandas.DataFrame(
+        [
+            ("pier", record, level, share)
+            for record, shares in {
+                "a": (0.0, 0.4, 1.0),
+                "b": (0.2, 0.6, 0.3),
+                "c": (0.0, 0.0, 0.1),
+                "d": (1, 1, 1),
+            }.items()
+            for level, share in zip((0.1, 0.2, 0.4), shares, strict=True)
+        ],
+        columns=["structure", "record", "level", "overturning_probability"],
+    ),
+    "fragility": frame(
+        FragilityRow,
+        [
+            FragilityRow(
+                structure="pier",
+                intensity_measure="pgv",
+                rotation_ratio=math.inf,
+                level=level,
+                probability=share,
+                probability_low=share / 2,
+                probability_high=min(1.0, 2 * share),
+                lognormal=share,
+                lognormal_low=share / 2,
+                lognormal_high=share,
+            )
+            for level, share in ((0.1, 0.25), (0.2, 0.5), (0.4, 0.75))
+        ],
+    ),
+    "fragility_summary": frame(
+        FragilitySummaryRow,
+        [
+            FragilitySummaryRow(
+                structure="pier",
+                intensity_measure="pgv",
+                rotation_ratio=math.inf,
+                records=4,
+                stations=3,
+                mechanism_runs=None,
+                median=0.2,
+                median_low=0.13,
+                median_high=0.31,
+                dispersion=0.6,
+                misfit=0.1,
+                lognormal_holds=True,
+                reversals=1,
+                annual_rate=math.nan,
+                annual_rate_low=math.nan,
+                annual_rate_high=math.nan,
+            )
+        ],
+    ),
+}
+
+
+def test_fragility_stands_in_the_summary_with_the_records_that_govern_it(example):
+    tables = summarised(example.tables, example.structures) | FRAGILITY
+    shown = summary_data(tables, SETTINGS)["fragility"]
+    (row,) = shown["table"]["rows"]
+    # d overturns it at 0.1 in all members, b at 0.2 in most of them, a at 0.4, and c nowhere
+    assert row[4] == "d (0.10), b (0.20), a (0.40)"
+    assert row[:2] == ["pier", "0.20 (0.13–0.31) m/s"] and row[3] == "3"
+    assert "Annual rate" not in " ".join(shown["table"]["heads"])
+    assert len(shown["figures"]) == 1
+    assert summary_report(tables, SETTINGS) == summary_report(tables, SETTINGS)
+
+
+def test_many_fragility_curves_go_on_over_pages(example):
+    names = [f"pier {place}" for place in range(45)]
+    many = {
+        name: pandas.concat([table.assign(structure=each) for each in names], ignore_index=True)
+        for name, table in FRAGILITY.items()
+    }
+    shown = summary_data(summarised(example.tables, example.structures) | many, SETTINGS)["fragility"]
+    assert len(shown["figures"]) == 5 and "five structures" in shown["note"]
+    assert len(shown["table"]["rows"]) == 45
+
+
+def test_without_fragility_the_summary_is_silent_about_it(example):
+    assert summary_data(summarised(example.tables, example.structures), SETTINGS)["fragility"] == {
+        "figures": []
+    }
