@@ -222,3 +222,65 @@ def test_a_chain_may_gain_what_moments_vary_over_its_rise() -> None:
 def test_ground_that_can_lift_proves_nothing() -> None:
     assert not dies(1e-9, samples=(10.0, 0.0)) and dies(1e-9, samples=(9.9, 9.9))
     assert not dies(1e-9, samples=(0.0, 9.9), least=0.98) and not dies(1e-9, samples=(0.0, 9.9), push=1.02)
+
+
+def test_the_strongest_push_to_come_is_measured_against_the_lightest_weight() -> None:
+    motion, member = ground([1.0, -4.0, 2.0, 0.5], [0.0, 1.0, -2.0, 0.0]), Member(-0.5, 2.0, (0.9, 0.9))
+    assert [kernel._excitation(motion, member, i) for i in range(4)] == pytest.approx(
+        [2 / 6, 2 / 6, 1 / 6, 0.0]
+    )
+    assert kernel._excitation(motion, Member(0.1, 5.0, (0.9, 0.9)), 0) == np.inf
+    assert kernel._over(motion, 3) and not kernel._over(motion, 2)
+    sine = ground([3.0], omega=2.0)
+    assert kernel._over(sine, 1) and not kernel._over(sine, 0)
+
+
+@pytest.mark.parametrize("k", [0, 1])
+def test_overturning_is_proved_where_nothing_to_come_can_hold_it(k: int) -> None:
+    """hold is the acceleration over gravity that cannot bring the side back: at 3/10 it needs more than 3 of 10."""
+    grid = np.zeros((2, 9))
+    grid[:, 5] = 1.0  # one piece
+    sides = plain_sides(grid=grid, hold=np.array([[0.3], [0.25]]), end=np.array([1.0, 1.0]))
+    strength = 10 * sides.hold[k, 0]
+    for factor, proved in ((0.999, True), (1.001, False)):
+        motion = ground([0.0, -strength * factor, 1.0])
+        assert kernel._lost(sides, motion, MEMBER, k, 0, 0.5) == proved
+        assert kernel._lost(sides, motion, MEMBER, k, 0, 1.0), "the end of the mechanism"
+
+
+def test_what_drives_a_step() -> None:
+    """Straight between samples; a sine with its slope; still ground at the end."""
+    member, motion = Member(2.0, 0.5, (0.9, 0.9)), ground([1.0, 3.0, 2.0], [0.0, 1.0, 4.0])
+    assert kernel._drive(motion, member, 1, 0.025) == pytest.approx((5.5, -20.0, 10.875, 15.0, 0.0))
+    assert kernel._drive(motion, member, 2, 0.025) == (0.0, 0.0, 10.0, 0.0, 0.0)
+    push, rate, weight, change, square = kernel._drive(ground([3.0], omega=2.0), member, 0, 0.4)
+    assert (push, rate) == pytest.approx((6 * math.sin(0.8), 12 * math.cos(0.8)), rel=1e-14)
+    assert (weight, change, square) == (10.0, 0.0, 4.0)
+
+
+@pytest.mark.parametrize("room", [0, 2, 5])
+def test_a_history_is_written_as_far_as_there_is_room(room: int) -> None:
+    log, logged = np.full((room, 3), np.nan), 0
+    for n in range(4):
+        logged = kernel._write(log, logged, float(n), 10.0 * n, -1.0 * n)
+    assert logged == (4 if room else 0), "how much room was needed"
+    assert log[: min(room, 4)].tolist() == [[n, 10 * n, -n] for n in range(min(room, 4))]
+
+
+def test_a_short_step_keeps_its_promises() -> None:
+    """What it calls plain turns nowhere, stays in its piece, and has a tail within the tolerance."""
+    plain = 0
+    for x, h, _ in steps(3000):
+        x, h = x[:6], h / 3
+        arc, room = 0.8, 0.3
+        accepted, new, pull = kernel._eventless(x, h, 0.1, arc, room, 1.0, 1.0, 1e-2)
+        way = Polynomial([arc, *x])
+        assert (new, pull) == pytest.approx((way(h), way.deriv()(h)), rel=1e-9, abs=1e-12)
+        if not accepted:
+            continue
+        plain += 1
+        speeds, arcs = way.deriv()(np.linspace(0, h, 60)), way(np.linspace(0, h, 60))
+        assert (speeds * x[0] > 0).all() and np.abs(arcs - arc).max() <= room
+        farthest, fastest = max(1.0, new), max(1.0, abs(pull))
+        assert abs(x[5]) * h**6 <= 1e-3 * farthest and 6 * abs(x[5]) * h**5 <= 1e-3 * fastest
+    assert 100 < plain < 2900
