@@ -50,6 +50,37 @@ def test_a_lattice_holds_the_smaller_one_and_fills_each_stratum_once(size):
         assert len(set(np.floor(column * size))) == size
 
 
+def test_the_generator_is_what_its_criterion_asks_for():
+    """The mean of B₂(x) B₂(y) over the points, B₂ the Bernoulli polynomial, is the squared error of a pair of them."""
+
+    def chosen(known: list[int]) -> int:
+        every, worst = np.arange(1, SIZES[-1], 2), np.ones(SIZES[-1] // 2)
+        for size in SIZES:
+            k = np.arange(size)
+            bernoulli = (k / size) ** 2 - k / size + 1 / 6
+            others = sum(bernoulli[k * each % size] for each in known)
+            errors = np.array([(bernoulli[k * each % size] * others).mean() for each in range(1, size, 2)])
+            worst = np.maximum(worst, np.sqrt(errors / errors.min())[every % size // 2])
+        return int(every[worst.argmin()])
+
+    generator = [1, 182667 % 4096, 469891 % 4096]
+    while len(generator) < CAUSES:
+        generator.append(chosen(generator))
+    first = lattice(SIZES[-1], CAUSES)
+    steps = np.round((first - first[0]) * SIZES[-1]).astype(int) % SIZES[-1]
+    place = np.flatnonzero(steps[:, 0] == 1)[0]
+    assert steps[place].tolist() == generator
+
+
+@pytest.mark.parametrize("one", range(CAUSES))
+def test_no_cause_follows_another(one):
+    """Of 64 points on a line through the square, a quarter of it holds 32, and of independent ones 16."""
+    points = lattice(64, CAUSES)
+    for other in set(range(CAUSES)) - {one}:
+        for turned in (points[:, other], 1 - points[:, other]):
+            assert 8 <= np.sum((points[:, one] < 0.5) & (turned < 0.5)) <= 24
+
+
 def test_members_are_what_integrate_says_of_each():
     motions, points = GroundMotions.of(_record(5.0)), lattice(16, CAUSES)
     found = drawn(BLOCK, motions, points, EnsembleSettings())
