@@ -8,9 +8,15 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 _VARIABLE = "ROCKING_RECORDS"
 _BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+
+settings.register_profile(
+    "any machine", deadline=None
+)  # by default an example must end within 0.2 s of the clock
+settings.load_profile("any machine")
 
 sys.path.append(str(Path(__file__).parent / "oracles"))  # what several folders of tests compare with
 

@@ -89,7 +89,7 @@ class SmallStudy:
         """Run snakemake on this study; its output and errors as one text."""
         streams: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
         return subprocess.run(
-            self.command(*options), timeout=300, check=False, **streams, **self.surroundings
+            self.command(*options), timeout=900, check=False, **streams, **self.surroundings
         )
 
     def rocking(self, *arguments: str) -> subprocess.CompletedProcess[str]:
@@ -97,7 +97,7 @@ class SmallStudy:
         command = [sys.executable, "-m", "rocking.study.cli", *arguments]
         surroundings = self.surroundings | {"cwd": self.tree}
         return subprocess.run(
-            command, timeout=300, check=False, capture_output=True, text=True, **surroundings
+            command, timeout=900, check=False, capture_output=True, text=True, **surroundings
         )
 
     def tables(self) -> dict[str, bytes]:

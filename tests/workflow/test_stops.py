@@ -25,7 +25,7 @@ def _started(study, *options: str) -> subprocess.Popen[str]:
 
 
 def _wait(condition: Callable[[], object], process: subprocess.Popen[str]) -> None:
-    deadline = time.monotonic() + 100
+    deadline = time.monotonic() + 300
     while not condition():
         assert process.poll() is None, process.communicate()[0]
         assert time.monotonic() < deadline
@@ -49,7 +49,7 @@ def _kill_all(study, process: subprocess.Popen[str]) -> None:
     for scheduler in _schedulers(study):
         if scheduler != process.pid:
             os.killpg(scheduler, signal.SIGKILL)
-    process.wait(timeout=20)
+    process.wait(timeout=100)
     process.stdout.close()
 
 
@@ -60,7 +60,7 @@ def test_one_request_to_stop_ends_in_order(start, tmp_path: Path, number: int, s
     try:
         _wait(lambda: _jobs_run(study), process)
         process.send_signal(number)
-        told = process.communicate(timeout=60)[0]
+        told = process.communicate(timeout=300)[0]
     finally:
         _kill_all(study, process)
     assert process.returncode == status, told
@@ -76,8 +76,8 @@ def test_the_scheduler_ends_in_order_when_the_command_alone_is_killed(start, tmp
     try:
         _wait(lambda: _jobs_run(study), process)
         process.kill()
-        process.wait(timeout=60)
-        deadline = time.monotonic() + 200
+        process.wait(timeout=100)
+        deadline = time.monotonic() + 300
         while _schedulers(study):
             assert time.monotonic() < deadline, "snakemake works on without its command"
             time.sleep(0.1)
@@ -125,7 +125,7 @@ def test_a_second_run_is_locked_out_and_harms_nothing(finished, start, tmp_path:
         second = study.rocking("run", str(study.folder))
         assert second.returncode == 1
         assert "another run works in this study (process " in second.stderr
-        first.communicate(timeout=200)
+        first.communicate(timeout=600)
     finally:
         _kill_all(study, first)
     assert first.returncode == 0

@@ -28,7 +28,7 @@ def test_every_cell_runs_and_shows_what_it_promises(notebook, monkeypatch):
     pytest.importorskip("ipykernel", reason="ipykernel, of the extra test, runs the cells")
     monkeypatch.setenv("PYTHONPATH", str(PATH.parents[1]))
     client = nbclient.NotebookClient(
-        notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(PATH.parent)}}
+        notebook, timeout=900, kernel_name="python3", resources={"metadata": {"path": str(PATH.parent)}}
     )
     client.execute()
     shown = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
