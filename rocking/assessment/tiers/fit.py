@@ -36,8 +36,8 @@ class TierFit:
             least, largest, value = self.least[place], self.largest[place], measures[name]
             slack = 0.05 * (largest - least)
             if not least - slack <= value <= largest + slack:
-                shown = f"{name.replace('_', ' ')} is {value:.2g}"
-                return f"{shown}, beyond the {least:.2g} to {largest:.2g} of the calibration"
+                said, low, high = (f"{float(f'{each:.2g}'):g}" for each in (value, least, largest))
+                return f"{name.replace('_', ' ')} is {said}, beyond the {low} to {high} of the calibration"
         return ""
 
     def knows(self, measures: Mapping[str, float]) -> bool:
