@@ -27,7 +27,7 @@ from rocking.structures import Mechanism, load_structures
 
 STRUCTURES = load_structures(Path(__file__).parents[2] / "workflow" / "structures.yaml")
 SETTINGS = EnsembleSettings()
-REPEATS = 25
+REPEATS = 60
 
 
 def cpu(*calls: Callable[[], object], repeats: int = REPEATS) -> list[float]:
