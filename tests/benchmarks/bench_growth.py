@@ -1,6 +1,7 @@
 """How the cost of a study grows: python bench_growth.py [10 100 1000 ...] [KEY=VALUE ...].
 
-First the cost of one record against its samples, its structures and the members of its ensembles, with the exponents.
+First the cost of one record, with and without the ensemble, and what of it is the compiled integration of the ensemble
+alone; then its cost against samples, structures and members, with the exponents.
 Then whole studies of so many records of 40 s at 100 Hz, made by the seeded generator, with the shipped structures and
 settings, on two cores: CPU per record by stage, the share of snakemake's own process, that of everything that is
 neither, the largest process, and the time of a second run that has nothing to do. KEY=VALUE changes a setting:
@@ -16,14 +17,16 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import process_time
+from typing import Any
 
 import numpy as np
 import psutil
 
+from rocking.motion import nonlinear_kernel
 from rocking.records.catalogue import load_catalogue
 from rocking.structures import load_structures
 from rocking.study.config_file import read_settings
@@ -31,7 +34,7 @@ from rocking.study.run import Study, assess_record
 
 ROOT = Path(__file__).parents[2]
 DURATION = 40.0
-SOME, REPEATS = 4, 3
+SOME, REPEATS = 6, 2
 """Records whose cost is added up, as they differ, and how often each is assessed; the least counts."""
 
 
@@ -103,10 +106,10 @@ def measure(folder: Path, records: int, changed: Sequence[str]) -> Measured:
     return Measured(records, wall, cpu, scheduler, dict(stages), memory, again)
 
 
-def write_study(folder: Path, records: int, duration: float) -> None:
+def write_study(folder: Path, records: int, duration: float, time_step: float = 0.01) -> None:
     """Write a study of synthetic records."""
     script = ROOT / "tests" / "workflow" / "write_study.py"
-    subprocess.run([sys.executable, script, folder, str(records), str(duration)], check=True)
+    subprocess.run([sys.executable, script, folder, str(records), str(duration), str(time_step)], check=True)
 
 
 def rows(path: Path) -> Iterator[dict[str, str]]:
@@ -115,11 +118,17 @@ def rows(path: Path) -> Iterator[dict[str, str]]:
         yield from csv.DictReader(stream)
 
 
-def of_a_record(folder: Path, duration: float = DURATION, structures: int = 10, members: int = 64) -> float:
+def of_a_record(
+    folder: Path,
+    duration: float = DURATION,
+    structures: int = 10,
+    members: int = 64,
+    time_step: float = 0.01,
+) -> float:
     """CPU time of one record, s, on average over some, against so many structures: the shipped ones, repeated."""
-    study_folder = folder / f"{duration:g}"
+    study_folder = folder / f"{duration:g}_{time_step:g}"
     if not study_folder.exists():
-        write_study(study_folder, SOME, duration)
+        write_study(study_folder, SOME, duration, time_step)
     catalogue = study_folder / "records" / "catalogue.csv"
     settings = {"catalogue": str(catalogue), "reports": False, "ensemble": {"members": members}}
     shipped = list(load_structures(study_folder / "structures.yaml").values())
@@ -135,9 +144,38 @@ def of_a_record(folder: Path, duration: float = DURATION, structures: int = 10, 
     return float(np.mean(spent))
 
 
+def whole_records(folder: Path) -> None:
+    """Print what records of two kinds cost against the shipped structures, and the kernel of the ensemble alone."""
+    for duration, time_step in ((20.0, 0.01), (40.0, 0.005)):
+        without = of_a_record(folder, duration, members=0, time_step=time_step)
+        with clocked(nonlinear_kernel, "rock_members") as spent:
+            whole = of_a_record(folder, duration, time_step=time_step)
+        kernel = sum(spent) / (SOME * REPEATS)
+        print(
+            f"{duration:g} s at {1 / time_step:g} Hz, 10 structures: {1000 * without:.0f} ms, with the ensemble "
+            f"{1000 * whole:.0f} ms, of which its kernel takes {1000 * kernel:.0f} ms",
+            flush=True,
+        )
+
+
+@contextmanager
+def clocked(module: Any, name: str) -> Iterator[list[float]]:
+    """Note the CPU time of each call of a function."""
+    run, spent = getattr(module, name), []
+
+    def noted(*arguments: Any) -> Any:
+        started = process_time()
+        found = run(*arguments)
+        spent.append(process_time() - started)
+        return found
+
+    setattr(module, name, noted)
+    yield spent
+    setattr(module, name, run)
+
+
 def growth(folder: Path) -> None:
     """Print what one record costs against each thing it grows with, and the exponent over the larger half."""
-    of_a_record(folder)  # imports, tables and what is compiled
     for name, numbers, without in (
         ("duration", (20.0, 40.0, 80.0, 160.0, 320.0), False),
         ("duration", (20.0, 40.0, 80.0, 160.0, 320.0), True),
@@ -177,6 +215,8 @@ def main(arguments: Sequence[str]) -> None:
     numbers = sorted(int(word) for word in arguments if "=" not in word) or [10, 100, 1000]
     print(f"load of the machine before: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
     with tempfile.TemporaryDirectory() as folder:
+        of_a_record(Path(folder) / "growth")  # imports, tables and what is compiled
+        whole_records(Path(folder) / "growth")
         growth(Path(folder) / "growth")
         measure(Path(folder) / "warm", 2, changed)  # compiles, so that the first number does not pay for it
         previous = None

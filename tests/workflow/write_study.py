@@ -1,4 +1,4 @@
-"""Write a study of synthetic records: python write_study.py FOLDER RECORDS [DURATION_S]."""
+"""Write a study of synthetic records: python write_study.py FOLDER RECORDS [DURATION_S [TIME_STEP_S]]."""
 
 import csv
 import hashlib
@@ -14,7 +14,7 @@ from rocking.records.synthetic import SyntheticRecord, at2_text
 ROOT = Path(__file__).parents[2]
 
 
-def recipe(number: int, duration: float) -> SyntheticRecord:
+def recipe(number: int, duration: float, time_step: float) -> SyntheticRecord:
     """The recipe of one record: pulse of 0.1 to 0.6 g and 0.4 to 2 s in noise of 0.2 g, drawn by its number."""
     amplitude, period = np.random.RandomState(number).uniform((0.1, 0.4), (0.6, 2.0))
     return SyntheticRecord(
@@ -25,16 +25,19 @@ def recipe(number: int, duration: float) -> SyntheticRecord:
         pulse_start=0.2 * duration,
         noise_peak=0.2 * GRAVITY,
         duration=duration,
-        time_step=0.01,
+        time_step=time_step,
     )
 
 
-def write_study(folder: Path, records: int, duration: float = 20.0) -> None:
-    """Write a study of `records` records of `duration` s with the shipped settings and structures, without reports."""
+def write_study(folder: Path, records: int, duration: float = 20.0, time_step: float = 0.01) -> None:
+    """Write a study of synthetic records with the shipped settings and structures, without reports.
+
+    duration and time_step: of each record, s.
+    """
     (folder / "records").mkdir(parents=True)
     rows = []
     for number in range(records):
-        made = recipe(number, duration)
+        made = recipe(number, duration, time_step)
         content = at2_text(made).encode()
         (folder / "records" / f"{made.name}.AT2").write_bytes(content)
         rows.append((made.name, f"{made.name}.AT2", "g", hashlib.sha256(content).hexdigest()))
@@ -47,8 +50,6 @@ def write_study(folder: Path, records: int, duration: float = 20.0) -> None:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (3, 4):
-        raise SystemExit("usage: python write_study.py FOLDER RECORDS [DURATION_S]")
-    write_study(
-        Path(sys.argv[1]), int(sys.argv[2]), *([float(sys.argv[3])] if len(sys.argv) == 4 else [20.0])
-    )
+    if not 3 <= len(sys.argv) <= 5:
+        raise SystemExit("usage: python write_study.py FOLDER RECORDS [DURATION_S [TIME_STEP_S]]")
+    write_study(Path(sys.argv[1]), int(sys.argv[2]), *map(float, sys.argv[3:]))

@@ -133,9 +133,12 @@ def test_a_catalogue_edited_after_planning_stops_the_job(tmp_path: Path) -> None
     (job,) = made.jobs
     catalogue = Path(str(settings["catalogue"]))
     assert planned_records(catalogue, made.jobs[job], made.records_sha256(job)) == made.job(job)
+    assert planned_records(catalogue, None, made.records_sha256()) == tuple(made.records.values())
     catalogue.write_text(catalogue.read_text().replace(SHA256, "1" * 64, 1))
     with pytest.raises(ConfigurationError, match="changed while the study ran"):
         planned_records(catalogue, made.jobs[job], made.records_sha256(job))
+    with pytest.raises(ConfigurationError, match="changed while the study ran"):
+        planned_records(catalogue, None, made.records_sha256())
 
 
 def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_path: Path) -> None:
