@@ -18,7 +18,7 @@ def is_raw(accelerogram: Accelerogram) -> bool:
     return bool(accelerogram.source.path) and accelerogram.processed is False
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=2)  # the two components of a record
 def processed(accelerogram: Accelerogram) -> Mapping[str, Accelerogram]:
     """Return the record as each variant of the processing leaves it, by name, made once; those that do not fit are left
     out. The one AS_IT_IS is the same object.
