@@ -147,3 +147,26 @@ def test_constant_acceleration_just_above_and_below_uplift():
         for factor, outcome in ((1 - 1e-12, Outcome.NO_UPLIFT), (1 + 1e-12, Outcome.OVERTURNS)):
             record = Accelerogram(np.full(20_000, level * factor), 0.01)
             assert integrate(structure, record).outcome is outcome
+
+
+@pytest.mark.parametrize("speed", [-0.02, 0.02])
+@pytest.mark.parametrize("share, returns", [(0.97, True), (1.03, False)])
+def test_the_proof_on_the_linear_block_begins_where_the_record_can_take_no_more(speed, share, returns):
+    """Pushed from beyond φ_cr, with a turn in the first sample or without: u = x − 1 + x'/p grows as u' = p (u − push).
+
+    The push rises from 0 to c within the second sample and stays for long: it can take as much from u at the first
+    sample as ∫ p push e^(−pt) dt, all of which c makes the given share of u.
+    """
+    p, span, step, count = UNIT.frequency_parameter, UNIT.critical_rotation, 0.05, 400
+    x, w = 1.3, speed  # over φ_cr, and of p φ_cr
+    u = (x - 1 + w) * np.exp(p * step)
+    assert speed > 0 or (x - 1) * np.sinh(p * step) + w * np.cosh(p * step) > 0, "it turns in time"
+    samples = np.ones(count)
+    samples[:2] = 0.0
+    times = np.linspace(0, (count - 2) * step, (count - 2) * 2000 + 1)
+    can_take = np.trapezoid(p * np.minimum(times / step, 1) * np.exp(-p * times), times)
+    c = u / (share * can_take) * g * UNIT.uplift_multiplier
+    record = Accelerogram(c * samples, step)
+    found = integrate(UNIT, record, initial_rotation=x * span, initial_velocity=w * p * span)
+    assert (found.impacts > 0) is returns
+    assert returns or found.outcome is Outcome.OVERTURNS
