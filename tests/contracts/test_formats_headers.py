@@ -1,13 +1,16 @@
 """What each format's header says beside the numbers: names, directions, corner, earthquake, state of processing."""
 
+import re
 from typing import Any
 
+import numpy as np
+import obspy
 import pytest
 from made_files import MADE, MADE_BINARY, format_of, knet, peer, table
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
-from rocking.records.formats import FORMATS, Options
+from rocking.records.formats import FORMATS, Options, evt
 from rocking.records.formats.header import magnitude
 from rocking.records.read import read_content
 
@@ -142,9 +145,24 @@ def test_a_number_cut_short_is_seen_beside_two_whole_ones(rows: int, warned: boo
 
 
 def test_unam_columns_are_ten_wide_where_the_header_names_no_width() -> None:
-    text = MADE["UNAM/CICESE"][0]()
+    """Of ten digits each, so that they touch."""
+    head, rule, rows = MADE["UNAM/CICESE"][0]().rpartition(f"{'-' * 79}\n")
+    full = "".join(f"{float(row[:10]):10.6f}{float(row[10:]):10.6f}\n" for row in rows.splitlines())
+    assert re.search(r"\d-\d", full)
+    text = f"{head}{rule}{full}"
     (plain, _), (other, _) = (read_text(t) for t in (text, text.replace(": 2F10.4", ": libre")))
     assert (plain.acceleration == other.acceleration).all()
+
+
+def test_the_third_of_three_channels_of_a_recorder_is_vertical_by_its_place() -> None:
+    """A second instrument on the same recorder begins again with X."""
+    found = []
+    for place in range(6):
+        trace = obspy.Trace(np.arange(9.0), {"delta": 0.01, "station": "MADE"})
+        trace.stats.kinemetrics_evt = {}
+        record = evt._record(trace, place, "made", Options(), ())
+        found.append((record.component, record.vertical))
+    assert found == 2 * [("X", False), ("Y", False), ("Z", True)]
 
 
 @pytest.mark.parametrize(("sampling", "duration"), [("100Hz", "0.4"), ("200Hz", "0.2")])
