@@ -73,6 +73,21 @@ def test_the_full_response_is_removed_to_acceleration(miniseed: Path) -> None:
     assert np.abs(differentiated.acceleration - expected)[middle].max() < 0.02 * np.abs(expected).max()
 
 
+@pytest.mark.parametrize(("frequency", "kept"), [(0.1, 1.0), (37.0, 1.0), (48.5, 0.0)])
+def test_the_full_response_keeps_up_to_four_fifths_of_the_nyquist_frequency(
+    miniseed: Path, frequency: float, kept: float
+) -> None:
+    """From 0.05 to 40 Hz of 50 all of it, beyond 47.5 Hz nothing."""
+    wave = np.round(1e6 * np.sin(2 * np.pi * frequency * np.arange(8000) / 100) * np.hanning(8000))
+    trace(counts=wave.astype(np.int32)).write(str(miniseed), format="MSEED")
+    (miniseed.parent / "station.xml").write_text(XML.format(units="M/S**2"))
+    (full,) = read(miniseed, response="full")
+    middle = slice(1000, 7000)
+    assert (
+        np.abs(full.acceleration - kept * wave / 200000)[middle].max() < 0.05
+    )  # of 5 m/s²: the taper of the ends
+
+
 def test_counts_without_an_instrument_are_refused(miniseed: Path) -> None:
     trace(counts=COUNTS // 1000).write(str(miniseed), format="MSEED")
     with pytest.raises(RecordError, match=r"no single StationXML describes XX\.MADE"):
