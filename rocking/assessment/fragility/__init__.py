@@ -6,6 +6,7 @@ from rocking.assessment.fragility.front import fragility
 from rocking.assessment.fragility.intensity import INTENSITY_MEASURES, IntensityMeasure
 from rocking.assessment.fragility.lognormal import LognormalFits, fit_lognormal
 from rocking.assessment.fragility.multifidelity import MultiFidelityAnalysis, multi_fidelity_analysis
+from rocking.assessment.fragility.purchase import Purchase, purchases
 
 __all__ = [
     "INTENSITY_MEASURES",
@@ -14,9 +15,11 @@ __all__ = [
     "IntensityMeasure",
     "LognormalFits",
     "MultiFidelityAnalysis",
+    "Purchase",
     "fit_lognormal",
     "fragility",
     "fragility_of",
     "incremental_dynamic_analysis",
     "multi_fidelity_analysis",
+    "purchases",
 ]
