@@ -15,6 +15,7 @@ from scipy.stats import norm
 
 import rocking
 from rocking.assessment.fragility import fragility_of, incremental_dynamic_analysis
+from rocking.assessment.fragility.multifidelity import corrected, inclusion, systematic_draw
 from rocking.motion import nonlinear_kernel as kernel
 from rocking.motion.forcing import forcing_of
 from rocking.motion.nonlinear import STEP_SHARE
@@ -48,6 +49,25 @@ def pulse_outcomes(rng: np.random.Generator, count: int) -> np.ndarray:
 
 
 PULSE_LEVELS = np.geomspace(1.5, 40.0, 20)
+
+
+def few_runs(stations: int, truth: np.ndarray) -> None:
+    """Print the shares for one run in ten of a mechanism whose block parts from it by a tenth."""
+    rng = np.random.default_rng(100 + stations)
+    curves, medians = [], []
+    for _ in range(TRIALS):
+        shared, own = rng.standard_normal((stations, 1)), rng.standard_normal((stations, 2))
+        logs = 0.5 * ((shared + own) / 2**0.5).reshape(-1, 1)
+        outcomes, names = (np.exp(logs) < LEVELS).astype(float), [str(k // 2) for k in range(2 * stations)]
+        blocks = (np.exp(logs + 0.1 * rng.standard_normal(logs.shape)) < LEVELS).astype(float)
+        chance = inclusion(LEVELS, blocks, outcomes.size // 10)
+        said = corrected(LEVELS, blocks, systematic_draw(chance, rng), outcomes, chance)
+        found = fragility_of(LEVELS, said, names, sampled_of=fragility_of(LEVELS, blocks, names))
+        curves.append(covered(truth, found.probability_low, found.probability_high))
+        medians.append(found.interval[0] <= 1.0 <= found.interval[1])
+    print(
+        f"one run in ten, {stations} stations: curve {np.mean(curves):.3f}, median {np.mean(medians):.3f} of {TRIALS}"
+    )
 
 
 def covered(truth: np.ndarray, low: np.ndarray, high: np.ndarray) -> float:
@@ -122,6 +142,8 @@ def main() -> None:
         print(
             f"lognormal, {stations} stations: curve {np.mean(curves):.3f}, median {np.mean(medians):.3f} of {TRIALS}"
         )
+    for stations in (20, 35):
+        few_runs(stations, truth)
     rng = np.random.default_rng(0)
     every = pulse_outcomes(rng, 5_000)
     exact = every.mean(axis=0)

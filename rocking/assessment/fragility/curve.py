@@ -27,8 +27,9 @@ class Fragility:
     lognormal_high: (k,) the fit by maximum likelihood and its 90 % interval. median, interval: where half exceed, and
     its 90 % interval, of the lognormal where it holds, else of the empirical curve. dispersion: of the fit.
     misfit: largest distance of the two curves. exceedance: (r, k) share of each record's members above the threshold;
-    of the block where the mechanism was not followed. stations: (r,) what counts as one independent record. worth:
-    number of independent records whose curve would scatter as much. mechanism_runs: None where every case was followed.
+    of the block where the mechanism was not followed. stations: (r,) what counts as one independent record.
+    lognormal_holds: whether the curves lie no farther apart than chance takes them in 19 of 20 samples; of the block's
+    curves where the mechanism was followed in some cases only. mechanism_runs: None where every case was followed.
     """
 
     measure: str
@@ -47,7 +48,7 @@ class Fragility:
     misfit: float
     exceedance: np.ndarray
     stations: tuple[str, ...]
-    worth: float
+    lognormal_holds: bool
     mechanism_runs: int | None = None
 
     def __repr__(self) -> str:
@@ -64,11 +65,6 @@ class Fragility:
     def independent(self) -> int:
         """Number of stations."""
         return len(set(self.stations))
-
-    @property
-    def lognormal_holds(self) -> bool:
-        """Whether the empirical curve lies no farther from the lognormal than chance takes it in 19 of 20 samples."""
-        return self.misfit <= _LILLIEFORS / self.worth**0.5
 
     @property
     def reversals(self) -> np.ndarray:
@@ -91,13 +87,14 @@ def fragility_of(
     measure: str = "",
     unit: str = "",
     threshold: float = np.inf,
-    sampled: bool = False,
+    sampled_of: Fragility | None = None,
 ) -> Fragility:
     """Return the curve of outcomes at `levels` (k,) > 0, ascending.
 
     exceedance: (r, k) shares in [0, 1], one row a record. tried: (r, k) 1 where a record was tried, all by default.
     stations: (r,) names; the records of one are resampled together, and half a station counts no more than one.
-    sampled: whether `exceedance` holds estimates from a sample, of any size and sign, whose mean is right.
+    sampled_of: where `exceedance` holds estimates from a sample, of any size and sign, whose mean is right: the curve
+    that led it, and that says whether the lognormal holds.
     """
     tried = np.ones_like(exceedance) if tried is None else tried
     over, trials = _by_station(exceedance * tried, stations), _by_station(tried, stations)
@@ -105,7 +102,7 @@ def fragility_of(
     fit = fit_lognormal(levels, over.sum(axis=0)[None], trials.sum(axis=0)[None])
     weights = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
     again = fit_lognormal(levels, weights @ over, weights @ trials, fit)
-    probability, low, high, effective = _empirical(over, trials, sampled)
+    probability, low, high = _empirical(over, trials, sampled_of is not None)
     lognormal_low, lognormal_high = ndtr(_interval(_deviates(levels, fit), _deviates(levels, again), count))
     misfit = float(np.abs(probability - fit.probability(levels)[0])[trials.sum(axis=0) >= 1].max())
     made = Fragility(
@@ -125,11 +122,11 @@ def fragility_of(
         misfit=misfit,
         exceedance=exceedance,
         stations=tuple(stations),
-        worth=_worth(probability, effective) if sampled else float(count),
+        lognormal_holds=sampled_of.lognormal_holds if sampled_of else misfit <= _LILLIEFORS / count**0.5,
     )
     if made.lognormal_holds or tried.min() == 0:
         return made
-    return _by_crossing(made, over, trials, weights, sampled)
+    return _by_crossing(made, over, trials, weights, sampled_of is not None)
 
 
 def _by_crossing(
@@ -157,8 +154,8 @@ def _by_station(values: np.ndarray, stations: Sequence[str]) -> np.ndarray:
 
 def _empirical(
     over: np.ndarray, trials: np.ndarray, sampled: bool
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Share, its 90 % interval after Jeffreys, and the independent records that the scatter of stations allows."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Share and its 90 % interval after Jeffreys, for as many independent records as the scatter of stations allows."""
     total, count = trials.sum(axis=0), (trials > 0).sum(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
         share = np.clip(over.sum(axis=0) / total, 0.0, 1.0)
@@ -170,13 +167,7 @@ def _empirical(
     effective = np.where(unanimous, count, np.clip(effective, 1.0 if sampled else count / 2, total))
     yes, no = share * effective + 0.5, (1 - share) * effective + 0.5
     low = np.where(share == 0, 0.0, betaincinv(yes, no, 0.05))
-    return share, low, np.where(share == 1, 1.0, betaincinv(yes, no, 0.95)), effective
-
-
-def _worth(share: np.ndarray, effective: np.ndarray) -> float:
-    """Of the levels at which the curve is open."""
-    is_open = (share > 0.1) & (share < 0.9)
-    return float(np.median(effective[is_open] if is_open.any() else effective))
+    return share, low, np.where(share == 1, 1.0, betaincinv(yes, no, 0.95))
 
 
 def _deviates(levels: np.ndarray, fits: LognormalFits) -> np.ndarray:

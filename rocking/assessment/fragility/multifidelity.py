@@ -71,7 +71,7 @@ class MultiFidelityAnalysis:
             measure=self.block.measure.name,
             unit=self.block.measure.unit,
             threshold=threshold,
-            sampled=True,
+            sampled_of=self.block.fragility(threshold),
         )
         return replace(
             found, exceedance=np.where(drawn, outcomes, blocks), mechanism_runs=self.mechanism_runs

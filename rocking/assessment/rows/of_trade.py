@@ -93,7 +93,9 @@ class MultiFidelityRow(Row):
     curve_gain: float = column(
         "Times as many runs as that width takes without the block, in records at all levels"
     )
-    median_width: float = column("Width of 90 % of the samples of the logarithm of the median")
+    median_width: float = column(
+        "Width of 90 % of the samples of the logarithm of the median of the lognormal"
+    )
     median_bias: float = column("|Mean of the samples less the answer| of it, over that width")
     median_gain: float = column(
         "Times as many runs as that width takes without the block, in records at all levels"

@@ -82,7 +82,8 @@ def test_the_interval_covers_a_known_curve():
         blocks = (np.exp(logs + 0.1 * rng.standard_normal((60, 1))) < LEVELS).astype(float)
         chance = inclusion(LEVELS, blocks, 150)
         said = corrected(LEVELS, blocks, systematic_draw(chance, rng), outcomes, chance)
-        found = fragility_of(LEVELS, said, [str(k // 2) for k in range(60)], sampled=True)
+        names = [str(k // 2) for k in range(60)]
+        found = fragility_of(LEVELS, said, names, sampled_of=fragility_of(LEVELS, blocks, names))
         inside = (found.probability_low <= truth) & (truth <= found.probability_high)
         covered.append(inside[middle].mean())
         medians.append(found.interval[0] <= 1.0 <= found.interval[1])
