@@ -1,11 +1,14 @@
-"""What a report costs: CPU of one record with ten structures, its parts, and the memory of a hundred reports.
+"""What a report costs: CPU of one record with ten structures, its parts, the first of a process, and memory.
 
 Run: python tests/benchmarks/bench_reports.py [reports]
 """
 
+import os
 import resource
 import statistics
+import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -35,18 +38,42 @@ def ten_structures() -> Assessed:
     return assessed("ten", [shaken(station="STA")], structures)
 
 
-def median_cpu(function, repeats: int = 5) -> float:
-    """Median CPU time of function(name) after one call that warms up, s.
+def median_cpu(function, repeats: int = 7) -> float:
+    """Median CPU time of function(place) after one call that warms up, s.
 
-    Every call gets another name, because the typesetter remembers what it has set before.
+    Every call gets another place, for another name and motion: the typesetter remembers what it has set before.
     """
-    function("warm")
+    function(0)
     spent = []
-    for place in range(repeats):
+    for place in range(1, repeats + 1):
         started = time.process_time()
-        function(f"{spent} {place}")
+        function(place)
         spent.append(time.process_time() - started)
     return statistics.median(spent)
+
+
+def another(case: Assessed, place: int) -> tuple:
+    """The arguments of a report that shares no figure but the drawings with those before."""
+    moved = [accelerogram.scaled(1 + 1e-3 * place) for accelerogram in case.accelerograms]
+    return (f"report {place}", moved, *case.arguments[2:])
+
+
+def first_report() -> float:
+    """CPU of a new process that sets its first report, on a machine that has compiled but never drawn, s."""
+    text = (
+        "import bench_reports as b, time\ncase = b.ten_structures()\nstarted = time.process_time()\n"
+        "b.record_report(*case.arguments)\nprint(time.process_time() - started)"
+    )
+    with tempfile.TemporaryDirectory() as empty:
+        run = subprocess.run(
+            [sys.executable, "-c", text],
+            cwd=Path(__file__).parent,
+            env={**os.environ, "MPLCONFIGDIR": empty},
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+    return float(run.stdout)
 
 
 def _failure(name: str) -> FailureRow:
@@ -61,26 +88,29 @@ def resident() -> float:
 def main(reports: int) -> None:
     """Print CPU times, their shares and the growth of memory."""
     case = ten_structures()
-    rest = case.arguments[1:]
     tables = summarised(case.tables, case.structures)
     data = record_data(*case.arguments)
-    whole = median_cpu(lambda name: record_report(name, *rest))
+    whole = median_cpu(lambda place: record_report(*another(case, place)))
     parts = {
-        "tables and figures": median_cpu(lambda name: record_data(name, *rest)),
-        "document": median_cpu(lambda name: compile_document("record/record.typ", data | {"title": name})),
+        "tables and figures": median_cpu(lambda place: record_data(*another(case, place))),
+        "document, its figures known": median_cpu(
+            lambda place: compile_document("record/record.typ", data | {"title": f"report {place}"})
+        ),
     }
-    print(f"record report, 10 structures: {whole:.3f} s CPU (asked for: 1.5 s)")
+    print(f"record report, 10 structures: {whole:.3f} s CPU (asked for: 0.5 s)")
     for name, spent in parts.items():
         print(f"  {name}: {spent:.3f} s, {spent / whole:.0%}")
+    first = first_report()
+    print(f"first report of a process: {first:.2f} s CPU, {first / whole:.1f} × a later one (asked for: 5 s)")
     summary = median_cpu(
-        lambda name: summary_report(
-            tables | {"failures": frame(FailureRow, [_failure(name)])}, case.arguments[-1]
+        lambda place: summary_report(
+            tables | {"failures": frame(FailureRow, [_failure(str(place))])}, case.arguments[-1]
         )
     )
     print(f"summary report: {summary:.3f} s CPU, {summary / whole:.0%} of a record report")
     before = resident()
     for place in range(reports):
-        record_report(f"report {place}", *rest)
+        record_report(*another(case, place))
     print(f"memory after {reports} more reports: {resident() / before:.3f} of {before:.0f} MB")
 
 

@@ -13,7 +13,6 @@ from rocking.structures import Structure, load_structures
 
 ROOT = Path(__file__).parents[2]
 SHOWN = ("arch 15 m", "stone pier", "spire")
-SCALE = "uplift"
 
 
 @styled
@@ -58,7 +57,7 @@ def _response(panel: Axes, name: str, structure: Structure, record: Accelerogram
         linewidth=0.8,
         label="integrated, whole record",
     )
-    predicted = predict_maximum(mechanism.equivalent_block(SCALE), pulse).rotation_ratio
+    predicted = predict_maximum(mechanism.equivalent_block(), pulse).rotation_ratio
     if math.isfinite(predicted):
         for side in (predicted, -predicted):
             label = "predicted from the pulse" if side > 0 else None

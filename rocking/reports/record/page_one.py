@@ -130,7 +130,7 @@ def fate_table(found: Sequence[Fate], numbers: Mapping[str, str]) -> dict[str, o
         ("Verdict", "auto", "l", lambda fate: strong(fate.verdict, fate.verdict != Verdict.STANDS)),
         ("Over\u00adturns in", "auto", "l", _members),
         ("5–95 %, of the critical rotation", "1.5", "c", _strip),
-        ("from – to", "0.85", "l", _range),
+        ("from – to", "0.95", "l", _range),
         ("As given", "0.75", "l", lambda fate: _printed(fate.rotation_ratio, fate.ensemble)),
         ("Worst hinge or crack", "0.9", "l", _height),
         ("Processing of the record", "1", "l", _processed),
@@ -214,8 +214,16 @@ def _range(fate: Fate) -> str:
     found = fate.ensemble
     if found is None or not found.members:
         return NOTHING
-    low, high = (_printed(value, found) for value in (found.rotation_ratio_low, found.rotation_ratio_high))
-    return low if low == high else f"{low} – {high}"
+    return _from_to(
+        *(_printed(value, found) for value in (found.rotation_ratio_low, found.rotation_ratio_high))
+    )
+
+
+def _from_to(low: str, high: str) -> str:
+    """A range, closed up between numbers."""
+    if low == high:
+        return low
+    return f"{low}–{high}" if high[0].isdigit() and low[0].isdigit() else f"{low} – {high}"
 
 
 def _printed(ratio: float, found: EnsembleRow | None) -> str:
@@ -242,5 +250,4 @@ def _height(fate: Fate) -> Cell:
 def _processed(fate: Fate) -> str:
     if fate.processed is None:
         return NOTHING
-    low, high = (_printed(value, fate.ensemble) for value in fate.processed)
-    return low if low == high else f"{low} – {high}"
+    return _from_to(*(_printed(value, fate.ensemble) for value in fate.processed))

@@ -32,7 +32,7 @@ def verdict_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str,
             "l",
             lambda row: strong(words(row.prediction_in_words), row.agreement is Agreement.TOO_LOW),
         ),
-        ("Structures alike", "2.5", "l", lambda row: words(worth.get(row.case))),
+        ("Structures alike", "2.5", "l", lambda row: words(worth.get(row.case)).replace("φ_cr", "φcr")),
     )
 
 
