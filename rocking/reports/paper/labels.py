@@ -15,6 +15,8 @@ _REACH, _STEP = 24.0, 1.5
 """How far from its mark a label is sought a place, and in what steps, mm."""
 _ADJACENT = 1.3
 """Up to this distance a label needs no line to its mark, mm."""
+_TRIED = 60
+"""Free places whose line to the mark is looked at, the nearest first."""
 _CROSSED = 3.0
 """What a point of a curve below a label counts, mm of distance from its mark."""
 
@@ -118,19 +120,21 @@ def _best(
     about = text_box((0.0, 0.0), text, SMALL, "middle", "middle")
     reach = np.array([[about.left, about.top], [about.right, about.bottom]])
     lines = np.vstack([np.empty((0, 2)), *(_along(each.line) for each in others)])
+    first = np.array([(each.box.left, each.box.top) for each in others]).reshape(-1, 2)
+    last = np.array([(each.box.right, each.box.bottom) for each in others]).reshape(-1, 2)
     for middles in (_beside(group, reach), _around(group)):
         low, high = middles + reach[0], middles + reach[1]
         free = (low >= (box.left, box.top)).all(axis=1) & (high <= (box.right, box.bottom)).all(axis=1)
-        for each in (other.box for other in others):
-            free &= ~((low < (each.right, each.bottom)) & (high > (each.left, each.top))).all(axis=1)
+        meets = (low[:, np.newaxis] < last) & (high[:, np.newaxis] > first)
+        free &= ~meets.all(axis=2).any(axis=1)
         middles, low, high = middles[free], low[free], high[free]
         free = (_covered(low - _MARK, high + _MARK, marks) == 0) & (_covered(low, high, lines) == 0)
         middles, low, high = middles[free], low[free], high[free]
         ends = np.clip(group, low[:, np.newaxis], high[:, np.newaxis])
         away = np.hypot(*np.moveaxis(ends - group, 2, 0)).min(axis=1)
-        for place in np.argsort(away + _CROSSED * _covered(low, high, curve), kind="stable"):
+        for place in np.argsort(away + _CROSSED * _covered(low, high, curve), kind="stable")[:_TRIED]:
             label = Label(text, (float(middles[place, 0]), float(middles[place, 1])), group)
-            if not any(_meets(each.box, label.line) for each in others):
+            if not _covered(first, last, _along(label.line)).any():
                 return label
     return None
 
@@ -165,8 +169,3 @@ def _covered(low: np.ndarray, high: np.ndarray, points: np.ndarray) -> np.ndarra
 def _along(line: np.ndarray) -> np.ndarray:
     """Points along a line, (k, 2)."""
     return np.linspace(line[0], line[1], 25) if len(line) else line
-
-
-def _meets(box: Box, line: np.ndarray) -> bool:
-    corners = np.array([[box.left, box.top], [box.right, box.bottom]])
-    return bool(_covered(corners[:1], corners[1:], _along(line)).any())

@@ -13,7 +13,7 @@ from rocking.reports.paper.scales import Scale
 
 _PREDICTED = "#0072B2"
 _COLUMNS = 3
-_PANEL_HEIGHT, _ALONE_HEIGHT, _MARGIN_HEIGHT = 25.0, 38.0, 6.0
+_PANEL_HEIGHT, _ALONE_HEIGHT, _MARGIN_HEIGHT = 24.0, 38.0, 6.0
 """Of a row among several, of a single one, and of what stands below them, mm."""
 _STILL = 0.01
 """Share of the largest rotation below which a history is cut from the figure."""

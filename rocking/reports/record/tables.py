@@ -128,28 +128,24 @@ def structure_table(rows: Iterable[StructureRow], numbers: Mapping[str, str]) ->
         rows,
         ("No.", "auto", "r", lambda row: numbers[row.structure]),
         ("Structure", "1.4", "l", lambda row: short(row.structure)),
-        (
-            "Type and geometry",
-            "2.4",
-            "l",
-            lambda row: f"{words(row.type)}: {row.geometry}",
-        ),
+        ("Type and geometry", "2.6", "l", _geometry),
         ("p [rad/s]", "auto", "r", lambda row: number(row.frequency_parameter_rad_s, 4)),
         ("Critical rotation [rad]", "0.7", "r", lambda row: number(row.critical_rotation_rad, 4)),
         ("Uplift λ [g]", "0.55", "r", lambda row: number(row.uplift_multiplier, 4)),
         ("Scale, linear\u00adised [-]", "0.6", "r", lambda row: number(row.acceleration_scale_linearised, 4)),
         ("Scale, uplift [-]", "0.55", "r", lambda row: number(row.acceleration_scale_uplift, 4)),
-        ("A block to", "0.95", "l", _defects),
         ("Resti\u00adtution [-]", "0.55", "r", lambda row: number(row.restitution, 4)),
     )
 
 
-def _defects(row: StructureRow) -> Cell:
-    """How far the structure is from the block that is exact at rest, in words."""
+def _geometry(row: StructureRow) -> Cell:
+    """Type and sizes, and below them how far the structure is from the block that is exact at rest."""
+    said = {"text": f"{words(row.type)}: {row.geometry}", "strong": False}
     if math.isnan(row.restoring_defect + row.forcing_defect):
-        return printing.NOTHING
-    restoring, forcing = (f"{percent(each)} %" for each in (row.restoring_defect, row.forcing_defect))
-    return strong(f"{restoring} in restoring, {forcing} in forcing", row.restoring_defect >= NO_BLOCK)
+        return {**said}
+    restoring, forcing = (f"{percent(each)}\u00a0%" for each in (row.restoring_defect, row.forcing_defect))
+    word = "no block, which misses" if row.restoring_defect >= NO_BLOCK else "a block to"
+    return {**said, "below": f"{word} {restoring} in restoring and {forcing} in forcing"}
 
 
 def method_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, object]:

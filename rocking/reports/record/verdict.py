@@ -15,7 +15,7 @@ def verdict_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str,
     return table_of(
         tables.comparison,
         ("No.", "auto", "r", lambda row: numbers[row.structure]),
-        ("Structure", "1.3", "l", lambda row: short(row.structure)),
+        ("Structure", "1", "l", lambda row: short(row.structure)),
         ("Closed form, one pulse", "0.68", "r", lambda row: ratio(row.predicted_rotation_ratio)),
         ("Block, whole record", "0.68", "r", lambda row: ratio(row.block_rotation_ratio)),
         (
@@ -32,7 +32,7 @@ def verdict_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str,
             "l",
             lambda row: strong(words(row.prediction_in_words), row.agreement is Agreement.TOO_LOW),
         ),
-        ("Structures alike", "2.5", "l", lambda row: words(worth.get(row.case)).replace("φ_cr", "φcr")),
+        ("Structures alike", "2.9", "l", lambda row: words(worth.get(row.case)).replace("φ_cr", "φcr")),
     )
 
 

@@ -65,7 +65,6 @@ def cell_texts(data) -> list[str]:
 def test_every_number_in_a_table_stands_in_a_csv(example):
     known = csv_numbers(example)
     texts = [text for text in cell_texts(record_data(*example.arguments)) if text != "Eq. 15 exact"]
-    texts = [text for text in texts if "in restoring" not in text]  # in percent; a test of their own is below
     printed = [number for text in texts for number in printed_numbers(text)]
     assert len(printed) > 100
     for value, half in printed:
@@ -75,11 +74,12 @@ def test_every_number_in_a_table_stands_in_a_csv(example):
 
 def test_the_two_defects_of_each_block_are_said_in_percent(example):
     table = record_data(*example.arguments)["structures"]
-    place = table["heads"].index("A block to")
+    place = table["heads"].index("Type and geometry")
     for line, structure in zip(table["rows"], example.structures.values(), strict=True):
         defects = structure.mechanism().block_defects
-        (restoring, half), (forcing, other_half) = printed_numbers(line[place])
-        assert "% in restoring" in line[place] and "% in forcing" in line[place]
+        said = line[place]["below"]
+        (restoring, half), (forcing, other_half) = printed_numbers(said)
+        assert re.fullmatch(r"a block to \S+ in restoring and \S+ in forcing", said.replace("\u00a0", ""))
         assert restoring == pytest.approx(100 * defects.restoring, abs=half + 1e-9)
         assert forcing == pytest.approx(100 * defects.forcing, abs=other_half + 1e-9)
 
