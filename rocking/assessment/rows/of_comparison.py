@@ -31,7 +31,7 @@ class CodeRow(Row):
         "Impacts of the reference while the ground moves, faster than p φ_cr/1000"
     )
     missed_impacts: int | None = column(
-        "Those without a counterpart within 0.02/p; empty where the code does not tell its impacts"
+        "Those without an impact of the code within 0.02/p; empty where it does not tell its impacts"
     )
     reference_restitution: float = column("Restitution of the reference")
     restitution: float = column(

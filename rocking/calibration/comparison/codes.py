@@ -21,7 +21,7 @@ from rocking.motion.response import Response
 
 SLOWEST = 1e-3
 """Speed of arrival, in p φ_cr, of the weakest impact that is counted."""
-TIMEOUT = 300.0
+TIMEOUT = 900.0
 """Seconds that a process of another code may take."""
 LMGC90, ROCKING_BC = "LMGC90 (compas_lmgc90), NSCD", "OpenSees RockingBC"
 ANOTHER_MODEL = frozenset({("arch", LMGC90)})

@@ -33,7 +33,7 @@ STILL = 6.0
 """How long still ground is followed at most, in units of 1/p."""
 REVERSALS = 3
 """Reversals on still ground after which nothing new comes."""
-BUDGET = 30.0
+BUDGET = 90.0
 """Processor seconds of one run."""
 _WATCHED, _BEAM = 12, 9
 _LIBRARIES = ("libquadmath.so.0", "libgfortran.so.4", "libblas.so.3", "liblapack.so.3")

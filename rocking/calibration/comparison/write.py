@@ -32,8 +32,8 @@ REFERENCE = "scipy DOP853, 1e-12 (reference)"
 REFERENCE_BUDGET = 120.0
 """Seconds that the reference may take for one case."""
 SAMPLED = {
-    LMGC90: {"block": 24, "frame": 24, "arch": 24},
-    ROCKING_BC: {"block": 12, "frame": 3},
+    LMGC90: {"block": 24, "frame": 24, "arch": 12},
+    ROCKING_BC: {"block": 8, "frame": 1},
 }
 """Cases of each structure that a slow code is run on, drawn with the seed of the cases from those that rock visibly."""
 VISIBLE = (0.02, 0.95)

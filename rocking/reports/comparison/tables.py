@@ -28,7 +28,7 @@ def work(rows: Sequence[CodeRow]) -> dict[str, object]:
             lambda own: printing.whole(sum(r.verdict_agrees is False for r in own)),
         ),
         ("No answer", "0.6", "r", lambda own: printing.whole(sum(math.isnan(r.rotation_ratio) for r in own))),
-        ("Impacts missed", "0.9", "r", _missed),
+        ("Impacts not found", "0.9", "r", _missed),
         ("Time (ms)", "0.7", "r", _time),
     )
 
@@ -37,8 +37,8 @@ def losses(rows: Sequence[CodeRow]) -> dict[str, object]:
     """Return the table of what the slow codes lose and find, of every structure and code."""
     return printing.table_of(
         _groups(rows),
-        ("Structure", "0.6", "l", lambda own: own[0].structure),
-        ("Code", "1.7", "l", lambda own: own[0].code),
+        ("Structure", "0.8", "l", lambda own: own[0].structure),
+        ("Code", "1.4", "l", lambda own: _short(own[0])),
         ("Cases", "0.5", "r", lambda own: printing.whole(len(own))),
         ("η of reference", "0.8", "r", lambda own: number(own[0].reference_restitution)),
         ("η found", "1.4", "r", lambda own: _range([row.restitution for row in own])),
@@ -53,7 +53,7 @@ def case_by_case(rows: Sequence[CodeRow]) -> dict[str, object]:
     return printing.table_of(
         rows,
         ("Case", "1.2", "l", lambda row: row.case),
-        ("Code", "1.7", "l", lambda row: row.code),
+        ("Code", "1.4", "l", _short),
         ("Reference", "0.8", "r", lambda row: printing.ratio(row.reference_rotation_ratio)),
         (
             "Extrapolated ± bar",
@@ -87,6 +87,11 @@ def another_model(rows: Sequence[CodeRow]) -> dict[str, object]:
         ("Time (s)", "0.6", "r", lambda row: number(row.duration_s, 2)),
         ("Note", "1.4", "l", lambda row: printing.words(row.reason)),
     )
+
+
+def _short(row: CodeRow) -> str:
+    """Return the name of a code without what runs it."""
+    return row.code.split(" (")[0]
 
 
 def _groups(rows: Sequence[CodeRow]) -> list[list[CodeRow]]:
