@@ -30,6 +30,9 @@ _UNITS = {
 _NAME_WIDTH = 62.0
 """Room for a structure's name, mm."""
 
+_EXPLAINED = "full: share of the records; grey: 90 % interval for overturning, by stations; dashed: lognormal"
+"""Below the figure where no caption stands."""
+
 
 @styled
 def fragility_figure(curves: "DataFrame", summary: "DataFrame") -> Figure:
@@ -79,6 +82,7 @@ def write_fragility_figure(folder: Path, pdf: Path, picture: Path) -> None:
         frame(each, folder / each.table.file_name) for each in (FragilityRow, FragilitySummaryRow)
     )
     figure = fragility_figure(curves, summary)
+    figure.text(0.5, 0.0, _EXPLAINED, ha="center", va="bottom", fontsize=7)
     stream = io.BytesIO()
     figure.savefig(stream, format="pdf", metadata={"CreationDate": None})
     write_whole(pdf, stream.getvalue())
