@@ -22,8 +22,12 @@ class Run:
 
 
 def answer_of(runs: Sequence[Run], duration: float, reason: str) -> dict:
-    """Return the limits of three runs as a mapping for JSON; reason: why the largest rotation has none, if so."""
+    """Return the limits of three runs as a mapping for JSON; reason: why the largest rotation has none, if so.
+
+    Where the limit of a small rotation would be negative, the last run stands, with the bar of the extrapolation.
+    """
     ratio, bar = limit_of([run.rotation_ratio for run in runs])
+    ratio = runs[-1].rotation_ratio if ratio < 0 else ratio
     kept, kept_bar = limit_of([run.restitution for run in runs])
     return {
         "rotation_ratio": ratio,

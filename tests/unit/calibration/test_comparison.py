@@ -10,7 +10,7 @@ import pytest
 from rocking.calibration.comparison import lmgc90, write
 from rocking.calibration.comparison.cases import PULSES, RECORDS, SAMPLES, pulse_cases, record_cases
 from rocking.calibration.comparison.codes import LMGC90, Answer, inner_codes, landings_of, outer_codes
-from rocking.calibration.comparison.extrapolation import limit_of
+from rocking.calibration.comparison.extrapolation import Run, answer_of, limit_of
 from rocking.calibration.comparison.write import SAMPLED, code_rows, missed, slow_cases
 from rocking.motion.integration import integrate
 from rocking.motion.reference import event_landings, reference_landings
@@ -48,6 +48,13 @@ def test_the_limit_of_a_known_order():
     assert limit_of([0.5, 0.5, 0.5]) == (0.5, 0.0)
     assert math.isinf(limit_of([math.inf] * 3)[0])
     assert math.isnan(limit_of([0.9, math.inf, math.inf])[0])
+
+
+def test_a_rotation_has_no_negative_limit():
+    answer = answer_of([Run(0.16), Run(0.1), Run(0.05)], 1.0, "")
+    assert limit_of([0.16, 0.1, 0.05])[0] < 0
+    assert answer["rotation_ratio"] == 0.05
+    assert answer["error_bar"] >= 0.05
 
 
 def test_missed_impacts_are_those_without_a_counterpart():
