@@ -10,6 +10,7 @@ from rocking.assessment.rows.of_trade import (
     TradeFragilityRow,
     TradeMethod,
     TradeMethodRow,
+    TradeRow,
 )
 from rocking.reports import printing
 from rocking.reports.document import compile_document
@@ -19,6 +20,10 @@ from rocking.tables import R, read_rows, write_whole
 
 PREDICTS = 0.1
 """Median error, and share of wrong verdicts, up to which a method is said to predict."""
+_TOLERANCE = 1e-6
+"""At which mechanism and scipy are compared."""
+_SMALL = 1e-4
+"""Below which an error is printed as less."""
 _GAIN, _BIAS = 5.0, 0.1
 """Times fewer runs than without the block from which multi-fidelity pays, and bias over width up to which it may."""
 
@@ -37,7 +42,12 @@ def trade_data(folder: Path) -> dict[str, object]:
         "title": "What accuracy costs",
         "subtitle": _subtitle(methods, curves),
         "conclusion": conclusion(methods),
-        "sentences": [*_preparation(methods), *_fragility(methods), *_multi_fidelity(samples)],
+        "sentences": [
+            *_preparation(methods),
+            *_beside_scipy(list(read_rows(TradeRow, folder / TradeRow.table.file_name))),
+            *_fragility(methods),
+            *_multi_fidelity(samples),
+        ],
         "methods": _method_table(methods),
         "pays": _pays_table(methods),
         "figure": _picture(methods, curves),
@@ -113,6 +123,22 @@ def _preparation(rows: Sequence[TradeMethodRow]) -> list[str]:
             f", and from {sine.pays_from_fragility:.0f} where each is followed at all levels of a fragility"
         )
     return [said + "."]
+
+
+def _beside_scipy(rows: Sequence[TradeRow]) -> list[str]:
+    """Mechanism and scipy at the same tolerance in the same cases."""
+    said = []
+    for method, name in ((TradeMethod.MECHANISM, "the mechanism"), (TradeMethod.DOP853, "DOP853")):
+        own = [
+            row for row in rows if row.beside_scipy and row.method == method and row.tolerance == _TOLERANCE
+        ]
+        known = [row for row in own if not math.isnan(row.error)]
+        if not known:
+            return []
+        worst, time = max(row.error for row in known), median(row.cpu_s for row in known)
+        most = f"at most {_percent(worst)}" if worst >= _SMALL else "less than 0.01 %"
+        said.append(f"{name} errs by {most} and takes {duration(time)}")
+    return [f"At a tolerance of 1e-6, on the stretches that scipy was given, {' and '.join(said)}."]
 
 
 def _fragility(rows: Sequence[TradeMethodRow]) -> list[str]:
@@ -252,6 +278,6 @@ def _from(row: TradeMethodRow, number: float) -> str:
 def _percent(value: float, signed: bool = False) -> str:
     if math.isnan(value):
         return printing.NOTHING
-    said = printing.number(100 * abs(value), 2) if abs(value) >= 1e-4 else "< 0.01"
-    sign = ("−" if value < 0 else "+") if signed and abs(value) >= 1e-4 else ""
+    said = printing.number(100 * abs(value), 2) if abs(value) >= _SMALL else "< 0.01"
+    sign = ("−" if value < 0 else "+") if signed and abs(value) >= _SMALL else ""
     return f"{sign}{said} %"
