@@ -8,7 +8,7 @@ import numpy as np
 from rocking.motion.response import Response
 from rocking.records import Accelerogram
 from rocking.structures import Structure
-from rocking.structures.contact_forces import contact_history
+from rocking.structures.contact_forces import contact_history, largest_so_far
 from rocking.structures.contacts import UnknownContacts
 
 
@@ -18,14 +18,14 @@ class ModelCheck:
 
     friction_needed: largest friction coefficient that any contact needs while it rocks; inf where one is not pressed,
     nan where `reason` says why nothing is known of it. bounces: whether a contact would open, or None.
-    reason: why nothing is known, in words; "" where it is. overstressed: what would be beyond its strength at the
-    largest rotation to the positive side, in words; "" where nothing is.
+    reason: why nothing is known, in words; "" where it is. ties: which ties yield or break on the way to the largest
+    rotation to the positive side, in words; "" where none does.
     """
 
     friction_needed: float
     bounces: bool | None
     reason: str = ""
-    overstressed: str = ""
+    ties: str = ""
 
     def slides(self, friction_coefficient: float) -> bool | None:
         """Whether a contact needs more friction than `friction_coefficient`; None where the forces are not known."""
@@ -55,14 +55,15 @@ def check_model(
     ground = _at(accelerogram, times[rocks])
     lift = 0.0 if vertical is None else _at(vertical, times[rocks])
     try:
-        contacts = contact_history(structure, rotation[rocks], velocity[rocks], ground, lift)
+        so_far = largest_so_far(rotation)[rocks]
+        contacts = contact_history(structure, rotation[rocks], velocity[rocks], ground, lift, so_far)
     except UnknownContacts as why:
         return unknown(str(why))
     largest = min(float(rotation.max()), structure.mechanism().positive.end_rotation)
     return ModelCheck(
         float(np.max(contacts.friction_needed)),
         bool(contacts.opens.any()),
-        overstressed=structure.overstressed(largest),
+        ties=structure.tie_events(largest),
     )
 
 

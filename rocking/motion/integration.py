@@ -106,7 +106,7 @@ def _follow(
     history: bool = False,
 ) -> Response:
     if isinstance(reduced, Mechanism):
-        return follow(table_of(reduced), forcing, tolerance, start, history)
+        return follow(table_of(reduced, forcing.vertical), forcing, tolerance, start, history)
     if solvable_exactly(reduced, forcing):
         return follow_exactly(reduced, forcing, start, history)
     return follow(linear_table(reduced), forcing, tolerance, start, history)

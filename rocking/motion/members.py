@@ -134,7 +134,9 @@ def follow_factors(
     """The same from the factors (m,) of the horizontal and of the vertical component; None: no vertical component."""
     lift = np.zeros(horizontal.size) if vertical is None else vertical
     if isinstance(reduced, Mechanism):
-        return _stepped(table_of(reduced), forcing, horizontal, lift, restitution, tolerance)
+        return _stepped(
+            table_of(reduced, forcing.vertical), forcing, horizontal, lift, restitution, tolerance
+        )
     if vertical is None and solvable_exactly(reduced, forcing):
         return _exact(reduced, forcing, horizontal, restitution)
     still = replace(forcing, vertical=False)

@@ -44,6 +44,19 @@ LOOK_AHEAD = 100
 """Samples over which a chain of impacts is examined for its end."""
 
 
+class Ties(NamedTuple):
+    """n ties on each side k of a mechanism, as functions of the arc on the pieces of its table.
+
+    pieces: (k n, m, 24) D̃ = u'/√(I I(0)) and u D̃ alternating, then u, which is how far the tie's point has moved; a
+    tension T pulls back with T D̃. law: (k, n, 9) stiffness, pretension, strength, u where it yields, the arcs where it
+    yields and breaks, the largest stiffness · u'²/I, D̃ at rest, and a bound of the slope of T D̃ near rest. The forces
+    are times g, and in the unit of G per m.
+    """
+
+    pieces: np.ndarray
+    law: np.ndarray
+
+
 class Sides(NamedTuple):
     """A mechanism's table, by side k (one if they mirror, else the positive first), in the arc.
 
@@ -65,6 +78,7 @@ class Sides(NamedTuple):
     longest_step: np.ndarray
     near: np.ndarray
     one_sided: bool
+    ties: Ties | None = None
 
 
 class Ground(NamedTuple):
@@ -108,17 +122,17 @@ compiled = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract
 
 
 @compiled
-def _margin(lift, push, gravity):
-    """Acceleration along the arc that a push towards a side gives the structure at rest."""
-    return lift[1] * push - lift[0] * gravity
+def _margin(lift, push, gravity, held):
+    """Acceleration along the arc that a push towards a side gives a structure that its ties hold at rest."""
+    return lift[1] * push - lift[0] * gravity - held
 
 
 @compiled
-def _margins(sides, ground, gravity):
+def _margins(sides, held, ground, gravity):
     """Acceleration that would lift the structure at rest to the positive and to the negative side."""
     lift = sides.lift
-    negative = -np.inf if sides.one_sided else _margin(lift[lift.shape[0] - 1], ground, gravity)
-    return _margin(lift[0], -ground, gravity), negative
+    negative = -np.inf if sides.one_sided else _margin(lift[lift.shape[0] - 1], ground, gravity, held[1])
+    return _margin(lift[0], -ground, gravity, held[0]), negative
 
 
 @compiled
@@ -143,7 +157,7 @@ def _excitation(ground, member, i):
 
 
 @compiled
-def _uplift(sides, ground, member, i, tau):
+def _uplift(sides, held, ground, member, i, tau):
     """First instant from (interval i, offset tau) on that lifts: interval, offset, side (0 if none does)."""
     count = ground.horizontal.size - 1
     if i >= count:
@@ -152,12 +166,12 @@ def _uplift(sides, ground, member, i, tau):
     push, weight = _accelerations(ground, member, i)
     next_push, next_weight = _accelerations(ground, member, i + 1)
     push, weight = push + share * (next_push - push), weight + share * (next_weight - weight)
-    positive, negative = _margins(sides, push, weight)
+    positive, negative = _margins(sides, held, push, weight)
     if positive > 0 or negative > 0:
         return i, tau, (1 if positive >= negative else -1)
     while i < count:
         next_push, next_weight = _accelerations(ground, member, i + 1)
-        next_positive, next_negative = _margins(sides, next_push, next_weight)
+        next_positive, next_negative = _margins(sides, held, next_push, next_weight)
         if next_positive > 0 or next_negative > 0:
             to_positive = positive / (positive - next_positive) if next_positive > 0 else 2.0
             to_negative = negative / (negative - next_negative) if next_negative > 0 else 2.0
@@ -169,7 +183,7 @@ def _uplift(sides, ground, member, i, tau):
 
 
 @compiled
-def _uplift_sine(sides, amplitude, omega, gravity, tau):
+def _uplift_sine(sides, held, amplitude, omega, gravity, tau):
     """First instant of the sine pulse from offset tau on that lifts: offset, side (0 if none does)."""
     lift = sides.lift
     for half in range(2):
@@ -178,23 +192,25 @@ def _uplift_sine(sides, amplitude, omega, gravity, tau):
         if push == 0 or (sides.one_sided and side < 0):
             continue
         k = 0 if side > 0 else lift.shape[0] - 1
-        ratio = lift[k, 0] * gravity / (lift[k, 1] * abs(amplitude))
+        holds = lift[k, 0] * gravity + held[0 if side > 0 else 1]
+        ratio = holds / (lift[k, 1] * abs(amplitude))
         if ratio < 1:
-            phase = math.asin(ratio)
-            if tau < ((half + 1) * math.pi - phase) / omega:
-                return max(tau, (half * math.pi + phase) / omega), side
+            angle = math.asin(ratio)
+            if tau < ((half + 1) * math.pi - angle) / omega:
+                return max(tau, (half * math.pi + angle) / omega), side
     return tau, 0
 
 
 @compiled
-def _next_uplift(sides, ground, member, i, tau):
+def _next_uplift(sides, phase, ground, member, i, tau):
     """First instant from (interval i, offset tau) on that lifts, of a record or of a sine."""
+    held = _held_at_rest(phase)
     if ground.circular_frequency == 0:
-        return _uplift(sides, ground, member, i, tau)
+        return _uplift(sides, held, ground, member, i, tau)
     if i > 0:
         return i, 0.0, 0
     amplitude = member.horizontal * ground.horizontal[0]
-    tau, side = _uplift_sine(sides, amplitude, ground.circular_frequency, ground.gravity, tau)
+    tau, side = _uplift_sine(sides, held, amplitude, ground.circular_frequency, ground.gravity, tau)
     return i, tau, side
 
 
@@ -224,14 +240,182 @@ def _shift(pieces, k, j, g, b, u):
     return a0, a1, a2, a3, a4, a5, e6 + u * 7 * e7
 
 
+LARGEST, LOW, HIGH, YIELDING, LEFT, TAUT, STIFF, HELD = range(8)
+"""Places in a row of `phase`: the largest arc when last looked at, between which arcs the present phase holds, whether
+a tie yields, how many are not broken and taut, the square of their frequency, and what they hold with at rest."""
+
+FIRST, EACH = 8, 6
+"""Where the places of the first tie begin, and how many each has: c and s of its tension c + s u in this phase, whether
+it is broken, its plastic elongation, the arc below which that leaves it slack, and the largest arc they go with."""
+
+
 @compiled
-def _series(pieces, k, j, u, v, side, a0, a1, g0, g1, square):
+def _fresh(ties):
+    """The memory of the ties, a row for the positive and one for the negative side."""
+    if ties is None:
+        return None
+    sides, count, _ = ties.law.shape
+    phase = np.zeros((2, FIRST + EACH * count))
+    for slot in range(2):
+        for n in range(count):
+            law, at = ties.law[min(slot, sides - 1), n], FIRST + EACH * n
+            phase[slot, at + 4] = -np.inf
+            if law[0] == 0 and law[1] == 0:
+                phase[slot, at + 2] = 1  # fills the table of a side with fewer ties
+            else:
+                phase[slot, LEFT] += 1
+                phase[slot, HELD] += law[1] * law[7]
+    return phase
+
+
+@compiled
+def _stretch(ties, grid, k, row, arc):
+    """u of a tie and its slope at an arc of side k."""
+    j, centre, _ = _place(grid, k, arc)
+    value, slope, at = 0.0, 0.0, arc - centre
+    for power in range(7, -1, -1):
+        slope = value + at * slope
+        value = ties.pieces[row, j, 16 + power] + at * value
+    return value, slope
+
+
+@compiled
+def _slack_arc(ties, grid, k, row, target, high):
+    """The arc up to `high` at which u of a tie is `target` > 0, to rounding."""
+    low, arc = 0.0, high
+    for _ in range(100):
+        value, slope = _stretch(ties, grid, k, row, arc)
+        if value > target:
+            high = arc
+        else:
+            low = arc
+        new = arc - (value - target) / slope
+        if not low <= new <= high:
+            new = 0.5 * (low + high)
+        move, arc = abs(new - arc), new
+        if move <= SETTLED * arc:
+            break
+    return arc
+
+
+@compiled
+def _stretch_for_good(ties, grid, row, k, n):
+    """Note the plastic elongation of a tie, and the arc below which that leaves it slack."""
+    stiffness, pretension, _, yield_stretch, _, _, _, _, _ = ties.law[k, n]
+    place, at, largest = k * ties.law.shape[1] + n, FIRST + EACH * n, row[LARGEST]
+    row[at + 5] = largest
+    row[at + 3] = max(_stretch(ties, grid, k, place, largest)[0] - yield_stretch, 0.0)
+    if stiffness * row[at + 3] > pretension:
+        row[at + 4] = _slack_arc(ties, grid, k, place, row[at + 3] - pretension / stiffness, largest)
+
+
+@compiled
+def _enter(ties, grid, phase, side, k, arc, outward):
+    """Set the tension of every tie as a function of u, and how far it holds, from an arc on, outward or inward."""
+    if ties is None:
+        return
+    row = phase[0 if side > 0 else 1]
+    on_the_way_out = outward and arc >= row[LARGEST]
+    row[LARGEST] = max(row[LARGEST], arc)
+    low, high, yielding, left, taut, stiff, held = -np.inf, np.inf, 0, 0, 0, 0.0, 0.0
+    for n in range(ties.law.shape[1]):
+        stiffness, pretension, strength, _, yield_arc, rupture_arc, square, rest, _ = ties.law[k, n]
+        at = FIRST + EACH * n
+        row[at], row[at + 1] = 0.0, 0.0
+        if on_the_way_out and arc >= rupture_arc:
+            row[at + 2] = 1
+        if row[at + 2] != 0:
+            continue
+        left += 1
+        if on_the_way_out and arc >= yield_arc:
+            row[at], yielding, taut, high = strength, 1, taut + 1, min(high, rupture_arc)
+            continue
+        if row[LARGEST] > max(yield_arc, row[at + 5]):
+            _stretch_for_good(ties, grid, row, k, n)
+        force, slack_arc = pretension - stiffness * row[at + 3], row[at + 4]
+        held += max(force, 0.0) * rest
+        if arc < slack_arc or (arc == slack_arc and not outward):
+            high = min(high, slack_arc)
+            continue
+        row[at], row[at + 1], taut = force, stiffness, taut + 1
+        low, high, stiff = max(low, slack_arc), min(high, max(row[LARGEST], yield_arc)), stiff + square
+    row[LOW], row[HIGH], row[YIELDING] = low, high, yielding
+    row[LEFT], row[TAUT], row[STIFF], row[HELD] = left, taut, stiff, held
+
+
+@compiled
+def _with_ties(ties, phase, side, k, j, u, own):
+    """The Taylor coefficients of what pulls back, the ties' to those of G̃ and B̃."""
+    if ties is None:
+        return own
+    slot = 0 if side > 0 else 1
+    if phase[slot, TAUT] == 0:
+        return own
+    return _with_tensions(ties.pieces, phase, slot, k, j, u, own)
+
+
+@compiled
+def _with_tensions(pieces, phase, slot, k, j, u, own):
+    """The same where at least one tie is taut."""
+    count = (phase.shape[1] - FIRST) // EACH
+    w0, w1, w2, w3, w4, w5, w6 = own
+    for n in range(count):
+        c, s = phase[slot, FIRST + EACH * n], phase[slot, FIRST + EACH * n + 1]
+        if c != 0 or s != 0:
+            a0, a1, a2, a3, a4, a5, a6 = _shift(pieces, k * count + n, j, c, s, u)
+            w0, w1, w2, w3, w4, w5, w6 = w0 + a0, w1 + a1, w2 + a2, w3 + a3, w4 + a4, w5 + a5, w6 + a6
+    return w0, w1, w2, w3, w4, w5, w6
+
+
+@compiled
+def _held_at_rest(phase):
+    """What the ties of the positive and of the negative side pull back with at rest."""
+    if phase is None:
+        return 0.0, 0.0
+    return phase[0, HELD], phase[1, HELD]
+
+
+@compiled
+def _beyond(phase, side, arc):
+    """1 where an arc is above the present phase, −1 below it, 0 within."""
+    if phase is None:
+        return 0
+    slot = 0 if side > 0 else 1
+    return 1 if arc > phase[slot, HIGH] else -1 if arc < phase[slot, LOW] else 0
+
+
+@compiled
+def _ties_left(phase, side):
+    """How many ties of a side are not broken."""
+    if phase is None:
+        return 0
+    return phase[0 if side > 0 else 1, LEFT]
+
+
+@compiled
+def _slope_near_rest(ties, k):
+    """The largest slope of what ties pull back with, near rest."""
+    if ties is None:
+        return 0.0
+    return ties.law[k, :, 8].sum()
+
+
+@compiled
+def _longest_step(phase, side, longest):
+    """The shortest time of the structure, `longest` without ties, with those that are taut in the present phase."""
+    if phase is None:
+        return longest
+    return 1 / math.sqrt(1 / (longest * longest) + phase[0 if side > 0 else 1, STIFF])
+
+
+@compiled
+def _series(pieces, ties, phase, k, j, u, v, side, a0, a1, g0, g1, square):
     """Taylor coefficients (v, x2, ..., x8) of the arc, at the place u of piece j of side k.
 
     Ground acceleration a0 + a1 t (or the sine that starts so, with the squared frequency `square`), gravity g0 + g1 t.
     """
     s0, s1 = side * a0, side * a1
-    w0, w1, w2, w3, w4, w5, w6 = _shift(pieces, k, j, g0, s0, u)
+    w0, w1, w2, w3, w4, w5, w6 = _with_ties(ties, phase, side, k, j, u, _shift(pieces, k, j, g0, s0, u))
     r0, r1, r2, r3, r4, r5, _ = _shift(pieces, k, j, g1, s1, u)
     b0 = b1 = b2 = b3 = b4 = 0.0
     s2 = s3 = s4 = s5 = s6 = 0.0
@@ -271,7 +455,7 @@ def _series(pieces, k, j, u, v, side, a0, a1, g0, g1, square):
 
 
 @compiled
-def _short_series(pieces, k, j, u, v, s0, s1, g0, g1):
+def _short_series(pieces, ties, phase, side, k, j, u, v, s0, s1, g0, g1):
     """The first coefficients (v, x2, ..., x6) of `_series` for a ground acceleration s0 + s1 t against the side.
 
     Powers are paired (Estrin), so that few operations wait for each other.
@@ -293,15 +477,25 @@ def _short_series(pieces, k, j, u, v, s0, s1, g0, g1):
     q3 = f3 + u * 4 * f4 + u2 * (10 * f5 + u * 20 * f6) + u4 * 35 * f7
     q4 = f4 + u * 5 * f5 + u2 * (15 * f6 + u * 35 * f7)
     square = v * v
-    x2 = -0.5 * (g0 * p0 + s0 * q0)
-    w1, r0 = g0 * p1 + s0 * q1, g1 * p0 + s1 * q0
+    own = (
+        g0 * p0 + s0 * q0,
+        g0 * p1 + s0 * q1,
+        g0 * p2 + s0 * q2,
+        g0 * p3 + s0 * q3,
+        g0 * p4 + s0 * q4,
+        0.0,
+        0.0,
+    )
+    w0, w1, w2, w3, w4, _, _ = _with_ties(ties, phase, side, k, j, u, own)
+    x2 = -0.5 * w0
+    r0 = g1 * p0 + s1 * q0
     x3 = (w1 * v + r0) * (-1 / 6)
-    w2, r1 = g0 * p2 + s0 * q2, g1 * p1 + s1 * q1
+    r1 = g1 * p1 + s1 * q1
     x4 = (w1 * x2 + w2 * square + r1 * v) * (-1 / 12)
-    w3, r2 = g0 * p3 + s0 * q3, g1 * p2 + s1 * q2
+    r2 = g1 * p2 + s1 * q2
     double = 2 * v * x2
     x5 = (w1 * x3 + w2 * double + w3 * square * v + r1 * x2 + r2 * square) * (-1 / 20)
-    w4, r3 = g0 * p4 + s0 * q4, g1 * p3 + s1 * q3
+    r3 = g1 * p3 + s1 * q3
     still = w1 * x4 + w2 * (2 * v * x3 + x2 * x2) + 3 * w3 * square * x2 + w4 * square * square
     x6 = (still + r1 * x3 + r2 * double + r3 * square * v) * (-1 / 30)
     return v, x2, x3, x4, x5, x6
@@ -402,14 +596,14 @@ def _eventless(x, h, share, arc, room, farthest, fastest, tolerance):
 
 
 @compiled
-def _glide(sides, ground, member, k, side, i, arc, speed, farthest, fastest, tolerance, log, logged):
+def _glide(sides, phase, ground, member, k, side, i, arc, speed, farthest, fastest, tolerance, log, logged):
     """Advance from sample to sample by the short series, up to one in which something may happen, or the end.
 
     Returns the interval, arc, speed, largest arc and speed of the flight, and lines of log.
     """
     pieces, grid, critical, h = sides.pieces, sides.grid, sides.critical[k], ground.time_step
     horizontal, vertical, rate = ground.horizontal, ground.vertical, 1 / ground.time_step
-    share = h / sides.longest_step[k]
+    share = h / _longest_step(phase, side, sides.longest_step[k])
     if share > 1:
         return i, arc, speed, farthest, fastest, logged
     push, weight = side * member.horizontal * horizontal[i], ground.gravity + member.vertical * vertical[i]
@@ -418,10 +612,11 @@ def _glide(sides, ground, member, k, side, i, arc, speed, farthest, fastest, tol
         next_weight = ground.gravity + member.vertical * vertical[i + 1]
         j, centre, room = _place(grid, k, arc)
         x = _short_series(
-            pieces, k, j, arc - centre, speed, push, (next_push - push) * rate, weight, (next_weight - weight) * rate
+            pieces, sides.ties, phase, side, k, j, arc - centre, speed,
+            push, (next_push - push) * rate, weight, (next_weight - weight) * rate,
         )  # fmt: skip
         plain, new, pull = _eventless(x, h, share, arc, room, farthest, fastest, tolerance)
-        if not plain or not new > 0 or (new > critical and pull > 0):
+        if not plain or not new > 0 or (new > critical and pull > 0) or _beyond(phase, side, new) != 0:
             break
         i, arc, speed, push, weight = i + 1, new, pull, next_push, next_weight
         farthest, fastest = max(farthest, arc), max(fastest, abs(speed))
@@ -485,6 +680,49 @@ def _events(x, h, arc, speed, new, pull):
 
 
 @compiled
+def _leaves(phase, side, x, h, arc, speed, new, turn, landing):
+    """When a step leaves the phase of the ties, and how: 1 outward, −1 inward, 2 turning while one yields; 0 not."""
+    if phase is None:
+        return h, 0
+    slot, end = 0 if side > 0 else 1, h if landing < 0 else landing
+    low, high, yields = phase[slot, LOW], phase[slot, HIGH], phase[slot, YIELDING] != 0
+    if yields and speed <= 0 and new < arc:
+        return 0.0, 2
+    start, from_arc = 0.0, arc
+    if turn >= 0:
+        peak = arc + _displacement(x, turn)
+        if peak > high:
+            return _landing(_back(x), high - arc, 0.0, turn), 1
+        if yields and speed > 0:
+            return turn, 2
+        if peak < low:
+            return _landing(x, arc - low, 0.0, turn), -1
+        start, from_arc = turn, peak
+    last = arc + _displacement(x, end)
+    if last > high and last > from_arc:
+        return _landing(_back(x), high - arc, start, end), 1
+    if last < low and last < from_arc:
+        return _landing(x, arc - low, start, end), -1
+    return h, 0
+
+
+@compiled
+def _boundary(phase, side, leaves, arc):
+    """The arc at which a phase ends."""
+    if phase is None:
+        return arc
+    if leaves == 2:
+        return arc
+    return phase[0 if side > 0 else 1, HIGH if leaves > 0 else LOW]
+
+
+@compiled
+def _back(x):
+    """The series of the motion reversed in sign."""
+    return -x[0], -x[1], -x[2], -x[3], -x[4], -x[5], -x[6], -x[7]
+
+
+@compiled
 def _write(log, logged, time, arc, speed):
     """Write one line of history where there is room; the count tells how much room was needed."""
     if log.shape[0] == 0:
@@ -522,7 +760,9 @@ def _dies_out(sides, ground, member, i, tau, speed, best):
     count, step, last = ground.horizontal.size - 1, ground.time_step, sides.near.shape[0] - 1
     eta = max(member.restitution[0], member.restitution[1])
     lightest, heaviest, strongest, steepest, steepest_up = np.inf, 0.0, 0.0, 0.0, 0.0
-    peak = max(best[0], best[1]) if last == 0 else min(best[0], best[1])
+    peak = best[0] if sides.one_sided else min(best[0], best[1])
+    if last == 0 and sides.ties is None:
+        peak = max(best[0], best[1])
     for j in range(i, min(i + LOOK_AHEAD, count)):
         push, weight = _accelerations(ground, member, j)
         next_push, next_weight = _accelerations(ground, member, j + 1)
@@ -540,9 +780,10 @@ def _dies_out(sides, ground, member, i, tau, speed, best):
             if rise > sides.near[k, 0]:
                 return False
             in_time = (sides.near[k, 2] * steepest_up + sides.near[k, 3] * steepest) / step * flight
-            spread = max(
-                spread, in_time + (sides.near[k, 4] * heaviest + sides.near[k, 5] * strongest) * rise
+            in_place = (
+                sides.near[k, 4] * heaviest + sides.near[k, 5] * strongest + _slope_near_rest(sides.ties, k)
             )
+            spread = max(spread, in_time + in_place * rise)
         shrink = eta * (1 + spread / (2 * d))
         if rise > peak or shrink >= 1:
             return False
@@ -552,10 +793,15 @@ def _dies_out(sides, ground, member, i, tau, speed, best):
 
 
 @compiled
-def _lost(sides, ground, member, k, i, arc):
-    """Whether a side that moves outward beyond φ_cr overturns: past its end, or past what the ground can still do."""
+def _lost(sides, phase, ground, member, k, side, i, arc):
+    """Whether a side that moves outward beyond φ_cr overturns: past its end, or past what the ground can still do.
+
+    The latter is known where no tie is left.
+    """
+    if arc >= sides.end[k]:
+        return True
     j, _, _ = _place(sides.grid, k, arc)
-    return arc >= sides.end[k] or sides.hold[k, j] > _excitation(ground, member, i)
+    return _ties_left(phase, side) == 0 and sides.hold[k, j] > _excitation(ground, member, i)
 
 
 @compiled
@@ -572,20 +818,23 @@ def rock(sides, ground, member, start, tolerance, settle, best, log):
     i, tau, status, impacts, steps, turns, sampled = 0, 0.0, 0, 0, 0, 0, ground.circular_frequency == 0
     uplift, farthest, fastest = np.nan, arc, abs(speed)
     best[0], best[1] = 0.0, np.nan
+    phase = _fresh(sides.ties)
     if side != 0:
         status, uplift = ROCKS, 0.0
         slot = 0 if side > 0 else 1
         best[0, slot], best[1, slot] = arc, 0.0
+        _enter(sides.ties, sides.grid, phase, side, 0 if side > 0 else last, arc, True)
     logged = _write(log, 0, 0.0, side * arc, side * speed)
     while True:
         if side == 0:
-            i, tau, side = _next_uplift(sides, ground, member, i, tau)
+            i, tau, side = _next_uplift(sides, phase, ground, member, i, tau)
             if side == 0:
                 break
             arc = speed = farthest = fastest = 0.0
             if status == 0:
                 status, uplift = ROCKS, i * time_step + tau
             logged = _write(log, logged, i * time_step + tau, 0.0, 0.0)
+            _enter(sides.ties, sides.grid, phase, side, 0 if side > 0 else last, 0.0, True)
         k = 0 if side > 0 else last
         left = time_step - tau if i < count else np.inf
         if left <= 0:
@@ -594,7 +843,20 @@ def rock(sides, ground, member, start, tolerance, settle, best, log):
         if sampled and tau == 0 and i < count:
             before = i
             i, arc, speed, farthest, fastest, logged = _glide(
-                sides, ground, member, k, side, i, arc, speed, farthest, fastest, tolerance, log, logged
+                sides,
+                phase,
+                ground,
+                member,
+                k,
+                side,
+                i,
+                arc,
+                speed,
+                farthest,
+                fastest,
+                tolerance,
+                log,
+                logged,
             )
             steps += i - before
             if i == count:
@@ -602,12 +864,25 @@ def rock(sides, ground, member, start, tolerance, settle, best, log):
         a0, a1, g0, g1, square = _drive(ground, member, i, tau)
         j, centre, room = _place(sides.grid, k, arc)
         x = _lifted(
-            _series(sides.pieces, k, j, arc - centre, speed, side, a0, a1, g0, g1, square), arc, speed
+            _series(sides.pieces, sides.ties, phase, k, j, arc - centre, speed, side, a0, a1, g0, g1, square),
+            arc,
+            speed,
         )
-        h = _stride(x, min(left, sides.longest_step[k]), room, arc, farthest, fastest, tolerance)
+        longest = min(left, _longest_step(phase, side, sides.longest_step[k]))
+        h = _stride(x, longest, room, arc, farthest, fastest, tolerance)
         steps += 1
         new, pull, now = arc + _displacement(x, h), _speed(x, h), i * time_step + tau
         turn, landing = _events(x, h, arc, speed, new, pull)
+        until, leaves = _leaves(phase, side, x, h, arc, speed, new, turn, landing)
+        if leaves != 0:
+            h = until
+            if leaves != 2 and until <= INSTANT * time_step:
+                h, leaves = (
+                    min(PAUSE * time_step, left),
+                    0,
+                )  # a rounding: what is beyond is entered after a moment
+            new, pull, landing = arc + _displacement(x, h), _speed(x, h), -1.0
+            turn = turn if turn <= h else -1.0
         if speed > 0 and turn >= 0:
             peak, slot = arc + _displacement(x, turn), 0 if side > 0 else 1
             if peak > best[0, slot]:
@@ -621,10 +896,17 @@ def rock(sides, ground, member, start, tolerance, settle, best, log):
                 status = NOT_FINITE
                 break
             arc, speed = new, pull
+            if leaves != 0:
+                arc = _boundary(phase, side, leaves, arc)
+            if leaves != 0 or _beyond(phase, side, arc) != 0:
+                speed = min(speed, 0.0) if leaves == 2 else speed
+                _enter(
+                    sides.ties, sides.grid, phase, side, k, arc, leaves == 1 or (leaves == 0 and speed > 0)
+                )
             farthest, fastest = max(farthest, arc), max(fastest, abs(speed))
             i, tau = (i + 1, 0.0) if h == left else (i, tau + h)
             logged = _write(log, logged, now + h, side * arc, side * speed)
-            if arc > sides.critical[k] and speed > 0 and _lost(sides, ground, member, k, i, arc):
+            if arc > sides.critical[k] and speed > 0 and _lost(sides, phase, ground, member, k, side, i, arc):
                 status = OVERTURNS
                 break
             continue
@@ -636,6 +918,7 @@ def rock(sides, ground, member, start, tolerance, settle, best, log):
         if not sides.one_sided:
             side, k = -side, last - k
         logged = _write(log, logged, now + landing, 0.0, side * speed)
+        _enter(sides.ties, sides.grid, phase, side, k, 0.0, True)
         if not speed > sides.rest_speed[k]:
             side = 0
             if landing <= INSTANT * time_step:

@@ -82,6 +82,11 @@ class _Run:
         budget: float,
         restart: bool,
     ) -> None:
+        if mechanism.remembers:
+            raise MotionError(
+                "the structure has ties that yield or break, but the reference solution knows elastic ones only; leave "
+                "their strength out."
+            )
         self.method, self.tolerance, self.restart = method, tolerance, restart
         self.budget, self.deadline = budget, perf_counter() + budget
         self.ground, self.step = accelerogram.acceleration.tolist(), accelerogram.time_step

@@ -5,17 +5,19 @@ G̃ = G/√(I I(0)) and B̃ = B/√(I I(0)). For a rigid body I is constant and 
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from rocking.errors import MotionError
 from rocking.motion.forcing import Forcing
-from rocking.motion.nonlinear_kernel import REST_ENERGY, Sides
+from rocking.motion.nonlinear_kernel import REST_ENERGY, Sides, Ties
+from rocking.motion.tie_tables import stacked_ties, tie_law
 from rocking.quantities import GRAVITY
-from rocking.structures.arc import Function, RotationMap, arc_of
+from rocking.structures.arc import Arc, Function, RotationMap, arc_of
 from rocking.structures.mechanism import CUTS, EquivalentBlock, Mechanism, Side
 
 DEGREE = 7
@@ -44,7 +46,8 @@ class SideTable:
     hold: (m,) smallest −G/|B| from each piece on: a smaller ground acceleration, in g, cannot bring the side back.
     critical, end: in arc. lift: G̃(0), B̃(0). reaching_speed: along the arc at φ = 0, just reaches φ_cr, rad/s.
     longest_step: s. near: bounds near rest, as `Sides` has them. arc and stretch: q and dq/dφ at a rotation.
-    rotation_map: that of an equivalent block, which stands for ratios and stretch.
+    rotation_map: that of an equivalent block, which stands for ratios and stretch. ties: kept apart from G̃, which is
+    then without them, as hold is; critical is then where nothing without ties falls yet.
     """
 
     pieces: np.ndarray
@@ -62,6 +65,7 @@ class SideTable:
     arc: Function
     stretch: Function
     rotation_map: RotationMap | None = None
+    ties: Ties | None = None
 
     def rotation(self, arc: np.ndarray | float) -> np.ndarray:
         """Return the rotation [rad] at `arc`, any shape, within the table; inf beyond the end of a rotation_map."""
@@ -112,19 +116,9 @@ class Table:
     """What the kernel takes of them."""
     restitution: tuple[float, float]
     """η of the positive and of the negative side."""
-    elastic: bool = False
-    """Whether G holds forces of springs, which do not grow and fall with g + ü_v."""
 
     def kernel_of(self, forcing: Forcing) -> Sides:
-        """What the kernel takes under `forcing`: its steps resolve a sine as well.
-
-        Raises MotionError for springs under vertical motion: the kernel scales all of G with g + ü_v.
-        """
-        if self.elastic and forcing.vertical:
-            raise MotionError(
-                "vertical is given, but ties do not grow and fall with gravity, as the integration takes of all that "
-                "restores; leave the vertical component or the ties out."
-            )
+        """What the kernel takes under `forcing`: its steps resolve a sine as well."""
         frequency = forcing.ground.circular_frequency
         if frequency == 0:
             return self.kernel
@@ -135,20 +129,23 @@ class Table:
         return self.sides[0 if sign > 0 else -1]
 
 
-_REMEMBERED: WeakKeyDictionary[Mechanism, Table] = WeakKeyDictionary()
+_REMEMBERED: WeakKeyDictionary[Mechanism, dict[bool, Table]] = WeakKeyDictionary()
 
 
-def table_of(mechanism: Mechanism) -> Table:
+def table_of(mechanism: Mechanism, vertical: bool = False) -> Table:
     """Return the table of a mechanism, remembered as long as the mechanism lives.
 
+    vertical: for a vertical component, with which ties do not grow and fall. Ties are then kept apart from G, as they
+    are where they yield or break.
     Raises MotionError when it cannot be tabulated.
     """
-    found = _REMEMBERED.get(mechanism)
-    if found is None:
-        found = _stacked(tuple(_side_table(side) for side in mechanism.sides), mechanism.one_sided)
-        found = replace(found, elastic=mechanism.elastic)
-        _REMEMBERED[mechanism] = found
-    return found
+    apart = mechanism.remembers or (vertical and mechanism.tied)
+    known = _REMEMBERED.setdefault(mechanism, {})
+    if apart not in known:
+        known[apart] = _stacked(
+            tuple(_side_table(side, apart) for side in mechanism.sides), mechanism.one_sided
+        )
+    return known[apart]
 
 
 @lru_cache(maxsize=1024)
@@ -165,7 +162,8 @@ def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
     names = ("grid", "lift", "critical", "end", "reaching_speed", "longest_step", "near")
     stacked = {name: np.array([getattr(side, name) for side in sides], dtype=float) for name in names}
     stacked["rest_speed"] = stacked.pop("reaching_speed") * REST_ENERGY**0.5
-    kernel = Sides(pieces=pieces, hold=hold, one_sided=one_sided, **stacked)
+    ties = stacked_ties([side.ties for side in sides], most)
+    kernel = Sides(pieces=pieces, hold=hold, one_sided=one_sided, ties=ties, **stacked)
     return Table(sides, one_sided, kernel, (sides[0].restitution, sides[-1].restitution))
 
 
@@ -204,11 +202,11 @@ def _linear_side(block: EquivalentBlock) -> SideTable:
     )
 
 
-def _side_table(side: Side) -> SideTable:
+def _side_table(side: Side, apart: bool = False) -> SideTable:
     for cut in CUTS:
         last = side.end_rotation - cut * (side.end_rotation - side.critical_rotation)
         with np.errstate(all="ignore"):
-            found = _tabulated(side, last)
+            found = _tabulated(side, last, apart)
         if found is not None:
             return found
     raise MotionError(
@@ -217,17 +215,23 @@ def _side_table(side: Side) -> SideTable:
     )
 
 
-def _tabulated(side: Side, last: float) -> SideTable | None:
-    """The table over the rotations up to `last`, or None where it does not reach ACCURACY."""
+def _tabulated(side: Side, last: float, apart: bool) -> SideTable | None:
+    """The table over the rotations up to `last`, ties apart or not, or None where it does not reach ACCURACY."""
     arc = arc_of(side.inertia, last, _AIM)
     if arc is None:
         return None
     rest = side.at("inertia", 0.0)
+    gravity = side.untied_gravity if apart and side.untied_gravity is not None else side.gravity
+    ties = side.ties if apart else ()
 
     def functions(arcs: np.ndarray) -> np.ndarray:
         rotation = arc.rotation(arcs)
         scale = np.sqrt(side.inertia(rotation) * rest)
-        return np.stack([side.gravity(rotation) / scale, side.ground(rotation) / scale, rotation / arcs])
+        found = [gravity(rotation) / scale, side.ground(rotation) / scale, rotation / arcs]
+        for tie in ties:
+            stretch, pull = tie.stretch(rotation), tie.stretch_slope(rotation) / scale
+            found += [pull, stretch * pull, stretch]
+        return np.stack(found)
 
     end, critical = float(arc.at(last)), float(arc.at(side.critical_rotation))
     split = min(2 * critical, (critical + end) / 2)
@@ -237,26 +241,51 @@ def _tabulated(side: Side, last: float) -> SideTable | None:
         return None
     powers = np.concatenate([inner, outer], axis=1)
     grid, starts = _grid(split, end, inner.shape[1], outer.shape[1])
-    lift = side.at("gravity", 0.0) / rest, side.at("ground", 0.0) / rest
-    steepest = -side.at("gravity_slope", side.critical_rotation) / side.at("inertia", side.critical_rotation)
+    lift = float(gravity(np.asarray(0.0))) / rest, side.at("ground", 0.0) / rest
+    near = np.column_stack([lift, functions(np.linspace(0, critical * _NEAR, 65)[1:])[:2]])
+    if apart:
+        steepest = (
+            np.abs(np.gradient(functions(np.linspace(critical / 512, critical, 512))[0])).max()
+            * 512
+            / critical
+        )
+    else:
+        steepest = -side.at("gravity_slope", side.critical_rotation) / side.at(
+            "inertia", side.critical_rotation
+        )
     return SideTable(
         pieces=np.ascontiguousarray(powers[:2].transpose(1, 2, 0).reshape(powers.shape[1], -1)),
         ratios=np.ascontiguousarray(powers[2]),
         grid=grid,
-        hold=_hold(side, arc.rotation, starts),
-        critical=critical,
+        hold=_hold(gravity, side.ground, arc.rotation, starts),
+        critical=_standing(gravity, arc.rotation, critical) if apart else critical,
         end=end,
         lift=lift,
         restitution=side.restitution,
         reaching_speed=_reaching_speed(side, rest),
         longest_step=1 / np.sqrt(GRAVITY * max(steepest, lift[0] / critical)),
-        near=_near_rest(
-            critical * _NEAR, np.column_stack([lift, functions(np.linspace(0, critical * _NEAR, 65)[1:])[:2]])
-        ),
+        near=_near_rest(critical * _NEAR, near),
         critical_rotation=side.critical_rotation,
         arc=arc.at,
         stretch=arc.stretch,
+        ties=_ties(side, arc, powers[3:], critical * _NEAR) if ties else None,
     )
+
+
+def _ties(side: Side, arc: Arc, powers: np.ndarray, reach: float) -> Ties:
+    """The ties of one side, from the polynomials (3 n, m, 8) of D̃, u D̃ and u of each."""
+    count, pieces = powers.shape[0] // 3, powers.shape[1]
+    pulls, stretch = np.split(powers.reshape(count, 3, pieces, DEGREE + 1), [2], axis=1)
+    pulls = pulls.transpose(0, 2, 3, 1).reshape(count, pieces, -1)
+    laws = [tie_law(side, tie, arc, reach) for tie in side.ties]
+    return Ties(np.concatenate([pulls, stretch[:, 0]], axis=2), np.array(laws)[None])
+
+
+def _standing(gravity: Function, rotation: Function, critical: float) -> float:
+    """An arc up to `critical` below which `gravity` restores."""
+    arcs = np.linspace(0.0, critical, 513)
+    falls = np.flatnonzero(gravity(rotation(arcs)) <= 0)
+    return float(arcs[max(falls[0] - 1, 0)]) if falls.size else critical
 
 
 def _grid(split: float, end: float, inner: int, outer: int) -> tuple[tuple[float, ...], np.ndarray]:
@@ -268,9 +297,13 @@ def _grid(split: float, end: float, inner: int, outer: int) -> tuple[tuple[float
 
 
 def _reaching_speed(side: Side, rest_inertia: float) -> float:
-    """√(2 g ∫ G dφ / I(0)) from 0 to φ_cr."""
-    half = side.critical_rotation / 2
-    return float(np.sqrt(2 * GRAVITY * half * (_WEIGHTS @ side.gravity(half * (_GAUSS + 1))) / rest_inertia))
+    """√(2 g ∫ G dφ / I(0)) from 0 to φ_cr, on the way out."""
+    ends = [bend for bend in side.bends if 0 < bend < side.critical_rotation] if side.remembers else []
+    work = np.zeros(())
+    for start, end in pairwise([0.0, *ends, side.critical_rotation]):
+        half = (end - start) / 2
+        work = work + 2 * GRAVITY * half * (_WEIGHTS @ side.gravity(start + half * (_GAUSS + 1)))
+    return float(np.sqrt(work / rest_inertia))
 
 
 def _near_rest(reach: float, values: np.ndarray) -> tuple[float, ...]:
@@ -286,11 +319,11 @@ def _near_rest(reach: float, values: np.ndarray) -> tuple[float, ...]:
     return tuple(float(each) for each in (reach, least, most, drive, *slopes, speed))
 
 
-def _hold(side: Side, rotation: Function, starts: np.ndarray) -> np.ndarray:
+def _hold(gravity: Function, ground: Function, rotation: Function, starts: np.ndarray) -> np.ndarray:
     """(m,) smallest −G/|B| from each piece on, lowered by the largest change between neighbouring samples."""
     arcs = starts[:-1, None] + np.diff(starts)[:, None] * np.linspace(0, 1, 9)
     rotations = rotation(arcs)
-    balance = -side.gravity(rotations) / np.maximum(np.abs(side.ground(rotations)), 1e-300)
+    balance = -gravity(rotations) / np.maximum(np.abs(ground(rotations)), 1e-300)
     steps = np.abs(np.diff(balance, axis=1)).max(axis=1)
     lowest = balance.min(axis=1) - steps
     return np.minimum.accumulate(lowest[::-1])[::-1]
@@ -299,11 +332,11 @@ def _hold(side: Side, rotation: Function, starts: np.ndarray) -> np.ndarray:
 def _fitted(
     functions: Callable[[np.ndarray], np.ndarray], start: float, end: float, largest: np.ndarray
 ) -> np.ndarray | None:
-    """Polynomials (3, m, 8) on m equal pieces of [start, end], each accurate ROOM beyond its ends, or None.
+    """Polynomials (f, m, 8) of f functions on m equal pieces of [start, end], good to ROOM beyond its ends, or None.
 
     Pieces are halved, as often at once as the order of the error, DEGREE + 1, says is surely needed, until the error is
     _AIM of the zone's own maximum, or no longer falls because it is the rounding of the functions themselves; it must
-    then be within ACCURACY of `largest` (3,), the maxima over the whole side.
+    then be within ACCURACY of `largest` (f,), the maxima over the whole side.
     """
     best, best_error, good, count = None, np.inf, False, 2
     while count <= _MOST_PIECES:
@@ -324,7 +357,7 @@ def _fitted(
 def _fit(
     functions: Callable[[np.ndarray], np.ndarray], start: float, end: float, count: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Interpolate on `count` pieces; also the largest error between the nodes, and the largest value, (3,) each."""
+    """Interpolate on `count` pieces; also the largest error between the nodes, and the largest value, (f,) each."""
     half = (end - start) / count / 2
     centres = start + (2 * np.arange(count)[:, None] + 1) * half
     low = np.maximum(start - centres, -(1 + 2 * ROOM) * half) / half

@@ -4,23 +4,14 @@ A constant force and an elastic tie have a potential, so they add to G(φ); a ma
 forces are in the unit of the structure's weights (kN per metre of wall, say), which cancels. Points are complex, m.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.structures.mechanism import Function
-
-
-class PointMotion(NamedTuple):
-    """A point at rotations of any shape: how far it moved from rest, and the derivatives with φ; complex, m."""
-
-    moved: np.ndarray
-    velocity: np.ndarray
-    acceleration: np.ndarray
-
+from rocking.structures.mechanism import Function, Side
+from rocking.structures.ties import PointMotion, SideTie, Tie
 
 Path = Callable[[np.ndarray], PointMotion]
 """Where a point goes with the rotation φ ≥ 0 [rad] of one side."""
@@ -62,34 +53,6 @@ class Thrust:
     def slope(self, point: PointMotion) -> np.ndarray:
         """Second derivative of `work` with φ."""
         return -self.thrust * point.acceleration.real
-
-
-@dataclass(frozen=True)
-class Tie:
-    """An elastic tie that stays horizontal (long beside the displacement): force `pretension` + `stiffness` · u.
-
-    u ≥ 0 is how far its point moved towards the side of rocking. A side on which it would slacken has no tie.
-    """
-
-    stiffness: float
-    pretension: float = 0.0
-
-    def tension(self, point: PointMotion) -> np.ndarray:
-        """The force of the tie."""
-        return self.pretension + self.stiffness * point.moved.real
-
-    def work(self, point: PointMotion) -> np.ndarray:
-        """What was done against it since rest."""
-        stretch = point.moved.real
-        return self.pretension * stretch + self.stiffness * stretch**2 / 2
-
-    def force(self, point: PointMotion) -> np.ndarray:
-        """Derivative of `work` with φ."""
-        return self.tension(point) * point.velocity.real
-
-    def slope(self, point: PointMotion) -> np.ndarray:
-        """Second derivative of `work` with φ."""
-        return self.tension(point) * point.acceleration.real + self.stiffness * point.velocity.real**2
 
 
 @dataclass(frozen=True)
@@ -139,7 +102,7 @@ class LoadedForm:
         return sum(masses, self.bare[1](rotation)) / self.divisor
 
     def gravity(self, rotation: np.ndarray) -> np.ndarray:
-        """G(φ)."""
+        """G(φ), where the rotation was never larger."""
         masses = [each.kinetic(rotation)[3] for each in self.attached if each.mass]
         forces = [each.force.force(each.path(rotation)) for each in self.attached if each.force]
         return sum(masses + forces, self.bare[2](rotation)) / self.divisor
@@ -162,15 +125,59 @@ class LoadedForm:
             np.zeros(np.shape(rotation)),
         )
 
+    @property
+    def untied(self) -> "LoadedForm":
+        """The same without its ties."""
+        return replace(
+            self, attached=tuple(each for each in self.attached if not isinstance(each.force, Tie))
+        )
 
-def critical_rotation(gravity: Function, end_rotation: float) -> float:
-    """Return where G first vanishes on (0, end_rotation), rad.
+    @property
+    def ties(self) -> tuple[SideTie, ...]:
+        """Its ties."""
+        return tuple(_side_tie(each, self.divisor) for each in self.attached if isinstance(each.force, Tie))
+
+    def side(self, end_rotation: float, restitution: float) -> Side:
+        """Return the side of rocking with these functions, up to `end_rotation` [rad]."""
+        bends = [bend for tie in self.ties for bend in tie.bends(end_rotation)]
+        return Side(
+            inertia=self.inertia,
+            inertia_slope=self.inertia_slope,
+            gravity=self.gravity,
+            gravity_slope=self.gravity_slope,
+            ground=self.ground,
+            critical_rotation=critical_rotation(self.gravity, end_rotation, bends),
+            end_rotation=end_rotation,
+            restitution=restitution,
+            ties=self.ties,
+            untied_gravity=self.untied.gravity,
+        )
+
+
+def _side_tie(attached: Attached, divisor: float) -> SideTie:
+    tie, path = attached.force, attached.path
+    assert isinstance(tie, Tie)
+    scaled = replace(
+        tie,
+        stiffness=tie.stiffness / divisor,
+        pretension=tie.pretension / divisor,
+        strength=tie.strength / divisor,
+    )
+    return SideTie(
+        scaled, lambda phi: path(phi).moved.real, lambda phi: path(phi).velocity.real + 0.0 * np.asarray(phi)
+    )
+
+
+def critical_rotation(gravity: Function, end_rotation: float, bends: Sequence[float] = ()) -> float:
+    """Return where G first vanishes on (0, end_rotation), or falls below zero at one of its `bends`, rad.
 
     Raises StructureError when G does not restore at rest, or does not vanish.
     """
     from scipy.optimize import brentq  # slow to import, and needed by loaded structures only
 
     places = np.linspace(0.0, end_rotation, 513)
+    if bends:
+        places = np.unique(np.concatenate([places, bends, np.nextafter(bends, np.inf)]))
     falls = np.flatnonzero(gravity(places) <= 0)
     if not falls.size:
         raise StructureError(
@@ -180,4 +187,7 @@ def critical_rotation(gravity: Function, end_rotation: float) -> float:
     if falls[0] == 0:
         raise StructureError("the structure does not stand: what acts on it at rest turns it over.")
     before, after = places[falls[0] - 1], places[falls[0]]
-    return float(brentq(lambda phi: float(gravity(np.asarray(phi))), before, after, xtol=1e-16, rtol=1e-15))
+    found = float(brentq(lambda phi: float(gravity(np.asarray(phi))), before, after, xtol=1e-16, rtol=1e-15))
+    while bends and found < after and gravity(np.asarray(found)) > 0:
+        found = float(np.nextafter(found, np.inf))  # where a tie breaks, the far side of the fall
+    return found

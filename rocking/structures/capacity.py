@@ -47,6 +47,7 @@ class CapacityCurve:
 def capacity_curve(structure: "Structure", side: int = 1, count: int = 41) -> CapacityCurve:
     """Return the curve of the positive (1) or negative (−1) side of `structure` at `count` equal steps of rotation.
 
+    Where ties yield or break on the way there is a point more, and just beyond it another.
     Raises StructureError for a side to which it does not rock, or fewer than two points.
     """
     mechanism = structure.mechanism()
@@ -58,6 +59,9 @@ def capacity_curve(structure: "Structure", side: int = 1, count: int = 41) -> Ca
         raise StructureError(f"count is {count!r}, but must be 2 or more.")
     of = mechanism.sides[0 if side > 0 else -1]
     rotation = np.linspace(0.0, of.critical_rotation, count)
+    if of.remembers:
+        bends = np.array([bend for bend in of.bends if bend < of.critical_rotation])
+        rotation = np.unique(np.concatenate([rotation, bends, np.nextafter(bends, np.inf)]))
     control_point, displacement, control_speed = _control(structure, side * rotation)
     across, masses = _virtual_displacements(structure)
     first, second = masses @ across, masses @ across**2

@@ -21,7 +21,7 @@ class MotionState(NamedTuple):
     """A structure at k instants, each seen from the side to which it rocks: (k,) each.
 
     sign: the side. rotation ≥ 0 [rad], velocity [rad/s], acceleration [rad/s²] and ground ü_g [m/s²] are times the
-    sign; vertical is ü_v [m/s²].
+    sign; vertical is ü_v [m/s²]. largest: the largest rotation on that side so far [rad], which ties remember.
     """
 
     sign: np.ndarray
@@ -30,6 +30,7 @@ class MotionState(NamedTuple):
     acceleration: np.ndarray
     ground: np.ndarray
     vertical: np.ndarray
+    largest: np.ndarray
 
     @property
     def pull(self) -> np.ndarray:

@@ -8,6 +8,7 @@ No time stepping anywhere.
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -67,9 +68,11 @@ def uplift_ratio(side: Side) -> float:
 def natural_period(side: Side, amplitude: float) -> float:
     """Return the period [s] of free rocking without loss from a rotation `amplitude` [rad].
 
-    Four times the time from φ₀ to 0, as if both sides were alike.
+    Four times the time from φ₀ to 0, as if both sides were alike; nan where a tie has yielded or broken by φ₀.
     """
     _check_amplitude(amplitude / side.critical_rotation)
+    if side.remembers and side.bends and amplitude > side.bends[0]:
+        return np.nan
 
     def rate(u: float) -> float:
         fallen = amplitude * u**2
@@ -98,17 +101,24 @@ def overturning_time(side: Side, acceleration_ratio: float) -> float:
     push = acceleration_ratio * side.uplift_multiplier
     critical = side.critical_rotation
 
+    bends = [bend for bend in side.bends if 0 < bend < critical] if side.remembers else []
+
     def work(u: float) -> float:
-        """Done by the push less taken by gravity, per g and per rotation reached."""
-        reached = critical * u**2 * _NODES
-        return float(_WEIGHTS @ (push * side.ground(reached) - side.gravity(reached)))
+        """Done by the push less taken by gravity and ties, per g and per rotation reached."""
+        end, done = critical * u**2, 0.0
+        ends = [0.0, *(bend for bend in bends if bend < end), end]
+        for before, after in pairwise(ends):
+            reached = before + (after - before) * _NODES
+            balance = float(_WEIGHTS @ (push * side.ground(reached) - side.gravity(reached)))
+            done += balance * ((after - before) / end if len(ends) > 2 else 1.0)
+        return done
 
     def rate(u: float) -> float:
         return 2 * math.sqrt(critical * side.at("inertia", critical * u**2) / (2 * GRAVITY * work(u)))
 
     if _least(work) <= 0:
         return np.inf
-    return _integral(rate)
+    return _integral(rate, [math.sqrt(bend / critical) for bend in bends])
 
 
 def block_overturning_time(side: Side, acceleration_ratio: float, scale: Scale = "linearised") -> float:
@@ -130,10 +140,10 @@ def _least(work: Callable[[float], float]) -> float:
     return min(values[near], float(minimize_scalar(work, bounds=between, method="bounded").fun))
 
 
-def _integral(rate: Callable[[float], float]) -> float:
+def _integral(rate: Callable[[float], float], bends: Sequence[float] = ()) -> float:
     from scipy.integrate import quad  # slow to import, and needed by this measure only
 
-    return float(quad(rate, 0.0, 1.0, epsabs=0.0, epsrel=_TOLERANCE, limit=200)[0])
+    return float(quad(rate, 0.0, 1.0, epsabs=0.0, epsrel=_TOLERANCE, limit=200, points=bends or None)[0])
 
 
 def _check_amplitude(ratio: float) -> None:

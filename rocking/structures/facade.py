@@ -11,16 +11,21 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from rocking.structures.attachments import Thrust, Tie, Weight
+from rocking.structures.attachments import Thrust, Weight
 from rocking.structures.bars import Bodies
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Mark, Path, rectangle, span, turned
 from rocking.structures.facade_checks import checked_facade
 from rocking.structures.fields import ONE_SIDED, Form, flag_field, number_field, restitution_field
-from rocking.structures.load_fields import ECCENTRICITY, TOP_SLAB, UNIT_WEIGHT, overstressed, tie_fields
+from rocking.structures.load_fields import (
+    ECCENTRICITY,
+    TOP_SLAB,
+    UNIT_WEIGHT,
+)
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
 from rocking.structures.structure import Structure
+from rocking.structures.tie_fields import tie_events, tie_fields, tie_of, tie_text
 from rocking.structures.turning_body import Held, TurningBody
 
 Kind = Literal["load", "thrust", "tie"]
@@ -36,10 +41,10 @@ class Facade(Structure):
     from the middle of the wall they rest on, inwards positive, m. loads_held: the rest of the building holds their
     mass, so that only their weight acts. top_slab: the uppermost load rests on a "hinged" bearing, or is a slab that
     stays "flat" and so rests on the corner that rises.
-    tie_heights: of elastic ties above the ground, m; tie_stiffness: of each, N/m per m; tie_pretension and
-    tie_strength: N/m. A tie pulls inwards only; one that is tightened needs a façade that cannot rock inwards. thrust:
-    of a vault or a roof outwards, N/m, at thrust_height above the ground, m; None is the top. crack_storey: 1 is the
-    ground floor.
+    tie_heights: of ties above the ground, m; tie_stiffness: of each, N/m per m; tie_pretension, N/m; tie_strength,
+    N/m, None for elastic ties, and tie_plastic_elongation, m, by which they yield before they break. A tie pulls
+    inwards only; one that is tightened needs a façade that cannot rock inwards. thrust: of a vault or a roof outwards,
+    N/m, at thrust_height above the ground, m; None is the top. crack_storey: 1 is the ground floor.
     restitution: η in [0, 1] or "momentum" (the default), for both sides; inward_restitution: of the inward side
     instead. one_sided: it leans on cross walls and rocks outwards only; restitution must then be a number.
     Raises StructureError when it cannot stand.
@@ -144,6 +149,7 @@ class Facade(Structure):
     tie_stiffness: float = 0.0
     tie_pretension: float = 0.0
     tie_strength: float | None = None
+    tie_plastic_elongation: float = 0.0
     thrust: float = 0.0
     thrust_height: float | None = None
     crack_storey: int = 1
@@ -205,7 +211,7 @@ class Facade(Structure):
         if self.thrust and self._thrust_point.imag > self.crack_height:
             yield Held(seen(self._thrust_point), Thrust(-self.thrust if mirrored else self.thrust))
         for height in () if mirrored else self._tied:
-            yield Held(seen(1j * height), Tie(self.tie_stiffness, self.tie_pretension))
+            yield Held(seen(1j * height), tie_of(self))
 
     def _bearings(self, mirrored: bool) -> Iterable[tuple[complex, float]]:
         """The points of the loads above the crack, and the loads."""
@@ -228,12 +234,11 @@ class Facade(Structure):
         return tuple(height for height in self.tie_heights if height > self.crack_height)
 
     def _build(self) -> Mechanism:
-        elastic = bool(self._tied and (self.tie_stiffness or self.tie_pretension))
         outward = self.outward.side(self._restitution(self.outward, self.inward))
         if self.one_sided:
-            return Mechanism(outward, one_sided=True, elastic=elastic)
+            return Mechanism(outward, one_sided=True)
         inward = self.inward.side(self._restitution(self.inward, self.outward, self.inward_restitution))
-        return Mechanism(outward, inward, elastic=elastic)
+        return Mechanism(outward, inward)
 
     def _restitution(self, body: TurningBody, other: TurningBody, own: float | None = None) -> float:
         """η of the impact that ends turning about the toe of `body` and starts it about that of `other`."""
@@ -256,16 +261,12 @@ class Facade(Structure):
             np.where(there, out.tangential, back.tangential),
         )
 
-    def tie_forces(self, rotation: float) -> dict[float, float]:
-        """Return the force [N/m] of each tie above the crack, by height, at a rotation [rad]; slack inwards."""
-        stretch = np.sin(max(rotation, 0.0))
-        return {
-            z: self.tie_pretension + self.tie_stiffness * (z - self.crack_height) * float(stretch)
-            for z in self._tied
-        }
+    def tie_stretches(self, rotation: float) -> dict[float, float]:
+        """Return by how much each tie above the crack is stretched [m], by height, at a signed `rotation` [rad]."""
+        return {z: (z - self.crack_height) * float(np.sin(max(rotation, 0.0))) for z in self._tied}
 
-    def overstressed(self, rotation: float) -> str:
-        return overstressed(self.tie_forces(rotation), self.tie_strength)
+    def tie_events(self, rotation: float) -> str:
+        return tie_events(self, self.tie_stretches(rotation))
 
     def candidate_positions(self, count: int) -> np.ndarray:
         """The foot of every storey."""
@@ -307,7 +308,7 @@ class Facade(Structure):
                 1j * height,
                 "tie",
                 (-max(self.thicknesses) - 2 * size, 0.0),
-                f"{self.tie_stiffness / 1e3:.6g} kN/m²",
+                tie_text(self),
             )
         return tuple(drawn)
 

@@ -7,13 +7,13 @@ from rocking.quantities import finite, positive, within
 from rocking.structures.load_fields import (
     check_slab,
     checked_eccentricity,
-    checked_ties,
     inside,
     lengths,
     not_negative,
     whole,
 )
 from rocking.structures.restitution import check_restitution
+from rocking.structures.tie_fields import checked_ties
 
 if TYPE_CHECKING:
     from rocking.structures.facade import Facade
@@ -44,14 +44,7 @@ def checked_facade(facade: "Facade") -> dict[str, object]:
         "eccentricity": checked_eccentricity(facade.eccentricity, bearing),
         "thrust": finite(StructureError, "thrust", facade.thrust, "N/m"),
         "crack_storey": whole("crack_storey", facade.crack_storey, 1, len(heights)),
-        **checked_ties(
-            facade.tie_heights,
-            facade.tie_stiffness,
-            facade.tie_pretension,
-            facade.tie_strength,
-            sum(heights),
-            facade.one_sided,
-        ),
+        **checked_ties(facade, sum(heights)),
     }
     if facade.thrust_height is not None:
         checked["thrust_height"] = inside("thrust_height", facade.thrust_height, sum(heights))

@@ -1,8 +1,8 @@
-"""Loads and ties as a file describes them and as they must be: shared by the structures that carry them."""
+"""Loads as a file describes them and as they must be: shared by the structures that carry them."""
 
 from rocking.errors import StructureError
-from rocking.quantities import finite, length, positive
-from rocking.structures.fields import Field, choice_field, number_field
+from rocking.quantities import finite, length
+from rocking.structures.fields import choice_field, number_field
 
 UNIT_WEIGHT = number_field(
     "unit_weight_kN_m3",
@@ -30,90 +30,6 @@ TOP_SLAB = choice_field(
     ("hinged", "flat"),
     "{value} top slab",
 )
-
-
-def tie_fields(height: float, stiffness: float) -> tuple[Field, ...]:
-    """Return the fields of ties, with examples."""
-    return (
-        number_field(
-            "tie_heights_m",
-            "tie_heights",
-            "Heights of the ties above the ground",
-            "m",
-            [height],
-            (0.2, 60),
-            "z",
-        ),
-        number_field(
-            "tie_stiffness_kN_m2",
-            "tie_stiffness",
-            "Stiffness of each tie per metre of wall, kN/m per m",
-            "kN/m²",
-            stiffness,
-            (1, 1e5),
-            "k",
-        ),
-        number_field(
-            "tie_pretension_kN_m",
-            "tie_pretension",
-            "Force of each tie at rest; needs one_sided",
-            "kN/m",
-            0.0,
-            (0, 200),
-            "T",
-        ),
-        number_field(
-            "tie_strength_kN_m",
-            "tie_strength",
-            "Force that each tie bears; a motion that asks for more is reported, and the tie stays elastic in it",
-            "kN/m",
-            40.0,
-            (1, 500),
-            bounds={"exclusiveMinimum": 0},
-        ),
-    )
-
-
-def checked_ties(
-    heights: tuple[float, ...],
-    stiffness: float,
-    pretension: float,
-    strength: float | None,
-    top: float,
-    one_sided: bool,
-) -> dict[str, object]:
-    """Return the fields of ties as they are kept. top: of the wall, m."""
-    checked: dict[str, object] = {
-        "tie_heights": tuple(inside("tie_heights", z, top) for z in heights),
-        "tie_stiffness": not_negative("tie_stiffness", stiffness, "N/m²"),
-        "tie_pretension": not_negative("tie_pretension", pretension, "N/m"),
-    }
-    if strength is not None:
-        checked["tie_strength"] = positive(StructureError, "tie_strength", strength, "N/m")
-        if strength < pretension:
-            raise StructureError(
-                f"tie_strength is {strength!r} N/m, but must be at least the pretension of {pretension!r} N/m."
-            )
-    if (stiffness or pretension) and not heights:
-        raise StructureError("tie_heights is empty, but must say where the ties are; give it.")
-    if heights and not (stiffness or pretension):
-        raise StructureError("tie_stiffness is 0 N/m², but must be greater than 0 for ties to hold; give it.")
-    if pretension > 0 and not one_sided:
-        raise StructureError(
-            f"tie_pretension is {pretension!r} N/m, but must be 0 unless the wall is one_sided: moving inwards, a "
-            "tightened tie goes slack."
-        )
-    return checked
-
-
-def overstressed(forces: dict[float, float], strength: float | None) -> str:
-    """Return the sentence on the tie that is asked for most beyond its strength, or nothing. forces: N/m by height."""
-    if strength is None or not forces:
-        return ""
-    height, force = max(forces.items(), key=lambda tie: tie[1])
-    if force <= strength:
-        return ""
-    return f"the tie at {height:.6g} m would need {force / 1e3:.4g} kN/m, but bears {strength / 1e3:.6g} kN/m"
 
 
 def checked_eccentricity(value: float, thickness: float) -> float:

@@ -16,10 +16,7 @@ from rocking.quantities import GRAVITY, positive
 from rocking.structures.attachments import (
     Attached,
     LoadedForm,
-    PointMotion,
-    Tie,
     Weight,
-    critical_rotation,
 )
 from rocking.structures.bars import Bodies, carried
 from rocking.structures.contacts import Contacts, MotionState
@@ -38,14 +35,13 @@ from rocking.structures.load_fields import (
     UNIT_WEIGHT,
     check_slab,
     checked_eccentricity,
-    checked_ties,
     not_negative,
-    overstressed,
-    tie_fields,
 )
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
 from rocking.structures.structure import HIGHEST_SHARE, Structure
+from rocking.structures.tie_fields import checked_ties, tie_events, tie_fields, tie_of, tie_text
+from rocking.structures.ties import PointMotion, Tie
 from rocking.structures.wall import Applied, Wall
 from rocking.structures.wall_linkage import WallLinkage
 
@@ -70,8 +66,9 @@ class LoadedWall(Structure):
     lower_height, upper_height, thickness: m. unit_weight: of the masonry, N/m³. top_load: of floor or walls above,
     N/m, at `eccentricity` inwards from the middle, m, on a "hinged" bearing, or by a slab that stays "flat" and rests
     on the edge in contact. load_held: only its weight acts; otherwise its mass moves up and down with the top.
-    tie_heights: of elastic ties above the base, m; tie_stiffness: of each, N/m per m; tie_pretension: N/m, for a
-    one-sided wall; tie_strength: N/m. one_sided: it leans on cross walls and bends outwards only.
+    tie_heights: of ties above the base, m; tie_stiffness: of each, N/m per m; tie_pretension: N/m, for a one-sided
+    wall; tie_strength, N/m, None for elastic ties, and tie_plastic_elongation, m, by which they yield before breaking.
+    one_sided: it leans on cross walls and bends outwards only.
     restitution: η in [0, 1] or "momentum" (the default). Raises StructureError when it cannot stand.
     """
 
@@ -122,6 +119,7 @@ class LoadedWall(Structure):
     tie_stiffness: float = 0.0
     tie_pretension: float = 0.0
     tie_strength: float | None = None
+    tie_plastic_elongation: float = 0.0
     restitution: Restitution = None
     one_sided: bool = False
 
@@ -133,14 +131,7 @@ class LoadedWall(Structure):
             "unit_weight": positive(StructureError, "unit_weight", self.unit_weight, "N/m³"),
             "top_load": not_negative("top_load", self.top_load, "N/m"),
             "eccentricity": checked_eccentricity(self.eccentricity, self.thickness),
-            **checked_ties(
-                self.tie_heights,
-                self.tie_stiffness,
-                self.tie_pretension,
-                self.tie_strength,
-                self.height,
-                self.one_sided,
-            ),
+            **checked_ties(self, self.height),
         }
         check_slab(self.top_slab)
         for name, value in checked.items():
@@ -198,7 +189,7 @@ class LoadedWall(Structure):
             found.append(held)
         if mirrored or not (self.tie_stiffness or self.tie_pretension):
             return tuple(found)
-        tie = Tie(self.tie_stiffness / unit, self.tie_pretension / unit)
+        tie = tie_of(self, unit)
         for height in self.tie_heights:
             block = 0 if height <= self.lower_height else 1
             found.append(Attached(OnBlock(linkage, block, complex(self.thickness / 2, height)), tie))
@@ -216,27 +207,18 @@ class LoadedWall(Structure):
         return LoadedForm(bare, self.attached(mirrored), 1.0)
 
     def _side(self, mirrored: bool) -> Side:
-        form, end = self._form(mirrored), self.wall.linkage.end_rotation
         balances = {"momentum": lambda: self._momentum_balance(mirrored)}
-        return Side(
-            inertia=form.inertia,
-            inertia_slope=form.inertia_slope,
-            gravity=form.gravity,
-            gravity_slope=form.gravity_slope,
-            ground=form.ground,
-            critical_rotation=critical_rotation(form.gravity, end),
-            end_rotation=end,
-            restitution=resolve_restitution(self.restitution, "momentum", balances),
-        )
+        restitution = resolve_restitution(self.restitution, "momentum", balances)
+        return self._form(mirrored).side(self.wall.linkage.end_rotation, restitution)
 
     def _build(self) -> Mechanism:
         tied = bool(self.tie_heights) and bool(self.tie_stiffness or self.tie_pretension)
         outward = self._side(mirrored=False)
         if self.one_sided:
-            return Mechanism(outward, one_sided=True, elastic=tied)
+            return Mechanism(outward, one_sided=True)
         if not tied and (self.eccentricity == 0 or self.top_slab == "flat" or not self.top_load):
             return Mechanism(outward)
-        return Mechanism(outward, self._side(mirrored=True), elastic=tied)
+        return Mechanism(outward, self._side(mirrored=True))
 
     def _momentum_balance(self, mirrored: bool) -> float:
         """That of the wall with the load's mass, which moves up and down only."""
@@ -286,7 +268,8 @@ class LoadedWall(Structure):
             assert isinstance(each.path, OnBlock)
             point = each.path(state.rotation)
             if isinstance(each.force, Tie):
-                force = -each.force.tension(point) * GRAVITY + 0j
+                tension = each.force.tension(point.moved.real, each.path(state.largest).moved.real)
+                force = -tension * GRAVITY + 0j
             elif isinstance(each.force, Weight):
                 force = -1j * each.force.weight * state.pull.imag
             else:
@@ -294,17 +277,16 @@ class LoadedWall(Structure):
                 force = -1j * each.mass * (rise + state.pull.imag)
             yield each.path.block, each.path.start + point.moved, force * factor
 
-    def tie_forces(self, rotation: float) -> dict[float, float]:
-        """Return the force [N/m] of each tie, by height, at a rotation [rad]; inwards they hang slack."""
-        forces = {}
-        for each in self.attached() if rotation >= 0 else ():
-            if isinstance(each.force, Tie) and isinstance(each.path, OnBlock):
-                force = each.force.tension(each.path(np.asarray(rotation)))
-                forces[each.path.start.imag] = float(force) * self.weight * self.wall.linkage.lower_diagonal
-        return forces
+    def tie_stretches(self, rotation: float) -> dict[float, float]:
+        """Return by how much each tie is stretched [m], by height, at a signed `rotation` [rad]."""
+        return {
+            each.path.start.imag: float(each.path(np.asarray(max(rotation, 0.0))).moved.real)
+            for each in self.attached()
+            if isinstance(each.force, Tie) and isinstance(each.path, OnBlock)
+        }
 
-    def overstressed(self, rotation: float) -> str:
-        return overstressed(self.tie_forces(rotation), self.tie_strength)
+    def tie_events(self, rotation: float) -> str:
+        return tie_events(self, self.tie_stretches(rotation))
 
     def candidate_positions(self, count: int) -> np.ndarray:
         """Hinge heights that stay a share of the height away from base and top."""
@@ -347,6 +329,5 @@ class LoadedWall(Structure):
         for height in self.tie_heights if rotation >= 0 else ():
             block = 0 if height <= self.lower_height else 1
             tail = complex(-self.thickness - 3 * size, 0.0)
-            text = f"{self.tie_stiffness / 1e3:.6g} kN/m²"
-            drawn.append(Mark("tie", text, line(block, complex(self.thickness / 2, height), tail)))
+            drawn.append(Mark("tie", tie_text(self), line(block, complex(self.thickness / 2, height), tail)))
         return tuple(drawn)

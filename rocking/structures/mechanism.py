@@ -19,6 +19,7 @@ from rocking.quantities import GRAVITY, positive, shown, within
 from rocking.structures.arc import Arc, Function, RotationMap, arc_of, rotation_map
 from rocking.structures.equivalent_block import BlockDefects
 from rocking.structures.equivalent_block import EquivalentBlock as EquivalentBlock
+from rocking.structures.ties import SideTie
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,7 +38,9 @@ _DEFECT_SAMPLES = 401
 class Side:
     """One direction of rocking: I [m], I' [m/rad], G [-], G' [1/rad], B [-] as functions of φ on [0, end_rotation].
 
-    All five may carry one common factor (a mass, say), which cancels.
+    All five may carry one common factor (a mass, say), which cancels. G is what restores on the way out from rest.
+    ties: those that are part of G; untied_gravity: G without them, needed where there are ties. The weights in it grow
+    and fall with g + ü_v, the ties do not, and they remember the largest rotation.
     critical_rotation: φ_cr, where G vanishes, rad. end_rotation: where the geometry of the mechanism ends, rad,
     > φ_cr. restitution: η of the impact that ends rocking on this side, in [0, 1].
     Raises StructureError when G(0) ≤ 0, B ≤ 0 or I ≤ 0 where it matters, or a rotation is out of order.
@@ -51,8 +54,14 @@ class Side:
     critical_rotation: float
     end_rotation: float
     restitution: float
+    ties: tuple[SideTie, ...] = ()
+    untied_gravity: Function | None = None
 
     def __post_init__(self) -> None:
+        if self.ties and self.untied_gravity is None:
+            raise StructureError(
+                "untied_gravity is missing, but must be given with ties; it is G without them."
+            )
         critical = positive(StructureError, "critical_rotation", self.critical_rotation, "rad")
         if not self.end_rotation > critical:
             raise StructureError(
@@ -89,6 +98,24 @@ class Side:
     def at(self, name: str, rotation: float) -> float:
         """Return one of the five functions, by name, at one rotation [rad], as a float."""
         return float(getattr(self, name)(np.float64(rotation)))
+
+    @property
+    def remembers(self) -> bool:
+        """Whether a tie can yield or break, so that G depends on the largest rotation so far."""
+        return any(tie.tie.strength < np.inf for tie in self.ties)
+
+    @cached_property
+    def bends(self) -> tuple[float, ...]:
+        """Rotations up to the end at which a tie yields or breaks on the way out, in order, rad."""
+        found = {bend for tie in self.ties for bend in tie.bends(self.end_rotation)}
+        return tuple(sorted(found))
+
+    def restoring(self, rotation: np.ndarray, largest: np.ndarray, weight: np.ndarray | float) -> np.ndarray:
+        """Return G (g + ü_v) of weights and G g of ties, at `rotation` after `largest` [rad]; weight: g + ü_v."""
+        if not self.ties or self.untied_gravity is None:
+            return self.gravity(rotation) * weight
+        tied = sum((tie.moment(rotation, largest) for tie in self.ties), np.zeros(np.shape(rotation)))
+        return self.untied_gravity(rotation) * weight + tied * GRAVITY
 
     @cached_property
     def uplift_multiplier(self) -> float:
@@ -147,14 +174,12 @@ class Mechanism:
     negative: the other side; None when it mirrors the positive one.
     one_sided: the structure leans on something (a façade against side walls) and rocks to the positive side only;
     an impact then throws it back to the same side.
-    elastic: G holds forces of springs, which do not grow and fall with g + ü_v.
     restitution_range: η is known to plus or minus this much on every side; None: nothing is said of it.
     """
 
     positive: Side
     negative: Side | None = None
     one_sided: bool = False
-    elastic: bool = False
     restitution_range: float | None = None
 
     def __post_init__(self) -> None:
@@ -167,6 +192,16 @@ class Mechanism:
         if self.negative is not None:
             return f"Mechanism(positive side: {self.positive.described}; negative side: {self.negative.described})"
         return f"Mechanism({self.positive.described}{', one-sided' if self.one_sided else ''})"
+
+    @property
+    def tied(self) -> bool:
+        """Whether ties hold it."""
+        return any(side.ties for side in self.sides)
+
+    @property
+    def remembers(self) -> bool:
+        """Whether a tie can yield or break, so that what restores depends on the largest rotation so far."""
+        return any(side.remembers for side in self.sides)
 
     @property
     def symmetric(self) -> bool:
@@ -259,6 +294,8 @@ def _exact_at_rest(side: Side) -> EquivalentBlock:
 def _defects(side: Side) -> BlockDefects:
     arc, _ = side.arc
     rotation = np.linspace(0.0, side.critical_rotation, _DEFECT_SAMPLES)
+    if side.remembers:
+        rotation = np.unique([*rotation, *(bend for bend in side.bends if bend < side.critical_rotation)])
     x = arc.at(rotation) / arc.at(side.critical_rotation)
     stretch = arc.stretch(rotation)
     restoring = side.gravity(rotation) / side.at("gravity", 0.0) / stretch - (1 - x)

@@ -115,12 +115,12 @@ class Structure(ABC):
         """
         return np.empty((0, 2))
 
-    def overstressed(self, rotation: float) -> str:
-        """Return what would be beyond its strength at a signed `rotation` [rad], in words; "" where nothing is."""
+    def tie_events(self, rotation: float) -> str:
+        """Return which ties have yielded or broken once a signed `rotation` [rad] was reached, in words; "" if none."""
         return ""
 
     def held_work(self, rotation: float | np.ndarray) -> np.ndarray:
-        """Return the work done since rest, at `rotation` ≥ 0 on the positive side, against what is no moving mass.
+        """Return the work done on the way out to `rotation` ≥ 0 on the positive side against what is no moving mass.
 
         Over g, in the factor of mass of `bodies`: constant loads, thrusts and ties.
         """

@@ -10,15 +10,13 @@ from rocking.quantities import GRAVITY
 from rocking.structures.attachments import (
     Attached,
     LoadedForm,
-    PointMotion,
     Thrust,
-    Tie,
     Weight,
-    critical_rotation,
 )
 from rocking.structures.bars import Bodies
 from rocking.structures.contacts import Contacts, MotionState, corner
 from rocking.structures.mechanism import Side
+from rocking.structures.ties import PointMotion, Tie
 
 
 class Held(NamedTuple):
@@ -84,17 +82,7 @@ class TurningBody:
 
     def side(self, restitution: float) -> Side:
         """Return the side of rocking about the toe, until the body lies."""
-        form, end = self.form, np.pi / 2
-        return Side(
-            inertia=form.inertia,
-            inertia_slope=form.inertia_slope,
-            gravity=form.gravity,
-            gravity_slope=form.gravity_slope,
-            ground=form.ground,
-            critical_rotation=critical_rotation(form.gravity, end),
-            end_rotation=end,
-            restitution=restitution,
-        )
+        return self.form.side(np.pi / 2, restitution)
 
     def bodies(self, rotation: float | np.ndarray) -> Bodies:
         """Return all that moves; see Structure.bodies."""
@@ -122,7 +110,9 @@ class TurningBody:
             if isinstance(each.force, Weight):
                 pressed = pressed + each.force.weight / total * state.pull.imag
             elif isinstance(each.force, Tie):
-                pushed = pushed + each.force.tension(Turning(each.point)(state.rotation)) / total * GRAVITY
+                path = Turning(each.point)
+                tension = each.force.tension(path(state.rotation).moved.real, path(state.largest).moved.real)
+                pushed = pushed + tension / total * GRAVITY
             elif isinstance(each.force, Thrust):
                 pushed = pushed - each.force.thrust / total * state.pull.imag
         return Contacts(found.names, found.normal + pressed, found.tangential + pushed)

@@ -50,7 +50,7 @@ class ResponseRow(CaseRow):
     )
     bounces: bool | None = column("Whether a contact would have to pull: the model does not hold")
     contacts_unknown: str = column("Why nothing is known of the contacts; empty where it is")
-    overstressed: str = column("What is beyond its strength at the largest rotation: the model does not hold")
+    ties: str = column("Which ties yield or break on the way to the largest rotation")
     reason: str = column("Why it failed, if it did")
 
 
@@ -134,7 +134,7 @@ def response_rows(identity: Identity, case: Case, friction_coefficient: float) -
             slides=check.slides(friction_coefficient),
             bounces=check.bounces,
             contacts_unknown=check.reason,
-            overstressed=check.overstressed,
+            ties=check.ties,
             reason=response.reason,
         )
 

@@ -86,6 +86,5 @@ def scale_note(rows: Sequence[RecordRow]) -> str:
 
 
 def contact_failure(response: ResponseRow) -> str:
-    """Return how the contacts of a response fail: "slides", "bounces", "breaks a tie", several of them, or nothing."""
-    failures = {"slides": "slides", "bounces": "bounces", "overstressed": "breaks a tie"}
-    return " and ".join(said for name, said in failures.items() if getattr(response, name))
+    """Return how the contacts of a response fail: "slides", "bounces", both, or nothing."""
+    return " and ".join(name for name in ("slides", "bounces") if getattr(response, name))
