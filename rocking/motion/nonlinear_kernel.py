@@ -157,7 +157,7 @@ def _excitation(ground, member, i):
 
 
 @compiled
-def _uplift(sides, held, ground, member, i, tau):
+def _uplift(sides, ground, member, i, tau, held):
     """First instant from (interval i, offset tau) on that lifts: interval, offset, side (0 if none does)."""
     count = ground.horizontal.size - 1
     if i >= count:
@@ -183,7 +183,7 @@ def _uplift(sides, held, ground, member, i, tau):
 
 
 @compiled
-def _uplift_sine(sides, held, amplitude, omega, gravity, tau):
+def _uplift_sine(sides, amplitude, omega, gravity, tau, held):
     """First instant of the sine pulse from offset tau on that lifts: offset, side (0 if none does)."""
     lift = sides.lift
     for half in range(2):
@@ -206,11 +206,11 @@ def _next_uplift(sides, phase, ground, member, i, tau):
     """First instant from (interval i, offset tau) on that lifts, of a record or of a sine."""
     held = _held_at_rest(phase)
     if ground.circular_frequency == 0:
-        return _uplift(sides, held, ground, member, i, tau)
+        return _uplift(sides, ground, member, i, tau, held)
     if i > 0:
         return i, 0.0, 0
     amplitude = member.horizontal * ground.horizontal[0]
-    tau, side = _uplift_sine(sides, held, amplitude, ground.circular_frequency, ground.gravity, tau)
+    tau, side = _uplift_sine(sides, amplitude, ground.circular_frequency, ground.gravity, tau, held)
     return i, tau, side
 
 
@@ -409,7 +409,7 @@ def _longest_step(phase, side, longest):
 
 
 @compiled
-def _series(pieces, ties, phase, k, j, u, v, side, a0, a1, g0, g1, square):
+def _series(pieces, k, j, u, v, side, a0, a1, g0, g1, square, ties, phase):
     """Taylor coefficients (v, x2, ..., x8) of the arc, at the place u of piece j of side k.
 
     Ground acceleration a0 + a1 t (or the sine that starts so, with the squared frequency `square`), gravity g0 + g1 t.
@@ -455,7 +455,7 @@ def _series(pieces, ties, phase, k, j, u, v, side, a0, a1, g0, g1, square):
 
 
 @compiled
-def _short_series(pieces, ties, phase, side, k, j, u, v, s0, s1, g0, g1):
+def _short_series(pieces, k, j, u, v, s0, s1, g0, g1, ties, phase, side):
     """The first coefficients (v, x2, ..., x6) of `_series` for a ground acceleration s0 + s1 t against the side.
 
     Powers are paired (Estrin), so that few operations wait for each other.
@@ -612,8 +612,8 @@ def _glide(sides, phase, ground, member, k, side, i, arc, speed, farthest, faste
         next_weight = ground.gravity + member.vertical * vertical[i + 1]
         j, centre, room = _place(grid, k, arc)
         x = _short_series(
-            pieces, sides.ties, phase, side, k, j, arc - centre, speed,
-            push, (next_push - push) * rate, weight, (next_weight - weight) * rate,
+            pieces, k, j, arc - centre, speed, push, (next_push - push) * rate, weight, (next_weight - weight) * rate,
+            sides.ties, phase, side,
         )  # fmt: skip
         plain, new, pull = _eventless(x, h, share, arc, room, farthest, fastest, tolerance)
         if not plain or not new > 0 or (new > critical and pull > 0) or _beyond(phase, side, new) != 0:
@@ -864,7 +864,7 @@ def rock(sides, ground, member, start, tolerance, settle, best, log):
         a0, a1, g0, g1, square = _drive(ground, member, i, tau)
         j, centre, room = _place(sides.grid, k, arc)
         x = _lifted(
-            _series(sides.pieces, sides.ties, phase, k, j, arc - centre, speed, side, a0, a1, g0, g1, square),
+            _series(sides.pieces, k, j, arc - centre, speed, side, a0, a1, g0, g1, square, sides.ties, phase),
             arc,
             speed,
         )

@@ -175,7 +175,9 @@ def _bare(pieces, grid, ground, time_step, arc, speed, steps):
         i = i + 1 if i + 2 < ground.size else 0
         slope = (ground[i + 1] - ground[i]) / time_step
         j, centre, _ = kernel._place(grid, 0, arc)
-        x = kernel._short_series(pieces, 0, j, arc - centre, speed, ground[i], slope, 9.80665, 0.0)
+        x = kernel._short_series(
+            pieces, 0, j, arc - centre, speed, ground[i], slope, 9.80665, 0.0, None, None, 1
+        )
         x = (x[0], x[1], x[2], x[3], x[4], x[5], 0.0, 0.0)
         new, pull = arc + kernel._displacement(x, time_step), kernel._speed(x, time_step)
         arc, speed = (

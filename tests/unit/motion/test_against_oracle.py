@@ -157,7 +157,7 @@ def test_order_of_one_step(square):
         gravity, push = (sum(c * y[0] ** n for n, c in enumerate(piece[k::2])) for k in (0, 1))
         return [y[1], -gravity * (g0 + g1 * t) - side * push * ground]
 
-    series = kernel._series(piece[None, None], 0, 0, u, v, side, a0, a1, g0, g1, square)
+    series = kernel._series(piece[None, None], 0, 0, u, v, side, a0, a1, g0, g1, square, None, None)
     steps = np.array([0.2, 0.1, 0.05])
     with mpmath.workdps(30):
         exact = mpmath.odefun(slope, 0, [mpmath.mpf(u), mpmath.mpf(v)])

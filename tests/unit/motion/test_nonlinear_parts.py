@@ -41,11 +41,11 @@ def test_the_series_of_a_step_solves_the_equation_of_motion(side: int, square: f
         for n in range(2, 7):
             push.append(-square * push[n - 2] / (n * (n - 1)))
         expected = series(k, j, u, v, side, push, [g0, g1])
-        found = np.array(kernel._series(PIECES, k, j, u, v, side, a0, a1, g0, g1, square))
+        found = np.array(kernel._series(PIECES, k, j, u, v, side, a0, a1, g0, g1, square, None, None))
         scale = 1e-11 * np.maximum.accumulate(np.abs(expected))
         assert (np.abs(found - expected) <= scale).all()
         if square == 0:
-            short = kernel._short_series(PIECES, k, j, u, v, side * a0, side * a1, g0, g1)
+            short = kernel._short_series(PIECES, k, j, u, v, side * a0, side * a1, g0, g1, None, None, side)
             assert (np.abs(np.array(short) - expected[:6]) <= scale[:6]).all()
 
 
@@ -143,7 +143,7 @@ def test_the_first_uplift_is_the_first_crossing(one_sided: bool) -> None:
         motion = ground(rng.normal(size=6) * 2.5, rng.normal(size=6) * 2)
         member = Member(float(rng.choice([-1.0, 0.7, 1.3])), float(rng.choice([0.0, 1.0])), (1.0, 1.0))
         start, offset = int(rng.integers(4)), float(rng.choice([0.0, 0.03]))
-        i, tau, side = kernel._uplift(sides, motion, member, start, offset)
+        i, tau, side = kernel._uplift(sides, motion, member, start, offset, (0.0, 0.0))
         times = np.linspace(start * 0.1 + offset, 0.5, 40_001)
         push = member.horizontal * np.interp(times, np.arange(6) * 0.1, motion.horizontal)
         weight = 10 + member.vertical * np.interp(times, np.arange(6) * 0.1, motion.vertical)
@@ -164,7 +164,7 @@ def test_the_first_uplift_under_a_sine(one_sided: bool) -> None:
     for amplitude, tau in itertools.product(
         (-9.0, -2.6, -2.0, 0.0, 2.0, 2.6, 2.7, 9.0), (0.0, 0.2, 0.7, 1.5, 2.0)
     ):
-        found, side = kernel._uplift_sine(sides, amplitude, omega, 10.0, tau)
+        found, side = kernel._uplift_sine(sides, amplitude, omega, 10.0, tau, (0.0, 0.0))
         times = np.linspace(tau, 2 * math.pi / omega, 40_001)
         push = amplitude * np.sin(omega * times)
         positive, negative = -0.8 * push - 2.0, 1.1 * push - 3.0
