@@ -187,7 +187,13 @@ def critical_rotation(gravity: Function, end_rotation: float, bends: Sequence[fl
     if falls[0] == 0:
         raise StructureError("the structure does not stand: what acts on it at rest turns it over.")
     before, after = places[falls[0] - 1], places[falls[0]]
-    found = float(brentq(lambda phi: float(gravity(np.asarray(phi))), before, after, xtol=1e-16, rtol=1e-15))
-    while bends and found < after and gravity(np.asarray(found)) > 0:
+
+    def restoring(phi: float) -> float:
+        return float(gravity(np.asarray(phi)))
+
+    while bends and restoring(after) > 0:
+        after = np.nextafter(after, np.inf)  # rounded otherwise alone than in a row
+    found = float(brentq(restoring, before, after, xtol=1e-16, rtol=1e-15))
+    while bends and found < after and restoring(found) > 0:
         found = float(np.nextafter(found, np.inf))  # where a tie breaks, the far side of the fall
     return found
