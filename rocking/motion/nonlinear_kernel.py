@@ -793,7 +793,7 @@ def _dies_out(sides, ground, member, i, tau, speed, best):
 
 
 @compiled
-def _lost(sides, phase, ground, member, k, side, i, arc):
+def _lost(sides, ground, member, k, i, arc, phase, side):
     """Whether a side that moves outward beyond φ_cr overturns: past its end, or past what the ground can still do.
 
     The latter is known where no tie is left.
@@ -906,7 +906,7 @@ def rock(sides, ground, member, start, tolerance, settle, best, log):
             farthest, fastest = max(farthest, arc), max(fastest, abs(speed))
             i, tau = (i + 1, 0.0) if h == left else (i, tau + h)
             logged = _write(log, logged, now + h, side * arc, side * speed)
-            if arc > sides.critical[k] and speed > 0 and _lost(sides, phase, ground, member, k, side, i, arc):
+            if arc > sides.critical[k] and speed > 0 and _lost(sides, ground, member, k, i, arc, phase, side):
                 status = OVERTURNS
                 break
             continue
