@@ -179,7 +179,7 @@ def _named(fate: Fate) -> str:
     notes = []
     if fate.verdict == Verdict.UNDECIDED:
         notes.append(f"overturns in {_members(fate)}")
-    if fate.candidate is not None:
+    if fate.candidate is not None and not rests(fate.candidate.integrated_rotation_ratio):
         at = f"{fate.crack} at {printing.number(fate.candidate.position_m)}\u00a0m"
         notes.append(f"as given; with the {at} it overturns" if fate.overturns_elsewhere else f"{at} governs")
     return fate.structure + (f" ({', '.join(notes)})" if notes else "")
@@ -239,7 +239,7 @@ def _printed(ratio: float, found: EnsembleRow | None) -> str:
 
 
 def _height(fate: Fate) -> Cell:
-    if fate.candidate is None:
+    if fate.candidate is None or rests(fate.candidate.integrated_rotation_ratio):
         return NOTHING
     said = _printed(fate.candidate.integrated_rotation_ratio, fate.ensemble)
     return strong(

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from rocking.assessment.method import Method
 from rocking.assessment.rows import ComparisonRow, RecordRow, RecordTables, ResponseRow
-from rocking.assessment.verdict import Agreement
+from rocking.assessment.verdict import Agreement, rests
 from rocking.reports import printing
 from rocking.reports.printing import ratio, short, strong, table_of, words
 
@@ -16,14 +16,14 @@ def verdict_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str,
         tables.comparison,
         ("No.", "auto", "r", lambda row: numbers[row.structure]),
         ("Structure", "1", "l", lambda row: short(row.structure)),
-        ("Closed form, one pulse", "0.68", "r", lambda row: ratio(row.predicted_rotation_ratio)),
-        ("Block, whole record", "0.68", "r", lambda row: ratio(row.block_rotation_ratio)),
+        ("Closed form, one pulse", "0.68", "r", lambda row: _ratio(row.predicted_rotation_ratio)),
+        ("Block, whole record", "0.68", "r", lambda row: _ratio(row.block_rotation_ratio)),
         (
             "Mecha\u00adnism, whole record",
             "0.68",
             "r",
             lambda row: strong(
-                ratio(row.found_rotation_ratio) + (f" ({row.answer_method})" if row.spared else "")
+                _ratio(row.found_rotation_ratio) + (f" ({row.answer_method})" if row.spared else "")
             ),
         ),
         (
@@ -34,6 +34,11 @@ def verdict_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str,
         ),
         ("Structures alike", "2.9", "l", lambda row: words(worth.get(row.case)).replace("φ_cr", "φcr")),
     )
+
+
+def _ratio(value: float) -> str:
+    """A rotation ratio, in words where it is too small to be more than rest."""
+    return "rests" if value > 0 and rests(value) else ratio(value)
 
 
 def doubts(rows: Sequence[ComparisonRow]) -> list[str]:
