@@ -61,7 +61,7 @@ def capacity_curve(structure: "Structure", side: int = 1, count: int = 41) -> Ca
     rotation = np.linspace(0.0, of.critical_rotation, count)
     if of.remembers:
         bends = np.array([bend for bend in of.bends if bend < of.critical_rotation])
-        rotation = np.unique(np.concatenate([rotation, bends, np.nextafter(bends, np.inf)]))
+        rotation = np.unique(np.concatenate([rotation, bends, bends * (1 + 1e-12)]))
     control_point, displacement, control_speed = _control(structure, side * rotation)
     across, masses = _virtual_displacements(structure)
     first, second = masses @ across, masses @ across**2

@@ -314,7 +314,12 @@ class Facade(Structure):
 
     def _dimensions(self) -> dict[str, Path | list[Path]]:
         apart, levels = 0.12 * self.height, self.levels
+        borne = [point for point, _ in self._bearings(mirrored=False)]
+        middles = {levels[n + 1]: -t / 2 for n, t in enumerate(self.thicknesses)}
+        off = [z for z in borne if np.isclose(z.real, middles[z.imag] - self.eccentricity)][-1:]
+        eccentricity = [span([middles[z.imag], z.imag], [z.real, z.imag], [0.0, -0.25 * apart]) for z in off]
         return {
+            **({"eccentricity": eccentricity[0]} if eccentricity and self.eccentricity else {}),
             "storey_heights": [span([0.0, low], [0.0, high], [apart, 0.0]) for low, high in pairwise(levels)],
             "thicknesses": [
                 span([-t, z], [0.0, z])

@@ -20,7 +20,7 @@ from rocking.structures.attachments import (
 )
 from rocking.structures.bars import Bodies, carried
 from rocking.structures.contacts import Contacts, MotionState
-from rocking.structures.drawing import Mark, Path
+from rocking.structures.drawing import Mark, Path, span
 from rocking.structures.fields import (
     ONE_SIDED,
     Form,
@@ -313,7 +313,11 @@ class LoadedWall(Structure):
         return self.wall
 
     def _dimensions(self) -> dict[str, Path]:
-        return self.wall._dimensions()
+        drawn = self.wall._dimensions()
+        if self.eccentricity and self.top_load and self.top_slab == "hinged":
+            bearing = [-self.eccentricity, self.height]
+            drawn["eccentricity"] = span([0.0, self.height], bearing, [0.0, -0.03 * self.height])
+        return drawn
 
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
         size, flip = 0.15 * self.height, np.array([-1.0 if rotation < 0 else 1.0, 1.0])

@@ -10,10 +10,12 @@ import numpy as np
 
 from rocking.assessment.method import Method
 from rocking.assessment.rows import (
+    CapacityRow,
     ComparisonRow,
     RecordTables,
     SpectrumRow,
     StructureRow,
+    capacity_rows,
     spectrum_rows,
     structure_rows,
 )
@@ -111,8 +113,9 @@ def _write_report(record: CatalogueRecord, opened: Opened, study: Study, output:
 
     folder = output / record.id
     write_report(record.id, lambda: opened, RecordTables.read(folder), study, folder)
-    table = output / "summary" / StructureRow.table.file_name
-    write_rows(StructureRow, structure_rows(study.structures), table)
+    summary = output / "summary"
+    write_rows(StructureRow, structure_rows(study.structures), summary / StructureRow.table.file_name)
+    write_rows(CapacityRow, capacity_rows(study.structures), summary / CapacityRow.table.file_name)
 
 
 def _lines(tables: RecordTables) -> Iterator[str]:

@@ -49,6 +49,9 @@ class EnsembleRow(CaseRow):
     processing_share: float = column(_SHARE.format("the processing of the record"))
     vertical_share: float = column(_SHARE.format("the vertical motion"))
     worst_direction: str = column("Direction in which it rotates most on average; empty with one direction")
+    worst_polarity: str = column(
+        "Sign of the motion with which it rotates most on average: as recorded or reversed; empty where it has no part"
+    )
     worst_processing: str = column(
         "Processing under which it rotates most on average; empty with one processing", default=""
     )
@@ -78,6 +81,7 @@ def ensemble_row(identity: Identity, structure: str, found: Ensemble, component:
         amplitude_range=found.settings.amplitude_range,
         restitution_range=found.settings.restitution_range,
         worst_direction=_worst(found, "direction"),
+        worst_polarity={"1.0": "as recorded", "-1.0": "reversed"}.get(_worst(found, "polarity"), ""),
         worst_processing=_worst(found, "processing"),
     )
 

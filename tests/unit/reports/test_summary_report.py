@@ -140,6 +140,7 @@ def ensemble(
         members=64,
         failed_members=0,
         worst_direction="",
+        worst_polarity="",
         record_sha256="",
         settings_sha256="",
     )
