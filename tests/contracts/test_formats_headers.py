@@ -10,7 +10,7 @@ from made_files import MADE, MADE_BINARY, format_of, knet, peer, table
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
-from rocking.records.formats import FORMATS, Options, evt
+from rocking.records.formats import FORMATS, Options, evt, smc
 from rocking.records.formats.header import magnitude
 from rocking.records.read import read_content
 
@@ -152,6 +152,13 @@ def test_unam_columns_are_ten_wide_where_the_header_names_no_width() -> None:
     text = f"{head}{rule}{full}"
     (plain, _), (other, _) = (read_text(t) for t in (text, text.replace(": 2F10.4", ": libre")))
     assert (plain.acceleration == other.acceleration).all()
+
+
+@pytest.mark.parametrize("value", [-1.0, 1e8, 1.7e38])
+def test_a_count_of_smc_is_below_a_hundred_million(value: float) -> None:
+    assert smc._whole(99_999_999.0, "made") == 99_999_999
+    with pytest.raises(RecordError, match="count in the integer header"):
+        smc._whole(value, "made")
 
 
 def test_the_third_of_three_channels_of_a_recorder_is_vertical_by_its_place() -> None:
