@@ -174,7 +174,7 @@ def test_settings_out_of_range(settings: dict, field: str) -> None:
 
 @pytest.mark.parametrize(("settings", "message"), [
     ({"pre_event": 40.0}, "pre_event"), ({"pre_event": 50.0}, "pre_event"),
-    ({"low_pass": 60.0}, "Nyquist"), ({"time_step": 1e-9}, "samples"),
+    ({"low_pass": 60.0}, "Nyquist frequency 50 Hz"), ({"time_step": 1e-9}, "samples"),
     ({"time_step": 100.0}, "samples"),
 ])  # fmt: skip
 def test_settings_that_do_not_fit_the_record(settings: dict, message: str) -> None:
