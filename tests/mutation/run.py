@@ -167,12 +167,13 @@ def ask(folder: Path, group: str) -> int:
         for compiled in (folder / "numba").glob(f"*/{module.stem}.*"):
             compiled.unlink()
     with socket.socket(socket.AF_UNIX) as connection:
-        while True:  # the libraries are still being imported
-            try:
-                connection.connect(str(folder / f"{group}.socket"))
-                break
-            except OSError:
-                time.sleep(0.5)
+        until = time.monotonic() + PATIENCE
+        while connection.connect_ex(
+            str(folder / f"{group}.socket")
+        ):  # the libraries are still being imported
+            if time.monotonic() > until:
+                raise SystemExit("the process that runs the tests did not start; see what it said")
+            time.sleep(0.5)
         told = connection.makefile("rb").read().decode(errors="replace")
     print(told[-5000:])
     return int(told.rpartition("\n")[2] != "0")
