@@ -24,7 +24,16 @@ _RESERVED = {
     "aux",
     "nul",
     *(f"{port}{i}" for port in ("com", "lpt") for i in range(10)),
-    *("summary", "datapackage", "paper", "calibration", "documentation", "fragility", "validation"),
+    *(
+        "summary",
+        "datapackage",
+        "paper",
+        "calibration",
+        "documentation",
+        "fragility",
+        "validation",
+        "comparison",
+    ),
 }
 _HASH = re.compile(r"[0-9a-f]{64}")
 _REPOSITORY = re.compile(r"[\w.-]+/[\w.-]+", re.ASCII)

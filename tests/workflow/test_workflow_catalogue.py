@@ -10,6 +10,8 @@ import pytest
 import yaml
 
 import rocking
+from rocking.errors import CatalogueError
+from rocking.records.catalogue_record import CatalogueRecord
 from rocking.structures.registry import TYPES
 
 ROOT = Path(rocking.__file__).parents[1]
@@ -58,6 +60,15 @@ def test_every_setting_and_type_that_the_configuration_page_names_exists():
     assert set(kinds.split(", ")) <= set(TYPES)
     for entry in yaml.safe_load(re.findall(r"```yaml\n(.*?)```", text, re.S)[0]):
         rocking.structure_from_config(entry)
+
+
+def test_no_record_can_take_the_name_of_a_folder_of_the_results():
+    rules = [path.read_text(encoding="utf-8") for path in (ROOT / "workflow" / "rules").glob("*.smk")]
+    folders = {"summary", *re.findall(r"\{RESULTS\}/(\w+)", "".join(rules))}
+    assert {"calibration", "comparison", "fragility", "validation"} <= folders
+    for folder in folders:
+        with pytest.raises(CatalogueError, match="reserved"):
+            CatalogueRecord(folder, "record.txt", "0" * 64, unit="g")
 
 
 def test_the_citation_is_of_this_version():
