@@ -56,6 +56,12 @@ def test_pulse_end_measure_and_energy_keep_eleven_digits(points: list[tuple[floa
     assert beside <= len(points) // 500
 
 
+def test_where_the_growing_term_vanishes_nothing_jumps() -> None:
+    """a = 5/4 has √(a² − 1) = 3/4 exactly, at which ω takes the growing exponential away."""
+    for function in (pulse_end_measure, pulse_end_energy):
+        assert function(0.75, 1.25) == pytest.approx(function(0.75 * (1 + 1e-13), 1.25), rel=1e-8)
+
+
 @pytest.mark.parametrize(("omega", "a"), [(1e-3, 1 + 1e-12), (8e-3, 2.0), (1e-3, 1e6)])
 def test_beyond_the_range_of_doubles_is_infinite_with_the_right_sign(omega: float, a: float) -> None:
     measure, _, _ = exact(omega, a)
