@@ -132,6 +132,9 @@ def test_first_uplift_is_where_the_acceleration_crosses():
         response = integrate(structure, record)
         assert response.uplift_time == pytest.approx(0.225, rel=1e-12)
         assert response.peak_side == -1  # thrown back against the ground's acceleration
+        told = integrate(structure, record, history=True)
+        (at,) = np.flatnonzero(told.times == told.uplift_time)
+        assert told.rotation[at] == told.angular_velocity[at] == 0
 
 
 def test_peak_side_and_mirror_of_two_different_sides():
