@@ -28,7 +28,8 @@ _ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, _ROCKS, Verdict.STANDS, _RESTS, 
 class Fate:
     """What is known of one structure under one record, all components considered.
 
-    rotation_ratio: of the case as given, the worst component. ensemble: None where none was asked for.
+    rotation_ratio: of the case as given, the worst component. direction: the worst one, and the worse sign of the motion
+    where the sides differ. ensemble: None where none was asked for.
     crack: "crack" of a spire, else "hinge". candidate: its governing height, None without candidates.
     processed: smallest and largest rotation ratio over the processings of the record.
     """
@@ -72,12 +73,13 @@ def fates(tables: RecordTables, structures: Sequence[StructureRow]) -> list[Fate
         done = [row.rotation_ratio for row in tables.processing if row.structure == name]
         done = [ratio for ratio in done if not math.isnan(ratio)]
         ensemble = ensembles.get(name)
-        direction = ensemble.worst_direction if ensemble else ""
+        direction = (ensemble.worst_direction if ensemble else "") or (worst.component if several else "")
+        polarity = ensemble.worst_polarity if ensemble else ""
         found.append(
             Fate(
                 name,
                 worst.found_rotation_ratio,
-                direction or (worst.component if several else ""),
+                ", ".join(filter(None, (direction, polarity))),
                 known[name].geometry if name in known else "",
                 "crack" if name in known and "spire" in known[name].type.lower() else "hinge",
                 ensemble,
@@ -134,7 +136,7 @@ def fate_table(found: Sequence[Fate], numbers: Mapping[str, str]) -> dict[str, o
         ("As given", "0.75", "l", lambda fate: _printed(fate.rotation_ratio, fate.ensemble)),
         ("Worst hinge or crack", "0.9", "l", _height),
         ("Processing of the record", "1", "l", _processed),
-        ("Worst direction", "0.75", "l", lambda fate: words(fate.direction)),
+        ("Worst direction, sign", "0.75", "l", lambda fate: words(fate.direction)),
     ]
     kept = [
         column

@@ -138,6 +138,12 @@ def test_what_stands_only_as_it_is_given_is_said_on_page_one(example):
     assert "another height of hinge or crack: wall 3 m (hinge at " in data["remarks"][0]
 
 
+def test_the_worse_sign_of_the_motion_stands_on_page_one(example):
+    turned = [replace(row, worst_polarity="reversed") for row in example.tables.ensemble]
+    found = fates(replace(example.tables, ensemble=turned), [])
+    assert turned and all(fate.direction.endswith("reversed") for fate in found if fate.ensemble)
+
+
 def test_without_an_ensemble_page_one_says_what_the_single_run_does(example):
     tables = replace(example.tables, ensemble=[])
     data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
