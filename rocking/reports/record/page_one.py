@@ -28,8 +28,8 @@ _ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, _ROCKS, Verdict.STANDS, _RESTS, 
 class Fate:
     """What is known of one structure under one record, all components considered.
 
-    rotation_ratio: of the case as given, the worst component. direction: the worst one, and the worse sign of the motion
-    where the sides differ. ensemble: None where none was asked for.
+    rotation_ratio: of the case as given, the worst component. direction: the worst one, and the worse sign of the
+    motion where the sides differ. ensemble: None where none was asked for.
     crack: "crack" of a spire, else "hinge". candidate: its governing height, None without candidates.
     processed: smallest and largest rotation ratio over the processings of the record.
     """
