@@ -173,9 +173,8 @@ def _searched(
             held[0, i], held[1, i] = held[filled, i], held[filled + 1, i]
         filled = min(HELD_ROWS, end - start)
         _fill_rows(held, 2, filled + 2, start, padded, counts, last_onsets, turning, weights, sums)
-        for i in range(counts.size):
-            held[filled + 2, i] = 0.0
-        for b in range(1, filled + 2 if start + filled == end else filled + 1):
+        # the last row is no maximum yet: it waits for the next, or lies at `last`, or where no cycle fits
+        for b in range(1, filled + 1):
             onset = start + b - 2
             if onset >= first and onset < last:
                 _mark(held, b, share * largest, mask)
@@ -196,7 +195,7 @@ def local_maxima(
     """
     m, start, end = angles.size, max(first - 1, 0), min(last + 1, samples.shape[1])
     scan = _prepared(samples, time_step, angles, start)
-    held, mask = np.zeros((HELD_ROWS + 3, m)), np.zeros(-(-m // WORD) * WORD, np.uint8)
+    held, mask = np.zeros((HELD_ROWS + 2, m)), np.zeros(-(-m // WORD) * WORD, np.uint8)
     room = 2 * HELD_ROWS * m
     found, filled, largest = [], 0, 0.0
     while start < end:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from rocking.pulses import Flag, Pulse, extract_pulses
+from rocking.pulses.flags import adjoins, mirrored, oscillates
 from rocking.records.accelerogram import Accelerogram
 
 STEP = 0.01
@@ -106,9 +107,20 @@ def test_every_flag_has_a_sentence():
 
 
 def test_pulse_and_rival_order_does_not_matter_to_adjoining():
-    from rocking.pulses.flags import adjoins
-
     first, second = Pulse(1, 2 * np.pi, 3.0), Pulse(-1, 2 * np.pi / 1.1, 4.05)
     assert adjoins(first, second) and adjoins(second, first)
     assert not adjoins(first, Pulse(1, 2 * np.pi / 1.4, 4.0))
     assert not adjoins(first, Pulse(1, 2 * np.pi, 4.4))
+
+
+@pytest.mark.parametrize(
+    ("distance", "twin"), [(0, False), (0.35, False), (0.4, True), (0.6, True), (0.65, False), (1, False)]
+)
+@pytest.mark.parametrize("period", [1.0, 1.2])
+def test_a_twin_lies_half_a_cycle_from_the_middle_of_the_pulse(distance, twin, period):
+    # an eighth of a cycle to either side of the half, whatever the twin's own period
+    pulse = Pulse(1, 2 * np.pi, 3.0)
+    before, after = (Pulse(-1, 2 * np.pi / period, 3.5 + side * distance - period / 2) for side in (-1, 1))
+    assert mirrored(pulse, before, 1.0) is mirrored(pulse, after, 1.0) is twin
+    assert oscillates(pulse, [before, after]) is twin
+    assert not oscillates(pulse, [before]) and not oscillates(pulse, [after])

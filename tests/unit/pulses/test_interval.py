@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from rocking.errors import PulseError
-from rocking.pulses import Pulse, extract_pulses, pulse_interval
+from rocking.pulses import Pulse, PulseSettings, extract_pulses, pulse_interval
+from rocking.pulses.interval import _replicate
+from rocking.pulses.search import PulseSearch, searched_band
 from rocking.records.accelerogram import Accelerogram
 
 STEP = 0.01
@@ -63,3 +65,15 @@ def test_the_band_of_a_demand_may_be_infinite():
 def test_impossible_options_are_refused(options):
     with pytest.raises(PulseError):
         pulse_interval(noisy(0.5), **options)
+
+
+@pytest.mark.parametrize(("start", "sign"), [(13.2, 1.0), (13.2, -1.0), (1.2, 1.0)])
+def test_the_drawn_sample_of_the_residual_comes_under_the_middle_of_the_pulse(start, sign):
+    # half the same cycle elsewhere in the residual, drawn at its middle, is laid exactly on the pulse
+    pulse, settings = Pulse(2.0, 2 * np.pi / 1.3, 6.2), PulseSettings()
+    residual = Pulse(1.0, pulse.circular_frequency, start).acceleration(TIMES)
+    search = PulseSearch(STEP, searched_band(Accelerogram(residual, STEP), settings), settings)
+    found = _replicate(search, pulse, residual, round((start + 0.65) / STEP), sign)
+    assert found.amplitude == pytest.approx(2.0 + sign, rel=1e-6)
+    assert found.period == pytest.approx(1.3, rel=1e-6)
+    assert found.start_time == pytest.approx(6.2, abs=1e-6)

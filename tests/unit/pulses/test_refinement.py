@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import optimize
 
-from rocking.pulses.refinement import _climbed, _moments, _newton_step, _score, refine
+from rocking.pulses.refinement import PROBES, _climbed, _moments, _newton_step, _score, refine
 
 STEP = 0.02
 
@@ -78,3 +78,33 @@ def test_refinement_stays_within_its_limits():
         assert start >= -1e-9
         assert start + 2 * math.pi / angle <= 299 + 1e-9
         assert abs(start - onset) <= math.pi / 2 / angle * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_no_cycle_a_sample_away_gains_more(seed):
+    # the climb stops at a kink where a sample enters or leaves; the probes about it must not gain
+    samples, turn = noisy_pulse(seed), 2 * math.pi * STEP
+    angle, start, *_ = refine(samples, 101, turn / 1.65, turn * 0.2, turn * 5, 0.1)
+    gain, begin, end = plain_gain(samples, angle / turn, start * STEP), start, start + 2 * math.pi / angle
+    for size in PROBES:
+        for early in (-size, 0, size):
+            for late in (-size, 0, size):
+                length = end + late - begin - early
+                moved = plain_gain(samples, 1 / (length * STEP), (begin + early) * STEP)
+                assert moved <= gain * (
+                    1 + 2e-9
+                )  # a climb goes on for 1e-9 of the gain; as much for rounding
+
+
+@pytest.mark.parametrize("period", [1.6, 1.65, 1.75, 1.8])
+@pytest.mark.parametrize("start", [-0.2, 0.0, 0.2])
+def test_a_climb_ends_only_where_newton_has_settled(period, start):
+    # without noise a cycle has no kink at its own period and onset, and there the last step is below 1e-7
+    phase = (np.arange(400) * STEP - 2.013) / 1.7
+    samples, u = (
+        np.sin(2 * np.pi * phase) * ((phase > 0) & (phase < 1)),
+        math.log(2 * math.pi * STEP / period),
+    )
+    found_u, found_v, _ = _climbed(samples, 101, u, start, (u - 0.3, u + 0.3))
+    assert math.exp(-found_u) * 2 * math.pi * STEP == pytest.approx(1.7, abs=1e-8)
+    assert (101 + found_v / math.exp(found_u)) * STEP == pytest.approx(2.013, abs=1e-8)

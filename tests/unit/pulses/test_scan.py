@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from rocking.pulses.scan import energy_gains, local_maxima
+from rocking.pulses.scan import energy_gains, envelope_phase, local_maxima
 
 STEP = 0.02
 
@@ -86,3 +86,15 @@ def test_nothing_has_no_maximum():
     places, gains = local_maxima(np.zeros((1, 300)), STEP, np.array([0.1, 0.2]), 0, 300, 0.0)
     assert places.shape == (0, 2)
     assert gains.size == 0
+
+
+@pytest.mark.parametrize("onset", [0, 15, 60, 150, 250, 290])
+def test_the_phase_is_that_of_the_largest_envelope_within_half_a_cycle(samples, onset):
+    length = 40.5
+    turned = np.exp(2j * np.pi / length * np.arange(41))
+    sums = np.array([samples[j : j + 41] @ turned for j in range(300 - 41 + 1)])
+    near = np.flatnonzero(np.abs(np.arange(sums.size) - onset) <= length / 2)
+    near = near if near.size else np.array([sums.size - 1])  # the last cycle that fits
+    best = sums[near[np.argmax(np.abs(sums[near]))]]
+    phase = envelope_phase(samples, onset, 2 * np.pi / length)
+    assert phase == pytest.approx(math.atan2(best.real, best.imag), abs=1e-9)

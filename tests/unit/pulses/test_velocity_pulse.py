@@ -8,7 +8,7 @@ import pywt
 
 from rocking.errors import PulseError
 from rocking.pulses import Pulse, velocity_pulse
-from rocking.pulses.velocity_pulse import largest_velocity_pulse, pulse_indicator
+from rocking.pulses.velocity_pulse import _late, largest_velocity_pulse, pulse_indicator
 from rocking.records.accelerogram import Accelerogram
 
 STEP = 0.005
@@ -79,3 +79,14 @@ def test_what_cannot_hold_a_velocity_pulse_is_refused():
     short = Accelerogram(np.ones(100), STEP)
     with pytest.raises(PulseError, match="100 samples"):
         velocity_pulse(short, short)
+
+
+@pytest.mark.parametrize(("share", "late"), [(0.11, False), (0.14, True)])
+@pytest.mark.parametrize("unit", [1.0, 100.0])
+def test_a_pulse_is_late_by_the_energy_that_went_before(share, late, unit):
+    # with `share` of the energy in a ripple before it, the record has spent share + 5 % of the rest when the pulse
+    # has spent 5 %: 17 % at share = 0.126, in m/s as in cm/s
+    pulse = np.sin(2 * np.pi * TIMES / 2) * (np.abs(TIMES - 21) < 1)
+    ripple = np.sin(2 * np.pi * TIMES / 0.2) * (np.abs(TIMES - 10) < 1)
+    ripple *= math.sqrt(share / (1 - share) * (pulse @ pulse) / (ripple @ ripple))
+    assert _late(unit * (ripple + pulse), unit * pulse) is late
