@@ -295,7 +295,8 @@ def _defects(side: Side) -> BlockDefects:
     arc, _ = side.arc
     rotation = np.linspace(0.0, side.critical_rotation, _DEFECT_SAMPLES)
     if side.remembers:
-        rotation = np.unique([*rotation, *(bend for bend in side.bends if bend < side.critical_rotation)])
+        bends = np.array([bend for bend in side.bends if bend < side.critical_rotation])
+        rotation = np.unique([*rotation, *bends * (1 - 1e-12), *bends])  # before a tie breaks, and after
     x = arc.at(rotation) / arc.at(side.critical_rotation)
     stretch = arc.stretch(rotation)
     restoring = side.gravity(rotation) / side.at("gravity", 0.0) / stretch - (1 - x)

@@ -395,3 +395,14 @@ def test_the_reference_solution_refuses_what_remembers():
         MotionError, match="ties that yield or break, but the reference solution knows elastic ones"
     ):
         reference_maximum(FACADE.mechanism(), Accelerogram(np.ones(5), 0.01))
+
+
+@pytest.mark.parametrize("stiffness", [4e5, 4e7, 4e9])
+def test_the_defect_of_the_block_knows_a_tie_that_breaks_at_once(stiffness):
+    """However early it breaks, it held until then: its defect is that of a tie that yields by a hair first."""
+    brittle, hair = (
+        dataclasses.replace(WALL, tie_stiffness=stiffness, tie_plastic_elongation=elongation).mechanism()
+        for elongation in (0.0, 1e-9)
+    )
+    assert brittle.block_defects.restoring == pytest.approx(hair.block_defects.restoring, rel=1e-3)
+    assert brittle.block_defects.restoring > 0.1
