@@ -3,7 +3,6 @@
 Linear covariance is not offered: on recorded noise it covers the truth far less often than it says.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,10 +36,6 @@ class PulseInterval:
     period: tuple[float, float]
     start_time: tuple[float, float]
     pulses: tuple[Pulse, ...]
-
-    def band(self, demand: Callable[[Pulse], float]) -> tuple[float, float]:
-        """Return the interval of any quantity of a pulse, such as a predicted rotation ratio; it may be infinite."""
-        return _ends(np.array([demand(pulse) for pulse in self.pulses]), self.level)
 
 
 def pulse_interval(

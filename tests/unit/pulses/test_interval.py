@@ -53,14 +53,6 @@ def test_a_rival_has_an_interval_of_its_own():
     )
 
 
-def test_the_band_of_a_demand_may_be_infinite():
-    interval = pulse_interval(noisy(0.5), replicates=60)
-    assert interval.band(lambda pulse: pulse.amplitude) == interval.amplitude
-    middle = np.median([pulse.period for pulse in interval.pulses])
-    low, high = interval.band(lambda pulse: np.inf if pulse.period > middle else 0.4)
-    assert (low, high) == (0.4, np.inf)
-
-
 @pytest.mark.parametrize("options", [{"level": 1.0}, {"level": 0.0}, {"replicates": 5}])
 def test_impossible_options_are_refused(options):
     with pytest.raises(PulseError):
