@@ -92,6 +92,6 @@ def _replicate(search: PulseSearch, pulse: Pulse, residual: np.ndarray, source: 
 
 
 def _ends(values: np.ndarray, level: float) -> tuple[float, float]:
-    """Order statistics rather than interpolated quantiles, so that infinite demands keep their place."""
+    """Order statistics rather than interpolated quantiles: each end is that of a replicate."""
     low, high = np.quantile(values, [(1 - level) / 2, (1 + level) / 2], method="nearest")
     return float(low), float(high)
