@@ -5,7 +5,7 @@ Written from the equation of motion (theory: section 1, "One standard form"); it
 
 import math
 from collections.abc import Iterator
-from time import perf_counter
+from time import process_time
 from typing import Literal
 
 import numpy as np
@@ -32,7 +32,7 @@ STILL_LANDINGS = 3
 def reference_maximum(mechanism: Mechanism, accelerogram: Accelerogram, budget: float = math.inf) -> float:
     """Return φ_max/φ_cr by DOP853 at 1e-12, restarted at every sample and every impact; inf if it overturns.
 
-    Raises MotionError once it has taken `budget` seconds.
+    Raises MotionError once it has taken `budget` seconds of processor time.
     """
     return _Run(mechanism, accelerogram, "DOP853", REFERENCE_TOLERANCE, budget, restart=True).maximum()
 
@@ -54,7 +54,7 @@ def event_maximum(
     """Return φ_max/φ_cr as one writes it with `solve_ivp`: the record interpolated, an event at each impact.
 
     No step is longer than a sample. Overturning is a rotation past the end of the mechanism.
-    Raises MotionError once it has taken `budget` seconds.
+    Raises MotionError once it has taken `budget` seconds of processor time.
     """
     return event_landings(mechanism, accelerogram, method, relative_tolerance, budget)[0]
 
@@ -88,7 +88,7 @@ class _Run:
                 "their strength out."
             )
         self.method, self.tolerance, self.restart = method, tolerance, restart
-        self.budget, self.deadline = budget, perf_counter() + budget
+        self.budget, self.deadline = budget, process_time() + budget
         self.ground, self.step = accelerogram.acceleration.tolist(), accelerogram.time_step
         self.duration = accelerogram.duration
         self.sides = {1: mechanism.positive}
@@ -159,9 +159,10 @@ class _Run:
 
         def slope(time: float, y: np.ndarray) -> list[float]:
             """φ'' = −(s B ü_g + G g + J φ'²) / I, J = I'/2."""
-            if perf_counter() > self.deadline:
+            if process_time() > self.deadline:
                 raise MotionError(
-                    f"{self.method} took more than the {self.budget:.0f} s that its budget left; allow it more."
+                    f"{self.method} took more than the {self.budget:.0f} s of processor time that its budget left; "
+                    "allow it more."
                 )
             rotation, velocity = y
             push = sign * side.at("ground", rotation) * self._acceleration(time, still)

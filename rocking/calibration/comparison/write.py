@@ -30,7 +30,7 @@ from rocking.tables import data_package, write_rows, write_whole
 
 REFERENCE = "scipy DOP853, 1e-12 (reference)"
 REFERENCE_BUDGET = 120.0
-"""Seconds that the reference may take for one case."""
+"""Seconds of processor time that the reference may take for one case."""
 SAMPLED = {
     LMGC90: {"block": 24, "frame": 24, "arch": 12},
     ROCKING_BC: {"block": 8, "frame": 1},
