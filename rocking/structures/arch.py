@@ -27,7 +27,6 @@ from rocking.structures.contacts import Contacts, MotionState, dalembert, resolv
 from rocking.structures.drawing import Path, span, swept
 from rocking.structures.fields import (
     Form,
-    angle_field,
     count_field,
     length_field,
     number_field,
@@ -49,49 +48,37 @@ _MOST_VOUSSOIRS = 1000
 UNSAFE_MOMENTUM = "unsafe momentum"
 """The balance of the mirrored mechanism by its name: it loses more speed than the hinges of a real arch do."""
 
-
-FORM = Form(
-    "Circular arch with radial joints; radius of the centreline",
-    (
-        length_field("radius_m", "radius", "Radius of the centreline", 10.0, (0.3, 50), "r"),
-        length_field("thickness_m", "thickness", "Radial thickness", 1.5, (0.03, 5), "t"),
-        angle_field(
-            "embrace_angle_deg",
-            "embrace_angle",
-            "Embrace angle",
-            157.5,
-            (60, 240),
-            "β",
-            {"minimum": _EMBRACE_DEG[0], "maximum": _EMBRACE_DEG[1]},
-        ),
-        count_field(
-            "voussoirs",
-            "How many equal voussoirs; left out when hinges may open anywhere",
-            7,
-            (3, _MOST_VOUSSOIRS),
-            required=False,
-        ),
-        number_field(
-            "fill_depth_m",
-            "fill_depth",
-            "Depth of level fill above the extrados at the crown; left out without fill",
-            "m",
-            0.2,
-            (0, 3),
-            "f",
-        ),
-        number_field(
-            "fill_density_ratio",
-            "fill_density_ratio",
-            "Density of the fill over that of the masonry",
-            "",
-            0.8,
-            (0.3, 1.2),
-        ),
-        restitution_field(UNSAFE_MOMENTUM),
+GEOMETRY = (
+    length_field("radius", "Radius of the centreline", 10.0, (0.3, 50), "r"),
+    length_field("thickness", "Radial thickness", 1.5, (0.03, 5), "t"),
+    number_field(
+        "embrace_angle",
+        "Embrace angle",
+        "°",
+        157.5,
+        (60, 240),
+        "β",
+        {"minimum": _EMBRACE_DEG[0], "maximum": _EMBRACE_DEG[1]},
+        required=True,
     ),
+    count_field(
+        "voussoirs",
+        "How many equal voussoirs; left out when hinges may open anywhere",
+        7,
+        (3, _MOST_VOUSSOIRS),
+        required=False,
+    ),
+    number_field(
+        "fill_depth",
+        "Depth of level fill above the extrados at the crown; left out without fill",
+        "m",
+        0.2,
+        (0, 3),
+        "f",
+    ),
+    number_field("fill_density_ratio", "Density of the fill over that of the masonry", "", 0.8, (0.3, 1.2)),
 )
-"""How a file describes an arch."""
+"""How a file describes an arch, but for its restitution."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +95,12 @@ class Arch(Structure):
     """
 
     type_name: ClassVar[str] = "arch"
-    forms: ClassVar[tuple[Form, ...]] = (FORM,)
+    forms: ClassVar[tuple[Form, ...]] = (
+        Form(
+            "Circular arch with radial joints; radius of the centreline",
+            (*GEOMETRY, restitution_field(UNSAFE_MOMENTUM)),
+        ),
+    )
 
     radius: float
     thickness: float

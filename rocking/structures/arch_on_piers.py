@@ -13,10 +13,10 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import length, positive
-from rocking.structures.arch import FORM, Arch
+from rocking.structures.arch import GEOMETRY, Arch
 from rocking.structures.arch_onset import NoMechanism, Onset, TooThin, static_onset, thrust_line
 from rocking.structures.drawing import Path, span
-from rocking.structures.fields import Form, length_field, number_field
+from rocking.structures.fields import Form, length_field, number_field, restitution_field
 from rocking.structures.pier_ring import FOOT, PierRing
 from rocking.structures.restitution import check_restitution
 
@@ -39,18 +39,10 @@ class ArchOnPiers(Arch):
         Form(
             "Circular arch on equal monolithic piers, flush with the intrados",
             (
-                *(each for each in FORM.fields if each.key != "restitution"),
-                length_field("pier_width_m", "pier_width", "Width of a pier", 4.0, (0.1, 20), "b"),
-                length_field(
-                    "pier_height_m",
-                    "pier_height",
-                    "Height of a pier up to the springing",
-                    6.0,
-                    (0.1, 60),
-                    "h",
-                ),
+                *GEOMETRY,
+                length_field("pier_width", "Width of a pier", 4.0, (0.1, 20), "b"),
+                length_field("pier_height", "Height of a pier up to the springing", 6.0, (0.1, 60), "h"),
                 number_field(
-                    "pier_density_ratio",
                     "pier_density_ratio",
                     "Density of the piers over that of the arch",
                     "",
@@ -58,16 +50,7 @@ class ArchOnPiers(Arch):
                     (0.5, 1.5),
                     bounds={"exclusiveMinimum": 0},
                 ),
-                number_field(
-                    "restitution",
-                    "restitution",
-                    "Ratio of angular velocities after and before an impact",
-                    "",
-                    0.9,
-                    (0.1, 1),
-                    "η",
-                    {"minimum": 0, "maximum": 1},
-                ),
+                restitution_field(),
             ),
         ),
     )

@@ -10,7 +10,7 @@ from rocking.quantities import finite, length
 from rocking.structures.bars import Bodies, body_about
 from rocking.structures.contacts import Contacts, MotionState, corner
 from rocking.structures.drawing import Path, rectangle, span, swept, turned
-from rocking.structures.fields import ONE_SIDED, Form, angle_field, length_field, restitution_field
+from rocking.structures.fields import ONE_SIDED, Form, length_field, number_field, restitution_field
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import (
     Restitution,
@@ -21,7 +21,6 @@ from rocking.structures.restitution import (
 from rocking.structures.single_body import corner_side
 from rocking.structures.structure import Structure
 
-SLOPE = {"exclusiveMinimum": 0, "exclusiveMaximum": 90}
 _OPTIONS = (restitution_field("momentum", "housner"), ONE_SIDED)
 
 
@@ -41,8 +40,8 @@ class Block(Structure):
         Form(
             "Rectangular block by its size",
             (
-                length_field("breadth_m", "breadth", "Breadth", 0.6, (0.02, 20), "b"),
-                length_field("height_m", "height", "Height", 4.0, (0.1, 100), "h"),
+                length_field("breadth", "Breadth", 0.6, (0.02, 20), "b"),
+                length_field("height", "Height", 4.0, (0.1, 100), "h"),
                 *_OPTIONS,
             ),
             make="of_size",
@@ -51,22 +50,17 @@ class Block(Structure):
             "Rectangular block by half its diagonal and its slenderness",
             (
                 length_field(
-                    "semi_diagonal_m",
-                    "semi_diagonal",
-                    "Half the diagonal",
-                    2.0,
-                    (0.05, 50),
-                    "R",
-                    phrase="semi-diagonal {value}",
+                    "semi_diagonal", "Half the diagonal", 2.0, (0.05, 50), "R", phrase="semi-diagonal {value}"
                 ),
-                angle_field(
-                    "slenderness_deg",
+                number_field(
                     "slenderness",
                     "Angle between the vertical and the diagonal",
+                    "°",
                     10.0,
                     (1, 45),
                     "α",
-                    SLOPE,
+                    {"exclusiveMinimum": 0, "exclusiveMaximum": 90},
+                    required=True,
                 ),
                 *_OPTIONS,
             ),

@@ -58,7 +58,6 @@ class Facade(Structure):
             "Façade of one storey or several with floor loads, ties and thrust; forces per metre of façade",
             (
                 number_field(
-                    "storey_heights_m",
                     "storey_heights",
                     "Height of each storey from the ground up",
                     "m",
@@ -69,7 +68,6 @@ class Facade(Structure):
                     required=True,
                 ),
                 number_field(
-                    "thicknesses_m",
                     "thicknesses",
                     "Thickness of each storey, flush outside",
                     "m",
@@ -81,7 +79,6 @@ class Facade(Structure):
                 ),
                 UNIT_WEIGHT,
                 number_field(
-                    "floor_loads_kN_m",
                     "floor_loads",
                     "Load of the floor or roof on top of each storey",
                     "kN/m",
@@ -98,24 +95,10 @@ class Facade(Structure):
                 TOP_SLAB,
                 *tie_fields(3.4, 100.0),
                 number_field(
-                    "thrust_kN_m",
-                    "thrust",
-                    "Horizontal thrust of a vault or roof outwards",
-                    "kN/m",
-                    2.0,
-                    (0, 100),
-                    "H",
+                    "thrust", "Horizontal thrust of a vault or roof outwards", "kN/m", 2.0, (0, 100), "H"
                 ),
+                number_field("thrust_height", "Height of the thrust above the ground", "m", 6.0, (0, 60)),
                 number_field(
-                    "thrust_height_m",
-                    "thrust_height",
-                    "Height of the thrust above the ground",
-                    "m",
-                    6.0,
-                    (0, 60),
-                ),
-                number_field(
-                    "crack_storey",
                     "crack_storey",
                     "Storey at whose foot it cracks; 1 is the ground floor",
                     "",
@@ -125,7 +108,6 @@ class Facade(Structure):
                 ),
                 restitution_field("momentum"),
                 number_field(
-                    "inward_restitution",
                     "inward_restitution",
                     "Restitution of the impact that ends rocking inwards, where it differs",
                     "",

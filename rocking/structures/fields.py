@@ -24,6 +24,9 @@ _OUTWARD: dict[str, Callable[[Any], Any]] = {
 }
 """From the unit of the file to SI and back; units that are not here are SI."""
 
+_IN_KEYS = str.maketrans({"/": "_", "²": "2", "³": "3", "°": "deg"})
+"""A unit as the key of a value ends in it."""
+
 PHRASE = "{name} {value}"
 
 
@@ -31,14 +34,13 @@ PHRASE = "{name} {value}"
 class Field:
     """One key of a structure in a file.
 
-    key: as in the file, ending in its unit. parameter: of the constructor, and the attribute that gives the value back
-    in SI. meaning: for the documentation. example: a value for a structure that stands. unit: of the file; lengths m,
-    angles °, forces kN. usual: plausible range in that unit; beyond it a remark, not a refusal. letter: in drawings.
+    parameter: of the constructor, and the attribute that gives the value back in SI. meaning: for the documentation.
+    example: a value for a structure that stands. unit: of the file, in which the key ends; lengths m, angles °,
+    forces kN. usual: plausible range in that unit; beyond it a remark, not a refusal. letter: in drawings.
     phrase: how the description says it, of {name} and {value}, which has its unit.
     schema: the JSON schema of the value. required: whether the form needs it.
     """
 
-    key: str
     parameter: str
     meaning: str
     example: object
@@ -48,6 +50,11 @@ class Field:
     letter: str = ""
     phrase: str = PHRASE
     required: bool = True
+
+    @property
+    def key(self) -> str:
+        """As in the file: the parameter and its unit."""
+        return f"{self.parameter}_{self.unit.translate(_IN_KEYS)}" if self.unit else self.parameter
 
     def inward(self, value: object) -> object:
         """Return a value of the file as the constructor takes it: in SI and radians, a list as a tuple."""
@@ -120,44 +127,7 @@ class Form:
         return tuple(each.key for each in self.fields if each.required)
 
 
-def length_field(
-    key: str,
-    parameter: str,
-    meaning: str,
-    example: float,
-    usual: tuple[float, float],
-    letter: str = "",
-    required: bool = True,
-    phrase: str = PHRASE,
-) -> Field:
-    """Return the field of a length in m."""
-    schema = {"type": "number", "minimum": LENGTHS[0], "maximum": LENGTHS[1]}
-    return Field(key, parameter, meaning, example, schema, "m", usual, letter, phrase, required)
-
-
-def angle_field(
-    key: str,
-    parameter: str,
-    meaning: str,
-    example: float,
-    usual: tuple[float, float],
-    letter: str,
-    bounds: Mapping[str, float],
-) -> Field:
-    """Return the field of an angle in degrees; bounds: of the JSON schema."""
-    return Field(key, parameter, meaning, example, {"type": "number", **bounds}, "°", usual, letter)
-
-
-def count_field(
-    key: str, meaning: str, example: int, bounds: tuple[int, int], required: bool = True
-) -> Field:
-    """Return the field of a whole number."""
-    schema = {"type": "integer", "minimum": bounds[0], "maximum": bounds[1]}
-    return Field(key, key, meaning, example, schema, usual=bounds, phrase="{value} {name}", required=required)
-
-
 def number_field(
-    key: str,
     parameter: str,
     meaning: str,
     unit: str,
@@ -173,34 +143,57 @@ def number_field(
     schema: dict[str, object] = {"type": "number", **bounds}
     if isinstance(example, list):
         schema = {"type": "array", "minItems": 1, "items": schema}
-    return Field(key, parameter, meaning, example, schema, unit, usual, letter, phrase, required)
+    return Field(parameter, meaning, example, schema, unit, usual, letter, phrase, required)
 
 
-def choice_field(key: str, meaning: str, choices: Iterable[str], phrase: str = PHRASE) -> Field:
+def length_field(
+    parameter: str,
+    meaning: str,
+    example: float,
+    usual: tuple[float, float],
+    letter: str = "",
+    *,
+    required: bool = True,
+    phrase: str = PHRASE,
+) -> Field:
+    """Return the field of a length in m."""
+    bounds = {"minimum": LENGTHS[0], "maximum": LENGTHS[1]}
+    return number_field(
+        parameter, meaning, "m", example, usual, letter, bounds, required=required, phrase=phrase
+    )
+
+
+def count_field(
+    parameter: str, meaning: str, example: int, bounds: tuple[int, int], required: bool = True
+) -> Field:
+    """Return the field of a whole number."""
+    schema = {"type": "integer", "minimum": bounds[0], "maximum": bounds[1]}
+    return Field(
+        parameter, meaning, example, schema, usual=bounds, phrase="{value} {name}", required=required
+    )
+
+
+def choice_field(parameter: str, meaning: str, choices: Iterable[str], phrase: str = PHRASE) -> Field:
     """Return the optional field of one word out of `choices`, the first of them the default."""
     allowed = list(choices)
-    return Field(key, key, meaning, allowed[0], {"enum": allowed}, phrase=phrase, required=False)
+    return Field(parameter, meaning, allowed[0], {"enum": allowed}, phrase=phrase, required=False)
 
 
-def flag_field(key: str, meaning: str, phrase: str, example: bool = False) -> Field:
+def flag_field(parameter: str, meaning: str, phrase: str) -> Field:
     """Return the optional field of a yes or no."""
-    return Field(key, key, meaning, example, {"type": "boolean"}, phrase=phrase, required=False)
+    return Field(parameter, meaning, False, {"type": "boolean"}, phrase=phrase, required=False)
 
 
 def restitution_field(*balances: str, required: bool = False) -> Field:
     """Return the field of a restitution: a number, or the name of one of `balances`."""
     number: dict[str, object] = {"type": "number", "minimum": 0, "maximum": 1}
     schema = {"oneOf": [number, {"enum": list(balances)}]} if balances else number
-    meaning = "Ratio of angular velocities after and before an impact" + ", or the name of a balance" * bool(
-        balances
-    )
-    return Field(
-        "restitution", "restitution", meaning, 0.9, schema, usual=(0.1, 1), letter="η", required=required
-    )
+    meaning = "Ratio of angular velocities after and before an impact"
+    meaning += ", or the name of a balance" * bool(balances)
+    return Field("restitution", meaning, 0.9, schema, usual=(0.1, 1), letter="η", required=required)
 
 
 RESTITUTION_RANGE = number_field(
-    "restitution_range",
     "restitution_range",
     "The restitution is known to plus or minus this much; left out: as the settings of the ensemble say",
     "",

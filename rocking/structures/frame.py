@@ -40,13 +40,10 @@ class Frame(Structure):
         Form(
             "Symmetric frame of equal columns under a rigid beam",
             (
-                length_field(
-                    "column_breadth_m", "column_breadth", "Breadth of a column", 1.0, (0.05, 10), "b"
-                ),
-                length_field("column_height_m", "column_height", "Height of a column", 8.0, (0.5, 60), "h"),
+                length_field("column_breadth", "Breadth of a column", 1.0, (0.05, 10), "b"),
+                length_field("column_height", "Height of a column", 8.0, (0.5, 60), "h"),
                 count_field("columns", "How many columns", 4, (2, _MOST_COLUMNS)),
                 number_field(
-                    "beam_mass_ratio",
                     "beam_mass_ratio",
                     "Mass of the beam over that of all columns",
                     "",

@@ -5,7 +5,6 @@ from rocking.quantities import finite, length
 from rocking.structures.fields import choice_field, number_field
 
 UNIT_WEIGHT = number_field(
-    "unit_weight_kN_m3",
     "unit_weight",
     "Weight of the masonry",
     "kN/m³",
@@ -15,14 +14,7 @@ UNIT_WEIGHT = number_field(
     required=True,
 )
 ECCENTRICITY = number_field(
-    "eccentricity_m",
-    "eccentricity",
-    "Distance of the bearing inwards from the middle of the wall",
-    "m",
-    0.05,
-    (-1, 1),
-    "e",
-    {},
+    "eccentricity", "Distance of the bearing inwards from the middle of the wall", "m", 0.05, (-1, 1), "e", {}
 )
 TOP_SLAB = choice_field(
     "top_slab",

@@ -78,20 +78,11 @@ class LoadedWall(Structure):
         Form(
             "Wall between supports with a load on top and ties; forces per metre of wall",
             (
-                length_field("height_m", "height", "Height between the supports", 3.2, (0.5, 60), "h"),
-                length_field(
-                    "hinge_height_m",
-                    "hinge_height",
-                    "Height of the hinge above the base",
-                    1.9,
-                    (0.2, 57),
-                    "h₁",
-                ),
-                length_field("thickness_m", "thickness", "Thickness", 0.25, (0.05, 5), "t"),
+                length_field("height", "Height between the supports", 3.2, (0.5, 60), "h"),
+                length_field("hinge_height", "Height of the hinge above the base", 1.9, (0.2, 57), "h₁"),
+                length_field("thickness", "Thickness", 0.25, (0.05, 5), "t"),
                 UNIT_WEIGHT,
-                number_field(
-                    "top_load_kN_m", "top_load", "Load on top of the wall", "kN/m", 10.0, (0, 500), "N"
-                ),
+                number_field("top_load", "Load on top of the wall", "kN/m", 10.0, (0, 500), "N"),
                 ECCENTRICITY,
                 TOP_SLAB,
                 flag_field(

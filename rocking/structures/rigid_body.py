@@ -39,13 +39,10 @@ class RigidBody(Structure):
         Form(
             "Any body by its centre of mass and its inertia about it per mass",
             (
-                length_field("left_m", "left", "Distance of the left corner", 0.4, (0.01, 20), "l"),
-                length_field("right_m", "right", "Distance of the right corner", 0.6, (0.01, 20), "r"),
-                length_field(
-                    "centre_height_m", "centre_height", "Height of the centre of mass", 2.0, (0.05, 50), "z"
-                ),
+                length_field("left", "Distance of the left corner", 0.4, (0.01, 20), "l"),
+                length_field("right", "Distance of the right corner", 0.6, (0.01, 20), "r"),
+                length_field("centre_height", "Height of the centre of mass", 2.0, (0.05, 50), "z"),
                 number_field(
-                    "inertia_m2",
                     "inertia",
                     "Inertia about the centre of mass per mass",
                     "m²",

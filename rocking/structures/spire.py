@@ -45,10 +45,9 @@ class Spire(Structure):
         Form(
             "Cone or square pyramid, solid or hollow, that rocks above a horizontal crack",
             (
-                length_field("width_m", "width", "Diameter or side at the base", 3.0, (0.2, 20), "b"),
-                length_field("height_m", "height", "Height of the whole spire", 15.0, (0.5, 100), "h"),
+                length_field("width", "Diameter or side at the base", 3.0, (0.2, 20), "b"),
+                length_field("height", "Height of the whole spire", 15.0, (0.5, 100), "h"),
                 length_field(
-                    "wall_thickness_m",
                     "wall_thickness",
                     "Horizontal thickness of the wall of a hollow one",
                     0.25,
@@ -57,15 +56,7 @@ class Spire(Structure):
                     required=False,
                 ),
                 choice_field("plan", "Shape of a horizontal section", _SPREAD, "{value} plan"),
-                number_field(
-                    "crack_height_m",
-                    "crack_height",
-                    "Height of the crack above the base",
-                    "m",
-                    5.0,
-                    (0, 95),
-                    "z",
-                ),
+                number_field("crack_height", "Height of the crack above the base", "m", 5.0, (0, 95), "z"),
                 restitution_field("momentum", "housner"),
                 ONE_SIDED,
             ),

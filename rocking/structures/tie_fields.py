@@ -15,17 +15,8 @@ from rocking.structures.ties import Tie
 def tie_fields(height: float, stiffness: float) -> tuple[Field, ...]:
     """Return the fields of ties, with examples."""
     return (
+        number_field("tie_heights", "Heights of the ties above the ground", "m", [height], (0.2, 60), "z"),
         number_field(
-            "tie_heights_m",
-            "tie_heights",
-            "Heights of the ties above the ground",
-            "m",
-            [height],
-            (0.2, 60),
-            "z",
-        ),
-        number_field(
-            "tie_stiffness_kN_m2",
             "tie_stiffness",
             "Stiffness of each tie per metre of wall, kN/m per m",
             "kN/m²",
@@ -34,16 +25,9 @@ def tie_fields(height: float, stiffness: float) -> tuple[Field, ...]:
             "k",
         ),
         number_field(
-            "tie_pretension_kN_m",
-            "tie_pretension",
-            "Force of each tie at rest; needs one_sided",
-            "kN/m",
-            0.0,
-            (0, 200),
-            "T",
+            "tie_pretension", "Force of each tie at rest; needs one_sided", "kN/m", 0.0, (0, 200), "T"
         ),
         number_field(
-            "tie_strength_kN_m",
             "tie_strength",
             "Force at which each tie yields, or breaks where no plastic elongation is given; elastic without it",
             "kN/m",
@@ -53,7 +37,6 @@ def tie_fields(height: float, stiffness: float) -> tuple[Field, ...]:
             bounds={"exclusiveMinimum": 0},
         ),
         number_field(
-            "tie_plastic_elongation_m",
             "tie_plastic_elongation",
             "By how much each tie yields at its strength before it breaks; 0 is brittle",
             "m",

@@ -26,7 +26,7 @@ from rocking.structures.wall_linkage import WallLinkage
 Applied = tuple[int, np.ndarray, np.ndarray]
 """A force on a block (0 lower, 1 upper): where it acts and what it is, (k,) complex each."""
 
-_THICKNESS = length_field("thickness_m", "thickness", "Thickness", 0.25, (0.05, 5), "t")
+_THICKNESS = length_field("thickness", "Thickness", 0.25, (0.05, 5), "t")
 
 
 @dataclass(frozen=True)
@@ -47,15 +47,8 @@ class Wall(Structure):
         Form(
             "Wall by its height and that of its hinge",
             (
-                length_field("height_m", "height", "Height between the supports", 3.2, (0.5, 60), "h"),
-                length_field(
-                    "hinge_height_m",
-                    "hinge_height",
-                    "Height of the hinge above the base",
-                    1.6,
-                    (0.2, 57),
-                    "h₁",
-                ),
+                length_field("height", "Height between the supports", 3.2, (0.5, 60), "h"),
+                length_field("hinge_height", "Height of the hinge above the base", 1.6, (0.2, 57), "h₁"),
                 _THICKNESS,
                 restitution_field("momentum"),
                 ONE_SIDED,
@@ -65,12 +58,8 @@ class Wall(Structure):
         Form(
             "Wall by the heights below and above its hinge",
             (
-                length_field(
-                    "lower_height_m", "lower_height", "Height below the hinge", 2.0, (0.2, 57), "h₁"
-                ),
-                length_field(
-                    "upper_height_m", "upper_height", "Height above the hinge", 1.5, (0.1, 57), "h₂"
-                ),
+                length_field("lower_height", "Height below the hinge", 2.0, (0.2, 57), "h₁"),
+                length_field("upper_height", "Height above the hinge", 1.5, (0.1, 57), "h₂"),
                 _THICKNESS,
                 restitution_field("momentum"),
                 ONE_SIDED,

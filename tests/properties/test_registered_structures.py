@@ -182,6 +182,7 @@ def test_a_drawing_is_finite_closed_and_measured(structure):
 @registered
 def test_a_description_says_every_value_with_its_unit_and_comes_back(structure):
     mapping = structure.as_config()
+    assert all(len(form.keys) == len(form.fields) for form in structure.forms)  # no key twice
     again = structure_from_config(mapping)
     assert again == structure and again.description == structure.description
     for field in structure.form.fields:
