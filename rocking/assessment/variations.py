@@ -1,6 +1,7 @@
 """What the answer depends on besides the structure as given: where it cracks, and how the record was processed."""
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -10,6 +11,7 @@ import numpy as np
 from rocking.assessment.processings import AS_IT_IS
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
+from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import integrate
 from rocking.motion.response import Response
 from rocking.pulses import Pulse
@@ -45,15 +47,18 @@ def candidates(
     count: int,
     settings: AssessmentSettings,
 ) -> list[Candidate]:
-    """Return `count` candidates of a structure over what it may crack at (its `moved`); [] where nothing is."""
+    """Return `count` candidates of a structure over what it may crack at (its `moved`); [] where nothing is.
+
+    Raises RockingError where one of them cannot be followed.
+    """
     moved = _moved(structure, count)
+    integrated = _rotation_ratios(list(moved.values()), accelerogram, settings)
+    for other, ratio in zip(moved.values(), integrated, strict=True):
+        if math.isnan(ratio):
+            integrate(other, accelerogram, settings.tolerance)  # raises the reason
     return [
-        Candidate(
-            position,
-            _predicted(other, pulse, settings),
-            integrate(other, accelerogram, settings.tolerance).rotation_ratio,
-        )
-        for position, other in moved.items()
+        Candidate(position, _predicted(other, pulse, settings), ratio)
+        for (position, other), ratio in zip(moved.items(), integrated, strict=True)
     ]
 
 
@@ -64,21 +69,43 @@ def governing(values: list[float]) -> int:
 
 
 def processed_variants(
-    structure: Structure,
+    structures: Mapping[str, Structure],
     records: Mapping[str, Accelerogram],
     settings: AssessmentSettings,
-    as_it_is: Response | None = None,
+    as_it_is: Mapping[str, Response] | None = None,
     vertical: Accelerogram | None = None,
-) -> Iterator[Variant]:
-    """Yield the response of `structure` to each of `records`, which `processed` gives.
+) -> dict[str, list[Variant]]:
+    """Return the responses of each of `structures` to each of `records`, which `processed` gives, by structure.
 
-    as_it_is: to the record itself, where it is known. vertical: acts with each.
+    as_it_is: of a structure to the record itself, where it is known. vertical: acts with each. A response that cannot
+    be followed is left out.
     """
-    for name, record in records.items():
+    found: dict[str, list[Variant]] = {name: [] for name in structures}
+    for processing, record in records.items():
+        known = as_it_is or {} if processing == AS_IT_IS else {}
+        ratios = {name: response.rotation_ratio for name, response in known.items()}
+        rest = [name for name in structures if name not in ratios]
         with suppress(RockingError):
-            known = as_it_is if name == AS_IT_IS else None
-            response = known or integrate(structure, record, settings.tolerance, vertical=vertical)
-            yield Variant(name, record.peak_acceleration, response.rotation_ratio, response.outcome)
+            computed = _rotation_ratios([structures[name] for name in rest], record, settings, vertical)
+            ratios |= zip(rest, computed, strict=True)
+        for name in structures:
+            if not math.isnan(ratio := ratios.get(name, math.nan)):
+                variant = Variant(processing, record.peak_acceleration, ratio, Outcome.at(ratio))
+                found[name].append(variant)
+    return found
+
+
+def _rotation_ratios(
+    structures: Sequence[Structure],
+    record: Accelerogram,
+    settings: AssessmentSettings,
+    vertical: Accelerogram | None = None,
+) -> list[float]:
+    """The largest rotation ratio of each, nan where it cannot be followed; one thread, as a job has one core."""
+    tolerance = settings.tolerance
+    return integrate_batch(structures, record, vertical=vertical, tolerance=tolerance, workers=1)[
+        :, 0
+    ].tolist()
 
 
 @lru_cache(maxsize=64)

@@ -1,5 +1,6 @@
 """What became of a structure: four outcomes, each with the sentence a reader is told."""
 
+import math
 from enum import StrEnum
 
 
@@ -10,6 +11,13 @@ class Outcome(StrEnum):
     ROCKS = "rocks"
     OVERTURNS = "overturns"
     FAILED = "failed"
+
+    @classmethod
+    def at(cls, rotation_ratio: float) -> "Outcome":
+        """The outcome of a largest rotation over the critical one: inf overturns, 0 does not lift."""
+        if math.isinf(rotation_ratio):
+            return cls.OVERTURNS
+        return cls.ROCKS if rotation_ratio > 0 else cls.NO_UPLIFT
 
     @property
     def sentence(self) -> str:

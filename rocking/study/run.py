@@ -171,16 +171,20 @@ def _vary(
     vertical: Accelerogram | None,
 ) -> None:
     """Append the rows of candidates and processing, for every structure that gave a result."""
-    record = identity.accelerogram
-    records = processed(record) if study.settings.processing_variants else {}
-    for case in assessment.cases:
-        structure = study.structures[case.structure]
+    record, cases = identity.accelerogram, {case.structure: case for case in assessment.cases}
+    for name, case in cases.items():
         pulse = case.prediction.pulse if case.prediction else None
         try:
-            found = candidates(structure, record, pulse, study.settings.candidates, study.assessment)
-            tables.candidates.extend(candidate_rows(identity, case.structure, found))
-            known = case.responses.get(Method.MECHANISM_ON_RECORD)
-            variants = processed_variants(structure, records, study.assessment, known, vertical)
-            tables.processing.extend(processing_rows(identity, case.structure, variants))
+            found = candidates(
+                study.structures[name], record, pulse, study.settings.candidates, study.assessment
+            )
+            tables.candidates.extend(candidate_rows(identity, name, found))
         except RockingError as error:
-            tables.fail(identity.record, record.component, Failure("variations", case.structure, str(error)))
+            tables.fail(identity.record, record.component, Failure("variations", name, str(error)))
+    if study.settings.processing_variants:
+        structures = {name: study.structures[name] for name in cases}
+        followed = {name: case.responses.get(Method.MECHANISM_ON_RECORD) for name, case in cases.items()}
+        known = {name: response for name, response in followed.items() if response is not None}
+        variants = processed_variants(structures, processed(record), study.assessment, known, vertical)
+        for name, of_structure in variants.items():
+            tables.processing.extend(processing_rows(identity, name, of_structure))

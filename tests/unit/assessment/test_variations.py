@@ -55,6 +55,6 @@ def test_governing(values, place):
 def test_processing_that_changes_nothing_changes_no_answer():
     records = processed(RECORD)
     assert "unchanged" in records
-    found = {v.processing: v for v in processed_variants(Block(2.0, 0.2), records, SETTINGS)}
+    found = {v.processing: v for v in processed_variants({"": Block(2.0, 0.2)}, records, SETTINGS)[""]}
     assert found["unchanged"].rotation_ratio == integrate(Block(2.0, 0.2), RECORD).rotation_ratio
     assert found["high-pass 0.2 Hz"].rotation_ratio != found["unchanged"].rotation_ratio

@@ -79,8 +79,8 @@ def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[st
         for name, structure in structures.items():
             found = candidates(structure, accelerogram, pulse, 7, ASSESSMENT)
             tables.candidates.extend(candidate_rows(identity, name, found))
-            variants = processed_variants(structure, records, ASSESSMENT)
-            tables.processing.extend(processing_rows(identity, name, variants))
+            variants = processed_variants({name: structure}, records, ASSESSMENT)
+            tables.processing.extend(processing_rows(identity, name, variants[name]))
     return Assessed(record, accelerograms, structures, tables)
 
 
