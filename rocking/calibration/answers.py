@@ -6,14 +6,13 @@ from dataclasses import dataclass
 from time import process_time
 from typing import TypeVar
 
-import numpy as np
-
 from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.fidelity import Answer, Limits, cheapest_answer, find_limits
 from rocking.assessment.intensity import Shape
 from rocking.assessment.method import Method
 from rocking.assessment.tiers import Tier, TierFit
 from rocking.assessment.verdict import Verdict
+from rocking.calibration import scores
 from rocking.calibration.tier_cases import TierCase, structures_tried
 from rocking.calibration.tier_fit import fit_tier, known, ratios_of, sites_of
 from rocking.motion.integration import integrate
@@ -134,38 +133,25 @@ Measure = Callable[[Sequence[AnswerTrial]], float]
 
 def answer_scores(trials: Sequence[AnswerTrial], replicates: int = REPLICATES) -> list[AnswerScore]:
     """Return every measure with its interval."""
-    groups = [[t for t in trials if t.site == site] for site in sorted({t.site for t in trials})]
-    rng = np.random.default_rng(0)
-    draws = [
-        [t for place in rng.integers(len(groups), size=len(groups)) for t in groups[place]]
-        for _ in range(replicates)
-    ]
-    scores = []
-    for name, measure in MEASURES.items():
-        values = [value for draw in draws if not math.isnan(value := measure(draw))]
-        scores.append(
-            AnswerScore(
-                measure=name,
-                value=measure(trials),
-                value_low=float(np.quantile(values, 0.05)) if values else math.nan,
-                value_high=float(np.quantile(values, 0.95)) if values else math.nan,
-                trials=len(trials),
-                sites=len(groups),
-            )
+    sites = [trial.site for trial in trials]
+    draws = scores.resampled(sites, replicates)
+    counts = {"trials": len(trials), "sites": len(set(sites))}
+    return [
+        AnswerScore(
+            measure=name, **scores.scored(scores.of_cases(measure, trials), len(trials), draws), **counts
         )
-    return scores
+        for name, measure in MEASURES.items()
+    ]
 
 
-def _share(which: Callable[[AnswerTrial], float], among: Callable[[AnswerTrial], bool]) -> Measure:
+def _share(
+    which: Callable[[AnswerTrial], float], among: Callable[[AnswerTrial], bool] = lambda trial: True
+) -> Measure:
     def measure(trials: Sequence[AnswerTrial]) -> float:
         chosen = [trial for trial in trials if among(trial)]
         return sum(map(which, chosen)) / len(chosen) if chosen else math.nan
 
     return measure
-
-
-def _any(_: AnswerTrial) -> bool:
-    return True
 
 
 def _by(method: Method) -> Callable[[AnswerTrial], bool]:
@@ -178,10 +164,6 @@ def _settled(trial: AnswerTrial) -> bool:
 
 def _overturns(answer: Answer) -> bool:
     return math.isinf(answer.rotation_ratio)
-
-
-def _wrong_alone(trial: AnswerTrial) -> bool:
-    return _overturns(trial.alone) != math.isinf(trial.truth)
 
 
 def _wrong(trial: AnswerTrial) -> bool:
@@ -200,10 +182,6 @@ def _opposite(trial: AnswerTrial) -> bool:
     return trial.verdict is (Verdict.STANDS if _overturns(trial.beside) else Verdict.OVERTURNS)
 
 
-def _undecided(trial: AnswerTrial) -> bool:
-    return trial.verdict is Verdict.UNDECIDED
-
-
 def _saved_of_mechanism(trials: Sequence[AnswerTrial]) -> float:
     return 1 - sum(t.alone_s for t in trials) / sum(t.mechanism_s for t in trials)
 
@@ -216,22 +194,26 @@ def _saved_of_ensemble(trials: Sequence[AnswerTrial]) -> float:
 
 
 MEASURES: dict[str, Measure] = {
-    "share at rest": _share(_by(Method.NOTHING_TO_INTEGRATE), _any),
-    "share settled by the peak velocity": _share(_by(Method.PEAK_VELOCITY), _any),
-    "share settled by the block": _share(_by(Method.BLOCK_ON_RECORD), _any),
+    "share at rest": _share(_by(Method.NOTHING_TO_INTEGRATE)),
+    "share settled by the peak velocity": _share(_by(Method.PEAK_VELOCITY)),
+    "share settled by the block": _share(_by(Method.BLOCK_ON_RECORD)),
     "members against the verdict where the peak velocity settles": _share(
         _members_against, _by(Method.PEAK_VELOCITY)
     ),
     "members against the verdict where the block settles": _share(
         _members_against, _by(Method.BLOCK_ON_RECORD)
     ),
-    "wrong verdicts among all without an ensemble": _share(_wrong_alone, _any),
+    "wrong verdicts among all without an ensemble": _share(
+        lambda trial: _overturns(trial.alone) != math.isinf(trial.truth)
+    ),
     "wrong verdicts among those settled": _share(_wrong, _settled),
     "overturnings called standing among those settled": _share(_unsafe, _settled),
     "opposite verdict of the ensemble among those settled": _share(_opposite, _settled),
-    "undecided in the ensemble among those settled": _share(_undecided, _settled),
+    "undecided in the ensemble among those settled": _share(
+        lambda trial: trial.verdict is Verdict.UNDECIDED, _settled
+    ),
     "verdicts of the ensemble that its early end changes": _share(
-        lambda trial: trial.quick_verdict is not trial.verdict, _any
+        lambda trial: trial.quick_verdict is not trial.verdict
     ),
     "CPU saved of the mechanism for all": _saved_of_mechanism,
     "CPU saved of mechanism and ensemble for all": _saved_of_ensemble,

@@ -15,11 +15,12 @@ import numpy as np
 from rocking.assessment.ensemble import CAUSES, Ensemble, EnsembleSettings, GroundMotions, drawn, ensemble
 from rocking.assessment.ensemble.design import lattice
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
+from rocking.calibration import scores
 from rocking.calibration.tier_cases import independent
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Structure
-from rocking.tables import Row, column, row, write_rows
+from rocking.tables import Row, column, row, write_tables
 
 DRAWS = 4000
 STRUCTURES_PER_RECORD = 3
@@ -203,43 +204,18 @@ def ensemble_accuracy(
     trials: Sequence[EnsembleTrial], replicates: int = REPLICATES
 ) -> list[EnsembleAccuracy]:
     """Return every measure on each half of the sites, with its interval."""
-    rows = []
-    for half in (CHOSEN, LEFT_OUT):
-        of_site: dict[str, list[EnsembleTrial]] = {}
-        for trial in trials:
-            if trial.half == half:
-                of_site.setdefault(trial.site, []).append(trial)
-        groups = list(of_site.values())
-        if not groups:
-            continue
-        whole = [trial for group in groups for trial in group]
-        for name, asked, measure in MEASURES:
-            low, high = _interval(groups, measure, replicates)
-            rows.append(
-                EnsembleAccuracy(
-                    half=half,
-                    measure=name,
-                    value=measure(whole),
-                    value_low=low,
-                    value_high=high,
-                    asked=asked,
-                    cases=len(whole),
-                    sites=len(groups),
-                )
-            )
-    return rows
+    halves = {half: [trial for trial in trials if trial.half == half] for half in (CHOSEN, LEFT_OUT)}
+    return [row for half, own in halves.items() if own for row in _accuracy(half, own, replicates)]
 
 
-def _interval(
-    groups: Sequence[list[EnsembleTrial]], measure: Measure, replicates: int
-) -> tuple[float, float]:
-    rng = np.random.default_rng(0)
-    values = [
-        measure([trial for place in rng.integers(len(groups), size=len(groups)) for trial in groups[place]])
-        for _ in range(replicates)
-    ]
-    known = np.array(values)[np.isfinite(values)]
-    return (float(np.quantile(known, 0.05)), float(np.quantile(known, 0.95))) if known.size else (np.nan,) * 2
+def _accuracy(half: str, trials: Sequence[EnsembleTrial], replicates: int) -> Iterator[EnsembleAccuracy]:
+    places: dict[str, int] = {}
+    sites = [places.setdefault(trial.site, len(places)) for trial in trials]
+    draws = scores.resampled(sites, replicates)
+    counts = {"cases": len(trials), "sites": len(places)}
+    for name, asked, measure in MEASURES:
+        found = scores.scored(scores.of_cases(measure, trials), len(trials), draws)
+        yield EnsembleAccuracy(half=half, measure=name, asked=asked, **found, **counts)
 
 
 def write_ensemble_accuracy(
@@ -251,6 +227,5 @@ def write_ensemble_accuracy(
     """Write ensemble_trials.csv and ensemble_accuracy.csv into `folder` and return the rows of the second."""
     trials = list(try_ensembles(near_fault, others, structures))
     accuracy = ensemble_accuracy(trials)
-    write_rows(EnsembleTrial, trials, folder / EnsembleTrial.table.file_name)
-    write_rows(EnsembleAccuracy, accuracy, folder / EnsembleAccuracy.table.file_name)
+    write_tables({EnsembleTrial: trials, EnsembleAccuracy: accuracy}, folder)
     return accuracy

@@ -36,14 +36,16 @@ def fit_tier(tier: Tier, terms: np.ndarray, ratios: np.ndarray, sites: np.ndarra
     return replace(fit, edges=edges, bands=bands)
 
 
-def logistic(design: np.ndarray, outcomes: np.ndarray, groups: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def logistic(
+    design: np.ndarray, outcomes: np.ndarray, groups: np.ndarray, ridge: float = RIDGE
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the coefficients (k,) of a logistic regression by Newton's method, and their covariance (k, k).
 
     design: (n, k), its first column ones. outcomes: (n,) in [0, 1]; a share counts as that much of a case that
     overturned beside the rest of one that did not. groups: (n,), what is independent: the covariance is the sandwich of
-    their scores (Liang & Zeger 1986).
+    their scores (Liang & Zeger 1986). ridge: penalty on the coefficients after the first, per case.
     """
-    penalty = RIDGE * len(design) * np.r_[0.0, np.ones(design.shape[1] - 1)]
+    penalty = ridge * len(design) * np.r_[0.0, np.ones(design.shape[1] - 1)]
     found = np.zeros(design.shape[1])
     for _ in range(100):
         shares = 1 / (1 + np.exp(-design @ found))

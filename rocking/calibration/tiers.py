@@ -5,18 +5,20 @@ score: what cannot be known of it.
 """
 
 import hashlib
-import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from rocking.assessment.tiers import Tier, TierBand, TierCovariance, TierFit, TierTerm
+from rocking.calibration import scores
 from rocking.calibration.answers import AnswerScore, answer_scores, try_answers
 from rocking.calibration.tier_cases import TierCase, independent, tier_cases
-from rocking.calibration.tier_fit import fit_tier, known, logistic, ratios_of, shares_of, sites_of
+from rocking.calibration.tier_fit import fit_tier, known, ratios_of, shares_of, sites_of
 from rocking.records import Accelerogram
-from rocking.tables import Row, column, row, write_rows
+from rocking.tables import Row, column, row, write_tables
 
 REPLICATES = 500
 BINS = (0.0, 0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
@@ -72,38 +74,43 @@ def tier_scores(
     """Yield the scores and the reliability of each tier on sites left out."""
     ratios, sites = ratios_of(cases), sites_of(cases)
     fallen = shares_of(ratios)
-    draws = _draws(sites, replicates)
+    draws = scores.resampled(sites, replicates)
+    counts = {"cases": len(cases), "sites": len(set(sites))}
     for tier in Tier:
         odds, _, rotations = left_out(tier, cases)
-        shares = 1 / (1 + np.exp(-odds))
-        inside = ((ratios >= rotations[:, :1]) & (ratios <= rotations[:, 2:])).mean(axis=1)
-        measures: dict[str, Callable[[np.ndarray], float]] = {
-            "Brier skill": lambda rows, p=shares: _skill(p[rows], fallen[rows]),  # type: ignore[misc]
-            "Brier skill of who knew the shares": lambda rows: _skill(fallen[rows], fallen[rows]),
-            "calibration slope": lambda rows, z=odds: calibration_slope(z[rows], fallen[rows]),  # type: ignore[misc]
-            "share inside the 5-95 % band": lambda rows, i=inside: float(i[rows].mean()),  # type: ignore[misc]
-        }
-        scores = [
-            TierScore(
-                tier=tier,
-                measure=name,
-                value=measure(np.arange(len(cases))),
-                value_low=float(np.quantile(values, 0.05)),
-                value_high=float(np.quantile(values, 0.95)),
-                cases=len(cases),
-                sites=len(set(sites)),
-            )
-            for name, measure in measures.items()
-            for values in [[measure(rows) for rows in draws]]
-        ]
-        yield scores, list(_reliability(tier, shares, fallen, sites, draws))
+        measures = _measures(odds, rotations, ratios)
+        yield (
+            [
+                TierScore(tier=tier, measure=name, **scores.scored(measure, len(cases), draws), **counts)
+                for name, measure in measures.items()
+            ],
+            [
+                TierReliability(
+                    tier=tier,
+                    probability_from=each.probability_from,
+                    probability_to=each.probability_to,
+                    said=each.stated,
+                    found=each.observed,
+                    found_low=each.low,
+                    found_high=each.high,
+                    cases=each.rows.size,
+                    sites=len(set(sites[each.rows])),
+                )
+                for each in scores.reliability(1 / (1 + np.exp(-odds)), fallen, BINS, draws)
+            ],
+        )
 
 
-def calibration_slope(odds: np.ndarray, fallen: np.ndarray) -> float:
-    """Return the slope of a logistic regression of the shares that overturned on the log odds said; 1 is right."""
-    kept = np.clip(odds, -12, 12)
-    coefficients, _ = logistic(np.column_stack([np.ones(kept.size), kept]), fallen, np.arange(kept.size))
-    return float(coefficients[1])
+def _measures(odds: np.ndarray, rotations: np.ndarray, ratios: np.ndarray) -> dict[str, scores.Measure]:
+    """What a tier is judged by: log odds (n,) and bands (n, 3) that it says, rotation ratios (n, m) of the members."""
+    shares, fallen = 1 / (1 + np.exp(-odds)), shares_of(ratios)
+    inside = ((ratios >= rotations[:, :1]) & (ratios <= rotations[:, 2:])).mean(axis=1)
+    return {
+        "Brier skill": lambda rows: scores.brier_skill(shares[rows], fallen[rows]),
+        "Brier skill of who knew the shares": lambda rows: scores.brier_skill(fallen[rows], fallen[rows]),
+        "calibration slope": lambda rows: scores.logit_slope(odds[rows], fallen[rows]),
+        "share inside the 5-95 % band": lambda rows: float(inside[rows].mean()),
+    }
 
 
 def write_tiers(
@@ -119,45 +126,33 @@ def write_tiers(
     fits = {tier: fit_tier(tier, known(cases, tier), ratios, sites) for tier in Tier}
     hashes = sorted({record.source.sha256 for _, _, record in counted})
     sha256 = hashlib.sha256("\n".join(hashes).encode()).hexdigest()
-    for row_class, rows in (
-        (TierTerm, [r for fit in fits.values() for r in _terms(fit, cases, sha256)]),
-        (TierCovariance, [r for fit in fits.values() for r in _covariances(fit)]),
-        (TierBand, [r for fit in fits.values() for r in _band_rows(fit)]),
-    ):
-        write_rows(row_class, rows, folder / row_class.table.file_name)  # type: ignore[arg-type]
-    scores, reliability = [], []
-    for found, classes in tier_scores(cases, replicates):
-        scores += found
-        reliability += classes
-    write_rows(TierScore, scores, folder / TierScore.table.file_name)
-    answers = answer_scores(list(try_answers(counted, cases)), replicates)
-    write_rows(AnswerScore, answers, folder / AnswerScore.table.file_name)
-    write_rows(TierReliability, reliability, folder / TierReliability.table.file_name)
-    return scores
+    found, classes = (
+        list(chain.from_iterable(each)) for each in zip(*tier_scores(cases, replicates), strict=True)
+    )
+    tables: Mapping[type[Row], Iterable[Row]] = {
+        TierTerm: [row for fit in fits.values() for row in _terms(fit, cases, sha256)],
+        TierCovariance: [row for fit in fits.values() for row in _covariances(fit)],
+        TierBand: [row for fit in fits.values() for row in _bands(fit)],
+        TierScore: found,
+        TierReliability: classes,
+        AnswerScore: answer_scores(list(try_answers(counted, cases)), replicates),
+    }
+    write_tables(tables, folder)
+    return found
 
 
 def _terms(fit: TierFit, cases: Sequence[TierCase], sha256: str) -> Iterator[TierTerm]:
-    names = ("", *fit.tier.terms)
-    numbers = [
-        np.r_[first, rest]
-        for first, rest in ((0, fit.centre), (1, fit.spread), (1, fit.least), (1, fit.largest))
-    ]
-    for name, centre, spread, least, largest, coefficient in zip(
-        names, *numbers, fit.coefficients, strict=True
-    ):
-        yield TierTerm(
-            tier=fit.tier,
-            term=name,
-            centre=float(centre),
-            spread=float(spread),
-            least=float(least),
-            largest=float(largest),
-            coefficient=float(coefficient),
-            records=len({case.record for case in cases}),
-            sites=len({case.site for case in cases}),
-            cases=len(cases),
-            records_sha256=sha256,
-        )
+    counts = {
+        "records": len({case.record for case in cases}),
+        "sites": len({case.site for case in cases}),
+        "cases": len(cases),
+    }
+    of_intercept = {"centre": 0, "spread": 1, "least": 1, "largest": 1}
+    numbers = {name: np.r_[first, getattr(fit, name)] for name, first in of_intercept.items()}
+    numbers["coefficient"] = fit.coefficients
+    for k, term in enumerate(("", *fit.tier.terms)):
+        own: dict[str, Any] = {name: float(values[k]) for name, values in numbers.items()}
+        yield TierTerm(tier=fit.tier, term=term, **own, **counts, records_sha256=sha256)
 
 
 def _covariances(fit: TierFit) -> Iterator[TierCovariance]:
@@ -169,47 +164,6 @@ def _covariances(fit: TierFit) -> Iterator[TierCovariance]:
             )
 
 
-def _band_rows(fit: TierFit) -> Iterator[TierBand]:
-    for edge, (low, median, high) in zip(fit.edges, fit.bands, strict=True):
-        yield TierBand(
-            tier=fit.tier, location_from=float(edge), low=float(low), median=float(median), high=float(high)
-        )
-
-
-def _reliability(
-    tier: Tier, shares: np.ndarray, fallen: np.ndarray, sites: np.ndarray, draws: Sequence[np.ndarray]
-) -> Iterator[TierReliability]:
-    place = np.clip(np.searchsorted(BINS, shares, side="right") - 1, 0, len(BINS) - 2)
-    for k in range(len(BINS) - 1):
-        rows = place == k
-        if not rows.any():
-            continue
-        resampled = [fallen[draw][rows[draw]].mean() for draw in draws if rows[draw].any()]
-        yield TierReliability(
-            tier=tier,
-            probability_from=BINS[k],
-            probability_to=BINS[k + 1],
-            said=float(shares[rows].mean()),
-            found=float(fallen[rows].mean()),
-            found_low=float(np.quantile(resampled, 0.05)),
-            found_high=float(np.quantile(resampled, 0.95)),
-            cases=int(rows.sum()),
-            sites=len(set(sites[rows])),
-        )
-
-
-def _skill(shares: np.ndarray, fallen: np.ndarray) -> float:
-    """Brier skill over all members: what they differ from the share of their case by counts too."""
-    base = fallen.mean()
-    missed = np.mean((shares - fallen) ** 2 + fallen * (1 - fallen))
-    return float(1 - missed / (base * (1 - base))) if 0 < base < 1 else math.nan
-
-
-def _draws(sites: np.ndarray, replicates: int) -> list[np.ndarray]:
-    """Rows of the cases of as many sites, drawn with repetition."""
-    rng, names = np.random.default_rng(0), np.unique(sites)
-    rows = [np.flatnonzero(sites == name) for name in names]
-    return [
-        np.concatenate([rows[place] for place in rng.integers(names.size, size=names.size)])
-        for _ in range(replicates)
-    ]
+def _bands(fit: TierFit) -> Iterator[TierBand]:
+    for edge, (low, median, high) in zip(fit.edges.tolist(), fit.bands.tolist(), strict=True):
+        yield TierBand(tier=fit.tier, location_from=edge, low=low, median=median, high=high)

@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 
 from rocking.assessment.rows.of_trade import (
-    TRADE_TABLES,
     MultiFidelityRow,
     TradeFragilityRow,
     TradeMethod,
@@ -31,7 +30,7 @@ from rocking.calibration.settings import TradeSettings
 from rocking.errors import RockingError
 from rocking.records import Accelerogram
 from rocking.structures import Structure
-from rocking.tables import Row, data_package, write_rows, write_whole
+from rocking.tables import Row, write_tables
 
 MOST_RECORDS = 70
 """Records that are tried, spread evenly over the catalogue."""
@@ -66,10 +65,7 @@ def write_trade(
         MultiFidelityRow: samples,
         TradeMethodRow: list(method_rows(rows, fragilities)),
     }
-    for kind, written in tables.items():
-        write_rows(kind, written, folder / kind.table.file_name)
-    described = {name: (kind.table, kind.table.file_name) for name, kind in TRADE_TABLES.items()}
-    write_whole(folder / "trade.json", data_package("rocking-trade", described))
+    write_tables(tables, folder, "rocking-trade", "trade.json")
 
 
 def method_rows(

@@ -14,6 +14,7 @@ takes both back.
 from rocking.tables.cells import cell
 from rocking.tables.csv_rows import csv_lines, head, read_rows, rows_written, write_rows
 from rocking.tables.files import write_whole, written_together
+from rocking.tables.folder import read_table, write_tables
 from rocking.tables.frames import frame, rows_of
 from rocking.tables.package import data_package
 from rocking.tables.row import Column, R, Row, Table, column, row
@@ -30,10 +31,12 @@ __all__ = [
     "frame",
     "head",
     "read_rows",
+    "read_table",
     "row",
     "rows_of",
     "rows_written",
     "write_rows",
+    "write_tables",
     "write_whole",
     "written_together",
 ]

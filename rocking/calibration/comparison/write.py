@@ -26,7 +26,7 @@ from rocking.motion.integration import integrate
 from rocking.motion.reference import reference_landings
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism
-from rocking.tables import data_package, write_rows, write_whole
+from rocking.tables import write_tables
 
 REFERENCE = "scipy DOP853, 1e-12 (reference)"
 REFERENCE_BUDGET = 120.0
@@ -58,11 +58,7 @@ def write_comparison(records: Sequence[Accelerogram], folder: Path, log: Path, s
                 print(f"{case.name}: {len(found)} codes", file=stream, flush=True)
                 yield from found
 
-        write_rows(CodeRow, rows(), folder / CodeRow.table.file_name)
-    package = data_package(
-        "rocking-comparison", {CodeRow.table.name: (CodeRow.table, CodeRow.table.file_name)}
-    )
-    write_whole(folder / "datapackage.json", package)
+        write_tables({CodeRow: rows()}, folder, "rocking-comparison")
 
 
 def code_rows(case: CodeCase, codes: Mapping[str, Code]) -> Iterator[CodeRow]:

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rocking.calibration.tier_fit import logistic
+
 
 @dataclass(frozen=True)
 class Threshold:
@@ -41,18 +43,10 @@ def fit_threshold(measure: np.ndarray, outcomes: np.ndarray) -> Threshold:
 
 def fit_logistic(measure: np.ndarray, outcomes: np.ndarray) -> Logistic:
     """Return the regression of largest likelihood; a ridge of 1e-4 keeps it finite where the outcomes separate."""
-    from scipy.optimize import minimize
-
     logarithm = np.log(measure)
-    centre = logarithm.mean()
-    rows = np.column_stack([np.ones(measure.size), logarithm - centre])
-
-    def loss(line: np.ndarray) -> tuple[float, np.ndarray]:
-        reached = rows @ line
-        value = np.logaddexp(0, reached).sum() - outcomes @ reached + 1e-4 * line @ line
-        return float(value), rows.T @ (1 / (1 + np.exp(-reached)) - outcomes) + 2e-4 * line
-
-    intercept, slope = minimize(loss, np.zeros(2), jac=True).x
+    centre, many = logarithm.mean(), measure.size
+    design = np.column_stack([np.ones(many), logarithm - centre])
+    (intercept, slope), _ = logistic(design, outcomes, np.arange(many), ridge=2e-4 / many)
     return Logistic(float(intercept - slope * centre), float(slope))
 
 

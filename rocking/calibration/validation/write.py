@@ -4,8 +4,10 @@ import itertools
 import time
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from scipy.special import logit
 
 from rocking.assessment.rows.of_validation import (
     ROW_CLASSES,
@@ -18,8 +20,8 @@ from rocking.assessment.rows.of_validation import (
     ScoreRow,
     TimingRow,
 )
+from rocking.calibration import scores
 from rocking.calibration.identification import PARAMETERS, BlockPrior, Identification, overturning_table
-from rocking.calibration.validation import scores
 from rocking.calibration.validation.campaign import Campaign
 from rocking.calibration.validation.predictions import (
     IDENTIFIED,
@@ -33,10 +35,18 @@ from rocking.calibration.validation.predictions import (
 from rocking.calibration.validation.source import SPECIMENS
 from rocking.calibration.validation.specimen import Specimen, specimen_from_mesh
 from rocking.records.processing import process
-from rocking.tables import Row, data_package, write_rows, write_whole
+from rocking.tables import Row, write_tables
 
 SPEED_CLASSES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.6, np.inf)
 """Edges of the classes of peak velocity, m/s."""
+RESAMPLES = 2000
+"""Draws of an interval."""
+NINETY_FIVE = (0.025, 0.975)
+"""Levels of the paired intervals."""
+EDGES = (0.0, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95, 1.0)
+"""Of the classes of a reliability diagram."""
+LOGIT_LIMITS = (0.01, 0.99)
+"""Between which a probability is kept before its logit is taken."""
 TIMED = 40
 """Tests on which the time of a prediction is measured, spread evenly."""
 
@@ -67,10 +77,7 @@ def write_validation(
         rows[IdentifiedRow] += identified_rows(measured.prior, specimen, final, body)
         rows[MemberRow] += member_rows(specimen, final)
         rows[TimingRow].append(timing_row(campaign, specimen, final))
-    for kind in ROW_CLASSES:
-        write_rows(kind, rows[kind], folder / kind.table.file_name)
-    resources = {kind.table.name: (kind.table, kind.table.file_name) for kind in ROW_CLASSES}
-    write_whole(folder / "datapackage.json", data_package("rocking-validation", resources))
+    write_tables(rows, folder, "rocking-validation")
     unlisted = f" {len(campaign.unlisted)} tests are not in the catalogue." if campaign.unlisted else ""
     tell(f"{len(campaign.tests)} tests of {campaign.folder}.{unlisted}")
 
@@ -97,56 +104,51 @@ def score_rows(
     measured: Measured, specimen: int, probability: Mapping[str, np.ndarray]
 ) -> Iterator[ScoreRow]:
     """Yield the scores of every method, with intervals and gains paired by the motions drawn."""
-    outcomes, motions = measured.outcomes(specimen), measured.motions.tolist()
-    ours = probability[IDENTIFIED]
+    outcomes, motions = measured.outcomes(specimen), measured.motions
+    draws, every = scores.resampled(motions, RESAMPLES), np.arange(outcomes.size)
     for method, values in probability.items():
-
-        def right(rows: np.ndarray, values: np.ndarray = values) -> float:
-            return scores.accuracy(values[rows], outcomes[rows])
-
-        def missed_by(rows: np.ndarray, values: np.ndarray = values) -> float:
-            return scores.brier(values[rows], outcomes[rows])
-
-        def more_right(rows: np.ndarray, values: np.ndarray = values) -> float:
-            return scores.accuracy(ours[rows], outcomes[rows]) - scores.accuracy(values[rows], outcomes[rows])
-
-        def nearer(rows: np.ndarray, values: np.ndarray = values) -> float:
-            return scores.brier(values[rows], outcomes[rows]) - scores.brier(ours[rows], outcomes[rows])
-
-        every = np.arange(outcomes.size)
-        bounds = [scores.interval(each, motions) for each in (right, missed_by, more_right, nearer)]
+        columns: dict[str, Any] = {}
+        for name, score in _scores(values, probability[IDENTIFIED], outcomes).items():
+            low, high = scores.interval(score, draws, NINETY_FIVE)
+            columns |= {name: score(every), f"{name}_low": low, f"{name}_high": high}
         said = values > 0.5
         yield ScoreRow(
             specimen=specimen,
             method=method,
             tests=outcomes.size,
             motions=len(set(motions)),
-            accuracy=right(every),
-            accuracy_low=bounds[0][0],
-            accuracy_high=bounds[0][1],
-            brier=missed_by(every),
-            brier_low=bounds[1][0],
-            brier_high=bounds[1][1],
+            **columns,
             missed=int((outcomes & ~said).sum()),
             false=int((~outcomes & said).sum()),
-            accuracy_gain=more_right(every),
-            accuracy_gain_low=bounds[2][0],
-            accuracy_gain_high=bounds[2][1],
-            brier_gain=nearer(every),
-            brier_gain_low=bounds[3][0],
-            brier_gain_high=bounds[3][1],
             calibration_slope=scores.calibration_slope(values, outcomes),
-            logit_slope=scores.logit_slope(values, outcomes),
+            logit_slope=scores.logit_slope(logit(np.clip(values, *LOGIT_LIMITS)), outcomes),
         )
+
+
+def _scores(values: np.ndarray, ours: np.ndarray, outcomes: np.ndarray) -> dict[str, scores.Measure]:
+    """The scores of probabilities (n,), and what `ours` gains in them, by the names of their columns."""
+
+    def right(said: np.ndarray, rows: np.ndarray) -> float:
+        return scores.accuracy(said[rows], outcomes[rows])
+
+    def missed_by(said: np.ndarray, rows: np.ndarray) -> float:
+        return scores.brier(said[rows], outcomes[rows])
+
+    return {
+        "accuracy": lambda rows: right(values, rows),
+        "brier": lambda rows: missed_by(values, rows),
+        "accuracy_gain": lambda rows: right(ours, rows) - right(values, rows),
+        "brier_gain": lambda rows: missed_by(values, rows) - missed_by(ours, rows),
+    }
 
 
 def reliability_rows(measured: Measured, specimen: int, probability: np.ndarray) -> Iterator[ReliabilityRow]:
     """Yield the reliability diagram of the identified population."""
-    outcomes = measured.outcomes(specimen)
-    for each in scores.reliability(probability, outcomes, measured.motions.tolist()):
+    draws = scores.resampled(measured.motions, RESAMPLES)
+    for each in scores.reliability(probability, measured.outcomes(specimen), EDGES, draws):
         yield ReliabilityRow(
             specimen=specimen,
-            tests=each.tests,
+            tests=each.rows.size,
             stated=each.stated,
             observed=each.observed,
             observed_low=each.low,

@@ -9,9 +9,10 @@ from scipy.optimize import minimize
 
 from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.tiers import Tier, read_tiers
+from rocking.calibration.scores import logit_slope
 from rocking.calibration.tier_cases import TierCase, independent, structures_tried, tier_cases
 from rocking.calibration.tier_fit import fit_tier, known, logistic, ratios_of, sites_of
-from rocking.calibration.tiers import calibration_slope, left_out, tier_scores, write_tiers
+from rocking.calibration.tiers import left_out, tier_scores, write_tiers
 from rocking.records import Accelerogram, load_catalogue, open_record
 from rocking.structures import Block
 
@@ -53,8 +54,8 @@ def test_what_is_said_as_it_is_has_slope_one():
     design, fallen, _ = planted(20_000)
     odds = 2 * design[:, 1] - 1
     # the standard error of the slope is 0.02 here
-    assert calibration_slope(odds, fallen.astype(float)) == pytest.approx(1.0, abs=0.06)
-    assert calibration_slope(2 * odds, fallen.astype(float)) == pytest.approx(0.5, abs=0.03)
+    assert logit_slope(odds, fallen.astype(float)) == pytest.approx(1.0, abs=0.06)
+    assert logit_slope(2 * odds, fallen.astype(float)) == pytest.approx(0.5, abs=0.03)
 
 
 def record(event: str, station: str, component: str) -> Accelerogram:

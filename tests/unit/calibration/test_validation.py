@@ -10,9 +10,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.special import logit
 
+from rocking.calibration import scores
 from rocking.calibration.validation import campaign as campaigns
-from rocking.calibration.validation import scores, source
+from rocking.calibration.validation import source, write
 from rocking.calibration.validation.baselines import fit_logistic, fit_threshold
 from rocking.calibration.validation.campaign import Campaign
 from rocking.calibration.validation.predictions import (
@@ -168,9 +170,9 @@ def test_a_forecast_that_means_what_it_says_has_slopes_of_one():
     probability = draw.beta(0.5, 0.5, size=40_000)
     outcomes = draw.random(40_000) < probability
     assert scores.calibration_slope(probability, outcomes) == pytest.approx(1, abs=0.02)
-    assert scores.logit_slope(probability, outcomes, 1e-6) == pytest.approx(1, abs=0.03)
+    assert scores.logit_slope(logit(probability), outcomes) == pytest.approx(1, abs=0.03)
     sure = probability**2 / (probability**2 + (1 - probability) ** 2)
-    assert scores.logit_slope(sure, outcomes, 1e-6) == pytest.approx(0.5, abs=0.03)
+    assert scores.logit_slope(logit(sure), outcomes) == pytest.approx(0.5, abs=0.03)
 
 
 def test_intervals_draw_whole_motions():
@@ -178,8 +180,10 @@ def test_intervals_draw_whole_motions():
     draw = np.random.default_rng(2)
     one = draw.random(40)
     many = np.repeat(one, 10)
-    narrow = scores.interval(lambda rows: many[rows].mean(), [str(k) for k in range(400)])
-    wide = scores.interval(lambda rows: many[rows].mean(), np.repeat(np.arange(40), 10).tolist())
+    narrow, wide = (
+        scores.interval(lambda rows: many[rows].mean(), scores.resampled(labels, 2000), (0.025, 0.975))
+        for labels in (np.arange(400), np.repeat(np.arange(40), 10))
+    )
     assert (wide[1] - wide[0]) / (narrow[1] - narrow[0]) == pytest.approx(np.sqrt(10), rel=0.15)
     assert wide[1] - wide[0] == pytest.approx(2 * 1.96 * one.std() / np.sqrt(40), rel=0.15)
 
@@ -187,10 +191,9 @@ def test_intervals_draw_whole_motions():
 def test_reliability_counts_every_test_once():
     draw = np.random.default_rng(3)
     probability = draw.random(200)
-    classes = scores.reliability(
-        probability, draw.random(200) < probability, [str(k // 5) for k in range(200)]
-    )
-    assert sum(each.tests for each in classes) == 200
+    draws = scores.resampled([str(k // 5) for k in range(200)], 200)
+    classes = list(scores.reliability(probability, draw.random(200) < probability, write.EDGES, draws))
+    assert sorted(np.concatenate([each.rows for each in classes])) == list(range(200))
     assert all(each.low <= each.observed <= each.high for each in classes)
 
 
@@ -286,7 +289,7 @@ def test_the_tables_are_written_whole(made, tmp_path, monkeypatch):
     for k in (1, 2):
         (made[1] / f"specimen_{k}.obj.gz").write_bytes(gzip.compress(mesh))
     monkeypatch.setattr("rocking.calibration.validation.write.TABLE_PRIOR", replace(TABLE_PRIOR, size=64))
-    monkeypatch.setattr(scores, "RESAMPLES", 50)
+    monkeypatch.setattr(write, "RESAMPLES", 50)
     told: list[str] = []
     write_validation(made[0], made[1], tmp_path, workers=1, tell=told.append)
     assert told[0].startswith("1 of 32: test ") and told[31].startswith("32 of 32: ")
