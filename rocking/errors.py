@@ -3,6 +3,9 @@
 A message is one sentence: what (file, field), the value, what is allowed, what to do.
 """
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 
 class RockingError(Exception):
     """Root of every error this package raises on purpose."""
@@ -46,3 +49,13 @@ class ConfigurationError(RockingError):
 
 class StructureWarning(UserWarning):
     """A structure that can be computed, but with a value that is not physical; the message says which."""
+
+
+@contextmanager
+def about(what: str) -> Iterator[None]:
+    """Put `what`, the name of a file or of a record, before the message of an error that is raised within."""
+    try:
+        yield
+    except RockingError as error:
+        error.args = (f"{what}: {error}",)
+        raise

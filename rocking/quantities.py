@@ -27,18 +27,18 @@ ACCELERATION_UNITS = {
 """Factor from each unit of acceleration to m/s²; one g = 9.80665 m/s² for units and gravity alike."""
 
 
+def acceleration_unit(text: str) -> str | None:
+    """Return the unit that `text` spells ("cm/sec/sec", "M/S²") as ACCELERATION_UNITS calls it; None for another."""
+    name = str(text).strip().lower()
+    for spelt, short in (("sec", "s"), ("²", "2"), ("^2", "2"), ("**2", "2"), ("/s/s", "/s2")):
+        name = name.replace(spelt, short)
+    return name if name in ACCELERATION_UNITS else None
+
+
 def acceleration_factor(unit: str) -> float:
     """Return the factor from `unit` to m/s². Raises RecordError when the unit is not known."""
-    name = (
-        str(unit)
-        .strip()
-        .lower()
-        .replace("²", "2")
-        .replace("^2", "2")
-        .replace("**2", "2")
-        .replace("/s/s", "/s2")
-    )
-    if name not in ACCELERATION_UNITS:
+    name = acceleration_unit(unit)
+    if name is None:
         raise RecordError(f"unit is {unit!r}, but must be one of {', '.join(ACCELERATION_UNITS)}.")
     return ACCELERATION_UNITS[name]
 

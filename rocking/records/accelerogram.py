@@ -1,13 +1,14 @@
 """Accelerogram: what every reader returns. An acceleration history and where it came from, nothing else."""
 
 import hashlib
+from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import numpy as np
 
-from rocking.errors import RecordError
+from rocking.errors import RecordError, about
 from rocking.quantities import GRAVITY, finite, positive, shown
 
 if TYPE_CHECKING:
@@ -72,15 +73,10 @@ class Accelerogram:
     """Whether the file says that its numbers are already corrected; None where it cannot say."""
 
     def __post_init__(self) -> None:
-        name = self.source.path or "acceleration"
-        samples = _samples(name, self.acceleration)
-        object.__setattr__(self, "acceleration", samples)
-        object.__setattr__(
-            self, "time_step", positive(RecordError, f"{name}: time_step", self.time_step, "s")
-        )
-        object.__setattr__(
-            self, "scale_factor", finite(RecordError, f"{name}: scale_factor", self.scale_factor)
-        )
+        with about(self.source.path) if self.source.path else nullcontext():
+            object.__setattr__(self, "acceleration", _samples(self.acceleration))
+            object.__setattr__(self, "time_step", positive(RecordError, "time_step", self.time_step, "s"))
+            object.__setattr__(self, "scale_factor", finite(RecordError, "scale_factor", self.scale_factor))
 
     def __repr__(self) -> str:
         names = [name for name in (self.component, self.station, self.event) if name]
@@ -132,19 +128,17 @@ class Accelerogram:
         return DataFrame({"time_s": self.times, "acceleration_m_s2": self.acceleration})
 
 
-def _samples(name: str, values: np.ndarray) -> np.ndarray:
+def _samples(values: np.ndarray) -> np.ndarray:
     try:
         samples = np.array(values, dtype=np.float64)
     except (TypeError, ValueError):
-        raise RecordError(f"{name}: the samples are not all numbers; give a one-dimensional array.") from None
+        raise RecordError("the samples are not all numbers; give a one-dimensional array.") from None
     if samples.ndim != 1 or samples.size < 2:
-        raise RecordError(
-            f"{name}: the samples have shape {samples.shape}, but must be one row of at least 2."
-        )
+        raise RecordError(f"the samples have shape {samples.shape}, but must be one row of at least 2.")
     bad = np.flatnonzero(~np.isfinite(samples))
     if bad.size:
         raise RecordError(
-            f"{name}: sample {bad[0]} is {samples[bad[0]]}, one of {bad.size} that are not finite; "
+            f"sample {bad[0]} is {samples[bad[0]]}, one of {bad.size} that are not finite; "
             "fill or cut the gap before use."
         )
     samples.flags.writeable = False

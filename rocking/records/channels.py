@@ -12,8 +12,8 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.site import channel_warnings
 
 
-def told_apart(records: Sequence[Accelerogram], name: str) -> list[Accelerogram]:
-    """Return the channels of the file `name`, each with a component of its own and what is doubtful of it as warnings.
+def told_apart(records: Sequence[Accelerogram]) -> list[Accelerogram]:
+    """Return the channels of a file, each with a component of its own and what is doubtful of it as warnings.
 
     One without a name is called after its place, "channel 1"; those that share a name get their place as well.
     Raises RecordError when one channel stands in the file twice: it was appended to itself.
@@ -21,7 +21,7 @@ def told_apart(records: Sequence[Accelerogram], name: str) -> list[Accelerogram]
     for (i, a), (k, b) in combinations(enumerate(records, 1), 2):
         if a.component == b.component and _same(a.acceleration, b.acceleration):
             raise RecordError(
-                f"{name}: channel {k} ({a.component or 'not named'}) repeats channel {i} number by number: the file is "
+                f"channel {k} ({a.component or 'not named'}) repeats channel {i} number by number: the file is "
                 "appended to itself; fetch it again."
             )
     shared = Counter(record.component for record in records)

@@ -54,7 +54,7 @@ def agree_with_header(
     allowed = max(0.01 * stated, half_digit * acceleration_factor(unit))
     if abs(found - stated) > allowed:
         raise RecordError(
-            f"{record.source.path}: peak acceleration of {record.component or 'the samples'} is "
+            f"peak acceleration of {record.component or 'the samples'} is "
             f"{found:.6g} m/s², but the file's header states {stated:.6g} m/s²"
             f"{_explain(found / stated)}; the two must agree within 1 %."
         )
@@ -102,7 +102,7 @@ def pass_limits(record: Accelerogram) -> tuple[str, ...]:
     peak = record.peak_acceleration / GRAVITY
     if record.peak_acceleration > LARGEST_PEAK:
         raise RecordError(
-            f"{record.source.path}: peak acceleration is {peak:.6g} g read as {record.source.unit or 'm/s2'}, "
+            f"peak acceleration is {peak:.6g} g read as {record.source.unit or 'm/s2'}, "
             f"above the 5 g that no ground has reached{_candidates(peak, divide=True)}; declare the true unit."
         )
     if record.peak_acceleration > RARE_PEAK:

@@ -7,8 +7,8 @@ from errno import EINVAL
 from os import fstat
 from pathlib import Path
 
-from rocking.errors import RecordError, UnknownFormatError
-from rocking.records.accelerogram import Accelerogram
+from rocking.errors import RecordError, UnknownFormatError, about
+from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.channels import told_apart
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
@@ -48,43 +48,44 @@ def read(
     path = Path(path)
     name, raw = printable(path.name), bytes_of(path)
     options = Options(unit, time_step, Path(inventory) if inventory else None, path.parent, response)
-    return read_content(
-        unpacked(raw, name), name, options, hashlib.sha256(raw).hexdigest(), printable(str(path))
-    )
+    source = Source(printable(str(path)), sha256=hashlib.sha256(raw).hexdigest())
+    return read_content(unpacked(raw, name), name, options, source)
 
 
 def read_content(
     content: bytes,
     name: str,
     options: Options,
-    sha256: str = "",
-    path: str = "",
+    source: Source | None = None,
     reader: Format | None = None,
 ) -> list[Accelerogram]:
-    """Return the channels in `content`, as read() does of a file called `name`; `reader` if the format is known."""
-    records = (reader or recognise(content, name)).read(content, name, options)
-    if not records:
-        raise RecordError(f"{name}: the file holds no channel of acceleration.")
-    sha256 = sha256 or hashlib.sha256(content).hexdigest()
-    return [_signed(record, sha256, path or name) for record in told_apart(records, name)]
+    """Return the channels in `content`, as read() does of a file called `name`; `reader` if the format is known.
+
+    source: path and hash of the file, where `content` is not all there is to it.
+    """
+    source = source or Source(name, sha256=hashlib.sha256(content).hexdigest())
+    with about(name[:120]):
+        reader = reader or recognise(content)
+        records = told_apart(reader.read(content, replace(options, file=name)))
+        if not records:
+            raise RecordError("the file holds no channel of acceleration.")
+        return [_signed(record, replace(source, format=reader.name)) for record in records]
 
 
-def recognise(content: bytes, name: str) -> Format:
+def recognise(content: bytes) -> Format:
     """Return the one format that recognises `content`. Raises UnknownFormatError when none or several do."""
     if not content.strip(b" \t\r\n\0"):
-        raise RecordError(f"{name}: the file is empty; fetch it again.")
+        raise RecordError("the file is empty; fetch it again.")
     if content.startswith(_PICKLE):
-        raise UnknownFormatError(
-            f"{name}: this is a pickled Python object, which could run code; it is never opened."
-        )
+        raise UnknownFormatError("this is a pickled Python object, which could run code; it is never opened.")
     found = [form for form in FORMATS if form.recognise(content)]
     if len(found) == 1:
         return found[0]
     if found:
         names = ", ".join(form.name for form in found)
-        raise UnknownFormatError(f"{name}: several readers recognise this file ({names}); none is preferred.")
+        raise UnknownFormatError(f"several readers recognise this file ({names}); none is preferred.")
     raise UnknownFormatError(
-        f"{name[:120]}: no reader recognises this file, which begins with {_beginning(content)}; "
+        f"no reader recognises this file, which begins with {_beginning(content)}; "
         "rocking read --details says what each of them looked for.",
         details=tuple(f"{form.name}: no {form.sought}" for form in FORMATS),
     )
@@ -141,6 +142,6 @@ def printable(text: str) -> str:
     return plain(text.encode("utf-8", "backslashreplace").decode()) if not text.isprintable() else text
 
 
-def _signed(record: Accelerogram, sha256: str, path: str) -> Accelerogram:
+def _signed(record: Accelerogram, source: Source) -> Accelerogram:
     warnings = record.warnings + pass_limits(record)
-    return replace(record, source=replace(record.source, sha256=sha256, path=path), warnings=warnings)
+    return replace(record, source=replace(source, unit=record.source.unit), warnings=warnings)

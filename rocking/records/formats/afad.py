@@ -14,23 +14,21 @@ _FIRST = re.compile(r"STRONG GROUND MOTION RECORDS OF T", re.I)
 _HEADER = 40
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
     at = next((i for i, line in enumerate(text[:_HEADER]) if _columns(line)), None)
     if at is None:
         raise RecordError(
-            f"{name}: no line names the columns (N-S, E-W, U-D) in the first {_HEADER}; the file is cut."
+            f"no line names the columns (N-S, E-W, U-D) in the first {_HEADER}; the file is cut."
         )
     pairs, columns = mapping(text[:at]), _columns(text[at])
-    values = numbers(name, "\n".join(text[at + 1 :]).encode("latin-1"))
+    values = numbers("\n".join(text[at + 1 :]).encode("latin-1"))
     if values.size % len(columns):
-        raise RecordError(
-            f"{name}: {values.size} numbers do not fill {len(columns)} columns; the file is truncated."
-        )
+        raise RecordError(f"{values.size} numbers do not fill {len(columns)} columns; the file is truncated.")
     table = values.reshape(-1, len(columns))
-    declared = count(name, "NUMBER OF DATA", valued(name, pairs, "NUMBER OF DATA"))
-    _, notes = whole(name, table[:, 0], declared, per_line=1)
-    return [_record(name, pairs, label, table[:, i], notes, options) for i, label in enumerate(columns)]
+    declared = count("NUMBER OF DATA", valued(pairs, "NUMBER OF DATA"))
+    _, notes = whole(table[:, 0], declared, per_line=1)
+    return [_record(pairs, label, table[:, i], notes, options) for i, label in enumerate(columns)]
 
 
 def _columns(line: str) -> list[str]:
@@ -38,16 +36,12 @@ def _columns(line: str) -> list[str]:
     return labels if len(labels) > 1 and all(azimuth(x) is not None or is_vertical(x) for x in labels) else []
 
 
-def _record(
-    name: str, pairs: dict[str, str], component: str, values, notes, options: Options
-) -> Accelerogram:
+def _record(pairs: dict[str, str], component: str, values, notes, options: Options) -> Accelerogram:
     peaks = next((key for key in pairs if "PGA" in key), "")
     record = accelerogram(
-        name,
-        AFAD.name,
-        options.unit_of(name, "gal"),
+        options.unit_of("gal"),
         values,
-        options.time_step_of(name, numeric(name, pairs, "SAMPLING INTERVAL (SEC)")),
+        options.time_step_of(numeric(pairs, "SAMPLING INTERVAL (SEC)")),
         component=component,
         warnings=notes,
         station=pairs.get("STATION ID", ""),

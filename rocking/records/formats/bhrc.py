@@ -15,28 +15,26 @@ _FIRST = re.compile(r"\* VOL1DS FILE:")
 _PER_LINE, _WIDTH = 10, 13
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    return [_record(block, name, options) for block in channels(content, _FIRST, name)]
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
+    return [_record(block, options) for block in channels(content, _FIRST)]
 
 
-def _record(block: Block, name: str, options: Options) -> Accelerogram:
-    values = filled(name, block.rows, block.declared, _PER_LINE, _WIDTH)
+def _record(block: Block, options: Options) -> Accelerogram:
+    values = filled(block.rows, block.declared, _PER_LINE, _WIDTH)
     step = block.duration / block.declared
     notes: tuple[str, ...] = ()
     if block.rate and abs(block.rate * step - 1) > 1e-3:
         notes = (
             f"The header gives a rate of {block.rate:g} Hz, but duration and number of points a step of {step:g} s.",
         )
-    unit = options.unit_of(name, "g/10")
-    values, offset = without_offset(name, values, unit)
+    unit = options.unit_of("g/10")
+    values, offset = without_offset(values, unit)
     component = optional(r"^COMP\s+(\S+)", block.head)
     letter = component[:1].upper()
     return accelerogram(
-        name,
-        BHRC.name,
         unit,
         values,
-        options.time_step_of(name, step),
+        options.time_step_of(step),
         component=component,
         station=optional(r"FILE:\s*(\w+)", block.head),
         event=_event(block.head),

@@ -7,12 +7,12 @@ from functools import partial
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.quantities import ACCELERATION_UNITS
+from rocking.quantities import acceleration_unit
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.quantity import other_quantity, refuse_other_quantity
 from rocking.records.formats.sampling import even_step, resampled
-from rocking.records.formats.separators import points_for_commas, refuse_commas
+from rocking.records.formats.separators import points_for_commas
 from rocking.records.formats.text import after_lines, is_number, lines, numbers
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
@@ -77,29 +77,30 @@ def _recognise(content: bytes) -> bool:
     return not other and _table(points_for_commas(content) or content) is not None
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
     pointed = points_for_commas(content)
     if pointed is None:
-        refuse_commas(name)
+        raise RecordError(
+            "the commas may be decimal signs or part the columns; write points for decimals, or part the columns "
+            "with semicolons."
+        )
     content = pointed or content
     table = _table(content)
     if table is None:
-        raise RecordError(
-            f"{name}: the file does not hold columns of numbers below at most one row of names."
-        )
-    refuse_other_quantity(name, "\n".join(lines(content, _HEAD)[: table.start]))
+        raise RecordError("the file does not hold columns of numbers below at most one row of names.")
+    refuse_other_quantity(options.file, "\n".join(lines(content, _HEAD)[: table.start]))
     width = table.width
     body = after_lines(content, table.start)
     if _EMPTY_CELL.search(body):
-        raise RecordError(f"{name}: a cell is empty; every column needs a number on every line.")
-    values = numbers(name, body.replace(b",", b" ").replace(b";", b" "))
+        raise RecordError("a cell is empty; every column needs a number on every line.")
+    values = numbers(body.replace(b",", b" ").replace(b";", b" "))
     cut = _cut_number(body)
     wrapped = width > 2 and not table.names and not _time_first(values, width)
-    _check_rows(name, body, width, last_may_be_short=wrapped)
+    _check_rows(body, width, last_may_be_short=wrapped)
     if width == 1 or wrapped:
-        found = [_series(name, values, options, table.names[0] if table.names else "")]
+        found = [_series(values, options, table.names[0] if table.names else "")]
     else:
-        found = _channels(name, values.reshape(-1, width), table.names, options)
+        found = _channels(values.reshape(-1, width), table.names, options)
     return [replace(record, warnings=record.warnings + cut) for record in found]
 
 
@@ -121,7 +122,7 @@ def _time_first(values: np.ndarray, width: int) -> bool:
     return first.size > 2 and first[0] >= 0 and steps.min() > 0 and float(np.ptp(steps)) < 0.01 * steps[0]
 
 
-def _check_rows(name: str, body: bytes, width: int, last_may_be_short: bool) -> None:
+def _check_rows(body: bytes, width: int, last_may_be_short: bool) -> None:
     """Check that each row holds `width` numbers. Raises RecordError naming the first that does not."""
     octets = np.frombuffer(body + b"\n", dtype=np.uint8)
     apart = (octets <= _BLANK) | (octets == ord(",")) | (octets == ord(";"))
@@ -134,18 +135,16 @@ def _check_rows(name: str, body: bytes, width: int, last_may_be_short: bool) -> 
         return
     if wrong.size:
         raise RecordError(
-            f"{name}: row {wrong[0] + 1} of the samples has {rows[wrong[0]]} columns, but the first has {width}."
+            f"row {wrong[0] + 1} of the samples has {rows[wrong[0]]} columns, but the first has {width}."
         )
 
 
-def _series(name: str, values: np.ndarray, options: Options, label: str) -> Accelerogram:
-    unit = options.unit_of(name, _unit(label))
+def _series(values: np.ndarray, options: Options, label: str) -> Accelerogram:
+    unit = options.unit_of(_unit(label))
     return accelerogram(
-        name,
-        COLUMNS.name,
         unit,
         values,
-        options.time_step_of(name, None),
+        options.time_step_of(None),
         component="" if _unit(label) else label,
         warnings=_repeats(values),
         processed=None,
@@ -162,38 +161,33 @@ def _repeats(values: np.ndarray) -> tuple[str, ...]:
     )
 
 
-def _channels(name: str, rows: np.ndarray, names: tuple[str, ...], options: Options) -> list[Accelerogram]:
+def _channels(rows: np.ndarray, names: tuple[str, ...], options: Options) -> list[Accelerogram]:
     labels = names or ("time", *[""] * (rows.shape[1] - 1))
     timed = bool(_TIME.fullmatch(labels[0]))
     step, resample, notes = options.time_step, None, _repeats(rows.ravel())
     if timed:
-        step, resample, notes = _step(name, rows[:, 0])
-    make = partial(_channel, name, step=step, resample=resample, notes=notes, options=options)
+        step, resample, notes = _step(rows[:, 0])
+    make = partial(_channel, step=step, resample=resample, notes=notes, options=options)
     kept = [i for i in range(int(timed), rows.shape[1]) if other_quantity(labels[i]) is None]
     return [make(labels[i], rows[:, i]) for i in kept]
 
 
-def _step(name: str, times: np.ndarray):
+def _step(times: np.ndarray):
     """Return (step, a function that resamples or None, sentences) of a column of times."""
-    step = even_step(name, times)
+    step = even_step(times)
     if step is not None:
         return step, None, ()
-    step, at, sentence = resampled(name, times)
+    step, at, sentence = resampled(times)
     return step, partial(np.interp, at, times), (sentence,)
 
 
-def _channel(
-    name: str, label: str, values: np.ndarray, *, step, resample, notes, options: Options
-) -> Accelerogram:
-    unit = options.unit_of(name, _unit(label))
-    component = _component(label)
+def _channel(label: str, values: np.ndarray, *, step, resample, notes, options: Options) -> Accelerogram:
+    unit = options.unit_of(_unit(label))
     return accelerogram(
-        name,
-        COLUMNS.name,
         unit,
         values if resample is None else resample(values),
-        options.time_step_of(name, step),
-        component=component,
+        options.time_step_of(step),
+        component=_component(label),
         processing=() if resample is None else notes,
         warnings=notes,
         processed=None,
@@ -202,8 +196,7 @@ def _channel(
 
 def _unit(label: str) -> str | None:
     found = _UNIT.search(label)
-    unit = found[1].lower().replace("²", "2").replace("^2", "2") if found else ""
-    return unit if unit in ACCELERATION_UNITS else None
+    return acceleration_unit(found[1]) if found else None
 
 
 def _component(label: str) -> str:

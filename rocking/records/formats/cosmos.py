@@ -27,7 +27,6 @@ _DATA = re.compile(
     re.I,
 )
 _REALS = re.compile(r"^\s*(\d+)\s+Real-header values follow on\s+(\d+)\s+lines.*?\d+[FE](\d+)", re.I)
-_UNITS = {"g": "g", "cm/sec2": "cm/s2", "cm/s2": "cm/s2", "cm/sec/sec": "cm/s2", "m/s2": "m/s2", "gal": "gal"}
 _END = re.compile(r"\s*(End-of-data|/&)", re.I)
 _RECORDER_STEP, _STEP, _LENGTH, _PEAK, _PEAK_TIME = 33, 61, 62, 63, 64
 """Places in the real header: step of the recorder, s; of the series, step in ms, length, largest value and its time.
@@ -37,43 +36,36 @@ After COSMOS format 1.20. A processed series is often resampled, so that the rec
 _UNKNOWN = -999.0
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
     every = blocks(content, _FIRST)
-    found = [record for block in every if (record := _block(block, name, options, len(every))) is not None]
+    found = [record for block in every if (record := _block(block, options, len(every))) is not None]
     if not found:
-        raise RecordError(
-            f"{name}: this COSMOS file holds velocity or displacement only; use the acceleration file."
-        )
+        raise RecordError("this COSMOS file holds velocity or displacement only; use the acceleration file.")
     return found
 
 
-def _block(block: list[str], name: str, options: Options, held: int) -> Accelerogram | None:
+def _block(block: list[str], options: Options, held: int) -> Accelerogram | None:
     at, data = next(((i, m) for i, line in enumerate(block) if (m := _DATA.match(line))), (0, None))
     if data is None:
-        raise RecordError(
-            f"{name}: no line gives points, units and Format of the samples; the file is truncated."
-        )
+        raise RecordError("no line gives points, units and Format of the samples; the file is truncated.")
     if not data["quantity"].lower().startswith("accel"):
         return None
     head = "\n".join(block[:at])
-    reals = _reals(block[:at], name)
-    unit = options.unit_of(name, _unit(name, data["unit"]))
-    values = _samples(block[at + 1 :], data, name)
-    time_step = options.time_step_of(name, _step(reals))
+    reals = _reals(block[:at])
+    unit = options.unit_of(data["unit"])
+    values = _samples(block[at + 1 :], data)
+    time_step = options.time_step_of(_step(reals))
     place = optional(r"\bLocation:\s*(.*?)\s*$", head)
     notes = (
         *missing_channels(head, held),
         *site_warnings(place),
         *_length(values.size * time_step, float(reals[_LENGTH]), time_step),
     )
-    component = _component(head)
     record = accelerogram(
-        name,
-        COSMOS.name,
         unit,
         values,
         time_step,
-        component=component,
+        component=_component(head),
         warnings=notes,
         station=optional(r"Code:\s*(\S+)", head),
         event=optional(r"(?:Rcrd|Record)?\s*(?:of)?\s*(.*)", block[1]),
@@ -86,15 +78,13 @@ def _block(block: list[str], name: str, options: Options, held: int) -> Accelero
     return agree_with_header(record, peak, unit, half_digit=5e-7, at=when)
 
 
-def _samples(rows: list[str], data: re.Match[str], name: str) -> np.ndarray:
+def _samples(rows: list[str], data: re.Match[str]) -> np.ndarray:
     end = next((i for i, row in enumerate(rows) if _END.match(row)), None)
     if end is None:
-        raise RecordError(
-            f"{name}: no line End-of-data ends a channel: the file is truncated; fetch it again."
-        )
-    check_nothing_left(name, rows[end + 1 :])
-    declared = count(name, "number of points", data["n"])
-    return filled(name, rows[:end], declared, max(1, int(data["per_line"])), max(1, int(data["width"])))
+        raise RecordError("no line End-of-data ends a channel: the file is truncated; fetch it again.")
+    check_nothing_left(rows[end + 1 :])
+    declared = count("number of points", data["n"])
+    return filled(rows[:end], declared, max(1, int(data["per_line"])), max(1, int(data["width"])))
 
 
 def _step(reals: np.ndarray) -> float:
@@ -109,27 +99,16 @@ def _length(lasts: float, stated: float, time_step: float) -> tuple[str, ...]:
     return (f"The header gives the series a length of {stated:g} s, but its samples last {lasts:g} s.",)
 
 
-def _reals(head: list[str], name: str):
+def _reals(head: list[str]):
     for i, line in enumerate(head):
         if found := _REALS.match(line):
-            values = fields(
-                name, head[i + 1 : i + 1 + count(name, "real-header lines", found[2])], int(found[3]) or 1
-            )
-            if values.size == count(name, "real-header values", found[1]) > _PEAK_TIME:
+            values = fields(head[i + 1 : i + 1 + count("real-header lines", found[2])], int(found[3]) or 1)
+            if values.size == count("real-header values", found[1]) > _PEAK_TIME:
                 return values
     raise RecordError(
-        f"{name}: the real header does not hold the values it announces, of which {_PEAK_TIME + 1} give step and peak; "
+        f"the real header does not hold the values it announces, of which {_PEAK_TIME + 1} give step and peak; "
         "the file is damaged."
     )
-
-
-def _unit(name: str, text: str) -> str:
-    unit = _UNITS.get(text.lower().rstrip("."))
-    if unit is None:
-        raise RecordError(
-            f"{name}: units of the samples are {text!r}, but must be one of {', '.join(_UNITS)}."
-        )
-    return unit
 
 
 def _component(head: str) -> str:

@@ -19,7 +19,7 @@ from rocking.records.formats.header import (
     starts,
 )
 from rocking.records.formats.site import site_warnings
-from rocking.records.formats.text import column_width, count, filled, lines, number
+from rocking.records.formats.text import column_width, count, filled, lines, number, period
 from rocking.records.formats.volume1 import evened, pairs, volume1_block
 from rocking.records.plausibility import agree_with_header
 
@@ -36,7 +36,6 @@ _DATA_2 = re.compile(
 )  # fmt: skip
 _PER_LINE = 8
 """Of the volumes before 2000, which do not say it."""
-_UNITS = {"g": "g", "cm/sec2": "cm/s2", "cm/sec/sec": "cm/s2", "cm/s/s": "cm/s2", "g/10": "g/10"}
 
 
 def _recognise(content: bytes) -> bool:
@@ -45,7 +44,7 @@ def _recognise(content: bytes) -> bool:
     return starts(content, _VOLUME_1) and not any("RENADIC" in row.upper() for row in lines(content, 13))
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
     text, start, blocks = lines(content), 0, []
     for i, line in enumerate(text):
         if line.startswith("/&"):
@@ -54,48 +53,50 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     if any(_announcement(line) or _VOLUME_1.match(line) for line in text[start:]):
         blocks.append(text[start:])
     else:
-        check_nothing_left(name, text[start:])
-    return [_channel(block, name, options, len(blocks)) for block in blocks]
+        check_nothing_left(text[start:])
+    return [_channel(block, options, len(blocks)) for block in blocks]
 
 
 def _announcement(line: str) -> re.Match[str] | None:
     return _DATA_1.match(line) or _DATA_2.match(line)
 
 
-def _channel(block: list[str], name: str, options: Options, channels: int) -> Accelerogram:
+def _channel(block: list[str], options: Options, channels: int) -> Accelerogram:
     announced = [(i, data) for i, line in enumerate(block) if (data := _announcement(line))]
     if not announced and any(re.match(r"UNITS\b.*\bG/10", line, re.I) for line in block[:13]):
-        return _film(block, name, options, channels)
+        return _film(block, options, channels)
     if not announced or (
         "quantity" in announced[0][1].groupdict() and announced[0][1]["quantity"].lower() != "accel"
     ):
         raise RecordError(
-            f"{name}: no line announces points of acceleration with their format; the file is truncated, "
+            "no line announces points of acceleration with their format; the file is truncated, "
             "or holds velocity or displacement only."
         )
     ends = [i for i, _ in announced[1:]] + [len(block)]
-    parts = [_numbers(block[i + 1 : end], data, name) for (i, data), end in zip(announced, ends, strict=True)]
+    parts = [_numbers(block[i + 1 : end], data) for (i, data), end in zip(announced, ends, strict=True)]
     head, data = "\n".join(block[: announced[0][0]]), announced[0][1]
-    return _record(head, data, parts[0], name, options, channels)
+    return _record(head, data, parts[0], options, channels)
 
 
-def _numbers(rows: list[str], data: re.Match[str], name: str) -> np.ndarray:
+def _numbers(rows: list[str], data: re.Match[str]) -> np.ndarray:
     per_line = int(data["per_line"] or _PER_LINE)
     width = int(data["width"] or column_width(rows[0] if rows else ""))
-    return filled(name, rows, count(name, "number of points", data["n"]), max(1, per_line), max(1, width))
+    return filled(rows, count("number of points", data["n"]), max(1, per_line), max(1, width))
 
 
 def _record(
-    head: str, data: re.Match[str], values: np.ndarray, name: str, options: Options, channels: int
+    head: str, data: re.Match[str], values: np.ndarray, options: Options, channels: int
 ) -> Accelerogram:
-    step = number(name, "step", data["step"]) if "step" in data.groupdict() else 1 / _rate(name, data["rate"])
     corrected = bool(_VOLUME_2.match(head))
-    time_step = options.time_step_of(name, step)
-    _check_sampling(name, head, values.size, time_step, corrected)
+    step = (
+        number("step", data["step"])
+        if "step" in data.groupdict()
+        else period("points per second", data["rate"])
+    )
+    time_step = options.time_step_of(step)
+    _check_sampling(head, values.size, time_step, corrected)
     record = accelerogram(
-        name,
-        CSMIP.name,
-        options.unit_of(name, _unit(name, data["unit"])),
+        options.unit_of(data["unit"]),
         values,
         time_step,
         processed=corrected,
@@ -111,7 +112,7 @@ def _record(
     return agree_with_header(record, *_uncorrected_peak(head))
 
 
-def _check_sampling(name: str, head: str, samples: int, time_step: float, corrected: bool) -> None:
+def _check_sampling(head: str, samples: int, time_step: float, corrected: bool) -> None:
     """Compare number and step of the samples with what the text above says of them."""
     if corrected:
         said = optional(r"^\s*(\S+)\s+points of instrument", head)
@@ -120,11 +121,11 @@ def _check_sampling(name: str, head: str, samples: int, time_step: float, correc
         said = optional(r"^No\. of points\s*=\s*(\S+)", head)
         interval = None
         if duration := optional(r"Record length\s*=\s*([\d.]+)", head):
-            check_duration(name, "Record Length", duration, samples, time_step)
+            check_duration("Record Length", duration, samples, time_step)
     if said:
-        check_equal(name, "the number of points", count(name, "number of points", said), samples, 0)
+        check_equal("the number of points", count("number of points", said), samples, 0)
     if interval:
-        check_equal(name, "the interval", interval, time_step)
+        check_equal("the interval", interval, time_step)
 
 
 def _uncorrected_peak(head: str) -> tuple[float | None, str, float]:
@@ -145,35 +146,18 @@ def _old_event(head: str) -> str:
     return next((row.strip() for row in head.split("\n") if re.search(r"\bEARTHQUAKE\b", row)), "")[:60]
 
 
-def _film(block: list[str], name: str, options: Options, channels: int) -> Accelerogram:
+def _film(block: list[str], options: Options, channels: int) -> Accelerogram:
     """Return a raw channel digitised from film: (t, a) pairs in seconds and tenths of g."""
-    film = volume1_block(block, name)
-    times, values = pairs(film, name, margin=0)
-    step, even, notes = evened(name, times, values)
-    unit = options.unit_of(name, "g/10")
+    film = volume1_block(block)
+    times, values = pairs(film, margin=0)
+    step, even, notes = evened(times, values)
+    unit = options.unit_of("g/10")
     named = _named(film.head, channels)
     named["warnings"] = (*notes, *named["warnings"])
-    record = accelerogram(
-        name, CSMIP.name, unit, even, options.time_step_of(name, step), processing=notes, **named
-    )
+    record = accelerogram(unit, even, options.time_step_of(step), processing=notes, **named)
     return agree_with_header(
         record, *_uncorrected_peak(film.head), samples=values * acceleration_factor(unit)
     )
-
-
-def _rate(name: str, text: str) -> float:
-    rate = number(name, "points per second", text)
-    if not rate > 0:
-        raise RecordError(f"{name}: points per second is {text!r}, but must be greater than 0.")
-    return rate
-
-
-def _unit(name: str, text: str) -> str:
-    if text.lower() not in _UNITS:
-        raise RecordError(
-            f"{name}: units of the samples are {text!r}, but must be one of {', '.join(_UNITS)}."
-        )
-    return _UNITS[text.lower()]
 
 
 def _component(head: str) -> str:
@@ -181,14 +165,8 @@ def _component(head: str) -> str:
     return re.sub(r"\s+deg$", "", direction, flags=re.I)
 
 
-def _is_spectra(content: bytes) -> bool:
-    return starts(content, _VOLUME_3)
-
-
-def _refuse(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    raise RecordError(
-        f"{name}: this is a Volume 3 file of spectra, not a time history; use the V1 or V2 file."
-    )
+def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
+    raise RecordError("this is a Volume 3 file of spectra, not a time history; use the V1 or V2 file.")
 
 
 CSMIP = Format(
@@ -203,7 +181,7 @@ SPECTRA = Format(
     "CSMIP V3 spectra",
     "California Geological Survey (CSMIP, CDMG)",
     "first line that names response or Fourier spectra",
-    _is_spectra,
+    lambda content: starts(content, _VOLUME_3),
     _refuse,
 )
 

@@ -17,27 +17,22 @@ def _recognise(content: bytes) -> bool:
     )
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
     head = "\n".join(text[:_HEADER])
-    kind = required(name, "the quantity and its unit", r"^(?:UN)?CORRECTED (\w+)\s+UNIT:\s*(\S+)", head)
+    kind = required("the quantity and its unit", r"^(?:UN)?CORRECTED (\w+)\s+UNIT:\s*(\S+)", head)
     if kind[1].upper() != "ACCELERATION" or kind[2].upper() not in ("CM/SEC/SEC", "CM/S/S", "GAL"):
-        raise RecordError(
-            f"{name}: the file holds {kind[1]} in {kind[2]}, but must hold ACCELERATION in CM/SEC/SEC."
-        )
+        raise RecordError(f"the file holds {kind[1]} in {kind[2]}, but must hold ACCELERATION in CM/SEC/SEC.")
     said = required(
-        name, "points and interval", r"NO\. OF POINTS:\s*(\S+)\s+EQUALLY SPACED INTERVALS OF:\s*(\S+)", head
+        "points and interval", r"NO\. OF POINTS:\s*(\S+)\s+EQUALLY SPACED INTERVALS OF:\s*(\S+)", head
     )
-    values = fields(name, [row for row in text[_HEADER:] if row.strip()], _WIDTH)
-    values, notes = whole(name, values, count(name, "NO. OF POINTS", said[1]), _PER_LINE)
-    component = optional(r"^COMP\.\s*(\S+)", head)
+    values = fields(text[_HEADER:], _WIDTH)
+    values, notes = whole(values, count("NO. OF POINTS", said[1]), _PER_LINE)
     record = accelerogram(
-        name,
-        CSMNC.name,
-        options.unit_of(name, "cm/s2"),
+        options.unit_of("cm/s2"),
         values,
-        options.time_step_of(name, number(name, "interval", said[2])),
-        component=component,
+        options.time_step_of(number("interval", said[2])),
+        component=optional(r"^COMP\.\s*(\S+)", head),
         warnings=notes,
         station=optional(r"^STATION:\s*(\S+)", head),
         event=text[2].strip()[:60],
@@ -46,7 +41,6 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     )
     if duration := optional(r"\bDURATION:\s*([\d.]+)", head):
         check_duration(
-            name,
             "DURATION",
             duration,
             values.size,

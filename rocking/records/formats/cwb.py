@@ -22,49 +22,40 @@ _FIRST = re.compile(r"#Earthquake Information")
 _HEADER, _WIDTH = 60, 10
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
     at = next((i for i, line in enumerate(text[:_HEADER]) if line.startswith("#Data:")), None)
     if at is None:
-        raise RecordError(f"{name}: no line #Data: in the first {_HEADER}; the file is cut.")
+        raise RecordError(f"no line #Data: in the first {_HEADER}; the file is cut.")
     pairs = mapping([line.removeprefix("#") for line in text[:at]])
-    unit = valued(name, pairs, "AMPLITUDEUNIT")
+    unit = valued(pairs, "AMPLITUDEUNIT")
     if not unit.lower().startswith("gal"):
-        raise RecordError(f"{name}: AmplitudeUnit is {unit!r}, but must be gal.")
-    labels = re.findall(r"([A-Z])\(", valued(name, pairs, "DATASEQUENCE"))
-    rows = [row for row in text[at + 1 :] if row.strip()]
-    values = fields(name, rows, _WIDTH)
+        raise RecordError(f"AmplitudeUnit is {unit!r}, but must be gal.")
+    labels = re.findall(r"([A-Z])\(", valued(pairs, "DATASEQUENCE"))
+    values = fields(text[at + 1 :], _WIDTH)
     if not labels or not values.size or values.size % (len(labels) + 1):
         raise RecordError(
-            f"{name}: {values.size} numbers do not fill time and {len(labels)} components; it is truncated."
+            f"{values.size} numbers do not fill time and {len(labels)} components; it is truncated."
         )
     table = values.reshape(-1, len(labels) + 1)
-    step = _step(name, table[:, 0], pairs)
-    return [_record(name, label, table[:, i], step, pairs, options) for i, label in enumerate(labels, 1)]
+    step = _step(table[:, 0], pairs)
+    return [_record(label, table[:, i], step, pairs, options) for i, label in enumerate(labels, 1)]
 
 
-def _step(name: str, times, pairs: dict[str, str]) -> float:
+def _step(times, pairs: dict[str, str]) -> float:
     """Return the step of the times, after checking it and the length against the header."""
-    step, rate = even_step(name, times), numeric(name, pairs, "SAMPLERATE(HZ)")
+    step, rate = even_step(times), numeric(pairs, "SAMPLERATE(HZ)")
     if step is None or abs(step * rate - 1) > 1e-3:
-        raise RecordError(
-            f"{name}: SampleRate is {rate:g} Hz, but the times are not spaced so; the file is damaged."
-        )
-    check_duration(
-        name, "RecordLength(sec)", valued(name, pairs, "RECORDLENGTH(SEC)"), times.size, step, rounding=0.0
-    )
+        raise RecordError(f"SampleRate is {rate:g} Hz, but the times are not spaced so; the file is damaged.")
+    check_duration("RecordLength(sec)", valued(pairs, "RECORDLENGTH(SEC)"), times.size, step, rounding=0.0)
     return step
 
 
-def _record(
-    name: str, component: str, values, step: float, pairs: dict[str, str], options: Options
-) -> Accelerogram:
+def _record(component: str, values, step: float, pairs: dict[str, str], options: Options) -> Accelerogram:
     record = accelerogram(
-        name,
-        CWB.name,
-        options.unit_of(name, "gal"),
+        options.unit_of("gal"),
         values,
-        options.time_step_of(name, step),
+        options.time_step_of(step),
         component=component,
         station=pairs.get("STATIONCODE", ""),
         event=pairs.get("ORIGIN TIME(GMT+08)", ""),

@@ -20,7 +20,6 @@ from rocking.records.plausibility import agree_with_header
 
 _KEY = re.compile(r"[A-Z][A-Z0-9_/^]*:")
 _LONGEST_HEADER = 100
-_UNITS = {"CM/S^2": "cm/s2", "CM/S2": "cm/s2", "M/S^2": "m/s2", "G": "g", "GAL": "gal"}
 
 
 def _header_length(content: bytes) -> int:
@@ -39,39 +38,32 @@ def _recognise(content: bytes) -> bool:
     )
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
     length = _header_length(content)
     text = lines(content)
     pairs = mapping(text[:length])
-    kind = valued(name, pairs, "DATA_TYPE")
+    kind = valued(pairs, "DATA_TYPE")
     if kind.upper() != "ACCELERATION":
-        raise RecordError(
-            f"{name}: DATA_TYPE is {kind!r}, but must be ACCELERATION; use the ACC file of the record."
-        )
-    unit = options.unit_of(name, _unit(name, valued(name, pairs, "UNITS")))
-    declared = count(name, "NDATA", valued(name, pairs, "NDATA"))
-    values, notes = whole(
-        name, numbers(name, "\n".join(text[length:]).encode("latin-1")), declared, per_line=1
-    )
-    record = _record(name, pairs, unit, values, notes, options)
+        raise RecordError(f"DATA_TYPE is {kind!r}, but must be ACCELERATION; use the ACC file of the record.")
+    unit = options.unit_of(valued(pairs, "UNITS"))
+    declared = count("NDATA", valued(pairs, "NDATA"))
+    values, notes = whole(numbers("\n".join(text[length:]).encode("latin-1")), declared, per_line=1)
+    record = _record(pairs, unit, values, notes, options)
     if pairs.get("DURATION_S"):
-        check_duration(name, "DURATION_S", pairs["DURATION_S"], declared, record.time_step)
+        check_duration("DURATION_S", pairs["DURATION_S"], declared, record.time_step)
     peak, at = (
         optional_number(r"^\s*(-?[\d.]+)", pairs.get(key, "")) for key in ("PGA_CM/S^2", "TIME_PGA_S")
     )
     return [agree_with_header(record, peak, "cm/s2", half_digit=5e-4, at=at)]
 
 
-def _record(name: str, pairs: dict[str, str], unit: str, values, notes, options: Options) -> Accelerogram:
-    component = pairs.get("STREAM", "")
+def _record(pairs: dict[str, str], unit: str, values, notes, options: Options) -> Accelerogram:
     high_pass = corner(optional_number(r"^\s*([\d.]+)", pairs.get("LOW_CUT_FREQUENCY_HZ", "")))
     return accelerogram(
-        name,
-        DYNA.name,
         unit,
         values,
-        options.time_step_of(name, numeric(name, pairs, "SAMPLING_INTERVAL_S")),
-        component=component,
+        options.time_step_of(numeric(pairs, "SAMPLING_INTERVAL_S")),
+        component=pairs.get("STREAM", ""),
         station=pairs.get("STATION_CODE", ""),
         network=pairs.get("NETWORK", ""),
         warnings=notes,
@@ -90,12 +82,6 @@ def _start(pairs: dict[str, str]) -> str:
         pairs.get("DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS", ""),
     )
     return "{}-{}-{}T{}:{}:{}Z".format(*found.groups()) if found else ""
-
-
-def _unit(name: str, text: str) -> str:
-    if text.upper() not in _UNITS:
-        raise RecordError(f"{name}: UNITS is {text!r}, but must be one of {', '.join(_UNITS)}.")
-    return _UNITS[text.upper()]
 
 
 DYNA = Format(

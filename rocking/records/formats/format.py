@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
-from rocking.quantities import acceleration_factor, positive
+from rocking.quantities import acceleration_factor, acceleration_unit, positive
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.directions import azimuth, is_vertical
 from rocking.records.plausibility import LARGEST_PEAK
@@ -25,6 +25,7 @@ class Options:
     """What a caller declares beside the file: used where the file is silent, refused where it says otherwise.
 
     unit: unit of the numbers. time_step: s. inventory: a StationXML file; folder: where to look for one.
+    file: its name, whose ending may speak of another quantity.
     response: whether counts are divided by the overall sensitivity or the full instrument response is removed.
     Raises RecordError for an unknown unit or response, or a time step that is not positive.
     """
@@ -34,6 +35,7 @@ class Options:
     inventory: Path | None = None
     folder: Path | None = None
     response: Response = "sensitivity"
+    file: str = ""
 
     def __post_init__(self) -> None:
         if self.unit is not None:
@@ -43,35 +45,33 @@ class Options:
         if self.response not in ("sensitivity", "full"):
             raise RecordError(f"response is {self.response!r}, but must be 'sensitivity' or 'full'.")
 
-    def unit_of(self, name: str, in_file: str | None) -> str:
-        """Return the unit the file declares, else the caller's. Raises RecordError when none or two are declared."""
+    def unit_of(self, in_file: str | None) -> str:
+        """Return the unit the file declares, however spelt, else the caller's.
+
+        Raises RecordError when none or two are declared, or one that is not known.
+        """
         unit = in_file or self.unit
         if unit is None:
-            raise UndeclaredError(
-                f"{name}: unit is not declared, neither in the file nor by the caller; give unit=."
-            )
-        if self.unit is not None and acceleration_factor(self.unit) != acceleration_factor(unit):
+            raise UndeclaredError("unit is not declared, neither in the file nor by the caller; give unit=.")
+        factor = acceleration_factor(unit)
+        if self.unit is not None and acceleration_factor(self.unit) != factor:
             raise RecordError(
-                f"{name}: unit is {unit!r} in the file, but {self.unit!r} was declared; give the true one."
+                f"unit is {unit!r} in the file, but {self.unit!r} was declared; give the true one."
             )
-        return unit
+        return acceleration_unit(unit) or unit
 
-    def time_step_of(self, name: str, in_file: float | None) -> float:
+    def time_step_of(self, in_file: float | None) -> float:
         """Return the time step [s] the file declares, else the caller's; the two may differ by 0.1 %."""
         step = in_file if in_file is not None else self.time_step
         if step is None:
             raise UndeclaredError(
-                f"{name}: time_step is not declared, neither in the file nor by the caller; give time_step=."
+                "time_step is not declared, neither in the file nor by the caller; give time_step=."
             )
-        step = positive(RecordError, f"{name}: time_step", float(step), "s")
+        step = positive(RecordError, "time_step", float(step), "s")
         if not _STEPS[0] <= step <= _STEPS[1]:
-            raise RecordError(
-                f"{name}: time_step is {step!r} s, but must be from {_STEPS[0]:g} to {_STEPS[1]:g} s."
-            )
+            raise RecordError(f"time_step is {step!r} s, but must be from {_STEPS[0]:g} to {_STEPS[1]:g} s.")
         if self.time_step is not None and abs(self.time_step - step) > 1e-3 * step:
-            raise RecordError(
-                f"{name}: time_step is {step!r} s in the file, but {self.time_step!r} s was declared."
-            )
+            raise RecordError(f"time_step is {step!r} s in the file, but {self.time_step!r} s was declared.")
         return step
 
 
@@ -80,22 +80,20 @@ class Format:
     """One kind of file.
 
     origin: who publishes records in it. sought: what the recogniser looks for, as the end of "no ...".
-    recognise: whole content to bool, never raises. read: (content, name, options) to accelerograms; raises RecordError
-    only. plugin: its name among obspy's formats, where it is offered to obspy.
+    recognise: whole content to bool, never raises. read: (content, options) to accelerograms; raises RecordError only,
+    whose message need not name the file. plugin: its name among obspy's formats, where it is offered to obspy.
     """
 
     name: str
     origin: str
     sought: str
     recognise: Callable[[bytes], bool]
-    read: Callable[[bytes, str, Options], list[Accelerogram]]
+    read: Callable[[bytes, Options], list[Accelerogram]]
     plugin: str = ""
 
 
-def accelerogram(
-    name: str, form: str, unit: str, values: np.ndarray, time_step: float, **fields
-) -> Accelerogram:
-    """Return an Accelerogram from `values` in `unit` of the file `name` in the format `form`.
+def accelerogram(unit: str, values: np.ndarray, time_step: float, **fields) -> Accelerogram:
+    """Return an Accelerogram from `values` in `unit` of a file.
 
     fields: of Accelerogram; azimuth and vertical follow from the component's name unless they are given, and text is
     cleared of control characters.
@@ -104,8 +102,7 @@ def accelerogram(
     component = fields.get("component", "")
     fields.setdefault("vertical", is_vertical(component))
     fields.setdefault("azimuth", None if fields["vertical"] else azimuth(component))
-    source = Source(path=name, format=form, unit=unit)
-    return Accelerogram(values * acceleration_factor(unit), time_step, source=source, **fields)
+    return Accelerogram(values * acceleration_factor(unit), time_step, source=Source(unit=unit), **fields)
 
 
 def plain(text: str) -> str:
@@ -113,7 +110,7 @@ def plain(text: str) -> str:
     return " ".join(re.sub(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]", " ", text).split())
 
 
-def without_offset(name: str, values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
+def without_offset(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
     """Return raw `values` less their mean, which is the offset of the recorder, and the sentence that says so.
 
     Raises RecordError for an offset beyond any recorder's: the peak would hide in it.
@@ -121,7 +118,7 @@ def without_offset(name: str, values: np.ndarray, unit: str) -> tuple[np.ndarray
     offset = values.mean() if values.size else 0.0
     if abs(offset) * acceleration_factor(unit) > LARGEST_PEAK:
         raise RecordError(
-            f"{name}: the mean of the record is {offset:.6g} {unit}, above the 5 g that no recorder is off by; "
+            f"the mean of the record is {offset:.6g} {unit}, above the 5 g that no recorder is off by; "
             "declare the true unit."
         )
     return (

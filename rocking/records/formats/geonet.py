@@ -32,38 +32,34 @@ def _recognise(content: bytes) -> bool:
     return bool(_FIRST.match(head[0])) and len(head) > 1 and head[1].startswith("Site ")
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
     found = blocks(content, _FIRST)
     notes = (
         ()
         if len(found) % 3 == 0
         else (f"A GeoNet file holds 3 components, but this one holds {len(found)}.",)
     )
-    return [_record(block, name, options, notes) for block in found]
+    return [_record(block, options, notes) for block in found]
 
 
-def _record(block: list[str], name: str, options: Options, notes: tuple[str, ...]) -> Accelerogram:
+def _record(block: list[str], options: Options, notes: tuple[str, ...]) -> Accelerogram:
     head = "\n".join(block[:16])
     declared = count(
-        name,
         "Number of points",
-        required(name, "the number of points", r"^Number of points\s+(\S+)", head)[1],
+        required("the number of points", r"^Number of points\s+(\S+)", head)[1],
     )
-    factor = number(name, "raw unit", optional(r"readings in units of\s+([\d.]+)\s*mm/s/s", head) or "1")
-    required(name, "acceleration in mm/s/s", r"^Acceleration:\s+peak\s+\S+\s+mm/s/s", head)
-    steps = required(name, "the sampling step", _STEP, head)
-    values = _samples(block[_HEADER:], declared, name)
-    time_step = options.time_step_of(name, number(name, "step", steps[1] or steps[2]))
+    factor = number("raw unit", optional(r"readings in units of\s+([\d.]+)\s*mm/s/s", head) or "1")
+    required("acceleration in mm/s/s", r"^Acceleration:\s+peak\s+\S+\s+mm/s/s", head)
+    steps = required("the sampling step", _STEP, head)
+    values = _samples(block[_HEADER:], declared)
+    time_step = options.time_step_of(number("step", steps[1] or steps[2]))
     if duration := optional(r"\bDuration\s+([\d.]+)", head):
-        check_duration(name, "Duration", duration, declared, time_step)
-    component = optional(r"^Component\s+(\S+)", head)
+        check_duration("Duration", duration, declared, time_step)
     record = accelerogram(
-        name,
-        GEONET.name,
-        options.unit_of(name, "mm/s2"),
+        options.unit_of("mm/s2"),
         values * factor,
         time_step,
-        component=component,
+        component=optional(r"^Component\s+(\S+)", head),
         warnings=notes,
         station=optional(r"^Site\s+(\S+)", head),
         event=optional(r"^(\d{4} \w+ \d+)\s", head),
@@ -86,14 +82,14 @@ def _prepended(block: list[str]) -> int:
     return int(integers[_PREPENDED]) if len(integers) == 40 and integers[_PREPENDED].isdecimal() else 0
 
 
-def _samples(rows: list[str], declared: int, name: str) -> np.ndarray:
+def _samples(rows: list[str], declared: int) -> np.ndarray:
     """Return the acceleration, which a corrected file follows by as many lines of velocity and of displacement."""
     rows = [row for row in rows if row.strip()]
     wanted = -(-declared // _PER_LINE)
     if len(rows) in (wanted, 3 * wanted):
-        return filled(name, rows[:wanted], declared, _PER_LINE, _WIDTH)
+        return filled(rows[:wanted], declared, _PER_LINE, _WIDTH)
     raise RecordError(
-        f"{name}: the header declares {declared} samples, which fill {wanted} lines once or thrice, but {len(rows)} "
+        f"the header declares {declared} samples, which fill {wanted} lines once or thrice, but {len(rows)} "
         "stand there: lines are missing or repeated, the file is truncated or damaged; fetch it again."
     )
 

@@ -19,13 +19,11 @@ def starts(content: bytes, pattern: re.Pattern[str]) -> bool:
     return any(pattern.match(line) for line in [row for row in lines(content, 5) if row.strip()][:1])
 
 
-def required(name: str, what: str, pattern: str, text: str) -> re.Match[str]:
+def required(what: str, pattern: str, text: str) -> re.Match[str]:
     """Return the first match of `pattern` in `text`. Raises RecordError saying `what` the header lacks."""
     found = re.search(pattern, text, re.I | re.M)
     if not found:
-        raise RecordError(
-            f"{name}: the header does not declare {what}; the file is damaged or not what it seems."
-        )
+        raise RecordError(f"the header does not declare {what}; the file is damaged or not what it seems.")
     return found
 
 
@@ -52,16 +50,16 @@ def mapping(text: list[str]) -> dict[str, str]:
     return pairs
 
 
-def valued(name: str, pairs: dict[str, str], key: str) -> str:
+def valued(pairs: dict[str, str], key: str) -> str:
     """Return the value of `key`. Raises RecordError when it is missing or empty."""
     if not pairs.get(key):
-        raise RecordError(f"{name}: the header gives no {key}; the file is damaged or not what it seems.")
+        raise RecordError(f"the header gives no {key}; the file is damaged or not what it seems.")
     return pairs[key]
 
 
-def numeric(name: str, pairs: dict[str, str], key: str) -> float:
+def numeric(pairs: dict[str, str], key: str) -> float:
     """Return the value of `key` as a number. Raises RecordError when it is missing or no number."""
-    return number(name, key, valued(name, pairs, key))
+    return number(key, valued(pairs, key))
 
 
 def corner(value: float | None) -> float | None:
@@ -82,28 +80,28 @@ def distance(kilometres: str) -> float | None:
 
 
 def check_duration(
-    name: str, field: str, text: str, samples: int, time_step: float, *, rounding: float | None = None
+    field: str, text: str, samples: int, time_step: float, *, rounding: float | None = None
 ) -> None:
     """Check `samples` against the duration printed as `text`, s, within a step and what the print rounds.
 
     A record of n samples lasts n steps for some agencies and n - 1 for others. rounding: s, where it is not half of the
     last digit printed. Raises RecordError when they disagree.
     """
-    declared = number(name, field, text)
+    declared = number(field, text)
     if rounding is None:
         rounding = 0.5 * 10.0 ** -len(text.strip().partition(".")[2])
     if abs(samples * time_step - declared) > 1.001 * time_step + rounding:
         raise RecordError(
-            f"{name}: {field} is {declared:g} s, but the {samples} samples last {samples * time_step:g} s: "
+            f"{field} is {declared:g} s, but the {samples} samples last {samples * time_step:g} s: "
             "it is truncated or its header belongs to another record; fetch the whole file."
         )
 
 
-def check_equal(name: str, field: str, first: float, second: float, relative: float = 1e-3) -> None:
+def check_equal(field: str, first: float, second: float, relative: float = 1e-3) -> None:
     """Check that two places of a header give the same number. Raises RecordError when they do not."""
     if abs(first - second) > relative * abs(first):
         raise RecordError(
-            f"{name}: the header gives {field} as {first:g} and as {second:g}; it is damaged, fetch it again."
+            f"the header gives {field} as {first:g} and as {second:g}; it is damaged, fetch it again."
         )
 
 
@@ -115,10 +113,10 @@ def missing_channels(head: str, held: int) -> tuple[str, ...]:
     return (f"The header speaks of {spoken:g} channels, but the file holds {held}.",)
 
 
-def check_nothing_left(name: str, rows: list[str]) -> None:
+def check_nothing_left(rows: list[str]) -> None:
     """Check that nothing but blanks follows the last channel. Raises RecordError: a channel is cut."""
     if any(row.strip() for row in rows):
         raise RecordError(
-            f"{name}: {len(rows)} lines follow the end of the last whole channel: another channel is cut; "
+            f"{len(rows)} lines follow the end of the last whole channel: another channel is cut; "
             "fetch the whole file."
         )

@@ -4,10 +4,11 @@ import re
 from datetime import datetime, timedelta
 
 from rocking.errors import RecordError
+from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram, without_offset
 from rocking.records.formats.header import check_duration, magnitude
-from rocking.records.formats.text import lines, number, numbers
+from rocking.records.formats.text import lines, number, numbers, period
 from rocking.records.plausibility import agree_with_header
 
 _FIELDS = (
@@ -26,31 +27,27 @@ def _recognise(content: bytes) -> bool:
     return len(head) == 10 and all(row.startswith(field) for row, field in zip(head, _FIELDS, strict=False))
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    fields = _header(content, name)
-    options.unit_of(name, "gal")
-    counts = numbers(name, _body(content))
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
+    fields = _header(content)
+    options.unit_of("gal")
+    counts = numbers(_body(content))
     time_step = options.time_step_of(
-        name, 1 / _positive(name, "Sampling Freq(Hz)", fields["Sampling Freq(Hz)"])
+        period("Sampling Freq(Hz)", fields["Sampling Freq(Hz)"].removesuffix("Hz"))
     )
     check_duration(
-        name,
         "Duration Time(s)",
         fields["Duration Time(s)"],
         counts.size,
         time_step,
         rounding=-0.5 * time_step,
     )
-    values, offset = without_offset(name, counts * _scale(name, fields["Scale Factor"]), "gal")
+    values, offset = without_offset(counts * _scale(fields["Scale Factor"]), "gal")
     direction = fields["Dir."]
-    component = _KIKNET.get(direction, direction)
     record = accelerogram(
-        name,
-        KNET.name,
         "gal",
         values,
         time_step,
-        component=component,
+        component=_KIKNET.get(direction, direction),
         station=fields["Station Code"],
         event=f"{fields['Origin Time']} M{fields['Mag.']}",
         start_time=_start(fields["Record Time"]),
@@ -59,11 +56,11 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         network="BO",
         borehole=direction in _BOREHOLE,
     )
-    peak = number(name, "Max. Acc. (gal)", fields["Max. Acc. (gal)"])
+    peak = number("Max. Acc. (gal)", fields["Max. Acc. (gal)"])
     return [agree_with_header(record, peak, "gal", half_digit=5e-4)]
 
 
-def _header(content: bytes, name: str) -> dict[str, str]:
+def _header(content: bytes) -> dict[str, str]:
     """Return the header by its fields. Raises RecordError when a line is missing."""
     head = lines(content, len(_FIELDS))
     fields = {
@@ -71,9 +68,7 @@ def _header(content: bytes, name: str) -> dict[str, str]:
     }
     missing = [key for key in _FIELDS if key not in fields]
     if missing:
-        raise RecordError(
-            f"{name}: the header has no line {missing[0]!r}; a K-NET header has {len(_FIELDS)} lines."
-        )
+        raise RecordError(f"the header has no line {missing[0]!r}; a K-NET header has {len(_FIELDS)} lines.")
     return fields
 
 
@@ -82,19 +77,14 @@ def _body(content: bytes) -> bytes:
     return content[found.end() :] if found else b""
 
 
-def _positive(name: str, field: str, text: str) -> float:
-    value = number(name, field, text.removesuffix("Hz"))
-    if not value > 0:
-        raise RecordError(f"{name}: {field} is {text!r}, but must be greater than 0.")
-    return value
-
-
-def _scale(name: str, text: str) -> float:
+def _scale(text: str) -> float:
     """Return gal per count from "3920(gal)/6182761"."""
     parts = re.fullmatch(r"([0-9.]+)\(gal\)/([0-9.]+)", text.replace(" ", ""))
     if not parts:
-        raise RecordError(f"{name}: Scale Factor is {text!r}, but must look like 3920(gal)/6182761.")
-    return number(name, "Scale Factor", parts[1]) / _positive(name, "Scale Factor", parts[2])
+        raise RecordError(f"Scale Factor is {text!r}, but must look like 3920(gal)/6182761.")
+    return number("Scale Factor", parts[1]) / positive(
+        RecordError, "Scale Factor", number("Scale Factor", parts[2])
+    )
 
 
 def _start(text: str) -> str:

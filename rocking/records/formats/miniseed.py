@@ -21,25 +21,23 @@ def _recognise(content: bytes) -> bool:
     return len(content) >= 128 and bool(_FIXED_HEADER.match(content))
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    result, noticed = stream(content, "MSEED", name)
-    result = joined(result, name)
-    inventory = _inventory(result[0].stats, name, options)
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
+    result, noticed = stream(content, "MSEED")
+    result = joined(result)
+    inventory = _inventory(result[0].stats, options)
     if inventory is None:
-        options.unit_of(name, None)
-    return [_record(trace, inventory, name, options, noticed) for trace in result]
+        options.unit_of(None)
+    return [_record(trace, inventory, options, noticed) for trace in result]
 
 
-def _record(trace, inventory, name: str, options: Options, noticed: tuple[str, ...]) -> Accelerogram:
+def _record(trace, inventory, options: Options, noticed: tuple[str, ...]) -> Accelerogram:
     stats = trace.stats
-    values, unit, steps = _calibrated(trace, inventory, name, options)
+    values, unit, steps = _calibrated(trace, inventory, options)
     placed = _orientation(trace, inventory)
     return accelerogram(
-        name,
-        MINISEED.name,
         unit,
         values,
-        options.time_step_of(name, float(f"{stats.delta:.9g}")),
+        options.time_step_of(float(f"{stats.delta:.9g}")),
         component=stats.channel,
         station=stats.station,
         network=stats.network,
@@ -55,27 +53,27 @@ def _record(trace, inventory, name: str, options: Options, noticed: tuple[str, .
     )
 
 
-def _calibrated(trace, inventory, name: str, options: Options):
+def _calibrated(trace, inventory, options: Options):
     """Return (values, unit, processing sentences): by declared unit, by sensitivity, or by the full response."""
     data = trace.data.astype(float)
     if inventory is None:
-        return data, options.unit_of(name, None), ()
+        return data, options.unit_of(None), ()
     try:
         response = inventory.get_response(trace.id, trace.stats.starttime)
         sensitivity = response.instrument_sensitivity
         measured, gain = sensitivity.input_units.upper(), float(sensitivity.value)
     except Exception as error:
         raise RecordError(
-            f"{name}: the StationXML holds no response of {trace.id} at {trace.stats.starttime}."
+            f"the StationXML holds no response of {trace.id} at {trace.stats.starttime}."
         ) from error
     if options.response == "sensitivity" and measured in ("M/S**2", "M/S/S", "M/S^2") and gain:
         mean = data.mean() / gain
         step = f"Counts divided by the overall sensitivity {gain:g}, and their mean removed, {mean:.6g} m/s²."
         return data / gain - mean, "m/s2", (step,)
-    return _deconvolved(trace, inventory, name)
+    return _deconvolved(trace, inventory)
 
 
-def _deconvolved(trace, inventory, name: str):
+def _deconvolved(trace, inventory):
     nyquist = trace.stats.sampling_rate / 2
     band = (_CORNERS[0], _CORNERS[1], _CORNERS[2] * nyquist, _CORNERS[3] * nyquist)
     try:
@@ -85,7 +83,7 @@ def _deconvolved(trace, inventory, name: str):
                 inventory=inventory, output="ACC", pre_filt=band, water_level=None
             )
     except Exception as error:
-        raise RecordError(f"{name}: the response of {trace.id} cannot be removed, {error}.") from error
+        raise RecordError(f"the response of {trace.id} cannot be removed, {error}.") from error
     step = (
         "Mean removed, 5 % cosine taper, full instrument response removed to acceleration between "
         + " and ".join(f"{band[i]:g}-{band[i + 1]:g} Hz" for i in (0, 2))
@@ -101,10 +99,10 @@ def _orientation(trace, inventory) -> float | None:
         return None
 
 
-def _inventory(stats, name: str, options: Options):
+def _inventory(stats, options: Options):
     """Return the inventory given, else the one in the folder that names this network and station, or None."""
     if options.inventory is not None:
-        return _parse(options.inventory, str(options.inventory))
+        return _parse(options.inventory)
     if options.unit is not None or options.folder is None:
         return None
     found = [
@@ -113,10 +111,10 @@ def _inventory(stats, name: str, options: Options):
     if len(found) != 1:
         several = f"several do: {', '.join(p.name for p in found)}" if found else "none beside it does"
         raise UndeclaredError(
-            f"{name}: no single StationXML describes {stats.network}.{stats.station} ({several}); "
+            f"no single StationXML describes {stats.network}.{stats.station} ({several}); "
             "give inventory=, or unit= if the samples are already acceleration."
         )
-    return _parse(found[0], found[0].name)
+    return _parse(found[0])
 
 
 def _names(path: Path, network: str, station: str) -> bool:
@@ -127,30 +125,30 @@ def _names(path: Path, network: str, station: str) -> bool:
     return "FDSNStationXML" in text[:2000] and f'code="{network}"' in text and station_code is not None
 
 
-def _parse(path: Path, name: str):
+def _parse(path: Path):
     from obspy import read_inventory
 
     try:
-        content = Path(path).read_bytes() if Path(path).stat().st_size <= _LARGEST_XML else b""
+        content = path.read_bytes() if path.stat().st_size <= _LARGEST_XML else b""
     except OSError as error:
-        raise RecordError(f"{name}: the StationXML cannot be opened, {error.strerror}.") from error
+        raise RecordError(f"the StationXML {path.name} cannot be opened, {error.strerror}.") from error
     if b"FDSNStationXML" not in content[:2000] or b"<!DOCTYPE" in content:
-        raise RecordError(f"{name}: this is not a plain StationXML file of less than 32 MB; give one.")
+        raise RecordError(f"{path.name} is not a plain StationXML file of less than 32 MB; give one.")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return read_inventory(io.BytesIO(content), format="STATIONXML")
     except Exception as error:
-        raise RecordError(f"{name}: damaged StationXML, {str(error)[:200]}.") from error
+        raise RecordError(f"damaged StationXML {path.name}, {str(error)[:200]}.") from error
 
 
 def _is_inventory(content: bytes) -> bool:
     return b"<FDSNStationXML" in content[:2000]
 
 
-def _refuse(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
     raise RecordError(
-        f"{name}: a StationXML describes an instrument and holds no samples; read the miniSEED beside it."
+        "a StationXML describes an instrument and holds no samples; read the miniSEED beside it."
     )
 
 

@@ -56,31 +56,28 @@ def _is_other(content: bytes) -> bool:
     return header is not None and _quantity(header[0]) != "acceleration"
 
 
-def _refuse(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
     header = _header(content)
     quantity = _quantity(header[0]) if header else "velocity"
     raise RecordError(
-        f"{name}: this is a PEER {quantity} file, not acceleration; use the AT2 file of the same record."
+        f"this is a PEER {quantity} file, not acceleration; use the AT2 file of the same record."
     )
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
     header = _header(content)
     if header is None:
-        raise RecordError(f"{name}: the header holds no line with NPTS and DT; give a PEER AT2 file.")
+        raise RecordError("the header holds no line with NPTS and DT; give a PEER AT2 file.")
     head, found = header
-    declared = count(name, "NPTS", found["npts"])
-    time_step = options.time_step_of(name, number(name, "DT", found["dt"]))
-    unit = options.unit_of(name, _unit(head))
-    values, warnings = whole(name, numbers(name, _body(content, len(head))), declared, per_line=8)
-    component = _component(head)
+    declared = count("NPTS", found["npts"])
+    time_step = options.time_step_of(number("DT", found["dt"]))
+    unit = options.unit_of(_unit(head))
+    values, warnings = whole(numbers(_body(content, len(head))), declared, per_line=8)
     record = accelerogram(
-        name,
-        PEER_AT2.name,
         unit,
         values,
         time_step,
-        component=component,
+        component=_component(head),
         station=_field(head, -2),
         event=_field(head, 0),
         warnings=warnings + _doubled(content) + _matched(head),
@@ -88,7 +85,7 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
         high_pass_frequency=_high_pass(head),
     )
     peak = _PEAK.search(" ".join(head))
-    return [agree_with_header(record, number(name, "PGA", peak[1]) if peak else None, "g", half_digit=5e-6)]
+    return [agree_with_header(record, number("PGA", peak[1]) if peak else None, "g", half_digit=5e-6)]
 
 
 def _body(content: bytes, header_lines: int) -> bytes:

@@ -24,10 +24,10 @@ def other_quantity(text: str) -> str | None:
     return next((word for word, pattern in _OTHER.items() if pattern.search(text)), None)
 
 
-def refuse_other_quantity(name: str, text: str) -> None:
-    """Raise RecordError when `text`, a header, or the ending of the file's name speaks of another quantity."""
-    suffix = next((word for end, word in _SUFFIXES.items() if name.lower().endswith(end)), None)
+def refuse_other_quantity(file: str, text: str) -> None:
+    """Raise RecordError when `text`, a header, or the ending of the name `file` speaks of another quantity."""
+    suffix = next((word for end, word in _SUFFIXES.items() if file.lower().endswith(end)), None)
     if quantity := other_quantity(text) or suffix:
         raise RecordError(
-            f"{name}: this is a file of {quantity}, not of acceleration; use the acceleration of the same record."
+            f"this is a file of {quantity}, not of acceleration; use the acceleration of the same record."
         )

@@ -18,24 +18,21 @@ def _recognise(content: bytes) -> bool:
     return starts(content, _FIRST) and any("RENADIC" in line.upper() for line in lines(content, 13))
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    found = channels(content, _FIRST, name)
-    return [_record(block, name, options, len(found)) for block in found]
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
+    found = channels(content, _FIRST)
+    return [_record(block, options, len(found)) for block in found]
 
 
-def _record(block: Block, name: str, options: Options, held: int) -> Accelerogram:
-    times, values = pairs(block, name, margin=0)
-    step = even_step(name, times)
+def _record(block: Block, options: Options, held: int) -> Accelerogram:
+    times, values = pairs(block, margin=0)
+    step = even_step(times)
     if step is None:
-        raise RecordError(f"{name}: the times are not evenly spaced, but RENADIC's are; the file is damaged.")
-    component = optional(r"^CHAN\s*\d+:\s*(\S+)", block.head)
+        raise RecordError("the times are not evenly spaced, but RENADIC's are; the file is damaged.")
     record = accelerogram(
-        name,
-        RENADIC.name,
-        options.unit_of(name, "g/10"),
+        options.unit_of("g/10"),
         values,
-        options.time_step_of(name, step),
-        component=component,
+        options.time_step_of(step),
+        component=optional(r"^CHAN\s*\d+:\s*(\S+)", block.head),
         station=optional(r"^(QDR S/N\s*\d+)", block.head),
         event=optional(r"^([\d/]+ [\d:]+)", block.head),
         warnings=missing_channels(block.head, held),

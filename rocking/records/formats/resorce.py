@@ -20,27 +20,23 @@ def _title(content: bytes) -> tuple[int, re.Match[str]] | None:
     return next(((i, m) for i, line in enumerate(text) if (m := _TITLE.match(line))), None)
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
     found = _title(content)
     if found is None:
-        raise RecordError(f"{name}: no line names the time series and its unit; the file is cut.")
+        raise RecordError("no line names the time series and its unit; the file is cut.")
     at, title = found
     if not title[1].lower().startswith("acc"):
-        raise RecordError(
-            f"{name}: this RESORCE file holds {title[1].lower()}, not acceleration; use the .acc file."
-        )
+        raise RecordError(f"this RESORCE file holds {title[1].lower()}, not acceleration; use the .acc file.")
     text = lines(content)
     pairs = mapping(text[:at])
-    declared = count(name, "Number of Data", valued(name, pairs, "NUMBER OF DATA"))
-    values = fields(name, [row for row in text[at + 1 :] if row.strip()], _WIDTH)
-    values, notes = whole(name, values, declared, _PER_LINE)
+    declared = count("Number of Data", valued(pairs, "NUMBER OF DATA"))
+    values = fields(text[at + 1 :], _WIDTH)
+    values, notes = whole(values, declared, _PER_LINE)
     component, cuts = pairs.get("ORIENTATION", ""), pairs.get("FILTER CUT-OFF FREQUENCY (HZ)", "")
     record = accelerogram(
-        name,
-        RESORCE.name,
-        options.unit_of(name, "m/s2"),
+        options.unit_of("m/s2"),
         values,
-        options.time_step_of(name, numeric(name, pairs, "TIME INCREMENT (S)")),
+        options.time_step_of(numeric(pairs, "TIME INCREMENT (S)")),
         component=component,
         warnings=notes,
         station=pairs.get("STATION CODE / NAME", ""),

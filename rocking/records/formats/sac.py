@@ -30,25 +30,23 @@ def _fits(content: bytes, order: str) -> bool:
     )
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    result, warnings = stream(content, "SAC", name, checksize=True)
-    unit = options.unit_of(name, None)
-    return [_record(trace, name, unit, options, warnings) for trace in joined(result, name)]
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
+    result, warnings = stream(content, "SAC", checksize=True)
+    unit = options.unit_of(None)
+    return [_record(trace, unit, options, warnings) for trace in joined(result)]
 
 
-def _record(trace, name: str, unit: str, options: Options, warnings: tuple[str, ...]) -> Accelerogram:
+def _record(trace, unit: str, options: Options, warnings: tuple[str, ...]) -> Accelerogram:
     stats = trace.stats
     azimuth_in_file = float(stats.sac.get("cmpaz", float("nan")))
     known = -360 <= azimuth_in_file <= 360
     vertical = is_vertical(stats.channel)
-    _check_header(name, stats, trace.data)
-    values, offset = without_offset(name, trace.data.astype(float) * stats.calib, unit)
+    _check_header(stats, trace.data)
+    values, offset = without_offset(trace.data.astype(float) * stats.calib, unit)
     return accelerogram(
-        name,
-        SAC.name,
         unit,
         values,
-        options.time_step_of(name, _step(stats)),
+        options.time_step_of(_step(stats)),
         component=stats.channel,
         station=stats.station,
         network=stats.network,
@@ -60,14 +58,14 @@ def _record(trace, name: str, unit: str, options: Options, warnings: tuple[str, 
     )
 
 
-def _check_header(name: str, stats, data: np.ndarray) -> None:
+def _check_header(stats, data: np.ndarray) -> None:
     """Compare the extremes and the end that the header states with the samples, before any mean is removed."""
     low, high = (float(stats.sac.get(key, _UNDEFINED)) for key in ("depmin", "depmax"))
     allowed = 1e-4 * max(abs(low), abs(high))
     for key, stated, found in (("DEPMIN", low, data.min()), ("DEPMAX", high, data.max())):
         if allowed and stated != _UNDEFINED and not abs(stated - found) <= allowed:
             raise RecordError(
-                f"{name}: the header states {key} = {stated:g}, but the samples reach {found:g}; the file is damaged "
+                f"the header states {key} = {stated:g}, but the samples reach {found:g}; the file is damaged "
                 "or its header belongs to another record."
             )
     begin, end = (float(stats.sac.get(key, _UNDEFINED)) for key in ("b", "e"))
@@ -76,7 +74,7 @@ def _check_header(name: str, stats, data: np.ndarray) -> None:
         # Single precision keeps seven digits of the times.
         if abs(end - begin - step * (stats.npts - 1)) > 0.5 * step + 3e-7 * max(abs(begin), abs(end)):
             raise RecordError(
-                f"{name}: the header states an end at {end:g} s, but {stats.npts} samples every {step:g} s from "
+                f"the header states an end at {end:g} s, but {stats.npts} samples every {step:g} s from "
                 f"{begin:g} s end elsewhere; the file is damaged."
             )
 

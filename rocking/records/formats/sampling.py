@@ -10,24 +10,20 @@ _SMALLEST_STEP = 1e-6
 _LONGEST_GAP = 5
 
 
-def even_step(name: str, times: np.ndarray) -> float | None:
+def even_step(times: np.ndarray) -> float | None:
     """Return the step of `times` (n,) s if they are even within the rounding of their printing, else None.
 
     Raises RecordError when they do not increase.
     """
     if times.size < 2 or not np.all(np.isfinite(times)):
-        raise RecordError(f"{name}: {times.size} finite times, but at least 2 are needed.")
+        raise RecordError(f"{times.size} finite times, but at least 2 are needed.")
     steps = np.diff(times)
     if steps.min() <= 0:
         at = int(np.flatnonzero(steps <= 0)[0])
-        raise RecordError(
-            f"{name}: time {times[at + 1]:g} s follows {times[at]:g} s, but times must increase."
-        )
+        raise RecordError(f"time {times[at + 1]:g} s follows {times[at]:g} s, but times must increase.")
     step = (times[-1] - times[0]) / (times.size - 1)
     if step < _SMALLEST_STEP:
-        raise RecordError(
-            f"{name}: the times are {step:g} s apart, less than any recorder's {_SMALLEST_STEP:g} s."
-        )
+        raise RecordError(f"the times are {step:g} s apart, less than any recorder's {_SMALLEST_STEP:g} s.")
     off = np.abs(times - (times[0] + step * np.arange(times.size))).max()
     quantum = _quantum(times)
     # Half a printed digit for the time itself, and as much for the line through the rounded first and last ones. A
@@ -38,17 +34,17 @@ def even_step(name: str, times: np.ndarray) -> float | None:
     return _rounded(step, quantum / times.size)
 
 
-def resampled(name: str, times: np.ndarray) -> tuple[float, np.ndarray, str]:
+def resampled(times: np.ndarray) -> tuple[float, np.ndarray, str]:
     """Return (step, even times, the sentence that says so) for uneven `times`: linear, at their median step.
 
     Raises RecordError at a gap of more than five of these steps: a line across it would be no record.
     """
     step = float(f"{np.median(np.diff(times)):.6g}")
-    check_no_gap(name, times, _LONGEST_GAP * step)
+    check_no_gap(times, _LONGEST_GAP * step)
     number = int(min((times[-1] - times[0]) / step, 1e12)) + 1 if step > 0 else 0
     if not 2 <= number <= LARGEST_SERIES:
         raise RecordError(
-            f"{name}: the times are uneven and would make {number} samples at their median step {step:g} s."
+            f"the times are uneven and would make {number} samples at their median step {step:g} s."
         )
     sentence = (
         f"The {times.size} samples are unevenly spaced; "
@@ -57,13 +53,13 @@ def resampled(name: str, times: np.ndarray) -> tuple[float, np.ndarray, str]:
     return step, times[0] + step * np.arange(number), sentence
 
 
-def check_no_gap(name: str, times: np.ndarray, longest: float) -> None:
+def check_no_gap(times: np.ndarray, longest: float) -> None:
     """Raise RecordError when two neighbours of `times` (n,) s are more than `longest` s apart."""
     gaps = np.diff(times)
     at = int(gaps.argmax())
     if gaps[at] > longest * (1 + 1e-9):
         raise RecordError(
-            f"{name}: no samples between {times[at]:g} and {times[at + 1]:g} s, more than {longest:g} s apart; "
+            f"no samples between {times[at]:g} and {times[at + 1]:g} s, more than {longest:g} s apart; "
             "cut the record there, a gap is not bridged."
         )
 

@@ -3,8 +3,6 @@
 import re
 from itertools import pairwise
 
-from rocking.errors import RecordError
-
 _DECIMAL = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
 _NUMERIC = re.compile(r"[\d+\-.,;eE \t]+")
 _SAMPLE = 40
@@ -41,11 +39,3 @@ def _counts(rows: list[str]) -> bool:
         return False
     steps = {int(b) - int(a) for a, b in pairwise(first)}
     return len(rows) > 2 and len(steps) == 1 and steps.pop() > 0
-
-
-def refuse_commas(name: str) -> None:
-    """Raise RecordError for a table whose commas may be decimal signs or part the numbers."""
-    raise RecordError(
-        f"{name}: the commas may be decimal signs or part the columns; write points for decimals, or part the columns "
-        "with semicolons."
-    )

@@ -26,42 +26,40 @@ def _recognise(content: bytes) -> bool:
     return starts(content, _FIRST) and len(head := lines(content, 12)) == 12 and len(head[11].split()) == 8
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
     kind = text[0][:1]
     if kind not in "012":
-        raise RecordError(f"{name}: this SMC file holds {_KINDS.get(kind, kind)}, not acceleration.")
-    integers = fields(name, text[_TEXT : _TEXT + _INTEGERS], 10)
-    reals = fields(name, text[_TEXT + _INTEGERS : _TEXT + _INTEGERS + _REALS], 15)
+        raise RecordError(f"this SMC file holds {_KINDS.get(kind, kind)}, not acceleration.")
+    integers = fields(text[_TEXT : _TEXT + _INTEGERS], 10)
+    reals = fields(text[_TEXT + _INTEGERS : _TEXT + _INTEGERS + _REALS], 15)
     if integers.size < 48 or reals.size < 50:
         raise RecordError(
-            f"{name}: the SMC header holds {integers.size} integers and {reals.size} reals, not 48 and 50."
+            f"the SMC header holds {integers.size} integers and {reals.size} reals, not 48 and 50."
         )
-    first = _TEXT + _INTEGERS + _REALS + _whole(integers[_COMMENTS], name)
+    first = _TEXT + _INTEGERS + _REALS + _whole(integers[_COMMENTS])
     comments = text[_TEXT + _INTEGERS + _REALS : first]
     if not all(row.startswith("|") for row in comments) or any(row.startswith("|") for row in text[first:]):
         raise RecordError(
-            f"{name}: the header declares {len(comments)} lines of comment, but other lines begin with |; "
+            f"the header declares {len(comments)} lines of comment, but other lines begin with |; "
             "the file is damaged."
         )
     body = [row for row in text[first:] if row.strip()]
     width = column_width(body[0]) if body else 10
-    values, notes = whole(name, fields(name, body, width), _whole(integers[_SAMPLES], name), 80 // width)
-    return [_record("\n".join(text[:_TEXT]), kind, values, notes, reals, name, options)]
+    values, notes = whole(fields(body, width), _whole(integers[_SAMPLES]), 80 // width)
+    return [_record("\n".join(text[:_TEXT]), kind, values, notes, reals, options)]
 
 
-def _record(head: str, kind: str, values, notes, reals, name: str, options: Options) -> Accelerogram:
+def _record(head: str, kind: str, values, notes, reals, options: Options) -> Accelerogram:
     if not 0 < reals[_RATE] < 1e6:
         raise RecordError(
-            f"{name}: samples per second is {reals[_RATE]:g}, but must be greater than 0 and below 1e6."
+            f"samples per second is {reals[_RATE]:g}, but must be greater than 0 and below 1e6."
         )
     component = optional(r"component\s*=\s*(\S+)", head)
     record = accelerogram(
-        name,
-        SMC.name,
-        options.unit_of(name, "cm/s2"),
+        options.unit_of("cm/s2"),
         values,
-        options.time_step_of(name, 1 / float(reals[_RATE])),
+        options.time_step_of(1 / float(reals[_RATE])),
         component=component,
         station=optional(r"station\s*=\s*(.*?)\s*component", head),
         warnings=notes,
@@ -80,9 +78,9 @@ def _record(head: str, kind: str, values, notes, reals, name: str, options: Opti
     return agree_with_header(record, peak, "cm/s2", at=float(at) if 0 < at < _MISSING else None)
 
 
-def _whole(value: float, name: str) -> int:
+def _whole(value: float) -> int:
     if not 0 <= value < 1e8:
-        raise RecordError(f"{name}: a count in the integer header is {value:g}, but must be from 0 to 1e8.")
+        raise RecordError(f"a count in the integer header is {value:g}, but must be from 0 to 1e8.")
     return int(value)
 
 

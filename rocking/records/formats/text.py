@@ -6,6 +6,7 @@ import warnings
 import numpy as np
 
 from rocking.errors import RecordError
+from rocking.quantities import positive
 
 _NUMERIC = b"0123456789+-.eE \t\n\r"
 _LARGEST = 1e100
@@ -36,27 +37,30 @@ def is_number(token: str) -> bool:
     return bool(_NUMBER.fullmatch(token))
 
 
-def number(name: str, field: str, token: str) -> float:
+def number(field: str, token: str) -> float:
     """Return `token` as a float. Raises RecordError naming file and field."""
     if not is_number(token.strip()):
-        raise RecordError(f"{name}: {field} is {token.strip()[:40]!r}, but must be a number.")
+        raise RecordError(f"{field} is {token.strip()[:40]!r}, but must be a number.")
     value = float(token)
     if value and not 1 / _LARGEST < abs(value) < _LARGEST:
-        raise RecordError(f"{name}: {field} is {token.strip()[:40]!r}, beyond what any header holds.")
+        raise RecordError(f"{field} is {token.strip()[:40]!r}, beyond what any header holds.")
     return value
 
 
-def count(name: str, field: str, token: str) -> int:
+def period(field: str, token: str) -> float:
+    """Return the inverse, s, of the rate `token`, Hz. Raises RecordError naming the field."""
+    return 1 / positive(RecordError, field, number(field, token), "Hz")
+
+
+def count(field: str, token: str) -> int:
     """Return `token` as a whole number, zero or more. Raises RecordError naming file and field."""
-    value = number(name, field, token)
+    value = number(field, token)
     if value < 0 or value != int(min(value, 1e9)):
-        raise RecordError(
-            f"{name}: {field} is {token.strip()[:40]!r}, but must be a whole number from 0 to 1e9."
-        )
+        raise RecordError(f"{field} is {token.strip()[:40]!r}, but must be a whole number from 0 to 1e9.")
     return int(value)
 
 
-def numbers(name: str, text: bytes) -> np.ndarray:
+def numbers(text: bytes) -> np.ndarray:
     """Return the numbers of `text`, separated by blanks and line ends, (n,); RecordError at the first that is none."""
     if not text.translate(None, _NUMERIC):
         try:
@@ -66,22 +70,22 @@ def numbers(name: str, text: bytes) -> np.ndarray:
         except (DeprecationWarning, ValueError):
             pass
         else:
-            return _bounded(name, values)
-    raise RecordError(f"{name}: {_first_defect(text)}; every sample must be a plain decimal number.")
+            return _bounded(values)
+    raise RecordError(f"{_first_defect(text)}; every sample must be a plain decimal number.")
 
 
-def fields(name: str, rows: list[str], width: int, margin: int = 0) -> np.ndarray:
+def fields(rows: list[str], width: int, margin: int = 0) -> np.ndarray:
     """Return the numbers of `rows`, (n,), apart by blanks; where they touch, by columns of `width` after a `margin`."""
     try:
-        return numbers(name, "\n".join(rows).encode("latin-1"))
+        return numbers("\n".join(rows).encode("latin-1"))
     except RecordError:
         pieces = [row[i : i + width].strip() for row in rows for i in range(margin, len(row.rstrip()), width)]
         broken = next((piece for piece in pieces if len(piece.split()) != 1), None)
         if broken is not None:
             raise RecordError(
-                f"{name}: a column of {width} characters holds {broken!r}, but must hold one number: it is damaged."
+                f"a column of {width} characters holds {broken!r}, but must hold one number: it is damaged."
             ) from None
-        return numbers(name, " ".join(pieces).encode("latin-1"))
+        return numbers(" ".join(pieces).encode("latin-1"))
 
 
 def column_width(row: str) -> int:
@@ -90,16 +94,16 @@ def column_width(row: str) -> int:
     return points[1] - points[0] if len(points) > 1 else max(1, len(row.rstrip()))
 
 
-def whole(name: str, values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray, tuple[str, ...]]:
+def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray, tuple[str, ...]]:
     """Return `values`, with a warning if there are up to a line more than `declared`.
 
     Raises RecordError when there are fewer (the file is cut) or many more (something else stands in it).
     """
     if declared < 2:
-        raise RecordError(f"{name}: the header declares {declared} samples, but must declare at least 2.")
+        raise RecordError(f"the header declares {declared} samples, but must declare at least 2.")
     if values.size == declared:
         return values, ()
-    said = f"{name}: the header declares {declared} samples, but the file holds {values.size}"
+    said = f"the header declares {declared} samples, but the file holds {values.size}"
     if values.size < declared:
         raise RecordError(
             f"{said}: it is truncated or its header belongs to another record; fetch the whole file."
@@ -111,9 +115,7 @@ def whole(name: str, values: np.ndarray, declared: int, per_line: int) -> tuple[
     )
 
 
-def filled(
-    name: str, rows: list[str], declared: int, per_line: int, width: int, margin: int = 0
-) -> np.ndarray:
+def filled(rows: list[str], declared: int, per_line: int, width: int, margin: int = 0) -> np.ndarray:
     """Return the `declared` numbers of a block whose every line but the last holds `per_line`, (declared,).
 
     Raises RecordError when lines are missing or repeated: the block ends elsewhere than its header says.
@@ -123,17 +125,17 @@ def filled(
     if len(rows) < wanted or (len(rows) > wanted and declared > 1):
         state = "truncated" if len(rows) < wanted else "damaged"
         raise RecordError(
-            f"{name}: the header declares {declared} samples, which fill {wanted} lines, but {len(rows)} stand there: "
+            f"the header declares {declared} samples, which fill {wanted} lines, but {len(rows)} stand there: "
             f"lines are missing or repeated, the file is {state}; fetch it again."
         )
-    values, _ = whole(name, fields(name, rows, width, margin), declared, per_line=0)
+    values, _ = whole(fields(rows, width, margin), declared, per_line=0)
     return values
 
 
-def _bounded(name: str, values: np.ndarray) -> np.ndarray:
+def _bounded(values: np.ndarray) -> np.ndarray:
     if values.size and not np.abs(values).max() < _LARGEST:
         at = int(np.argmax(~(np.abs(values) < _LARGEST)))
-        raise RecordError(f"{name}: number {at + 1} of the samples is {values[at]:g}, beyond {_LARGEST:g}.")
+        raise RecordError(f"number {at + 1} of the samples is {values[at]:g}, beyond {_LARGEST:g}.")
     return values
 
 

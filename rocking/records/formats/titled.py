@@ -3,7 +3,7 @@
 import re
 
 from rocking.errors import RecordError
-from rocking.quantities import ACCELERATION_UNITS
+from rocking.quantities import acceleration_unit
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.quantity import refuse_other_quantity
@@ -40,22 +40,20 @@ def _titled(content: bytes) -> tuple[str, str] | None:
     return found if rows and all(is_number(cell) for row in rows for cell in row) else None
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
     found = _titled(content)
     if found is None:
-        raise RecordError(f"{name}: the second line does not give the number of samples and the time step.")
+        raise RecordError("the second line does not give the number of samples and the time step.")
     title, second = lines(content, _HEAD)[:2]
-    refuse_other_quantity(name, f"{title}\n{second}")
-    step = options.time_step_of(name, number(name, "time step", found[1]))
-    declared = count(name, "number of samples", found[0])
+    refuse_other_quantity(options.file, f"{title}\n{second}")
+    step = options.time_step_of(number("time step", found[1]))
+    declared = count("number of samples", found[0])
     body = after_lines(content, 2)
     per_line = max(len(row.split()) for row in lines(content, _HEAD)[2:])
-    values, notes = whole(name, numbers(name, body), declared, per_line)
+    values, notes = whole(numbers(body), declared, per_line)
     return [
         accelerogram(
-            name,
-            TITLED.name,
-            options.unit_of(name, _unit(f"{title}\n{second}")),
+            options.unit_of(_unit(f"{title}\n{second}")),
             values,
             step,
             event=title.strip()[:60],
@@ -67,11 +65,8 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
 
 def _unit(text: str) -> str | None:
     """Return the unit that follows the word "in" or "units", or stands in brackets."""
-    found = (
-        m[1].lower().replace("²", "2").replace("sec", "s").replace("/s/s", "/s2")
-        for m in _UNIT.finditer(text)
-    )
-    return next((unit for unit in found if unit in ACCELERATION_UNITS), None)
+    found = (acceleration_unit(match[1]) for match in _UNIT.finditer(text))
+    return next(filter(None, found), None)
 
 
 TITLED = Format(

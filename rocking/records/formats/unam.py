@@ -24,7 +24,7 @@ def _recognise(content: bytes) -> bool:
     return any(line.startswith("ARCHIVO ESTANDAR DE ACELERACI") for line in lines(content, 12))
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
     at = next((i for i, line in enumerate(text[:_HEADER]) if line.startswith(_DATA)), None)
     rules = [
@@ -32,36 +32,36 @@ def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
     ]
     if at is None or len(rules) < 2:
         raise RecordError(
-            f"{name}: no heading {_DATA} above two rules in the first {_HEADER} lines; the file is cut."
+            f"no heading {_DATA} above two rules in the first {_HEADER} lines; the file is cut."
         )
     pairs = mapping(text[:at])
-    unit = valued(name, pairs, "UNIDADES DE LOS DATOS")
+    unit = valued(pairs, "UNIDADES DE LOS DATOS")
     if not unit.lower().startswith("gal"):
         quantity = f": a file of {word}" if (word := other_quantity(unit)) else ""
-        raise RecordError(f"{name}: UNIDADES DE LOS DATOS is {unit!r}, but must be Gal{quantity}.")
+        raise RecordError(f"UNIDADES DE LOS DATOS is {unit!r}, but must be Gal{quantity}.")
     channels = [i for i, label in enumerate(_listed(pairs, _ORIENTATION)) if label.strip(" ;")]
-    table, notes = _table(text[rules[1] + 1 :], pairs, channels, name)
-    return [_record(i, table[:, at], notes, pairs, name, options) for at, i in enumerate(channels)]
+    table, notes = _table(text[rules[1] + 1 :], pairs, channels)
+    return [_record(i, table[:, at], notes, pairs, options) for at, i in enumerate(channels)]
 
 
-def _table(rows: list[str], pairs: dict[str, str], channels: list[int], name: str):
+def _table(rows: list[str], pairs: dict[str, str], channels: list[int]):
     """Return (samples (n, channels), warnings)."""
-    form = re.search(r"(\d+)F(\d+)", valued(name, pairs, "FORMATO DATOS (FORTRAN,10 CAMPOS/DATO)"))
+    form = re.search(r"(\d+)F(\d+)", valued(pairs, "FORMATO DATOS (FORTRAN,10 CAMPOS/DATO)"))
     width = max(1, int(form[2])) if form else 10
-    values = fields(name, [row for row in rows if row.strip()], width)
+    values = fields(rows, width)
     if not channels or values.size % len(channels):
         raise RecordError(
-            f"{name}: {values.size} numbers do not fill the {len(channels)} channels named; it is truncated."
+            f"{values.size} numbers do not fill the {len(channels)} channels named; it is truncated."
         )
     declared = {text for i in channels if (text := _at(pairs, "NUM. TOTAL DE MUESTRAS", i))}
     if len(declared) > 1:
         raise RecordError(
-            f"{name}: the channels declare {', '.join(sorted(declared))} samples, but must be equally long."
+            f"the channels declare {', '.join(sorted(declared))} samples, but must be equally long."
         )
     table = values.reshape(-1, len(channels))
-    samples = count(name, "NUM. TOTAL DE MUESTRAS", next(iter(declared), ""))
+    samples = count("NUM. TOTAL DE MUESTRAS", next(iter(declared), ""))
     table, notes = _without_repeats(table, samples)
-    _, surplus = whole(name, table[:, 0], samples, per_line=1)
+    _, surplus = whole(table[:, 0], samples, per_line=1)
     return table, notes + surplus
 
 
@@ -80,18 +80,16 @@ def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tupl
     return table[:declared], (sentence.format("are" if surplus > 1 else "is"),)
 
 
-def _record(i: int, values, notes, pairs: dict[str, str], name: str, options: Options) -> Accelerogram:
-    step = number(name, "INTERVALO DE MUESTREO", _at(pairs, "INTERVALO DE MUESTREO", i))
+def _record(i: int, values, notes, pairs: dict[str, str], options: Options) -> Accelerogram:
+    step = number("INTERVALO DE MUESTREO", _at(pairs, "INTERVALO DE MUESTREO", i))
     rate, thinned = _at(pairs, "VEL. DE MUESTREO", i), pairs.get("FACTOR DE DECIMACION", "1")
     if rate:
         factor = float(thinned) if is_number(thinned) else 1.0
-        check_equal(name, "the interval", step, factor / max(1e-9, number(name, "VEL. DE MUESTREO", rate)))
+        check_equal("the interval", step, factor / max(1e-9, number("VEL. DE MUESTREO", rate)))
     record = accelerogram(
-        name,
-        UNAM.name,
-        options.unit_of(name, "gal"),
+        options.unit_of("gal"),
         values,
-        options.time_step_of(name, step),
+        options.time_step_of(step),
         component=_listed(pairs, _ORIENTATION)[i].split(";")[-1].strip(),
         station=pairs.get("CLAVE DE LA ESTACION", ""),
         event=pairs.get("FECHA DEL SISMO [GMT]", ""),
@@ -99,7 +97,7 @@ def _record(i: int, values, notes, pairs: dict[str, str], name: str, options: Op
         warnings=notes,
     )
     if duration := _at(pairs, "DURACION DEL REGISTRO", i):
-        check_duration(name, "DURACION DEL REGISTRO", duration, len(values), record.time_step)
+        check_duration("DURACION DEL REGISTRO", duration, len(values), record.time_step)
     peak, place = _at(pairs, "ACEL. MAX.(GAL)", i), _at(pairs, "ACEL. MAX.,", i)
     return agree_with_header(
         record,

@@ -10,21 +10,18 @@ from rocking.records.formats.volume1 import Block, channels, evened, pairs
 _FIRST = re.compile(r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", re.I)
 
 
-def _read(content: bytes, name: str, options: Options) -> list[Accelerogram]:
-    return [_record(block, name, options) for block in channels(content, _FIRST, name)]
+def _read(content: bytes, options: Options) -> list[Accelerogram]:
+    return [_record(block, options) for block in channels(content, _FIRST)]
 
 
-def _record(block: Block, name: str, options: Options) -> Accelerogram:
-    times, values = pairs(block, name, margin=1)
-    step, values, notes = evened(name, times, values)
-    component = optional(r"^COMP\s+(\S+)", block.head)
+def _record(block: Block, options: Options) -> Accelerogram:
+    times, values = pairs(block, margin=1)
+    step, values, notes = evened(times, values)
     return accelerogram(
-        name,
-        USC.name,
-        options.unit_of(name, "g/10"),
+        options.unit_of("g/10"),
         values,
-        options.time_step_of(name, step),
-        component=component,
+        options.time_step_of(step),
+        component=optional(r"^COMP\s+(\S+)", block.head),
         station=optional(r"^STATION\s+(USC#\s*\d+)", block.head),
         event=block.head.split("\n")[1].strip()[:60],
         processing=notes,

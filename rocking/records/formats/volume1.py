@@ -30,28 +30,25 @@ class Block:
     """Samples per second, where the reals of the header say it."""
 
 
-def channels(content: bytes, first_line: re.Pattern[str], name: str) -> list[Block]:
+def channels(content: bytes, first_line: re.Pattern[str]) -> list[Block]:
     """Return the channels of a file. Raises RecordError when the header is cut or not in tenths of g."""
-    return [volume1_block(lines, name) for lines in blocks(content, first_line)]
+    return [volume1_block(lines) for lines in blocks(content, first_line)]
 
 
-def volume1_block(lines: list[str], name: str) -> Block:
+def volume1_block(lines: list[str]) -> Block:
     """Return one channel from its lines. Raises RecordError when the header is cut or not in tenths of g."""
     head = "\n".join(lines[:_TEXT])
     said = required(
-        name,
         "points and length",
         r"NO\. OF POINTS\s*=\s*(\S+)\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)",
         head,
     )
-    required(name, "units of G/10", r"^UNITS\b.*\bG/10", head)
+    required("units of G/10", r"^UNITS\b.*\bG/10", head)
     body = lines[_HEADER:]
     end = next((i for i, row in enumerate(body) if row.startswith("/&")), len(body))
-    check_nothing_left(name, body[end + 1 :])
+    check_nothing_left(body[end + 1 :])
     rows = [row for row in body[:end] if row.strip()]
-    return Block(
-        head, count(name, "NO. OF POINTS", said[1]), number(name, "duration", said[2]), rows, _rate(lines)
-    )
+    return Block(head, count("NO. OF POINTS", said[1]), number("duration", said[2]), rows, _rate(lines))
 
 
 def _rate(lines: list[str]) -> float | None:
@@ -60,38 +57,38 @@ def _rate(lines: list[str]) -> float | None:
     return float(found) if 1 <= float(found) <= 1e4 else None
 
 
-def pairs(block: Block, name: str, margin: int) -> tuple[np.ndarray, np.ndarray]:
+def pairs(block: Block, margin: int) -> tuple[np.ndarray, np.ndarray]:
     """Return (times, samples) of a block of five (t, a) pairs a line in columns of 7."""
-    values = fields(name, block.rows, 7, margin)
+    values = fields(block.rows, 7, margin)
     if values.size % 2:
         raise RecordError(
-            f"{name}: the block holds {values.size} numbers, but (time, sample) pairs need an even number."
+            f"the block holds {values.size} numbers, but (time, sample) pairs need an even number."
         )
     table = values.reshape(-1, 2)
-    whole(name, table[:, 0], block.declared, per_line=0)
-    _check_end(name, table[:, 0], block.duration)
+    whole(table[:, 0], block.declared, per_line=0)
+    _check_end(table[:, 0], block.duration)
     return table[:, 0], table[:, 1]
 
 
-def _check_end(name: str, times: np.ndarray, duration: float) -> None:
+def _check_end(times: np.ndarray, duration: float) -> None:
     """Check the last time against the duration, which counts a last step or does not."""
     step = (times[-1] - times[0]) / (times.size - 1)
     if abs(duration - times[-1]) > 2 * step + 0.001:
         raise RecordError(
-            f"{name}: the header declares a length of {duration:g} s, but the last sample stands at {times[-1]:g} s; "
+            f"the header declares a length of {duration:g} s, but the last sample stands at {times[-1]:g} s; "
             "the file is damaged or its header belongs to another record."
         )
 
 
-def evened(name: str, times: np.ndarray, values: np.ndarray) -> tuple[float, np.ndarray, tuple[str, ...]]:
+def evened(times: np.ndarray, values: np.ndarray) -> tuple[float, np.ndarray, tuple[str, ...]]:
     """Return (step, samples at even times, sentences) of a trace digitised from film: linear between its points.
 
     Raises RecordError at a gap: points were digitised where the trace bends, a dozen to a hundred a second.
     """
-    step = even_step(name, times)
+    step = even_step(times)
     if step is not None:
         return step, values, ()
-    check_no_gap(name, times, _LONGEST_GAP)
+    check_no_gap(times, _LONGEST_GAP)
     even = np.arange(round(times[0] / _STEP), int(times[-1] / _STEP + 1e-6) + 1) * _STEP
     sentence = f"The {times.size} samples are unevenly spaced; interpolated linearly to {even.size}, {_STEP:g} s apart."
     return _STEP, np.interp(even, times, values), (sentence,)

@@ -47,15 +47,15 @@ def test_lines_missing_in_knet_are_seen_in_its_duration(lines: int) -> None:
 def test_a_duration_is_checked_to_its_last_digit() -> None:
     """n steps or n - 1, and half of what the print rounds; a tenth of a step more is too much."""
     for text, samples in (("0.40", 40), ("0.39", 40), ("0.4", 44), ("0", 49)):
-        check_duration("made", "D", text, samples, 0.01)
+        check_duration("D", text, samples, 0.01)
     for text, samples in (("0.40", 42), ("0.40", 38), ("0.4", 47), ("0", 53)):
         with pytest.raises(RecordError, match="D is"):
-            check_duration("made", "D", text, samples, 0.01)
+            check_duration("D", text, samples, 0.01)
     for samples in (10199, 10200, 10201):
-        check_duration("made", "D", "102", samples, 0.01, rounding=0.0)
+        check_duration("D", "102", samples, 0.01, rounding=0.0)
     for samples in (10198, 10202):
         with pytest.raises(RecordError, match="last"):
-            check_duration("made", "D", "102", samples, 0.01, rounding=0.0)
+            check_duration("D", "102", samples, 0.01, rounding=0.0)
 
 
 BLOCKS = ("GeoNet V1A/V2A", "COSMOS V1/V2", "CSMIP V1/V2", "CSMIP V1/V2: of 1983", "CSMIP V1/V2: raw", "BHRC",
