@@ -7,10 +7,12 @@ stretch of their record; there it is the reference.
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
+from functools import partial
 from itertools import product
 from statistics import median
 from time import process_time
+from typing import Any
 
 import numpy as np
 
@@ -75,9 +77,9 @@ class Timed:
     method: str
     tolerance: float
     rotation_ratio: float
-    cpu: float = math.nan
-    preparation_record: float = 0.0
-    preparation_structure: float = 0.0
+    cpu_s: float = math.nan
+    preparation_record_s: float = 0.0
+    preparation_structure_s: float = 0.0
     reason: str = ""
 
 
@@ -87,7 +89,7 @@ def whole_record_rows(case: TradeCase, pulses: Pulses, settings: EnsembleSetting
     block, block_cpu = _equivalent_block(case.mechanism)
     for timed in (
         *_sines(block, pulses, block_cpu),
-        _timed(TradeMethod.BLOCK, lambda: _rotation(block, case), preparation_structure=block_cpu),
+        _timed(TradeMethod.BLOCK, lambda: _rotation(block, case), preparation_structure_s=block_cpu),
         *_mechanism(case),
         _ensemble(case, settings),
     ):
@@ -159,17 +161,11 @@ def trade_row(case: TradeCase, timed: Timed, truth: float, *, beside_scipy: bool
         component=case.accelerogram.component,
         structure=case.structure,
         samples=case.accelerogram.acceleration.size,
-        method=timed.method,
-        tolerance=timed.tolerance,
-        rotation_ratio=timed.rotation_ratio,
         beside_scipy=beside_scipy,
         reference_rotation_ratio=truth,
         error=0.0 if agrees and not rocks(truth) else miss,
         verdict_agrees=None if said is Agreement.UNKNOWN else agrees,
-        cpu_s=timed.cpu,
-        preparation_record_s=timed.preparation_record,
-        preparation_structure_s=timed.preparation_structure,
-        reason=timed.reason,
+        **asdict(timed),
     )
 
 
@@ -186,10 +182,12 @@ def _sines(block: EquivalentBlock, pulses: Pulses, block_cpu: float) -> Iterator
             yield Timed(method, math.nan, math.nan, reason=pulses.reason)
             continue
 
-        def run(many: int = many) -> float:
-            return max(predict_maximum(block, pulse).rotation_ratio for pulse in pulses.sines[:many])
+        run = partial(_worst, block, pulses.sines[:many])
+        yield _timed(method, run, preparation_record_s=pulses.cpu, preparation_structure_s=block_cpu)
 
-        yield _timed(method, run, preparation_record=pulses.cpu, preparation_structure=block_cpu)
+
+def _worst(block: EquivalentBlock, sines: Sequence[Pulse]) -> float:
+    return max(predict_maximum(block, pulse).rotation_ratio for pulse in sines)
 
 
 def _rotation(structure: EquivalentBlock | Mechanism, case: TradeCase, tolerance: float = 1e-6) -> float:
@@ -201,12 +199,8 @@ def _mechanism(case: TradeCase) -> Iterator[Timed]:
     table_of(replace(case.mechanism))  # an equal object whose table is not remembered
     once = process_time() - started
     for tolerance in TOLERANCES:
-        found = _timed(
-            TradeMethod.MECHANISM,
-            lambda tolerance=tolerance: _rotation(case.mechanism, case, tolerance),  # type: ignore[misc]
-            preparation_structure=once,
-        )
-        yield replace(found, tolerance=tolerance)
+        run = partial(_rotation, case.mechanism, case, tolerance)
+        yield _timed(TradeMethod.MECHANISM, run, tolerance, preparation_structure_s=once)
 
 
 def _ensemble(case: TradeCase, settings: EnsembleSettings) -> Timed:
@@ -219,22 +213,18 @@ def _ensemble(case: TradeCase, settings: EnsembleSettings) -> Timed:
 
 
 def _timed(
-    method: TradeMethod,
-    run: Callable[[], float],
-    *,
-    preparation_record: float = 0.0,
-    preparation_structure: float = 0.0,
+    method: TradeMethod, run: Callable[[], float], tolerance: float = math.nan, **prepared: Any
 ) -> Timed:
     try:
         found = run()
     except RockingError as error:
-        return Timed(method, math.nan, math.nan, reason=str(error))
+        return Timed(method, tolerance, math.nan, reason=str(error))
     durations = []
     for _ in range(REPEATS):
         started = process_time()
         run()
         durations.append(process_time() - started)
-    return Timed(method, math.nan, found, median(durations), preparation_record, preparation_structure)
+    return Timed(method, tolerance, found, median(durations), **prepared)
 
 
 def _from_the_median(cases: Sequence[TradeCase]) -> list[TradeCase]:

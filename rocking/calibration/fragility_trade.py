@@ -14,7 +14,7 @@ from rocking.assessment.fragility import (
     incremental_dynamic_analysis,
     multi_fidelity_analysis,
 )
-from rocking.assessment.fragility.cases import Cases
+from rocking.assessment.fragility.cases import MEMBERS, Cases
 from rocking.assessment.fragility.curve import fragility_of
 from rocking.assessment.rows.of_trade import MultiFidelityRow, TradeFragilityRow, TradeMethod
 from rocking.calibration.accuracy import Pulses
@@ -48,25 +48,31 @@ class Suite:
 
 @dataclass
 class _Measured:
-    """One structure under the suite: what each method finds at the levels of the reference."""
+    """One structure under the suite: what each method finds at the levels of the reference, and its time, s."""
 
     suite: Suite
     mechanism: Mechanism
     reference: IncrementalDynamicAnalysis
     cpu: dict[TradeMethod, float] = field(default_factory=dict)
+    outcomes: dict[TradeMethod, np.ndarray] = field(default_factory=dict)
 
-    def timed(self, method: TradeMethod, run: Callable[[], Fragility]) -> Fragility:
+    def curve(self, method: TradeMethod, run: Callable[[], np.ndarray | Fragility]) -> Fragility:
         started = process_time()
         found = run()
+        if not isinstance(found, Fragility):
+            self.outcomes[method] = found
+            found = fragility_of(self.reference.levels, found, self.reference.stations)
         self.cpu[method] = process_time() - started
         return found
 
-    def scaled(self, **changed: object) -> IncrementalDynamicAnalysis:
-        taken = {"intensity_measure": self.suite.intensity_measure, "levels": self.reference.levels}
-        return incremental_dynamic_analysis(self.suite.records, self.mechanism, **(taken | changed))  # type: ignore[arg-type]
-
-    def curve(self, outcomes: np.ndarray) -> Fragility:
-        return fragility_of(self.reference.levels, outcomes, self.reference.stations)
+    def scaled(self, ensemble: EnsembleSettings | None = None) -> Fragility:
+        return incremental_dynamic_analysis(
+            self.suite.records,
+            self.mechanism,
+            intensity_measure=self.suite.intensity_measure,
+            levels=self.reference.levels,
+            ensemble=ensemble,
+        ).fragility()
 
 
 def trade_fragility_rows(
@@ -79,38 +85,23 @@ def trade_fragility_rows(
     measured, block = _Measured(suite, mechanism, reference), mechanism.equivalent_block("rest")
     cases = reference.rotation_ratios.size
     runs = max(20, cases // ONE_IN)
-    outcomes: dict[TradeMethod, np.ndarray] = {}
-
-    def known(method: TradeMethod, answer: Callable[[], np.ndarray]) -> Fragility:
-        outcomes[method] = answer()
-        return measured.curve(outcomes[method])
-
-    every: dict[TradeMethod, tuple[int, Callable[[], Fragility]]] = {
-        TradeMethod.ONE_SINE: (
-            cases,
-            lambda: known(TradeMethod.ONE_SINE, partial(_by_sines, block, measured, 1)),
-        ),
-        TradeMethod.SINES: (
-            cases * CANDIDATES,
-            lambda: known(TradeMethod.SINES, partial(_by_sines, block, measured, CANDIDATES)),
-        ),
-        TradeMethod.BLOCK: (cases, lambda: known(TradeMethod.BLOCK, partial(_by_block, block, measured))),
-        TradeMethod.MULTI_FIDELITY: (runs, lambda: _multi_fidelity(measured, runs)),
-        TradeMethod.MECHANISM: (cases, lambda: measured.scaled().fragility()),
-        TradeMethod.ENSEMBLE: (
-            cases * 16,
-            lambda: measured.scaled(ensemble=suite.ensemble).fragility(),
-        ),
+    every: dict[TradeMethod, tuple[int, Callable[[], np.ndarray | Fragility]]] = {
+        TradeMethod.ONE_SINE: (cases, partial(_by_sines, block, measured, 1)),
+        TradeMethod.SINES: (cases * CANDIDATES, partial(_by_sines, block, measured, CANDIDATES)),
+        TradeMethod.BLOCK: (cases, partial(_by_block, block, measured)),
+        TradeMethod.MULTI_FIDELITY: (runs, partial(_multi_fidelity, measured, runs)),
+        TradeMethod.MECHANISM: (cases, measured.scaled),
+        TradeMethod.ENSEMBLE: (cases * MEMBERS, partial(measured.scaled, suite.ensemble)),
     }
     rows = [
-        _row(structure, method, responses, measured.timed(method, run), measured)
+        _row(structure, method, responses, measured.curve(method, run), measured)
         for method, (responses, run) in every.items()
     ]
     answers = Answers(
         reference.levels,
         np.isinf(reference.rotation_ratios[:, :, 0]).astype(float),
-        outcomes[TradeMethod.BLOCK],
-        outcomes[TradeMethod.ONE_SINE],
+        measured.outcomes[TradeMethod.BLOCK],
+        measured.outcomes[TradeMethod.ONE_SINE],
         measured.cpu[TradeMethod.MECHANISM] / cases,
         measured.cpu[TradeMethod.BLOCK] / cases,
     )

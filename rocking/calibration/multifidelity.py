@@ -1,7 +1,7 @@
 """What few runs of the mechanism buy, measured: samples of a fragility held against the answer of all runs."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
@@ -58,11 +58,8 @@ def multi_fidelity_rows(
             cases=cases,
             runs=runs,
             repeats=repeats,
-            curve_width=found.curve_width,
-            curve_bias=found.curve_bias,
+            **asdict(found),
             curve_gain=curve_gain,
-            median_width=found.median_width,
-            median_bias=found.median_bias,
             median_gain=_runs_for(found.median_width, records.median_width, cases) / runs,
             median_gain_cases=_runs_for(found.median_width, random.median_width, cases) / runs,
             correlation_block=block,
@@ -102,12 +99,8 @@ def spread(answers: Answers, curves: np.ndarray) -> Spread:
 def _sampled(answers: Answers, runs: int, repeats: int, rng: np.random.Generator) -> np.ndarray:
     chance = inclusion(answers.levels, answers.block, runs)
     draws = (systematic_draw(chance, rng) for _ in range(repeats))
-    return np.array(
-        [
-            corrected(answers.levels, answers.block, drawn, answers.mechanism, chance).mean(axis=0)
-            for drawn in draws
-        ]
-    )
+    known = answers.levels, answers.block
+    return np.array([corrected(*known, drawn, answers.mechanism, chance).mean(axis=0) for drawn in draws])
 
 
 def _plain_spreads(answers: Answers, repeats: int, rng: np.random.Generator) -> tuple[Spread, Spread]:

@@ -62,16 +62,15 @@ def independent(records: Iterable[tuple[str, Accelerogram]]) -> Iterator[tuple[s
     """
     sites: list[tuple[str, list[str], str, set]] = []
     for name, record in records:
+        named = f"{record.event}, {record.station}"
         event, words = _letters(record.event)[:4], re.findall(r"[a-z0-9]+", record.station.lower())
-        shared = record.event, record.station
         place = next(
             (k for k, site in enumerate(sites) if site[0] == event and _begins(site[1], words)), None
         )
         if place is None:
             place = len(sites)
-            sites.append((event, words, f"{record.event}, {record.station}", set()))
+            sites.append((event, words, named, set()))
         _, _, site_name, directions = sites[place]
-        named = f"{shared[0]}, {shared[1]}"
         direction = name if not (record.component or record.azimuth is not None) else _direction(record)
         if named == site_name and direction not in directions and len(directions) < MOST_COMPONENTS:
             directions.add(direction)
@@ -87,7 +86,7 @@ def tier_cases(
     nudged = np.outer(FACTORS, NUDGES)
     for name, site, record in records:
         shape = Shape.of(record)
-        pulse = _pulse(record)
+        pulse = dominant_pulse(record)
         if pulse is None:
             continue
         on_block = integrate_batch(blocks, record, nudged.ravel()).reshape(len(blocks), *nudged.shape)
@@ -116,7 +115,8 @@ def _known(shape: Shape, pulse: Pulse, mechanism: Mechanism) -> dict[str, float]
     )
 
 
-def _pulse(record: Accelerogram) -> Pulse | None:
+def dominant_pulse(record: Accelerogram) -> Pulse | None:
+    """Return the dominant sine of a record; None where it has none."""
     try:
         return extract_pulses(record).dominant
     except PulseError:

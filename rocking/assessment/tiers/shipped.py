@@ -10,7 +10,7 @@ from rocking.assessment.tiers.expectation import Expectation
 from rocking.assessment.tiers.fit import TierFit
 from rocking.assessment.tiers.rows import TierBand, TierCovariance, TierTerm
 from rocking.assessment.tiers.tier import Tier
-from rocking.tables import read_rows
+from rocking.tables import read_table
 
 
 def expect(
@@ -41,9 +41,8 @@ def shipped_tiers() -> dict[Tier, TierFit]:
 
 def read_tiers(folder: Path) -> dict[Tier, TierFit]:
     """Return the tiers whose tables lie in `folder`. Raises RockingError for another table."""
-    terms = list(read_rows(TierTerm, folder / TierTerm.table.file_name))
-    covariances = list(read_rows(TierCovariance, folder / TierCovariance.table.file_name))
-    bands = list(read_rows(TierBand, folder / TierBand.table.file_name))
+    terms, bands = read_table(TierTerm, folder), read_table(TierBand, folder)
+    covariances = read_table(TierCovariance, folder)
     return {
         tier: _fit(
             tier,
@@ -63,14 +62,12 @@ def _fit(
     for each in covariances:
         i, k = places[each.term], places[each.other_term]
         covariance[i, k] = covariance[k, i] = each.covariance
+    properties = ("centre", "spread", "least", "largest")
     return TierFit(
-        tier,
-        np.array([row.centre for row in terms[1:]]),
-        np.array([row.spread for row in terms[1:]]),
-        np.array([row.least for row in terms[1:]]),
-        np.array([row.largest for row in terms[1:]]),
-        np.array([row.coefficient for row in terms]),
-        covariance,
-        np.array([row.location_from for row in bands]),
-        np.array([[row.low, row.median, row.high] for row in bands]),
+        tier=tier,
+        **{name: np.array([getattr(row, name) for row in terms[1:]]) for name in properties},
+        coefficients=np.array([row.coefficient for row in terms]),
+        covariance=covariance,
+        edges=np.array([row.location_from for row in bands]),
+        bands=np.array([[row.low, row.median, row.high] for row in bands]),
     )

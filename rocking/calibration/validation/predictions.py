@@ -13,11 +13,10 @@ from rocking.calibration.identification import (
     overturning_table,
 )
 from rocking.calibration.mixture import with_unexplained
+from rocking.calibration.tier_cases import dominant_pulse
 from rocking.calibration.validation.baselines import fit_logistic, fit_threshold, single_best
 from rocking.calibration.validation.campaign import Campaign, TableTest
-from rocking.errors import PulseError
-from rocking.pulses import Pulse, extract_pulses
-from rocking.records.accelerogram import Accelerogram
+from rocking.pulses import Pulse
 from rocking.records.processing import Processing, process, velocity
 from rocking.sine_pulse import predict_maxima
 from rocking.structures import EquivalentBlock
@@ -85,7 +84,7 @@ def measure(
         speed = velocity(process(table_motion, VELOCITY_PROCESSING))
         peaks.append((motion.peak_acceleration, float(np.abs(speed).max())))
         verdicts.append(overturning_table(candidates, [motion], workers=workers)[0])
-        pulses.append(_dominant(motion))
+        pulses.append(dominant_pulse(motion))
     closed = pulse_verdicts(candidates, pulses)
     acceleration, speeds = np.array(peaks).T
     return Measured(campaign.tests, prior, candidates, acceleration, speeds, np.array(verdicts), closed)
@@ -162,10 +161,3 @@ def pulse_verdicts(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse | N
     if known:
         found[known] = np.isinf(predict_maxima(blocks, [pulse for pulse in pulses if pulse is not None])).T
     return found
-
-
-def _dominant(motion: Accelerogram) -> Pulse | None:
-    try:
-        return extract_pulses(motion).dominant
-    except PulseError:
-        return None

@@ -13,7 +13,7 @@ from rocking.reports.comparison import tables
 from rocking.reports.comparison.tables import STRUCTURES, rocks
 from rocking.reports.document import compile_document
 from rocking.reports.style import new_figure, styled, svg
-from rocking.tables import read_rows
+from rocking.tables import read_table
 
 SMALLEST_ERROR = 1e-15
 """Smaller errors, down to none, are drawn here."""
@@ -25,8 +25,7 @@ _MARKERS = "osD^vPXH"
 
 def comparison_report(folder: Path) -> bytes:
     """Return the PDF of a comparison whose table stands in `folder`."""
-    rows = list(read_rows(CodeRow, folder / CodeRow.table.file_name))
-    return compile_document("comparison/comparison.typ", comparison_data(rows))
+    return compile_document("comparison/comparison.typ", comparison_data(read_table(CodeRow, folder)))
 
 
 def comparison_data(rows: Sequence[CodeRow]) -> dict[str, object]:

@@ -16,7 +16,7 @@ from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.style import svg
 from rocking.reports.trade.figures import duration, trade_figure
-from rocking.tables import R, read_rows, write_whole
+from rocking.tables import read_table, write_whole
 
 PREDICTS = 0.1
 """Median error, and share of wrong verdicts, up to which a method is said to predict."""
@@ -37,14 +37,14 @@ def write_trade_report(folder: Path, pdf: Path, picture: Path) -> None:
 def trade_data(folder: Path) -> dict[str, object]:
     """Return what the template is given: texts, tables and the figure."""
     methods, curves = _rows_of_figure(folder)
-    samples = list(read_rows(MultiFidelityRow, folder / MultiFidelityRow.table.file_name))
+    samples = read_table(MultiFidelityRow, folder)
     return {
         "title": "What accuracy costs",
         "subtitle": _subtitle(methods, curves),
         "conclusion": conclusion(methods),
         "sentences": [
             *_preparation(methods),
-            *_beside_scipy(list(read_rows(TradeRow, folder / TradeRow.table.file_name))),
+            *_beside_scipy(read_table(TradeRow, folder)),
             *_fragility(methods),
             *_multi_fidelity(samples),
         ],
@@ -254,10 +254,7 @@ def _sample_table(rows: Sequence[MultiFidelityRow]) -> dict[str, object]:
 
 
 def _rows_of_figure(folder: Path) -> tuple[list[TradeMethodRow], list[TradeFragilityRow]]:
-    def rows(kind: type[R]) -> list[R]:
-        return list(read_rows(kind, folder / kind.table.file_name))
-
-    return rows(TradeMethodRow), rows(TradeFragilityRow)
+    return read_table(TradeMethodRow, folder), read_table(TradeFragilityRow, folder)
 
 
 def _picture(methods: Sequence[TradeMethodRow], curves: Sequence[TradeFragilityRow]) -> list[dict[str, str]]:

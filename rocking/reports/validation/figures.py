@@ -10,7 +10,7 @@ from rocking.assessment.rows.of_validation import ConfusionRow, IdentifiedRow, R
 from rocking.reports.style import new_figure, styled
 
 _OURS, _OTHER, _WRONG = "#0072B2", "#000000", "#D55E00"
-_PARAMETERS = {
+PARAMETERS = {
     "uplift_multiplier_positive": "λ, positive side",
     "uplift_multiplier_negative": "λ, negative side",
     "frequency_parameter": "p (rad/s)",
@@ -97,8 +97,8 @@ def identified_figure(rows: Sequence[IdentifiedRow]) -> Figure:
     """Draw the identified 90 % ranges and medians beside what the mesh allows and what was tried."""
     specimens = sorted({row.specimen for row in rows})
     figure = new_figure(42, margins=(17, 3, 11, 6))
-    panels = figure.subplots(1, len(_PARAMETERS), gridspec_kw={"wspace": 0.16})
-    for panel, (name, label) in zip(panels, _PARAMETERS.items(), strict=True):
+    panels = figure.subplots(1, len(PARAMETERS), gridspec_kw={"wspace": 0.16})
+    for panel, (name, label) in zip(panels, PARAMETERS.items(), strict=True):
         for row in (each for each in rows if each.parameter == name):
             place = len(specimens) - row.specimen
             panel.plot([row.prior_low, row.prior_high], [place, place], color="0.85", linewidth=6)

@@ -19,19 +19,13 @@ from rocking.reports.document import compile_document
 from rocking.reports.printing import number
 from rocking.reports.style import svg
 from rocking.reports.validation.figures import (
+    PARAMETERS,
     confusion_figure,
     identified_figure,
     reliability_figure,
     score_figure,
 )
-from rocking.tables import R, read_rows
-
-_NAMES = {
-    "uplift_multiplier_positive": "λ, positive side",
-    "uplift_multiplier_negative": "λ, negative side",
-    "frequency_parameter": "p (rad/s)",
-    "restitution": "η",
-}
+from rocking.tables import R, read_table
 
 
 def validation_report(folder: Path) -> bytes:
@@ -41,12 +35,9 @@ def validation_report(folder: Path) -> bytes:
 
 def validation_data(folder: Path) -> dict[str, object]:
     """Return what the template is given: texts, tables and figures."""
-
-    def rows(kind: type[R]) -> list[R]:
-        return list(read_rows(kind, folder / kind.table.file_name))
-
-    scores, failures, timing = rows(ScoreRow), rows(FailureRow), rows(TimingRow)
-    identified, members = rows(IdentifiedRow), rows(MemberRow)
+    scores, failures = read_table(ScoreRow, folder), read_table(FailureRow, folder)
+    identified, members = read_table(IdentifiedRow, folder), read_table(MemberRow, folder)
+    timing = read_table(TimingRow, folder)
     first = scores[0]
     return {
         "title": "Validation against shake-table tests",
@@ -58,10 +49,12 @@ def validation_data(folder: Path) -> dict[str, object]:
             score_figure(scores), "Accuracy and Brier score of every method with 95 % intervals."
         ),
         "reliability": _picture(
-            reliability_figure(rows(ReliabilityRow)), "Share that overturned against predicted probability."
+            reliability_figure(read_table(ReliabilityRow, folder)),
+            "Share that overturned against predicted probability.",
         ),
         "confusion": _picture(
-            confusion_figure(rows(ConfusionRow)), "Right and wrong verdicts by class of peak velocity."
+            confusion_figure(read_table(ConfusionRow, folder)),
+            "Right and wrong verdicts by class of peak velocity.",
         ),
         "identified-figure": _picture(
             identified_figure(identified), "Ranges of the identified parameters beside those of the mesh."
@@ -139,7 +132,7 @@ def _identified_table(rows: Sequence[IdentifiedRow]) -> dict[str, object]:
     return printing.table_of(
         rows,
         ("Specimen", "0.6", "l", lambda row: printing.whole(row.specimen)),
-        ("Parameter", "1.2", "l", lambda row: _NAMES[row.parameter]),
+        ("Parameter", "1.2", "l", lambda row: PARAMETERS[row.parameter]),
         ("Median", "0.7", "r", lambda row: number(row.median)),
         ("90 % range", "1", "r", lambda row: f"{number(row.low)} to {number(row.high)}"),
         ("From the mesh", "1", "r", lambda row: f"{number(row.mesh_low)} to {number(row.mesh_high)}"),
