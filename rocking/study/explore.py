@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 from scipy.signal import detrend
 
-from rocking.assessment.rows import BOTH_COMPONENTS, ComparisonRow, EnsembleRow, RecordTables
+from rocking.assessment.rows.of_case import ComparisonRow
+from rocking.assessment.rows.of_ensemble import BOTH_COMPONENTS, EnsembleRow
+from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.errors import RockingError
 from rocking.motion.integration import integrate

@@ -4,7 +4,9 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from rocking.assessment.rows import ComparisonRow, EnsembleRow, FailureRow, governing_ensembles
+from rocking.assessment.rows.of_case import ComparisonRow
+from rocking.assessment.rows.of_ensemble import EnsembleRow, governing_ensembles
+from rocking.assessment.rows.of_record import FailureRow
 from rocking.assessment.verdict import Verdict, rests, rocks
 from rocking.errors import RecordError
 from rocking.quantities import counted

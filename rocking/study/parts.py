@@ -8,7 +8,9 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from rocking.assessment.rows import PER_RECORD, MaximumRow, RecordTables, TimingRow
+from rocking.assessment.rows.of_case import MaximumRow
+from rocking.assessment.rows.of_folder import PER_RECORD, RecordTables
+from rocking.assessment.rows.of_record import TimingRow
 from rocking.errors import RockingError
 from rocking.tables import Row, head, read_rows, rows_written, write_whole, written_together
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 
-from rocking.assessment.rows import RecordTables
+from rocking.assessment.rows.of_folder import RecordTables
 from rocking.errors import RockingError
 from rocking.records.catalogue import CatalogueRecord
 from rocking.reports.record.report import failure_report, record_report

@@ -4,7 +4,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rocking.assessment.rows import PER_RECORD, SUMMARY_TABLES
+from rocking.assessment.rows.of_folder import PER_RECORD
+from rocking.assessment.rows.of_study import SUMMARY_TABLES
 from rocking.assessment.rows.of_trade import TRADE_TABLES
 from rocking.errors import RockingError
 from rocking.study.parts import copy_tables, parts_in

@@ -11,15 +11,11 @@ from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.horizontal_motion import horizontal_motions
 from rocking.assessment.method import Method
 from rocking.assessment.processings import processed
-from rocking.assessment.rows import (
-    BOTH_COMPONENTS,
-    Identity,
-    RecordTables,
-    TimingRow,
-    candidate_rows,
-    ensemble_row,
-    processing_rows,
-)
+from rocking.assessment.rows.of_ensemble import BOTH_COMPONENTS, ensemble_row
+from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.rows.of_record import TimingRow
+from rocking.assessment.rows.of_variation import candidate_rows, processing_rows
+from rocking.assessment.rows.shared import Identity
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, processed_variants
 from rocking.errors import RockingError

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from rocking.assessment.method import Method
-from rocking.assessment.rows import (
+from rocking.assessment.rows.of_case import ComparisonRow
+from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.rows.of_study import (
     CapacityRow,
-    ComparisonRow,
-    RecordTables,
     SpectrumRow,
     StructureRow,
     capacity_rows,

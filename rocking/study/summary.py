@@ -6,11 +6,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
 
-from rocking.assessment.rows import (
+from rocking.assessment.rows.of_case import ComparisonRow
+from rocking.assessment.rows.of_study import (
+    AGREEMENT_COLUMNS,
     SUMMARY_TABLES,
     AgreementRow,
     CapacityRow,
-    ComparisonRow,
     EquivalenceRow,
     StructureRow,
     agreement_rows,
@@ -18,7 +19,6 @@ from rocking.assessment.rows import (
     equivalence_rows,
     structure_rows,
 )
-from rocking.assessment.rows.of_study import AGREEMENT_COLUMNS
 from rocking.structures import Structure
 from rocking.study.parts import IN_PARTS, gathered, part
 from rocking.tables import Row, data_package, frame, write_rows, write_whole

@@ -3,8 +3,9 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from rocking.assessment.rows import SUMMARY_TABLES, ComparisonRow
+from rocking.assessment.rows.of_case import ComparisonRow
 from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow, IdaRow
+from rocking.assessment.rows.of_study import SUMMARY_TABLES
 from rocking.reports.style import svg
 from rocking.reports.summary.figures import prediction_scatter
 from rocking.reports.summary.report import summary_report

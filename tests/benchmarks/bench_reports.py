@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "unit" / "reports"))
 
 from conftest import Assessed, assessed, shaken, summarised
 
-from rocking.assessment.rows import FailureRow
+from rocking.assessment.rows.of_record import FailureRow
 from rocking.reports.document import compile_document
 from rocking.reports.record.report import record_data, record_report
 from rocking.reports.summary.report import summary_report

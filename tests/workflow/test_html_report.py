@@ -10,7 +10,7 @@ from urllib.parse import unquote
 import pytest
 
 import rocking
-from rocking.assessment.rows import SUMMARY_TABLES
+from rocking.assessment.rows.of_study import SUMMARY_TABLES
 from rocking.study.cli import main
 
 ROOT = Path(rocking.__file__).parents[1]

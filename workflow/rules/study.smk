@@ -2,7 +2,7 @@
 
 from pathlib import Path  # for the rules
 
-from rocking.assessment.rows import SUMMARY_TABLES
+from rocking.assessment.rows.of_study import SUMMARY_TABLES
 from rocking.study.outcome import check_any_read
 from rocking.study.parts import IN_PARTS, part
 from rocking.study.plan import make_plan, package_sha256

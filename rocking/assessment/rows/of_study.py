@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rocking.assessment.rows.of_case import ComparisonRow, MaximumRow
+from rocking.assessment.rows.of_ensemble import EnsembleRow
+from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow, TimingRow
 from rocking.assessment.rows.shared import (
     COMPONENT,
     FREQUENCY_PARAMETER,
@@ -256,3 +259,19 @@ def spectrum_rows(
                 scale_factor=accelerogram.scale_factor,
                 record_sha256=accelerogram.source.sha256,
             )
+
+
+SUMMARY_TABLES: tuple[type[Row], ...] = (
+    RecordRow,
+    PulseRow,
+    ComparisonRow,
+    EnsembleRow,
+    AgreementRow,
+    MaximumRow,
+    StructureRow,
+    EquivalenceRow,
+    CapacityRow,
+    FailureRow,
+    TimingRow,
+)
+"""The rows of the tables of the summary folder."""

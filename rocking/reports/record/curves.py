@@ -7,7 +7,9 @@ from functools import lru_cache
 import numpy as np
 
 from rocking.assessment.method import Method
-from rocking.assessment.rows import ComparisonRow, PredictionRow, PulseRow
+from rocking.assessment.rows.of_case import ComparisonRow
+from rocking.assessment.rows.of_prediction import PredictionRow
+from rocking.assessment.rows.of_record import PulseRow
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement
 from rocking.motion.response import Response
 from rocking.pulses.pulse import Pulse

@@ -6,14 +6,11 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from itertools import accumulate
 
-from rocking.assessment.rows import (
-    CandidateRow,
-    EnsembleRow,
-    RecordRow,
-    RecordTables,
-    StructureRow,
-    governing_ensembles,
-)
+from rocking.assessment.rows.of_ensemble import EnsembleRow, governing_ensembles
+from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.rows.of_record import RecordRow
+from rocking.assessment.rows.of_study import StructureRow
+from rocking.assessment.rows.of_variation import CandidateRow
 from rocking.assessment.verdict import Verdict, rests, rocks
 from rocking.reports import printing
 from rocking.reports.printing import NOTHING, Cell, strong, table_of, words

@@ -3,7 +3,9 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from rocking.assessment.rows import RecordRow, RecordTables, structure_rows
+from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.rows.of_record import RecordRow
+from rocking.assessment.rows.of_study import structure_rows
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
 from rocking.reports.document import compile_document

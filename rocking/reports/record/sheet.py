@@ -3,7 +3,8 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 
-from rocking.assessment.rows import PredictionRow, PulseRow, RecordRow
+from rocking.assessment.rows.of_prediction import PredictionRow
+from rocking.assessment.rows.of_record import PulseRow, RecordRow
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
 from rocking.reports.printing import number, with_unit, words

@@ -5,16 +5,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from rocking.assessment.method import Method
-from rocking.assessment.rows import (
-    CaseRow,
-    ComparisonRow,
-    PredictionRow,
-    PulseRow,
-    RecordRow,
-    RecordTables,
-    ResponseRow,
-    StructureRow,
-)
+from rocking.assessment.rows.of_case import ComparisonRow, ResponseRow
+from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.rows.of_prediction import PredictionRow
+from rocking.assessment.rows.of_record import PulseRow, RecordRow
+from rocking.assessment.rows.of_study import StructureRow
+from rocking.assessment.rows.shared import CaseRow
 from rocking.pulses.flags import Flag
 from rocking.reports import printing
 from rocking.reports.printing import (

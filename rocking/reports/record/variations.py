@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from rocking.assessment.rows import CandidateRow, ProcessingRow
+from rocking.assessment.rows.of_variation import CandidateRow, ProcessingRow
 from rocking.reports import printing
 from rocking.reports.printing import number, ratio, short, table, table_of, words
 

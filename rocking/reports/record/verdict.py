@@ -3,7 +3,9 @@
 from collections.abc import Mapping, Sequence
 
 from rocking.assessment.method import Method
-from rocking.assessment.rows import ComparisonRow, RecordRow, RecordTables, ResponseRow
+from rocking.assessment.rows.of_case import ComparisonRow, ResponseRow
+from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.rows.of_record import RecordRow
 from rocking.assessment.verdict import Agreement, rests
 from rocking.reports import printing
 from rocking.reports.printing import ratio, short, strong, table_of, words

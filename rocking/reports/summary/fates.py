@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.assessment.rows import BOTH_COMPONENTS
+from rocking.assessment.rows.of_ensemble import BOTH_COMPONENTS
 from rocking.assessment.verdict import Verdict
 from rocking.reports import printing
 from rocking.reports.printing import NOTHING, Cell, strong, table

@@ -3,7 +3,9 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from rocking.assessment.rows import AgreementRow, ComparisonRow, FailureRow, RecordRow
+from rocking.assessment.rows.of_case import ComparisonRow
+from rocking.assessment.rows.of_record import FailureRow, RecordRow
+from rocking.assessment.rows.of_study import AgreementRow
 from rocking.assessment.verdict import Agreement
 from rocking.reports import printing
 from rocking.reports.document import compile_document

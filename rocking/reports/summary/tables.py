@@ -4,7 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from rocking.assessment.rows import AgreementRow, ComparisonRow, FailureRow, PulseRow, RecordRow
+from rocking.assessment.rows.of_case import ComparisonRow
+from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow
+from rocking.assessment.rows.of_study import AgreementRow
 from rocking.reports import printing
 from rocking.reports.printing import Cell, number, ratio, strong, table_of, whole, words
 from rocking.tables import Row, rows_of

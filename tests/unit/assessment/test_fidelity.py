@@ -12,8 +12,8 @@ from rocking.assessment.assess import AssessmentSettings, Method, assess_structu
 from rocking.assessment.ensemble import EnsembleSettings, GroundMotions, ensemble
 from rocking.assessment.fidelity import cheapest_answer, limits_of, stays_at_rest
 from rocking.assessment.intensity import Shape
-from rocking.assessment.rows import Identity
 from rocking.assessment.rows.of_prediction import prediction_rows
+from rocking.assessment.rows.shared import Identity
 from rocking.assessment.tiers import Tier, expect
 from rocking.assessment.verdict import Verdict
 from rocking.motion.integration import integrate

@@ -20,7 +20,8 @@ from docs.site import filled, python_blocks, write_site, written_pages
 from docs.site.drawings import drawing, forms
 from docs.site.generated import table
 from docs.site.pages import FOLDER
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, SpectrumRow
+from rocking.assessment.rows.of_folder import RECORD_TABLES
+from rocking.assessment.rows.of_study import SUMMARY_TABLES, SpectrumRow
 from rocking.errors import ConfigurationError
 from rocking.records.formats import FORMATS
 from rocking.structures import load_structures

@@ -7,21 +7,13 @@ import pytest
 
 from rocking.assessment.assess import AssessmentSettings, assess_structures
 from rocking.assessment.processings import processed
-from rocking.assessment.rows import (
-    AgreementRow,
-    ComparisonRow,
-    EnsembleRow,
-    FailureRow,
-    Identity,
-    PulseRow,
-    RecordRow,
-    RecordTables,
-    StructureRow,
-    agreement_rows,
-    candidate_rows,
-    processing_rows,
-    structure_rows,
-)
+from rocking.assessment.rows.of_case import ComparisonRow
+from rocking.assessment.rows.of_ensemble import EnsembleRow
+from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow
+from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows, structure_rows
+from rocking.assessment.rows.of_variation import candidate_rows, processing_rows
+from rocking.assessment.rows.shared import Identity
 from rocking.assessment.variations import candidates, processed_variants
 from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram, Source

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment.method import Method
-from rocking.assessment.rows import structure_rows
+from rocking.assessment.rows.of_study import structure_rows
 from rocking.assessment.verdict import Verdict
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports.record.page_one import fates, headlines

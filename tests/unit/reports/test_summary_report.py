@@ -6,18 +6,11 @@ import math
 import pandas
 
 from rocking.assessment.method import Method
-from rocking.assessment.rows import (
-    BOTH_COMPONENTS,
-    AgreementRow,
-    ComparisonRow,
-    EnsembleRow,
-    FailureRow,
-    PulseRow,
-    RecordRow,
-    StructureRow,
-    agreement_rows,
-)
+from rocking.assessment.rows.of_case import ComparisonRow
+from rocking.assessment.rows.of_ensemble import BOTH_COMPONENTS, EnsembleRow
 from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow
+from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow
+from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows
 from rocking.assessment.verdict import Agreement, Verdict, agreement, ratio, ratio_in_words, within_factor_two
 from rocking.reports.style import svg
 from rocking.reports.summary.figures import prediction_scatter

@@ -3,7 +3,9 @@
 import math
 from pathlib import Path
 
-from rocking.assessment.rows import ComparisonRow, EnsembleRow, FailureRow
+from rocking.assessment.rows.of_case import ComparisonRow
+from rocking.assessment.rows.of_ensemble import EnsembleRow
+from rocking.assessment.rows.of_record import FailureRow
 from rocking.assessment.verdict import Verdict
 from rocking.study.outcome import CameOf, closing_lines, paths_to_read, record_line
 

@@ -5,7 +5,9 @@ from pathlib import Path
 import pytest
 
 import rocking
-from rocking.assessment.rows import PER_RECORD, SUMMARY_TABLES, StructureRow, TimingRow
+from rocking.assessment.rows.of_folder import PER_RECORD
+from rocking.assessment.rows.of_record import TimingRow
+from rocking.assessment.rows.of_study import SUMMARY_TABLES, StructureRow
 from rocking.errors import RockingError
 from rocking.study.cli import main
 from rocking.study.parts import part

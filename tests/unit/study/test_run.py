@@ -10,14 +10,10 @@ from pathlib import Path
 import pytest
 
 from rocking.assessment.method import Method
-from rocking.assessment.rows import (
-    PER_RECORD,
-    ComparisonRow,
-    FailureRow,
-    MaximumRow,
-    PulseRow,
-    structure_rows,
-)
+from rocking.assessment.rows.of_case import ComparisonRow, MaximumRow
+from rocking.assessment.rows.of_folder import PER_RECORD
+from rocking.assessment.rows.of_record import FailureRow, PulseRow
+from rocking.assessment.rows.of_study import structure_rows
 from rocking.errors import RockingError, StructureError
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
