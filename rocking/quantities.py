@@ -78,10 +78,20 @@ def length(field: str, value: float) -> float:
     return within(StructureError, field, positive(StructureError, field, value, "m"), *LENGTHS, "m")
 
 
-def squared_length(field: str, value: float) -> float:
-    """Return `value` as a squared length in m², or raise StructureError naming `field` and the bounds."""
-    checked = positive(StructureError, field, value, "m²")
-    return within(StructureError, field, checked, LENGTHS[0] ** 2, LENGTHS[1] ** 2, "m²")
+def not_negative(field: str, value: float, unit: str) -> float:
+    """Return a finite number of 0 or more, or raise StructureError naming `field`."""
+    number = finite(StructureError, field, value, unit)
+    if number < 0:
+        raise StructureError(f"{field} is {value!r}{_in(unit)}, but must be 0 or more.")
+    return number
+
+
+def whole(field: str, value: float, low: float, high: float) -> int:
+    """Return a whole number from `low` to `high`, or raise StructureError naming `field`."""
+    number = finite(StructureError, field, value)
+    if number != int(number) or not low <= number <= high:
+        raise StructureError(f"{field} is {number:g}, but must be a whole number from {low:g} to {high:g}.")
+    return int(number)
 
 
 def shown(value: float, unit: str = "") -> str:

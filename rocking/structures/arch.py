@@ -9,7 +9,6 @@ from typing import ClassVar
 import numpy as np
 
 from rocking.errors import StructureError, StructureWarning
-from rocking.quantities import finite, length, within
 from rocking.structures.arch_fill import Fill
 from rocking.structures.arch_linkage import Linkage
 from rocking.structures.arch_onset import (
@@ -33,12 +32,7 @@ from rocking.structures.fields import (
     restitution_field,
 )
 from rocking.structures.mechanism import Mechanism, Side
-from rocking.structures.restitution import (
-    Restitution,
-    check_restitution,
-    momentum_balance,
-    resolve_restitution,
-)
+from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
 from rocking.structures.structure import Structure
 
 _EMBRACE_DEG = (5, 270)
@@ -75,8 +69,16 @@ GEOMETRY = (
         0.2,
         (0, 3),
         "f",
+        {"minimum": 0, "maximum": 1000},
     ),
-    number_field("fill_density_ratio", "Density of the fill over that of the masonry", "", 0.8, (0.3, 1.2)),
+    number_field(
+        "fill_density_ratio",
+        "Density of the fill over that of the masonry",
+        "",
+        0.8,
+        (0.3, 1.2),
+        bounds={"minimum": 0, "maximum": 10},
+    ),
 )
 """How a file describes an arch, but for its restitution."""
 
@@ -111,11 +113,14 @@ class Arch(Structure):
     fill_density_ratio: float = 0.8
 
     def __post_init__(self) -> None:
+        if self.restitution == "momentum":
+            raise StructureError(
+                "restitution is 'momentum', but that balance takes more speed from an arch than its hinges do, on "
+                "the unsafe side; give a number, such as the default of 0.9, or, of an arch without piers, "
+                f"{UNSAFE_MOMENTUM!r} to take it all the same."
+            )
         super().__post_init__()
-        for name in ("radius", "thickness"):
-            object.__setattr__(self, name, length(name, getattr(self, name)))
-        embrace = finite(StructureError, "embrace_angle", self.embrace_angle, "rad")
-        object.__setattr__(self, "embrace_angle", embrace)
+        embrace = self.embrace_angle
         if self.thickness >= 2 * self.radius:
             raise StructureError(
                 f"thickness is {self.thickness!r} m, but must be less than twice the radius of {self.radius!r} m."
@@ -125,20 +130,6 @@ class Arch(Structure):
                 f"embrace_angle is {embrace!r} rad ({np.degrees(embrace):.6g}°), but must lie between "
                 "0.08727 rad (5°), flatter than which is no arch, and 4.7124 rad (270°)."
             )
-        object.__setattr__(self, "voussoirs", _voussoirs(self.voussoirs))
-        if self.fill_depth is not None:
-            object.__setattr__(
-                self, "fill_depth", within(StructureError, "fill_depth", self.fill_depth, 0, 1e3, "m")
-            )
-        ratio = within(StructureError, "fill_density_ratio", self.fill_density_ratio, 0, 10)
-        object.__setattr__(self, "fill_density_ratio", ratio)
-        if self.restitution == "momentum":
-            raise StructureError(
-                "restitution is 'momentum', but that balance takes more speed from an arch than its hinges do, on "
-                f"the unsafe side; give a number, such as the default of 0.9, or {UNSAFE_MOMENTUM!r} to take it "
-                "all the same."
-            )
-        check_restitution(self.restitution, (UNSAFE_MOMENTUM,))
         self.onset  # noqa: B018  an arch that cannot stand or rock is refused at birth
 
     @property
@@ -223,7 +214,7 @@ class Arch(Structure):
                 StructureWarning,
                 stacklevel=4,
             )
-        return resolve_restitution(self.restitution, 0.9, {UNSAFE_MOMENTUM: self.momentum_balance})
+        return resolve_restitution(self.restitution, 0.9, self.momentum_balance)
 
     def momentum_balance(self) -> float:
         """η = −⟨u, u_m⟩/⟨u_m, u_m⟩ of the two velocity fields of φ' = 1, the mechanism's and its mirror image's."""
@@ -322,14 +313,3 @@ class Arch(Structure):
         """Return the line of thrust at the onset to the positive side: (count, 2) in m, from springing to springing."""
         line = thrust_line(self.ring, self.onset, np.linspace(self._ends[0], self._ends[1], count))
         return self.radius * np.stack([line.real, line.imag], axis=1)
-
-
-def _voussoirs(value: int | None) -> int | None:
-    if value is None:
-        return None
-    count = finite(StructureError, "voussoirs", value)
-    if count != int(count) or not 3 <= count <= _MOST_VOUSSOIRS:
-        raise StructureError(
-            f"voussoirs is {value!r}, but must be a whole number from 3 to {_MOST_VOUSSOIRS}, or left out."
-        )
-    return int(count)

@@ -12,13 +12,11 @@ from typing import ClassVar
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.quantities import length, positive
 from rocking.structures.arch import GEOMETRY, Arch
 from rocking.structures.arch_onset import NoMechanism, Onset, TooThin, static_onset, thrust_line
 from rocking.structures.drawing import Path, span
 from rocking.structures.fields import Form, length_field, number_field, restitution_field
 from rocking.structures.pier_ring import FOOT, PierRing
-from rocking.structures.restitution import check_restitution
 
 MECHANISMS = ("arch alone", "arch with one pier", "arch with both piers")
 """By the number of piers that rock."""
@@ -58,14 +56,6 @@ class ArchOnPiers(Arch):
     pier_width: float = dataclasses.field(kw_only=True)
     pier_height: float = dataclasses.field(kw_only=True)
     pier_density_ratio: float = dataclasses.field(default=1.0, kw_only=True)
-
-    def __post_init__(self) -> None:
-        for name in ("pier_width", "pier_height"):
-            object.__setattr__(self, name, length(name, getattr(self, name)))
-        ratio = positive(StructureError, "pier_density_ratio", self.pier_density_ratio)
-        object.__setattr__(self, "pier_density_ratio", ratio)
-        check_restitution(self.restitution, ())
-        super().__post_init__()
 
     def _check(self) -> None:
         needed = self.thickness * float(np.sin(self.embrace_angle / 2))

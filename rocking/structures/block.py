@@ -6,18 +6,13 @@ from typing import ClassVar
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.quantities import finite, length
+from rocking.quantities import length
 from rocking.structures.bars import Bodies, body_about
 from rocking.structures.contacts import Contacts, MotionState, corner
 from rocking.structures.drawing import Path, rectangle, span, swept, turned
 from rocking.structures.fields import ONE_SIDED, Form, length_field, number_field, restitution_field
 from rocking.structures.mechanism import Mechanism
-from rocking.structures.restitution import (
-    Restitution,
-    check_restitution,
-    momentum_balance,
-    resolve_restitution,
-)
+from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
 from rocking.structures.single_body import corner_side
 from rocking.structures.structure import Structure
 
@@ -74,15 +69,11 @@ class Block(Structure):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        object.__setattr__(self, "semi_diagonal", length("semi_diagonal", self.semi_diagonal))
-        slenderness = finite(StructureError, "slenderness", self.slenderness, "rad")
-        if not 0 < slenderness < np.pi / 2:
+        if not 0 < self.slenderness < np.pi / 2:
             raise StructureError(
-                f"slenderness is {slenderness!r} rad, but must lie between 0 and π/2 = 1.5708 rad "
+                f"slenderness is {self.slenderness!r} rad, but must lie between 0 and π/2 = 1.5708 rad "
                 "for a block to stand."
             )
-        object.__setattr__(self, "slenderness", slenderness)
-        check_restitution(self.restitution, ("momentum", "housner"), self.one_sided)
 
     @classmethod
     def of_size(
@@ -103,12 +94,11 @@ class Block(Structure):
         return 2 * self.semi_diagonal * np.cos(self.slenderness)
 
     def _build(self) -> Mechanism:
-        balances = {"momentum": self._momentum_balance, "housner": self._momentum_balance}
         side = corner_side(
             self.slenderness,
             inertia_length=4 * self.semi_diagonal / 3,
             end_rotation=np.pi / 2,  # it lies on its side
-            restitution=resolve_restitution(self.restitution, "housner", balances),
+            restitution=resolve_restitution(self.restitution, "housner", self._momentum_balance),
         )
         return Mechanism(side, one_sided=self.one_sided)
 

@@ -224,8 +224,8 @@ class Facade(Structure):
 
     def _restitution(self, body: TurningBody, other: TurningBody, own: float | None = None) -> float:
         """η of the impact that ends turning about the toe of `body` and starts it about that of `other`."""
-        balances = {"momentum": lambda: momentum_balance(*body.impact_on(other))}
-        return resolve_restitution(self.restitution if own is None else own, "momentum", balances)
+        chosen = self.restitution if own is None else own
+        return resolve_restitution(chosen, "momentum", lambda: momentum_balance(*body.impact_on(other)))
 
     def bodies(self, rotation: float | np.ndarray) -> Bodies:
         bodies = self.outward.bodies(rotation)

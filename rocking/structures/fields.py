@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import ConfigurationError, StructureError
-from rocking.quantities import LENGTHS, finite
+from rocking.quantities import LENGTHS, finite, not_negative, positive, whole, within
 
 _KILO = ("kN", "kN/m", "kN/m²", "kN/m³")
 _INWARD: dict[str, Callable[[Any], Any]] = {
@@ -44,7 +44,7 @@ class Field:
     parameter: str
     meaning: str
     example: object
-    schema: Mapping[str, object] = field(repr=False)
+    schema: Mapping[str, Any] = field(repr=False)
     unit: str = ""
     usual: tuple[float, float] | None = None
     letter: str = ""
@@ -65,6 +65,46 @@ class Field:
         if not isinstance(value, list | tuple):
             raise ConfigurationError(f"{self.key} is {value!r}, but must be a list of numbers.")
         return tuple(self._converted(each) for each in value)
+
+    def checked(self, value: Any) -> Any:
+        """Return a value in SI as a structure keeps it: floats, and a list as a tuple, within the schema's bounds.
+
+        Raises StructureError naming the parameter. Angles are held against bounds of their own by the structure.
+        """
+        if self.schema.get("type") == "array":
+            if not isinstance(value, tuple | list) or (self.required and not value):
+                raise StructureError(f"{self.parameter} is {value!r}, but must be a list of numbers.")
+            return tuple(self._bounded(each, self.schema["items"]) for each in value)
+        if self.schema.get("type") == "integer":
+            return whole(self.parameter, value, self.schema["minimum"], self.schema["maximum"])
+        if "oneOf" in self.schema:
+            number, named = self.schema["oneOf"]
+            if not isinstance(value, str):
+                return self._bounded(value, number)
+            if value not in named["enum"]:
+                names = ", ".join(named["enum"])
+                raise StructureError(
+                    f"{self.parameter} is {value!r}, but must be a number from 0 to 1 or one of {names}."
+                )
+        if "enum" in self.schema and value not in self.schema["enum"]:
+            raise StructureError(
+                f"{self.parameter} is {value!r}, but must be one of {', '.join(self.schema['enum'])}."
+            )
+        return self._bounded(value, self.schema) if self.schema.get("type") == "number" else value
+
+    def _bounded(self, value: Any, bounds: Mapping[str, Any]) -> float:
+        unit = self.unit.replace("kN", "N")
+        if self.unit == "°":
+            return finite(StructureError, self.parameter, value, "rad")
+        if "exclusiveMinimum" in bounds or bounds.get("minimum", 0) > 0:
+            value = positive(StructureError, self.parameter, value, unit)
+        if "maximum" in bounds:
+            return within(
+                StructureError, self.parameter, value, bounds.get("minimum", 0), bounds["maximum"], unit
+            )
+        if "minimum" in bounds:
+            return not_negative(self.parameter, value, unit)
+        return finite(StructureError, self.parameter, value, unit)
 
     def _converted(self, value: object) -> object:
         if self.unit not in _INWARD:

@@ -6,19 +6,13 @@ from typing import ClassVar
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.quantities import finite
 from rocking.structures.bars import Bodies
 from rocking.structures.block import Block
 from rocking.structures.contacts import Contacts, MotionState, UnknownContacts
 from rocking.structures.drawing import Path, rectangle, span, turned
 from rocking.structures.fields import Form, count_field, length_field, number_field, restitution_field
 from rocking.structures.mechanism import Mechanism
-from rocking.structures.restitution import (
-    Restitution,
-    check_restitution,
-    momentum_balance,
-    resolve_restitution,
-)
+from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
 from rocking.structures.single_body import corner_side
 from rocking.structures.structure import Structure
 
@@ -67,17 +61,6 @@ class Frame(Structure):
         super().__post_init__()
         if not isinstance(self.column, Block) or self.column.one_sided:
             raise StructureError(f"column is {self.column!r}, but must be a Block that rocks to both sides.")
-        count = finite(StructureError, "columns", self.columns)
-        if count != int(count) or not 2 <= count <= _MOST_COLUMNS:
-            raise StructureError(
-                f"columns is {self.columns!r}, but must be a whole number from 2 to {_MOST_COLUMNS}."
-            )
-        object.__setattr__(self, "columns", int(count))
-        ratio = finite(StructureError, "beam_mass_ratio", self.beam_mass_ratio)
-        if ratio < 0:
-            raise StructureError(f"beam_mass_ratio is {self.beam_mass_ratio!r}, but must be 0 or more.")
-        object.__setattr__(self, "beam_mass_ratio", ratio)
-        check_restitution(self.restitution, ("momentum",))
 
     @classmethod
     def of_columns(
@@ -104,13 +87,12 @@ class Frame(Structure):
     def _build(self) -> Mechanism:
         """I, G and B of one column and its share of the beam, divided by m R (1 + 2γ)."""
         share = (1 + 3 * self.beam_mass_ratio) / (1 + 2 * self.beam_mass_ratio)
-        balances = {"momentum": self._momentum_balance}
         return Mechanism(
             corner_side(
                 self.column.slenderness,
                 inertia_length=4 * self.column.semi_diagonal / 3 * share,
                 end_rotation=np.pi / 2,
-                restitution=resolve_restitution(self.restitution, "momentum", balances),
+                restitution=resolve_restitution(self.restitution, "momentum", self._momentum_balance),
             )
         )
 

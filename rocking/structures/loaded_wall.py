@@ -12,7 +12,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.quantities import GRAVITY, positive
+from rocking.quantities import GRAVITY
 from rocking.structures.attachments import (
     Attached,
     LoadedForm,
@@ -33,9 +33,7 @@ from rocking.structures.load_fields import (
     ECCENTRICITY,
     TOP_SLAB,
     UNIT_WEIGHT,
-    check_slab,
     checked_eccentricity,
-    not_negative,
 )
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
@@ -119,12 +117,9 @@ class LoadedWall(Structure):
         for name in ("lower_height", "upper_height", "thickness"):
             object.__setattr__(self, name, getattr(self.wall, name))
         checked = {
-            "unit_weight": positive(StructureError, "unit_weight", self.unit_weight, "N/m³"),
-            "top_load": not_negative("top_load", self.top_load, "N/m"),
             "eccentricity": checked_eccentricity(self.eccentricity, self.thickness),
             **checked_ties(self, self.height),
         }
-        check_slab(self.top_slab)
         for name, value in checked.items():
             object.__setattr__(self, name, value)
         self.mechanism()  # one that its load pushes over is refused at birth
@@ -198,8 +193,9 @@ class LoadedWall(Structure):
         return LoadedForm(bare, self.attached(mirrored), 1.0)
 
     def _side(self, mirrored: bool) -> Side:
-        balances = {"momentum": lambda: self._momentum_balance(mirrored)}
-        restitution = resolve_restitution(self.restitution, "momentum", balances)
+        restitution = resolve_restitution(
+            self.restitution, "momentum", lambda: self._momentum_balance(mirrored)
+        )
         return self._form(mirrored).side(self.wall.linkage.end_rotation, restitution)
 
     def _build(self) -> Mechanism:

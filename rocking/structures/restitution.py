@@ -8,13 +8,12 @@ Makris and Vassiliou's value.
 """
 
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.errors import StructureError, StructureWarning
-from rocking.quantities import within
+from rocking.errors import StructureWarning
 
 Restitution = float | str | None
 """η in [0, 1], the name of a balance, or None for the structure's default."""
@@ -31,28 +30,8 @@ def momentum_balance(masses: ArrayLike, inertias: ArrayLike, before: ArrayLike, 
     return float((weights * arriving * leaving).sum() / (weights * leaving * leaving).sum())
 
 
-def check_restitution(value: Restitution, names: tuple[str, ...], one_sided: bool = False) -> None:
-    """Raise StructureError unless `value` is None, one of `names`, or a number in [0, 1].
-
-    A one-sided body must have the number: what it leans on takes part in the impact, and no name covers that.
-    """
-    if one_sided and (value is None or isinstance(value, str)):
-        raise StructureError(
-            f"restitution is {value!r}, but a one-sided body needs its own number between 0 and 1; give it."
-        )
-    if isinstance(value, str):
-        if value not in names:
-            raise StructureError(
-                f"restitution is {value!r}, but must be a number from 0 to 1 or one of {', '.join(names)}."
-            )
-    elif value is not None:
-        within(StructureError, "restitution", value, 0, 1)
-
-
-def resolve_restitution(
-    value: Restitution, default: float | str, balances: Mapping[str, Callable[[], float]]
-) -> float:
-    """Return η in [0, 1]: `value`, or `default` when it is None; a name stands for one of `balances`.
+def resolve_restitution(value: Restitution, default: float | str, balance: Callable[[], float]) -> float:
+    """Return η in [0, 1]: `value`, or `default` when it is None; a name stands for `balance`.
 
     A balance below zero is not physical (the body would not reach the other side): η becomes 0 and a
     StructureWarning says so.
@@ -60,11 +39,11 @@ def resolve_restitution(
     chosen = default if value is None else value
     if not isinstance(chosen, str):
         return float(chosen)
-    balance = balances[chosen]()
-    if balance >= 0:
-        return min(balance, 1.0)
+    found = balance()
+    if found >= 0:
+        return min(found, 1.0)
     warnings.warn(
-        f"restitution by {chosen} balance is {balance:.4g} for this geometry, which is not physical; 0 is "
+        f"restitution by {chosen} balance is {found:.4g} for this geometry, which is not physical; 0 is "
         "used instead (the structure is too squat to rock from side to side), so give a measured value.",
         StructureWarning,
         stacklevel=4,

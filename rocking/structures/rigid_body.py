@@ -5,18 +5,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from rocking.quantities import LENGTHS, length, squared_length
+from rocking.quantities import LENGTHS
 from rocking.structures.bars import Bodies, body_about
 from rocking.structures.contacts import Contacts, MotionState, corner
 from rocking.structures.drawing import Path, span, turned
 from rocking.structures.fields import ONE_SIDED, Form, length_field, number_field, restitution_field
 from rocking.structures.mechanism import Mechanism, Side
-from rocking.structures.restitution import (
-    Restitution,
-    check_restitution,
-    momentum_balance,
-    resolve_restitution,
-)
+from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
 from rocking.structures.single_body import corner_side
 from rocking.structures.structure import Structure
 
@@ -64,13 +59,6 @@ class RigidBody(Structure):
     restitution: Restitution = None
     one_sided: bool = False
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        for name in ("left", "right", "centre_height"):
-            object.__setattr__(self, name, length(name, getattr(self, name)))
-        object.__setattr__(self, "inertia", squared_length("inertia", self.inertia))
-        check_restitution(self.restitution, ("momentum", "housner"), self.one_sided)
-
     def _build(self) -> Mechanism:
         positive_side = self.side(self.right, self.left)
         if self.one_sided or self.left == self.right:
@@ -81,12 +69,13 @@ class RigidBody(Structure):
         """Return the Side of rocking about the corner at distance `corner` [m], landing on the one at `other`."""
         slenderness = float(np.arctan2(corner, self.centre_height))
         semi_diagonal = float(np.hypot(corner, self.centre_height))
-        balances = {name: lambda: self._momentum_balance(corner, other) for name in ("momentum", "housner")}
         return corner_side(
             slenderness,
             inertia_length=(self.inertia + semi_diagonal**2) / semi_diagonal,
             end_rotation=slenderness + np.pi / 2 if end_rotation is None else end_rotation,
-            restitution=resolve_restitution(self.restitution, "momentum", balances),
+            restitution=resolve_restitution(
+                self.restitution, "momentum", lambda: self._momentum_balance(corner, other)
+            ),
         )
 
     def _mirrored(self) -> "RigidBody":

@@ -8,7 +8,6 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.quantities import finite, length
 from rocking.structures.bars import Bodies, body_about
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Path, span, turned
@@ -21,7 +20,7 @@ from rocking.structures.fields import (
     restitution_field,
 )
 from rocking.structures.mechanism import Mechanism
-from rocking.structures.restitution import Restitution, check_restitution
+from rocking.structures.restitution import Restitution
 from rocking.structures.rigid_body import RigidBody
 from rocking.structures.structure import HIGHEST_SHARE, Structure
 
@@ -73,29 +72,16 @@ class Spire(Structure):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        for name in ("width", "height"):
-            object.__setattr__(self, name, length(name, getattr(self, name)))
-        if self.wall_thickness is not None:
-            object.__setattr__(self, "wall_thickness", self._checked_wall(self.wall_thickness))
-        if not isinstance(self.plan, str) or self.plan not in _SPREAD:
-            raise StructureError(f"plan is {self.plan!r}, but must be one of {', '.join(_SPREAD)}.")
-        crack = finite(StructureError, "crack_height", self.crack_height, "m")
-        if not 0 <= crack < self.height:
+        if self.wall_thickness is not None and self.wall_thickness >= self.width / 2:
             raise StructureError(
-                f"crack_height is {crack!r} m, but must lie on the spire, "
+                f"wall_thickness is {self.wall_thickness!r} m, but must be less than half the width, "
+                f"{self.width / 2!r} m; leave it out for a solid spire."
+            )
+        if self.crack_height >= self.height:
+            raise StructureError(
+                f"crack_height is {self.crack_height!r} m, but must lie on the spire, "
                 f"from 0 to below its height of {self.height!r} m."
             )
-        object.__setattr__(self, "crack_height", crack)
-        check_restitution(self.restitution, ("momentum", "housner"), self.one_sided)
-
-    def _checked_wall(self, thickness: float) -> float:
-        wall = length("wall_thickness", thickness)
-        if wall >= self.width / 2:
-            raise StructureError(
-                f"wall_thickness is {wall!r} m, but must be less than half the width, {self.width / 2!r} m; "
-                "leave it out for a solid spire."
-            )
-        return wall
 
     @property
     def half_width(self) -> float:

@@ -45,9 +45,18 @@ class Structure(ABC):
     restitution_range: float | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
-        if self.restitution_range is not None:
-            checked = within(StructureError, "restitution_range", self.restitution_range, 0, 1)
-            object.__setattr__(self, "restitution_range", checked)
+        """Hold each value that is not the default against the field that describes it in a file."""
+        described = {each.parameter: each for form in self.forms for each in form.fields}
+        for own in fields(self):
+            value = getattr(self, own.name)
+            if own.name in described and value is not own.default:
+                object.__setattr__(self, own.name, described[own.name].checked(value))
+        restitution = getattr(self, "restitution", None)
+        if getattr(self, "one_sided", False) and not isinstance(restitution, float):
+            raise StructureError(
+                f"restitution is {restitution!r}, but a one-sided body needs its own number between 0 and 1, as what "
+                "it leans on takes part in the impact; give it."
+            )
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.description})"

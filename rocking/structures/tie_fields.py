@@ -6,9 +6,9 @@ from typing import Protocol
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.quantities import positive
+from rocking.quantities import not_negative, positive
 from rocking.structures.fields import Field, number_field
-from rocking.structures.load_fields import inside, not_negative
+from rocking.structures.load_fields import inside
 from rocking.structures.ties import Tie
 
 

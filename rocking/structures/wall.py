@@ -14,12 +14,7 @@ from rocking.structures.contacts import Contacts, MotionState, dalembert, resolv
 from rocking.structures.drawing import Path, rectangle, span, turned
 from rocking.structures.fields import ONE_SIDED, Form, length_field, restitution_field
 from rocking.structures.mechanism import Mechanism, Side
-from rocking.structures.restitution import (
-    Restitution,
-    check_restitution,
-    momentum_balance,
-    resolve_restitution,
-)
+from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
 from rocking.structures.structure import HIGHEST_SHARE, Structure
 from rocking.structures.wall_linkage import WallLinkage
 
@@ -73,12 +68,6 @@ class Wall(Structure):
     restitution: Restitution = None
     one_sided: bool = False
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        for name in ("lower_height", "upper_height", "thickness"):
-            object.__setattr__(self, name, length(name, getattr(self, name)))
-        check_restitution(self.restitution, ("momentum",), self.one_sided)
-
     @classmethod
     def hinged_at(
         cls,
@@ -119,9 +108,7 @@ class Wall(Structure):
                 ground=linkage.ground,
                 critical_rotation=linkage.slenderness,
                 end_rotation=linkage.end_rotation,
-                restitution=resolve_restitution(
-                    self.restitution, "momentum", {"momentum": self._momentum_balance}
-                ),
+                restitution=resolve_restitution(self.restitution, "momentum", self._momentum_balance),
             ),
             one_sided=self.one_sided,
         )

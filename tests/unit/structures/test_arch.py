@@ -217,7 +217,7 @@ def test_minimum_thickness_is_where_the_kinematic_multiplier_vanishes():
         (lambda: Arch(10.0, 1.5, 3.0, restitution="housner"), "restitution is 'housner'.*unsafe momentum"),
         (
             lambda: Arch(10.0, 1.5, 3.0, restitution="momentum"),
-            "restitution is 'momentum', but .* on the unsafe side; give a number, .* or 'unsafe momentum'",
+            "restitution is 'momentum', but .* on the unsafe side; give a number, .* 'unsafe momentum' to take it",
         ),
     ],
 )

@@ -247,7 +247,7 @@ def test_an_arch_on_piers_rocks_under_a_pulse():
         ),
         (
             lambda: ArchOnPiers(5.0, 0.8, 2.7, restitution="momentum", pier_width=2.0, pier_height=4.0),
-            "restitution is 'momentum', but must be a number",
+            "restitution is 'momentum', but .* on the unsafe side; give a number",
         ),
     ],
 )
