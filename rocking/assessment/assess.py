@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from time import process_time
 
 from rocking.assessment import intensity
@@ -107,7 +108,10 @@ def assess_structures(
     candidates: tuple[PulseEvidence, ...] = ()
     try:
         analysis = extract_pulses(accelerogram, settings=settings.pulse)
-        interval = _interval(analysis, settings)
+        if settings.bootstrap_replicates:
+            interval = pulse_interval(
+                analysis, settings=settings.pulse, replicates=settings.bootstrap_replicates
+            )
         candidates = PULSE_METHODS[settings.pulse_choice].candidates(analysis)
     except PulseError as error:
         failures.append(Failure("pulses", "", str(error)))
@@ -151,12 +155,6 @@ def predict(
     )
 
 
-def _interval(analysis: PulseAnalysis, settings: AssessmentSettings) -> PulseInterval | None:
-    if not settings.bootstrap_replicates:
-        return None
-    return pulse_interval(analysis, settings=settings.pulse, replicates=settings.bootstrap_replicates)
-
-
 def _case(
     name: str,
     structure: Structure,
@@ -167,8 +165,10 @@ def _case(
 ) -> Case:
     mechanism, record = structure.mechanism(), shape.accelerogram
     prediction = predict(mechanism, candidates, settings) if candidates else None
-    answering = _compared if settings.fidelity == "full" else _cheapest
-    answer, responses = answering(mechanism, shape, prediction, settings, vertical)
+    if settings.fidelity == "full":
+        answer, responses = _compared(mechanism, record, prediction, settings, vertical)
+    else:
+        answer, responses = _cheapest(mechanism, shape, settings, vertical)
     on_record = responses.get(Method.MECHANISM_ON_RECORD)
     check = check_model(structure, on_record, record, vertical) if on_record else UNKNOWN
     sure = _ensemble(mechanism, record, answer, settings, vertical)
@@ -180,25 +180,27 @@ def _case(
 
 def _compared(
     mechanism: Mechanism,
-    shape: Shape,
+    record: Accelerogram,
     prediction: Prediction | None,
     settings: AssessmentSettings,
     vertical: Accelerogram | None,
 ) -> tuple[Answer, dict[Method, Response]]:
     """Every method; the mechanism on the record answers."""
-    responses = _responses(mechanism, shape.accelerogram, settings, vertical)
-    whole = responses[Method.MECHANISM_ON_RECORD]
+    follow = partial(integrate, tolerance=settings.tolerance)
+    block = mechanism.equivalent_block(settings.acceleration_scale)
+    whole = follow(mechanism, record, history=True, vertical=vertical)
+    responses = {
+        Method.MECHANISM_ON_RECORD: whole,
+        Method.BLOCK_ON_RECORD: follow(block, record, vertical=vertical),
+    }
     if prediction is not None:
-        responses |= _pulse_responses(mechanism, prediction, settings)
+        responses[Method.MECHANISM_ON_PULSE] = follow(mechanism, prediction.pulse)
+        responses[Method.BLOCK_ON_PULSE] = follow(prediction.block, prediction.pulse)
     return Answer(Method.MECHANISM_ON_RECORD, whole.rotation_ratio, whole.outcome, whole), responses
 
 
 def _cheapest(
-    mechanism: Mechanism,
-    shape: Shape,
-    _: Prediction | None,
-    settings: AssessmentSettings,
-    vertical: Accelerogram | None,
+    mechanism: Mechanism, shape: Shape, settings: AssessmentSettings, vertical: Accelerogram | None
 ) -> tuple[Answer, dict[Method, Response]]:
     """What settles the verdict with the least work, and the response of the mechanism where it took part."""
     answer = cheapest_answer(
@@ -243,33 +245,6 @@ def _expectation(mechanism: Mechanism, pulse: Pulse, shape: Shape) -> tuple[Expe
         return expect(tier, own | intensity.of_peaks(shape, block) | intensity.of_pulse(pulse, block)), ""
     except (PulseError, StructureError) as error:
         return None, f"no probability: {error}"
-
-
-def _responses(
-    mechanism: Mechanism,
-    accelerogram: Accelerogram,
-    settings: AssessmentSettings,
-    vertical: Accelerogram | None,
-) -> dict[Method, Response]:
-    block = mechanism.equivalent_block(settings.acceleration_scale)
-    whole = integrate(
-        mechanism,
-        accelerogram,
-        tolerance=settings.tolerance,
-        history=True,
-        vertical=vertical,
-    )
-    on_block = integrate(block, accelerogram, tolerance=settings.tolerance, vertical=vertical)
-    return {Method.MECHANISM_ON_RECORD: whole, Method.BLOCK_ON_RECORD: on_block}
-
-
-def _pulse_responses(
-    mechanism: Mechanism, prediction: Prediction, settings: AssessmentSettings
-) -> dict[Method, Response]:
-    return {
-        Method.MECHANISM_ON_PULSE: integrate(mechanism, prediction.pulse, tolerance=settings.tolerance),
-        Method.BLOCK_ON_PULSE: integrate(prediction.block, prediction.pulse, tolerance=settings.tolerance),
-    }
 
 
 def _uplift_multiplier(block: EquivalentBlock, pulse: Pulse) -> float:

@@ -10,7 +10,6 @@ from functools import lru_cache
 
 import numpy as np
 
-from rocking.motion.members import Members, integrate_members
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
@@ -22,6 +21,8 @@ NUDGES = (0.75, 0.875, 1.0, 1.125, 1.25)
 """Factors on the ground motion at which the block is tried around the motion as given."""
 _SMALLEST, _LARGEST = math.log(1e-3), math.log(1e3)
 """Logs of ratios are kept between these."""
+_TURNED = math.log(2.0)
+"""Largest log of a rotation ratio: a block that stays up hardly turns beyond its critical rotation."""
 _PERIODS = np.geomspace(0.15, 8.0, 48)
 """Of the sines among which the most dangerous one is sought, s."""
 
@@ -103,16 +104,10 @@ def of_pushes(shape: Shape, block: EquivalentBlock) -> dict[str, float]:
     }
 
 
-def of_block(block: EquivalentBlock, accelerogram: Accelerogram, factor: float = 1.0) -> dict[str, float]:
-    """The block under the whole record: whether it overturns, and else ln of its largest rotation ratio."""
-    (ratio,) = integrate_members(block, accelerogram, Members([factor])).rotation_ratio
-    return from_ratio(float(ratio))
-
-
 def from_ratio(rotation_ratio: float) -> dict[str, float]:
-    """What a rotation ratio of the block says; it fails as if it overturned."""
+    """What a rotation ratio of the block says: whether it overturns, and else its ln; it fails as if it overturned."""
     overturns = not rotation_ratio < math.inf
-    return {"block_overturns": float(overturns), "block": 0.0 if overturns else _rotation(rotation_ratio)}
+    return {"block_overturns": float(overturns), "block": 0.0 if overturns else _log(rotation_ratio, _TURNED)}
 
 
 def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
@@ -136,16 +131,12 @@ SCALING = ("peak_velocity", "peak_acceleration", "pulse", "sine", "velocity_chan
 """Measures that grow with the log of the motion."""
 
 
-def _log(ratio: float) -> float:
-    return _kept(math.log(ratio)) if ratio > 0 else _SMALLEST
+def _log(ratio: float, largest: float = _LARGEST) -> float:
+    return _kept(math.log(ratio), largest) if ratio > 0 else _SMALLEST
 
 
-def _kept(value: float) -> float:
-    return min(max(value, _SMALLEST), _LARGEST)
-
-
-def _rotation(ratio: float) -> float:
-    return min(max(math.log(ratio), _SMALLEST), math.log(2.0)) if ratio > 0 else _SMALLEST
+def _kept(value: float, largest: float = _LARGEST) -> float:
+    return min(max(value, _SMALLEST), largest)
 
 
 def _uplift(block: EquivalentBlock) -> float:

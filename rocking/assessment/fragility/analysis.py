@@ -14,7 +14,7 @@ from rocking.assessment.fragility.intensity import intensity_measure as measure_
 from rocking.errors import ConfigurationError
 from rocking.motion.integration import Rocking, reduce
 from rocking.records import Accelerogram
-from rocking.structures import EquivalentBlock
+from rocking.structures import EquivalentBlock, Mechanism
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -73,27 +73,32 @@ def incremental_dynamic_analysis(
     Raises ConfigurationError for fewer than two stations, levels out of order, a measure that a record lacks, or a
     record that cannot be followed.
     """
+    if method == "cloud" and levels is not None:
+        raise ConfigurationError("levels are given, but a cloud has those of its records; leave them out.")
+    mechanism, measure, intensities, names = measured(records, structure, intensity_measure, stations)
+    cases = Cases(records, mechanism, intensities, ensemble, tolerance)
+    chosen, ratios = cases.cloud() if method == "cloud" else cases.at(levels)
+    return IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, names)
+
+
+def measured(
+    records: Sequence[Accelerogram],
+    structure: Rocking,
+    intensity_measure: str,
+    stations: Sequence[str] | None,
+) -> tuple[Mechanism, IntensityMeasure, np.ndarray, tuple[str, ...]]:
+    """Return the mechanism, the measure of that name, that of each record (r,), and the stations (r,).
+
+    Raises ConfigurationError as `incremental_dynamic_analysis` does.
+    """
     mechanism = reduce(structure)
     if isinstance(mechanism, EquivalentBlock):
         raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
-    measure, names = measure_named(intensity_measure), checked_stations(records, stations)
-    intensities = np.array([measure.of(record, mechanism) for record in records])
-    cases = Cases(records, mechanism, intensities, ensemble, tolerance)
-    if method == "cloud":
-        if levels is not None:
-            raise ConfigurationError(
-                "levels are given, but a cloud has those of its records; leave them out."
-            )
-        chosen, ratios = cases.cloud()
-    elif levels is not None:
-        chosen = checked_levels(levels)
-        ratios = cases.at_levels(chosen)
-    else:
-        chosen, ratios = cases.at_adapted_levels()
-    return IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, tuple(names))
+    measure, names = measure_named(intensity_measure), _checked_stations(records, stations)
+    return mechanism, measure, np.array([measure.of(record, mechanism) for record in records]), names
 
 
-def checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> list[str]:
+def _checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> tuple[str, ...]:
     """The stations, those of the records by default. Raises ConfigurationError for fewer than two."""
     if stations is None:
         stations = [
@@ -108,17 +113,4 @@ def checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] | 
         raise ConfigurationError(
             f"the records come from {len(set(stations))} station, but a fragility needs at least 2; add records."
         )
-    return [str(name) for name in stations]
-
-
-def checked_levels(levels: Sequence[float] | np.ndarray) -> np.ndarray:
-    """The levels as an array. Raises ConfigurationError unless they ascend and are greater than 0."""
-    array = np.asarray(levels, dtype=float)
-    if array.ndim != 1 or array.size < 2 or not np.all(np.isfinite(array)) or not np.all(array > 0):
-        raise ConfigurationError("levels must be at least two finite numbers greater than 0.")
-    if np.any(np.diff(array) <= 0):
-        place = int(np.flatnonzero(np.diff(array) <= 0)[0])
-        raise ConfigurationError(
-            f"levels hold {array[place + 1]:g} after {array[place]:g}, but must ascend; sort them."
-        )
-    return array
+    return tuple(map(str, stations))

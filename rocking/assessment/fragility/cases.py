@@ -3,6 +3,7 @@
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -27,19 +28,15 @@ MEMBERS = 16
 """Of each ensemble, where a case is not taken as it is."""
 
 
+@dataclass(frozen=True, eq=False)
 class Cases:
     """One mechanism or block under each record at any scale. intensities: (r,) of the records as they are."""
 
-    def __init__(
-        self,
-        records: Sequence[Accelerogram],
-        mechanism: Mechanism | EquivalentBlock,
-        intensities: np.ndarray,
-        ensemble: EnsembleSettings | None,
-        tolerance: float,
-    ) -> None:
-        self.records, self.mechanism, self.intensities = records, mechanism, intensities
-        self.ensemble, self.tolerance = ensemble, tolerance
+    records: Sequence[Accelerogram]
+    mechanism: Mechanism | EquivalentBlock
+    intensities: np.ndarray
+    ensemble: EnsembleSettings | None
+    tolerance: float
 
     def cloud(self) -> tuple[np.ndarray, np.ndarray]:
         """The levels of the records, and (r, r, m) with each record at its own level alone."""
@@ -49,6 +46,13 @@ class Cases:
         ratios[order, np.arange(order.size)] = alone[order]
         # Equal intensities are moved apart by rounding size, so that each stays a level of its own.
         return self.intensities[order] * (1 + 1e-12 * np.arange(order.size)), ratios
+
+    def at(self, levels: Sequence[float] | np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
+        """Return levels (k,), those that adapt if none are given, and (r, k, m) there. Raises ConfigurationError."""
+        if levels is None:
+            return self._at_adapted_levels()
+        checked = _checked_levels(levels)
+        return checked, self.at_levels(checked)
 
     def at_levels(self, levels: np.ndarray) -> np.ndarray:
         """(r, k, m) for every record scaled to every level. Raises ConfigurationError where one cannot be followed."""
@@ -68,7 +72,7 @@ class Cases:
             )
         return ratios
 
-    def at_adapted_levels(self) -> tuple[np.ndarray, np.ndarray]:
+    def _at_adapted_levels(self) -> tuple[np.ndarray, np.ndarray]:
         """LEVELS: spread from the first uplift to where nearly all overturn, and the rest where the share moves."""
         levels, ratios = self._spread_levels()
         between = _where_it_moves(levels, np.isinf(ratios).mean(axis=(0, 2)), LEVELS - levels.size)
@@ -98,28 +102,22 @@ class Cases:
         """(k,) of one record at levels (k,), each as the member (k,) of its ensemble; as it is without an ensemble."""
         factors = levels / self.intensities[record]
         if self.ensemble is None:
-            return integrate_batch([self.mechanism], self.records[record], factors, tolerance=self.tolerance)[
-                0
-            ]
-        points = lattice(MEMBERS, CAUSES)
-        return np.array(
-            [
-                self._drawn(self.ensemble, record, factor, points[[k]])[0]
-                for factor, k in zip(factors, members, strict=True)
-            ]
+            motion = self.records[record]
+            return integrate_batch([self.mechanism], motion, factors, tolerance=self.tolerance)[0]
+        points = lattice(MEMBERS, CAUSES)[members]
+        drawn = (
+            self._drawn(self.ensemble, record, *one) for one in zip(factors, points[:, None], strict=True)
         )
+        return np.concatenate(list(drawn))
 
     def _ratios(self, record: int, factors: np.ndarray) -> np.ndarray:
         """(k, m) at each scale factor."""
         if self.ensemble is None:
-            return self._nominal(record, factors)[:, None]
+            motion = self.records[record]
+            found = integrate_batch([self.mechanism], motion, factors, tolerance=self.tolerance, workers=1)
+            return found[0][:, None]
         points = lattice(MEMBERS, CAUSES)
         return np.array([self._drawn(self.ensemble, record, factor, points) for factor in factors])
-
-    def _nominal(self, record: int, factors: np.ndarray) -> np.ndarray:
-        """(k,) of the case as it is."""
-        motion = self.records[record]
-        return integrate_batch([self.mechanism], motion, factors, tolerance=self.tolerance, workers=1)[0]
 
     def _drawn(
         self, ensemble: EnsembleSettings, record: int, factor: float, points: np.ndarray
@@ -133,3 +131,16 @@ def _where_it_moves(levels: np.ndarray, share: np.ndarray, count: int) -> np.nda
     moved = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(share)) + 1e-3)])
     places = (np.arange(count) + 0.5) / count * moved[-1]
     return np.asarray(np.exp(np.interp(places, moved, np.log(levels))))
+
+
+def _checked_levels(levels: Sequence[float] | np.ndarray) -> np.ndarray:
+    """The levels as an array. Raises ConfigurationError unless they ascend and are greater than 0."""
+    array = np.asarray(levels, dtype=float)
+    if array.ndim != 1 or array.size < 2 or not np.all(np.isfinite(array)) or not np.all(array > 0):
+        raise ConfigurationError("levels must be at least two finite numbers greater than 0.")
+    if np.any(np.diff(array) <= 0):
+        place = int(np.flatnonzero(np.diff(array) <= 0)[0])
+        raise ConfigurationError(
+            f"levels hold {array[place + 1]:g} after {array[place]:g}, but must ascend; sort them."
+        )
+    return array

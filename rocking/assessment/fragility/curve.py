@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.special import betaincinv, ndtr, ndtri, stdtrit
@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 REPLICATES = 1000
+CURVES = tuple(f"{law}{end}" for law in ("probability", "lognormal") for end in ("", "_low", "_high"))
+"""What is known at every level, by the names of fields and of columns."""
 _LILLIEFORS = 0.886
 """Largest distance of an empirical from a fitted normal distribution, times the root of the number of samples, that
 19 in 20 samples stay below (Lilliefors 1967, 5 % level of many samples)."""
@@ -98,24 +100,19 @@ def fragility_of(
     """
     tried = np.ones_like(exceedance) if tried is None else tried
     over, trials = _by_station(exceedance * tried, stations), _by_station(tried, stations)
-    count = len(over)
+    count, sampled = len(over), sampled_of is not None
     fit = fit_lognormal(levels, over.sum(axis=0)[None], trials.sum(axis=0)[None])
     weights = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
     again = fit_lognormal(levels, weights @ over, weights @ trials, fit)
-    probability, low, high = _empirical(over, trials, sampled_of is not None)
-    lognormal_low, lognormal_high = ndtr(_interval(_deviates(levels, fit), _deviates(levels, again), count))
-    misfit = float(np.abs(probability - fit.probability(levels)[0])[trials.sum(axis=0) >= 1].max())
+    curves = _curves(levels, over, trials, fit, again, sampled)
+    distance = np.abs(curves["probability"] - curves["lognormal"])
+    misfit = float(distance[trials.sum(axis=0) >= 1].max())
     made = Fragility(
         measure=measure,
         unit=unit,
         threshold=threshold,
         levels=levels,
-        probability=probability,
-        probability_low=low,
-        probability_high=high,
-        lognormal=fit.probability(levels)[0],
-        lognormal_low=lognormal_low,
-        lognormal_high=lognormal_high,
+        **curves,
         median=float(fit.median[0]),
         interval=_median_interval(fit.median, again.median, count),
         dispersion=float(fit.dispersion[0]),
@@ -126,7 +123,21 @@ def fragility_of(
     )
     if made.lognormal_holds or tried.min() == 0:
         return made
-    return _by_crossing(made, over, trials, weights, sampled_of is not None)
+    return _by_crossing(made, over, trials, weights, sampled)
+
+
+def _curves(
+    levels: np.ndarray,
+    over: np.ndarray,
+    trials: np.ndarray,
+    fit: LognormalFits,
+    again: LognormalFits,
+    sampled: bool,
+) -> dict[str, Any]:
+    """The empirical and the lognormal curve with their intervals, (k,) each. again: fits to resampled stations."""
+    interval = ndtr(_interval(_deviates(levels, fit), _deviates(levels, again), len(over)))
+    found = (*_empirical(over, trials, sampled), fit.probability(levels)[0], *interval)
+    return dict(zip(CURVES, found, strict=True))
 
 
 def _by_crossing(

@@ -1,7 +1,7 @@
 """rocking.fragility: the curve of one structure, from every case or from few runs of its mechanism."""
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -39,24 +39,13 @@ def fragility(
             f"mechanism_runs is {mechanism_runs} with the method {method}, but must be given with multi-fidelity, and "
             "with no other method."
         )
+    shared: dict[str, Any] = {
+        "intensity_measure": intensity_measure,
+        "levels": levels,
+        "stations": stations,
+        "ensemble": ensemble,
+        "tolerance": tolerance,
+    }
     if mechanism_runs is not None:
-        return multi_fidelity_analysis(
-            records,
-            structure,
-            mechanism_runs,
-            intensity_measure=intensity_measure,
-            levels=levels,
-            stations=stations,
-            ensemble=ensemble,
-            tolerance=tolerance,
-        ).fragility(threshold)
-    return incremental_dynamic_analysis(
-        records,
-        structure,
-        intensity_measure=intensity_measure,
-        levels=levels,
-        stations=stations,
-        method="cloud" if method == "cloud" else "scaling",
-        ensemble=ensemble,
-        tolerance=tolerance,
-    ).fragility(threshold)
+        return multi_fidelity_analysis(records, structure, mechanism_runs, **shared).fragility(threshold)
+    return incremental_dynamic_analysis(records, structure, method=method, **shared).fragility(threshold)  # type: ignore[arg-type]

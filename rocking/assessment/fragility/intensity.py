@@ -59,17 +59,9 @@ def _velocity(record: Accelerogram) -> float:
     return record_measures(record).peak_velocity
 
 
-def _pulse_amplitude(record: Accelerogram) -> float:
-    return abs(extract_pulses(record).dominant.amplitude)
-
-
 def _spectral(record: Accelerogram) -> float:
     found = response_spectrum(record, np.array([SPECTRAL_PERIOD]))
     return float(found.pseudo_acceleration[0]) / GRAVITY
-
-
-def _uplift(mechanism: Mechanism) -> float:
-    return GRAVITY * mechanism.uplift_multiplier
 
 
 def _rest_velocity(mechanism: Mechanism) -> float:
@@ -87,7 +79,11 @@ INTENSITY_MEASURES: dict[str, IntensityMeasure] = {
         IntensityMeasure("pgv", "m/s", "peak ground velocity", _velocity),
         IntensityMeasure("p_pgv", "", "p·PGV/(gλ)", _velocity, _rest_velocity),
         IntensityMeasure(
-            "pulse", "", "amplitude of the dominant sine pulse over gλ", _pulse_amplitude, _uplift
+            "pulse",
+            "",
+            "amplitude of the dominant sine pulse over gλ",
+            lambda record: abs(extract_pulses(record).dominant.amplitude),
+            lambda mechanism: GRAVITY * mechanism.uplift_multiplier,
         ),
         IntensityMeasure("sa1", "g", "spectral acceleration at 1 s, 5 % damping", _spectral),
     )

@@ -16,15 +16,13 @@ import numpy as np
 from scipy.special import ndtr
 
 from rocking.assessment.ensemble import EnsembleSettings
-from rocking.assessment.fragility.analysis import IncrementalDynamicAnalysis, checked_levels, checked_stations
+from rocking.assessment.fragility.analysis import IncrementalDynamicAnalysis, measured
 from rocking.assessment.fragility.cases import MEMBERS, Cases
 from rocking.assessment.fragility.curve import Fragility, fragility_of
-from rocking.assessment.fragility.intensity import intensity_measure as measure_named
 from rocking.assessment.fragility.settings import FEWEST_RUNS
 from rocking.errors import ConfigurationError
-from rocking.motion.integration import Rocking, reduce
+from rocking.motion.integration import Rocking
 from rocking.records import Accelerogram
-from rocking.structures import EquivalentBlock
 
 _SPANS = (0.05, 0.15, 0.4)
 """Of the logarithm of the level, over which the outcomes of the block are averaged: from what differs between it and
@@ -96,19 +94,11 @@ def multi_fidelity_analysis(
     `incremental_dynamic_analysis`, levels adapting to the block. Raises ConfigurationError, also for fewer than
     FEWEST_RUNS runs, or more than there are cases.
     """
-    mechanism = reduce(structure)
-    if isinstance(mechanism, EquivalentBlock):
-        raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
-    measure, names = measure_named(intensity_measure), checked_stations(records, stations)
-    intensities = np.array([measure.of(record, mechanism) for record in records])
+    mechanism, measure, intensities, names = measured(records, structure, intensity_measure, stations)
     started = process_time()
     cheap = Cases(records, mechanism.equivalent_block("rest"), intensities, None, tolerance)
-    if levels is None:
-        chosen, ratios = cheap.at_adapted_levels()
-    else:
-        chosen = checked_levels(levels)
-        ratios = cheap.at_levels(chosen)
-    block = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, tuple(names))
+    chosen, ratios = cheap.at(levels)
+    block = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, names)
     halfway = process_time()
     rng = np.random.default_rng(seed)
     chance = inclusion(chosen, _exceeds(ratios[:, :, 0], np.inf), _checked_runs(mechanism_runs, ratios))

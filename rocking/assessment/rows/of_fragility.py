@@ -12,6 +12,7 @@ from rocking.assessment.fragility import (
     IncrementalDynamicAnalysis,
     IntensityMeasure,
 )
+from rocking.assessment.fragility.curve import CURVES
 from rocking.assessment.fragility.hazard import HazardRow, annual_rate
 from rocking.assessment.fragility.sufficiency import sufficiency
 from rocking.assessment.rows.shared import RECORD, STRUCTURE
@@ -127,21 +128,13 @@ def ida_rows(structure: str, records: Sequence[str], found: IncrementalDynamicAn
 
 def fragility_rows(structure: str, curve: Fragility) -> Iterator[FragilityRow]:
     """Yield a row for each level."""
-    columns = (
-        "probability",
-        "probability_low",
-        "probability_high",
-        "lognormal",
-        "lognormal_low",
-        "lognormal_high",
-    )
     for place, level in enumerate(curve.levels.tolist()):
         yield FragilityRow(
             structure=structure,
             intensity_measure=curve.measure,
             rotation_ratio=curve.threshold,
             level=level,
-            **{name: float(getattr(curve, name)[place]) for name in columns},
+            **{name: float(getattr(curve, name)[place]) for name in CURVES},
         )
 
 
