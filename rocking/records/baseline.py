@@ -6,11 +6,8 @@ the acceleration of that drift is subtracted.
 """
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.polynomial.polynomial import polyfit, polyval
-from numpy.polynomial.polyutils import mapparms
 
 from rocking.errors import RecordError
 
@@ -57,39 +54,31 @@ def _drifts(velocity: np.ndarray, onset: int, ends: Sequence[int]) -> list[np.nd
 
     It is a line before the onset, a polynomial after the end, and a cubic Hermite bridge between.
     """
-    index = np.linspace(-1, 1, velocity.size)
-    a, line = index[onset], _fitted(index[:onset], velocity[:onset], 1)
-    known, height, slope = line(index[:onset]), line(a), line.slope(a)
+    (known, slope), _ = _fitted(velocity[:onset])
+    height = known[-1] + slope
     drifts = []
     for end in ends:
-        b = index[end]
-        s = (index[onset:end] - a) / (b - a)
-        begun = (1 + 2 * s) * (1 - s) ** 2 * height + s * (1 - s) ** 2 * (slope * (b - a))
-        for degree in _DEGREES:
-            after = _fitted(index[end:], velocity[end:], degree)
-            ended = s**2 * (3 - 2 * s) * after(b), s**2 * (s - 1) * (after.slope(b) * (b - a))
-            drifts.append(np.concatenate([known, begun + ended[0] + ended[1], after(index[end:])]))
+        width = end - onset
+        s = np.arange(width) / width
+        begun = (1 + 2 * s) * (1 - s) ** 2 * height + s * (1 - s) ** 2 * (slope * width)
+        reach, lean = s**2 * (3 - 2 * s), s**2 * (s - 1) * width
+        for after, rise in _fitted(velocity[end:]):
+            drifts.append(np.concatenate([known, begun + reach * after[0] + lean * rise, after]))
     return drifts
 
 
-class _Polynomial(NamedTuple):
-    """A polynomial in shift + scale x: what numpy's own class computes, without what it costs to make forty of them."""
+def _fitted(values: np.ndarray) -> list[tuple[np.ndarray, float]]:
+    """Return the least-squares polynomial of each degree through `values` (k,), and its slope at the first, per sample.
 
-    coefficients: np.ndarray
-    shift: float
-    scale: float
-
-    def __call__(self, x: Any) -> Any:
-        return polyval(self.shift + self.scale * x, self.coefficients)
-
-    def slope(self, x: float) -> float:
-        derived = [power * (c * self.scale) for power, c in enumerate(self.coefficients.tolist())][1:]
-        return float(polyval(self.shift + self.scale * x, derived))
-
-
-def _fitted(x: np.ndarray, values: np.ndarray, degree: int) -> _Polynomial:
-    shift, scale = mapparms(x[[0, -1]], (-1.0, 1.0))
-    return _Polynomial(polyfit(shift + scale * x, values, degree), shift, scale)
+    In Legendre's polynomials of these places, which are orthogonal, so that a degree only adds its own term.
+    """
+    x = np.linspace(-1, 1, values.size)
+    square = x @ x
+    bow = x * x - square / x.size
+    first, second = float(x @ values / square), float(bow @ values / (bow @ bow))
+    line = values.mean() + first * x
+    per_sample = 2 / (x.size - 1)
+    return [(line, first * per_sample), (line + second * bow, (first - 2 * second) * per_sample)]
 
 
 def _wandering(velocity: np.ndarray, time_step: float) -> float:
