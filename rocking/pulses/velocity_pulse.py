@@ -7,6 +7,7 @@ the largest coefficient over all orientations; the five largest are pulses that 
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -144,23 +145,31 @@ def _largest(
     """(scale index, sample) of the largest coefficients over all orientations, c₁² + c₂², each keeping its room."""
     # one complex transform serves two components
     both = velocities[0] if len(velocities) == 1 else velocities[0] + 1j * velocities[1]
-    squares = [_squares(both, int(scale)) for scale in scales]
+    means = {together: _means(both, together) for together in {_together(int(scale)) for scale in scales}}
+    squares = [_squares(means[_together(int(scale))], int(scale)) for scale in scales]
+    whole = np.concatenate(squares)
+    starts = np.cumsum([0, *(values.size for values in squares)])
+    rows = [whole[start:end] for start, end in pairwise(starts)]
     found = []
     for _ in range(count):
-        row = max(range(len(squares)), key=lambda row: squares[row].max())
+        place = int(np.argmax(whole))
+        row = int(np.searchsorted(starts, place, side="right")) - 1
         scale = int(scales[row])
-        column = _settled(both, scale, int(np.argmax(squares[row])) * _together(scale))
+        column = _settled(both, scale, (place - int(starts[row])) * _together(scale))
         found.append((row, column))
-        for values, each in zip(squares, scales, strict=True):
+        for values, each in zip(rows, scales, strict=True):
             _clear(values, _together(int(each)), column, NEIGHBOURHOOD * scale)
     return found
 
 
-def _squares(both: np.ndarray, scale: int) -> np.ndarray:
+def _means(both: np.ndarray, together: int) -> np.ndarray:
+    whole = both.size // together * together
+    return both[:whole].reshape(-1, together).mean(axis=1) if together > 1 else both
+
+
+def _squares(means: np.ndarray, scale: int) -> np.ndarray:
     """Squared coefficients of one scale, of means over as many samples as the wavelet does not resolve."""
     together = _together(scale)
-    whole = both.size // together * together
-    means = both[:whole].reshape(-1, together).mean(axis=1)
     return together * np.square(np.abs(transform(means, scale / together)))
 
 

@@ -10,8 +10,8 @@ import numpy as np
 
 SUPPORT = 7.0
 """Length of db4 in its own time; its centre frequency is 5 cycles over it."""
-LARGEST_KEPT = 2**17
-"""Length of the longest transform of a wavelet that is kept for the next time: 2 MB each."""
+LARGEST_KEPT = 2**16
+"""Length of the longest transform of a wavelet that is kept for the next time: 1 MB each."""
 
 
 @cache
@@ -60,8 +60,8 @@ def _spectrum(scale: float, size: int) -> np.ndarray:
     return np.conj(fft.fft(_wavelet(scale), size))
 
 
-_kept_spectrum = lru_cache(maxsize=64)(_spectrum)
-"""One scale is asked for several times in a row."""
+_kept_spectrum = lru_cache(maxsize=128)(_spectrum)
+"""The records of a study often have one length, and some seventy scales are asked for in each."""
 
 
 def coefficient_at(velocity: np.ndarray, scale: int, column: int) -> float:
