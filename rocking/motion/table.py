@@ -34,6 +34,7 @@ _NEAR = 1 / 64
 _MOST_PIECES = 4096
 _GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(40)
 _NODES = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
+_PROBES = np.linspace(-0.99, 0.99, 16)
 
 
 @dataclass(frozen=True, eq=False)
@@ -362,11 +363,11 @@ def _fit(
     centres = start + (2 * np.arange(count)[:, None] + 1) * half
     low = np.maximum(start - centres, -(1 + 2 * ROOM) * half) / half
     high = np.minimum(end - centres, (1 + 2 * ROOM) * half) / half
-    places = (low + high) / 2 + (high - low) / 2 * _NODES
-    values = functions(centres + half * places)
+    places, probes = ((low + high) / 2 + (high - low) / 2 * each for each in (_NODES, _PROBES))
+    found = functions(centres + half * np.concatenate([places, probes], axis=1))
+    values, between = found[..., : _NODES.size], found[..., _NODES.size :]
     powers = np.linalg.solve(places[..., None] ** np.arange(DEGREE + 1), np.moveaxis(values, 0, -1))
     powers = np.moveaxis(powers, -1, 0)
-    probes = (low + high) / 2 + (high - low) / 2 * np.linspace(-0.99, 0.99, 16)
     fit = np.einsum("fmp,mqp->fmq", powers, probes[..., None] ** np.arange(DEGREE + 1))
-    errors = np.abs(fit - functions(centres + half * probes)).max(axis=(1, 2))
+    errors = np.abs(fit - between).max(axis=(1, 2))
     return powers / half ** np.arange(DEGREE + 1), errors, np.abs(values).max(axis=(1, 2))

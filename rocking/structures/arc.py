@@ -173,7 +173,7 @@ def _pieces(
 
 
 def _clenshaw(coefficients: np.ndarray, x: np.ndarray) -> np.ndarray:
-    later = latest = np.zeros_like(x)
+    twice, later, latest = 2 * x, np.zeros_like(x), np.zeros_like(x)
     for c in coefficients[:0:-1]:
-        later, latest = c + 2 * x * later - latest, later
+        later, latest = c + twice * later - latest, later
     return coefficients[0] + x * later - latest

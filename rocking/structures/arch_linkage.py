@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.structures.bars import Bars, Motion, cross
+from rocking.structures.bars import Bars, Motion, cross, keeps_last
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,9 +19,10 @@ class Linkage:
     hinges: np.ndarray
     bars: Bars
 
-    def motion(self, rotation: ArrayLike) -> Motion:
+    @keeps_last
+    def motion(self, rotation: np.ndarray) -> Motion:
         """Return the bars at `rotation` [rad], any shape, short of the dead point."""
-        ab, bc, cd = self._directions(np.asarray(rotation, dtype=float))
+        ab, bc, cd = self._directions(rotation)
         closing = cross(bc, cd)
         spins = np.stack([-np.ones_like(closing), cross(ab, cd) / closing, cross(ab, bc) / -closing])
         # ω₁ = −1: ω₁ AB + ω₂ BC + ω₃ CD = 0. Once more: Σ (α − i ω²)·bar = 0 with α₁ = 0 gives the slopes.

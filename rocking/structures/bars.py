@@ -1,10 +1,15 @@
 """Rigid bars that move as one mechanism: what they weigh and how they move with φ. Points are complex, x + iy."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from functools import wraps
+from typing import NamedTuple, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
+
+Owner = TypeVar("Owner")
+Found = TypeVar("Found")
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +48,21 @@ class Bodies(NamedTuple):
     inertias: np.ndarray
     centres: np.ndarray
     turns: np.ndarray
+
+
+def keeps_last(method: Callable[[Owner, np.ndarray], Found]) -> Callable[[Owner, ArrayLike], Found]:
+    """Let a method of a rotation keep what it found last: I, G and B of the same places are asked for in turn."""
+    place = f"_last_{method.__name__}"
+
+    @wraps(method)
+    def keeping(self: Owner, rotation: ArrayLike) -> Found:
+        asked = np.asarray(rotation, dtype=float)
+        last = self.__dict__.get(place)
+        if last is None or not np.array_equal(last[0], asked):
+            last = self.__dict__[place] = asked.copy(), method(self, asked)
+        return cast(Found, last[1])
+
+    return keeping
 
 
 def body_about(corner: float | complex, centre: complex, inertia: float, rotation: ArrayLike) -> Bodies:
