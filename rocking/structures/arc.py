@@ -37,10 +37,8 @@ class Arc:
         rotation = np.asarray(rotation, dtype=float)
         if self.rigid:
             return rotation
-        count = self.starts.size - 1
-        place = np.clip(rotation / self.last * count, 0, count)
-        piece = np.minimum(place.astype(int), count - 1)
-        arc = self.starts[piece] + _clenshaw(self.integrals[:, piece], 2 * (place - piece) - 1)
+        piece, x = _placed(rotation / self.last, self.starts.size - 1)
+        arc = self.starts[piece] + _clenshaw(self.integrals[:, piece], x)
         first = piece == 0
         if np.any(first):
             small = rotation[first]
@@ -91,14 +89,10 @@ class RotationMap:
     def rotation(self, arc: np.ndarray) -> np.ndarray:
         """Return the rotation [rad] at `arc`, any shape; inf beyond the end."""
         arc = np.asarray(arc, dtype=float)
-        count = self.coefficients.shape[1]
-        place = np.clip(arc / self.end * count, 0, count)
-        piece = np.minimum(place.astype(int), count - 1)
-        x = 2 * (place - piece) - 1
+        piece, x = _placed(arc / self.end, self.coefficients.shape[1])
         later = latest = np.zeros_like(x)
-        for row in self.coefficients[
-            :0:-1
-        ]:  # row by row: the coefficients of all places at once would fill memory
+        # row by row: the coefficients of all places at once would fill memory
+        for row in self.coefficients[:0:-1]:
             later, latest = row[piece] + 2 * x * later - latest, later
         ratio = self.coefficients[0][piece] + x * later - latest
         return np.where(arc > self.end, np.inf, np.minimum(arc, self.end) * ratio)
@@ -120,9 +114,7 @@ class RotationMap:
         """Return dφ/dq at `arc`, any shape; that of the end beyond it."""
         arc = np.clip(np.asarray(arc, dtype=float), 0.0, self.end)
         count = self.coefficients.shape[1]
-        place = arc / self.end * count
-        piece = np.minimum(place.astype(int), count - 1)
-        x = 2 * (place - piece) - 1
+        piece, x = _placed(arc / self.end, count)
         ratio = _clenshaw(self.coefficients[:, piece], x)
         return (
             ratio + arc * _clenshaw(chebyshev.chebder(self.coefficients)[:, piece], x) * 2 * count / self.end
@@ -170,6 +162,13 @@ def _pieces(
             return coefficients, values
         count *= 2
     return None
+
+
+def _placed(share: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Which of `count` equal pieces of [0, 1] each share lies in, and where in it, from −1 to 1."""
+    place = np.clip(share * count, 0, count)
+    piece = np.minimum(place.astype(int), count - 1)
+    return piece, 2 * (place - piece) - 1
 
 
 def _clenshaw(coefficients: np.ndarray, x: np.ndarray) -> np.ndarray:

@@ -10,7 +10,7 @@ import numpy as np
 
 from rocking.errors import StructureError, StructureWarning
 from rocking.structures.arch_fill import Fill
-from rocking.structures.arch_linkage import Linkage
+from rocking.structures.arch_linkage import Linkage, mirror_balance
 from rocking.structures.arch_onset import (
     NoMechanism,
     Onset,
@@ -23,7 +23,7 @@ from rocking.structures.arch_onset import (
 from rocking.structures.arch_ring import PATTERN, Ring
 from rocking.structures.bars import Bodies, cross
 from rocking.structures.contacts import Contacts, MotionState, dalembert, resolved
-from rocking.structures.drawing import Path, span, swept
+from rocking.structures.drawing import Path, plane, span, swept
 from rocking.structures.fields import (
     Form,
     count_field,
@@ -32,7 +32,7 @@ from rocking.structures.fields import (
     restitution_field,
 )
 from rocking.structures.mechanism import Mechanism, Side
-from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
+from rocking.structures.restitution import Restitution, resolve_restitution
 from rocking.structures.structure import Structure
 
 _EMBRACE_DEG = (5, 270)
@@ -218,26 +218,7 @@ class Arch(Structure):
 
     def momentum_balance(self) -> float:
         """η = −⟨u, u_m⟩/⟨u_m, u_m⟩ of the two velocity fields of φ' = 1, the mechanism's and its mirror image's."""
-        sections = self._hinge_sections
-        edges = np.unique(
-            np.concatenate([sections, -sections, [self.embrace_angle / 2, -self.embrace_angle / 2]])
-        )
-        edges = edges[np.append(True, np.diff(edges) > 1e-12)]
-        parts = self.ring.bars(edges)
-        middles = (edges[1:] + edges[:-1]) / 2
-        arriving = self._velocities(middles, parts.centroids)
-        mirrored = self._velocities(-middles, -parts.centroids.conj()) * [-1.0, 1.0, -1.0]
-        return momentum_balance(parts.masses, parts.inertias, -arriving, mirrored)
-
-    def _velocities(self, sections: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """(k, 3) velocities (vx, vy, ω) at φ = 0, φ' = 1 of the parts at `sections` with centroids `points`."""
-        motion = self.linkage.motion(0.0)
-        bar = np.searchsorted(self._hinge_sections, sections) - 1
-        moving = (bar >= 0) & (bar <= 2)
-        bar = np.clip(bar, 0, 2)
-        spins = motion.spins[bar]
-        speed = motion.velocities[bar] + 1j * spins * (points - motion.centroids[bar])
-        return np.stack([speed.real, speed.imag, spins], axis=1) * moving[:, None]
+        return mirror_balance(self.ring, self.linkage, self._hinge_sections)
 
     def bodies(self, rotation: float | np.ndarray) -> Bodies:
         bars, motion = self.linkage.bars, self.linkage.motion(rotation)
@@ -281,24 +262,20 @@ class Arch(Structure):
                 part = motion.centroids[bar] + np.exp(1j * motion.angles[bar]) * (
                     part - self.linkage.bars.centroids[bar]
                 )
-            drawn.append(self.radius * np.stack([part.real, part.imag], axis=1))
+            drawn.append(self.radius * plane(part))
         return drawn
 
     def _hinges(self, rotation: float) -> np.ndarray:
         """A, B, C and D."""
-        hinges = self.radius * self.linkage.motion(rotation).hinges
-        return np.stack([hinges.real, hinges.imag], axis=1)
+        return self.radius * plane(self.linkage.motion(rotation).hinges)
 
     @property
-    def _ends(self) -> np.ndarray:
-        return np.array([-self.embrace_angle / 2, self.embrace_angle / 2])
+    def _ends(self) -> tuple[float, float]:
+        return -self.embrace_angle / 2, self.embrace_angle / 2
 
     def _dimensions(self) -> dict[str, Path]:
-        half, inner, outer = (
-            self.embrace_angle / 2,
-            self.radius - self.thickness / 2,
-            self.radius + self.thickness / 2,
-        )
+        half, inner = self.embrace_angle / 2, self.radius - self.thickness / 2
+        outer = inner + self.thickness
         aside = np.array([np.sin(half / 2), np.cos(half / 2)])
         return {
             "radius": span([0.0, 0.0], self.radius * aside),
@@ -311,5 +288,4 @@ class Arch(Structure):
 
     def thrust_line(self, count: int = 200) -> np.ndarray:
         """Return the line of thrust at the onset to the positive side: (count, 2) in m, from springing to springing."""
-        line = thrust_line(self.ring, self.onset, np.linspace(self._ends[0], self._ends[1], count))
-        return self.radius * np.stack([line.real, line.imag], axis=1)
+        return self.radius * plane(thrust_line(self.ring, self.onset, np.linspace(*self._ends, count)))

@@ -9,7 +9,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rocking.structures.arch_ring import Ring
 from rocking.structures.bars import Bars, Motion, cross, keeps_last
+from rocking.structures.restitution import momentum_balance
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,3 +122,28 @@ class Linkage:
 
 def _sum(weights: np.ndarray, terms: np.ndarray) -> np.ndarray:
     return np.tensordot(weights, terms, axes=1)
+
+
+def mirror_balance(ring: Ring, linkage: Linkage, hinges: np.ndarray) -> float:
+    """Return η = −⟨u, u_m⟩/⟨u_m, u_m⟩ of the velocity fields for φ' = 1 at φ = 0 of a ring and of its mirror image.
+
+    hinges: (4,) sections, rad.
+    """
+    edges = np.unique(np.concatenate([hinges, -hinges, [-ring.embrace_angle / 2, ring.embrace_angle / 2]]))
+    edges = edges[np.append(True, np.diff(edges) > 1e-12)]
+    parts = ring.bars(edges)
+    middles = (edges[1:] + edges[:-1]) / 2
+    arriving = _velocities(linkage, hinges, middles, parts.centroids)
+    mirrored = _velocities(linkage, hinges, -middles, -parts.centroids.conj()) * [-1.0, 1.0, -1.0]
+    return momentum_balance(parts.masses, parts.inertias, -arriving, mirrored)
+
+
+def _velocities(linkage: Linkage, hinges: np.ndarray, sections: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """(k, 3) velocities (vx, vy, ω) at φ = 0, φ' = 1 of the parts at `sections` with centroids `points`."""
+    motion = linkage.motion(0.0)
+    bar = np.searchsorted(hinges, sections) - 1
+    moving = (bar >= 0) & (bar <= 2)
+    bar = np.clip(bar, 0, 2)
+    spins = motion.spins[bar]
+    speed = motion.velocities[bar] + 1j * spins * (points - motion.centroids[bar])
+    return np.stack([speed.real, speed.imag, spins], axis=1) * moving[:, None]

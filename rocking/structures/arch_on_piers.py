@@ -14,7 +14,7 @@ import numpy as np
 from rocking.errors import StructureError
 from rocking.structures.arch import GEOMETRY, Arch
 from rocking.structures.arch_onset import NoMechanism, Onset, TooThin, static_onset, thrust_line
-from rocking.structures.drawing import Path, span
+from rocking.structures.drawing import Path, plane, span
 from rocking.structures.fields import Form, length_field, number_field, restitution_field
 from rocking.structures.pier_ring import FOOT, PierRing
 
@@ -123,11 +123,9 @@ class ArchOnPiers(Arch):
 
     def thrust_line(self, count: int = 200) -> np.ndarray:
         """Return the line of thrust at the onset: (count + 2,) points in m, from foot to foot."""
-        sections = np.linspace(self._ends[0], self._ends[1], count)
-        line = thrust_line(self.ring, self.onset, sections)
+        line = thrust_line(self.ring, self.onset, np.linspace(*self._ends, count))
         feet = [self._foot_thrust(side) for side in (-1.0, 1.0)]
-        line = self.radius * np.concatenate([feet[:1], line, feet[1:]])
-        return np.stack([line.real, line.imag], axis=1)
+        return self.radius * plane(np.concatenate([feet[:1], line, feet[1:]]))
 
     def _foot_thrust(self, side: float) -> complex:
         """Where the thrust crosses the foot of a pier, over r: the moment about its inner corner over its weight."""
@@ -148,7 +146,7 @@ class ArchOnPiers(Arch):
             if abs(self._hinge_sections[hinge]) > self.embrace_angle / 2 + FOOT / 2:
                 turn = np.exp(1j * motion.angles[bar])
                 corners = motion.centroids[bar] + turn * (corners - self.linkage.bars.centroids[bar])
-            piers.append(self.radius * np.stack([corners.real, corners.imag], axis=1))
+            piers.append(self.radius * plane(corners))
         return piers + super()._outline(rotation)
 
     def _joint_angles(self) -> np.ndarray:
@@ -157,13 +155,9 @@ class ArchOnPiers(Arch):
         return np.where(beyond, -np.pi / 2 * np.sign(self._hinge_sections), super()._joint_angles())
 
     def _dimensions(self) -> dict[str, Path]:
-        inner_foot, outer_foot, outer_head, _ = self.radius * self.ring.pier(1.0)
+        inner_foot, outer_foot, outer_head, _ = self.radius * plane(self.ring.pier(1.0))
         apart = 0.1 * self.pier_height
-
-        def point(z: complex) -> list[float]:
-            return [z.real, z.imag]
-
         return super()._dimensions() | {
-            "pier_width": span(point(inner_foot), point(outer_foot), [0.0, -apart]),
-            "pier_height": span(point(outer_foot), point(outer_head), [apart, 0.0]),
+            "pier_width": span(inner_foot, outer_foot, [0.0, -apart]),
+            "pier_height": span(outer_foot, outer_head, [apart, 0.0]),
         }

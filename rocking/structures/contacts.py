@@ -74,6 +74,13 @@ def corner(across: np.ndarray | float, up: float, state: MotionState) -> Contact
     return Contacts(("corner",), total.imag[None], total.real[None])
 
 
+def on_side(state: MotionState, positive: Contacts, negative: Contacts) -> Contacts:
+    """Return of two sides' contacts those of the side on which each state is."""
+    there = state.sign > 0
+    normal = np.where(there, positive.normal, negative.normal)
+    return Contacts(positive.names, normal, np.where(there, positive.tangential, negative.tangential))
+
+
 def dalembert(
     bars: Bars, motion: Motion, state: MotionState, pull: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:

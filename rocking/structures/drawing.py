@@ -21,6 +21,9 @@ class Dimension:
     feet: np.ndarray = field(repr=False)
 
 
+Kind = Literal["load", "thrust", "tie"]
+
+
 @dataclass(frozen=True, eq=False)
 class Mark:
     """What acts on a structure, as a drawing shows it, in m.
@@ -29,13 +32,18 @@ class Mark:
     line: (2, 2), its second point is where it acts.
     """
 
-    kind: Literal["load", "thrust", "tie"]
+    kind: Kind
     text: str
     line: np.ndarray = field(repr=False)
 
 
 Path = tuple[np.ndarray, np.ndarray]
 """The line and the feet of a dimension."""
+
+
+def plane(points: np.ndarray) -> np.ndarray:
+    """Return complex `points` (k,) as (k, 2)."""
+    return np.stack([points.real, points.imag], axis=-1)
 
 
 def turned(points: ArrayLike, pivot: ArrayLike, rotation: float) -> np.ndarray:

@@ -14,7 +14,8 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, within
-from rocking.structures.mechanism import Mechanism, Scale, Side
+from rocking.structures.equivalent_block import Scale
+from rocking.structures.mechanism import Mechanism, Side
 
 SCALES: tuple[Scale, ...] = ("linearised", "uplift", "mean")
 

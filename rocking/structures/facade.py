@@ -3,37 +3,47 @@
 x = 0 is the outer face, x < 0 the building; the positive side rocks outwards about the outer toe of the crack.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
+from rocking.errors import StructureError
+from rocking.quantities import whole
 from rocking.structures.attachments import Thrust, Weight
 from rocking.structures.bars import Bodies
-from rocking.structures.contacts import Contacts, MotionState
-from rocking.structures.drawing import Mark, Path, rectangle, span, turned
-from rocking.structures.facade_checks import checked_facade
-from rocking.structures.fields import ONE_SIDED, Form, flag_field, number_field, restitution_field
+from rocking.structures.contacts import Contacts, MotionState, on_side
+from rocking.structures.drawing import Kind, Mark, Path, rectangle, span, turned
+from rocking.structures.fields import ONE_SIDED, Field, Form, flag_field, number_field, restitution_field
 from rocking.structures.load_fields import (
     ECCENTRICITY,
     TOP_SLAB,
     UNIT_WEIGHT,
+    check_eccentricity,
+    check_inside,
 )
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
 from rocking.structures.structure import Structure
-from rocking.structures.tie_fields import tie_events, tie_fields, tie_of, tie_text
+from rocking.structures.tie_fields import Tied, tie_fields
 from rocking.structures.turning_body import Held, TurningBody
 
-Kind = Literal["load", "thrust", "tie"]
-_LENGTHS = {"exclusiveMinimum": 0, "maximum": 1000}
+_MOST_STOREYS = 50
+
+
+def _of_storeys(
+    parameter: str, meaning: str, example: list[float], usual: tuple[float, float], letter: str
+) -> Field:
+    """A length of each storey."""
+    bounds = {"exclusiveMinimum": 0, "maximum": 1000}
+    return number_field(parameter, meaning, "m", example, usual, letter, bounds, required=True)
 
 
 @dataclass(frozen=True, repr=False)
-class Facade(Structure):
+class Facade(Tied):
     """Storeys stacked as one rigid body, flush outside, that rocks above the crack at the foot of one storey.
 
     storey_heights, thicknesses: of each storey from the ground up, m. unit_weight: of the masonry, N/m³. All forces
@@ -41,12 +51,9 @@ class Facade(Structure):
     from the middle of the wall they rest on, inwards positive, m. loads_held: the rest of the building holds their
     mass, so that only their weight acts. top_slab: the uppermost load rests on a "hinged" bearing, or is a slab that
     stays "flat" and so rests on the corner that rises.
-    tie_heights: of ties above the ground, m; tie_stiffness: of each, N/m per m; tie_pretension, N/m; tie_strength,
-    N/m, None for elastic ties, and tie_plastic_elongation, m, by which they yield before they break. A tie pulls
-    inwards only; one that is tightened needs a façade that cannot rock inwards. thrust: of a vault or a roof outwards,
-    N/m, at thrust_height above the ground, m; None is the top. crack_storey: 1 is the ground floor.
-    restitution: η in [0, 1] or "momentum" (the default), for both sides; inward_restitution: of the inward side
-    instead. one_sided: it leans on cross walls and rocks outwards only; restitution must then be a number.
+    thrust: of a vault or a roof outwards, N/m, at thrust_height above the ground, m; None is the top. crack_storey: 1
+    is the ground floor. restitution: η in [0, 1] or "momentum" (the default), for both sides; inward_restitution: of
+    the inward side instead. Ties and one_sided: as `Tied`.
     Raises StructureError when it cannot stand.
     """
 
@@ -57,25 +64,11 @@ class Facade(Structure):
         Form(
             "Façade of one storey or several with floor loads, ties and thrust; forces per metre of façade",
             (
-                number_field(
-                    "storey_heights",
-                    "Height of each storey from the ground up",
-                    "m",
-                    [3.5, 3.0],
-                    (0.5, 30),
-                    "h",
-                    _LENGTHS,
-                    required=True,
+                _of_storeys(
+                    "storey_heights", "Height of each storey from the ground up", [3.5, 3.0], (0.5, 30), "h"
                 ),
-                number_field(
-                    "thicknesses",
-                    "Thickness of each storey, flush outside",
-                    "m",
-                    [0.6, 0.5],
-                    (0.1, 5),
-                    "t",
-                    _LENGTHS,
-                    required=True,
+                _of_storeys(
+                    "thicknesses", "Thickness of each storey, flush outside", [0.6, 0.5], (0.1, 5), "t"
                 ),
                 UNIT_WEIGHT,
                 number_field(
@@ -127,23 +120,34 @@ class Facade(Structure):
     eccentricity: float = 0.0
     loads_held: bool = False
     top_slab: Literal["hinged", "flat"] = "hinged"
-    tie_heights: tuple[float, ...] = ()
-    tie_stiffness: float = 0.0
-    tie_pretension: float = 0.0
-    tie_strength: float | None = None
-    tie_plastic_elongation: float = 0.0
     thrust: float = 0.0
     thrust_height: float | None = None
     crack_storey: int = 1
     restitution: Restitution = None
     inward_restitution: float | None = None
-    one_sided: bool = False
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        for name, value in checked_facade(self).items():
-            object.__setattr__(self, name, value)
+        self._check_storeys()
+        self._check_ties(self.height)
         self.mechanism()  # one that is pushed over at rest is refused at birth
+
+    def _check_storeys(self) -> None:
+        heights, thicknesses, loads = self.storey_heights, self.thicknesses, self.floor_loads
+        if len(heights) > _MOST_STOREYS:
+            raise StructureError(
+                f"storey_heights has {len(heights)} values, but must have {_MOST_STOREYS} at most."
+            )
+        for name, values in (("thicknesses", thicknesses), ("floor_loads", loads or heights)):
+            if len(values) != len(heights):
+                raise StructureError(
+                    f"{name} has {len(values)} values, but must have {len(heights)}, one for each storey."
+                )
+        bearing = [t for load, t in zip(loads, thicknesses, strict=False) if load]
+        check_eccentricity(self.eccentricity, min(bearing or thicknesses))
+        object.__setattr__(self, "crack_storey", whole("crack_storey", self.crack_storey, 1, len(heights)))
+        if self.thrust_height is not None:
+            check_inside("thrust_height", self.thrust_height, self.height)
 
     @property
     def height(self) -> float:
@@ -173,27 +177,24 @@ class Facade(Structure):
     def _turning(self, mirrored: bool) -> TurningBody:
         toe = complex(-self.thicknesses[self.crack_storey - 1] if mirrored else 0.0, self.crack_height)
 
-        def seen(point: complex) -> complex:
+        def seen(point: Any) -> Any:
             return -(point - toe).conjugate() if mirrored else point - toe
 
         storeys = slice(self.crack_storey - 1, None)
         heights, thicknesses = np.array(self.storey_heights)[storeys], np.array(self.thicknesses)[storeys]
         weights = self.unit_weight * heights * thicknesses
-        centres = [
-            seen(complex(-t / 2, z + h / 2))
-            for t, z, h in zip(thicknesses, self.levels[storeys], heights, strict=False)
-        ]
+        centres = seen(-thicknesses / 2 + 1j * (self.levels[:-1][storeys] + heights / 2))
         inertias = weights * (heights**2 + thicknesses**2) / 12
-        return TurningBody(weights, np.array(centres), inertias, tuple(self._held(seen, mirrored)))
+        return TurningBody(weights, centres, inertias, tuple(self._held(seen, mirrored)))
 
-    def _held(self, seen, mirrored: bool) -> Iterable[Held]:  # type: ignore[no-untyped-def]
+    def _held(self, seen: Callable[[complex], complex], mirrored: bool) -> Iterable[Held]:
         """What hangs on the part above the crack, at points seen from the toe."""
         for point, load in self._bearings(mirrored):
             yield Held(seen(point), Weight(load)) if self.loads_held else Held(seen(point), None, load)
         if self.thrust and self._thrust_point.imag > self.crack_height:
             yield Held(seen(self._thrust_point), Thrust(-self.thrust if mirrored else self.thrust))
         for height in () if mirrored else self._tied:
-            yield Held(seen(1j * height), tie_of(self))
+            yield Held(seen(1j * height), self._tie())
 
     def _bearings(self, mirrored: bool) -> Iterable[tuple[complex, float]]:
         """The points of the loads above the crack, and the loads."""
@@ -235,20 +236,10 @@ class Facade(Structure):
         return self.outward.form.held_work(np.asarray(rotation, dtype=float))
 
     def contacts(self, state: MotionState) -> Contacts:
-        out, back = self.outward.contacts(state), self.inward.contacts(state)
-        there = state.sign > 0
-        return Contacts(
-            out.names,
-            np.where(there, out.normal, back.normal),
-            np.where(there, out.tangential, back.tangential),
-        )
+        return on_side(state, self.outward.contacts(state), self.inward.contacts(state))
 
     def tie_stretches(self, rotation: float) -> dict[float, float]:
-        """Return by how much each tie above the crack is stretched [m], by height, at a signed `rotation` [rad]."""
         return {z: (z - self.crack_height) * float(np.sin(max(rotation, 0.0))) for z in self._tied}
-
-    def tie_events(self, rotation: float) -> str:
-        return tie_events(self, self.tie_stretches(rotation))
 
     def candidate_positions(self, count: int) -> np.ndarray:
         """The foot of every storey."""
@@ -262,8 +253,7 @@ class Facade(Structure):
     def _outline(self, rotation: float) -> list[np.ndarray]:
         still = self.crack_storey - 1
         storeys = [
-            rectangle(-t, 0.0, z, z + h)
-            for t, z, h in zip(self.thicknesses, self.levels, self.storey_heights, strict=False)
+            rectangle(-t, 0.0, *ends) for t, ends in zip(self.thicknesses, pairwise(self.levels), strict=True)
         ]
         toe = self._hinges(rotation)[0]
         return storeys[:still] + [turned(each, toe, rotation) for each in storeys[still:]]
@@ -286,12 +276,7 @@ class Facade(Structure):
         if self.thrust:
             at(self._thrust_point, "thrust", (-size, 0.0), f"{self.thrust / 1e3:.6g} kN/m")
         for height in self.tie_heights:
-            at(
-                1j * height,
-                "tie",
-                (-max(self.thicknesses) - 2 * size, 0.0),
-                tie_text(self),
-            )
+            at(1j * height, "tie", (-max(self.thicknesses) - 2 * size, 0.0), self._tie_text)
         return tuple(drawn)
 
     def _dimensions(self) -> dict[str, Path | list[Path]]:

@@ -1,7 +1,6 @@
 """Loads as a file describes them and as they must be: shared by the structures that carry them."""
 
 from rocking.errors import StructureError
-from rocking.quantities import finite
 from rocking.structures.fields import choice_field, number_field
 
 UNIT_WEIGHT = number_field(
@@ -24,22 +23,18 @@ TOP_SLAB = choice_field(
 )
 
 
-def checked_eccentricity(value: float, thickness: float) -> float:
-    """Return the distance of a bearing from the middle of a wall of that thickness [m]."""
-    eccentricity = finite(StructureError, "eccentricity", value, "m")
-    if abs(eccentricity) > thickness / 2:
+def check_eccentricity(value: float, thickness: float) -> None:
+    """Refuse a bearing beyond the edge of a wall of that thickness [m]."""
+    if abs(value) > thickness / 2:
         raise StructureError(
             f"eccentricity is {value!r} m, but must lie within half the thickness, {thickness / 2!r} m, for the load "
             "to bear on the wall."
         )
-    return eccentricity
 
 
-def inside(field: str, value: float, height: float) -> float:
-    """Return a height above the ground, on the wall."""
-    number = finite(StructureError, field, value, "m")
-    if not 0 < number <= height:
+def check_inside(field: str, value: float, height: float) -> None:
+    """Refuse a height above the ground [m] that is not on a wall of that `height`."""
+    if not 0 < value <= height:
         raise StructureError(
             f"{field} is {value!r} m, but must lie on the wall, above 0 and up to {height:.6g} m."
         )
-    return number

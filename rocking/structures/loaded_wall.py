@@ -13,13 +13,9 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
-from rocking.structures.attachments import (
-    Attached,
-    LoadedForm,
-    Weight,
-)
+from rocking.structures.attachments import Attached, LoadedForm, Weight
 from rocking.structures.bars import Bodies, carried
-from rocking.structures.contacts import Contacts, MotionState
+from rocking.structures.contacts import Contacts, MotionState, on_side
 from rocking.structures.drawing import Mark, Path, span
 from rocking.structures.fields import (
     ONE_SIDED,
@@ -33,12 +29,12 @@ from rocking.structures.load_fields import (
     ECCENTRICITY,
     TOP_SLAB,
     UNIT_WEIGHT,
-    checked_eccentricity,
+    check_eccentricity,
 )
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
-from rocking.structures.structure import HIGHEST_SHARE, Structure
-from rocking.structures.tie_fields import checked_ties, tie_events, tie_fields, tie_of, tie_text
+from rocking.structures.structure import Structure
+from rocking.structures.tie_fields import Tied, tie_fields
 from rocking.structures.ties import PointMotion, Tie
 from rocking.structures.wall import Applied, Wall
 from rocking.structures.wall_linkage import WallLinkage
@@ -58,16 +54,14 @@ class OnBlock:
 
 
 @dataclass(frozen=True, repr=False)
-class LoadedWall(Structure):
+class LoadedWall(Tied):
     """A wall cracked into two blocks between supports, as `Wall`, with what hangs on it; forces per metre of wall.
 
     lower_height, upper_height, thickness: m. unit_weight: of the masonry, N/m³. top_load: of floor or walls above,
     N/m, at `eccentricity` inwards from the middle, m, on a "hinged" bearing, or by a slab that stays "flat" and rests
     on the edge in contact. load_held: only its weight acts; otherwise its mass moves up and down with the top.
-    tie_heights: of ties above the base, m; tie_stiffness: of each, N/m per m; tie_pretension: N/m, for a one-sided
-    wall; tie_strength, N/m, None for elastic ties, and tie_plastic_elongation, m, by which they yield before breaking.
-    one_sided: it leans on cross walls and bends outwards only.
-    restitution: η in [0, 1] or "momentum" (the default). Raises StructureError when it cannot stand.
+    restitution: η in [0, 1] or "momentum" (the default). Ties and one_sided: as `Tied`.
+    Raises StructureError when it cannot stand.
     """
 
     type_name: ClassVar[str] = "loaded_wall"
@@ -104,24 +98,14 @@ class LoadedWall(Structure):
     eccentricity: float = 0.0
     top_slab: Literal["hinged", "flat"] = "hinged"
     load_held: bool = False
-    tie_heights: tuple[float, ...] = ()
-    tie_stiffness: float = 0.0
-    tie_pretension: float = 0.0
-    tie_strength: float | None = None
-    tie_plastic_elongation: float = 0.0
     restitution: Restitution = None
-    one_sided: bool = False
 
     def __post_init__(self) -> None:
         super().__post_init__()
         for name in ("lower_height", "upper_height", "thickness"):
             object.__setattr__(self, name, getattr(self.wall, name))
-        checked = {
-            "eccentricity": checked_eccentricity(self.eccentricity, self.thickness),
-            **checked_ties(self, self.height),
-        }
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
+        check_eccentricity(self.eccentricity, self.thickness)
+        self._check_ties(self.height)
         self.mechanism()  # one that its load pushes over is refused at birth
 
     @classmethod
@@ -169,13 +153,11 @@ class LoadedWall(Structure):
         found = []
         if self.top_load:
             path, load = OnBlock(linkage, 1, self._bearing(mirrored)), self.top_load / unit
-            held = (
-                Attached(path, Weight(load)) if self.load_held else Attached(path, None, load, sideways=False)
-            )
-            found.append(held)
+            moving = Attached(path, None, load, sideways=False)
+            found.append(Attached(path, Weight(load)) if self.load_held else moving)
         if mirrored or not (self.tie_stiffness or self.tie_pretension):
             return tuple(found)
-        tie = tie_of(self, unit)
+        tie = self._tie(unit)
         for height in self.tie_heights:
             block = 0 if height <= self.lower_height else 1
             found.append(Attached(OnBlock(linkage, block, complex(self.thickness / 2, height)), tie))
@@ -239,14 +221,10 @@ class LoadedWall(Structure):
         return work * self.wall.linkage.lower_diagonal
 
     def contacts(self, state: MotionState) -> Contacts:
-        out = self.wall.contacts_under(state, self._applied(state, mirrored=False))
-        back = self.wall.contacts_under(state, self._applied(state, mirrored=True))
-        there = state.sign > 0
-        return Contacts(
-            out.names,
-            np.where(there, out.normal, back.normal),
-            np.where(there, out.tangential, back.tangential),
-        )
+        sides = [
+            self.wall.contacts_under(state, self._applied(state, mirrored)) for mirrored in (False, True)
+        ]
+        return on_side(state, *sides)
 
     def _applied(self, state: MotionState, mirrored: bool) -> Iterable[Applied]:
         """What hangs on the wall as forces on its blocks, per mass of the wall."""
@@ -265,19 +243,14 @@ class LoadedWall(Structure):
             yield each.path.block, each.path.start + point.moved, force * factor
 
     def tie_stretches(self, rotation: float) -> dict[float, float]:
-        """Return by how much each tie is stretched [m], by height, at a signed `rotation` [rad]."""
         return {
             each.path.start.imag: float(each.path(np.asarray(max(rotation, 0.0))).moved.real)
             for each in self.attached()
             if isinstance(each.force, Tie) and isinstance(each.path, OnBlock)
         }
 
-    def tie_events(self, rotation: float) -> str:
-        return tie_events(self, self.tie_stretches(rotation))
-
     def candidate_positions(self, count: int) -> np.ndarray:
-        """Hinge heights that stay a share of the height away from base and top."""
-        return self.height * np.linspace(1 - HIGHEST_SHARE, HIGHEST_SHARE, count)
+        return self.wall.candidate_positions(count)
 
     def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
         """Return this wall hinged at each of `positions` [m] above the base instead, by height.
@@ -320,5 +293,5 @@ class LoadedWall(Structure):
         for height in self.tie_heights if rotation >= 0 else ():
             block = 0 if height <= self.lower_height else 1
             tail = complex(-self.thickness - 3 * size, 0.0)
-            drawn.append(Mark("tie", tie_text(self), line(block, complex(self.thickness / 2, height), tail)))
+            drawn.append(Mark("tie", self._tie_text, line(block, complex(self.thickness / 2, height), tail)))
         return tuple(drawn)

@@ -10,28 +10,23 @@ motion on this side; the angular velocity of the next flight is `restitution` ti
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, positive, shown, within
 from rocking.structures.arc import Arc, Function, RotationMap, arc_of, rotation_map
-from rocking.structures.equivalent_block import BlockDefects
+from rocking.structures.equivalent_block import BlockDefects, Scale, block_of, defects_of
 from rocking.structures.equivalent_block import EquivalentBlock as EquivalentBlock
 from rocking.structures.ties import SideTie
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Scale = Literal["rest", "linearised", "uplift", "mean"]
-"""Which equivalent block: exact at rest, or linearised about φ_cr with a_sc, a_sc,alt = φ_cr/λ, or their mean."""
-
 _ARC_ACCURACY, _MAP_ACCURACY = 2e-14, 1e-14
 CUTS = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.4)
 """Shares that may be cut off beyond φ_cr, where a mechanism locks and its inertia has no bound."""
-
-_DEFECT_SAMPLES = 401
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -243,8 +238,8 @@ class Mechanism:
         Raises StructureError for another scale.
         """
         if scale not in self._blocks:
-            block = _equivalent(self.positive, scale)
-            other = None if self.negative is None else _equivalent(self.negative, scale)
+            block = block_of(self.positive, scale)
+            other = None if self.negative is None else block_of(self.negative, scale)
             self._blocks[scale] = replace(block, other_side=other, one_sided=self.one_sided)
         return self._blocks[scale]
 
@@ -255,7 +250,7 @@ class Mechanism:
     @cached_property
     def block_defects(self) -> BlockDefects:
         """What the block exact at rest leaves out, of the worse side."""
-        found = [_defects(side) for side in self.sides]
+        found = [defects_of(side) for side in self.sides]
         return BlockDefects(
             max(each.restoring for each in found), max((each.forcing for each in found), key=abs)
         )
@@ -265,40 +260,3 @@ class Mechanism:
         from rocking.reports.plots import plot_mechanism
 
         return plot_mechanism(self, axes)
-
-
-def _equivalent(side: Side, scale: Scale) -> EquivalentBlock:
-    if scale == "rest":
-        return _exact_at_rest(side)
-    return EquivalentBlock(
-        frequency_parameter=side.frequency_parameter,
-        critical_rotation=side.critical_rotation,
-        acceleration_scale=side.scaled_acceleration(scale),
-        restitution=side.restitution,
-    )
-
-
-def _exact_at_rest(side: Side) -> EquivalentBlock:
-    """p² = g G(0)/(I(0) q_cr) and the true λ, in x = q/q_cr with the arc q (theory: section 9)."""
-    arc, rotation_map = side.arc
-    stiffness = GRAVITY * side.at("gravity", 0.0) / side.at("inertia", 0.0)
-    return EquivalentBlock(
-        frequency_parameter=float(np.sqrt(stiffness / arc.at(side.critical_rotation))),
-        critical_rotation=side.critical_rotation,
-        acceleration_scale=side.critical_rotation / side.uplift_multiplier,
-        restitution=side.restitution,
-        rotation_map=rotation_map,
-    )
-
-
-def _defects(side: Side) -> BlockDefects:
-    arc, _ = side.arc
-    rotation = np.linspace(0.0, side.critical_rotation, _DEFECT_SAMPLES)
-    if side.remembers:
-        bends = np.array([bend for bend in side.bends if bend < side.critical_rotation])
-        rotation = np.unique([*rotation, *bends * (1 - 1e-12), *bends])  # before a tie breaks, and after
-    x = arc.at(rotation) / arc.at(side.critical_rotation)
-    stretch = arc.stretch(rotation)
-    restoring = side.gravity(rotation) / side.at("gravity", 0.0) / stretch - (1 - x)
-    forcing = side.at("ground", side.critical_rotation) / side.at("ground", 0.0) / stretch[-1] - 1
-    return BlockDefects(float(np.abs(restoring).max()), float(forcing))

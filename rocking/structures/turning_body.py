@@ -7,12 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.quantities import GRAVITY
-from rocking.structures.attachments import (
-    Attached,
-    LoadedForm,
-    Thrust,
-    Weight,
-)
+from rocking.structures.attachments import Attached, LoadedForm, Thrust, Weight
 from rocking.structures.bars import Bodies
 from rocking.structures.contacts import Contacts, MotionState, corner
 from rocking.structures.mechanism import Side

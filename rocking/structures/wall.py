@@ -11,7 +11,7 @@ from rocking.errors import StructureError
 from rocking.quantities import finite, length
 from rocking.structures.bars import Bodies, bodies_of, cross
 from rocking.structures.contacts import Contacts, MotionState, dalembert, resolved
-from rocking.structures.drawing import Path, rectangle, span, turned
+from rocking.structures.drawing import Path, plane, rectangle, span, turned
 from rocking.structures.fields import ONE_SIDED, Form, length_field, restitution_field
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
@@ -180,8 +180,7 @@ class Wall(Structure):
 
     def _hinges(self, rotation: float) -> np.ndarray:
         """Right corner of the base, left edge at the hinge, right corner of the top."""
-        hinges = self.linkage.motion(rotation).hinges
-        return np.stack([hinges.real, hinges.imag], axis=1)
+        return plane(self.linkage.motion(rotation).hinges)
 
     def _dimensions(self) -> dict[str, Path]:
         half, crack, top, apart = self.thickness / 2, self.lower_height, self.height, 0.06 * self.height
