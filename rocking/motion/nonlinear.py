@@ -121,6 +121,7 @@ def states(table: Table, log: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nd
     for sign, rows in ((1, ~negative), (-1, negative)):
         side = table.side(sign)
         within = np.minimum(np.abs(arcs[rows]), side.end)
-        rotation[rows] = sign * side.rotation(within)
-        velocity[rows] = speeds[rows] * side.slope(within)
+        turned = side.rotation(within)
+        rotation[rows] = sign * turned
+        velocity[rows] = speeds[rows] * side.slope(within, turned)
     return times, rotation, velocity

@@ -100,11 +100,11 @@ class SideTable:
             ratio = coefficient + (arc - centre) * ratio
         return float(arc * ratio)
 
-    def slope(self, arc: np.ndarray | float) -> np.ndarray:
-        """Return dφ/dq at `arc`, any shape."""
+    def slope(self, arc: np.ndarray | float, rotation: np.ndarray | None = None) -> np.ndarray:
+        """Return dφ/dq at `arc`, any shape; `rotation` there, where it is known, spares finding it."""
         if self.rotation_map is not None:
             return self.rotation_map.slope(np.asarray(arc))
-        return 1 / self.stretch(self.rotation(arc))
+        return 1 / self.stretch(self.rotation(arc) if rotation is None else rotation)
 
 
 @dataclass(frozen=True, eq=False)
