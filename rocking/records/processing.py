@@ -127,13 +127,15 @@ def _filtered(record: Accelerogram, processing: Processing) -> Accelerogram:
         values = values * _cosine_taper(values.size, processing.taper)
         told.append(f"Cosine taper over {processing.taper:.3g} of the record at each end.")
     corners = {"highpass": processing.high_pass, "lowpass": processing.low_pass}
-    pad = _padding(record, processing)
+    pad, held = _padding(record, processing), 0
     if pad:
         values = np.pad(values, pad)
         told.append(f"{pad} zeros before and after{'' if processing.keep_padding else ' while filtering'}.")
     for kind, corner in corners.items():
         if corner is not None:
-            values = _butterworth(values, record.time_step, kind, corner, processing.order)
+            if not pad:
+                held = _room(processing.order, corner, record.duration, record.time_step)
+            values = _butterworth(values, record.time_step, kind, corner, processing.order, held)
             told.append(
                 f"Acausal Butterworth {kind} of order {processing.order}, run both ways, corner {corner:g} Hz."
             )
@@ -158,10 +160,13 @@ def _room(order: int, corner: float, duration: float, time_step: float) -> int:
     return int(np.ceil(min(1.5 * order / corner, 10 * duration) / time_step))
 
 
-def _butterworth(values: np.ndarray, time_step: float, kind: str, corner: float, order: int) -> np.ndarray:
+def _butterworth(
+    values: np.ndarray, time_step: float, kind: str, corner: float, order: int, held: int
+) -> np.ndarray:
     """Return what a Butterworth filter makes of `values` (n,) run both ways: its squared gain, in frequencies.
 
-    The gain is that of the bilinear transform; the ends are held at their values for as long as the filter rings.
+    The gain is that of the bilinear transform. held: samples over which the end values are held on before and after, so
+    that neither end rings into the other; 0 where `values` hold their room themselves.
     """
     from scipy import fft  # scipy.signal filters to the same 1e-12, and takes half a second to import
 
@@ -170,13 +175,12 @@ def _butterworth(values: np.ndarray, time_step: float, kind: str, corner: float,
         raise RecordError(
             f"the {kind} corner is {corner!r} Hz, but must be below the Nyquist frequency {nyquist:g} Hz."
         )
-    room = _room(order, corner, values.size * time_step, time_step)
-    size = fft.next_fast_len(values.size + 2 * room, real=True)
-    held = np.pad(values, (room, size - values.size - room), mode="edge")
+    size = fft.next_fast_len(values.size + 2 * held, real=True)
+    whole = np.pad(values, (held, size - values.size - held), mode="edge")
     with np.errstate(divide="ignore", over="ignore"):
         ratio = np.tan(np.pi / 2 * fft.rfftfreq(size, 0.5)) / np.tan(np.pi / 2 * corner / nyquist)
         gain = 1 / (1 + ratio ** (2 * order if kind == "lowpass" else -2 * order))
-    return fft.irfft(gain * fft.rfft(held), size)[room : room + values.size]
+    return fft.irfft(gain * fft.rfft(whole), size)[held : held + values.size]
 
 
 def _cosine_taper(samples: int, share: float) -> np.ndarray:
@@ -201,7 +205,8 @@ def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:
     )
     if step > record.time_step:
         corner = _LOW_PASS_SHARE * 0.5 / step
-        values = _butterworth(values, record.time_step, "lowpass", corner, 8)
+        held = _room(8, corner, record.duration, record.time_step)
+        values = _butterworth(values, record.time_step, "lowpass", corner, 8, held)
         sentence = f"Low-passed at {corner:g} Hz against aliasing. {sentence}"
     return record.processed_by(
         np.interp(np.arange(number) * step, record.times, values), sentence, time_step=step
