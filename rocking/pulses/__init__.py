@@ -5,7 +5,7 @@ from rocking.pulses.extraction import energy_map, extract_pulses
 from rocking.pulses.flags import Flag
 from rocking.pulses.interval import PulseInterval, pulse_interval
 from rocking.pulses.method import PulseMethod, predicting_pulse
-from rocking.pulses.methods import DEFAULT_PULSE_METHOD, PULSE_METHODS, pulse_method
+from rocking.pulses.methods import DEFAULT_PULSE_METHOD, PULSE_METHODS
 from rocking.pulses.orientation import OrientedAnalysis, extract_pulses_oriented
 from rocking.pulses.pulse import Pulse
 from rocking.pulses.settings import PulseSettings
@@ -28,6 +28,5 @@ __all__ = [
     "extract_pulses_oriented",
     "predicting_pulse",
     "pulse_interval",
-    "pulse_method",
     "velocity_pulse",
 ]

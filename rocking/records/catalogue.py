@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from rocking.errors import CatalogueError, RecordError, RockingError
+from rocking.errors import CatalogueError, RecordError, RockingError, about
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue_record import COLUMNS, CatalogueRecord
 from rocking.records.channels import is_unnamed
@@ -69,10 +69,8 @@ def open_record(
 
 def horizontal_of(channels: list[Accelerogram], record: CatalogueRecord) -> list[Accelerogram]:
     """Return the channels that open_record returns, from all `channels` of the record's file."""
-    try:
+    with about(f"{record.id} ({record.file})"):
         return [as_declared(channel, record) for channel in _selected(channels, record)]
-    except RecordError as error:
-        raise type(error)(f"{record.id} ({record.file}): {error}") from error
 
 
 def channels_of(
@@ -80,15 +78,13 @@ def channels_of(
 ) -> list[Accelerogram]:
     """Return every channel of the record's file as it was read. Raises RecordError naming record and file."""
     path = fetch(record, mirror, cache)
-    try:
+    with about(f"{record.id} ({record.file})"):
         channels = read(
             path, unit=record.unit or None, time_step=record.time_step, inventory=inventory_of(record, mirror)
         )
         if record.sha256 and channels[0].source.sha256 != record.sha256:
             raise RecordError(f"{path.name}: the file changed while it was read.")
         return channels
-    except RecordError as error:
-        raise type(error)(f"{record.id} ({record.file}): {error}") from error
 
 
 def vertical_of(channels: list[Accelerogram], record: CatalogueRecord) -> Accelerogram | None:

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 
 from rocking.errors import CatalogueError, RockingError
@@ -90,6 +90,16 @@ class CatalogueRecord:
         return self.file.removeprefix(_OBSPY) if self.file.startswith(_OBSPY) else None
 
     @property
+    def of_vertical(self) -> "CatalogueRecord":
+        """The row of its vertical_file, which is never fetched; itself where it has none."""
+        if not self.vertical_file:
+            return self
+        return replace(
+            self, file=self.vertical_file, sha256=self.vertical_sha256, source_repository="", source_path="",
+            source_commit="", vertical_file="", vertical_sha256="",
+        )  # fmt: skip
+
+    @property
     def components(self) -> tuple[str, ...]:
         """The channels asked for by name."""
         return tuple(part.strip() for part in self.component.split(";") if part.strip())
@@ -133,26 +143,25 @@ def _source_defects(record: CatalogueRecord) -> Iterable[str]:
 
 
 def _number_defects(record: CatalogueRecord) -> Iterable[str]:
-    unit, step, corner = record.unit, record.time_step, record.high_pass_frequency
-    magnitude, distance = record.magnitude, record.epicentral_distance
-    checks: list[Callable[[], object]] = [lambda: _scale(record.scale_factor)]
-    if unit:
-        checks.append(lambda: acceleration_factor(unit))
-    if step is not None:
-        checks.append(lambda: positive(CatalogueError, "time_step_s", step, "s"))
-    if corner is not None:
-        checks.append(lambda: positive(CatalogueError, "high_pass_hz", corner, "Hz"))
-    if magnitude is not None:
-        checks.append(lambda: within(CatalogueError, "magnitude", magnitude, -2, 10))
-    if distance is not None:
-        checks.append(
-            lambda: within(CatalogueError, "epicentral_distance_km", distance / 1000, 0, 20_100, "km")
-        )
-    for check in checks:
-        try:
-            check()
-        except RockingError as error:
-            yield str(error)
+    yield from _defect(_scale, record.scale_factor)
+    if record.unit:
+        yield from _defect(acceleration_factor, record.unit)
+    if record.time_step is not None:
+        yield from _defect(positive, CatalogueError, "time_step_s", record.time_step, "s")
+    if record.high_pass_frequency is not None:
+        yield from _defect(positive, CatalogueError, "high_pass_hz", record.high_pass_frequency, "Hz")
+    if record.magnitude is not None:
+        yield from _defect(within, CatalogueError, "magnitude", record.magnitude, -2, 10)
+    if record.epicentral_distance is not None:
+        distance = record.epicentral_distance / 1000
+        yield from _defect(within, CatalogueError, "epicentral_distance_km", distance, 0, 20_100, "km")
+
+
+def _defect(check: Callable[..., object], *arguments: object) -> Iterable[str]:
+    try:
+        check(*arguments)
+    except RockingError as error:
+        yield str(error)
 
 
 def _scale(value: float) -> None:

@@ -1,15 +1,14 @@
 """Fetch: the file of a catalogue row, from mirror, catalogue folder, obspy or network, its hash checked."""
 
-import hashlib
 import time
 import urllib.request
 from contextlib import suppress
 from pathlib import Path
 from urllib.parse import quote
 
-from rocking.errors import RecordError
+from rocking.errors import RecordError, about
 from rocking.records.catalogue_record import CatalogueRecord
-from rocking.records.read import LARGEST_FILE, bytes_of
+from rocking.records.read import LARGEST_FILE, hash_of
 
 _RETRIES = 3
 _PIECE = 2**16
@@ -33,28 +32,28 @@ def fetch(record: CatalogueRecord, mirror: str | Path | None = None, cache: str 
     mirror: a folder that is looked into first. cache: where downloads are kept (default: the user's cache folder).
     Raises RecordError naming the record and the file when it cannot be had or its hash differs.
     """
-    path = _local(record, mirror)
-    if path is None and record.is_remote:
-        path = _download(record, cache)
-    if path is None:
-        places = " or ".join(str(folder) for folder in (mirror, record.folder) if folder)
-        raise RecordError(
-            f"{record.id}: file {record.file!r} is not in {places}; mend the catalogue or add the file."
-        )
-    _check(record, path)
-    return path
+    with about(record.id):
+        path = _local(record, mirror)
+        if path is None and record.is_remote:
+            path = _download(record, cache)
+        if path is None:
+            places = " or ".join(str(folder) for folder in (mirror, record.folder) if folder)
+            raise RecordError(f"file {record.file!r} is not in {places}; mend the catalogue or add the file.")
+        if record.sha256 and (found := hash_of(path)) != record.sha256:
+            raise RecordError(
+                f"file {path} has sha256 {found}, but the catalogue says {record.sha256}; it is another version."
+            )
+        return path
 
 
 def inventory_of(record: CatalogueRecord, mirror: str | Path | None = None) -> Path | None:
     """Return the path of the record's StationXML, or None when the row names none."""
     if not record.inventory:
         return None
-    path = _beside(record, record.inventory, mirror)
-    if path is None:
-        raise RecordError(
-            f"{record.id}: inventory {record.inventory!r} is not there; mend the catalogue or add the file."
-        )
-    return path
+    with about(record.id):
+        if path := _beside(record, record.inventory, mirror):
+            return path
+        raise RecordError(f"inventory {record.inventory!r} is not there; mend the catalogue or add the file.")
 
 
 def local_files(
@@ -97,7 +96,7 @@ def _beside(record: CatalogueRecord, file: str, mirror: str | Path | None) -> Pa
         if folder is None or not (path := Path(folder) / file).is_file():
             continue
         if not path.resolve().is_relative_to(Path(folder).resolve()):
-            raise RecordError(f"{record.id}: file {file!r} leads out of {folder}; keep it inside.")
+            raise RecordError(f"file {file!r} leads out of {folder}; keep it inside.")
         return path
     return None
 
@@ -108,7 +107,7 @@ def _example(record: CatalogueRecord) -> Path:
     try:
         return Path(get_example_file(record.example_name))
     except (OSError, ValueError):
-        raise RecordError(f"{record.id}: obspy installs no example file {record.example_name!r}.") from None
+        raise RecordError(f"obspy installs no example file {record.example_name!r}.") from None
 
 
 def _download(record: CatalogueRecord, cache: str | Path | None) -> Path:
@@ -126,7 +125,7 @@ def _download(record: CatalogueRecord, cache: str | Path | None) -> Path:
     except Exception as error:
         reason = str(error).splitlines()[0][:200] if str(error) else type(error).__name__
         raise RecordError(
-            f"{record.id}: file {record.file!r} cannot be fetched from {address}, {reason}; "
+            f"file {record.file!r} cannot be fetched from {address}, {reason}; "
             "try again or give a mirror folder."
         ) from error
 
@@ -158,17 +157,3 @@ class _Downloader:
         if left <= 0:
             raise RecordError(f"the download took more than {LONGEST_DOWNLOAD:g} s")
         return min(left, _SILENCE)
-
-
-def _check(record: CatalogueRecord, path: Path) -> None:
-    if not record.sha256:
-        return
-    try:
-        found = hashlib.sha256(bytes_of(path)).hexdigest()
-    except RecordError as error:
-        raise RecordError(f"{record.id}: {error}") from None
-    if found != record.sha256:
-        raise RecordError(
-            f"{record.id}: file {path} has sha256 {found}, but the catalogue says {record.sha256}; "
-            "it is another version."
-        )

@@ -1,7 +1,6 @@
 """Hashes of rows added by hand: filled in at the first reading, checked from then on."""
 
 import csv
-import hashlib
 from collections.abc import Iterable
 from dataclasses import replace
 from io import StringIO
@@ -11,7 +10,7 @@ from rocking.errors import RecordError
 from rocking.records.catalogue import load_catalogue
 from rocking.records.catalogue_record import CatalogueRecord
 from rocking.records.fetch import fetch
-from rocking.records.read import bytes_of
+from rocking.records.read import hash_of
 from rocking.tables import write_whole
 
 
@@ -77,17 +76,15 @@ def _has(found: dict[str, dict[str, str]], name: str) -> bool:
 
 def _blanks(record: CatalogueRecord, mirror: str | Path | None) -> dict[str, str]:
     """Return the blank hashes of a row by their columns, as far as the files are there."""
-    vertical = replace(record, file=record.vertical_file or record.file, sha256="", source_repository="",
-                       source_path="", source_commit="")  # fmt: skip
     wanted = {}
     if not record.sha256:
         wanted["sha256"] = record
     if record.vertical_file and not record.vertical_sha256:
-        wanted["vertical_sha256"] = vertical
+        wanted["vertical_sha256"] = record.of_vertical
     cells = {}
     for column, of in wanted.items():
         try:
-            cells[column] = hashlib.sha256(bytes_of(fetch(of, mirror))).hexdigest()
+            cells[column] = hash_of(fetch(of, mirror))
         except RecordError:
             continue
     return cells

@@ -33,11 +33,6 @@ class ResponseSpectrum:
     damping: float
 
     @property
-    def pseudo_velocity(self) -> np.ndarray:
-        """(m,) m/s: ω times the displacement."""
-        return 2 * math.pi / self.periods * self.displacement
-
-    @property
     def pseudo_acceleration(self) -> np.ndarray:
         """(m,) m/s²: ω² times the displacement."""
         return (2 * math.pi / self.periods) ** 2 * self.displacement

@@ -19,12 +19,7 @@ def open_vertical(
     It comes from the row's vertical_file, which lies beside the catalogue or in the mirror, else from the file itself.
     Raises RecordError naming record and file.
     """
-    other = record
-    if record.vertical_file:
-        other = replace(
-            record, file=record.vertical_file, sha256=record.vertical_sha256, source_repository="", source_path="",
-            source_commit="", vertical_file="", vertical_sha256="",
-        )  # fmt: skip
+    other = record.of_vertical
     channels = channels_of(other, mirror, cache)
     found = vertical_of(channels, other)
     if found is None and record.vertical_file:

@@ -2,7 +2,7 @@
 
 from rocking.sine_pulse.maxima import overturning_amplitudes, overturning_margins, predict_maxima
 from rocking.sine_pulse.maximum import Maximum, Regime, predict_maximum
-from rocking.sine_pulse.printed import printed_maximum, pulse_end_energy, pulse_end_measure
+from rocking.sine_pulse.printed import printed_maximum, pulse_end_energy
 from rocking.sine_pulse.spectrum import pulse_spectrum
 
 __all__ = [
@@ -14,6 +14,5 @@ __all__ = [
     "predict_maximum",
     "printed_maximum",
     "pulse_end_energy",
-    "pulse_end_measure",
     "pulse_spectrum",
 ]

@@ -37,29 +37,14 @@ def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     return own.rotation_ratio(maximum) if maximum > 0 else maximum
 
 
-def pulse_end_measure(frequency_ratio: float, amplitude_ratio: float) -> float:
-    """Return D₀ = (x − 1)² − x'² at the end of the pulse, for x = φ/φ_cr and time p t (Eq. 16).
-
-    frequency_ratio: ω = ω_g/p > 0. amplitude_ratio: a = a_g/(gλ) > 1. Both as in `pulse_end_energy`, whose complement
-    this is. ± inf where the value leaves the range of doubles (ω < 0.009).
-    The relative error stays below 1e-11 for ω from 1e-3 to 1e6 and a from 1 + 1e-12 to 1e6, except beside the zeros
-    of D₀ and of √(a² − 1) − ω, where terms cancel: it grows as 1e-15 times the largest term over the sum.
-    Raises PulseError for an argument that is not finite or out of range.
-    """
-    omega, side = _checked(frequency_ratio, amplitude_ratio)
-    a, s = side.amplitude_ratio, side.uplift_slope
-    exponent = (2 * math.pi - side.uplift_phase) / omega
-    if exponent < 1:
-        return 1 - _energy_of_short_pulse(omega, a, s, exponent)
-    growth = _times_exponential((s - omega) * a, exponent)
-    decay = (s + omega) * a * math.exp(-exponent)
-    return (omega / (omega**2 + 1)) ** 2 * (omega**2 - 2 * a**2 + 1 + decay + growth)
-
-
 def pulse_end_energy(frequency_ratio: float, amplitude_ratio: float) -> float:
     """Return 1 − D₀: the squared velocity x'² with which a block that rocks at the pulse's end will land.
 
-    The same arguments, errors and accuracy as `pulse_end_measure`; ill-conditioned beside its own zeros.
+    D₀ = (x − 1)² − x'² at the end of the pulse, for x = φ/φ_cr and time p t (Eq. 16).
+    frequency_ratio: ω = ω_g/p > 0. amplitude_ratio: a = a_g/(gλ) > 1. ± inf where the value leaves the range of doubles
+    (ω < 0.009). The relative error stays below 1e-11 for ω from 1e-3 to 1e6 and a from 1 + 1e-12 to 1e6, except beside
+    the zeros of 1 − D₀ and of √(a² − 1) − ω, where terms cancel: it grows as 1e-15 times the largest term over the sum.
+    Raises PulseError for an argument that is not finite or out of range.
     """
     omega, side = _checked(frequency_ratio, amplitude_ratio)
     a, s = side.amplitude_ratio, side.uplift_slope

@@ -72,11 +72,6 @@ def body_about(corner: float | complex, centre: complex, inertia: float, rotatio
     return Bodies(np.ones(1), np.array([inertia]), centres[None], turn[None])
 
 
-def bodies_of(bars: Bars, motion: Motion) -> Bodies:
-    """Return the bars of a motion as bodies."""
-    return Bodies(bars.masses, bars.inertias, motion.centroids, motion.angles)
-
-
 def cross(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     """Return the cross product of plane vectors given as complex numbers."""
     return one.real * other.imag - one.imag * other.real

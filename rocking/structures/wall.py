@@ -9,7 +9,7 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import finite, length
-from rocking.structures.bars import Bodies, bodies_of, cross
+from rocking.structures.bars import Bodies, cross
 from rocking.structures.contacts import Contacts, MotionState, dalembert, resolved
 from rocking.structures.drawing import Path, plane, rectangle, span, turned
 from rocking.structures.fields import ONE_SIDED, Form, length_field, restitution_field
@@ -135,7 +135,8 @@ class Wall(Structure):
         return np.array([h1, h2]), np.array(inertias), before, before * [1.0, -1.0, 1.0]
 
     def bodies(self, rotation: float | np.ndarray) -> Bodies:
-        return bodies_of(self.linkage.bars, self.linkage.motion(rotation))
+        bars, motion = self.linkage.bars, self.linkage.motion(rotation)
+        return Bodies(bars.masses, bars.inertias, motion.centroids, motion.angles)
 
     def contacts(self, state: MotionState) -> Contacts:
         return self.contacts_under(state, ())

@@ -1,6 +1,6 @@
 """One file per strong-motion format, each a recogniser and a reader; FORMATS lists them all.
 
-A new format is a new file here that ends in `FORMATS = (ITS_FORMAT,)`, and its name in _FILES.
+A new format is a new file here that makes a Format, and its name in _FILES.
 """
 
 from importlib import import_module
@@ -31,7 +31,10 @@ _FILES = (
 )
 
 FORMATS: tuple[Format, ...] = tuple(
-    form for file in _FILES for form in import_module(f"{__name__}.{file}").FORMATS
+    found
+    for file in _FILES
+    for found in vars(import_module(f"{__name__}.{file}")).values()
+    if isinstance(found, Format)
 )
 """Every format there is. Exactly one recognises a file; the order does not matter."""
 

@@ -56,5 +56,3 @@ def _record(pairs: dict[str, str], component: str, values, notes, options: Optio
 
 AFAD = Format("AFAD/NSMN text", "AFAD, Turkey", "first line STRONG GROUND MOTION RECORDS OF TURKIYE",
               lambda content: starts(content, _FIRST), _read, plugin="AFAD")  # fmt: skip
-
-FORMATS = (AFAD,)

@@ -65,5 +65,3 @@ BHRC = Format(
     _read,
     plugin="BHRC",
 )
-
-FORMATS = (BHRC,)

@@ -210,4 +210,3 @@ COLUMNS = Format(
     _recognise,
     _read,
 )
-FORMATS = (COLUMNS,)

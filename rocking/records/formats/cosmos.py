@@ -123,5 +123,3 @@ def _component(head: str) -> str:
 
 COSMOS = Format("COSMOS V1/V2", "COSMOS, CESMD and USGS, USA", "first line like Corrected acceleration (Format v01.20",
                 lambda content: starts(content, _FIRST), _read, plugin="COSMOS_V1V2")  # fmt: skip
-
-FORMATS = (COSMOS,)

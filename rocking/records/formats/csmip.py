@@ -184,5 +184,3 @@ SPECTRA = Format(
     lambda content: starts(content, _VOLUME_3),
     _refuse,
 )
-
-FORMATS = (CSMIP, SPECTRA)

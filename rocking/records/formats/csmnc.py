@@ -60,5 +60,3 @@ CSMNC = Format(
     _read,
     plugin="CSMNC",
 )
-
-FORMATS = (CSMNC,)

@@ -77,5 +77,3 @@ CWB = Format(
     _read,
     plugin="CWB",
 )
-
-FORMATS = (CWB,)

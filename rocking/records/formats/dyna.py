@@ -92,5 +92,3 @@ DYNA = Format(
     _read,
     plugin="DYNA",
 )
-
-FORMATS = (DYNA,)

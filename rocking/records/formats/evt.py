@@ -73,5 +73,3 @@ def _record(trace, index: int, options: Options, warnings: tuple[str, ...]) -> A
 EVT = Format(
     "Kinemetrics EVT", "Kinemetrics recorders", "KMI mark at the start of the file", _recognise, _read
 )
-
-FORMATS = (EVT,)

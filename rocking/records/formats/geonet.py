@@ -102,5 +102,3 @@ GEONET = Format(
     _read,
     plugin="GEONET",
 )
-
-FORMATS = (GEONET,)

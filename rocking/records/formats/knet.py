@@ -8,7 +8,7 @@ from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram, without_offset
 from rocking.records.formats.header import check_duration, magnitude
-from rocking.records.formats.text import lines, number, numbers, period
+from rocking.records.formats.text import after_lines, lines, number, numbers, period
 from rocking.records.plausibility import agree_with_header
 
 _FIELDS = (
@@ -30,17 +30,12 @@ def _recognise(content: bytes) -> bool:
 def _read(content: bytes, options: Options) -> list[Accelerogram]:
     fields = _header(content)
     options.unit_of("gal")
-    counts = numbers(_body(content))
+    counts = numbers(after_lines(content, len(_FIELDS)))
     time_step = options.time_step_of(
         period("Sampling Freq(Hz)", fields["Sampling Freq(Hz)"].removesuffix("Hz"))
     )
-    check_duration(
-        "Duration Time(s)",
-        fields["Duration Time(s)"],
-        counts.size,
-        time_step,
-        rounding=-0.5 * time_step,
-    )
+    duration = fields["Duration Time(s)"]
+    check_duration("Duration Time(s)", duration, counts.size, time_step, rounding=-0.5 * time_step)
     values, offset = without_offset(counts * _scale(fields["Scale Factor"]), "gal")
     direction = fields["Dir."]
     record = accelerogram(
@@ -72,11 +67,6 @@ def _header(content: bytes) -> dict[str, str]:
     return fields
 
 
-def _body(content: bytes) -> bytes:
-    found = re.search(rb"^Memo\.[^\r\n]*[\r\n]+", content[:4000], re.M)
-    return content[found.end() :] if found else b""
-
-
 def _scale(text: str) -> float:
     """Return gal per count from "3920(gal)/6182761"."""
     parts = re.fullmatch(r"([0-9.]+)\(gal\)/([0-9.]+)", text.replace(" ", ""))
@@ -101,5 +91,3 @@ KNET = Format(
     _recognise,
     _read,
 )
-
-FORMATS = (KNET,)

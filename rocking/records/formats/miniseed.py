@@ -160,5 +160,3 @@ MINISEED = Format(
     _read,
 )
 STATIONXML = Format("StationXML", "FDSN data centres", "FDSNStationXML element", _is_inventory, _refuse)
-
-FORMATS = (MINISEED, STATIONXML)

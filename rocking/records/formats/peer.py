@@ -5,7 +5,7 @@ import re
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.text import count, lines, number, numbers, whole
+from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
 from rocking.records.plausibility import agree_with_header
 
 _STEPS = (
@@ -72,7 +72,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     declared = count("NPTS", found["npts"])
     time_step = options.time_step_of(number("DT", found["dt"]))
     unit = options.unit_of(_unit(head))
-    values, warnings = whole(numbers(_body(content, len(head))), declared, per_line=8)
+    values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)
     record = accelerogram(
         unit,
         values,
@@ -86,15 +86,6 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     )
     peak = _PEAK.search(" ".join(head))
     return [agree_with_header(record, number("PGA", peak[1]) if peak else None, "g", half_digit=5e-6)]
-
-
-def _body(content: bytes, header_lines: int) -> bytes:
-    position = 0
-    for ending in re.finditer(rb"\r*\n|\r+(?!\n)", content[: 400 * header_lines]):
-        position, header_lines = ending.end(), header_lines - 1
-        if not header_lines:
-            return content[position:]
-    return b""
 
 
 def _matched(head: list[str]) -> tuple[str, ...]:
@@ -152,5 +143,3 @@ PEER_OTHER = Format(
     _is_other,
     _refuse,
 )
-
-FORMATS = (PEER_AT2, PEER_OTHER)

@@ -49,5 +49,3 @@ RENADIC = Format(
     _read,
     plugin="RENADIC",
 )
-
-FORMATS = (RENADIC,)

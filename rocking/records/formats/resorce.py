@@ -50,5 +50,3 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
 RESORCE = Format("RESORCE", "RESORCE and SHARE, Europe",
                  "Event Date & Time at the start and a line that names the time series",
                  lambda content: _title(content) is not None, _read, plugin="RESORCE")  # fmt: skip
-
-FORMATS = (RESORCE,)

@@ -91,5 +91,3 @@ SAC = Format(
     _recognise,
     _read,
 )
-
-FORMATS = (SAC,)

@@ -92,5 +92,3 @@ SMC = Format(
     _read,
     plugin="USGS_SMC",
 )
-
-FORMATS = (SMC,)

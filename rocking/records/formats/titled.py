@@ -76,5 +76,3 @@ TITLED = Format(
     lambda content: _titled(content) is not None,
     _read,
 )
-
-FORMATS = (TITLED,)

@@ -129,5 +129,3 @@ UNAM = Format(
     _read,
     plugin="UNAM",
 )
-
-FORMATS = (UNAM,)

@@ -32,5 +32,3 @@ def _record(block: Block, options: Options) -> Accelerogram:
 USC = Format("USC Volume 1", "University of Southern California",
              "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I",
              lambda content: starts(content, _FIRST), _read, plugin="USC_V1")  # fmt: skip
-
-FORMATS = (USC,)

@@ -7,7 +7,7 @@ import pytest
 import yaml
 
 from rocking.errors import PulseError
-from rocking.pulses import PULSE_METHODS, Pulse, extract_pulses, predicting_pulse, pulse_method
+from rocking.pulses import PULSE_METHODS, Pulse, extract_pulses, predicting_pulse
 from rocking.records.accelerogram import Accelerogram
 
 SCHEMA = Path(__file__).parents[3] / "workflow" / "schemas" / "config.schema.yaml"
@@ -49,12 +49,6 @@ def test_a_record_without_room_for_a_velocity_pulse_is_refused():
     short = extract_pulses(Accelerogram(Pulse(3.0, 4 * np.pi, 0.3).acceleration(times), 0.01))
     with pytest.raises(PulseError, match="110 samples"):
         PULSE_METHODS["velocity"].candidates(short)
-
-
-def test_a_method_is_called_by_its_name():
-    assert all(pulse_method(name).name == name for name in PULSE_METHODS)
-    with pytest.raises(PulseError, match="'loudest', but must be one of energy"):
-        pulse_method("loudest")
 
 
 def test_nothing_to_choose_from_is_refused():
