@@ -6,19 +6,9 @@ from typing import final
 
 from rocking.assessment.assess import Case
 from rocking.assessment.method import Method
+from rocking.assessment.rows import meanings
 from rocking.assessment.rows.of_prediction import PredictionRow, expected_columns
-from rocking.assessment.rows.shared import (
-    IMPACTS,
-    METHOD,
-    OUTCOME,
-    PROBABILITY,
-    REGIME,
-    ROTATION,
-    ROTATION_RATIO,
-    CaseRow,
-    Identity,
-    rotation,
-)
+from rocking.assessment.rows.shared import CaseRow, Identity, rotation
 from rocking.assessment.verdict import Agreement, agreement, ratio, ratio_in_words, within_factor_two
 from rocking.motion.contact_check import UNKNOWN
 from rocking.motion.response import Response
@@ -32,11 +22,11 @@ from rocking.tables import column, row
 class ResponseRow(CaseRow):
     """One integration of one case."""
 
-    method: Method = column(METHOD)
-    rotation_ratio: float = column(ROTATION_RATIO)
-    rotation_rad: float = column(ROTATION)
-    outcome: Outcome = column(OUTCOME)
-    impacts: int = column(IMPACTS)
+    method: Method = column(meanings.METHOD)
+    rotation_ratio: float = column(meanings.ROTATION_RATIO)
+    rotation_rad: float = column(meanings.ROTATION)
+    outcome: Outcome = column(meanings.OUTCOME)
+    impacts: int = column(meanings.IMPACTS)
     peak_side: int = column("Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift")
     peak_time_s: float = column("Time of the largest rotation after the first sample")
     uplift_time_s: float = column("Time of the first uplift after the first sample")
@@ -73,7 +63,7 @@ class ComparisonRow(CaseRow):
     )
     answer_method: Method = column("Which method that was")
     answer_reason: str = column("Why that one settled it, where fidelity: auto chose it")
-    overturning_probability: float = column(PROBABILITY)
+    overturning_probability: float = column(meanings.PROBABILITY)
     overturning_probability_low: float = column("Lower end of its 90 % interval")
     overturning_probability_high: float = column("Upper end of its 90 % interval")
     expected_rotation_ratio_low: float = column(
@@ -88,7 +78,7 @@ class ComparisonRow(CaseRow):
     agreement: Agreement = column(
         "Rest, rocking or overturning in the closed form and in the integration: same outcome, too low or too high"
     )
-    regime: Regime | None = column(REGIME)
+    regime: Regime | None = column(meanings.REGIME)
 
     @property
     def spared(self) -> bool:
@@ -105,11 +95,11 @@ class ComparisonRow(CaseRow):
 class MaximumRow(CaseRow):
     """The largest rotation of one case by one method."""
 
-    method: Method = column(METHOD)
-    rotation_ratio: float = column(ROTATION_RATIO)
-    rotation_rad: float = column(ROTATION)
-    outcome: Outcome | None = column(OUTCOME)
-    regime: Regime | None = column(REGIME)
+    method: Method = column(meanings.METHOD)
+    rotation_ratio: float = column(meanings.ROTATION_RATIO)
+    rotation_rad: float = column(meanings.ROTATION)
+    outcome: Outcome | None = column(meanings.OUTCOME)
+    regime: Regime | None = column(meanings.REGIME)
     error: float = column("Rotation ratio over that of the mechanism on the record, minus 1, where both rock")
 
 
@@ -171,17 +161,8 @@ def comparison_row(identity: Identity, case: Case) -> ComparisonRow:
 def maximum_row(method: PredictionRow | ResponseRow, comparison: ComparisonRow) -> MaximumRow:
     """Return what one method says of the case of `comparison`."""
     error = ratio(method.rotation_ratio, comparison.integrated_rotation_ratio) - 1
+    same = {name: getattr(method, name) for name in MaximumRow.table.column_names if hasattr(method, name)}
     return MaximumRow(
-        record=method.record,
-        component=method.component,
-        structure=method.structure,
-        method=method.method,
-        rotation_ratio=method.rotation_ratio,
-        rotation_rad=method.rotation_rad,
-        outcome=method.outcome,
-        regime=method.regime if isinstance(method, PredictionRow) else None,
+        **{"regime": None} | same,
         error=math.nan if method.method is Method.MECHANISM_ON_RECORD else error,
-        scale_factor=method.scale_factor,
-        record_sha256=method.record_sha256,
-        settings_sha256=method.settings_sha256,
     )

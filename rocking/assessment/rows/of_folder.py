@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import get_args, get_type_hints
 
 from rocking.assessment.assess import Assessment, Failure
 from rocking.assessment.horizontal_motion import HorizontalMotion
@@ -35,21 +36,7 @@ from rocking.assessment.rows.of_variation import (
 from rocking.assessment.rows.shared import Identity
 from rocking.assessment.settings import AssessmentSettings
 from rocking.records import Accelerogram
-from rocking.tables import Row, read_rows, write_rows, written_together
-
-RECORD_TABLES: tuple[type[Row], ...] = (
-    RecordRow,
-    PulseRow,
-    PredictionRow,
-    ResponseRow,
-    ComparisonRow,
-    EnsembleRow,
-    CandidateRow,
-    ProcessingRow,
-)
-"""The rows of the tables of one record that hold results."""
-PER_RECORD: tuple[type[Row], ...] = (*RECORD_TABLES, FailureRow, TimingRow)
-"""The rows of every table of one record."""
+from rocking.tables import Row, read_table, write_tables, written_together
 
 
 @dataclass(frozen=True)
@@ -70,14 +57,12 @@ class RecordTables:
     @classmethod
     def read(cls, folder: Path) -> "RecordTables":
         """Return the rows of a record's folder. Raises RockingError for a table that cannot be read."""
-        files = {each.table.name: (each, folder / each.table.file_name) for each in PER_RECORD}
-        return cls(**{name: list(read_rows(*file)) for name, file in files.items()})  # type: ignore[arg-type]
+        return cls(*(read_table(each, folder) for each in PER_RECORD))  # type: ignore[arg-type]
 
     def write(self, folder: Path) -> None:
         """Write every table into `folder`."""
         with written_together():
-            for each in PER_RECORD:
-                write_rows(each, getattr(self, each.table.name), folder / each.table.file_name)
+            write_tables({each: getattr(self, each.table.name) for each in PER_RECORD}, folder)
 
     @property
     def maxima(self) -> Iterator[MaximumRow]:
@@ -121,3 +106,9 @@ class RecordTables:
     def fail(self, record: str, component: str, failure: Failure) -> None:
         """Append a row of the failures."""
         self.failures.append(failure_row(record, component, failure))
+
+
+PER_RECORD: tuple[type[Row], ...] = tuple(get_args(each)[0] for each in get_type_hints(RecordTables).values())
+"""The rows of every table of one record."""
+RECORD_TABLES = PER_RECORD[:-2]
+"""Those that hold results."""

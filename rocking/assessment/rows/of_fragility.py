@@ -15,7 +15,7 @@ from rocking.assessment.fragility import (
 from rocking.assessment.fragility.curve import CURVES
 from rocking.assessment.fragility.hazard import HazardRow, annual_rate
 from rocking.assessment.fragility.sufficiency import sufficiency
-from rocking.assessment.rows.shared import RECORD, STRUCTURE
+from rocking.assessment.rows import meanings
 from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
@@ -32,8 +32,8 @@ _MEASURE = "Intensity measure: pga [g], pgv [m/s], p_pgv [-], pulse [-] or sa1 [
 class IdaRow(Row):
     """One record at one level."""
 
-    structure: str = column(STRUCTURE)
-    record: str = column(RECORD)
+    structure: str = column(meanings.STRUCTURE)
+    record: str = column(meanings.RECORD)
     station: str = column("Event and station; what counts as one independent record")
     intensity_measure: str = column(_MEASURE)
     level: float = column("Level to which the record is scaled")
@@ -49,7 +49,7 @@ class IdaRow(Row):
 class FragilityRow(Row):
     """One point of one curve."""
 
-    structure: str = column(STRUCTURE)
+    structure: str = column(meanings.STRUCTURE)
     intensity_measure: str = column(_MEASURE)
     rotation_ratio: float = column(_THRESHOLD)
     level: float = column("Level of the intensity measure")
@@ -65,7 +65,7 @@ class FragilityRow(Row):
 class FragilitySummaryRow(Row):
     """One curve."""
 
-    structure: str = column(STRUCTURE)
+    structure: str = column(meanings.STRUCTURE)
     intensity_measure: str = column(_MEASURE)
     rotation_ratio: float = column(_THRESHOLD)
     records: int = column("Records behind it")
@@ -94,7 +94,7 @@ class FragilitySummaryRow(Row):
 class IntensityMeasureRow(Row):
     """One measure."""
 
-    structure: str = column(STRUCTURE)
+    structure: str = column(meanings.STRUCTURE)
     intensity_measure: str = column(_MEASURE)
     records: int = column("Records that have the measure and overturn it at some level")
     efficiency: float = column(

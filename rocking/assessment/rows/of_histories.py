@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from rocking.assessment.rows.shared import COMPONENT, RECORD, STRUCTURE
+from rocking.assessment.rows import meanings
 from rocking.errors import RockingError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
@@ -18,9 +18,9 @@ from rocking.tables import Row, column, row
 class HistoryRow(Row):
     """One step of one response."""
 
-    record: str = column(RECORD)
-    component: str = column(COMPONENT)
-    structure: str = column(STRUCTURE)
+    record: str = column(meanings.RECORD)
+    component: str = column(meanings.COMPONENT)
+    structure: str = column(meanings.STRUCTURE)
     time_s: float = column("Time after the first sample")
     rotation_rad: float = column("Rotation, signed by the side; zero before uplift")
     angular_velocity_rad_s: float = column("Its derivative, after the impact where there is one")

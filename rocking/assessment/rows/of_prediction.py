@@ -6,20 +6,8 @@ from typing import Any, final
 
 from rocking.assessment.assess import Case
 from rocking.assessment.method import Method
-from rocking.assessment.rows.shared import (
-    FREQUENCY_PARAMETER,
-    IMPACTS,
-    METHOD,
-    OUTCOME,
-    PROBABILITY,
-    REGIME,
-    RESTITUTION,
-    ROTATION,
-    ROTATION_RATIO,
-    CaseRow,
-    Identity,
-    rotation,
-)
+from rocking.assessment.rows import meanings
+from rocking.assessment.rows.shared import CaseRow, Identity, rotation
 from rocking.assessment.tiers import Expectation
 from rocking.sine_pulse import Regime
 from rocking.structures.outcome import Outcome
@@ -34,23 +22,23 @@ from rocking.tables import column, row
 class PredictionRow(CaseRow):
     """One closed form of one case."""
 
-    method: Method = column(METHOD)
+    method: Method = column(meanings.METHOD)
     pulse_rank: int = column("Rank of the pulse among those that its method offers")
     acceleration_scale_choice: str = column(
         "rest (exact at rest), linearised (a_sc), uplift (a_sc,alt) or mean"
     )
-    frequency_parameter_rad_s: float = column(FREQUENCY_PARAMETER, equation="Eq. 11")
+    frequency_parameter_rad_s: float = column(meanings.FREQUENCY_PARAMETER, equation="Eq. 11")
     critical_rotation_rad: float = column("Critical rotation")
     acceleration_scale: float = column("Acceleration scale of the equivalent block", equation="Eqs. 11, 13")
     uplift_multiplier: float = column("Uplift acceleration of the equivalent block in g", equation="Eq. 12")
-    restitution: float = column(RESTITUTION, equation="Eq. 2")
+    restitution: float = column(meanings.RESTITUTION, equation="Eq. 2")
     amplitude_ratio: float = column("a = a_g / (g times uplift multiplier)", equation="Eq. 16")
     frequency_ratio: float = column(
         "Circular frequency of the pulse over frequency parameter", equation="Eq. 16"
     )
-    rotation_ratio: float = column(ROTATION_RATIO)
-    rotation_rad: float = column(ROTATION)
-    overturning_probability: float = column(PROBABILITY)
+    rotation_ratio: float = column(meanings.ROTATION_RATIO)
+    rotation_rad: float = column(meanings.ROTATION)
+    overturning_probability: float = column(meanings.PROBABILITY)
     overturning_probability_low: float = column("Lower end of its 90 % interval")
     overturning_probability_high: float = column("Upper end of its 90 % interval")
     expected_rotation_ratio_low: float = column(
@@ -58,9 +46,9 @@ class PredictionRow(CaseRow):
     )
     expected_rotation_ratio_high: float = column("95 % quantile of it; INF if it overturns")
     in_words: str = column("Both, in words, or why neither is given")
-    outcome: Outcome | None = column(OUTCOME)
-    regime: Regime | None = column(REGIME)
-    impacts: int | None = column(IMPACTS)
+    outcome: Outcome | None = column(meanings.OUTCOME)
+    regime: Regime | None = column(meanings.REGIME)
+    impacts: int | None = column(meanings.IMPACTS)
 
 
 def prediction_rows(identity: Identity, case: Case, acceleration_scale: str) -> Iterator[PredictionRow]:

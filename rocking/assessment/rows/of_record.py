@@ -6,7 +6,8 @@ from typing import Any, final
 
 from rocking.assessment.assess import Failure
 from rocking.assessment.horizontal_motion import HorizontalMotion, horizontal_motions
-from rocking.assessment.rows.shared import COMPONENT, RECORD, STRUCTURE, ComponentRow, Identity
+from rocking.assessment.rows import meanings
+from rocking.assessment.rows.shared import ComponentRow, Identity
 from rocking.pulses import Pulse, PulseAnalysis, PulseEvidence
 from rocking.pulses.interval import PulseInterval
 from rocking.records import Accelerogram
@@ -113,9 +114,9 @@ class PulseRow(ComponentRow):
 class FailureRow(Row):
     """Something that gave no result."""
 
-    record: str = column(RECORD)
-    component: str = column(COMPONENT)
-    structure: str = column(STRUCTURE)
+    record: str = column(meanings.RECORD)
+    component: str = column(meanings.COMPONENT)
+    structure: str = column(meanings.STRUCTURE)
     stage: str = column("Stage that failed")
     message: str = column("What is wrong, what is allowed and what to do")
 
@@ -124,7 +125,7 @@ class FailureRow(Row):
 class TimingRow(Row):
     """CPU time of one stage."""
 
-    record: str = column(RECORD)
+    record: str = column(meanings.RECORD)
     stage: str = column("Stage")
     duration_s: float = column("CPU time")
 

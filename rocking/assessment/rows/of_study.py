@@ -7,18 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rocking.assessment.rows import meanings
 from rocking.assessment.rows.of_case import ComparisonRow, MaximumRow
 from rocking.assessment.rows.of_ensemble import EnsembleRow
 from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow, TimingRow
-from rocking.assessment.rows.shared import (
-    COMPONENT,
-    FREQUENCY_PARAMETER,
-    RECORD_SHA256,
-    RESTITUTION,
-    ROTATION_RATIO,
-    SCALE_FACTOR,
-    STRUCTURE,
-)
 from rocking.motion.spectrum import rocking_spectrum
 from rocking.records import Accelerogram
 from rocking.structures import Structure
@@ -40,10 +32,10 @@ ACCELERATIONS = (1.1, 1.5, 2.0, 5.0)
 class StructureRow(Row):
     """One structure of the structure list."""
 
-    structure: str = column(STRUCTURE)
+    structure: str = column(meanings.STRUCTURE)
     type: str = column("Type of the structure, as in the structure list")
     geometry: str = column("Its sizes with units, as they were given")
-    frequency_parameter_rad_s: float = column(FREQUENCY_PARAMETER, equation="Eq. 11")
+    frequency_parameter_rad_s: float = column(meanings.FREQUENCY_PARAMETER, equation="Eq. 11")
     critical_rotation_rad: float = column("Critical rotation")
     uplift_multiplier: float = column("Uplift acceleration in g", equation="Eq. 7")
     acceleration_scale_linearised: float = column("a_sc", equation="Eq. 11")
@@ -51,7 +43,7 @@ class StructureRow(Row):
     linearised_over_true_uplift: float = column(
         "Uplift acceleration of the linearised block over the true one", equation="Eq. 12"
     )
-    restitution: float = column(RESTITUTION, equation="Eq. 2")
+    restitution: float = column(meanings.RESTITUTION, equation="Eq. 2")
     restoring_defect: float = column(
         "Largest error of the restoring acceleration of the block exact at rest up to φ_cr, over that at rest"
     )
@@ -67,7 +59,7 @@ class StructureRow(Row):
 class EquivalenceRow(Row):
     """The equivalent block of one side of one structure by one measure."""
 
-    structure: str = column(STRUCTURE)
+    structure: str = column(meanings.STRUCTURE)
     side: str = column("positive or negative: the side to which it rocks")
     measure: str = column("natural period, uplift acceleration or time to overturn")
     acceleration_scale_choice: str = column("linearised, uplift or mean, where the measure depends on it")
@@ -81,7 +73,7 @@ class EquivalenceRow(Row):
 class CapacityRow(Row):
     """One point of the capacity curve of one side of one structure."""
 
-    structure: str = column(STRUCTURE)
+    structure: str = column(meanings.STRUCTURE)
     side: str = column("positive or negative: the side to which it rocks")
     rotation_rad: float = column("Rotation")
     multiplier: float = column(
@@ -124,13 +116,13 @@ class AgreementRow(Row):
 class SpectrumRow(Row):
     """One block under one component."""
 
-    component: str = column(COMPONENT)
-    frequency_parameter_rad_s: float = column(FREQUENCY_PARAMETER, equation="Eq. 11")
+    component: str = column(meanings.COMPONENT)
+    frequency_parameter_rad_s: float = column(meanings.FREQUENCY_PARAMETER, equation="Eq. 11")
     uplift_multiplier: float = column("Uplift acceleration of the equivalent block in g", equation="Eq. 12")
-    restitution: float = column(RESTITUTION, equation="Eq. 2")
-    rotation_ratio: float = column(ROTATION_RATIO)
-    scale_factor: float = column(SCALE_FACTOR)
-    record_sha256: str = column(RECORD_SHA256)
+    restitution: float = column(meanings.RESTITUTION, equation="Eq. 2")
+    rotation_ratio: float = column(meanings.ROTATION_RATIO)
+    scale_factor: float = column(meanings.SCALE_FACTOR)
+    record_sha256: str = column(meanings.RECORD_SHA256)
 
 
 def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow]:

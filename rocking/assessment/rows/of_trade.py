@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from enum import StrEnum
 
-from rocking.assessment.rows.shared import COMPONENT, RECORD, STRUCTURE
+from rocking.assessment.rows import meanings
 from rocking.tables import Row, column, row
 
 
@@ -32,9 +32,9 @@ _CPU = "Processor time"
 class TradeRow(Row):
     """One method at one tolerance on one case."""
 
-    record: str = column(RECORD)
-    component: str = column(COMPONENT)
-    structure: str = column(STRUCTURE)
+    record: str = column(meanings.RECORD)
+    component: str = column(meanings.COMPONENT)
+    structure: str = column(meanings.STRUCTURE)
     samples: int = column("Samples that the method was given: all, or the strongest stretch beside scipy")
     method: str = column(METHOD)
     tolerance: float = column("Relative tolerance of the method; empty where it has none")
@@ -60,7 +60,7 @@ class TradeRow(Row):
 class TradeFragilityRow(Row):
     """One method for one structure."""
 
-    structure: str = column(STRUCTURE)
+    structure: str = column(meanings.STRUCTURE)
     method: str = column(METHOD)
     intensity_measure: str = column("Of the levels")
     records: int = column("Components that were scaled")
@@ -82,7 +82,7 @@ class TradeFragilityRow(Row):
 class MultiFidelityRow(Row):
     """What few runs of the mechanism buy with its block at hand, and without."""
 
-    structure: str = column(STRUCTURE)
+    structure: str = column(meanings.STRUCTURE)
     cases: int = column("Records times levels: runs of the mechanism for the answer of all")
     runs: int = column("Runs of the mechanism in each sample")
     repeats: int = column("Samples")

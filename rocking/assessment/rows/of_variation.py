@@ -3,7 +3,8 @@
 from collections.abc import Iterable, Iterator, Sequence
 from typing import final
 
-from rocking.assessment.rows.shared import OUTCOME, ROTATION_RATIO, CaseRow, Identity
+from rocking.assessment.rows import meanings
+from rocking.assessment.rows.shared import CaseRow, Identity
 from rocking.assessment.variations import Candidate, Variant, governing
 from rocking.structures.outcome import Outcome
 from rocking.tables import column, row
@@ -35,8 +36,8 @@ class ProcessingRow(CaseRow):
 
     processing: str = column("What was done to the record besides what the record table says")
     peak_acceleration_m_s2: float = column("Largest magnitude of the acceleration then")
-    rotation_ratio: float = column(ROTATION_RATIO)
-    outcome: Outcome = column(OUTCOME)
+    rotation_ratio: float = column(meanings.ROTATION_RATIO)
+    outcome: Outcome = column(meanings.OUTCOME)
 
 
 def candidate_rows(identity: Identity, structure: str, found: Sequence[Candidate]) -> Iterator[CandidateRow]:
