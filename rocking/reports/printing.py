@@ -126,9 +126,9 @@ def table_of(rows: Iterable[T], *columns: tuple[str, str, str, Callable[[T], Cel
     return table([column[:3] for column in columns], [[show(row) for *_, show in columns] for row in rows])
 
 
-def strong(text: str, really: bool = True) -> Cell:
+def strong(text: str, really: bool = True, **more: object) -> Cell:
     """Return a table cell whose text is set in bold, or plain where it is not `really` meant to be."""
-    return {"text": text, "strong": True} if really else text
+    return {"text": text, "strong": True, **more} if really else text
 
 
 def _typeset(text: str) -> str:

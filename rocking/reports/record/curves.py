@@ -16,7 +16,7 @@ from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
-from rocking.reports.paper.canvas import TEXT_WIDTH
+from rocking.reports.paper.canvas import TEXT_WIDTH, Canvas
 from rocking.reports.record.ground_figure import ground_motion
 from rocking.reports.record.history_figure import History, response_histories
 from rocking.reports.record.pulse_figures import energy_map, orientation
@@ -48,9 +48,15 @@ def motion_picture(
     pulses = ranked_pulses(rows)
     uplift = [GRAVITY * structure.mechanism().uplift_multiplier for structure in structures.values()]
     figure = ground_motion(accelerogram, pulses[0] if pulses else None, uplift, height)
+    return component_picture(
+        accelerogram, figure, "Time histories of component {}: acceleration, pulse and residual."
+    )
+
+
+def component_picture(accelerogram: Accelerogram, figure: Canvas, alt: str, **more: str) -> Picture:
+    """Return a figure of one component. alt: the alternative text, with {} for its name. more: for the caption."""
     component = printing.words(accelerogram.component)
-    alt = f"Time histories of component {component}: acceleration, pulse and residual."
-    return {"component": component, "svg": figure.svg(), "alt": alt}
+    return {"component": component, "svg": figure.svg(), "alt": alt.replace("{}", component), **more}
 
 
 def ranked_pulses(rows: Sequence[PulseRow]) -> list[Pulse]:
@@ -67,25 +73,23 @@ def map_picture(accelerogram: Accelerogram, rows: Sequence[PulseRow], width: flo
     starts = np.arange(0, gains.shape[0], stretch)
     pooled = np.maximum.reduceat(gains, starts, axis=0)
     figure = energy_map(starts * accelerogram.time_step, 1 / frequencies, pooled, ranked_pulses(rows), width)
-    component = printing.words(accelerogram.component)
-    alt = f"Map of the energy that one sine pulse explains in component {component}, over onset and period."
-    return {"component": component, "svg": figure.svg(), "alt": alt}
+    alt = "Map of the energy that one sine pulse explains in component {}, over onset and period."
+    return component_picture(accelerogram, figure, alt)
 
 
 def orientation_picture(accelerograms: Sequence[Accelerogram]) -> Picture | None:
     """Return the direction in which the dominant pulse of two horizontal components points; None without two."""
     from rocking.pulses.orientation import extract_pulses_oriented
 
-    horizontal = [accelerogram for accelerogram in accelerograms if not accelerogram.vertical]
-    if len(horizontal) != 2 or not math.isclose(
-        horizontal[0].time_step, horizontal[1].time_step, rel_tol=1e-9
-    ):
+    horizontal = [each for each in accelerograms if not each.vertical and np.ptp(each.acceleration)]
+    if len(horizontal) != 2:
         return None
-    if not all(np.ptp(accelerogram.acceleration) for accelerogram in horizontal):
+    first, second = horizontal
+    if not math.isclose(first.time_step, second.time_step, rel_tol=1e-9):
         return None
-    oriented = extract_pulses_oriented(*horizontal)
+    oriented = extract_pulses_oriented(first, second)
     angles = np.linspace(0, 2 * np.pi, 361)
-    names = printing.words(horizontal[0].component), printing.words(horizontal[1].component)
+    names = printing.words(first.component), printing.words(second.component)
     figure = orientation(angles, oriented.gain(angles), oriented.angle, names)
     alt = f"Polar plot of the energy of the dominant pulse along every axis of components {names[0]}, {names[1]}."
     return {"svg": figure.svg(), "alt": alt}
@@ -143,9 +147,8 @@ def history_picture(
         if left_out
         else ""
     )
-    component = printing.words(accelerogram.component)
-    alt = f"Rotation histories of {printing.counted(len(chosen), 'structure')} under component {component}."
-    return {"component": component, "svg": figure.svg(), "alt": alt, "note": note}
+    alt = f"Rotation histories of {printing.counted(len(chosen), 'structure')} under component {{}}."
+    return component_picture(accelerogram, figure, alt, note=note)
 
 
 def _demand(row: ComparisonRow) -> tuple[bool, float]:
@@ -188,14 +191,8 @@ def spectrum_picture(
     if not ratios.any():
         return None
     figure = rocking_spectrum_figure(frequency_parameters, uplift_multipliers, ratios, placed, width)
-    component = printing.words(accelerogram.component)
-    alt = f"Rocking spectrum of component {component} over p and uplift acceleration, with the structures."
-    return {
-        "component": component,
-        "svg": figure.svg(),
-        "alt": alt,
-        "restitution": printing.number(restitution),
-    }
+    alt = "Rocking spectrum of component {} over p and uplift acceleration, with the structures."
+    return component_picture(accelerogram, figure, alt, restitution=printing.number(restitution))
 
 
 def placed_structures(

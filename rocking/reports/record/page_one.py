@@ -51,6 +51,11 @@ class Fate:
         return word or Verdict.OVERTURNS
 
     @property
+    def followed(self) -> EnsembleRow | None:
+        """The ensemble, if any of its members could be followed."""
+        return self.ensemble if self.ensemble and self.ensemble.members else None
+
+    @property
     def overturns_elsewhere(self) -> bool:
         """Whether it stays up as given and overturns when hinged or cracked at another height."""
         stays = self.rotation_ratio < math.inf
@@ -85,6 +90,19 @@ def fates(tables: RecordTables, structures: Sequence[StructureRow]) -> list[Fate
             )
         )
     return found
+
+
+def page_one_data(
+    tables: RecordTables, structures: Sequence[StructureRow], numbers: Mapping[str, str]
+) -> dict[str, object]:
+    """Return what the template of the first page is given."""
+    found = fates(tables, structures)
+    return {
+        "origin": origin(tables.record),
+        "headlines": headlines(found),
+        "remarks": remarks(found),
+        "fates": fate_table(found, numbers),
+    }
 
 
 def headlines(found: Sequence[Fate]) -> list[dict[str, str]]:
@@ -125,14 +143,14 @@ def fate_table(found: Sequence[Fate], numbers: Mapping[str, str]) -> dict[str, o
     """Return the table of page one: one row per structure, without the columns that are empty for all."""
     columns: list[tuple[str, str, str, Callable[[Fate], Cell]]] = [
         ("No.", "auto", "r", lambda fate: numbers[fate.structure]),
-        ("Structure", "2.1", "l", _described),
+        ("Structure", "2.1", "l", lambda fate: strong(fate.structure, below=fate.geometry)),
         ("Verdict", "auto", "l", lambda fate: strong(fate.verdict, fate.verdict != Verdict.STANDS)),
         ("Over\u00adturns in", "auto", "l", _members),
         ("5–95 %, of the critical rotation", "1.5", "c", _strip),
         ("from – to", "0.95", "l", _range),
         ("As given", "0.75", "l", lambda fate: _printed(fate.rotation_ratio, fate.ensemble)),
         ("Worst hinge or crack", "0.9", "l", _height),
-        ("Processing of the record", "1", "l", _processed),
+        ("Processing of the record", "1", "l", lambda fate: _from_to(fate, fate.processed)),
         ("Worst direction, sign", "0.75", "l", lambda fate: words(fate.direction)),
     ]
     kept = [
@@ -184,42 +202,33 @@ def _named(fate: Fate) -> str:
     return fate.structure + (f" ({', '.join(notes)})" if notes else "")
 
 
-def _described(fate: Fate) -> Cell:
-    return {"text": fate.structure, "strong": True, "below": fate.geometry}
-
-
 def _members(fate: Fate) -> str:
-    known = fate.ensemble is not None and fate.ensemble.members
-    return (
-        f"{fate.ensemble.overturning_members}\u00a0of\u00a0{fate.ensemble.members}"
-        if known and fate.ensemble
-        else NOTHING
-    )
+    found = fate.followed
+    return f"{found.overturning_members}\u00a0of\u00a0{found.members}" if found else NOTHING
 
 
 def _strip(fate: Fate) -> Cell:
     """Ends and middle of the band on a line from rest to the critical rotation; beyond it, it overturns."""
-    found = fate.ensemble
-    if found is None or not found.members:
+    found = fate.followed
+    if found is None:
         return NOTHING
-    low, median, high = (
-        min(_known(value), 1.0)
-        for value in (found.rotation_ratio_low, found.rotation_ratio_median, found.rotation_ratio_high)
-    )
-    return {"strip": [low, median, high], "overturns": found.overturning_probability}
+    places = found.rotation_ratio_low, found.rotation_ratio_median, found.rotation_ratio_high
+    return {
+        "strip": [min(_known(value), 1.0) for value in places],
+        "overturns": found.overturning_probability,
+    }
 
 
 def _range(fate: Fate) -> str:
-    found = fate.ensemble
-    if found is None or not found.members:
+    found = fate.followed
+    return _from_to(fate, (found.rotation_ratio_low, found.rotation_ratio_high) if found else None)
+
+
+def _from_to(fate: Fate, ends: tuple[float, float] | None) -> str:
+    """A range of rotation ratios, closed up between numbers."""
+    if ends is None:
         return NOTHING
-    return _from_to(
-        *(_printed(value, found) for value in (found.rotation_ratio_low, found.rotation_ratio_high))
-    )
-
-
-def _from_to(low: str, high: str) -> str:
-    """A range, closed up between numbers."""
+    low, high = (_printed(value, fate.ensemble) for value in ends)
     if low == high:
         return low
     return f"{low}–{high}" if high[0].isdigit() and low[0].isdigit() else f"{low} – {high}"
@@ -244,9 +253,3 @@ def _height(fate: Fate) -> Cell:
     return strong(
         f"{fate.crack} {printing.number(fate.candidate.position_m)}\u00a0m: {said}", fate.overturns_elsewhere
     )
-
-
-def _processed(fate: Fate) -> str:
-    if fate.processed is None:
-        return NOTHING
-    return _from_to(*(_printed(value, fate.ensemble) for value in fate.processed))

@@ -5,7 +5,7 @@ from typing import Any
 
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_record import RecordRow
-from rocking.assessment.rows.of_study import structure_rows
+from rocking.assessment.rows.of_study import StructureRow, structure_rows
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
 from rocking.reports.document import compile_document
@@ -57,42 +57,46 @@ def record_data(
     scale_note = record_verdict.scale_note(tables.record)
     by_component = {row.component: tables.of_component(row.component) for row in tables.record}
     rows = list(structure_rows(structures))
-    found = page_one.fates(tables, rows)
     return {
         "title": f"Rocking assessment: {record}",
         "subtitle": _subtitle(tables.record),
         "running": f"{record}.{scale_note}" if scale_note else record,
         "scale-note": scale_note,
-        "origin": page_one.origin(tables.record),
+        **page_one.page_one_data(tables, rows, numbers),
         "notices": record_verdict.notices(tables),
-        "headlines": page_one.headlines(found),
-        "remarks": page_one.remarks(found),
-        "fates": page_one.fate_table(found, numbers),
         "verdicts": [
             _verdicts(component, of_it, numbers, scale_note)
             for component, of_it in by_component.items()
             if of_it.comparison
         ],
+        "pulses": [_pulses(component, of_it) for component, of_it in by_component.items() if of_it.pulses],
+        **_tables(tables, rows, numbers),
+        **_pictures(accelerograms, structures, by_component, numbers, float(settings["tolerance"]), vertical),
+        **_assumptions(tables, settings),
+        "arch": any("arch" in row.type for row in rows),
+    }
+
+
+def _pulses(component: str, tables: RecordTables) -> dict[str, object]:
+    return {
+        "component": printing.words(component),
+        "table": record_tables.pulse_table(tables.pulses),
+        "sentences": record_tables.pulse_sentences(tables.pulses),
+    }
+
+
+def _tables(
+    tables: RecordTables, rows: Sequence[StructureRow], numbers: Mapping[str, str]
+) -> dict[str, object]:
+    return {
         "identity": record_tables.identity_table(tables.record),
         "sheet": record_sheet.sheet_table(tables.record),
         "sheet-sentences": record_sheet.sheet_sentences(tables.record),
-        "pulses": [
-            {
-                "component": printing.words(component),
-                "table": record_tables.pulse_table(of_it.pulses),
-                "sentences": record_tables.pulse_sentences(of_it.pulses),
-            }
-            for component, of_it in by_component.items()
-            if of_it.pulses
-        ],
         "structures": record_tables.structure_table(rows, numbers),
         "methods": record_tables.method_table(tables, numbers),
         "trust": record_tables.trust_table(tables, numbers),
         "candidates": record_variations.candidate_table(tables.candidates, numbers),
         "processing": record_variations.processing_table(tables.processing, numbers),
-        **_pictures(accelerograms, structures, by_component, numbers, float(settings["tolerance"]), vertical),
-        **_assumptions(tables, settings),
-        "arch": any("arch" in row.type for row in rows),
     }
 
 

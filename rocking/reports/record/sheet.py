@@ -8,7 +8,7 @@ from rocking.assessment.rows.of_record import PulseRow, RecordRow
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
 from rocking.reports.printing import number, with_unit, words
-from rocking.reports.record.curves import Picture, placed_structures, ranked_pulses
+from rocking.reports.record.curves import Picture, component_picture, placed_structures, ranked_pulses
 from rocking.reports.record.sheet_figures import RecordSheet, record_sheet
 from rocking.reports.record.tables import facts_table
 
@@ -37,9 +37,8 @@ def sheet_picture(
         ),
         height,
     )
-    component = words(accelerogram.component)
-    alt = f"Response spectrum, pulse, Husid plot, velocity and displacement of component {component}."
-    return {"component": component, "svg": figure.svg(), "alt": alt}
+    alt = "Response spectrum, pulse, Husid plot, velocity and displacement of component {}."
+    return component_picture(accelerogram, figure, alt)
 
 
 def sheet_table(rows: Sequence[RecordRow]) -> dict[str, object]:

@@ -52,8 +52,8 @@ def doubts(rows: Sequence[ComparisonRow]) -> list[str]:
 
 def notices(tables: RecordTables) -> list[dict[str, object]]:
     """Return the warnings that stand above everything: scale factor, nothing moves, what failed."""
-    rows = tables.comparison
-    found = [(True, scale) for scale in [scale_sentence(tables.record)] if scale]
+    rows, scale = tables.comparison, scale_sentence(tables.record)
+    found = [(True, scale)] if scale else []
     if not rows:
         found.append((True, "No structure could be assessed under this record."))
     elif all(row.found_rotation_ratio == 0 for row in rows):
