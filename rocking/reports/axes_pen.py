@@ -9,22 +9,9 @@ from rocking.reports.dimension_lines import Across, Along
 
 _THIN = {"color": "0.35", "linewidth": 0.4}
 _PAPER = {"facecolor": "white", "edgecolor": "none", "pad": 0.4}
-_HEAD = {
-    "arrowstyle": "-|>",
-    "color": "0.35",
-    "linewidth": 0.4,
-    "mutation_scale": 4,
-    "shrinkA": 0,
-    "shrinkB": 0,
-}
-_LOAD = {
-    "arrowstyle": "-|>",
-    "color": "C3",
-    "linewidth": 1.0,
-    "mutation_scale": 7,
-    "shrinkA": 0,
-    "shrinkB": 0,
-}
+_ARROW = {"arrowstyle": "-|>", "shrinkA": 0, "shrinkB": 0}
+_HEAD = _ARROW | _THIN | {"mutation_scale": 4}
+_LOAD = _ARROW | {"color": "C3", "linewidth": 1.0, "mutation_scale": 7}
 
 
 @dataclass(frozen=True)

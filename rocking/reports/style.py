@@ -1,12 +1,13 @@
 """The one style of the figures that matplotlib draws, and how such a figure becomes bytes."""
 
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache, wraps
 from pathlib import Path
 from typing import ParamSpec, TypeVar
 
 import matplotlib
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
@@ -56,6 +57,15 @@ def svg(figure: Figure) -> str:
     stream = io.StringIO()
     figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     return stream.getvalue()
+
+
+def shared_legend(figure: Figure, names: Sequence[str], ncols: int) -> None:
+    """Name the lines of all panels once, below them, in the order of `names`."""
+    handles: dict[str, Artist] = {}
+    for panel in figure.axes:
+        handles |= dict(zip(*panel.get_legend_handles_labels()[::-1], strict=True))
+    shown = [name for name in names if name in handles]
+    figure.legend([handles[name] for name in shown], shown, loc="lower center", ncols=ncols)
 
 
 def plain_logarithmic(panel: Axes, which: str) -> None:

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from statistics import median
 
-from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
@@ -12,7 +11,7 @@ from rocking.assessment.rows.of_comparison import CodeRow
 from rocking.reports.comparison import tables
 from rocking.reports.comparison.tables import STRUCTURES, rocks
 from rocking.reports.document import compile_document
-from rocking.reports.style import new_figure, styled, svg
+from rocking.reports.style import new_figure, shared_legend, styled, svg
 from rocking.tables import read_table
 
 SMALLEST_ERROR = 1e-15
@@ -69,12 +68,9 @@ def work_figure(rows: Sequence[CodeRow]) -> Figure:
             axis.set_major_locator(LogLocator(numticks=9))
             axis.set_minor_locator(NullLocator())
         panel.tick_params(axis="x", rotation=30)
+        panel.margins(x=0.08)
         panel.grid(True)
         panel.set_axisbelow(True)
     panels[0].set_ylabel("error of the largest rotation, relative")
-    handles: dict[str, Artist] = {}
-    for panel in panels:
-        panel.margins(x=0.08)
-        handles |= dict(zip(*panel.get_legend_handles_labels()[::-1], strict=True))
-    figure.legend(list(handles.values()), list(handles), loc="lower center", ncols=3)
+    shared_legend(figure, names, ncols=3)
     return figure

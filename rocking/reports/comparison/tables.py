@@ -1,7 +1,7 @@
 """The tables of the comparison of codes."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from statistics import median
 
 from rocking.assessment.rows.of_comparison import CodeRow
@@ -9,6 +9,15 @@ from rocking.reports import printing
 from rocking.reports.printing import number
 
 STRUCTURES = ("block", "frame", "arch")
+_Columns = tuple[tuple[str, str, str, Callable[[CodeRow], str]], ...]
+_FOUND: _Columns = (
+    ("η found ± bar", "1.1", "r", lambda row: _with_bar(row.restitution, row.restitution_error)),
+    ("Ours, η found", "0.8", "r", lambda row: printing.ratio(row.same_restitution_rotation_ratio)),
+)
+_SPENT: _Columns = (
+    ("Time (s)", "0.6", "r", lambda row: number(row.duration_s, 2)),
+    ("Note", "1.4", "l", lambda row: printing.words(row.reason)),
+)
 
 
 def work(rows: Sequence[CodeRow]) -> dict[str, object]:
@@ -41,9 +50,9 @@ def losses(rows: Sequence[CodeRow]) -> dict[str, object]:
         ("Code", "1.4", "l", lambda own: _short(own[0])),
         ("Cases", "0.5", "r", lambda own: printing.whole(len(own))),
         ("η of reference", "0.8", "r", lambda own: number(own[0].reference_restitution)),
-        ("η found", "1.4", "r", lambda own: _range([row.restitution for row in own])),
-        ("φ over reference", "1.5", "r", lambda own: _range([_over_reference(row) for row in own])),
-        ("φ over ours, η found", "1.5", "r", lambda own: _range([_over_same(row) for row in own])),
+        ("η found", "1.4", "r", lambda own: _range(row.restitution for row in own)),
+        ("φ over reference", "1.5", "r", lambda own: _range(map(_over_reference, own))),
+        ("φ over ours, η found", "1.5", "r", lambda own: _range(map(_over_same, own))),
         ("Within bar", "0.7", "r", _within_bar),
     )
 
@@ -55,16 +64,9 @@ def case_by_case(rows: Sequence[CodeRow]) -> dict[str, object]:
         ("Case", "1.2", "l", lambda row: row.case),
         ("Code", "1.4", "l", _short),
         ("Reference", "0.8", "r", lambda row: printing.ratio(row.reference_rotation_ratio)),
-        (
-            "Extrapolated ± bar",
-            "1.1",
-            "r",
-            lambda row: _with_bar(row.rotation_ratio, row.rotation_ratio_error),
-        ),
-        ("η found ± bar", "1.1", "r", lambda row: _with_bar(row.restitution, row.restitution_error)),
-        ("Ours, η found", "0.8", "r", lambda row: printing.ratio(row.same_restitution_rotation_ratio)),
-        ("Time (s)", "0.6", "r", lambda row: number(row.duration_s, 2)),
-        ("Note", "1.4", "l", lambda row: printing.words(row.reason)),
+        ("Extrapolated ± bar", "1.1", "r", _rotation),
+        *_FOUND,
+        *_SPENT,
     )
 
 
@@ -74,19 +76,16 @@ def another_model(rows: Sequence[CodeRow]) -> dict[str, object]:
         rows,
         ("Case", "1.2", "l", lambda row: row.case),
         ("Reference", "0.8", "r", lambda row: printing.ratio(row.reference_rotation_ratio)),
-        (
-            "Another model ± bar",
-            "1.2",
-            "r",
-            lambda row: _with_bar(row.rotation_ratio, row.rotation_ratio_error),
-        ),
+        ("Another model ± bar", "1.2", "r", _rotation),
         ("Its φ over reference", "0.9", "r", lambda row: number(_over_reference(row))),
-        ("η found ± bar", "1.1", "r", lambda row: _with_bar(row.restitution, row.restitution_error)),
-        ("Ours, η found", "0.8", "r", lambda row: printing.ratio(row.same_restitution_rotation_ratio)),
+        *_FOUND,
         ("Outside hinges", "0.7", "r", lambda row: number(row.outside_hinges, 2)),
-        ("Time (s)", "0.6", "r", lambda row: number(row.duration_s, 2)),
-        ("Note", "1.4", "l", lambda row: printing.words(row.reason)),
+        *_SPENT,
     )
+
+
+def _rotation(row: CodeRow) -> str:
+    return _with_bar(row.rotation_ratio, row.rotation_ratio_error)
 
 
 def _short(row: CodeRow) -> str:
@@ -115,7 +114,7 @@ def _quotient(found: float, expected: float) -> float:
     return found / expected if math.isfinite(found) and 0 < expected < math.inf else math.nan
 
 
-def _range(values: Sequence[float]) -> str:
+def _range(values: Iterable[float]) -> str:
     """Return the median, and in brackets the least and the largest."""
     known = [value for value in values if not math.isnan(value)]
     if not known:

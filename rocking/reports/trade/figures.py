@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 
 from rocking.assessment.rows.of_trade import TradeFragilityRow, TradeMethod, TradeMethodRow
-from rocking.reports.style import new_figure, styled
+from rocking.reports.style import new_figure, shared_legend, styled
 
 SMALLEST_ERROR = 1e-8
 """Smaller errors, down to none at all, are drawn here."""
@@ -37,15 +37,12 @@ def trade_figure(methods: Sequence[TradeMethodRow], curves: Sequence[TradeFragil
     figure = new_figure(88, margins=(16, 4, 22, 6))
     response, fragility = figure.subplots(1, 2, gridspec_kw={"wspace": 0.36})
     for row in methods:
-        look: dict[str, Any] = {
-            "marker": _LOOKS[row.method][0],
-            "color": _LOOKS[row.method][1],
-            "linestyle": "none",
-        }
+        marker, colour = _LOOKS[row.method]
+        look: dict[str, Any] = {"marker": marker, "color": colour, "linestyle": "none"}
         if not math.isnan(row.error):
             error = max(row.error, SMALLEST_ERROR)
             whole = row.cpu_s + row.preparation_record_s + row.preparation_structure_s
-            response.plot([row.cpu_s, whole], [error, error], color=look["color"], linewidth=0.8)
+            response.plot([row.cpu_s, whole], [error, error], color=colour, linewidth=0.8)
             response.plot(row.cpu_s, error, markersize=6, label=row.method, **look)
         own = [each for each in curves if each.method == row.method]
         if own:
@@ -55,10 +52,7 @@ def trade_figure(methods: Sequence[TradeMethodRow], curves: Sequence[TradeFragil
             fragility.plot(row.fragility_cpu_s, median, markersize=6, label=row.method, **look)
     _frame(response, "one response", "error of the largest rotation")
     _frame(fragility, "fragility of one structure", "error of the fragility median")
-    handles = dict(zip(*reversed(response.get_legend_handles_labels()), strict=True))
-    handles |= dict(zip(*reversed(fragility.get_legend_handles_labels()), strict=True))
-    figure.legend([handles[name] for name in _LOOKS if name in handles], [n for n in _LOOKS if n in handles],
-                  loc="lower center", ncols=4)  # fmt: skip
+    shared_legend(figure, list(_LOOKS), ncols=4)
     return figure
 
 

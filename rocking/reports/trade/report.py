@@ -96,7 +96,7 @@ def _judged(name: str, row: TradeMethodRow, dear: TradeMethodRow) -> str:
 
 
 def _subtitle(methods: Sequence[TradeMethodRow], curves: Sequence[TradeFragilityRow]) -> str:
-    whole = next((row.cases for row in methods if row.method == TradeMethod.MECHANISM), 0)
+    whole = sum(row.cases for row in methods if row.method == TradeMethod.MECHANISM)
     said = f"{printing.counted(whole, 'case')} that lift, whole records as they are"
     if curves:
         structures = len({row.structure for row in curves})
@@ -151,12 +151,11 @@ def _fragility(rows: Sequence[TradeMethodRow]) -> list[str]:
         for row in known
     )
     times = {row.method: row.fragility_cpu_s for row in rows}
-    few, every, ensembles = (
-        times[name] for name in (TradeMethod.MULTI_FIDELITY, TradeMethod.MECHANISM, TradeMethod.ENSEMBLE)
-    )
+    taken = TradeMethod.BLOCK, TradeMethod.MULTI_FIDELITY, TradeMethod.MECHANISM, TradeMethod.ENSEMBLE
+    block, few, every, ensembles = (times[name] for name in taken)
     return [
         f"The median of the fragility is off {said}.",
-        f"A fragility takes {duration(times[TradeMethod.BLOCK])} with the block, {duration(few)} with the mechanism in "
+        f"A fragility takes {duration(block)} with the block, {duration(few)} with the mechanism in "
         f"a tenth of the cases, {duration(every)} with it in all and {duration(ensembles)} with an ensemble for each: "
         f"few runs save a factor of {every / few:.1f} where a case is one run, and of {ensembles / few:.0f} where it "
         "is one of an ensemble.",

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from rocking.assessment.rows.of_validation import ConfusionRow, IdentifiedRow, ReliabilityRow, ScoreRow
 from rocking.reports.style import new_figure, styled
+from rocking.tables import R
 
 _OURS, _OTHER, _WRONG = "#0072B2", "#000000", "#D55E00"
 PARAMETERS = {
@@ -21,12 +22,12 @@ PARAMETERS = {
 @styled
 def score_figure(rows: Sequence[ScoreRow]) -> Figure:
     """Draw accuracy and Brier score of every method with 95 % intervals, a row of panels for each specimen."""
-    specimens = sorted({row.specimen for row in rows})
-    most = max(sum(row.specimen == specimen for row in rows) for specimen in specimens)
-    figure = new_figure(5.2 * most * len(specimens) + 24, margins=(52, 4, 11, 6))
-    panels = figure.subplots(len(specimens), 2, squeeze=False, gridspec_kw={"hspace": 0.22, "wspace": 0.08})
-    for specimen, (left, right) in zip(specimens, panels, strict=True):
-        own = [row for row in rows if row.specimen == specimen][::-1]
+    found = by_specimen(rows)
+    most = max(map(len, found.values()))
+    figure = new_figure(5.2 * most * len(found) + 24, margins=(52, 4, 11, 6))
+    panels = figure.subplots(len(found), 2, squeeze=False, gridspec_kw={"hspace": 0.22, "wspace": 0.08})
+    for (specimen, listed), (left, right) in zip(found.items(), panels, strict=True):
+        own = listed[::-1]
         _intervals(left, own, [(row.accuracy_low, row.accuracy, row.accuracy_high) for row in own])
         _intervals(right, own, [(row.brier_low, row.brier, row.brier_high) for row in own])
         left.set_yticks(range(len(own)), [row.method for row in own])
@@ -41,10 +42,10 @@ def score_figure(rows: Sequence[ScoreRow]) -> Figure:
 @styled
 def reliability_figure(rows: Sequence[ReliabilityRow]) -> Figure:
     """Draw the share that overturned against the probability that was stated, with 90 % intervals and counts."""
-    specimens = sorted({row.specimen for row in rows})
     figure = new_figure(72, margins=(13, 3, 11, 6))
-    for specimen, panel in zip(specimens, figure.subplots(1, len(specimens), squeeze=False)[0], strict=True):
-        own = [row for row in rows if row.specimen == specimen]
+    found = by_specimen(rows)
+    panels = figure.subplots(1, len(found), squeeze=False)[0]
+    for panel, (specimen, own) in zip(panels, found.items(), strict=True):
         panel.plot([0, 1], [0, 1], color="0.6", linewidth=0.7)
         stated, observed = np.array([[row.stated, row.observed] for row in own]).T
         reach = np.array([[row.observed - row.observed_low, row.observed_high - row.observed] for row in own])
@@ -61,10 +62,8 @@ def reliability_figure(rows: Sequence[ReliabilityRow]) -> Figure:
                 ha="center",
                 va="top" if below else "bottom",
             )
-        panel.set(
-            title=f"Specimen {specimen}", xlim=(-0.04, 1.04), ylim=(-0.09, 1.09), aspect="equal",
-            xlabel="predicted probability of overturning",
-        )  # fmt: skip
+        panel.set(title=f"Specimen {specimen}", xlabel="predicted probability of overturning")
+        panel.set(xlim=(-0.04, 1.04), ylim=(-0.09, 1.09), aspect="equal")
     figure.axes[0].set_ylabel("share that overturned")
     return figure
 
@@ -72,17 +71,18 @@ def reliability_figure(rows: Sequence[ReliabilityRow]) -> Figure:
 @styled
 def confusion_figure(rows: Sequence[ConfusionRow]) -> Figure:
     """Draw how many verdicts were right and wrong, by class of peak velocity."""
-    specimens = sorted({row.specimen for row in rows})
     figure = new_figure(66, margins=(13, 3, 17, 6))
-    for specimen, panel in zip(specimens, figure.subplots(1, len(specimens), squeeze=False)[0], strict=True):
-        own = [row for row in rows if row.specimen == specimen]
+    found = by_specimen(rows)
+    panels = figure.subplots(1, len(found), squeeze=False)[0]
+    for panel, (specimen, own) in zip(panels, found.items(), strict=True):
         base = np.zeros(len(own))
-        for name, values, colour, hatch in (
-            ("stood, as predicted", [row.stood for row in own], "0.85", ""),
-            ("overturned, as predicted", [row.overturned for row in own], "#56B4E9", ""),
-            ("false overturning", [row.false for row in own], "#E69F00", "//"),
-            ("missed overturning", [row.missed for row in own], _WRONG, "xx"),
+        for name, column, colour, hatch in (
+            ("stood, as predicted", "stood", "0.85", ""),
+            ("overturned, as predicted", "overturned", "#56B4E9", ""),
+            ("false overturning", "false", "#E69F00", "//"),
+            ("missed overturning", "missed", _WRONG, "xx"),
         ):
+            values = [getattr(row, column) for row in own]
             panel.bar(range(len(own)), values, bottom=base, color=colour, hatch=hatch, label=name, width=0.75)
             base = base + values
         panel.set_xticks(range(len(own)), [_class(row) for row in own], rotation=30, ha="right")
@@ -111,6 +111,14 @@ def identified_figure(rows: Sequence[IdentifiedRow]) -> Figure:
         panel.set_xlim(0, 0.4)
     panels[0].set_yticks(range(len(specimens)), [f"specimen {each}" for each in specimens[::-1]])
     return figure
+
+
+def by_specimen(rows: Sequence[R]) -> dict[int, list[R]]:
+    """Return the rows of each specimen by its number."""
+    found: dict[int, list[R]] = {}
+    for row in rows:
+        found.setdefault(row.specimen, []).append(row)  # type: ignore[attr-defined]
+    return dict(sorted(found.items()))
 
 
 def _intervals(panel: Axes, rows: Sequence[ScoreRow], values: Sequence[tuple[float, float, float]]) -> None:

@@ -20,12 +20,13 @@ from rocking.reports.printing import number
 from rocking.reports.style import svg
 from rocking.reports.validation.figures import (
     PARAMETERS,
+    by_specimen,
     confusion_figure,
     identified_figure,
     reliability_figure,
     score_figure,
 )
-from rocking.tables import R, read_table
+from rocking.tables import read_table
 
 
 def validation_report(folder: Path) -> bytes:
@@ -43,8 +44,8 @@ def validation_data(folder: Path) -> dict[str, object]:
         "title": "Validation against shake-table tests",
         "subtitle": f"{first.tests} tests of two granite specimens under {first.motions} input motions, each motion "
         "left out of the fit that predicts it.",
-        "verdicts": [_verdict(own, timing) for own in _by_specimen(scores)],
-        "scores": [_score_table(own) for own in _by_specimen(scores)],
+        "verdicts": [_verdict(own, timing) for own in by_specimen(scores).values()],
+        "scores": [_score_table(own) for own in by_specimen(scores).values()],
         "score-figure": _picture(
             score_figure(scores), "Accuracy and Brier score of every method with 95 % intervals."
         ),
@@ -60,17 +61,10 @@ def validation_data(folder: Path) -> dict[str, object]:
             identified_figure(identified), "Ranges of the identified parameters beside those of the mesh."
         ),
         "identified": _identified_table(identified),
-        "why": [_why(own) for own in _by_specimen(failures)],
+        "why": [_why(own) for own in by_specimen(failures).values()],
         "failures": _failure_table(failures),
-        "members": [_members(own) for own in _by_specimen(members)],
+        "members": [_members(own) for own in by_specimen(members).values()],
     }
-
-
-def _by_specimen(rows: Sequence[R]) -> list[list[R]]:
-    found: dict[int, list[R]] = {}
-    for row in rows:
-        found.setdefault(row.specimen, []).append(row)  # type: ignore[attr-defined]
-    return list(found.values())
 
 
 def _verdict(rows: Sequence[ScoreRow], timing: Sequence[TimingRow]) -> str:
