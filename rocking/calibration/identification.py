@@ -6,7 +6,7 @@ from itertools import repeat
 
 import numpy as np
 
-from rocking.calibration.mixture import Mixture, equal_members, fit_mixture, with_unexplained
+from rocking.calibration.mixture import Mixture, equal_members, fit_mixture
 from rocking.errors import ConfigurationError
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import Rocking, reduce
@@ -94,7 +94,7 @@ class Identification:
         distinct, count = np.unique(self.members, return_counts=True)
         blocks = [self.candidates[j] for j in distinct]
         share = overturning_table(blocks, records, self.processing) @ (count / count.sum())
-        return with_unexplained(share, self.mixture.unexplained)
+        return self.mixture.of_share(share)
 
     def parameters(self) -> np.ndarray:
         """Return (m, 4): PARAMETERS of each candidate, which must be an EquivalentBlock; else ConfigurationError."""

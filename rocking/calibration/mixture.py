@@ -8,13 +8,17 @@ candidate explains,
 
 and w maximises the likelihood of the outcomes (Kiefer & Wolfowitz 1956), by the steps of expectation and maximisation
 (Laird 1978). The maximum itself sits on few candidates and is too sure of them; stopped early, the weights stay spread.
-Where to stop, and ε, are chosen on groups of tests that take no part in the fit (the same input motion, scaled).
+Where to stop, and ε, are chosen on groups of tests that take no part in the fit (the same input motion, scaled). On the
+same groups a sharpness b is fitted last, because weights that stay spread are too careful,
+
+    logit P'_t = b logit P_t .
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import expit, logit
 
 ITERATIONS = (10, 20, 40, 80)
 """Numbers of steps among which the fit chooses."""
@@ -22,26 +26,33 @@ UNEXPLAINED = (0.02, 0.05, 0.1)
 """Values of ε among which the fit chooses."""
 FOLDS = 10
 """Parts into which the groups are dealt for that choice."""
+SHARPNESS = (0.5, 2.0)
+"""Bounds of b: outcomes that all are as said would have no largest one."""
 
 
 @dataclass(frozen=True, eq=False)
 class Mixture:
-    """weights: (m,) of the candidates, summing to 1. unexplained: ε. iterations: steps taken.
+    """weights: (m,) of the candidates, summing to 1. unexplained: ε. iterations: steps taken. sharpness: b.
 
-    log_score: mean ln P of the outcomes that took no part in the fit, at the choice made.
+    log_score: mean ln P' of the outcomes that took no part in the fit, at the choice made.
     """
 
     weights: np.ndarray
     unexplained: float
     iterations: int
+    sharpness: float
     log_score: float
 
     def probability(self, overturns: np.ndarray) -> np.ndarray:
-        """P of overturning, (n,), of tests whose verdicts by candidate are `overturns`, (n, m)."""
-        return with_unexplained(overturns @ self.weights, self.unexplained)
+        """P' of overturning, (n,), of tests whose verdicts by candidate are `overturns`, (n, m)."""
+        return self.of_share(overturns @ self.weights)
+
+    def of_share(self, share: np.ndarray) -> np.ndarray:
+        """P' of overturning where `share` of the population does."""
+        return expit(self.sharpness * logit(with_unexplained(share, self.unexplained)))
 
 
-def with_unexplained(share: np.ndarray, unexplained: float) -> np.ndarray:
+def with_unexplained(share: np.ndarray, unexplained: float | np.ndarray) -> np.ndarray:
     """(1 − ε) share + ε/2."""
     return (1 - unexplained) * share + unexplained / 2
 
@@ -53,12 +64,14 @@ def fit_mixture(overturns: np.ndarray, outcomes: np.ndarray, groups: Sequence[st
     fewer than two groups the middle settings are taken.
     """
     patterns, owner, prior = _patterns(overturns)
-    score = _log_scores(patterns, prior, outcomes, np.asarray(groups))
-    best = max(score, key=lambda key: score[key])
-    unexplained, iterations = best
-    *_, weights = _weights(patterns, prior, outcomes, unexplained, (iterations,))
-    shared = weights[owner] / np.bincount(owner)[owner]
-    return Mixture(shared, unexplained, iterations, score[best])
+    hits = np.where(outcomes[:, None], patterns, 1 - patterns)
+    left_out = _left_out(hits, prior, np.asarray(groups))
+    unexplained, iterations = max(left_out, key=lambda choice: np.log(left_out[choice]).mean())
+    sharpness, log_score = _sharpened(left_out[unexplained, iterations])
+    every = np.ones((len(hits), 1), dtype=np.float32)
+    (weights,) = _weights(hits, prior, every, np.array([unexplained]), (iterations,))
+    shared = weights[owner, 0] / np.bincount(owner)[owner]
+    return Mixture(shared, unexplained, iterations, sharpness, log_score)
 
 
 def equal_members(overturns: np.ndarray, weights: np.ndarray, count: int) -> np.ndarray:
@@ -80,25 +93,35 @@ def equal_members(overturns: np.ndarray, weights: np.ndarray, count: int) -> np.
     return np.array(chosen)
 
 
-def _log_scores(
-    patterns: np.ndarray, prior: np.ndarray, outcomes: np.ndarray, groups: np.ndarray
-) -> dict[tuple[float, int], float]:
-    """Mean ln P of the outcomes of the groups left out, by (ε, steps)."""
+def _left_out(
+    hits: np.ndarray, prior: np.ndarray, groups: np.ndarray
+) -> Mapping[tuple[float, int], np.ndarray]:
+    """Return by (ε, steps) the probability of each outcome, (n,), its group left out; nothing known of one group."""
     _, place = np.unique(groups, return_inverse=True)
-    fold = place % FOLDS
     if place.max(initial=0) == 0:
-        return {(UNEXPLAINED[len(UNEXPLAINED) // 2], ITERATIONS[len(ITERATIONS) // 2]): float("nan")}
-    total = {(each, steps): 0.0 for each in UNEXPLAINED for steps in ITERATIONS}
-    for out in np.unique(fold):
-        left, kept = fold == out, fold != out
-        for unexplained in UNEXPLAINED:
-            found = _weights(patterns[kept], prior, outcomes[kept], unexplained, ITERATIONS)
-            for steps, weights in zip(ITERATIONS, found, strict=True):
-                probability = with_unexplained(patterns[left] @ weights, unexplained)
-                total[unexplained, steps] += float(
-                    np.log(np.where(outcomes[left], probability, 1 - probability)).sum()
-                )
-    return {key: value / outcomes.size for key, value in total.items()}
+        middle = UNEXPLAINED[len(UNEXPLAINED) // 2], ITERATIONS[len(ITERATIONS) // 2]
+        return {middle: np.full(len(hits), np.nan)}
+    parts = min(FOLDS, int(place.max()) + 1)
+    fold = place % parts
+    kept = (fold[:, None] != np.arange(parts)).astype(np.float32)
+    masks, choices = np.tile(kept, len(UNEXPLAINED)), np.repeat(UNEXPLAINED, parts)
+    found = {}
+    for steps, weights in zip(ITERATIONS, _weights(hits, prior, masks, choices, ITERATIONS), strict=True):
+        said = with_unexplained(hits @ weights, choices).reshape(len(hits), len(UNEXPLAINED), parts)
+        for k, unexplained in enumerate(UNEXPLAINED):
+            found[unexplained, steps] = said[np.arange(len(hits)), k, fold]
+    return found
+
+
+def _sharpened(said: np.ndarray) -> tuple[float, float]:
+    """Return b that makes outcomes of probabilities `said` likeliest, and their mean ln P'; 1 if nothing was."""
+    from scipy.optimize import minimize_scalar  # slow to import, and needed by the fit only
+
+    odds = logit(said.astype(np.float64))
+    if not np.isfinite(odds).all():
+        return 1.0, float("nan")
+    best = minimize_scalar(lambda b: np.logaddexp(0, -b * odds).mean(), bounds=SHARPNESS, method="bounded")
+    return float(best.x), -float(best.fun)
 
 
 def _patterns(overturns: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -111,21 +134,21 @@ def _patterns(overturns: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray
 
 
 def _weights(
-    patterns: np.ndarray,
-    prior: np.ndarray,
-    outcomes: np.ndarray,
-    unexplained: float,
-    iterations: Sequence[int],
+    hits: np.ndarray, prior: np.ndarray, kept: np.ndarray, unexplained: np.ndarray, iterations: Sequence[int]
 ) -> Iterator[np.ndarray]:
-    """Yield the weights after each of the rising numbers of steps, from the prior on."""
-    telling = patterns.min(axis=1) != patterns.max(axis=1)
-    rows = patterns[telling]
-    likelihood = with_unexplained(np.where(outcomes[telling, None], rows, 1 - rows), unexplained).astype(
-        np.float32
-    )
-    weights, done = prior.copy(), 0
+    """Yield the weights (m, c) of c fits side by side after each of the rising numbers of steps, from the prior on.
+
+    hits: (n, m) whether candidate j ends test t as it ended. kept: (n, c), 1 for the tests of a fit, else 0.
+    unexplained: (c,) ε. Tests that all candidates end alike say nothing and are left aside.
+    """
+    telling = hits.min(axis=1) != hits.max(axis=1)
+    hits, kept = hits[telling], kept[telling]
+    count, share = kept.sum(axis=0), unexplained.astype(np.float32)
+    weights, done = np.repeat(prior[:, None], len(share), axis=1), 0
     for steps in iterations:
-        for _ in range(steps - done if len(likelihood) else 0):
-            weights *= ((1 / (likelihood @ weights)) @ likelihood) / len(likelihood)
+        for _ in range(steps - done):
+            ratio = kept / with_unexplained(hits @ weights, share)
+            gain = (1 - share) * (hits.T @ ratio) + share / 2 * ratio.sum(axis=0)
+            weights *= np.where(count, gain / np.maximum(count, 1), 1)
         done = steps
-        yield weights / weights.sum()
+        yield weights / weights.sum(axis=0)

@@ -105,6 +105,7 @@ class MemberRow(Row):
     restitution: float = column("η of both sides")
     unexplained: float = column("ε, the share of outcomes that no candidate explains")
     iterations: int = column("Steps of expectation and maximisation")
+    sharpness: float = column("b, by which the log odds of a share are multiplied")
 
 
 @row("timing", "One row per specimen: what a prediction takes; differs between runs")

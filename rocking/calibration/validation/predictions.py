@@ -12,7 +12,6 @@ from rocking.calibration.identification import (
     identification_of,
     overturning_table,
 )
-from rocking.calibration.mixture import with_unexplained
 from rocking.calibration.tier_cases import dominant_pulse
 from rocking.calibration.validation.baselines import fit_logistic, fit_threshold, single_best
 from rocking.calibration.validation.campaign import Campaign, TableTest
@@ -132,7 +131,7 @@ def _methods(measured: Measured, specimen: int) -> Mapping[str, Fitted]:
     def population(kept: np.ndarray, out: np.ndarray) -> np.ndarray:
         found = identified(measured, specimen, kept)
         share = measured.overturns[np.ix_(out, found.members)].mean(axis=1)
-        return with_unexplained(share, found.mixture.unexplained)
+        return found.mixture.of_share(share)
 
     def one_block(verdicts: np.ndarray) -> Fitted:
         return lambda kept, out: verdicts[out, single_best(verdicts[kept], outcomes[kept])].astype(float)

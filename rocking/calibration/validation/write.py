@@ -243,6 +243,7 @@ def member_rows(specimen: int, found: Identification) -> Iterator[MemberRow]:
             restitution=restitution,
             unexplained=found.mixture.unexplained,
             iterations=found.mixture.iterations,
+            sharpness=found.mixture.sharpness,
         )
 
 

@@ -166,7 +166,7 @@ def _members(rows: Sequence[MemberRow]) -> str:
     first = rows[0]
     return (
         f"Specimen {first.specimen}: {len(rows)} distinct blocks, {first.iterations} steps, "
-        f"ε = {printing.given(first.unexplained)}."
+        f"ε = {printing.given(first.unexplained)}, b = {printing.given(first.sharpness)}."
     )
 
 

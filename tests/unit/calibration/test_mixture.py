@@ -23,7 +23,9 @@ def test_many_steps_reach_the_largest_likelihood():
     table = draw.random((60, 5)) < draw.random((60, 1))
     outcomes = table[:, 1] ^ (draw.random(60) < 0.1)
     patterns, _, prior = mixture._patterns(table)
-    (weights,) = mixture._weights(patterns, prior, outcomes, 0.1, (20_000,))
+    hits = np.where(outcomes[:, None], patterns, 1 - patterns)
+    (weights,) = mixture._weights(hits, prior, np.ones((60, 1), np.float32), np.array([0.1]), (20_000,))
+    weights = weights[:, 0]
 
     def loss(free):
         w = np.exp(free - np.logaddexp.reduce(free))
@@ -74,6 +76,38 @@ def test_members_stand_for_the_weighted_population():
 
 
 def test_probability_follows_from_the_weights():
-    found = mixture.Mixture(np.array([0.25, 0.75]), 0.1, 10, -0.1)
+    found = mixture.Mixture(np.array([0.25, 0.75]), 0.1, 10, 1.0, -0.1)
     table = np.array([[True, False], [True, True], [False, False]])
     assert np.allclose(found.probability(table), [0.9 * 0.25 + 0.05, 0.95, 0.05])
+
+
+def test_sharpness_multiplies_the_log_odds():
+    found = mixture.Mixture(np.array([0.25, 0.75]), 0.1, 10, 2.0, -0.1)
+    share = np.array([0.0, 0.25, 0.5, 1.0])
+    odds = with_unexplained(share, 0.1) / (1 - with_unexplained(share, 0.1))
+    assert found.of_share(share) == pytest.approx(odds**2 / (1 + odds**2))
+
+
+def test_probabilities_that_are_too_careful_are_sharpened_and_bold_ones_blunted():
+    """Outcomes drawn with the log odds multiplied by b give b back."""
+    draw = np.random.default_rng(8)
+    odds = draw.normal(size=20_000)
+    for factor in (0.7, 1.0, 1.6):
+        happened = draw.random(odds.size) < 1 / (1 + np.exp(-factor * odds))
+        said = np.where(happened, 1 / (1 + np.exp(-odds)), 1 / (1 + np.exp(odds)))
+        assert mixture._sharpened(said)[0] == pytest.approx(factor, abs=0.07)  # three standard errors
+    assert mixture._sharpened(np.full(9, 0.99))[0] == pytest.approx(mixture.SHARPNESS[1], abs=1e-3)
+
+
+def test_fits_side_by_side_are_those_of_each_alone():
+    draw = np.random.default_rng(9)
+    patterns, _, prior = mixture._patterns(draw.random((40, 12)) < 0.5)
+    kept = (draw.random((40, 3)) < 0.8).astype(np.float32)
+    kept[:, 2] = 0
+    share = np.array([0.02, 0.1, 0.05])
+    (together,) = mixture._weights(patterns, prior, kept, share, (30,))
+    for k in range(2):
+        rows = patterns[kept[:, k] == 1]
+        (alone,) = mixture._weights(rows, prior, np.ones((len(rows), 1), np.float32), share[[k]], (30,))
+        assert together[:, k] == pytest.approx(alone[:, 0], abs=1e-5)
+    assert together[:, 2] == pytest.approx(prior, abs=1e-6)

@@ -65,7 +65,7 @@ def folder(tmp_path: Path) -> Path:
         MemberRow: [
             MemberRow(
                 specimen=1, share=1.0, uplift_multiplier_positive=0.1, uplift_multiplier_negative=0.1,
-                frequency_parameter_rad_s=4.5, restitution=0.9, unexplained=0.05, iterations=40,
+                frequency_parameter_rad_s=4.5, restitution=0.9, unexplained=0.05, iterations=40, sharpness=1.25,
             )
         ],
         TimingRow: [TIMING],
