@@ -62,10 +62,6 @@ class Contacts:
         """Whether a contact would have to pull, (h, k): the structure bounces there."""
         return self.normal < 0
 
-    def slides(self, friction: float) -> np.ndarray:
-        """Whether a contact needs more friction than the coefficient `friction`, (h, k)."""
-        return self.friction_needed > friction
-
 
 def corner(across: np.ndarray | float, up: float, state: MotionState) -> Contacts:
     """Return the force of the ground on one body whose centre of mass lies at −across + i·up from its corner."""

@@ -2,12 +2,19 @@
 
 import re
 
-from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.directions import azimuth, is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import magnitude, mapping, numeric, optional_number, starts, valued
-from rocking.records.formats.text import count, lines, numbers, whole
+from rocking.records.formats.header import (
+    magnitude,
+    mapping,
+    numeric,
+    optional_number,
+    place_of,
+    starts,
+    valued,
+)
+from rocking.records.formats.text import count, in_columns, lines, numbers, whole
 from rocking.records.plausibility import agree_with_header
 
 _FIRST = re.compile(r"STRONG GROUND MOTION RECORDS OF T", re.I)
@@ -16,16 +23,10 @@ _HEADER = 40
 
 def _read(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
-    at = next((i for i, line in enumerate(text[:_HEADER]) if _columns(line)), None)
-    if at is None:
-        raise RecordError(
-            f"no line names the columns (N-S, E-W, U-D) in the first {_HEADER}; the file is cut."
-        )
+    at = place_of(text[:_HEADER], _columns, f"names the columns (N-S, E-W, U-D) in the first {_HEADER}")
     pairs, columns = mapping(text[:at]), _columns(text[at])
     values = numbers("\n".join(text[at + 1 :]).encode("latin-1"))
-    if values.size % len(columns):
-        raise RecordError(f"{values.size} numbers do not fill {len(columns)} columns; the file is truncated.")
-    table = values.reshape(-1, len(columns))
+    table = in_columns(values, len(columns))
     declared = count("NUMBER OF DATA", valued(pairs, "NUMBER OF DATA"))
     _, notes = whole(table[:, 0], declared, per_line=1)
     return [_record(pairs, label, table[:, i], notes, options) for i, label in enumerate(columns)]

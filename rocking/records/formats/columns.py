@@ -2,7 +2,6 @@
 
 import re
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
@@ -98,7 +97,9 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     wrapped = width > 2 and not table.names and not _time_first(values, width)
     _check_rows(body, width, last_may_be_short=wrapped)
     if width == 1 or wrapped:
-        found = [_series(values, options, table.names[0] if table.names else "")]
+        label = table.names[0] if table.names else ""
+        named = "" if _unit(label) else label
+        found = [_channel(named, label, values, None, options, warnings=_repeats(values))]
     else:
         found = _channels(values.reshape(-1, width), table.names, options)
     return [replace(record, warnings=record.warnings + cut) for record in found]
@@ -139,18 +140,6 @@ def _check_rows(body: bytes, width: int, last_may_be_short: bool) -> None:
         )
 
 
-def _series(values: np.ndarray, options: Options, label: str) -> Accelerogram:
-    unit = options.unit_of(_unit(label))
-    return accelerogram(
-        unit,
-        values,
-        options.time_step_of(None),
-        component="" if _unit(label) else label,
-        warnings=_repeats(values),
-        processed=None,
-    )
-
-
 def _repeats(values: np.ndarray) -> tuple[str, ...]:
     """Return a warning when numbers without count or times come twice."""
     half, odd = divmod(values.size, 2)
@@ -164,34 +153,33 @@ def _repeats(values: np.ndarray) -> tuple[str, ...]:
 def _channels(rows: np.ndarray, names: tuple[str, ...], options: Options) -> list[Accelerogram]:
     labels = names or ("time", *[""] * (rows.shape[1] - 1))
     timed = bool(_TIME.fullmatch(labels[0]))
-    step, resample, notes = options.time_step, None, _repeats(rows.ravel())
+    told: tuple[str, ...] = ()
+    step, warnings = options.time_step, _repeats(rows.ravel())
     if timed:
-        step, resample, notes = _step(rows[:, 0])
-    make = partial(_channel, step=step, resample=resample, notes=notes, options=options)
-    kept = [i for i in range(int(timed), rows.shape[1]) if other_quantity(labels[i]) is None]
-    return [make(labels[i], rows[:, i]) for i in kept]
+        step, rows, told = _evened(rows)
+        warnings = told
+    return [
+        _channel(_component(label), label, rows[:, i], step, options, processing=told, warnings=warnings)
+        for i, label in enumerate(labels)
+        if i >= timed and other_quantity(label) is None
+    ]
 
 
-def _step(times: np.ndarray):
-    """Return (step, a function that resamples or None, sentences) of a column of times."""
-    step = even_step(times)
+def _evened(rows: np.ndarray) -> tuple[float, np.ndarray, tuple[str, ...]]:
+    """Return (step, rows at even times, sentences) of rows that begin with their time."""
+    step = even_step(rows[:, 0])
     if step is not None:
-        return step, None, ()
-    step, at, sentence = resampled(times)
-    return step, partial(np.interp, at, times), (sentence,)
+        return step, rows, ()
+    step, at, sentence = resampled(rows[:, 0])
+    return step, np.stack([np.interp(at, rows[:, 0], column) for column in rows.T], axis=1), (sentence,)
 
 
-def _channel(label: str, values: np.ndarray, *, step, resample, notes, options: Options) -> Accelerogram:
+def _channel(
+    component: str, label: str, values: np.ndarray, step: float | None, options: Options, **fields
+) -> Accelerogram:
     unit = options.unit_of(_unit(label))
-    return accelerogram(
-        unit,
-        values if resample is None else resample(values),
-        options.time_step_of(step),
-        component=_component(label),
-        processing=() if resample is None else notes,
-        warnings=notes,
-        processed=None,
-    )
+    step = options.time_step_of(step)
+    return accelerogram(unit, values, step, component=component, processed=None, **fields)
 
 
 def _unit(label: str) -> str | None:

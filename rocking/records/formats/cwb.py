@@ -11,11 +11,12 @@ from rocking.records.formats.header import (
     mapping,
     numeric,
     optional,
+    place_of,
     starts,
     valued,
 )
 from rocking.records.formats.sampling import even_step
-from rocking.records.formats.text import fields, is_number, lines
+from rocking.records.formats.text import fields, in_columns, is_number, lines
 from rocking.records.plausibility import agree_with_header
 
 _FIRST = re.compile(r"#Earthquake Information")
@@ -24,20 +25,13 @@ _HEADER, _WIDTH = 60, 10
 
 def _read(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
-    at = next((i for i, line in enumerate(text[:_HEADER]) if line.startswith("#Data:")), None)
-    if at is None:
-        raise RecordError(f"no line #Data: in the first {_HEADER}; the file is cut.")
+    at = place_of(text[:_HEADER], lambda line: line.startswith("#Data:"), f"#Data: in the first {_HEADER}")
     pairs = mapping([line.removeprefix("#") for line in text[:at]])
     unit = valued(pairs, "AMPLITUDEUNIT")
     if not unit.lower().startswith("gal"):
         raise RecordError(f"AmplitudeUnit is {unit!r}, but must be gal.")
     labels = re.findall(r"([A-Z])\(", valued(pairs, "DATASEQUENCE"))
-    values = fields(text[at + 1 :], _WIDTH)
-    if not labels or not values.size or values.size % (len(labels) + 1):
-        raise RecordError(
-            f"{values.size} numbers do not fill time and {len(labels)} components; it is truncated."
-        )
-    table = values.reshape(-1, len(labels) + 1)
+    table = in_columns(fields(text[at + 1 :], _WIDTH), len(labels) + 1)
     step = _step(table[:, 0], pairs)
     return [_record(label, table[:, i], step, pairs, options) for i, label in enumerate(labels, 1)]
 

@@ -95,13 +95,14 @@ class Format:
 def accelerogram(unit: str, values: np.ndarray, time_step: float, **fields) -> Accelerogram:
     """Return an Accelerogram from `values` in `unit` of a file.
 
-    fields: of Accelerogram; azimuth and vertical follow from the component's name unless they are given, and text is
-    cleared of control characters.
+    fields: of Accelerogram; vertical, and the azimuth of a horizontal one, follow from the component's name unless they
+    are known, and text is cleared of control characters.
     """
     fields = {key: plain(value) if isinstance(value, str) else value for key, value in fields.items()}
     component = fields.get("component", "")
+    known = fields.get("azimuth")
     fields.setdefault("vertical", is_vertical(component))
-    fields.setdefault("azimuth", None if fields["vertical"] else azimuth(component))
+    fields["azimuth"] = None if fields["vertical"] else azimuth(component) if known is None else known
     return Accelerogram(values * acceleration_factor(unit), time_step, source=Source(unit=unit), **fields)
 
 

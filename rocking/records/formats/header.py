@@ -1,6 +1,7 @@
 """Headers: finding what they declare, and saying what is missing."""
 
 import re
+from collections.abc import Callable
 from itertools import pairwise
 
 from rocking.errors import RecordError
@@ -12,6 +13,14 @@ def blocks(content: bytes, first_line: re.Pattern[str]) -> list[list[str]]:
     text = lines(content)
     starts = [i for i, line in enumerate(text) if first_line.match(line)]
     return [text[a:b] for a, b in pairwise([*starts, len(text)])]
+
+
+def place_of(text: list[str], is_sought: Callable[[str], object], what: str) -> int:
+    """Return the place of the first line that `is_sought`. Raises RecordError: no line `what`."""
+    at = next((i for i, line in enumerate(text) if is_sought(line)), None)
+    if at is None:
+        raise RecordError(f"no line {what}; the file is cut.")
+    return at
 
 
 def starts(content: bytes, pattern: re.Pattern[str]) -> bool:

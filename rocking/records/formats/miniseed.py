@@ -7,7 +7,6 @@ from pathlib import Path
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.directions import azimuth, is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.waveform import joined, stream
 
@@ -33,7 +32,6 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
 def _record(trace, inventory, options: Options, noticed: tuple[str, ...]) -> Accelerogram:
     stats = trace.stats
     values, unit, steps = _calibrated(trace, inventory, options)
-    placed = _orientation(trace, inventory)
     return accelerogram(
         unit,
         values,
@@ -44,12 +42,7 @@ def _record(trace, inventory, options: Options, noticed: tuple[str, ...]) -> Acc
         start_time=str(stats.starttime),
         processing=steps,
         warnings=noticed,
-        vertical=is_vertical(stats.channel),
-        azimuth=None
-        if is_vertical(stats.channel)
-        else placed
-        if placed is not None
-        else azimuth(stats.channel),
+        azimuth=_orientation(trace, inventory),
     )
 
 

@@ -6,7 +6,6 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.directions import azimuth, is_vertical
 from rocking.records.formats.format import Format, Options, accelerogram, without_offset
 from rocking.records.formats.waveform import joined, stream
 
@@ -40,7 +39,6 @@ def _record(trace, unit: str, options: Options, warnings: tuple[str, ...]) -> Ac
     stats = trace.stats
     azimuth_in_file = float(stats.sac.get("cmpaz", float("nan")))
     known = -360 <= azimuth_in_file <= 360
-    vertical = is_vertical(stats.channel)
     _check_header(stats, trace.data)
     values, offset = without_offset(trace.data.astype(float) * stats.calib, unit)
     return accelerogram(
@@ -52,9 +50,8 @@ def _record(trace, unit: str, options: Options, warnings: tuple[str, ...]) -> Ac
         network=stats.network,
         warnings=warnings,
         start_time=str(stats.starttime),
-        vertical=vertical,
         processing=(offset,),
-        azimuth=None if vertical else azimuth_in_file % 360 if known else azimuth(stats.channel),
+        azimuth=azimuth_in_file % 360 if known else None,
     )
 
 

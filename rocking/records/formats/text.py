@@ -88,6 +88,13 @@ def fields(rows: list[str], width: int, margin: int = 0) -> np.ndarray:
         return numbers(" ".join(pieces).encode("latin-1"))
 
 
+def in_columns(values: np.ndarray, width: int) -> np.ndarray:
+    """Return `values` in `width` columns, (n, width). Raises RecordError when they do not fill them."""
+    if not width or not values.size or values.size % width:
+        raise RecordError(f"{values.size} numbers do not fill {width} columns; the file is truncated.")
+    return values.reshape(-1, width)
+
+
 def column_width(row: str) -> int:
     """Return the width of the columns of `row`, from the places of its first two decimal points."""
     points = [m.start() for m in re.finditer(r"\.", row)]

@@ -9,7 +9,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, accelerogram
 from rocking.records.formats.header import check_duration, check_equal, magnitude, mapping, valued
 from rocking.records.formats.quantity import other_quantity
-from rocking.records.formats.text import count, fields, is_number, lines, number, whole
+from rocking.records.formats.text import count, fields, in_columns, is_number, lines, number, whole
 from rocking.records.plausibility import agree_with_header
 
 _HEADER = 160
@@ -49,16 +49,12 @@ def _table(rows: list[str], pairs: dict[str, str], channels: list[int]):
     form = re.search(r"(\d+)F(\d+)", valued(pairs, "FORMATO DATOS (FORTRAN,10 CAMPOS/DATO)"))
     width = max(1, int(form[2])) if form else 10
     values = fields(rows, width)
-    if not channels or values.size % len(channels):
-        raise RecordError(
-            f"{values.size} numbers do not fill the {len(channels)} channels named; it is truncated."
-        )
+    table = in_columns(values, len(channels))
     declared = {text for i in channels if (text := _at(pairs, "NUM. TOTAL DE MUESTRAS", i))}
     if len(declared) > 1:
         raise RecordError(
             f"the channels declare {', '.join(sorted(declared))} samples, but must be equally long."
         )
-    table = values.reshape(-1, len(channels))
     samples = count("NUM. TOTAL DE MUESTRAS", next(iter(declared), ""))
     table, notes = _without_repeats(table, samples)
     _, surplus = whole(table[:, 0], samples, per_line=1)

@@ -8,7 +8,7 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.records.formats.header import blocks, check_nothing_left, required
 from rocking.records.formats.sampling import check_no_gap, even_step
-from rocking.records.formats.text import count, fields, is_number, number, whole
+from rocking.records.formats.text import count, fields, in_columns, is_number, number, whole
 
 _HEADER, _REALS, _RATE = 27, 20, 8
 _TEXT = 13
@@ -59,12 +59,7 @@ def _rate(lines: list[str]) -> float | None:
 
 def pairs(block: Block, margin: int) -> tuple[np.ndarray, np.ndarray]:
     """Return (times, samples) of a block of five (t, a) pairs a line in columns of 7."""
-    values = fields(block.rows, 7, margin)
-    if values.size % 2:
-        raise RecordError(
-            f"the block holds {values.size} numbers, but (time, sample) pairs need an even number."
-        )
-    table = values.reshape(-1, 2)
+    table = in_columns(fields(block.rows, 7, margin), 2)
     whole(table[:, 0], block.declared, per_line=0)
     _check_end(table[:, 0], block.duration)
     return table[:, 0], table[:, 1]
