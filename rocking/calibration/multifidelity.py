@@ -39,25 +39,23 @@ class Spread:
     median_bias: float
 
 
-def multi_fidelity_rows(
-    structure: str, answers: Answers, repeats: int = REPEATS
-) -> Iterator[MultiFidelityRow]:
+def multi_fidelity_rows(structure: str, answers: Answers) -> Iterator[MultiFidelityRow]:
     """Yield a row for each of SHARES that leaves runs enough."""
     cases = answers.mechanism.size
     dear, cheap = answers.mechanism_cpu, answers.block_cpu
     rng = np.random.default_rng(0)
-    records, random = _plain_spreads(answers, repeats, rng)
+    records, random = _plain_spreads(answers, rng)
     block, sine = (_correlation(answers, said) for said in (answers.block, answers.sine))
     for runs in (round(share * cases) for share in SHARES):
         if runs < FEWEST_RUNS:
             continue
-        found = spread(answers, _sampled(answers, runs, repeats, rng))
+        found = spread(answers, _sampled(answers, runs, rng))
         curve_gain = _runs_for(found.curve_width, records.curve_width, cases) / runs
         yield MultiFidelityRow(
             structure=structure,
             cases=cases,
             runs=runs,
-            repeats=repeats,
+            repeats=REPEATS,
             **asdict(found),
             curve_gain=curve_gain,
             median_gain=_runs_for(found.median_width, records.median_width, cases) / runs,
@@ -96,18 +94,18 @@ def spread(answers: Answers, curves: np.ndarray) -> Spread:
     )
 
 
-def _sampled(answers: Answers, runs: int, repeats: int, rng: np.random.Generator) -> np.ndarray:
+def _sampled(answers: Answers, runs: int, rng: np.random.Generator) -> np.ndarray:
     chance = inclusion(answers.levels, answers.block, runs)
-    draws = (systematic_draw(chance, rng) for _ in range(repeats))
+    draws = (systematic_draw(chance, rng) for _ in range(REPEATS))
     known = answers.levels, answers.block
     return np.array([corrected(*known, drawn, answers.mechanism, chance).mean(axis=0) for drawn in draws])
 
 
-def _plain_spreads(answers: Answers, repeats: int, rng: np.random.Generator) -> tuple[Spread, Spread]:
+def _plain_spreads(answers: Answers, rng: np.random.Generator) -> tuple[Spread, Spread]:
     """Without the block, in half of all cases: half of the records at all levels, and other ones at each level."""
     outcomes, some = answers.mechanism, len(answers.mechanism) // 2
-    records = np.array([outcomes[rng.permutation(len(outcomes))[:some]].mean(axis=0) for _ in range(repeats)])
-    places = (rng.random(outcomes.shape).argsort(axis=0)[:some] for _ in range(repeats))
+    records = np.array([outcomes[rng.permutation(len(outcomes))[:some]].mean(axis=0) for _ in range(REPEATS)])
+    places = (rng.random(outcomes.shape).argsort(axis=0)[:some] for _ in range(REPEATS))
     random = np.array([np.take_along_axis(outcomes, place, axis=0).mean(axis=0) for place in places])
     return spread(answers, records), spread(answers, random)
 

@@ -4,17 +4,13 @@ The shock law is inelastic (IQS_CLB) with more friction than the bodies need, so
 of angular momentum keeps. The method is of first order: three time steps are run and extrapolated.
 """
 
-import json
 import math
-import sys
-import time
 
 import numpy as np
 
 from rocking.calibration.comparison.bodies import RigidBodies, rigid_bodies
 from rocking.calibration.comparison.cases import structures
-from rocking.calibration.comparison.extrapolation import Run, answer_of
-from rocking.calibration.comparison.free_rocking import landings, restitution
+from rocking.calibration.comparison.runs import Run, landings, run_of, serve, still_from
 from rocking.quantities import GRAVITY
 
 STEPS = (2e-3, 1e-3, 5e-4)
@@ -28,12 +24,10 @@ ALERT = 1e-2
 """Gap within which contacts are sought, m."""
 
 
-def answer(given: dict) -> dict:
-    """Return the answer to a case."""
-    start = time.process_time()
+def runs(given: dict) -> list[Run]:
+    """Return the runs of a case."""
     bodies = rigid_bodies(structures()[given["structure"]])
-    runs = [_run(given, bodies, step) for step in STEPS]
-    return answer_of(runs, time.process_time() - start, "The verdict depends on the time step.")
+    return [_run(given, bodies, step) for step in STEPS]
 
 
 def _run(given: dict, bodies: RigidBodies, step: float) -> Run:
@@ -42,14 +36,8 @@ def _run(given: dict, bodies: RigidBodies, step: float) -> Run:
     largest = int(np.abs(rotation).argmax())
     if np.abs(turns[-1]).max() > FALLEN * critical:
         return Run(math.inf, landings=landings(times, rotation))
-    still = (len(given["acceleration"]) - 1) * given["time_step"]
     energy = _energy(bodies, times, turns, centres)
-    return Run(
-        abs(rotation[largest]) / critical,
-        restitution(times, rotation, energy, still, critical),
-        bodies.outside_hinges(turns[largest]),
-        landings(times, rotation),
-    )
+    return run_of(given, times, rotation, energy, bodies.outside_hinges(turns[largest]))
 
 
 def _follow(given: dict, bodies: RigidBodies, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -92,7 +80,7 @@ def _base(given: dict, step: float) -> tuple[np.ndarray, np.ndarray]:
     """Times and velocity of the base, the acceleration linear between its samples."""
     acceleration, sample = np.array(given["acceleration"]), given["time_step"]
     velocity = np.concatenate([[0.0], np.cumsum((acceleration[1:] + acceleration[:-1]) / 2 * sample)])
-    end = (acceleration.size - 1) * sample + STILL / given["frequency_parameter"]
+    end = still_from(given) + STILL / given["frequency_parameter"]
     times = np.arange(int(end / step) + 2) * step
     place = np.minimum((times / sample).astype(int), acceleration.size - 2)
     inside = np.minimum(times - place * sample, sample)
@@ -110,4 +98,4 @@ def _prism(polygon: np.ndarray) -> dict:
 
 
 if __name__ == "__main__":
-    print("\n" + json.dumps(answer(json.load(sys.stdin))))
+    serve(runs, "The verdict depends on the time step.")

@@ -7,17 +7,14 @@ its authors do.
 
 import ctypes
 import importlib.util
-import json
 import math
-import sys
 import time
 from pathlib import Path
 
 import numpy as np
 
 from rocking.calibration.comparison.cases import structures
-from rocking.calibration.comparison.extrapolation import Run, answer_of
-from rocking.calibration.comparison.free_rocking import landings, restitution
+from rocking.calibration.comparison.runs import Run, landings, run_of, serve, still_from
 from rocking.quantities import GRAVITY
 from rocking.structures import Block, Frame, Mechanism, Structure
 
@@ -39,50 +36,36 @@ _WATCHED, _BEAM = 12, 9
 _LIBRARIES = ("libquadmath.so.0", "libgfortran.so.4", "libblas.so.3", "liblapack.so.3")
 
 
-def answer(given: dict) -> dict:
-    """Return the answer to a case."""
-    start = time.process_time()
-    runs = [_run(given, strain) for strain in STRAINS[given["structure"]]]
-    return answer_of(
-        runs,
-        time.process_time() - start,
-        "The verdict depends on the stiffness, or a run did not end in its time.",
-    )
+def runs(given: dict) -> list[Run]:
+    """Return the runs of a case."""
+    return [_run(given, strain) for strain in STRAINS[given["structure"]]]
 
 
 def _run(given: dict, strain: float) -> Run:
     ops = _opensees()
     structure = structures()[given["structure"]]
     _build(ops, structure, strain)
-    samples = np.array(given["acceleration"])
-    ops.timeSeries("Path", 200, "-dt", given["time_step"], "-values", *samples.tolist())
+    ops.timeSeries("Path", 200, "-dt", given["time_step"], "-values", *given["acceleration"])
     ops.pattern("UniformExcitation", 300, 1, "-accel", 200)
     ops.wipeAnalysis()
     _solver(ops, ("RelativeNormUnbalance", 1e-8, 50))
     ops.integrator("Newmark", 0.5, 0.25)
     ops.analysis("Transient")
-    still = (samples.size - 1) * given["time_step"]
+    still = still_from(given)
     end = still + STILL / given["frequency_parameter"]
     times, rotation, ended = _follow(ops, still, end, LONGEST[given["structure"]])
-    critical = given["critical_rotation"]
     if not ended:
         return Run(math.nan)
     if abs(rotation[-1]) > 1.0:
         return Run(math.inf, landings=landings(times, rotation))
-    energy = _potential(structure.mechanism(), rotation)
-    return Run(
-        float(np.abs(rotation).max()) / critical,
-        restitution(times, rotation, energy, still, critical),
-        landings=landings(times, rotation),
-    )
+    return run_of(given, times, rotation, _potential(structure.mechanism(), rotation))
 
 
 def _follow(ops, still: float, end: float, longest: float) -> tuple[np.ndarray, np.ndarray, bool]:
     """Times and rotations (n,), and whether it came to an end: overturned, enough reversals, or all the time."""
     step, good, reversals, start = longest, 0, 0, time.process_time()
-    history = [(0.0, 0.0)]
-    ended = True
-    while ops.getTime() < end and abs(history[-1][1]) <= 1.0 and reversals < REVERSALS:
+    history, ended = [(0.0, 0.0)], True
+    while ended and ops.getTime() < end and abs(history[-1][1]) <= 1.0 and reversals < REVERSALS:
         if ops.analyze(1, step) == 0:
             good += 1
             history.append((ops.getTime(), ops.nodeDisp(_WATCHED, 3)))
@@ -93,9 +76,7 @@ def _follow(ops, still: float, end: float, longest: float) -> tuple[np.ndarray, 
             step, good = max(SHORTEST, 0.5 * step), 0
         else:
             ended = False
-        if not ended or time.process_time() - start > BUDGET:
-            ended = False
-            break
+        ended = ended and time.process_time() - start <= BUDGET
     times, rotation = np.array(history).T
     return times, rotation, ended
 
@@ -196,4 +177,4 @@ def _opensees():
 
 
 if __name__ == "__main__":
-    print("\n" + json.dumps(answer(json.load(sys.stdin))))
+    serve(runs, "The verdict depends on the stiffness, or a run did not end in its time.")

@@ -18,13 +18,13 @@ import numpy as np
 from rocking.calibration.validation.source import (
     SPECIMENS,
     TableMotion,
-    fetch_specimen,
     fetch_table_motion,
     load_table_motions,
 )
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram, Source
+from rocking.records.fetch import fetch
 from rocking.records.read import unpacked
 
 TESTS, MOTIONS = "tests.csv", "accelerations.npz"
@@ -52,11 +52,10 @@ class Campaign:
     tests: tuple[TableTest, ...]
     folder: Path
     catalogue: Mapping[int, TableMotion]
-    cache: Path | None = None
     unlisted: tuple[int, ...] = field(default=())
 
     @classmethod
-    def open(cls, catalogue: Path, mirror: Path | None, cache: Path | None = None) -> "Campaign":
+    def open(cls, catalogue: Path, mirror: Path | None) -> "Campaign":
         """Open the campaign in `mirror`, or in `shake_table` inside it or beside it.
 
         The folder holds tests.csv (test, dt, motion, pgv_over_pga, pga_g, overturned_specimen_1 and _2, published
@@ -68,7 +67,7 @@ class Campaign:
         listed = load_table_motions(catalogue)
         tests = tuple(sorted(_tests(folder / TESTS), key=lambda test: test.number))
         unlisted = tuple(test.number for test in tests if test.number not in listed)
-        return cls(tests, folder, listed, cache, unlisted)
+        return cls(tests, folder, listed, unlisted)
 
     def table_motion(self, test: TableTest) -> Accelerogram:
         """Return the unfiltered acceleration of the table, its numbers checked against the catalogue."""
@@ -76,7 +75,7 @@ class Campaign:
         if self._arrays is not None and name in self._arrays:
             samples = self._arrays[name]
         elif known is not None:
-            samples = fetch_table_motion(known, self.cache)
+            samples = fetch_table_motion(known)
         else:
             raise RecordError(
                 f"test {test.number}: no samples in {self.folder / MOTIONS} nor in the catalogue."
@@ -95,9 +94,7 @@ class Campaign:
         """Return the Wavefront text of the mesh of a specimen, 1 or 2, its hash checked."""
         record = SPECIMENS[specimen - 1]
         path = self.folder / f"specimen_{specimen}.obj.gz"
-        content = unpacked(path.read_bytes(), path.name) if path.is_file() else None
-        if content is None:
-            content = fetch_specimen(record, self.cache)
+        content = unpacked(path.read_bytes(), path.name) if path.is_file() else fetch(record).read_bytes()
         if hashlib.sha256(content).hexdigest() != record.sha256:
             raise RecordError(f"{path}: the mesh is another version than the catalogue's; fetch it again.")
         return content.decode("utf-8")

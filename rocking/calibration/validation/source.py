@@ -10,7 +10,6 @@ import numpy as np
 
 from rocking.errors import CatalogueError, RecordError
 from rocking.records.catalogue_record import CatalogueRecord
-from rocking.records.fetch import fetch
 
 REPOSITORY = "ZhiangChen/virtual_shake_robot_pybullet"
 COMMIT = "9f239e7e21280702be9ba7a40ed9b47a35868a52"
@@ -82,12 +81,12 @@ def converted(content: bytes, name: str) -> np.ndarray:
         raise RecordError(f"{name}: the file is no table of a test, {error}; fetch it again.") from None
 
 
-def fetch_table_motion(motion: TableMotion, cache: Path | None = None) -> np.ndarray:
+def fetch_table_motion(motion: TableMotion) -> np.ndarray:
     """Return the samples of a test from the source; the download is kept only if its numbers are the catalogue's.
 
     Raises RecordError when it cannot be had or is another version.
     """
-    path = _download(motion.source_path, cache)
+    path = _download(motion.source_path)
     samples = converted(path.read_bytes(), path.name)
     try:
         motion.check(samples)
@@ -97,19 +96,14 @@ def fetch_table_motion(motion: TableMotion, cache: Path | None = None) -> np.nda
     return samples
 
 
-def fetch_specimen(record: CatalogueRecord, cache: Path | None = None) -> bytes:
-    """Return the mesh of a specimen from the source, its sha256 checked."""
-    return fetch(record, cache=cache).read_bytes()
-
-
-def _download(source_path: str, cache: Path | None) -> Path:
+def _download(source_path: str) -> Path:
     import pooch
 
     address = f"https://raw.githubusercontent.com/{REPOSITORY}/{COMMIT}/{source_path}"
     pooch.get_logger().setLevel("WARNING")
-    folder = cache or pooch.os_cache("rocking")
+    name, folder = f"{COMMIT[:12]}-{source_path.rpartition('/')[2]}", pooch.os_cache("rocking")
     try:
-        return Path(pooch.retrieve(address, None, f"{COMMIT[:12]}-{source_path.rpartition('/')[2]}", folder))
+        return Path(pooch.retrieve(address, None, name, folder))
     except Exception as error:
         reason = str(error).splitlines()[0][:200] if str(error) else type(error).__name__
         raise RecordError(

@@ -134,9 +134,9 @@ class Canvas:
             f'href="data:image/png;base64,{source}"/>'
         )
 
-    def hatching(self, spacing: float = 1.2) -> str:
+    def hatching(self) -> str:
         """Return a fill of slanting lines."""
-        step = round(spacing * UNITS)
+        step = round(1.2 * UNITS)
         self._parts.append(
             f'<defs><pattern id="hatch" width="{step}" height="{step}" patternUnits="userSpaceOnUse">'
             f'<path d="M0 {step}L{step} 0"{_pen("#595959", 0.4, "")}/></pattern></defs>'

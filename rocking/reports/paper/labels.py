@@ -80,11 +80,11 @@ def placed_labels(
     return []
 
 
-def draw_labels(canvas: Canvas, labels: Sequence[Label], colour: str = "black") -> None:
+def draw_labels(canvas: Canvas, labels: Sequence[Label]) -> None:
     """Write labels with the lines that lead to them."""
     for label in labels:
-        canvas.path(label.line, colour, 0.3)
-        canvas.text(label.middle, label.text, SMALL, "middle", "middle", colour, paper=True)
+        canvas.path(label.line, "black", 0.3)
+        canvas.text(label.middle, label.text, SMALL, "middle", "middle", paper=True)
 
 
 def _groups(places: np.ndarray, radius: float) -> list[list[int]]:

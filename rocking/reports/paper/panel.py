@@ -1,5 +1,6 @@
 """A pair of axes on the paper, and what is drawn within them."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -8,11 +9,12 @@ import numpy as np
 from rocking.reports.paper.canvas import SIZE, SMALL, Box, Canvas
 from rocking.reports.paper.letters import text_width
 from rocking.reports.paper.scales import Scale, tick_label
-from rocking.reports.paper.thinning import thinned
 
 GREY, PALE, GRID = "#595959", "#ededed", "#999999"
 _TICK, _GAP = 0.9, 0.5
 """Length of a tick, and air between it and its number, mm."""
+RESOLVED = 25.4 / 300
+"""What a printer and an eye tell apart, mm."""
 _BEYOND = 20.0
 """Widths of a panel beyond which nothing is drawn, as it would be cut off anyway."""
 
@@ -145,10 +147,26 @@ class Panel:
             )
 
 
-def panels_in(canvas: Canvas, box: Box, rows: int, columns: int, gap: tuple[float, float]) -> list[Box]:
+def panels_in(box: Box, rows: int, columns: int, gap: tuple[float, float]) -> list[Box]:
     """Return the boxes of a grid of panels, row by row. gap: between columns and between rows, mm."""
     width = (box.width - gap[0] * (columns - 1)) / columns
     height = (box.height - gap[1] * (rows - 1)) / rows
     lefts = [box.left + column * (width + gap[0]) for column in range(columns)]
     tops = [box.top + row * (height + gap[1]) for row in range(rows)]
     return [Box(left, top, left + width, top + height) for top in tops for left in lefts]
+
+
+def thinned(times: np.ndarray, values: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return the envelope of a trace that is `width` mm wide: least and largest value of each stretch, in order.
+
+    A stretch is no wider than what is resolved, so that no peak is lost or moved by more than that; a trace of few
+    samples stays as it is.
+    """
+    size = values.size
+    stretch = math.ceil(size * RESOLVED / width)
+    if stretch < 3:
+        return times, values
+    padded = np.pad(values, (0, -size % stretch), mode="edge").reshape(-1, stretch)
+    begins = np.arange(len(padded)) * stretch
+    kept = np.unique(np.concatenate([begins + padded.argmin(axis=1), begins + padded.argmax(axis=1)]))
+    return times[kept], values[kept]

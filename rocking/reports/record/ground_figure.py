@@ -25,7 +25,7 @@ def ground_motion(
     times, samples = accelerogram.times, accelerogram.acceleration
     residual = samples if pulse is None else samples - pulse.acceleration(times)
     shared = Scale(0.0, accelerogram.duration), spanning(samples, residual)
-    boxes = panels_in(canvas, Box(17, 5, TEXT_WIDTH - 2, height - 8.5), 2, 1, (0, 3))
+    boxes = panels_in(Box(17, 5, TEXT_WIDTH - 2, height - 8.5), 2, 1, (0, 3))
     record, left = (Panel(canvas, box, *shared) for box in boxes)
     for panel, trace, name in ((record, samples, "record"), (left, residual, "residual")):
         if pulse is not None:

@@ -42,7 +42,7 @@ def response_histories(histories: Sequence[History]) -> Canvas:
     rows = math.ceil(len(histories) / columns)
     height = (_PANEL_HEIGHT * rows if rows > 1 else _ALONE_HEIGHT) + _MARGIN_HEIGHT
     canvas = Canvas(TEXT_WIDTH, height)
-    boxes = panels_in(canvas, Box(15, 4, TEXT_WIDTH - 2, height - 9.5), rows, columns, (13, 6.5))
+    boxes = panels_in(Box(15, 4, TEXT_WIDTH - 2, height - 9.5), rows, columns, (13, 6.5))
     time = Scale(*_window(histories))
     for place, (box, history) in enumerate(zip(boxes, histories, strict=False)):
         lowest = place + columns >= len(histories)

@@ -14,7 +14,6 @@ from rocking.reports.record import curves as record_curves
 from rocking.reports.record import page_one
 from rocking.reports.record import sheet as record_sheet
 from rocking.reports.record import tables as record_tables
-from rocking.reports.record import variations as record_variations
 from rocking.reports.record import verdict as record_verdict
 from rocking.reports.record.sheet_figures import SHEET_HEIGHTS
 from rocking.structures.structure import Structure
@@ -95,8 +94,8 @@ def _tables(
         "structures": record_tables.structure_table(rows, numbers),
         "methods": record_tables.method_table(tables, numbers),
         "trust": record_tables.trust_table(tables, numbers),
-        "candidates": record_variations.candidate_table(tables.candidates, numbers),
-        "processing": record_variations.processing_table(tables.processing, numbers),
+        "candidates": record_tables.candidate_table(tables.candidates, numbers),
+        "processing": record_tables.processing_table(tables.processing, numbers),
     }
 
 

@@ -55,7 +55,7 @@ def record_sheet(sheet: RecordSheet, height: float = SHEET_HEIGHTS[0]) -> Canvas
     _spectrum_panel(canvas, Box(14, 5, middle - 1, parted), sheet)
     _pulse_panel(canvas, Box(14, parted + 12, middle - 1, low), sheet.accelerogram, sheet.pulse)
     time = Scale(0.0, sheet.accelerogram.duration)
-    energy, *traces = panels_in(canvas, Box(middle + 16, 5, TEXT_WIDTH - 2, low), 3, 1, (0, 3))
+    energy, *traces = panels_in(Box(middle + 16, 5, TEXT_WIDTH - 2, low), 3, 1, (0, 3))
     _husid_panel(Panel(canvas, energy, time, Scale(0, 1.05)), sheet)
     integrals = velocity(sheet.accelerogram), displacement(sheet.accelerogram)
     of_pulse = (

@@ -10,7 +10,7 @@ import pytest
 from rocking.calibration.comparison import lmgc90, write
 from rocking.calibration.comparison.cases import PULSES, RECORDS, SAMPLES, pulse_cases, record_cases
 from rocking.calibration.comparison.codes import LMGC90, Answer, inner_codes, landings_of, outer_codes
-from rocking.calibration.comparison.extrapolation import Run, answer_of, limit_of
+from rocking.calibration.comparison.runs import Run, answer_of, limit_of
 from rocking.calibration.comparison.write import SAMPLED, code_rows, missed, slow_cases
 from rocking.motion.integration import integrate
 from rocking.motion.reference import event_landings, reference_landings

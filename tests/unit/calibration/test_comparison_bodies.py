@@ -12,7 +12,7 @@ import pytest
 from rocking.calibration.comparison import lmgc90
 from rocking.calibration.comparison.bodies import properties, rigid_bodies
 from rocking.calibration.comparison.cases import structures
-from rocking.calibration.comparison.free_rocking import landings, restitution
+from rocking.calibration.comparison.runs import answer_of, landings, restitution
 from rocking.motion.reference import reference_landings
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
@@ -103,7 +103,7 @@ def test_the_frame_of_lmgc90_keeps_what_angular_momentum_keeps():
         "frequency_parameter": mechanism.positive.frequency_parameter,
         "critical_rotation": mechanism.critical_rotation,
     }
-    answer = lmgc90.answer(given)
+    answer = answer_of(lmgc90.runs(given), 0.0, "")
     truth, _ = reference_landings(mechanism, Accelerogram(pulse, step))
     alpha, gamma = math.atan(0.5 / 4.0), 1.0
     kept = (1 - 1.5 * math.sin(alpha) ** 2 + 3 * gamma * math.cos(2 * alpha)) / (1 + 3 * gamma)

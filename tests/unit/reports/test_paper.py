@@ -11,9 +11,8 @@ from matplotlib.textpath import TextPath
 from rocking.reports.paper.canvas import Box, Canvas, Symbol, text_box
 from rocking.reports.paper.labels import placed_labels, ranges
 from rocking.reports.paper.letters import elided, text_width
-from rocking.reports.paper.panel import Panel
+from rocking.reports.paper.panel import RESOLVED, Panel, thinned
 from rocking.reports.paper.scales import Scale
-from rocking.reports.paper.thinning import RESOLVED, thinned
 
 from .drawn import paths, texts, tree
 
