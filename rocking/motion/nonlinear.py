@@ -22,12 +22,22 @@ def follow(
     table: Table, forcing: Forcing, tolerance: float, start: tuple[float, float, int], history: bool
 ) -> Response:
     """Integrate the table's mechanism through the forcing. start: rotation, rate outward, side (0: at rest)."""
+    sides = table.kernel_of(forcing)
     state = kernel.Start(*(initial_arc(table, *start) if start[2] else (0.0, 0.0, 0)))
     member = kernel.Member(forcing.factor, forcing.factor if forcing.vertical else 0.0, table.restitution)
     peaks = np.empty((2, 2))
     (status, impacts, uplift, last_side, steps, _), log = logged_run(
         kernel.rock,
-        (table.kernel_of(forcing), forcing.ground, member, state, STEP_SHARE * tolerance, False, peaks),
+        (
+            sides,
+            forcing.ground,
+            member,
+            state,
+            STEP_SHARE * tolerance,
+            False,
+            kernel.memory(sides.ties),
+            peaks,
+        ),
         forcing.samples if history else 0,
     )
     best, when = peaks

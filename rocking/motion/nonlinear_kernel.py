@@ -13,10 +13,11 @@ in one file, and so do the tuples that they take.
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
+from numba.extending import register_jitable
 
 ROCKS, OVERTURNS, TOO_MANY_IMPACTS, NOT_FINITE = 1, 2, 3, 4
 """How a run ends; 0 is no uplift."""
@@ -117,8 +118,52 @@ class Start(NamedTuple):
     side: int
 
 
-# Contraction to fused multiply-adds changes roundings only; infinities and NaN keep their meaning.
-compiled = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+class Motion(NamedTuple):
+    """Where a motion is.
+
+    interval, offset: of the ground motion, and s into it. arc, speed: outward. side: 0 is rest. farthest, fastest: the
+    largest arc and speed of the present flight.
+    """
+
+    interval: int
+    offset: float
+    arc: float
+    speed: float
+    side: int
+    farthest: float
+    fastest: float
+
+
+class Tally(NamedTuple):
+    """What has happened: status, impacts, time of the first uplift, steps, peaks over still ground, lines of log."""
+
+    status: int
+    impacts: int
+    uplift: float
+    steps: int
+    turns: int
+    logged: int
+
+
+class Step(NamedTuple):
+    """A step: its series, length, arc and speed at its end, when it turns and lands (−1: not), how it `_leaves`."""
+
+    series: tuple
+    length: float
+    arc: float
+    speed: float
+    turn: float
+    landing: float
+    leaves: int
+
+
+# Contraction to fused multiply-adds changes roundings only; infinities and NaN keep their meaning. Without numba's
+# counting of references, which took a fifth of the time, what is compiled may not allocate an array.
+_OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
+_UNCOUNTED: dict[str, Any] = {**_OPTIONS, "_nrt": False}
+compiled = njit(**_UNCOUNTED)
+part = njit(forceinline=True, **_UNCOUNTED)
+"""Of what is called from one place: inlined there, so that nothing is handed over by way of memory."""
 
 
 @compiled
@@ -201,10 +246,10 @@ def _uplift_sine(sides, amplitude, omega, gravity, tau, held):
     return tau, 0
 
 
-@compiled
+@part
 def _next_uplift(sides, phase, ground, member, i, tau):
     """First instant from (interval i, offset tau) on that lifts, of a record or of a sine."""
-    held = _held_at_rest(phase)
+    held = _held_at_rest(sides.ties, phase)
     if ground.circular_frequency == 0:
         return _uplift(sides, ground, member, i, tau, held)
     if i > 0:
@@ -225,12 +270,26 @@ def _place(grid, k, arc):
 
 
 @compiled
-def _shift(pieces, k, j, g, b, u):
-    """Taylor coefficients 0 to 6, about the place u of piece j of side k, of g G̃ + b B̃."""
+def _polynomial(pieces, k, j, g, b):
+    """Piece j of row k of g G̃ + b B̃, by power of the distance from its centre."""
     e0, e1 = g * pieces[k, j, 0] + b * pieces[k, j, 1], g * pieces[k, j, 2] + b * pieces[k, j, 3]
     e2, e3 = g * pieces[k, j, 4] + b * pieces[k, j, 5], g * pieces[k, j, 6] + b * pieces[k, j, 7]
     e4, e5 = g * pieces[k, j, 8] + b * pieces[k, j, 9], g * pieces[k, j, 10] + b * pieces[k, j, 11]
     e6, e7 = g * pieces[k, j, 12] + b * pieces[k, j, 13], g * pieces[k, j, 14] + b * pieces[k, j, 15]
+    return e0, e1, e2, e3, e4, e5, e6, e7
+
+
+@part
+def _every_other(pieces, k, j, n):
+    """The same of G̃ (n = 0) or B̃ (n = 1) alone."""
+    low = pieces[k, j, n], pieces[k, j, n + 2], pieces[k, j, n + 4], pieces[k, j, n + 6]
+    return *low, pieces[k, j, n + 8], pieces[k, j, n + 10], pieces[k, j, n + 12], pieces[k, j, n + 14]
+
+
+@compiled
+def _shift(e, u):
+    """Taylor coefficients 0 to 6 of a polynomial about the place u."""
+    e0, e1, e2, e3, e4, e5, e6, e7 = e
     a0 = e0 + u * (e1 + u * (e2 + u * (e3 + u * (e4 + u * (e5 + u * (e6 + u * e7))))))
     a1 = e1 + u * (2 * e2 + u * (3 * e3 + u * (4 * e4 + u * (5 * e5 + u * (6 * e6 + u * 7 * e7)))))
     a2 = e2 + u * (3 * e3 + u * (6 * e4 + u * (10 * e5 + u * (15 * e6 + u * 21 * e7))))
@@ -238,6 +297,19 @@ def _shift(pieces, k, j, g, b, u):
     a4 = e4 + u * (5 * e5 + u * (15 * e6 + u * 35 * e7))
     a5 = e5 + u * (6 * e6 + u * 21 * e7)
     return a0, a1, a2, a3, a4, a5, e6 + u * 7 * e7
+
+
+@part
+def _short_shift(e, u):
+    """Its coefficients 0 to 4, with powers in pairs (Estrin), so that few operations wait for each other."""
+    e0, e1, e2, e3, e4, e5, e6, e7 = e
+    u2 = u * u
+    u4 = u2 * u2
+    a0 = e0 + u * e1 + u2 * (e2 + u * e3) + u4 * (e4 + u * e5 + u2 * (e6 + u * e7))
+    a1 = e1 + u * 2 * e2 + u2 * (3 * e3 + u * 4 * e4) + u4 * (5 * e5 + u * 6 * e6 + u2 * 7 * e7)
+    a2 = e2 + u * 3 * e3 + u2 * (6 * e4 + u * 10 * e5) + u4 * (15 * e6 + u * 21 * e7)
+    a3 = e3 + u * 4 * e4 + u2 * (10 * e5 + u * 20 * e6) + u4 * 35 * e7
+    return a0, a1, a2, a3, e4 + u * 5 * e5 + u2 * (15 * e6 + u * 35 * e7)
 
 
 LARGEST, LOW, HIGH, YIELDING, LEFT, TAUT, STIFF, HELD = range(8)
@@ -249,23 +321,33 @@ FIRST, EACH = 8, 6
 it is broken, its plastic elongation, the arc below which that leaves it slack, and the largest arc they go with."""
 
 
-@compiled
-def _fresh(ties):
-    """The memory of the ties, a row for the positive and one for the negative side."""
+@register_jitable
+def memory(ties):
+    """Return room for the phase of n ties, (2, 8 + 6 n), a row for each side of rocking."""
     if ties is None:
-        return None
-    sides, count, _ = ties.law.shape
-    phase = np.zeros((2, FIRST + EACH * count))
+        return np.empty((2, FIRST))
+    return np.empty((2, FIRST + EACH * ties.law.shape[1]))
+
+
+STIFFNESS, PRETENSION, STRENGTH, YIELD_STRETCH, YIELD_ARC, RUPTURE_ARC, SQUARE, AT_REST, BEND = range(9)
+"""Places in the law of a tie."""
+
+
+@compiled
+def _forget(ties, phase):
+    """Begin the memory of the ties, a row for the positive and one for the negative side."""
+    if ties is None:
+        return
+    phase[:] = 0.0
     for slot in range(2):
-        for n in range(count):
-            law, at = ties.law[min(slot, sides - 1), n], FIRST + EACH * n
+        for n in range(ties.law.shape[1]):
+            law, at = ties.law[min(slot, ties.law.shape[0] - 1), n], FIRST + EACH * n
             phase[slot, at + 4] = -np.inf
-            if law[0] == 0 and law[1] == 0:
+            if law[STIFFNESS] == 0 and law[PRETENSION] == 0:
                 phase[slot, at + 2] = 1  # fills the table of a side with fewer ties
             else:
                 phase[slot, LEFT] += 1
-                phase[slot, HELD] += law[1] * law[7]
-    return phase
+                phase[slot, HELD] += law[PRETENSION] * law[AT_REST]
 
 
 @compiled
@@ -301,128 +383,129 @@ def _slack_arc(ties, grid, k, row, target, high):
 @compiled
 def _stretch_for_good(ties, grid, row, k, n):
     """Note the plastic elongation of a tie, and the arc below which that leaves it slack."""
-    stiffness, pretension, _, yield_stretch, _, _, _, _, _ = ties.law[k, n]
-    place, at, largest = k * ties.law.shape[1] + n, FIRST + EACH * n, row[LARGEST]
+    law, place, at, largest = ties.law[k, n], k * ties.law.shape[1] + n, FIRST + EACH * n, row[LARGEST]
     row[at + 5] = largest
-    row[at + 3] = max(_stretch(ties, grid, k, place, largest)[0] - yield_stretch, 0.0)
-    if stiffness * row[at + 3] > pretension:
-        row[at + 4] = _slack_arc(ties, grid, k, place, row[at + 3] - pretension / stiffness, largest)
+    row[at + 3] = max(_stretch(ties, grid, k, place, largest)[0] - law[YIELD_STRETCH], 0.0)
+    if law[STIFFNESS] * row[at + 3] > law[PRETENSION]:
+        slack = row[at + 3] - law[PRETENSION] / law[STIFFNESS]
+        row[at + 4] = _slack_arc(ties, grid, k, place, slack, largest)
 
 
 @compiled
-def _enter(ties, grid, phase, side, k, arc, outward):
-    """Set the tension of every tie as a function of u, and how far it holds, from an arc on, outward or inward."""
+def _enter(ties, grid, phase, side, k, arc, way):
+    """Set the tension of every tie as a function of u, and how far it holds, from an arc outward (way > 0) or back."""
     if ties is None:
         return
     row = phase[0 if side > 0 else 1]
-    on_the_way_out = outward and arc >= row[LARGEST]
+    on_the_way_out = way > 0 and arc >= row[LARGEST]
     row[LARGEST] = max(row[LARGEST], arc)
     low, high, yielding, left, taut, stiff, held = -np.inf, np.inf, 0, 0, 0, 0.0, 0.0
     for n in range(ties.law.shape[1]):
-        stiffness, pretension, strength, _, yield_arc, rupture_arc, square, rest, _ = ties.law[k, n]
-        at = FIRST + EACH * n
+        law, at = ties.law[k, n], FIRST + EACH * n
         row[at], row[at + 1] = 0.0, 0.0
-        if on_the_way_out and arc >= rupture_arc:
+        if on_the_way_out and arc >= law[RUPTURE_ARC]:
             row[at + 2] = 1
         if row[at + 2] != 0:
             continue
         left += 1
-        if on_the_way_out and arc >= yield_arc:
-            row[at], yielding, taut, high = strength, 1, taut + 1, min(high, rupture_arc)
+        if on_the_way_out and arc >= law[YIELD_ARC]:
+            row[at], yielding, taut, high = law[STRENGTH], 1, taut + 1, min(high, law[RUPTURE_ARC])
             continue
-        if row[LARGEST] > max(yield_arc, row[at + 5]):
+        if row[LARGEST] > max(law[YIELD_ARC], row[at + 5]):
             _stretch_for_good(ties, grid, row, k, n)
-        force, slack_arc = pretension - stiffness * row[at + 3], row[at + 4]
-        held += max(force, 0.0) * rest
-        if arc < slack_arc or (arc == slack_arc and not outward):
+        force, slack_arc = law[PRETENSION] - law[STIFFNESS] * row[at + 3], row[at + 4]
+        held += max(force, 0.0) * law[AT_REST]
+        if arc < slack_arc or (arc == slack_arc and way < 0):
             high = min(high, slack_arc)
             continue
-        row[at], row[at + 1], taut = force, stiffness, taut + 1
-        low, high, stiff = max(low, slack_arc), min(high, max(row[LARGEST], yield_arc)), stiff + square
+        row[at], row[at + 1], taut, stiff = force, law[STIFFNESS], taut + 1, stiff + law[SQUARE]
+        low, high = max(low, slack_arc), min(high, max(row[LARGEST], law[YIELD_ARC]))
     row[LOW], row[HIGH], row[YIELDING] = low, high, yielding
     row[LEFT], row[TAUT], row[STIFF], row[HELD] = left, taut, stiff, held
 
 
 @compiled
-def _with_ties(ties, phase, side, k, j, u, own):
-    """The Taylor coefficients of what pulls back, the ties' to those of G̃ and B̃."""
+def _with_ties(ties, phase, slot, k, j, e):
+    """The polynomial of piece j that pulls back, with the taut ties' added to that of G̃ and B̃."""
     if ties is None:
-        return own
-    slot = 0 if side > 0 else 1
+        return e
     if phase[slot, TAUT] == 0:
-        return own
-    return _with_tensions(ties.pieces, phase, slot, k, j, u, own)
-
-
-@compiled
-def _with_tensions(pieces, phase, slot, k, j, u, own):
-    """The same where at least one tie is taut."""
-    count = (phase.shape[1] - FIRST) // EACH
-    w0, w1, w2, w3, w4, w5, w6 = own
+        return e
+    count = ties.law.shape[1]
+    e0, e1, e2, e3, e4, e5, e6, e7 = e
     for n in range(count):
         c, s = phase[slot, FIRST + EACH * n], phase[slot, FIRST + EACH * n + 1]
         if c != 0 or s != 0:
-            a0, a1, a2, a3, a4, a5, a6 = _shift(pieces, k * count + n, j, c, s, u)
-            w0, w1, w2, w3, w4, w5, w6 = w0 + a0, w1 + a1, w2 + a2, w3 + a3, w4 + a4, w5 + a5, w6 + a6
-    return w0, w1, w2, w3, w4, w5, w6
+            a0, a1, a2, a3, a4, a5, a6, a7 = _polynomial(ties.pieces, k * count + n, j, c, s)
+            e0, e1, e2, e3, e4, e5, e6, e7 = (
+                e0 + a0,
+                e1 + a1,
+                e2 + a2,
+                e3 + a3,
+                e4 + a4,
+                e5 + a5,
+                e6 + a6,
+                e7 + a7,
+            )
+    return e0, e1, e2, e3, e4, e5, e6, e7
 
 
 @compiled
-def _held_at_rest(phase):
+def _held_at_rest(ties, phase):
     """What the ties of the positive and of the negative side pull back with at rest."""
-    if phase is None:
+    if ties is None:
         return 0.0, 0.0
     return phase[0, HELD], phase[1, HELD]
 
 
 @compiled
-def _beyond(phase, side, arc):
+def _beyond(ties, phase, slot, arc):
     """1 where an arc is above the present phase, −1 below it, 0 within."""
-    if phase is None:
+    if ties is None:
         return 0
-    slot = 0 if side > 0 else 1
     return 1 if arc > phase[slot, HIGH] else -1 if arc < phase[slot, LOW] else 0
-
-
-@compiled
-def _ties_left(phase, side):
-    """How many ties of a side are not broken."""
-    if phase is None:
-        return 0
-    return phase[0 if side > 0 else 1, LEFT]
 
 
 @compiled
 def _slope_near_rest(ties, k):
     """The largest slope of what ties pull back with, near rest."""
+    slope = 0.0
     if ties is None:
-        return 0.0
-    return ties.law[k, :, 8].sum()
+        return slope
+    for n in range(ties.law.shape[1]):
+        slope += ties.law[k, n, BEND]
+    return slope
 
 
 @compiled
-def _longest_step(phase, side, longest):
+def _longest_step(ties, phase, slot, longest):
     """The shortest time of the structure, `longest` without ties, with those that are taut in the present phase."""
-    if phase is None:
+    if ties is None:
         return longest
-    return 1 / math.sqrt(1 / (longest * longest) + phase[0 if side > 0 else 1, STIFF])
+    return 1 / math.sqrt(1 / (longest * longest) + phase[slot, STIFF])
 
 
-@compiled
+@part
+def _sine_terms(pieces, k, j, u, s0, s1, square):
+    """What bends a sine that starts as s0 + s1 t: coefficients of B̃ about u, then those of t² to t⁶ of the sine."""
+    if square == 0.0:
+        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    b0, b1, b2, b3, b4, _, _ = _shift(_polynomial(pieces, k, j, 0.0, 1.0), u)
+    s2, s3 = -square * s0 / 2, -square * s1 / 6
+    return b0, b1, b2, b3, b4, s2, s3, -square * s2 / 12, -square * s3 / 20, square * square * s2 / 360
+
+
+@part
 def _series(pieces, k, j, u, v, side, a0, a1, g0, g1, square, ties, phase):
     """Taylor coefficients (v, x2, ..., x8) of the arc, at the place u of piece j of side k.
 
     Ground acceleration a0 + a1 t (or the sine that starts so, with the squared frequency `square`), gravity g0 + g1 t.
     """
-    s0, s1 = side * a0, side * a1
-    w0, w1, w2, w3, w4, w5, w6 = _with_ties(ties, phase, side, k, j, u, _shift(pieces, k, j, g0, s0, u))
-    r0, r1, r2, r3, r4, r5, _ = _shift(pieces, k, j, g1, s1, u)
-    b0 = b1 = b2 = b3 = b4 = 0.0
-    s2 = s3 = s4 = s5 = s6 = 0.0
-    if square != 0.0:
-        b0, b1, b2, b3, b4, _, _ = _shift(pieces, k, j, 0.0, 1.0, u)
-        s2, s3 = -square * s0 / 2, -square * s1 / 6
-        s4, s5, s6 = -square * s2 / 12, -square * s3 / 20, square * square * s2 / 360
+    s0, s1, slot = side * a0, side * a1, 0 if side > 0 else 1
+    own = _polynomial(pieces, k, j, g0, s0)
+    w0, w1, w2, w3, w4, w5, w6 = _shift(_with_ties(ties, phase, slot, k, j, own), u)
+    r0, r1, r2, r3, r4, r5, _ = _shift(_polynomial(pieces, k, j, g1, s1), u)
+    b0, b1, b2, b3, b4, s2, s3, s4, s5, s6 = _sine_terms(pieces, k, j, u, s0, s1, square)
     # pkn: coefficient n of the k-th power of the displacement within the step.
     x2 = -0.5 * w0
     x3 = (w1 * v + r0) * (-1 / 6)
@@ -454,50 +537,32 @@ def _series(pieces, k, j, u, v, side, a0, a1, g0, g1, square, ties, phase):
     return v, x2, x3, x4, x5, x6, x7, x8
 
 
-@compiled
-def _short_series(pieces, k, j, u, v, s0, s1, g0, g1, ties, phase, side):
-    """The first coefficients (v, x2, ..., x6) of `_series` for a ground acceleration s0 + s1 t against the side.
+@part
+def _short_terms(pieces, k, j, u, s0, s1, g0, g1, ties, phase, slot):
+    """Coefficients 0 to 4 of what pulls back, then of how it grows with time, about the place u."""
+    if ties is None:
+        p0, p1, p2, p3, p4 = _short_shift(_every_other(pieces, k, j, 0), u)
+        q0, q1, q2, q3, q4 = _short_shift(_every_other(pieces, k, j, 1), u)
+        still = g0 * p0 + s0 * q0, g0 * p1 + s0 * q1, g0 * p2 + s0 * q2, g0 * p3 + s0 * q3, g0 * p4 + s0 * q4
+        return still, (g1 * p0 + s1 * q0, g1 * p1 + s1 * q1, g1 * p2 + s1 * q2, g1 * p3 + s1 * q3, 0.0)
+    own = _with_ties(ties, phase, slot, k, j, _polynomial(pieces, k, j, g0, s0))
+    return _short_shift(own, u), _short_shift(_polynomial(pieces, k, j, g1, s1), u)
 
-    Powers are paired (Estrin), so that few operations wait for each other.
-    """
-    u2 = u * u
-    u4 = u2 * u2
-    e0, e1, e2, e3 = pieces[k, j, 0], pieces[k, j, 2], pieces[k, j, 4], pieces[k, j, 6]
-    e4, e5, e6, e7 = pieces[k, j, 8], pieces[k, j, 10], pieces[k, j, 12], pieces[k, j, 14]
-    p0 = e0 + u * e1 + u2 * (e2 + u * e3) + u4 * (e4 + u * e5 + u2 * (e6 + u * e7))
-    p1 = e1 + u * 2 * e2 + u2 * (3 * e3 + u * 4 * e4) + u4 * (5 * e5 + u * 6 * e6 + u2 * 7 * e7)
-    p2 = e2 + u * 3 * e3 + u2 * (6 * e4 + u * 10 * e5) + u4 * (15 * e6 + u * 21 * e7)
-    p3 = e3 + u * 4 * e4 + u2 * (10 * e5 + u * 20 * e6) + u4 * 35 * e7
-    p4 = e4 + u * 5 * e5 + u2 * (15 * e6 + u * 35 * e7)
-    f0, f1, f2, f3 = pieces[k, j, 1], pieces[k, j, 3], pieces[k, j, 5], pieces[k, j, 7]
-    f4, f5, f6, f7 = pieces[k, j, 9], pieces[k, j, 11], pieces[k, j, 13], pieces[k, j, 15]
-    q0 = f0 + u * f1 + u2 * (f2 + u * f3) + u4 * (f4 + u * f5 + u2 * (f6 + u * f7))
-    q1 = f1 + u * 2 * f2 + u2 * (3 * f3 + u * 4 * f4) + u4 * (5 * f5 + u * 6 * f6 + u2 * 7 * f7)
-    q2 = f2 + u * 3 * f3 + u2 * (6 * f4 + u * 10 * f5) + u4 * (15 * f6 + u * 21 * f7)
-    q3 = f3 + u * 4 * f4 + u2 * (10 * f5 + u * 20 * f6) + u4 * 35 * f7
-    q4 = f4 + u * 5 * f5 + u2 * (15 * f6 + u * 35 * f7)
+
+@part
+def _short_series(pieces, k, j, u, v, s0, s1, g0, g1, ties, phase, slot):
+    """The first coefficients (v, x2, ..., x6) of `_series` for a ground acceleration s0 + s1 t against the side."""
+    still, growing = _short_terms(pieces, k, j, u, s0, s1, g0, g1, ties, phase, slot)
+    w0, w1, w2, w3, w4 = still
+    r0, r1, r2, r3, _ = growing
     square = v * v
-    own = (
-        g0 * p0 + s0 * q0,
-        g0 * p1 + s0 * q1,
-        g0 * p2 + s0 * q2,
-        g0 * p3 + s0 * q3,
-        g0 * p4 + s0 * q4,
-        0.0,
-        0.0,
-    )
-    w0, w1, w2, w3, w4, _, _ = _with_ties(ties, phase, side, k, j, u, own)
     x2 = -0.5 * w0
-    r0 = g1 * p0 + s1 * q0
     x3 = (w1 * v + r0) * (-1 / 6)
-    r1 = g1 * p1 + s1 * q1
     x4 = (w1 * x2 + w2 * square + r1 * v) * (-1 / 12)
-    r2 = g1 * p2 + s1 * q2
     double = 2 * v * x2
     x5 = (w1 * x3 + w2 * double + w3 * square * v + r1 * x2 + r2 * square) * (-1 / 20)
-    r3 = g1 * p3 + s1 * q3
-    still = w1 * x4 + w2 * (2 * v * x3 + x2 * x2) + 3 * w3 * square * x2 + w4 * square * square
-    x6 = (still + r1 * x3 + r2 * double + r3 * square * v) * (-1 / 30)
+    bent = w1 * x4 + w2 * (2 * v * x3 + x2 * x2) + 3 * w3 * square * x2 + w4 * square * square
+    x6 = (bent + r1 * x3 + r2 * double + r3 * square * v) * (-1 / 30)
     return v, x2, x3, x4, x5, x6
 
 
@@ -555,7 +620,7 @@ def _accurate(x, h, arc, farthest, fastest, tolerance):
     return tail * h <= tolerance * largest and 8 * tail <= tolerance * quickest
 
 
-@compiled
+@part
 def _stride(x, h, room, arc, farthest, fastest, tolerance):
     """Largest step up to h that is accurate, stays within reach of its piece, and turns at most once."""
     for _ in range(200):
@@ -576,7 +641,7 @@ def _lifted(x, arc, speed):
     return x
 
 
-@compiled
+@part
 def _eventless(x, h, share, arc, room, farthest, fastest, tolerance):
     """Whether the short series is accurate over h, and the speed keeps its sign; the arc and the speed after it.
 
@@ -595,17 +660,18 @@ def _eventless(x, h, share, arc, room, farthest, fastest, tolerance):
     return accurate and bend < abs(v) and h * (abs(v) + bend) <= room, new, pull
 
 
-@compiled
-def _glide(sides, phase, ground, member, k, side, i, arc, speed, farthest, fastest, tolerance, log, logged):
+@part
+def _glide(sides, phase, ground, member, k, motion, tolerance, log, logged):
     """Advance from sample to sample by the short series, up to one in which something may happen, or the end.
 
-    Returns the interval, arc, speed, largest arc and speed of the flight, and lines of log.
+    Returns where it is then, and lines of log.
     """
+    i, tau, arc, speed, side, farthest, fastest = motion
     pieces, grid, critical, h = sides.pieces, sides.grid, sides.critical[k], ground.time_step
-    horizontal, vertical, rate = ground.horizontal, ground.vertical, 1 / ground.time_step
-    share = h / _longest_step(phase, side, sides.longest_step[k])
+    horizontal, vertical, rate, slot = ground.horizontal, ground.vertical, 1 / h, 0 if side > 0 else 1
+    share = h / _longest_step(sides.ties, phase, slot, sides.longest_step[k])
     if share > 1:
-        return i, arc, speed, farthest, fastest, logged
+        return motion, logged
     push, weight = side * member.horizontal * horizontal[i], ground.gravity + member.vertical * vertical[i]
     while i < horizontal.size - 1:
         next_push = side * member.horizontal * horizontal[i + 1]
@@ -613,16 +679,17 @@ def _glide(sides, phase, ground, member, k, side, i, arc, speed, farthest, faste
         j, centre, room = _place(grid, k, arc)
         x = _short_series(
             pieces, k, j, arc - centre, speed, push, (next_push - push) * rate, weight, (next_weight - weight) * rate,
-            sides.ties, phase, side,
+            sides.ties, phase, slot,
         )  # fmt: skip
         plain, new, pull = _eventless(x, h, share, arc, room, farthest, fastest, tolerance)
-        if not plain or not new > 0 or (new > critical and pull > 0) or _beyond(phase, side, new) != 0:
+        out = new > critical and pull > 0
+        if not plain or not new > 0 or out or _beyond(sides.ties, phase, slot, new) != 0:
             break
         i, arc, speed, push, weight = i + 1, new, pull, next_push, next_weight
         farthest, fastest = max(farthest, arc), max(fastest, abs(speed))
         if log.shape[0] > 0:
             logged = _write(log, logged, i * h, side * arc, side * speed)
-    return i, arc, speed, farthest, fastest, logged
+    return Motion(i, tau, arc, speed, side, farthest, fastest), logged
 
 
 @compiled
@@ -664,7 +731,7 @@ def _landing(x, arc, low, high):
     return t
 
 
-@compiled
+@part
 def _events(x, h, arc, speed, new, pull):
     """When the step turns and when it lands; −1 where it does not."""
     turn = landing = -1.0
@@ -679,12 +746,11 @@ def _events(x, h, arc, speed, new, pull):
     return turn, landing
 
 
-@compiled
-def _leaves(phase, side, x, h, arc, speed, new, turn, landing):
+@part
+def _leaves(ties, phase, slot, x, h, arc, speed, new, turn, landing):
     """When a step leaves the phase of the ties, and how: 1 outward, −1 inward, 2 turning while one yields; 0 not."""
-    if phase is None:
+    if ties is None:
         return h, 0
-    slot, end = 0 if side > 0 else 1, h if landing < 0 else landing
     low, high, yields = phase[slot, LOW], phase[slot, HIGH], phase[slot, YIELDING] != 0
     if yields and speed <= 0 and new < arc:
         return 0.0, 2
@@ -698,7 +764,7 @@ def _leaves(phase, side, x, h, arc, speed, new, turn, landing):
         if peak < low:
             return _landing(x, arc - low, 0.0, turn), -1
         start, from_arc = turn, peak
-    last = arc + _displacement(x, end)
+    end, last = (h, new) if landing < 0 else (landing, 0.0)
     if last > high and last > from_arc:
         return _landing(_back(x), high - arc, start, end), 1
     if last < low and last < from_arc:
@@ -707,13 +773,13 @@ def _leaves(phase, side, x, h, arc, speed, new, turn, landing):
 
 
 @compiled
-def _boundary(phase, side, leaves, arc):
+def _boundary(ties, phase, slot, leaves, arc):
     """The arc at which a phase ends."""
-    if phase is None:
+    if ties is None:
         return arc
     if leaves == 2:
         return arc
-    return phase[0 if side > 0 else 1, HIGH if leaves > 0 else LOW]
+    return phase[slot, HIGH if leaves > 0 else LOW]
 
 
 @compiled
@@ -732,7 +798,7 @@ def _write(log, logged, time, arc, speed):
     return logged + 1
 
 
-@compiled
+@part
 def _drive(ground, member, i, tau):
     """ü_g, its slope, g + ü_v, its slope, and the squared frequency of a sine, at an offset of an interval."""
     if _over(ground, i):
@@ -746,6 +812,24 @@ def _drive(ground, member, i, tau):
     rate = 1 / ground.time_step
     push_rate, weight_rate = (next_push - push) * rate, (next_weight - weight) * rate
     return push + tau * push_rate, push_rate, weight + tau * weight_rate, weight_rate, 0.0
+
+
+@compiled
+def _spread(sides, changes, heaviest, strongest, rise):
+    """By how much the deceleration near rest varies at most within a flight; inf where it rises beyond that.
+
+    changes: of ü_v and of ü_g within it.
+    """
+    spread = 0.0
+    for k in range(sides.near.shape[0]):
+        if rise > sides.near[k, 0]:
+            return np.inf
+        in_time = sides.near[k, 2] * changes[0] + sides.near[k, 3] * changes[1]
+        in_place = (
+            sides.near[k, 4] * heaviest + sides.near[k, 5] * strongest + _slope_near_rest(sides.ties, k)
+        )
+        spread = max(spread, in_time + in_place * rise)
+    return spread
 
 
 @compiled
@@ -770,20 +854,14 @@ def _dies_out(sides, ground, member, i, tau, speed, best):
         strongest = max(strongest, abs(push), abs(next_push))
         steepest = max(steepest, abs(next_push - push))
         steepest_up = max(steepest_up, abs(next_weight - weight))
-        d, spread = np.inf, 0.0
+        d = np.inf
         for k in range(last + 1):
             d = min(d, sides.near[k, 1] * lightest - sides.near[k, 3] * strongest)
         if not d > 0:
             return False
         flight, rise = 2 * speed / d, speed * speed / (2 * d)
-        for k in range(last + 1):
-            if rise > sides.near[k, 0]:
-                return False
-            in_time = (sides.near[k, 2] * steepest_up + sides.near[k, 3] * steepest) / step * flight
-            in_place = (
-                sides.near[k, 4] * heaviest + sides.near[k, 5] * strongest + _slope_near_rest(sides.ties, k)
-            )
-            spread = max(spread, in_time + in_place * rise)
+        rates = steepest_up / step * flight, steepest / step * flight
+        spread = _spread(sides, rates, heaviest, strongest, rise)
         shrink = eta * (1 + spread / (2 * d))
         if rise > peak or shrink >= 1:
             return False
@@ -792,154 +870,203 @@ def _dies_out(sides, ground, member, i, tau, speed, best):
     return False
 
 
-@compiled
-def _lost(sides, ground, member, k, i, arc, phase, side):
-    """Whether a side that moves outward beyond φ_cr overturns: past its end, or past what the ground can still do.
+@part
+def _lost(sides, phase, ground, member, k, motion):
+    """Whether a motion has overturned: outward past φ_cr, and past its end or what the ground can still do.
 
     The latter is known where no tie is left.
     """
+    arc = motion.arc
+    if not (arc > sides.critical[k] and motion.speed > 0):
+        return False
     if arc >= sides.end[k]:
         return True
+    if sides.ties is not None and phase[0 if motion.side > 0 else 1, LEFT] > 0:
+        return False
     j, _, _ = _place(sides.grid, k, arc)
-    return _ties_left(phase, side) == 0 and sides.hold[k, j] > _excitation(ground, member, i)
+    return sides.hold[k, j] > _excitation(ground, member, motion.interval)
+
+
+@part
+def _row(sides, side):
+    """Which side of the table it is."""
+    return 0 if side > 0 else sides.pieces.shape[0] - 1
+
+
+@part
+def _passed(tally, steps, logged):
+    """The tally after more steps."""
+    return Tally(tally.status, tally.impacts, tally.uplift, tally.steps + steps, tally.turns, logged)
+
+
+@part
+def _begin(sides, phase, start, best, log):
+    """The motion that starts so, and what has happened until then."""
+    best[0], best[1] = 0.0, np.nan
+    status, uplift, side = 0, np.nan, start.side
+    if side != 0:
+        status, uplift, slot = ROCKS, 0.0, 0 if side > 0 else 1
+        best[0, slot], best[1, slot] = start.arc, 0.0
+        _enter(sides.ties, sides.grid, phase, side, _row(sides, side), start.arc, 1.0)
+    logged = _write(log, 0, 0.0, side * start.arc, side * start.speed)
+    motion = Motion(0, 0.0, start.arc, start.speed, side, start.arc, abs(start.speed))
+    return motion, Tally(status, 0, uplift, 0, 0, logged)
+
+
+@part
+def _next_interval(motion):
+    """The same motion, said of the interval at whose beginning it is."""
+    _, _, arc, speed, side, farthest, fastest = motion
+    return Motion(motion.interval + 1, 0.0, arc, speed, side, farthest, fastest)
+
+
+@part
+def _lift(sides, phase, ground, member, motion, tally, log):
+    """The motion at its next uplift; at rest still if there is none."""
+    i, tau, side = _next_uplift(sides, phase, ground, member, motion.interval, motion.offset)
+    status, impacts, uplift, steps, turns, logged = tally
+    if side != 0:
+        if status == 0:
+            status, uplift = ROCKS, i * ground.time_step + tau
+        logged = _write(log, logged, i * ground.time_step + tau, 0.0, 0.0)
+        _enter(sides.ties, sides.grid, phase, side, _row(sides, side), 0.0, 1.0)
+    return Motion(i, tau, 0.0, 0.0, side, 0.0, 0.0), Tally(status, impacts, uplift, steps, turns, logged)
+
+
+@part
+def _step(sides, phase, ground, member, k, motion, tolerance, left):
+    """The step up to `left` over which the series is accurate, and which turns once and keeps its phase of the ties."""
+    i, tau, arc, speed, side, farthest, fastest = motion
+    slot = 0 if side > 0 else 1
+    a0, a1, g0, g1, square = _drive(ground, member, i, tau)
+    j, centre, room = _place(sides.grid, k, arc)
+    x = _series(sides.pieces, k, j, arc - centre, speed, side, a0, a1, g0, g1, square, sides.ties, phase)
+    x = _lifted(x, arc, speed)
+    longest = min(left, _longest_step(sides.ties, phase, slot, sides.longest_step[k]))
+    h = _stride(x, longest, room, arc, farthest, fastest, tolerance)
+    new, pull = arc + _displacement(x, h), _speed(x, h)
+    turn, landing = _events(x, h, arc, speed, new, pull)
+    until, leaves = _leaves(sides.ties, phase, slot, x, h, arc, speed, new, turn, landing)
+    if leaves != 0:
+        h = until
+        if leaves != 2 and until <= INSTANT * ground.time_step:
+            # a rounding: what is beyond is entered after a moment
+            h, leaves = min(PAUSE * ground.time_step, left), 0
+        new, pull, landing = arc + _displacement(x, h), _speed(x, h), -1.0
+        turn = turn if turn <= h else -1.0
+    return Step(x, h, new, pull, turn, landing, leaves)
+
+
+@part
+def _turn(ground, motion, tally, step, best, log):
+    """Keep the peak that a step passes."""
+    status, impacts, uplift, steps, turns, logged = tally
+    peak, slot = motion.arc + _displacement(step.series, step.turn), 0 if motion.side > 0 else 1
+    now = motion.interval * ground.time_step + motion.offset
+    if peak > best[0, slot]:
+        best[0, slot], best[1, slot] = peak, now + step.turn
+    logged = _write(log, logged, now + step.turn, motion.side * peak, 0.0)
+    return Tally(status, impacts, uplift, steps, turns + _over(ground, motion.interval), logged)
+
+
+@part
+def _carry_on(sides, phase, ground, member, k, motion, tally, step, left, log):
+    """The motion after a step that does not land."""
+    i, tau, _, _, side, farthest, fastest = motion
+    status, impacts, uplift, steps, turns, logged = tally
+    arc, speed, h, leaves, slot = step.arc, step.speed, step.length, step.leaves, 0 if side > 0 else 1
+    if not arc > 0 and not abs(arc) < np.inf:
+        return motion, Tally(NOT_FINITE, impacts, uplift, steps, turns, logged)
+    now = i * ground.time_step + tau
+    if leaves != 0:
+        arc = _boundary(sides.ties, phase, slot, leaves, arc)
+    if leaves != 0 or _beyond(sides.ties, phase, slot, arc) != 0:
+        speed = min(speed, 0.0) if leaves == 2 else speed
+        way = 1.0 if leaves == 1 or (leaves == 0 and speed > 0) else -1.0
+        _enter(sides.ties, sides.grid, phase, side, k, arc, way)
+    i, tau = (i + 1, 0.0) if h == left else (i, tau + h)
+    logged = _write(log, logged, now + h, side * arc, side * speed)
+    motion = Motion(i, tau, arc, speed, side, max(farthest, arc), max(fastest, abs(speed)))
+    status = OVERTURNS if _lost(sides, phase, ground, member, k, motion) else status
+    return motion, Tally(status, impacts, uplift, steps, turns, logged)
+
+
+@part
+def _strike(sides, phase, ground, member, k, motion, tally, step, settle, best, log):
+    """The motion after the impact that ends a step; at rest where it ends there."""
+    i, tau, _, _, side, _, _ = motion
+    status, impacts, uplift, steps, turns, logged = tally
+    landing, arrival = step.landing, -_speed(step.series, step.landing)
+    now = i * ground.time_step + tau + landing
+    tau += landing
+    logged = _write(log, logged, now, 0.0, -side * arrival)
+    speed = arrival * member.restitution[0 if side > 0 else 1]
+    if not sides.one_sided:
+        side, k = -side, sides.pieces.shape[0] - 1 - k
+    logged = _write(log, logged, now, 0.0, side * speed)
+    _enter(sides.ties, sides.grid, phase, side, k, 0.0, 1.0)
+    if not speed > sides.rest_speed[k]:
+        side = 0
+        if landing <= INSTANT * ground.time_step:
+            tau += PAUSE * ground.time_step
+    elif settle and speed < sides.near[k, 6] and _dies_out(sides, ground, member, i, tau, speed, best[0]):
+        side = 0
+    status = TOO_MANY_IMPACTS if impacts + 1 >= IMPACT_LIMIT else status
+    return Motion(i, tau, 0.0, speed, side, 0.0, speed), Tally(
+        status, impacts + 1, uplift, steps, turns, logged
+    )
 
 
 @compiled
-def rock(sides, ground, member, start, tolerance, settle, best, log):
+def rock(sides, ground, member, start, tolerance, settle, phase, best, log):
     """Follow a mechanism through a ground motion and on until no larger peak can come.
 
-    settle: whether a chain of impacts that provably dies out is left out, with its impacts. best: (2, 2), filled with
-    the largest arc of the positive and of the negative side, and their times. log: (m, 3) for the history, or no rows.
-    Returns status, impacts, uplift time, last side, steps, lines of log.
+    settle: whether a chain of impacts that provably dies out is left out, with its impacts. phase: room for the memory
+    of the ties. best: (2, 2), filled with the largest arc of the positive and of the negative side, and their times.
+    log: (m, 3) for the history, or no rows. Returns status, impacts, uplift time, last side, steps, lines of log.
     """
-    count = 1 if ground.circular_frequency > 0 else ground.horizontal.size - 1
-    last, time_step = sides.pieces.shape[0] - 1, ground.time_step
-    arc, speed, side = start.arc, start.speed, start.side
-    i, tau, status, impacts, steps, turns, sampled = 0, 0.0, 0, 0, 0, 0, ground.circular_frequency == 0
-    uplift, farthest, fastest = np.nan, arc, abs(speed)
-    best[0], best[1] = 0.0, np.nan
-    phase = _fresh(sides.ties)
-    if side != 0:
-        status, uplift = ROCKS, 0.0
-        slot = 0 if side > 0 else 1
-        best[0, slot], best[1, slot] = arc, 0.0
-        _enter(sides.ties, sides.grid, phase, side, 0 if side > 0 else last, arc, True)
-    logged = _write(log, 0, 0.0, side * arc, side * speed)
-    while True:
-        if side == 0:
-            i, tau, side = _next_uplift(sides, phase, ground, member, i, tau)
-            if side == 0:
+    time_step = ground.time_step
+    _forget(sides.ties, phase)
+    motion, tally = _begin(sides, phase, start, best, log)
+    while tally.status <= ROCKS:
+        if motion.side == 0:
+            motion, tally = _lift(sides, phase, ground, member, motion, tally, log)
+            if motion.side == 0:
                 break
-            arc = speed = farthest = fastest = 0.0
-            if status == 0:
-                status, uplift = ROCKS, i * time_step + tau
-            logged = _write(log, logged, i * time_step + tau, 0.0, 0.0)
-            _enter(sides.ties, sides.grid, phase, side, 0 if side > 0 else last, 0.0, True)
-        k = 0 if side > 0 else last
-        left = time_step - tau if i < count else np.inf
-        if left <= 0:
-            i, tau = i + 1, 0.0
-            continue
-        if sampled and tau == 0 and i < count:
-            before = i
-            i, arc, speed, farthest, fastest, logged = _glide(
-                sides,
-                phase,
-                ground,
-                member,
-                k,
-                side,
-                i,
-                arc,
-                speed,
-                farthest,
-                fastest,
-                tolerance,
-                log,
-                logged,
-            )
-            steps += i - before
-            if i == count:
-                continue
-        a0, a1, g0, g1, square = _drive(ground, member, i, tau)
-        j, centre, room = _place(sides.grid, k, arc)
-        x = _lifted(
-            _series(sides.pieces, k, j, arc - centre, speed, side, a0, a1, g0, g1, square, sides.ties, phase),
-            arc,
-            speed,
-        )
-        longest = min(left, _longest_step(phase, side, sides.longest_step[k]))
-        h = _stride(x, longest, room, arc, farthest, fastest, tolerance)
-        steps += 1
-        new, pull, now = arc + _displacement(x, h), _speed(x, h), i * time_step + tau
-        turn, landing = _events(x, h, arc, speed, new, pull)
-        until, leaves = _leaves(phase, side, x, h, arc, speed, new, turn, landing)
-        if leaves != 0:
-            h = until
-            if leaves != 2 and until <= INSTANT * time_step:
-                h, leaves = (
-                    min(PAUSE * time_step, left),
-                    0,
-                )  # a rounding: what is beyond is entered after a moment
-            new, pull, landing = arc + _displacement(x, h), _speed(x, h), -1.0
-            turn = turn if turn <= h else -1.0
-        if speed > 0 and turn >= 0:
-            peak, slot = arc + _displacement(x, turn), 0 if side > 0 else 1
-            if peak > best[0, slot]:
-                best[0, slot], best[1, slot] = peak, now + turn
-            logged = _write(log, logged, now + turn, side * peak, 0.0)
-            turns += i >= count
-            if turns > last:
+        k = _row(sides, motion.side)
+        if time_step - motion.offset <= 0 and not _over(ground, motion.interval):
+            motion = _next_interval(motion)
+        if ground.circular_frequency == 0 and motion.offset == 0 and not _over(ground, motion.interval):
+            before = motion.interval
+            motion, logged = _glide(sides, phase, ground, member, k, motion, tolerance, log, tally.logged)
+            tally = _passed(tally, motion.interval - before, logged)
+        left = np.inf if _over(ground, motion.interval) else time_step - motion.offset
+        step = _step(sides, phase, ground, member, k, motion, tolerance, left)
+        tally = _passed(tally, 1, tally.logged)
+        if motion.speed > 0 and step.turn >= 0:
+            tally = _turn(ground, motion, tally, step, best, log)
+            if tally.turns >= sides.pieces.shape[0]:
                 break
-        if landing < 0:
-            if not new > 0 and not abs(new) < np.inf:
-                status = NOT_FINITE
-                break
-            arc, speed = new, pull
-            if leaves != 0:
-                arc = _boundary(phase, side, leaves, arc)
-            if leaves != 0 or _beyond(phase, side, arc) != 0:
-                speed = min(speed, 0.0) if leaves == 2 else speed
-                _enter(
-                    sides.ties, sides.grid, phase, side, k, arc, leaves == 1 or (leaves == 0 and speed > 0)
-                )
-            farthest, fastest = max(farthest, arc), max(fastest, abs(speed))
-            i, tau = (i + 1, 0.0) if h == left else (i, tau + h)
-            logged = _write(log, logged, now + h, side * arc, side * speed)
-            if arc > sides.critical[k] and speed > 0 and _lost(sides, ground, member, k, i, arc, phase, side):
-                status = OVERTURNS
-                break
-            continue
-        impacts += 1
-        tau, arrival = tau + landing, -_speed(x, landing)
-        logged = _write(log, logged, now + landing, 0.0, -side * arrival)
-        arc, farthest = 0.0, 0.0
-        speed = fastest = arrival * member.restitution[0 if side > 0 else 1]
-        if not sides.one_sided:
-            side, k = -side, last - k
-        logged = _write(log, logged, now + landing, 0.0, side * speed)
-        _enter(sides.ties, sides.grid, phase, side, k, 0.0, True)
-        if not speed > sides.rest_speed[k]:
-            side = 0
-            if landing <= INSTANT * time_step:
-                tau += PAUSE * time_step
-        elif settle and speed < sides.near[k, 6] and _dies_out(sides, ground, member, i, tau, speed, best[0]):
-            side = 0
-        if impacts >= IMPACT_LIMIT:
-            status = TOO_MANY_IMPACTS
-            break
-    return status, impacts, uplift, side, steps, logged
+        if step.landing < 0:
+            motion, tally = _carry_on(sides, phase, ground, member, k, motion, tally, step, left, log)
+        else:
+            motion, tally = _strike(sides, phase, ground, member, k, motion, tally, step, settle, best, log)
+    return tally.status, tally.impacts, tally.uplift, motion.side, tally.steps, tally.logged
 
 
-@compiled
+@njit(**_OPTIONS)
 def rock_members(sides, ground, horizontal, vertical, restitution, tolerance, status, peaks, impacts):
     """`rock` for every member (m,): fill status, peaks (m, 2), the largest arc of each side, and impacts.
 
     horizontal, vertical: (m,) factors of ü_g and ü_v. restitution: (m, 2), of the positive and of the negative side.
     Chains of impacts that provably die out are not followed, nor counted.
     """
+    settle = horizontal.size > 0  # for a literal True `rock` would be compiled once more
     none, best, start = np.empty((0, 3)), np.zeros((2, 2)), Start(0.0, 0.0, 0)
+    phase = memory(sides.ties)
     for m in range(horizontal.size):
         member = Member(horizontal[m], vertical[m], (restitution[m, 0], restitution[m, 1]))
-        status[m], impacts[m], _, _, _, _ = rock(sides, ground, member, start, tolerance, True, best, none)
+        status[m], impacts[m], _, _, _, _ = rock(
+            sides, ground, member, start, tolerance, settle, phase, best, none
+        )
         peaks[m] = best[0]

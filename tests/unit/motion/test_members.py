@@ -87,6 +87,7 @@ def chains(mechanism, motion, settle):
         kernel.Start(0.0, 0.0, 0),
         1e-12,
         settle,
+        kernel.memory(None),
         best,
         np.empty((0, 3)),
     )

@@ -244,8 +244,9 @@ def test_overturning_is_proved_where_nothing_to_come_can_hold_it(k: int) -> None
     strength = 10 * sides.hold[k, 0]
     for factor, proved in ((0.999, True), (1.001, False)):
         motion = ground([0.0, -strength * factor, 1.0])
-        assert kernel._lost(sides, motion, MEMBER, k, 0, 0.5, None, 1) == proved
-        assert kernel._lost(sides, motion, MEMBER, k, 0, 1.0, None, 1), "the end of the mechanism"
+        for arc, speed, lost in ((0.5, 0.1, proved), (1.0, 0.1, True), (0.5, -0.1, False)):
+            outward = kernel.Motion(0, 0.0, arc, speed, 1, arc, 0.1)
+            assert kernel._lost(sides, kernel.memory(None), motion, MEMBER, k, outward) == lost
 
 
 def test_what_drives_a_step() -> None:
