@@ -1,32 +1,16 @@
 """The dominant sine pulse of a record, its rivals, and the evidence to trust or refuse it."""
 
-from rocking.pulses.analysis import PulseAnalysis, PulseEvidence
-from rocking.pulses.extraction import energy_map, extract_pulses
-from rocking.pulses.flags import Flag
-from rocking.pulses.interval import PulseInterval, pulse_interval
-from rocking.pulses.method import PulseMethod, predicting_pulse
-from rocking.pulses.methods import DEFAULT_PULSE_METHOD, PULSE_METHODS
-from rocking.pulses.orientation import OrientedAnalysis, extract_pulses_oriented
-from rocking.pulses.pulse import Pulse
-from rocking.pulses.settings import PulseSettings
-from rocking.pulses.velocity_pulse import VelocityPulse, velocity_pulse
-
-__all__ = [
-    "DEFAULT_PULSE_METHOD",
-    "PULSE_METHODS",
-    "Flag",
-    "OrientedAnalysis",
-    "Pulse",
-    "PulseAnalysis",
-    "PulseEvidence",
-    "PulseInterval",
-    "PulseMethod",
-    "PulseSettings",
-    "VelocityPulse",
-    "energy_map",
-    "extract_pulses",
-    "extract_pulses_oriented",
-    "predicting_pulse",
-    "pulse_interval",
-    "velocity_pulse",
-]
+from rocking.pulses.analysis import PulseAnalysis as PulseAnalysis
+from rocking.pulses.analysis import PulseEvidence as PulseEvidence
+from rocking.pulses.extraction import energy_map as energy_map
+from rocking.pulses.extraction import extract_pulses as extract_pulses
+from rocking.pulses.flags import Flag as Flag
+from rocking.pulses.interval import pulse_interval as pulse_interval
+from rocking.pulses.method import predicting_pulse as predicting_pulse
+from rocking.pulses.methods import DEFAULT_PULSE_METHOD as DEFAULT_PULSE_METHOD
+from rocking.pulses.methods import PULSE_METHODS as PULSE_METHODS
+from rocking.pulses.orientation import extract_pulses_oriented as extract_pulses_oriented
+from rocking.pulses.pulse import Pulse as Pulse
+from rocking.pulses.settings import PulseSettings as PulseSettings
+from rocking.pulses.velocity_pulse import VelocityPulse as VelocityPulse
+from rocking.pulses.velocity_pulse import velocity_pulse as velocity_pulse

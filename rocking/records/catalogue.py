@@ -14,19 +14,8 @@ from rocking.records.catalogue_record import COLUMNS, CatalogueRecord
 from rocking.records.channels import is_unnamed
 from rocking.records.directions import azimuth, is_vertical
 from rocking.records.fetch import fetch, inventory_of
-from rocking.records.folder import catalogue_from_folder, write_catalogue_rows
 from rocking.records.plausibility import scaled
 from rocking.records.read import plain, read
-
-__all__ = [
-    "COLUMNS",
-    "CatalogueRecord",
-    "catalogue_from_folder",
-    "load_catalogue",
-    "open_record",
-    "vertical_of",
-    "write_catalogue_rows",
-]
 
 _REQUIRED = ("id", "file")
 _PROSE = ("event", "station", "licence", "note")

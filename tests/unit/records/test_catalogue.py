@@ -18,11 +18,12 @@ import pytest
 
 from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import GRAVITY
-from rocking.records import CatalogueRecord, load_catalogue, open_record, vertical_of
+from rocking.records import CatalogueRecord, load_catalogue, open_record
 from rocking.records import fetch as fetching
-from rocking.records.catalogue import COLUMNS, catalogue_from_folder, write_catalogue_rows
+from rocking.records.catalogue import vertical_of
+from rocking.records.catalogue_record import COLUMNS
 from rocking.records.fetch import fetch, source_address
-from rocking.records.folder import list_folder
+from rocking.records.folder import catalogue_from_folder, list_folder, write_catalogue_rows
 from rocking.records.hashes import fill_hashes, repeated
 from rocking.records.listing import listing_text
 
