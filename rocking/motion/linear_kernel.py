@@ -8,7 +8,7 @@ in one file, and so do the tuples that they take.
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
@@ -65,8 +65,42 @@ class State(NamedTuple):
     side: int
 
 
-# Contraction to fused multiply-adds changes roundings only; infinities and NaN keep their meaning.
-compiled = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+class Motion(NamedTuple):
+    """Where a motion is: sample, time into it [s], x, x'/p, and side; side 0 is rest."""
+
+    interval: int
+    offset: float
+    x: float
+    w: float
+    side: int
+
+
+class Tally(NamedTuple):
+    """What has happened: status, impacts, time of the first uplift, steps, lines of log."""
+
+    status: int
+    impacts: int
+    uplift: float
+    steps: int
+    logged: int
+
+
+class Sample(NamedTuple):
+    """A sample in which something may happen: x'' + 1 − x at its begin and end, and x and x'/p at its end if not."""
+
+    drive: float
+    final: float
+    x: float
+    w: float
+
+
+# Contraction to fused multiply-adds changes roundings only; infinities and NaN keep their meaning. Without numba's
+# counting of references what is compiled may not allocate an array.
+_OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
+_UNCOUNTED: dict[str, Any] = {**_OPTIONS, "_nrt": False}
+compiled = njit(**_UNCOUNTED)
+part = njit(forceinline=True, **_UNCOUNTED)
+"""Of what is called from one place: inlined there, so that nothing is handed over by way of memory."""
 
 
 @compiled
@@ -298,14 +332,14 @@ def _free(x, w, side, k, time, blocks, restitution, best, impacts, log, logged):
     return ROCKS, impacts, side, logged
 
 
-@compiled
-def _glide(ground, bound, time_step, p, scale, limit, full, i, tau, x, w, span, log, logged):
+@part
+def _glide(ground, bound, time_step, p, scale, limit, full, motion, span, log, logged):
     """Advance from sample to sample, exactly, until one in which something may happen, an overturning, or the end.
 
     x'' = x + drive in p t, with a drive that is linear within a sample. full: the weights of a whole sample. Returns
-    interval and offset, x and w there, drive there and at the end of the sample, x and w at the end of the sample,
-    whether it overturned, samples passed, lines of log.
+    where it is then, that sample, whether it overturned, samples passed, lines of log.
     """
+    i, tau, x, w, side = motion
     growth, decay, up, up_end, down, down_end = full
     drive = -1 - scale * (ground[i] + (tau / time_step) * (ground[i + 1] - ground[i]))
     if x == 0 and w == 0:  # uplift where the drive is zero to rounding
@@ -323,7 +357,7 @@ def _glide(ground, bound, time_step, p, scale, limit, full, i, tau, x, w, span, 
         # |x''| is largest at an end of the sample, so a velocity beyond y |x''| has no zero within it.
         same = force * later >= 0 or abs(w) > width * max(abs(force), abs(later))
         if not (new > 0 and w * pull > 0 and same):
-            return i, tau, x, w, drive, final, new, pull, False, passed, logged
+            return Motion(i, tau, x, w, side), Sample(drive, final, new, pull), False, passed, logged
         i, tau, x, w, drive = i + 1, 0.0, new, pull, final
         growth, decay, up, up_end, down, down_end = full
         width = p * time_step
@@ -332,7 +366,107 @@ def _glide(ground, bound, time_step, p, scale, limit, full, i, tau, x, w, span, 
             logged = _write(log, logged, i * time_step, span * x, span * w * p)
         fallen = q - 1 > limit * bound[i]
         if fallen or i == ground.size - 1:
-            return i, tau, x, w, drive, final, new, pull, fallen, passed, logged
+            return Motion(i, tau, x, w, side), Sample(drive, final, new, pull), fallen, passed, logged
+
+
+@part
+def _begin(blocks, start, best, log):
+    """The motion that starts so, and what has happened until then."""
+    x, w, side = start
+    best[0], best[1] = 0.0, np.nan
+    status, uplift, k = 0, np.nan, 0 if side > 0 else blocks.frequency.size - 1
+    if side != 0:
+        status, uplift, slot = ROCKS, 0.0, 0 if side > 0 else 1
+        best[0, slot], best[1, slot] = x, 0.0
+    span = blocks.span[k]
+    logged = _write(log, 0, 0.0, side * x * span, side * w * span * blocks.frequency[k])
+    return Motion(0, 0.0, x, w, side), Tally(status, 0, uplift, 0, logged)
+
+
+@part
+def _lift(blocks, samples, factor, motion, tally, log):
+    """The motion at its next uplift; at rest still if there is none."""
+    time_step, (status, impacts, uplift, steps, logged) = samples.time_step, tally
+    i, tau, side = _uplift(blocks, samples.ground, factor, time_step, motion.interval, motion.offset)
+    if side != 0:
+        if status == 0:
+            status, uplift = ROCKS, i * time_step + tau
+        logged = _write(log, logged, i * time_step + tau, 0.0, 0.0)
+    return Motion(i, tau, 0.0, 0.0, side), Tally(status, impacts, uplift, steps, logged)
+
+
+@part
+def _carry_on(blocks, samples, k, motion, tally, sample, unstable, log):
+    """The motion after a sample without an impact. unstable: what x − 1 + x'/p may be at most, by sample."""
+    status, impacts, uplift, steps, logged = tally
+    if not abs(sample.x) < np.inf:
+        return motion, Tally(NOT_FINITE, impacts, uplift, steps, logged)
+    i, side, span = motion.interval + 1, motion.side, blocks.span[k]
+    at = i * samples.time_step
+    logged = _write(log, logged, at, side * sample.x * span, side * sample.w * span * blocks.frequency[k])
+    limit, takeable = unstable
+    if sample.x + sample.w - 1 > limit * takeable[i]:
+        status = OVERTURNS
+    return Motion(i, 0.0, sample.x, sample.w, side), Tally(status, impacts, uplift, steps, logged)
+
+
+@part
+def _strike(blocks, samples, factor, restitution, k, motion, tally, w, landing, y, settle, best, log):
+    """The motion after the impact at the scaled time `landing` of the y that were left of the sample, met with w."""
+    i, tau, _, _, side = motion
+    status, impacts, uplift, steps, logged = tally
+    ground, time_step, span, p = samples.ground, samples.time_step, blocks.span, blocks.frequency
+    tau += landing / p[k]
+    logged = _write(log, logged, i * time_step + tau, 0.0, side * w * span[k] * p[k])
+    w *= -restitution[0 if side > 0 else 1] * p[k] * span[k]
+    if not blocks.one_sided:
+        side, k = -side, p.size - 1 - k
+    w /= p[k] * span[k]
+    logged = _write(log, logged, i * time_step + tau, 0.0, side * w * span[k] * p[k])
+    if not w * w > REST_ENERGY or w < 0:
+        side = 0
+        if landing <= INSTANT * y:
+            tau += PAUSE * time_step
+    elif settle and w < NEAR:
+        speed = w * p[k] * span[k]
+        if _dies_out(blocks, ground, factor, time_step, restitution, i, tau, speed, best[0]):
+            side = 0
+    status = TOO_MANY_IMPACTS if impacts + 1 >= IMPACT_LIMIT else status
+    return Motion(i, tau, 0.0, w, side), Tally(status, impacts + 1, uplift, steps, logged)
+
+
+@part
+def _meet(blocks, samples, factor, restitution, k, motion, tally, sample, unstable, settle, best, log):
+    """The motion after a sample in which it may turn and land."""
+    i, tau, x, w, side = motion
+    status, impacts, uplift, steps, logged = tally
+    p, slot = blocks.frequency[k], 0 if side > 0 else 1
+    y = p * (samples.time_step - tau)
+    ramp = (sample.final - sample.drive) / y
+    landing, peak, at = _sample_events(x, w, sample.drive, ramp, y)
+    when = i * samples.time_step + tau + at / p
+    if peak > best[0, slot]:
+        best[0, slot], best[1, slot] = peak, when
+    if peak > 0:
+        logged = _write(log, logged, when, side * peak * blocks.span[k], 0.0)
+    tally = Tally(status, impacts, uplift, steps + 1, logged)
+    if landing < 0:
+        return _carry_on(blocks, samples, k, motion, tally, sample, unstable, log)
+    _, w, _ = _exact(x, w, sample.drive, ramp, landing)
+    return _strike(blocks, samples, factor, restitution, k, motion, tally, w, landing, y, settle, best, log)
+
+
+@part
+def _concluded(blocks, count, time_step, restitution, motion, tally, best, log):
+    """What `rock_linear` returns: where it still rocks at the end of the record, after what follows that."""
+    i, _, x, w, side = motion
+    status, impacts, uplift, steps, logged = tally
+    if side != 0 and status == ROCKS and i >= count:
+        k, time = 0 if side > 0 else blocks.frequency.size - 1, count * time_step
+        status, impacts, side, logged = _free(
+            x, w, side, k, time, blocks, restitution, best, impacts, log, logged
+        )
+    return status, impacts, uplift, side, steps, logged
 
 
 @compiled
@@ -344,94 +478,35 @@ def rock_linear(blocks, samples, factor, restitution, start, settle, best, log):
     negative side, and their times. log: (m, 3) for the history, or no rows. Returns status, impacts, uplift time, last
     side, steps, lines of log.
     """
-    ground, time_step = samples.ground, samples.time_step
-    frequency, push, span, one_sided = blocks
-    count, last = ground.size - 1, frequency.size - 1
-    x, w, side = start
-    best[0], best[1] = 0.0, np.nan
-    whole = _weights(frequency[0] * time_step), _weights(frequency[last] * time_step)
-    i, tau, status, impacts, steps, logged, uplift = 0, 0.0, 0, 0, 0, 0, np.nan
-    if side != 0:
-        status, uplift = ROCKS, 0.0
-        slot = 0 if side > 0 else 1
-        best[0, slot], best[1, slot] = x, 0.0
-    k = 0 if side > 0 else last
-    logged = _write(log, logged, 0.0, side * x * span[k], side * w * span[k] * frequency[k])
-    while i < count:
-        if side == 0:
-            i, tau, side = _uplift(blocks, ground, factor, time_step, i, tau)
-            if side == 0:
+    ground, time_step, last = samples.ground, samples.time_step, blocks.frequency.size - 1
+    whole = _weights(blocks.frequency[0] * time_step), _weights(blocks.frequency[last] * time_step)
+    motion, tally = _begin(blocks, start, best, log)
+    while motion.interval < ground.size - 1 and tally.status <= ROCKS:
+        if motion.side == 0:
+            motion, tally = _lift(blocks, samples, factor, motion, tally, log)
+            if motion.side == 0:
                 break
-            x = w = 0.0
-            if status == 0:
-                status, uplift = ROCKS, i * time_step + tau
-            logged = _write(log, logged, i * time_step + tau, 0.0, 0.0)
-        k = 0 if side > 0 else last
+        i, tau, x, w, side = motion
         if time_step - tau <= 0:
-            i, tau = i + 1, 0.0
+            motion = Motion(i + 1, 0.0, x, w, side)
             continue
-        p, slot = frequency[k], 0 if side > 0 else 1
-        takeable, limit = (
-            samples.takeable[k, 0 if side * factor > 0 else 1],
-            push[k] * abs(factor) * (1 + 1e-12),
-        )
-        i, tau, x, w, drive, final, new, pull, fallen, passed, logged = _glide(
-            ground, takeable, time_step, p, side * push[k] * factor, limit, whole[k],
-            i, tau, x, w, side * span[k], log, logged,
+        k = 0 if side > 0 else last
+        p, push, span = blocks.frequency[k], blocks.push[k], blocks.span[k]
+        unstable = push * abs(factor) * (1 + 1e-12), samples.takeable[k, 0 if side * factor > 0 else 1]
+        motion, sample, fallen, passed, logged = _glide(
+            ground, unstable[1], time_step, p, side * push * factor, unstable[0], whole[k], motion, side * span,
+            log, tally.logged,
         )  # fmt: skip
-        steps += passed
-        if fallen:
-            status = OVERTURNS
-            break
-        if i == count:
-            break
-        steps += 1
-        y = p * (time_step - tau)
-        landing, peak, at = _sample_events(x, w, drive, (final - drive) / y, y)
-        if peak > best[0, slot]:
-            best[0, slot], best[1, slot] = peak, i * time_step + tau + at / p
-        if peak > 0:
-            logged = _write(log, logged, i * time_step + tau + at / p, side * peak * span[k], 0.0)
-        if landing < 0:
-            if not abs(new) < np.inf:
-                status = NOT_FINITE
-                break
-            i, tau, x, w = i + 1, 0.0, new, pull
-            logged = _write(log, logged, i * time_step, side * x * span[k], side * w * span[k] * p)
-            if x + w - 1 > limit * takeable[i]:
-                status = OVERTURNS
-                break
-            continue
-        _, w, _ = _exact(x, w, drive, (final - drive) / y, landing)
-        tau += landing / p
-        impacts += 1
-        logged = _write(log, logged, i * time_step + tau, 0.0, side * w * span[k] * p)
-        w *= -restitution[slot] * p * span[k]
-        if not one_sided:
-            side, k = -side, last - k
-        w /= frequency[k] * span[k]
-        x = 0.0
-        logged = _write(log, logged, i * time_step + tau, 0.0, side * w * span[k] * frequency[k])
-        if not w * w > REST_ENERGY or w < 0:
-            side = 0
-            if landing <= INSTANT * y:
-                tau += PAUSE * time_step
-        elif settle and w < NEAR:
-            speed = w * frequency[k] * span[k]
-            if _dies_out(blocks, ground, factor, time_step, restitution, i, tau, speed, best[0]):
-                side = 0
-        if impacts >= IMPACT_LIMIT:
-            status = TOO_MANY_IMPACTS
-            break
-    if side != 0 and status == ROCKS and i >= count:
-        time = count * time_step
-        status, impacts, side, logged = _free(
-            x, w, side, k, time, blocks, restitution, best, impacts, log, logged
-        )
-    return status, impacts, uplift, side, steps, logged
+        status = OVERTURNS if fallen else tally.status
+        tally = Tally(status, tally.impacts, tally.uplift, tally.steps + passed, logged)
+        if not fallen and motion.interval < ground.size - 1:
+            motion, tally = _meet(
+                blocks, samples, factor, restitution, k, motion, tally, sample, unstable, settle, best, log
+            )
+    return _concluded(blocks, ground.size - 1, time_step, restitution, motion, tally, best, log)
 
 
-@compiled
+@njit(**_OPTIONS)
 def rock_linear_members(blocks, samples, factors, restitution, status, peaks, impacts):
     """`rock_linear` for every member (m,): fill status, peaks (m, 2), the largest x of each side, and impacts.
 
@@ -439,35 +514,36 @@ def rock_linear_members(blocks, samples, factors, restitution, status, peaks, im
     die out are not followed, nor counted.
     """
     none, best, start = np.empty((0, 3)), np.zeros((2, 2)), State(0.0, 0.0, 0)
+    settle = factors.size > 0  # for a literal True `rock_linear` would be compiled once more
     for m in range(factors.size):
         eta = restitution[m, 0], restitution[m, 1]
         status[m], impacts[m], _, _, _, _ = rock_linear(
-            blocks, samples, factors[m], eta, start, True, best, none
+            blocks, samples, factors[m], eta, start, settle, best, none
         )
         peaks[m] = best[0]
 
 
-@compiled
+@njit(**_OPTIONS)
 def spectrum_row(frequency, pushes, restitution, samples, ratios):
     """Fill ratios (n,) with the peak of the symmetric block of one frequency for each push = 1/(g λ); inf overturns."""
     p, one, eta, start = np.array([frequency]), np.ones(1), (restitution, restitution), State(0.0, 0.0, 0)
-    none, best = np.empty((0, 3)), np.zeros((2, 2))
+    none, best, settle = np.empty((0, 3)), np.zeros((2, 2)), pushes.size > 0
     for j in range(pushes.size):
         blocks = Blocks(p, pushes[j : j + 1], one, False)
-        status, _, _, _, _, _ = rock_linear(blocks, samples, 1.0, eta, start, True, best, none)
+        status, _, _, _, _, _ = rock_linear(blocks, samples, 1.0, eta, start, settle, best, none)
         ratios[j] = np.inf if status == OVERTURNS else max(best[0, 0], best[0, 1])
         if status > OVERTURNS:
             ratios[j] = np.nan
 
 
-@compiled
+@njit(**_OPTIONS)
 def rock_linear_blocks(frequency, push, span, restitution, ground, time_step, status, peaks):
     """`rock_linear` from rest for every block with two sides, (m, 2) each: fill status (m,) and peaks (m, 2).
 
     Blocks that the record does not lift cost nothing.
     """
     none, best, start = np.empty((0, 3)), np.zeros((2, 2)), State(0.0, 0.0, 0)
-    takeable = np.empty((2, 2, ground.size))
+    takeable, settle, sides = np.empty((2, 2, ground.size)), status.size > 0, (1, -1)
     for m in range(status.size):
         status[m], peaks[m] = 0, 0.0
         first = 0
@@ -477,10 +553,10 @@ def rock_linear_blocks(frequency, push, span, restitution, ground, time_step, st
             continue
         moving = ground[max(first - 1, 0) :]  # until then it rests
         # With a factor of 1, the positive side is pushed back by positive ü_g, the negative one by negative ü_g.
-        takeback(moving, time_step, frequency[m, 0], 1, takeable[0, 0])
-        takeback(moving, time_step, frequency[m, 1], -1, takeable[1, 1])
+        for k in range(2):
+            takeback(moving, time_step, frequency[m, k], sides[k], takeable[k, k])
         blocks = Blocks(frequency[m], push[m], span[m], False)
         samples = Samples(moving, time_step, takeable)
         eta = restitution[m, 0], restitution[m, 1]
-        status[m], _, _, _, _, _ = rock_linear(blocks, samples, 1.0, eta, start, True, best, none)
+        status[m], _, _, _, _, _ = rock_linear(blocks, samples, 1.0, eta, start, settle, best, none)
         peaks[m] = best[0]
