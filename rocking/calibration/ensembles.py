@@ -160,8 +160,12 @@ def _opposite(trial: EnsembleTrial) -> float:
     return excluded.get(trial.verdict, float("nan"))
 
 
+def _each(trials: Sequence[EnsembleTrial], column: str) -> np.ndarray:
+    return np.array([getattr(trial, column) for trial in trials])
+
+
 def _band(trials: Sequence[EnsembleTrial]) -> float:
-    inside = np.array([trial.inside_band for trial in trials])
+    inside = _each(trials, "inside_band")
     return float(np.nanmean(inside)) if np.isfinite(inside).any() else float("nan")
 
 
@@ -169,19 +173,6 @@ def _too_sure(trials: Sequence[EnsembleTrial]) -> float:
     limit = EnsembleSettings().risk + BEYOND
     decided = [_opposite(trial) > limit for trial in trials if not np.isnan(_opposite(trial))]
     return float(np.mean(decided)) if decided else float("nan")
-
-
-def _brier(trials: Sequence[EnsembleTrial]) -> float:
-    """Mean square of probability less outcome, over all draws of all cases."""
-    drawn_, said = (
-        np.array([getattr(t, name) for t in trials]) for name in ("probability_drawn", "probability")
-    )
-    return float(np.mean(drawn_ * (1 - drawn_) + (said - drawn_) ** 2))
-
-
-def _brier_of_draws(trials: Sequence[EnsembleTrial]) -> float:
-    drawn_ = np.array([t.probability_drawn for t in trials])
-    return float(np.mean(drawn_ * (1 - drawn_)))
 
 
 MEASURES: tuple[tuple[str, str, Measure], ...] = (
@@ -194,8 +185,16 @@ MEASURES: tuple[tuple[str, str, Measure], ...] = (
         "",
         lambda trials: float(np.mean([t.verdict is not Verdict.UNDECIDED for t in trials])),
     ),
-    ("Brier score", "", _brier),
-    ("Brier score of the draws themselves", "", _brier_of_draws),
+    (
+        "Brier score",
+        "",
+        lambda trials: scores.brier(_each(trials, "probability"), _each(trials, "probability_drawn")),
+    ),
+    (
+        "Brier score of the draws themselves",
+        "",
+        lambda trials: scores.brier(*[_each(trials, "probability_drawn")] * 2),
+    ),
 )
 """Name, what is asked, and how it is computed."""
 

@@ -1,8 +1,7 @@
 """What is not known of a structure, identified from tests of it that ended standing or overturned."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import repeat
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -169,25 +168,17 @@ def overturning_table(
     Raises ConfigurationError when a case cannot be integrated.
     """
     reduced = [reduce(structure) for structure in structures]
-    rows = list(_verdicts(reduced, records, processing, workers))
-    return np.array(rows, dtype=bool).reshape(len(rows), len(reduced))
-
-
-def _verdicts(
-    structures: Sequence[Rocking],
-    records: Iterable[Accelerogram],
-    processing: Processing | None,
-    workers: int | None,
-) -> Iterator[np.ndarray]:
-    for record, steps in zip(records, repeat(processing)):
-        motion = record if steps is None else process(record, steps)
-        ratios = integrate_batch(structures, motion, workers=workers)[:, 0]
+    rows = []
+    for record in records:
+        motion = record if processing is None else process(record, processing)
+        ratios = integrate_batch(reduced, motion, workers=workers)[:, 0]
         if np.isnan(ratios).any():
             raise ConfigurationError(
                 f"candidate {int(np.argmax(np.isnan(ratios)))} cannot be followed through "
                 f"{record.source.path or 'a record'}; integrate says why."
             )
-        yield np.isinf(ratios)
+        rows.append(np.isinf(ratios))
+    return np.array(rows, dtype=bool).reshape(len(rows), len(reduced))
 
 
 def two_sided_block(
@@ -203,13 +194,7 @@ def two_sided_block(
         )
         for each in (positive_multiplier, negative_multiplier)
     )
-    return EquivalentBlock(
-        positive.frequency_parameter,
-        positive.critical_rotation,
-        positive.acceleration_scale,
-        positive.restitution,
-        other_side=negative,
-    )
+    return replace(positive, other_side=negative)
 
 
 def _parameters_of(candidate: Rocking) -> tuple[float, float, float, float]:

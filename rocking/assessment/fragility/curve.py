@@ -100,44 +100,44 @@ def fragility_of(
     """
     tried = np.ones_like(exceedance) if tried is None else tried
     over, trials = _by_station(exceedance * tried, stations), _by_station(tried, stations)
-    count, sampled = len(over), sampled_of is not None
-    fit = fit_lognormal(levels, over.sum(axis=0)[None], trials.sum(axis=0)[None])
-    weights = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
-    again = fit_lognormal(levels, weights @ over, weights @ trials, fit)
-    curves = _curves(levels, over, trials, fit, again, sampled)
-    distance = np.abs(curves["probability"] - curves["lognormal"])
-    misfit = float(distance[trials.sum(axis=0) >= 1].max())
+    weights, sampled = drawn_stations(len(over)), sampled_of is not None
+    found = _fitted(levels, over, trials, weights, sampled)
+    chance = _LILLIEFORS / len(over) ** 0.5
     made = Fragility(
         measure=measure,
         unit=unit,
         threshold=threshold,
         levels=levels,
-        **curves,
-        median=float(fit.median[0]),
-        interval=_median_interval(fit.median, again.median, count),
-        dispersion=float(fit.dispersion[0]),
-        misfit=misfit,
+        **found,
         exceedance=exceedance,
         stations=tuple(stations),
-        lognormal_holds=sampled_of.lognormal_holds if sampled_of else misfit <= _LILLIEFORS / count**0.5,
+        lognormal_holds=sampled_of.lognormal_holds if sampled_of else found["misfit"] <= chance,
     )
     if made.lognormal_holds or tried.min() == 0:
         return made
     return _by_crossing(made, over, trials, weights, sampled)
 
 
-def _curves(
-    levels: np.ndarray,
-    over: np.ndarray,
-    trials: np.ndarray,
-    fit: LognormalFits,
-    again: LognormalFits,
-    sampled: bool,
+def drawn_stations(count: int) -> np.ndarray:
+    """Return how often each of `count` stations is in samples of as many, drawn anew, (REPLICATES, count)."""
+    return np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
+
+
+def _fitted(
+    levels: np.ndarray, over: np.ndarray, trials: np.ndarray, weights: np.ndarray, sampled: bool
 ) -> dict[str, Any]:
-    """The empirical and the lognormal curve with their intervals, (k,) each. again: fits to resampled stations."""
-    interval = ndtr(_interval(_deviates(levels, fit), _deviates(levels, again), len(over)))
-    found = (*_empirical(over, trials, sampled), fit.probability(levels)[0], *interval)
-    return dict(zip(CURVES, found, strict=True))
+    """Both curves with their intervals, and median, dispersion and misfit of the lognormal, by the names of fields."""
+    fit = fit_lognormal(levels, over.sum(axis=0)[None], trials.sum(axis=0)[None])
+    again = fit_lognormal(levels, weights @ over, weights @ trials, fit)
+    empirical, lognormal = _empirical(over, trials, sampled), fit.probability(levels)[0]
+    ends = ndtr(_interval(_deviates(levels, fit), _deviates(levels, again), len(over)))
+    known = trials.sum(axis=0) >= 1
+    return dict(zip(CURVES, (*empirical, lognormal, *ends), strict=True)) | {
+        "median": float(fit.median[0]),
+        "interval": _median_interval(fit.median, again.median, len(over)),
+        "dispersion": float(fit.dispersion[0]),
+        "misfit": float(np.abs(empirical[0] - lognormal)[known].max()),
+    }
 
 
 def _by_crossing(

@@ -26,12 +26,11 @@ class HazardRow(Row):
 @dataclass(frozen=True)
 class AnnualRate:
     """Annual rate of exceedance, 1/year. low, high: from the ends of the curve's 90 % interval at every level at once,
-    which is wider than 90 % of the rate. covered: share of the rate from levels at which the curve was measured."""
+    which is wider than 90 % of the rate."""
 
     rate: float
     low: float
     high: float
-    covered: float
 
 
 def read_hazard(path: Path) -> list[HazardRow]:
@@ -81,8 +80,5 @@ def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> AnnualRate
     def total(curve: np.ndarray) -> float:
         return float(np.interp(middles, levels, curve, left=0.0) @ occurring)
 
-    inside = (middles >= levels[0]) & (middles <= levels[-1])
-    rate = total(fragility.probability)
-    known = float((np.interp(middles, levels, fragility.probability, left=0.0) * occurring)[inside].sum())
-    covered = known / rate if rate > 0 else float("nan")
-    return AnnualRate(rate, total(fragility.probability_low), total(fragility.probability_high), covered)
+    curves = fragility.probability, fragility.probability_low, fragility.probability_high
+    return AnnualRate(*map(total, curves))

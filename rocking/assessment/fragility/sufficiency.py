@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.special import stdtr
 
-REPLICATES = 1000
+from rocking.assessment.fragility.curve import drawn_stations
+
 _LEAST = 4
 """Stations below which a slope and its scatter say nothing."""
 
@@ -19,8 +20,7 @@ def sufficiency(figures: np.ndarray, capacities: np.ndarray, stations: Sequence[
     names, place = np.unique(np.asarray(stations), return_inverse=True)
     if names.size < _LEAST or np.ptp(figures) == 0:
         return float("nan")
-    drawn = np.random.default_rng(0).multinomial(names.size, np.full(names.size, 1 / names.size), REPLICATES)
-    slopes = _slopes(figures, capacities, drawn[:, place].astype(float))
+    slopes = _slopes(figures, capacities, drawn_stations(names.size)[:, place].astype(float))
     error = float(np.nanstd(slopes, ddof=1))
     (slope,) = _slopes(figures, capacities, np.ones((1, figures.size)))
     return float(2 * stdtr(names.size - 2, -abs(slope) / error)) if error > 0 else float(slope == 0)

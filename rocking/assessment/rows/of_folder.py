@@ -1,7 +1,7 @@
 """The tables of one record: filled by an assessment, written, and read again as rows."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import get_args, get_type_hints
 
@@ -25,7 +25,6 @@ from rocking.assessment.rows.of_record import (
     PulseRow,
     RecordRow,
     TimingRow,
-    failure_row,
     pulse_rows,
     record_row,
 )
@@ -105,7 +104,7 @@ class RecordTables:
 
     def fail(self, record: str, component: str, failure: Failure) -> None:
         """Append a row of the failures."""
-        self.failures.append(failure_row(record, component, failure))
+        self.failures.append(FailureRow(record=record, component=component, **asdict(failure)))
 
 
 PER_RECORD: tuple[type[Row], ...] = tuple(get_args(each)[0] for each in get_type_hints(RecordTables).values())

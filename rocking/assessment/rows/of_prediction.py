@@ -45,10 +45,10 @@ class PredictionRow(CaseRow):
         "5 % quantile of the rotation ratio of the mechanism under records that are alike in the same"
     )
     expected_rotation_ratio_high: float = column("95 % quantile of it; INF if it overturns")
-    in_words: str = column("Both, in words, or why neither is given")
-    outcome: Outcome | None = column(meanings.OUTCOME)
-    regime: Regime | None = column(meanings.REGIME)
-    impacts: int | None = column(meanings.IMPACTS)
+    in_words: str = column("Both, in words, or why neither is given", default="")
+    outcome: Outcome | None = column(meanings.OUTCOME, default=None)
+    regime: Regime | None = column(meanings.REGIME, default=None)
+    impacts: int | None = column(meanings.IMPACTS, default=None)
 
 
 def prediction_rows(identity: Identity, case: Case, acceleration_scale: str) -> Iterator[PredictionRow]:
@@ -75,10 +75,6 @@ def prediction_rows(identity: Identity, case: Case, acceleration_scale: str) -> 
         rotation_ratio=prediction.printed,
         rotation_rad=prediction.printed * block.critical_rotation,
         **expected_columns(None),
-        in_words="",
-        outcome=None,
-        regime=None,
-        impacts=None,
     )
     yield PredictionRow(
         **shared,

@@ -4,7 +4,6 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any, final
 
-from rocking.assessment.assess import Failure
 from rocking.assessment.horizontal_motion import HorizontalMotion, horizontal_motions
 from rocking.assessment.rows import meanings
 from rocking.assessment.rows.shared import ComponentRow, Identity
@@ -226,14 +225,3 @@ def pulse_rows(
                 effective_length_m=evidence.effective_length,
                 flags=analysis.flags if dominant else (),
             )
-
-
-def failure_row(record: str, component: str, failure: Failure) -> FailureRow:
-    """Return the row of what gave no result."""
-    return FailureRow(
-        record=record,
-        component=component,
-        structure=failure.structure,
-        stage=failure.stage,
-        message=failure.message,
-    )

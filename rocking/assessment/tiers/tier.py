@@ -29,27 +29,15 @@ class Tier(StrEnum):
         return "block" in _KNOWN[self]
 
 
+_PULSE_AND_PEAKS = ("pulse", "peak_velocity", "peak_acceleration", "frequency_ratio")
+_BLOCK = ("block", "block_overturns")
+_AROUND = ("block_high", "block_overturning_share", "block_never_overturns", "block_always_overturns")
 _KNOWN: Mapping[Tier, tuple[str, ...]] = {
     Tier.CLOSED_FORM: ("pulse",),
     Tier.SINE: ("sine",),
     Tier.PEAK_VELOCITY: ("peak_velocity",),
-    Tier.CLOSED_FORM_AND_PEAKS: ("pulse", "peak_velocity", "peak_acceleration", "frequency_ratio"),
-    Tier.SEVEN_FIGURES: (
-        "pulse",
-        "peak_velocity",
-        "peak_acceleration",
-        "frequency_ratio",
-        "sine",
-        "velocity_change",
-        "push",
-    ),
-    Tier.BLOCK: ("block", "block_overturns"),
-    Tier.BLOCK_AT_FIVE_SCALES: (
-        "block",
-        "block_overturns",
-        "block_high",
-        "block_overturning_share",
-        "block_never_overturns",
-        "block_always_overturns",
-    ),
+    Tier.CLOSED_FORM_AND_PEAKS: _PULSE_AND_PEAKS,
+    Tier.SEVEN_FIGURES: (*_PULSE_AND_PEAKS, "sine", "velocity_change", "push"),
+    Tier.BLOCK: _BLOCK,
+    Tier.BLOCK_AT_FIVE_SCALES: (*_BLOCK, *_AROUND),
 }

@@ -8,17 +8,6 @@ from rocking.calibration.tier_fit import logistic
 
 
 @dataclass(frozen=True)
-class Threshold:
-    """Overturns where the measure exceeds `value`."""
-
-    value: float
-
-    def probability(self, measure: np.ndarray) -> np.ndarray:
-        """0 or 1, (n,)."""
-        return (measure > self.value).astype(float)
-
-
-@dataclass(frozen=True)
 class Logistic:
     """P = 1/(1 + exp(−(a + b ln measure)))."""
 
@@ -30,15 +19,15 @@ class Logistic:
         return 1 / (1 + np.exp(-(self.intercept + self.slope * np.log(measure))))
 
 
-def fit_threshold(measure: np.ndarray, outcomes: np.ndarray) -> Threshold:
-    """Return the threshold with most verdicts right; in the middle of its gap, the lowest of several."""
+def fit_threshold(measure: np.ndarray, outcomes: np.ndarray) -> float:
+    """Return the measure beyond which "overturns" is right most often; the middle of its gap, the lowest of several."""
     order = np.argsort(measure, kind="stable")
     values, ends = measure[order], outcomes[order]
     right = np.concatenate([[0], np.cumsum(~ends)]) + np.concatenate([np.cumsum(ends[::-1])[::-1], [0]])
     best = int(np.argmax(right))
     below = values[best - 1] if best > 0 else 0.0
     above = values[best] if best < values.size else 2 * values[-1]
-    return Threshold(float(np.sqrt(below * above)) if below > 0 else float(above / 2))
+    return float(np.sqrt(below * above)) if below > 0 else float(above / 2)
 
 
 def fit_logistic(measure: np.ndarray, outcomes: np.ndarray) -> Logistic:

@@ -137,7 +137,7 @@ def _methods(measured: Measured, specimen: int) -> Mapping[str, Fitted]:
         return lambda kept, out: verdicts[out, single_best(verdicts[kept], outcomes[kept])].astype(float)
 
     def threshold(values: np.ndarray) -> Fitted:
-        return lambda kept, out: fit_threshold(values[kept], outcomes[kept]).probability(values[out])
+        return lambda kept, out: (values[out] > fit_threshold(values[kept], outcomes[kept])).astype(float)
 
     def logistic(values: np.ndarray) -> Fitted:
         return lambda kept, out: fit_logistic(values[kept], outcomes[kept]).probability(values[out])

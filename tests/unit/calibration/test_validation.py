@@ -204,9 +204,9 @@ def test_the_threshold_gets_most_right():
     measure_, outcomes = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), np.array([0, 0, 1, 0, 1, 1], bool)
     found = fit_threshold(measure_, outcomes)
     best = max(((measure_ > t) == outcomes).sum() for t in np.arange(0, 7, 0.5))
-    assert ((found.probability(measure_) > 0.5) == outcomes).sum() == best
-    assert fit_threshold(measure_, np.zeros(6, bool)).probability(measure_).sum() == 0
-    assert fit_threshold(measure_, np.ones(6, bool)).probability(measure_).sum() == 6
+    assert ((measure_ > found) == outcomes).sum() == best
+    assert not (measure_ > fit_threshold(measure_, np.zeros(6, bool))).any()
+    assert (measure_ > fit_threshold(measure_, np.ones(6, bool))).all()
 
 
 def test_the_regression_finds_the_line_it_was_made_with():
