@@ -163,7 +163,8 @@ def allowed(kind: Any, described: Field[Any]) -> str:
         str: "a text that is not empty",
     }
     return " or ".join(
-        words[choice].strip() if choice in words else _spelt(choice) for choice in choices(kind, described)
+        words[choice].strip() if choice in words else str(choice or "null")
+        for choice in choices(kind, described)
     )
 
 
@@ -192,10 +193,6 @@ def _flat(kind: Any) -> list[Any]:
         return list(get_args(kind))
     flat = [choice for part in get_args(kind) for choice in _flat(part)]
     return flat or [None if kind is NoneType else kind]
-
-
-def _spelt(choice: object) -> str:
-    return "null" if choice is None else str(choice)
 
 
 def _number(error: type[RockingError], field: str, value: float) -> float:

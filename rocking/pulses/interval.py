@@ -61,14 +61,11 @@ def pulse_interval(
     search = PulseSearch(record.time_step, searched_band(record, settings), settings)
     rng = np.random.default_rng(int(record.sha256[:SEED_DIGITS], 16))
     found = tuple(_replicate(search, pulse, residual, *draw) for draw in _draws(residual, replicates, rng))
-    return PulseInterval(
-        pulse,
-        level,
-        _ends(np.array([pulse.amplitude for pulse in found]), level),
-        _ends(np.array([pulse.period for pulse in found]), level),
-        _ends(np.array([pulse.start_time for pulse in found]), level),
-        found,
+    amplitude, period, start_time = (
+        _ends(np.array([getattr(each, name) for each in found]), level)
+        for name in ("amplitude", "period", "start_time")
     )
+    return PulseInterval(pulse, level, amplitude, period, start_time, found)
 
 
 def _draws(residual: np.ndarray, count: int, rng: np.random.Generator) -> list[tuple[int, float]]:

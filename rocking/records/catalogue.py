@@ -11,11 +11,10 @@ from typing import Any
 from rocking.errors import CatalogueError, RecordError, RockingError, about
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue_record import COLUMNS, CatalogueRecord
-from rocking.records.channels import is_unnamed
 from rocking.records.directions import azimuth, is_vertical
 from rocking.records.fetch import fetch, inventory_of
 from rocking.records.plausibility import scaled
-from rocking.records.read import plain, read
+from rocking.records.read import is_unnamed, plain, read
 
 _REQUIRED = ("id", "file")
 _PROSE = ("event", "station", "licence", "note")

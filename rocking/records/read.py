@@ -2,16 +2,21 @@
 
 import hashlib
 import zlib
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import replace
 from errno import EINVAL
+from itertools import combinations
 from os import fstat
 from pathlib import Path
 
+import numpy as np
+
 from rocking.errors import RecordError, UnknownFormatError, about
 from rocking.records.accelerogram import Accelerogram, Source
-from rocking.records.channels import told_apart
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
+from rocking.records.formats.site import channel_warnings
 from rocking.records.plausibility import pass_limits
 
 LARGEST_FILE = 8 * 2**20
@@ -150,3 +155,41 @@ def printable(text: str) -> str:
 def _signed(record: Accelerogram, source: Source) -> Accelerogram:
     warnings = record.warnings + pass_limits(record)
     return replace(record, source=replace(source, unit=record.source.unit), warnings=warnings)
+
+
+def told_apart(records: Sequence[Accelerogram]) -> list[Accelerogram]:
+    """Return the channels of a file, each with a component of its own and what is doubtful of it as warnings.
+
+    One without a name is called after its place, "channel 1"; those that share a name get their place as well.
+    Raises RecordError when one channel stands in the file twice: it was appended to itself.
+    """
+    for (i, a), (k, b) in combinations(enumerate(records, 1), 2):
+        if a.component == b.component and _same(a, b):
+            raise RecordError(
+                f"channel {k} ({a.component or 'not named'}) repeats channel {i} number by number: the file is "
+                "appended to itself; fetch it again."
+            )
+    shared = Counter(record.component for record in records)
+    return [
+        replace(
+            record,
+            component=_component(record.component, place, shared[record.component] > 1),
+            warnings=(*record.warnings, *channel_warnings(record.component)),
+        )
+        for place, record in enumerate(records, 1)
+    ]
+
+
+def is_unnamed(record: Accelerogram) -> bool:
+    """Whether the component is no more than the place of the channel in its file."""
+    return not record.component or record.component.removeprefix("channel ").isdecimal()
+
+
+def _component(name: str, place: int, shared: bool) -> str:
+    if not name:
+        return f"channel {place}"
+    return f"{name} (channel {place})" if shared else name
+
+
+def _same(a: Accelerogram, b: Accelerogram) -> bool:
+    return a.peak_acceleration > 0 and np.array_equal(a.acceleration, b.acceleration)

@@ -8,7 +8,7 @@ from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY
 from rocking.sine_pulse import kernel
-from rocking.sine_pulse.ratios import LARGEST_RATIO
+from rocking.sine_pulse.ratios import check_ratios
 from rocking.structures.mechanism import EquivalentBlock
 
 
@@ -96,14 +96,4 @@ def _check(
     if not rows.size or not frequencies.size:
         return
     lowest, highest = frequencies.min() / rows[:, 0].max(), frequencies.max() / rows[:, 0].min()
-    if not (lowest >= 1 / LARGEST_RATIO and highest <= LARGEST_RATIO):
-        raise PulseError(
-            f"ω_g/p, a pulse's circular_frequency over a block's frequency_parameter, goes from {lowest:g} to "
-            f"{highest:g}, but must lie between {1 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}."
-        )
-    strongest = amplitudes.max() / rows[:, 1].min()
-    if not strongest <= LARGEST_RATIO:
-        raise PulseError(
-            f"a_g/(gλ), a pulse's amplitude over a block's uplift acceleration, reaches {strongest:g}, but must be at "
-            f"most {LARGEST_RATIO:g}."
-        )
+    check_ratios((float(lowest), float(highest)), float(amplitudes.max() / rows[:, 1].min()))

@@ -1,6 +1,7 @@
 """Ratios: what one side of an equivalent block and a pulse are to each other, without dimensions."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rocking.errors import PulseError
@@ -10,6 +11,21 @@ from rocking.structures.mechanism import EquivalentBlock
 
 LARGEST_RATIO = 1e12
 """Beyond this a frequency or amplitude ratio is a mistake of units, and its square leaves no digits for the block."""
+
+
+def check_ratios(frequencies: Sequence[float], amplitude: float) -> None:
+    """Raise PulseError when one of the frequency ratios ω, or the amplitude ratio a, lies outside LARGEST_RATIO."""
+    for ratio in frequencies:
+        if not 1 / LARGEST_RATIO <= ratio <= LARGEST_RATIO:
+            raise PulseError(
+                f"ω_g/p, the pulse's circular_frequency over the block's frequency_parameter, is {ratio!r}, "
+                f"but must lie between {1 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}."
+            )
+    if not amplitude <= LARGEST_RATIO:
+        raise PulseError(
+            f"a_g/(gλ), the pulse's amplitude over the block's uplift acceleration, is {amplitude!r}, "
+            f"but must be at most {LARGEST_RATIO:g}."
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,16 +43,7 @@ class Ratios:
     velocity_scale: float = 1.0
 
     def __post_init__(self) -> None:
-        if not 1 / LARGEST_RATIO <= self.frequency_ratio <= LARGEST_RATIO:
-            raise PulseError(
-                f"ω_g/p, the pulse's circular_frequency over the block's frequency_parameter, is "
-                f"{self.frequency_ratio!r}, but must lie between {1 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}."
-            )
-        if not self.amplitude_ratio <= LARGEST_RATIO:
-            raise PulseError(
-                f"a_g/(gλ), the pulse's amplitude over the block's uplift acceleration, is "
-                f"{self.amplitude_ratio!r}, but must be at most {LARGEST_RATIO:g}."
-            )
+        check_ratios([self.frequency_ratio], self.amplitude_ratio)
 
     @property
     def uplift_slope(self) -> float:

@@ -1,6 +1,7 @@
 """DYNA text: a header of KEY: value lines, then one sample a line. Written by ESM, ITACA and AFAD."""
 
 import re
+from itertools import takewhile
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
@@ -24,12 +25,7 @@ _LONGEST_HEADER = 100
 
 def _header_length(content: bytes) -> int:
     """Return the number of KEY: lines at the start."""
-    length = 0
-    for line in lines(content, _LONGEST_HEADER):
-        if not _KEY.match(line):
-            break
-        length += 1
-    return length
+    return sum(1 for _ in takewhile(_KEY.match, lines(content, _LONGEST_HEADER)))
 
 
 def _recognise(content: bytes) -> bool:

@@ -46,21 +46,15 @@ def _quantity(header: list[str]) -> str:
     )
 
 
-def _is_acceleration(content: bytes) -> bool:
+def _kind(content: bytes) -> str:
+    """Return the quantity of a PEER file, "" for another."""
     header = _header(content)
-    return header is not None and _quantity(header[0]) == "acceleration"
-
-
-def _is_other(content: bytes) -> bool:
-    header = _header(content)
-    return header is not None and _quantity(header[0]) != "acceleration"
+    return _quantity(header[0]) if header else ""
 
 
 def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
-    header = _header(content)
-    quantity = _quantity(header[0]) if header else "velocity"
     raise RecordError(
-        f"this is a PEER {quantity} file, not acceleration; use the AT2 file of the same record."
+        f"this is a PEER {_kind(content)} file, not acceleration; use the AT2 file of the same record."
     )
 
 
@@ -132,7 +126,7 @@ PEER_AT2 = Format(
     "PEER AT2",
     "PEER (NGA databases), USA",
     "line with NPTS and DT in the first 8 lines of an acceleration file",
-    _is_acceleration,
+    lambda content: _kind(content) == "acceleration",
     _read,
     plugin="PEER_AT2",
 )
@@ -140,6 +134,6 @@ PEER_OTHER = Format(
     "PEER VT2 or DT2",
     "PEER (NGA databases), USA",
     "NPTS and DT below VELOCITY or DISPLACEMENT TIME SERIES",
-    _is_other,
+    lambda content: _kind(content) in ("velocity", "displacement"),
     _refuse,
 )

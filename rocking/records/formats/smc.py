@@ -55,12 +55,11 @@ def _record(head: str, kind: str, values, notes, reals, options: Options) -> Acc
         raise RecordError(
             f"samples per second is {reals[_RATE]:g}, but must be greater than 0 and below 1e6."
         )
-    component = optional(r"component\s*=\s*(\S+)", head)
     record = accelerogram(
         options.unit_of("cm/s2"),
         values,
         options.time_step_of(1 / float(reals[_RATE])),
-        component=component,
+        component=optional(r"component\s*=\s*(\S+)", head),
         station=optional(r"station\s*=\s*(.*?)\s*component", head),
         warnings=notes,
         event=optional(r"^\s+\d{4}\s+\d+\s+\d+\s+\d{4}\s+(.*)$", head),

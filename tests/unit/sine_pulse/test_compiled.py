@@ -116,7 +116,7 @@ def test_nothing_overturns_below_the_amplitude_that_overturns() -> None:
 def test_what_is_refused() -> None:
     block = KINDS["symmetric"]
     with pytest.raises(
-        PulseError, match="ω_g/p, a pulse's circular_frequency over a block's frequency_parameter"
+        PulseError, match="ω_g/p, the pulse's circular_frequency over the block's frequency_parameter"
     ):
         predict_maxima([block], [Pulse(1.0, 1e14)])
     with pytest.raises(PulseError, match="a_g/"):
