@@ -3,6 +3,10 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
+TOOLS := $(VENV)/.tools
+# Bytecode apart, by all cores and without the packages' own tests: pip writes all of it, one file after another.
+PIP := $(BIN)/python -m pip install --quiet --no-compile
+BYTECODE := $(BIN)/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib || true
 
 COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header
 EXECUTOR := snakemake-executor-plugin-slurm
@@ -19,21 +23,28 @@ setup: $(STAMP)
 
 $(STAMP): requirements.lock pyproject.toml
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --require-hashes -r requirements.lock
-	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation -e .
+	$(PIP) --require-hashes -r requirements.lock
+	$(PIP) --no-deps --no-build-isolation -e .
+	$(BYTECODE)
 	touch $(STAMP)
+
+# What tests, checks and the documentation need besides.
+$(TOOLS): $(STAMP) development.lock
+	$(PIP) --require-hashes -r development.lock
+	$(BYTECODE)
+	touch $(TOOLS)
 
 # Apart from the rest: snakemake imports every executor it finds at each start, and this one costs it a third of a second.
 slurm: setup
-	$(BIN)/python -m pip install --quiet --require-hashes --no-deps -r $(SLURM)
+	$(PIP) --require-hashes --no-deps -r $(SLURM)
 
-test: setup
+test: $(TOOLS)
 	$(BIN)/python -m pytest
 
-bench: setup
+bench: $(TOOLS)
 	for script in tests/benchmarks/bench_*.py; do $(BIN)/python $$script || exit 1; done
 
-check: setup
+check: $(TOOLS)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy rocking
@@ -48,7 +59,8 @@ paper: setup
 	$(BIN)/snakemake --workflow-profile workflow/profiles/default paper
 
 lock:
-	$(COMPILE) pyproject.toml --extra build --extra docs --extra test -o requirements.lock
+	$(COMPILE) pyproject.toml --extra build -o requirements.lock
+	$(COMPILE) pyproject.toml --extra build --extra docs --extra test -c requirements.lock -o development.lock
 	printf '%s\n' $(EXECUTOR) $(EXECUTOR)-jobstep | $(COMPILE) - --no-deps -o $(SLURM)
 
 clean:
