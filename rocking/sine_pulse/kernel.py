@@ -39,7 +39,8 @@ _CONVERGED = 1e-10
 _EQUAL = 1 + 1e-12
 """Of peaks that are equal to within this the first counts."""
 
-_POSITION, _VELOCITY, _MINUS_VELOCITY, _MONOTONY, _MINUS_MONOTONY = 0, 1, 2, 3, 4
+# Of floats, because numba compiles what is called with an integer constant once for each.
+_POSITION, _VELOCITY, _MINUS_VELOCITY, _MONOTONY, _MINUS_MONOTONY = 0.0, 1.0, 2.0, 3.0, 4.0
 
 compiled = njit(cache=True, nogil=True, error_model="numpy")
 
@@ -187,16 +188,16 @@ def _contact(f, low, high, guess, peak):
 
 
 @compiled
-def _quarter(f, which, duration):
-    """When the pulse's phase is π/2 or 3π/2, or infinity outside the flight."""
-    time = ((0.5 if which == 0 else 1.5) * math.pi - f.phase) / f.omega
+def _quarter(f, phase, duration):
+    """When the pulse has a phase [rad], or infinity outside the flight."""
+    time = (phase - f.phase) / f.omega
     return time if 0 < time < duration else math.inf
 
 
 @compiled
 def _breaks(f, duration):
     """The zeros of c and of h within the flight, ascending, infinity in place of those that do not exist."""
-    a, b = _quarter(f, 0, duration), _quarter(f, 1, duration)
+    a, b = _quarter(f, 0.5 * math.pi, duration), _quarter(f, 1.5 * math.pi, duration)
     c = math.atanh(-f.sine / f.cosine) if abs(f.sine) < abs(f.cosine) else math.inf
     c = c if 0 < c < duration else math.inf
     return min(a, b, c), max(min(a, b), min(max(a, b), c)), max(a, b, c)
@@ -377,21 +378,34 @@ def _after_pulse(sides, index, x, velocity, peaks, at, impacts, margin):
 
 
 @compiled
-def course(first, second):
-    """Follow the block from rest at the pulse's start to its last relevant flight.
-
-    first: the side that the pulse's first half lifts; second: the other one.
-    """
-    sides = first, second
-    alike = not (first.exists and second.exists) or (
+def _alike(first, second):
+    """Whether a flight to either side is the same, or there is only one."""
+    return not (first.exists and second.exists) or (
         first.frequency_ratio == second.frequency_ratio
         and first.amplitude_ratio == second.amplitude_ratio
         and first.restitution == second.restitution
         and first.velocity_scale == second.velocity_scale
         and first.end == second.end
     )
-    peaks, at, impacts, contacts, margin = (0.0, 0.0), (-1, -1), 0, 0, 1.0
-    velocity = 0.0
+
+
+@compiled
+def _ended(first, second, peaks, margin):
+    """Peaks and margin with an overturning where a peak passes the end of the mechanism."""
+    one = math.inf if peaks[0] > first.end else peaks[0]
+    other = math.inf if peaks[1] > second.end else peaks[1]
+    unproved = max(one, other) == math.inf and max(peaks) != math.inf
+    return (one, other), -math.inf if unproved else margin
+
+
+@compiled
+def course(first, second):
+    """Follow the block from rest at the pulse's start to its last relevant flight.
+
+    first: the side that the pulse's first half lifts; second: the other one.
+    """
+    sides, alike, velocity = (first, second), _alike(first, second), 0.0
+    peaks, at, contacts, impacts, margin, _ = Course((0.0, 0.0), (-1, -1), 0, 0, 1.0, False)
     phase, index = _next_uplift(sides, 0.0)
     while index >= 0:
         f = _flight_of(sides[index], index, phase, velocity)
@@ -419,13 +433,7 @@ def course(first, second):
             phase, index = _next_uplift(sides, rest)
         elif impacts >= MOST_IMPACTS:
             return Course(peaks, at, contacts, impacts, math.nan, True)
-    if peaks[0] > first.end or peaks[1] > second.end:
-        if max(peaks) != math.inf:
-            margin = -math.inf
-        peaks = (
-            math.inf if peaks[0] > first.end else peaks[0],
-            math.inf if peaks[1] > second.end else peaks[1],
-        )
+    peaks, margin = _ended(first, second, peaks, margin)
     return Course(peaks, at, contacts, impacts, margin, False)
 
 
