@@ -9,7 +9,7 @@ from contextlib import suppress
 import numpy as np
 
 from rocking.errors import MotionError, RockingError
-from rocking.motion.forcing import GroundMotion, forcing_of
+from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.integration import TOLERANCES, Rocking, reduce
 from rocking.motion.many_blocks import all_solvable, follow_blocks
 from rocking.motion.members import Members, follow_factors, stepped_ratios
@@ -45,20 +45,11 @@ def integrate_batch(
     if factors.size == 1 and len(structures) > 1 and all_solvable(structures, forcing):
         return follow_blocks(structures, forcing.scaled(factors[0]))[:, None]
     workers = workers or os.cpu_count() or 1
-    lift = factors if forcing.vertical else np.zeros(factors.size)
 
     def run(job: Sequence[tuple[int, slice]]) -> None:
         for index, some in job:
             with suppress(RockingError):
-                reduced = reduce(structures[index])
-                if isinstance(reduced, Mechanism):
-                    found = stepped_ratios(table_of(reduced), forcing, factors[some], lift[some], tolerance)
-                else:
-                    up = lift[some] if forcing.vertical else None
-                    found = follow_factors(
-                        reduced, forcing, factors[some], up, None, tolerance
-                    ).rotation_ratio
-                ratios[index, some] = found
+                ratios[index, some] = _ratios(structures[index], forcing, factors[some], tolerance)
 
     jobs = _shared_out(len(structures), factors.size, workers)
     if workers == 1 or len(jobs) == 1:
@@ -68,6 +59,17 @@ def integrate_batch(
         with ThreadPoolExecutor(workers) as pool:
             list(pool.map(run, jobs))
     return ratios
+
+
+def _ratios(
+    structure: Rocking, forcing: Forcing, factors: np.ndarray, tolerance: float
+) -> np.ndarray | list[float]:
+    """The rotation ratios of one structure at `factors` (n,) of the motion."""
+    reduced, lift = reduce(structure), factors if forcing.vertical else None
+    if isinstance(reduced, Mechanism):
+        up = np.zeros(factors.size) if lift is None else lift
+        return stepped_ratios(table_of(reduced), forcing, factors, up, tolerance)
+    return follow_factors(reduced, forcing, factors, lift, None, tolerance).rotation_ratio
 
 
 def _factors(given: Sequence[float] | np.ndarray) -> np.ndarray:

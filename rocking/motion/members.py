@@ -13,7 +13,8 @@ from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.integration import TOLERANCES, Rocking, reduce
 from rocking.motion.linear import blocks_of, samples_of, solvable_exactly
 from rocking.motion.nonlinear import STEP_SHARE, failure
-from rocking.motion.table import SideTable, Table, linear_table, table_of
+from rocking.motion.side_table import SideTable
+from rocking.motion.table import Table, linear_table, table_of
 from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures.mechanism import EquivalentBlock, Mechanism

@@ -8,7 +8,8 @@ from rocking.errors import MotionError
 from rocking.motion import nonlinear_kernel as kernel
 from rocking.motion.forcing import Forcing
 from rocking.motion.response import Response
-from rocking.motion.table import SideTable, Table
+from rocking.motion.side_table import SideTable
+from rocking.motion.table import Table
 from rocking.structures.outcome import Outcome
 
 OUTCOMES = {0: Outcome.NO_UPLIFT, kernel.ROCKS: Outcome.ROCKS, kernel.OVERTURNS: Outcome.OVERTURNS}

@@ -4,7 +4,7 @@ Written from the equation of motion (theory: section 1, "One standard form"); it
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from time import process_time
 from typing import Literal
 
@@ -15,6 +15,7 @@ from rocking.errors import MotionError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism
+from rocking.structures.mechanism import Side
 
 Scipy = Literal["RK45", "DOP853"]
 
@@ -155,46 +156,14 @@ class _Run:
         self, sign: int, state: tuple[float, float], now: float, until: float
     ) -> tuple[float, tuple[float, float], bool]:
         """Return time, rotation and rate at the landing, or at `until`, and whether it landed."""
-        side, still = self.sides[sign], until > self.duration
-
-        def slope(time: float, y: np.ndarray) -> list[float]:
-            """φ'' = −(s B ü_g + G g + J φ'²) / I, J = I'/2."""
-            if process_time() > self.deadline:
-                raise MotionError(
-                    f"{self.method} took more than the {self.budget:.0f} s of processor time that its budget left; "
-                    "allow it more."
-                )
-            rotation, velocity = y
-            push = sign * side.at("ground", rotation) * self._acceleration(time, still)
-            slowing = side.at("inertia_slope", rotation) / 2 * velocity**2
-            pull = push + side.at("gravity", rotation) * GRAVITY + slowing
-            return [velocity, -pull / side.at("inertia", rotation)]
-
-        def landing(time: float, y: np.ndarray) -> float:
-            return y[0] if time > now else side.critical_rotation
-
-        def turn(_: float, y: np.ndarray) -> float:
-            return y[1]
-
-        def end(_: float, y: np.ndarray) -> float:
-            return y[0] - side.end_rotation
-
-        marks = (
-            (landing, "terminal", True),
-            (landing, "direction", -1),
-            (turn, "direction", -1),
-            (end, "terminal", True),
-        )
-        for event, name, value in marks:
-            setattr(event, name, value)
-        span = min(until - now, self.step)
+        side, span = self.sides[sign], min(until - now, self.step)
         size = state[0] + abs(state[1]) * span + 1e-9 * side.critical_rotation
         solved = solve_ivp(
-            slope,
+            self._equation(sign, until > self.duration),
             (now, until),
             state,
             self.method,
-            events=(landing, turn, end),
+            events=_events(side, now),
             rtol=self.tolerance,
             atol=1e-3 * self.tolerance * size * np.array([1, 1 / span]),
             max_step=self.step / (STEPS_PER_SAMPLE if self.restart else 1),
@@ -206,6 +175,24 @@ class _Run:
             return until, (float(solved.y[0, -1]), float(solved.y[1, -1])), False
         return float(solved.t[-1]), (0.0, float(solved.y[1, -1])), True
 
+    def _equation(self, sign: int, still: bool) -> Callable[[float, np.ndarray], list[float]]:
+        """φ'' = −(s B ü_g + G g + J φ'²) / I, J = I'/2."""
+        side = self.sides[sign]
+
+        def slope(time: float, y: np.ndarray) -> list[float]:
+            if process_time() > self.deadline:
+                raise MotionError(
+                    f"{self.method} took more than the {self.budget:.0f} s of processor time that its budget left; "
+                    "allow it more."
+                )
+            rotation, velocity = y
+            push = sign * side.at("ground", rotation) * self._acceleration(time, still)
+            slowing = side.at("inertia_slope", rotation) / 2 * velocity**2
+            pull = push + side.at("gravity", rotation) * GRAVITY + slowing
+            return [velocity, -pull / side.at("inertia", rotation)]
+
+        return slope
+
     def _impact(self, sign: int, velocity: float) -> tuple[int, tuple[float, float]]:
         kept = self.sides[sign].restitution * max(-velocity, 0.0)
         sign = -sign if -sign in self.sides else sign
@@ -213,3 +200,26 @@ class _Run:
         if kept <= REST_SPEED * side.critical_rotation * side.frequency_parameter:
             return 0, (0.0, 0.0)
         return sign, (0.0, kept)
+
+
+def _events(side: Side, now: float) -> tuple[Callable[[float, np.ndarray], float], ...]:
+    """Landing, turning and the end of the mechanism, as `solve_ivp` takes them, of a flight that starts `now`."""
+
+    def landing(time: float, y: np.ndarray) -> float:
+        return y[0] if time > now else side.critical_rotation
+
+    def turn(_: float, y: np.ndarray) -> float:
+        return y[1]
+
+    def end(_: float, y: np.ndarray) -> float:
+        return y[0] - side.end_rotation
+
+    marks = (
+        (landing, "terminal", True),
+        (landing, "direction", -1),
+        (turn, "direction", -1),
+        (end, "terminal", True),
+    )
+    for event, name, value in marks:
+        setattr(event, name, value)
+    return landing, turn, end

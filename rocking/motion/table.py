@@ -1,110 +1,17 @@
-"""A Mechanism as the kernel sees it: piecewise polynomials of the arc, one table per side.
+"""A Mechanism as the kernel sees it: the tables of its sides, stacked and remembered."""
 
-In the arc q the term J φ'² drops out of the equation of motion (J = I'/2), and what is left of it is
-G̃ = G/√(I I(0)) and B̃ = B/√(I I(0)). For a rigid body I is constant and q = φ.
-"""
-
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from rocking.errors import MotionError
 from rocking.motion.forcing import Forcing
-from rocking.motion.nonlinear_kernel import REST_ENERGY, Sides, Ties
-from rocking.motion.tie_tables import stacked_ties, tie_law
-from rocking.quantities import GRAVITY
-from rocking.structures.arc import Arc, Function, RotationMap, arc_of
-from rocking.structures.mechanism import CUTS, EquivalentBlock, Mechanism, Side
-
-DEGREE = 7
-ACCURACY = 1e-12
-"""Largest error of a table, relative to the largest magnitude of the quantity."""
-
-ROOM = 0.25
-"""A piece is accurate up to this share of its width beyond its ends; a step goes no further."""
-
-_AIM = 2e-14
-_NEAR = 1 / 64
-"""Share of the arc of φ_cr within which a chain of impacts is looked at as a whole."""
-
-_MOST_PIECES = 4096
-_GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(40)
-_NODES = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
-_PROBES = np.linspace(-0.99, 0.99, 16)
-
-
-@dataclass(frozen=True, eq=False)
-class SideTable:
-    """One side, in two zones of equal pieces: an inner one up to 2 φ_cr, and an outer one up to the end.
-
-    pieces: (m, 16) G̃ and B̃ alternating, by power of the distance from the centre of each piece.
-    ratios: (m, 8) φ/q likewise. grid: end of the inner zone; width, count and room of each zone's
-    pieces; inverse widths.
-    hold: (m,) smallest −G/|B| from each piece on: a smaller ground acceleration, in g, cannot bring the side back.
-    critical, end: in arc. lift: G̃(0), B̃(0). reaching_speed: along the arc at φ = 0, just reaches φ_cr, rad/s.
-    longest_step: s. near: bounds near rest, as `Sides` has them. arc and stretch: q and dq/dφ at a rotation.
-    rotation_map: that of an equivalent block, which stands for ratios and stretch. ties: kept apart from G̃, which is
-    then without them, as hold is; critical is then where nothing without ties falls yet.
-    """
-
-    pieces: np.ndarray
-    ratios: np.ndarray
-    grid: tuple[float, ...]
-    hold: np.ndarray
-    critical: float
-    end: float
-    lift: tuple[float, float]
-    restitution: float
-    reaching_speed: float
-    longest_step: float
-    near: tuple[float, ...]
-    critical_rotation: float
-    arc: Function
-    stretch: Function
-    rotation_map: RotationMap | None = None
-    ties: Ties | None = None
-
-    def rotation(self, arc: np.ndarray | float) -> np.ndarray:
-        """Return the rotation [rad] at `arc`, any shape, within the table; inf beyond the end of a rotation_map."""
-        arc = np.asarray(arc, dtype=float)
-        if self.rotation_map is not None:
-            return self.rotation_map.rotation(arc)
-        split, inner, inner_count, _, outer, outer_count, *_ = self.grid
-        within = np.minimum((arc / inner).astype(int), int(inner_count) - 1)
-        beyond = np.minimum(np.maximum((arc - split) / outer, 0.0).astype(int), int(outer_count) - 1)
-        inside = arc < split
-        centre = np.where(inside, (within + 0.5) * inner, split + (beyond + 0.5) * outer)
-        row = self.ratios[np.where(inside, within, int(inner_count) + beyond)]
-        ratio = row[..., -1]
-        for power in range(DEGREE - 1, -1, -1):
-            ratio = row[..., power] + (arc - centre) * ratio
-        return arc * ratio
-
-    def rotation_at(self, arc: float) -> float:
-        """The same of one arc, to the last bit, in a few microseconds."""
-        if self.rotation_map is not None:
-            return self.rotation_map.rotation_at(arc)
-        split, inner, inner_count, _, outer, outer_count, *_ = self.grid
-        if arc < split:
-            row = min(int(arc / inner), int(inner_count) - 1)
-            centre = (row + 0.5) * inner
-        else:
-            beyond = min(int((arc - split) / outer), int(outer_count) - 1)
-            row, centre = int(inner_count) + beyond, split + (beyond + 0.5) * outer
-        ratio = 0.0
-        for coefficient in self.ratios[row].tolist()[::-1]:
-            ratio = coefficient + (arc - centre) * ratio
-        return float(arc * ratio)
-
-    def slope(self, arc: np.ndarray | float, rotation: np.ndarray | None = None) -> np.ndarray:
-        """Return dφ/dq at `arc`, any shape; `rotation` there, where it is known, spares finding it."""
-        if self.rotation_map is not None:
-            return self.rotation_map.slope(np.asarray(arc))
-        return 1 / self.stretch(self.rotation(arc) if rotation is None else rotation)
+from rocking.motion.nonlinear_kernel import REST_ENERGY, Sides
+from rocking.motion.piecewise import DEGREE
+from rocking.motion.side_table import SideTable, linear_side, side_table
+from rocking.motion.tie_tables import stacked_ties
+from rocking.structures.mechanism import EquivalentBlock, Mechanism
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,7 +51,7 @@ def table_of(mechanism: Mechanism, vertical: bool = False) -> Table:
     known = _REMEMBERED.setdefault(mechanism, {})
     if apart not in known:
         known[apart] = _stacked(
-            tuple(_side_table(side, apart) for side in mechanism.sides), mechanism.one_sided
+            tuple(side_table(side, apart) for side in mechanism.sides), mechanism.one_sided
         )
     return known[apart]
 
@@ -152,7 +59,7 @@ def table_of(mechanism: Mechanism, vertical: bool = False) -> Table:
 @lru_cache(maxsize=1024)
 def linear_table(block: EquivalentBlock) -> Table:
     """Return the table of an equivalent block: exact, and without an end unless its rotation_map has one."""
-    return _stacked(tuple(_linear_side(each) for each in block.sides), block.one_sided)
+    return _stacked(tuple(linear_side(each) for each in block.sides), block.one_sided)
 
 
 def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
@@ -166,208 +73,3 @@ def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
     ties = stacked_ties([side.ties for side in sides], most)
     kernel = Sides(pieces=pieces, hold=hold, one_sided=one_sided, ties=ties, **stacked)
     return Table(sides, one_sided, kernel, (sides[0].restitution, sides[-1].restitution))
-
-
-def _linear_side(block: EquivalentBlock) -> SideTable:
-    square = block.frequency_parameter**2 / GRAVITY
-    critical = block.critical_arc
-    scale = critical / block.uplift_multiplier
-    width, count = critical / 8, 513  # the last one is the outer zone, which has no end
-    starts = np.arange(count) * width
-    pieces, ratios = np.zeros((count, 2 * DEGREE + 2)), np.zeros((count, DEGREE + 1))
-    pieces[:, 0], pieces[:, 2], pieces[:, 1] = (
-        square * (critical - starts - width / 2),
-        -square,
-        square * scale,
-    )
-    ratios[:, 0] = 1.0
-    return SideTable(
-        pieces=pieces,
-        ratios=ratios,
-        grid=(starts[-1], width, count - 1, np.inf, width, 1, np.inf, 1 / width, 1 / width),
-        hold=(starts - critical) / scale,
-        critical=critical,
-        end=np.inf if block.rotation_map is None else block.rotation_map.end,
-        lift=(square * critical, square * scale),
-        restitution=block.restitution,
-        reaching_speed=block.velocity_scale,
-        longest_step=1 / block.frequency_parameter,
-        near=_near_rest(
-            critical * _NEAR,
-            np.array([[critical, (1 - _NEAR) * critical], [scale, scale]]) * square,
-        ),
-        critical_rotation=block.critical_rotation,
-        arc=np.asarray if block.rotation_map is None else np.vectorize(block.rotation_map.arc),
-        stretch=np.ones_like,
-        rotation_map=block.rotation_map,
-    )
-
-
-def _side_table(side: Side, apart: bool = False) -> SideTable:
-    for cut in CUTS:
-        last = side.end_rotation - cut * (side.end_rotation - side.critical_rotation)
-        with np.errstate(all="ignore"):
-            found = _tabulated(side, last, apart)
-        if found is not None:
-            return found
-    raise MotionError(
-        f"the mechanism's functions cannot be tabulated to {ACCURACY:g} of their maximum up to a rotation of "
-        f"{last!r} rad; they must be smooth up to there."
-    )
-
-
-def _tabulated(side: Side, last: float, apart: bool) -> SideTable | None:
-    """The table over the rotations up to `last`, ties apart or not, or None where it does not reach ACCURACY."""
-    arc = arc_of(side.inertia, last, _AIM)
-    if arc is None:
-        return None
-    rest = side.at("inertia", 0.0)
-    gravity = side.untied_gravity if apart and side.untied_gravity is not None else side.gravity
-    ties = side.ties if apart else ()
-
-    def functions(arcs: np.ndarray) -> np.ndarray:
-        rotation = arc.rotation(arcs)
-        scale = np.sqrt(side.inertia(rotation) * rest)
-        found = [gravity(rotation) / scale, side.ground(rotation) / scale, rotation / arcs]
-        for tie in ties:
-            stretch, pull = tie.stretch(rotation), tie.stretch_slope(rotation) / scale
-            found += [pull, stretch * pull, stretch]
-        return np.stack(found)
-
-    end, critical = float(arc.at(last)), float(arc.at(side.critical_rotation))
-    split = min(2 * critical, (critical + end) / 2)
-    largest = np.abs(functions(np.linspace(end / 1000, end, 1000))).max(axis=1)
-    inner, outer = _fitted(functions, 0.0, split, largest), _fitted(functions, split, end, largest)
-    if inner is None or outer is None:
-        return None
-    powers = np.concatenate([inner, outer], axis=1)
-    grid, starts = _grid(split, end, inner.shape[1], outer.shape[1])
-    lift = float(gravity(np.asarray(0.0))) / rest, side.at("ground", 0.0) / rest
-    near = np.column_stack([lift, functions(np.linspace(0, critical * _NEAR, 65)[1:])[:2]])
-    if apart:
-        steepest = (
-            np.abs(np.gradient(functions(np.linspace(critical / 512, critical, 512))[0])).max()
-            * 512
-            / critical
-        )
-    else:
-        steepest = -side.at("gravity_slope", side.critical_rotation) / side.at(
-            "inertia", side.critical_rotation
-        )
-    return SideTable(
-        pieces=np.ascontiguousarray(powers[:2].transpose(1, 2, 0).reshape(powers.shape[1], -1)),
-        ratios=np.ascontiguousarray(powers[2]),
-        grid=grid,
-        hold=_hold(gravity, side.ground, arc.rotation, starts),
-        critical=_standing(gravity, arc.rotation, critical) if apart else critical,
-        end=end,
-        lift=lift,
-        restitution=side.restitution,
-        reaching_speed=_reaching_speed(side, rest),
-        longest_step=1 / np.sqrt(GRAVITY * max(steepest, lift[0] / critical)),
-        near=_near_rest(critical * _NEAR, near),
-        critical_rotation=side.critical_rotation,
-        arc=arc.at,
-        stretch=arc.stretch,
-        ties=_ties(side, arc, powers[3:], critical * _NEAR) if ties else None,
-    )
-
-
-def _ties(side: Side, arc: Arc, powers: np.ndarray, reach: float) -> Ties:
-    """The ties of one side, from the polynomials (3 n, m, 8) of D̃, u D̃ and u of each."""
-    count, pieces = powers.shape[0] // 3, powers.shape[1]
-    pulls, stretch = np.split(powers.reshape(count, 3, pieces, DEGREE + 1), [2], axis=1)
-    pulls = pulls.transpose(0, 2, 3, 1).reshape(count, pieces, -1)
-    laws = [tie_law(side, tie, arc, reach) for tie in side.ties]
-    return Ties(np.concatenate([pulls, stretch[:, 0]], axis=2), np.array(laws)[None])
-
-
-def _standing(gravity: Function, rotation: Function, critical: float) -> float:
-    """An arc up to `critical` below which `gravity` restores."""
-    arcs = np.linspace(0.0, critical, 513)
-    falls = np.flatnonzero(gravity(rotation(arcs)) <= 0)
-    return float(arcs[max(falls[0] - 1, 0)]) if falls.size else critical
-
-
-def _grid(split: float, end: float, inner: int, outer: int) -> tuple[tuple[float, ...], np.ndarray]:
-    """The grid of a SideTable with so many pieces in its zones, and where its pieces start (with the end)."""
-    width, further = split / inner, (end - split) / outer
-    starts = np.concatenate([np.arange(inner) * width, split + np.arange(outer + 1) * further])
-    zones = (width, inner, ROOM * width, further, outer, ROOM * further)
-    return (split, *zones, 1 / width, 1 / further), starts
-
-
-def _reaching_speed(side: Side, rest_inertia: float) -> float:
-    """√(2 g ∫ G dφ / I(0)) from 0 to φ_cr, on the way out."""
-    ends = [bend for bend in side.bends if 0 < bend < side.critical_rotation] if side.remembers else []
-    work = np.zeros(())
-    for start, end in pairwise([0.0, *ends, side.critical_rotation]):
-        half = (end - start) / 2
-        work = work + 2 * GRAVITY * half * (_WEIGHTS @ side.gravity(start + half * (_GAUSS + 1)))
-    return float(np.sqrt(work / rest_inertia))
-
-
-def _near_rest(reach: float, values: np.ndarray) -> tuple[float, ...]:
-    """Bounds of G̃ and B̃ (2, n), taken at equal distances over the arcs [0, reach]; see `Sides`.
-
-    Widened by the largest change between neighbouring samples, and slopes by half, for what lies between samples.
-    """
-    changes = np.abs(np.diff(values, axis=1)).max(axis=1)
-    slopes = 1.5 * changes * (values.shape[1] - 1) / reach
-    least, most = values[0].min() - changes[0], values[0].max() + changes[0]
-    drive = np.abs(values[1]).max() + changes[1]
-    speed = np.sqrt(2 * GRAVITY * max(least, 0.0) * reach)
-    return tuple(float(each) for each in (reach, least, most, drive, *slopes, speed))
-
-
-def _hold(gravity: Function, ground: Function, rotation: Function, starts: np.ndarray) -> np.ndarray:
-    """(m,) smallest −G/|B| from each piece on, lowered by the largest change between neighbouring samples."""
-    arcs = starts[:-1, None] + np.diff(starts)[:, None] * np.linspace(0, 1, 9)
-    rotations = rotation(arcs)
-    balance = -gravity(rotations) / np.maximum(np.abs(ground(rotations)), 1e-300)
-    steps = np.abs(np.diff(balance, axis=1)).max(axis=1)
-    lowest = balance.min(axis=1) - steps
-    return np.minimum.accumulate(lowest[::-1])[::-1]
-
-
-def _fitted(
-    functions: Callable[[np.ndarray], np.ndarray], start: float, end: float, largest: np.ndarray
-) -> np.ndarray | None:
-    """Polynomials (f, m, 8) of f functions on m equal pieces of [start, end], good to ROOM beyond its ends, or None.
-
-    Pieces are halved, as often at once as the order of the error, DEGREE + 1, says is surely needed, until the error is
-    _AIM of the zone's own maximum, or no longer falls because it is the rounding of the functions themselves; it must
-    then be within ACCURACY of `largest` (f,), the maxima over the whole side.
-    """
-    best, best_error, good, count = None, np.inf, False, 2
-    while count <= _MOST_PIECES:
-        powers, errors, zone = _fit(functions, start, end, count)
-        if not np.all(np.isfinite(errors)):
-            return None
-        error = (errors / zone).max()
-        if error < best_error:
-            best, best_error, good = powers, error, bool(np.all(errors <= ACCURACY * largest))
-        elif good:
-            break
-        if best_error <= _AIM:
-            break
-        count <<= max(1, int(np.log2(error / _AIM) / (DEGREE + 1)))
-    return best if good else None
-
-
-def _fit(
-    functions: Callable[[np.ndarray], np.ndarray], start: float, end: float, count: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Interpolate on `count` pieces; also the largest error between the nodes, and the largest value, (f,) each."""
-    half = (end - start) / count / 2
-    centres = start + (2 * np.arange(count)[:, None] + 1) * half
-    low = np.maximum(start - centres, -(1 + 2 * ROOM) * half) / half
-    high = np.minimum(end - centres, (1 + 2 * ROOM) * half) / half
-    places, probes = ((low + high) / 2 + (high - low) / 2 * each for each in (_NODES, _PROBES))
-    found = functions(centres + half * np.concatenate([places, probes], axis=1))
-    values, between = found[..., : _NODES.size], found[..., _NODES.size :]
-    powers = np.linalg.solve(places[..., None] ** np.arange(DEGREE + 1), np.moveaxis(values, 0, -1))
-    powers = np.moveaxis(powers, -1, 0)
-    fit = np.einsum("fmp,mqp->fmq", powers, probes[..., None] ** np.arange(DEGREE + 1))
-    errors = np.abs(fit - between).max(axis=(1, 2))
-    return powers / half ** np.arange(DEGREE + 1), errors, np.abs(values).max(axis=(1, 2))

@@ -1,0 +1,268 @@
+"""One side of a mechanism as piecewise polynomials of the arc: what such a table is, and how it is made.
+
+In the arc q the term J φ'² drops out of the equation of motion (J = I'/2), and what is left of it is
+G̃ = G/√(I I(0)) and B̃ = B/√(I I(0)). For a rigid body I is constant and q = φ.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from rocking.errors import MotionError
+from rocking.motion.nonlinear_kernel import Ties
+from rocking.motion.piecewise import ACCURACY, AIM, DEGREE, ROOM, fitted
+from rocking.motion.tie_tables import tie_law
+from rocking.quantities import GRAVITY
+from rocking.structures.arc import Arc, Function, RotationMap, arc_of
+from rocking.structures.mechanism import CUTS, EquivalentBlock, Side, SideTie
+
+_NEAR = 1 / 64
+"""Share of the arc of φ_cr within which a chain of impacts is looked at as a whole."""
+
+_GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(40)
+
+
+@dataclass(frozen=True, eq=False)
+class SideTable:
+    """One side, in two zones of equal pieces: an inner one up to 2 φ_cr, and an outer one up to the end.
+
+    pieces: (m, 16) G̃ and B̃ alternating, by power of the distance from the centre of each piece.
+    ratios: (m, 8) φ/q likewise. grid: end of the inner zone; width, count and room of each zone's
+    pieces; inverse widths.
+    hold: (m,) smallest −G/|B| from each piece on: a smaller ground acceleration, in g, cannot bring the side back.
+    critical, end: in arc. lift: G̃(0), B̃(0). reaching_speed: along the arc at φ = 0, just reaches φ_cr, rad/s.
+    longest_step: s. near: bounds near rest, as `Sides` has them. arc and stretch: q and dq/dφ at a rotation.
+    rotation_map: that of an equivalent block, which stands for ratios and stretch. ties: kept apart from G̃, which is
+    then without them, as hold is; critical is then where nothing without ties falls yet.
+    """
+
+    pieces: np.ndarray
+    ratios: np.ndarray
+    grid: tuple[float, ...]
+    hold: np.ndarray
+    critical: float
+    end: float
+    lift: tuple[float, float]
+    restitution: float
+    reaching_speed: float
+    longest_step: float
+    near: tuple[float, ...]
+    critical_rotation: float
+    arc: Function
+    stretch: Function
+    rotation_map: RotationMap | None = None
+    ties: Ties | None = None
+
+    def rotation(self, arc: np.ndarray | float) -> np.ndarray:
+        """Return the rotation [rad] at `arc`, any shape, within the table; inf beyond the end of a rotation_map."""
+        arc = np.asarray(arc, dtype=float)
+        if self.rotation_map is not None:
+            return self.rotation_map.rotation(arc)
+        split, inner, inner_count, _, outer, outer_count, *_ = self.grid
+        within = np.minimum((arc / inner).astype(int), int(inner_count) - 1)
+        beyond = np.minimum(np.maximum((arc - split) / outer, 0.0).astype(int), int(outer_count) - 1)
+        inside = arc < split
+        centre = np.where(inside, (within + 0.5) * inner, split + (beyond + 0.5) * outer)
+        row = self.ratios[np.where(inside, within, int(inner_count) + beyond)]
+        ratio = row[..., -1]
+        for power in range(DEGREE - 1, -1, -1):
+            ratio = row[..., power] + (arc - centre) * ratio
+        return arc * ratio
+
+    def rotation_at(self, arc: float) -> float:
+        """The same of one arc, to the last bit, in a few microseconds."""
+        if self.rotation_map is not None:
+            return self.rotation_map.rotation_at(arc)
+        split, inner, inner_count, _, outer, outer_count, *_ = self.grid
+        if arc < split:
+            row = min(int(arc / inner), int(inner_count) - 1)
+            centre = (row + 0.5) * inner
+        else:
+            beyond = min(int((arc - split) / outer), int(outer_count) - 1)
+            row, centre = int(inner_count) + beyond, split + (beyond + 0.5) * outer
+        ratio = 0.0
+        for coefficient in self.ratios[row].tolist()[::-1]:
+            ratio = coefficient + (arc - centre) * ratio
+        return float(arc * ratio)
+
+    def slope(self, arc: np.ndarray | float, rotation: np.ndarray | None = None) -> np.ndarray:
+        """Return dφ/dq at `arc`, any shape; `rotation` there, where it is known, spares finding it."""
+        if self.rotation_map is not None:
+            return self.rotation_map.slope(np.asarray(arc))
+        return 1 / self.stretch(self.rotation(arc) if rotation is None else rotation)
+
+
+def linear_side(block: EquivalentBlock) -> SideTable:
+    """Return the table of one side of an equivalent block: exact, and endless unless its rotation_map ends."""
+    square = block.frequency_parameter**2 / GRAVITY
+    critical = block.critical_arc
+    scale = critical / block.uplift_multiplier
+    width, count = critical / 8, 513  # the last one is the outer zone, which has no end
+    starts = np.arange(count) * width
+    pieces, ratios = np.zeros((count, 2 * DEGREE + 2)), np.zeros((count, DEGREE + 1))
+    pieces[:, 0], pieces[:, 2], pieces[:, 1] = (
+        square * (critical - starts - width / 2),
+        -square,
+        square * scale,
+    )
+    ratios[:, 0] = 1.0
+    return SideTable(
+        pieces=pieces,
+        ratios=ratios,
+        grid=(starts[-1], width, count - 1, np.inf, width, 1, np.inf, 1 / width, 1 / width),
+        hold=(starts - critical) / scale,
+        critical=critical,
+        end=np.inf if block.rotation_map is None else block.rotation_map.end,
+        lift=(square * critical, square * scale),
+        restitution=block.restitution,
+        reaching_speed=block.velocity_scale,
+        longest_step=1 / block.frequency_parameter,
+        near=_near_rest(
+            critical * _NEAR,
+            np.array([[critical, (1 - _NEAR) * critical], [scale, scale]]) * square,
+        ),
+        critical_rotation=block.critical_rotation,
+        arc=np.asarray if block.rotation_map is None else np.vectorize(block.rotation_map.arc),
+        stretch=np.ones_like,
+        rotation_map=block.rotation_map,
+    )
+
+
+def side_table(side: Side, apart: bool = False) -> SideTable:
+    """Return the table of a side, up to where it can be tabulated. apart: keep its ties apart from G.
+
+    Raises MotionError when it cannot be.
+    """
+    for cut in CUTS:
+        last = side.end_rotation - cut * (side.end_rotation - side.critical_rotation)
+        with np.errstate(all="ignore"):
+            found = _tabulated(side, last, apart)
+        if found is not None:
+            return found
+    raise MotionError(
+        f"the mechanism's functions cannot be tabulated to {ACCURACY:g} of their maximum up to a rotation of "
+        f"{last!r} rad; they must be smooth up to there."
+    )
+
+
+def _functions(
+    side: Side, arc: Arc, gravity: Function, ties: Sequence[SideTie]
+) -> Callable[[np.ndarray], np.ndarray]:
+    """Return (3 + 3 n, ...) G̃, B̃, φ/q, and D̃, u D̃ and u of the n `ties`, as functions of the arc."""
+    rest = side.at("inertia", 0.0)
+
+    def functions(arcs: np.ndarray) -> np.ndarray:
+        rotation = arc.rotation(arcs)
+        scale = np.sqrt(side.inertia(rotation) * rest)
+        found = [gravity(rotation) / scale, side.ground(rotation) / scale, rotation / arcs]
+        for tie in ties:
+            stretch, pull = tie.stretch(rotation), tie.stretch_slope(rotation) / scale
+            found += [pull, stretch * pull, stretch]
+        return np.stack(found)
+
+    return functions
+
+
+def _tabulated(side: Side, last: float, apart: bool) -> SideTable | None:
+    """The table over the rotations up to `last`, ties apart or not, or None where it does not reach ACCURACY."""
+    arc = arc_of(side.inertia, last, AIM)
+    if arc is None:
+        return None
+    gravity = side.untied_gravity if apart and side.untied_gravity is not None else side.gravity
+    ties = side.ties if apart else ()
+    functions = _functions(side, arc, gravity, ties)
+    end, critical = float(arc.at(last)), float(arc.at(side.critical_rotation))
+    split = min(2 * critical, (critical + end) / 2)
+    largest = np.abs(functions(np.linspace(end / 1000, end, 1000))).max(axis=1)
+    inner, outer = fitted(functions, 0.0, split, largest), fitted(functions, split, end, largest)
+    if inner is None or outer is None:
+        return None
+    powers, rest = np.concatenate([inner, outer], axis=1), side.at("inertia", 0.0)
+    grid, starts = _grid(split, end, inner.shape[1], outer.shape[1])
+    lift = float(gravity(np.asarray(0.0))) / rest, side.at("ground", 0.0) / rest
+    near = np.column_stack([lift, functions(np.linspace(0, critical * _NEAR, 65)[1:])[:2]])
+    return SideTable(
+        pieces=np.ascontiguousarray(powers[:2].transpose(1, 2, 0).reshape(powers.shape[1], -1)),
+        ratios=np.ascontiguousarray(powers[2]),
+        grid=grid,
+        hold=_hold(gravity, side.ground, arc.rotation, starts),
+        critical=_standing(gravity, arc.rotation, critical) if apart else critical,
+        end=end,
+        lift=lift,
+        restitution=side.restitution,
+        reaching_speed=_reaching_speed(side, rest),
+        longest_step=1
+        / np.sqrt(GRAVITY * max(_steepest(side, functions, critical, apart), lift[0] / critical)),
+        near=_near_rest(critical * _NEAR, near),
+        critical_rotation=side.critical_rotation,
+        arc=arc.at,
+        stretch=arc.stretch,
+        ties=_ties(side, arc, powers[3:], critical * _NEAR) if ties else None,
+    )
+
+
+def _steepest(side: Side, functions: Function, critical: float, apart: bool) -> float:
+    """−dG̃/dq at φ_cr; the largest |dG̃/dq| up to there where ties are apart."""
+    if apart:
+        slopes = np.gradient(functions(np.linspace(critical / 512, critical, 512))[0])
+        return float(np.abs(slopes).max() * 512 / critical)
+    return -side.at("gravity_slope", side.critical_rotation) / side.at("inertia", side.critical_rotation)
+
+
+def _ties(side: Side, arc: Arc, powers: np.ndarray, reach: float) -> Ties:
+    """The ties of one side, from the polynomials (3 n, m, 8) of D̃, u D̃ and u of each."""
+    count, pieces = powers.shape[0] // 3, powers.shape[1]
+    pulls, stretch = np.split(powers.reshape(count, 3, pieces, DEGREE + 1), [2], axis=1)
+    pulls = pulls.transpose(0, 2, 3, 1).reshape(count, pieces, -1)
+    laws = [tie_law(side, tie, arc, reach) for tie in side.ties]
+    return Ties(np.concatenate([pulls, stretch[:, 0]], axis=2), np.array(laws)[None])
+
+
+def _standing(gravity: Function, rotation: Function, critical: float) -> float:
+    """An arc up to `critical` below which `gravity` restores."""
+    arcs = np.linspace(0.0, critical, 513)
+    falls = np.flatnonzero(gravity(rotation(arcs)) <= 0)
+    return float(arcs[max(falls[0] - 1, 0)]) if falls.size else critical
+
+
+def _grid(split: float, end: float, inner: int, outer: int) -> tuple[tuple[float, ...], np.ndarray]:
+    """The grid of a SideTable with so many pieces in its zones, and where its pieces start (with the end)."""
+    width, further = split / inner, (end - split) / outer
+    starts = np.concatenate([np.arange(inner) * width, split + np.arange(outer + 1) * further])
+    zones = (width, inner, ROOM * width, further, outer, ROOM * further)
+    return (split, *zones, 1 / width, 1 / further), starts
+
+
+def _reaching_speed(side: Side, rest_inertia: float) -> float:
+    """√(2 g ∫ G dφ / I(0)) from 0 to φ_cr, on the way out."""
+    ends = [bend for bend in side.bends if 0 < bend < side.critical_rotation] if side.remembers else []
+    work = np.zeros(())
+    for start, end in pairwise([0.0, *ends, side.critical_rotation]):
+        half = (end - start) / 2
+        work = work + 2 * GRAVITY * half * (_WEIGHTS @ side.gravity(start + half * (_GAUSS + 1)))
+    return float(np.sqrt(work / rest_inertia))
+
+
+def _near_rest(reach: float, values: np.ndarray) -> tuple[float, ...]:
+    """Bounds of G̃ and B̃ (2, n), taken at equal distances over the arcs [0, reach]; see `Sides`.
+
+    Widened by the largest change between neighbouring samples, and slopes by half, for what lies between samples.
+    """
+    changes = np.abs(np.diff(values, axis=1)).max(axis=1)
+    slopes = 1.5 * changes * (values.shape[1] - 1) / reach
+    least, most = values[0].min() - changes[0], values[0].max() + changes[0]
+    drive = np.abs(values[1]).max() + changes[1]
+    speed = np.sqrt(2 * GRAVITY * max(least, 0.0) * reach)
+    return tuple(float(each) for each in (reach, least, most, drive, *slopes, speed))
+
+
+def _hold(gravity: Function, ground: Function, rotation: Function, starts: np.ndarray) -> np.ndarray:
+    """(m,) smallest −G/|B| from each piece on, lowered by the largest change between neighbouring samples."""
+    arcs = starts[:-1, None] + np.diff(starts)[:, None] * np.linspace(0, 1, 9)
+    rotations = rotation(arcs)
+    balance = -gravity(rotations) / np.maximum(np.abs(ground(rotations)), 1e-300)
+    steps = np.abs(np.diff(balance, axis=1)).max(axis=1)
+    lowest = balance.min(axis=1) - steps
+    return np.minimum.accumulate(lowest[::-1])[::-1]
