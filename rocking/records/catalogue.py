@@ -1,7 +1,6 @@
 """Catalogue: the list of records a run uses, checked as a whole before the first file is opened."""
 
 import csv
-import re
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import replace
@@ -13,11 +12,20 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue_record import COLUMNS, CatalogueRecord
 from rocking.records.directions import azimuth, is_vertical
 from rocking.records.fetch import fetch, inventory_of
+from rocking.records.formats.text import is_number
 from rocking.records.plausibility import scaled
 from rocking.records.read import is_unnamed, plain, read
 
 _REQUIRED = ("id", "file")
 _PROSE = ("event", "station", "licence", "note")
+_NUMBERS = {
+    "time_step_s": "time_step",
+    "scale_factor": "scale_factor",
+    "high_pass_hz": "high_pass_frequency",
+    "magnitude": "magnitude",
+    "epicentral_distance_km": "epicentral_distance",
+}
+"""Columns of numbers, which may be blank, and the fields that hold them."""
 _LARGEST = 16 * 2**20
 """Bytes of a catalogue: a hundred thousand rows."""
 
@@ -106,19 +114,16 @@ def _rows(path: Path) -> list[tuple[int, dict[str, str]]]:
 def _record(row: dict[str, str], folder: Path) -> CatalogueRecord:
     cells: dict[str, Any] = {name: (value or "").strip() for name, value in row.items() if name}
     cells |= {name: plain(cells[name]) for name in _PROSE if name in cells}
-    cells["time_step"] = _number(cells.pop("time_step_s", ""), "time_step_s", None)
-    cells["scale_factor"] = _number(cells.get("scale_factor", ""), "scale_factor", 1.0)
-    cells["high_pass_frequency"] = _number(cells.pop("high_pass_hz", ""), "high_pass_hz", None)
-    cells["magnitude"] = _number(cells.get("magnitude", ""), "magnitude", None)
-    kilometres = _number(cells.pop("epicentral_distance_km", ""), "epicentral_distance_km", None)
-    cells["epicentral_distance"] = None if kilometres is None else 1000 * kilometres
+    for column, field in _NUMBERS.items():
+        if cell := cells.pop(column, ""):
+            cells[field] = _number(cell, column)
+    if "epicentral_distance" in cells:
+        cells["epicentral_distance"] *= 1000
     return CatalogueRecord(**cells, folder=folder)
 
 
-def _number(cell: str, column: str, default: float | None) -> float | None:
-    if not cell:
-        return default
-    if not re.fullmatch(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", cell):
+def _number(cell: str, column: str) -> float:
+    if not is_number(cell):
         raise CatalogueError(f"{column} is {cell!r}, but must be a number.")
     return float(cell)
 

@@ -33,7 +33,8 @@ def fetch(record: CatalogueRecord, mirror: str | Path | None = None, cache: str 
     Raises RecordError naming the record and the file when it cannot be had or its hash differs.
     """
     with about(record.id):
-        path = _local(record, mirror)
+        named = record.example_name is not None
+        path = _example(record) if named else _beside(record, record.file, mirror)
         if path is None and record.is_remote:
             path = _download(record, cache)
         if path is None:
@@ -82,12 +83,6 @@ def _may_hold_counts(path: Path) -> bool:
         head = stream.read(256)
         return head.startswith(b"\x1f\x8b") or MINISEED.recognise(head)
     return False
-
-
-def _local(record: CatalogueRecord, mirror: str | Path | None) -> Path | None:
-    if record.example_name is not None:
-        return _example(record)
-    return _beside(record, record.file, mirror)
 
 
 def _beside(record: CatalogueRecord, file: str, mirror: str | Path | None) -> Path | None:

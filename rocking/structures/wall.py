@@ -108,7 +108,9 @@ class Wall(Structure):
                 ground=linkage.ground,
                 critical_rotation=linkage.slenderness,
                 end_rotation=linkage.end_rotation,
-                restitution=resolve_restitution(self.restitution, "momentum", self._momentum_balance),
+                restitution=resolve_restitution(
+                    self.restitution, "momentum", lambda: momentum_balance(*self.impact())
+                ),
             ),
             one_sided=self.one_sided,
         )
@@ -117,9 +119,6 @@ class Wall(Structure):
     def linkage(self) -> WallLinkage:
         """The two blocks as a linkage on the side of positive rotation."""
         return WallLinkage(self.lower_height, self.upper_height, self.thickness)
-
-    def _momentum_balance(self) -> float:
-        return momentum_balance(*self.impact())
 
     def impact(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Return what `momentum_balance` takes: the mirrored mechanism continues the same turn.

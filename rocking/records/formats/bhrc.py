@@ -37,7 +37,7 @@ def _record(block: Block, options: Options) -> Accelerogram:
         options.time_step_of(step),
         component=component,
         station=optional(r"FILE:\s*(\w+)", block.head),
-        event=_event(block.head),
+        event=optional(r"^Origin Time\s*:\s*(\S+\s+\S+)", block.head),
         magnitude=magnitude(
             *(optional(rf"^Epicenter\b.*\b{scale} ?(\d[\d.]*)", block.head) for scale in _SCALES)
         ),
@@ -46,10 +46,6 @@ def _record(block: Block, options: Options) -> Accelerogram:
         vertical=is_vertical(letter),
         azimuth=_azimuth(block.head, letter),
     )
-
-
-def _event(head: str) -> str:
-    return optional(r"^Origin Time\s*:\s*(\S+\s+\S+)", head)
 
 
 def _azimuth(head: str, letter: str) -> float | None:

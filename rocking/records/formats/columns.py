@@ -51,7 +51,7 @@ def _table(content: bytes) -> _Table | None:
     names: tuple[str, ...] = ()
     widths: list[int] = []
     start = 0
-    for line in _whole_lines(content):
+    for line in (line for line in lines(content, _HEAD) if len(line) < 2000):
         cells = _cells(line)
         if not cells or (line.lstrip().startswith(("#", "%")) and not widths):
             start += not widths
@@ -65,10 +65,6 @@ def _table(content: bytes) -> _Table | None:
     if len(widths) < 2 or uneven or (names and len(names) != widths[0]):
         return None
     return _Table(names, widths[0], start)
-
-
-def _whole_lines(content: bytes) -> list[str]:
-    return [line for line in lines(content, _HEAD) if len(line) < 2000]
 
 
 def _recognise(content: bytes) -> bool:
