@@ -35,7 +35,6 @@ class Shape:
     """
 
     accelerogram: Accelerogram
-    peak_acceleration: float
     peak_velocity: float
     velocity: np.ndarray
 
@@ -43,7 +42,7 @@ class Shape:
     def of(cls, accelerogram: Accelerogram) -> "Shape":
         """Measure a record."""
         course = velocity(accelerogram)
-        return cls(accelerogram, accelerogram.peak_acceleration, float(np.abs(course).max()), course)
+        return cls(accelerogram, float(np.abs(course).max()), course)
 
 
 def of_structure(mechanism: Mechanism) -> dict[str, float]:
@@ -61,7 +60,7 @@ def of_peaks(shape: Shape, block: EquivalentBlock) -> dict[str, float]:
     uplift = GRAVITY * _uplift(block)
     return {
         "peak_velocity": _log(per_velocity(block) * shape.peak_velocity),
-        "peak_acceleration": _log(shape.peak_acceleration / uplift),
+        "peak_acceleration": _log(shape.accelerogram.peak_acceleration / uplift),
     }
 
 

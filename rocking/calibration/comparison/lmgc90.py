@@ -7,6 +7,7 @@ of angular momentum keeps. The method is of first order: three time steps are ru
 import math
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from rocking.calibration.comparison.bodies import RigidBodies, rigid_bodies
 from rocking.calibration.comparison.cases import structures
@@ -79,7 +80,7 @@ def _energy(bodies: RigidBodies, times: np.ndarray, turns: np.ndarray, centres: 
 def _base(given: dict, step: float) -> tuple[np.ndarray, np.ndarray]:
     """Times and velocity of the base, the acceleration linear between its samples."""
     acceleration, sample = np.array(given["acceleration"]), given["time_step"]
-    velocity = np.concatenate([[0.0], np.cumsum((acceleration[1:] + acceleration[:-1]) / 2 * sample)])
+    velocity = cumulative_trapezoid(acceleration, dx=sample, initial=0.0)
     end = still_from(given) + STILL / given["frequency_parameter"]
     times = np.arange(int(end / step) + 2) * step
     place = np.minimum((times / sample).astype(int), acceleration.size - 2)

@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from rocking.calibration.comparison.cases import structures
 from rocking.calibration.comparison.runs import Run, landings, run_of, serve, still_from
@@ -85,8 +86,7 @@ def _potential(mechanism: Mechanism, rotation: np.ndarray) -> np.ndarray:
     """∫ G dφ of the rigid body: all its energy where it turns back."""
     grid = np.linspace(0.0, mechanism.positive.end_rotation * 0.999, 2001)
     gravity = mechanism.positive.gravity(grid)
-    raised = np.concatenate([[0.0], np.cumsum((gravity[1:] + gravity[:-1]) / 2 * np.diff(grid))])
-    return np.interp(np.abs(rotation), grid, raised)
+    return np.interp(np.abs(rotation), grid, cumulative_trapezoid(gravity, grid, initial=0.0))
 
 
 def _build(ops, structure: Structure, strain: float) -> None:

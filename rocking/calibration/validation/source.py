@@ -1,15 +1,14 @@
 """The public source of the shake-table campaign: files by commit, numbers by sha256, and their conversion."""
 
-import csv
 import hashlib
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from rocking.errors import CatalogueError, RecordError
+from rocking.errors import RecordError
 from rocking.records.catalogue_record import CatalogueRecord
+from rocking.tables import Row, column, read_rows, row
 
 REPOSITORY = "ZhiangChen/virtual_shake_robot_pybullet"
 COMMIT = "9f239e7e21280702be9ba7a40ed9b47a35868a52"
@@ -37,14 +36,14 @@ SPECIMENS = (
 """The meshes, with the sha256 of their text."""
 
 
-@dataclass(frozen=True)
-class TableMotion:
-    """A row of the catalogue of table motions. samples_sha256: of the acceleration as little-endian float32, g."""
+@row("shake_table", "One row per test: where its table motion is, and what must be true of it")
+class TableMotion(Row):
+    """A row of the catalogue of table motions."""
 
-    test: int
-    source_path: str
-    samples: int
-    samples_sha256: str
+    test: int = column("Number of the test")
+    source_path: str = column("Path in the repository of the source")
+    samples: int = column("Number of samples")
+    samples_sha256: str = column("SHA-256 of the acceleration as little-endian float32, g")
 
     def check(self, samples: np.ndarray) -> None:
         """Raise RecordError when `samples` (n,) are not those of the catalogue."""
@@ -57,16 +56,8 @@ class TableMotion:
 
 
 def load_table_motions(path: Path) -> Mapping[int, TableMotion]:
-    """Return the rows of records/shake_table.csv by number of the test."""
-    try:
-        with path.open(encoding="utf-8", newline="") as stream:
-            rows = [
-                TableMotion(int(row["test"]), row["source_path"], int(row["samples"]), row["samples_sha256"])
-                for row in csv.DictReader(stream)
-            ]
-    except (OSError, KeyError, ValueError) as error:
-        raise CatalogueError(f"{path}: the catalogue of table motions cannot be read, {error!r}.") from None
-    return {row.test: row for row in rows}
+    """Return the rows of records/shake_table.csv by number of the test. Raises RockingError where it cannot be read."""
+    return {motion.test: motion for motion in read_rows(TableMotion, path)}
 
 
 def converted(content: bytes, name: str) -> np.ndarray:
