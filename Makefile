@@ -39,7 +39,7 @@ slurm: setup
 	$(PIP) --require-hashes --no-deps -r $(SLURM)
 
 test: $(TOOLS)
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n logical --dist loadfile
 
 bench: $(TOOLS)
 	for script in tests/benchmarks/bench_*.py; do $(BIN)/python $$script || exit 1; done
