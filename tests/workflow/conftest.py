@@ -122,6 +122,20 @@ class SmallStudy:
         """Temporary files that somebody left behind."""
         return list(self.results.rglob("*.part"))
 
+    def keep(self, *identifiers: str) -> None:
+        """Leave only these records in the catalogue."""
+        self.write_catalogue([row for row in self.rows() if row["id"] in identifiers])
+
+    def forget(self, record: str) -> None:
+        """Remove what the job of one record made, and the last table of all, as a run that was stopped leaves it."""
+        (job,) = {
+            each.parent
+            for each in self.results.glob("summary/jobs/*/record.csv")
+            if record in each.read_text()
+        }
+        shutil.rmtree(job)
+        (self.results / "summary" / "provenance.json").unlink()
+
     def copy_to(self, folder: Path) -> "SmallStudy":
         shutil.copytree(self.folder, folder)
         return SmallStudy(folder, self.tree)

@@ -37,6 +37,7 @@ def study(tmp_path_factory) -> Path:
     shutil.copy(ROOT / "records" / "synthetic_strong_pulse.AT2", folder / "records")
     assert main(["catalogue", str(folder / "records")]) == 0
     assert main(["run", str(folder), "--", "--cores", "1", "--quiet"]) == 0
+    assert (folder / "results" / "synthetic_strong_pulse" / "report.pdf").read_bytes().startswith(b"%PDF")
     assert main(["run", str(folder), "--", "--report", "report.html"]) == 0
     return folder
 

@@ -17,9 +17,9 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
-def study(start, tmp_path_factory):
+def study(finished, tmp_path_factory):
     """The small study with a record that nothing survives, and one that cannot be read."""
-    study = start.copy_to(tmp_path_factory.mktemp("questions") / "study")
+    study = finished.copy_to(tmp_path_factory.mktemp("questions") / "study")
     study.add("hopeless", (ROOT / "records" / "synthetic_strong_pulse.AT2").read_bytes())
     study.add("broken", b"no record")
     study.run("--keep-going")

@@ -90,32 +90,20 @@ def test_jobs_of_another_size_leave_no_row_twice(finished, tmp_path: Path) -> No
         assert study.tables()[path] == finished.tables()[path], "in the order of the catalogue"
 
 
-def test_a_copy_of_the_tables_of_a_record_does_not_outlive_them(finished, tmp_path: Path) -> None:
-    """Else it would lie beside a report that says something else."""
-    study = finished.copy_to(tmp_path / "study")
-    assert study.rocking("tables", str(study.results), "good_1").returncode == 0
-    file = study.folder / "records" / "good_1.txt"
-    file.write_bytes(file.read_bytes().replace(b"-", b"+", 1))
-    done = study.run("--config", "records_per_job=1")
-    assert done.returncode == 0, done.stdout
-    assert not list((study.results / "good_1").iterdir())
-
-
-def test_the_trade_of_error_for_time_is_drawn_where_it_is_asked_for(finished) -> None:
+def test_what_the_settings_ask_for_is_waited_for(finished) -> None:
     """The graph is built from the settings alone, whatever lies in the results."""
-    asked = finished.run("--dry-run", "--config", "reports=true", "trade={in_summary: true}").stdout
-    for told, wanted in (
-        (asked, True),
-        (finished.run("--dry-run", "--config", "reports=true").stdout, False),
-    ):
-        assert bool(re.search(r"(?m)^trade +1 *$", told)) == wanted, told
+    settings = ("reports=true", "trade={in_summary: true}", "fragility={in_every_run: true}")
+    for asked in (1, 3):
+        told = finished.run("--dry-run", "--config", *settings[:asked]).stdout
+        assert re.search(r"(?m)^report_summary +1 *$", told), told
+        for rule in ("trade", "fragility"):
+            assert bool(re.search(rf"(?m)^{rule} +1 *$", told)) == (asked == 3), told
+        for work in ("Report on all records", "Write the page to explore the study"):
+            (reason,) = re.findall(rf": {work}\nReason: (.*)", told)
+            assert ("fragility/fragility.csv" in reason) == (asked == 3), told
 
 
-def test_the_page_waits_for_fragility_where_it_is_asked_for_and_takes_it_up_where_it_was_measured(
-    finished, tmp_path: Path
-) -> None:
-    asked = finished.run("--dry-run", "explore", "--config", "fragility={in_every_run: true}").stdout
-    assert re.search(r"(?m)^fragility +1 *$", asked), asked
+def test_the_page_takes_up_fragility_where_it_was_measured(finished, tmp_path: Path) -> None:
     study = finished.copy_to(tmp_path / "study")
     assert study.run("explore").returncode == 0
     assert "Nothing to be done" in study.run("--dry-run", "explore").stdout

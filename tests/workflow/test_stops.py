@@ -117,8 +117,9 @@ def _check_verdicts(told: str, at_least: int) -> None:
         assert any(f"{word}: " in line for word in ("overturns", "undecided", "stands"))
 
 
-def test_a_second_run_is_locked_out_and_harms_nothing(finished, start, tmp_path: Path) -> None:
-    study = start.copy_to(tmp_path / "study")
+def test_a_second_run_is_locked_out_and_harms_nothing(finished, tmp_path: Path) -> None:
+    study = finished.copy_to(tmp_path / "study")
+    study.forget("good_3")
     first = _started(study)
     try:
         _wait(lambda: _jobs_run(study), first)

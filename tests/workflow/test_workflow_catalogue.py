@@ -29,12 +29,6 @@ def run(*command: str) -> subprocess.CompletedProcess:
     )
 
 
-def test_the_rules_are_formatted():
-    pytest.importorskip("snakefmt", reason="snakefmt, of the extra test, checks the rules")
-    done = run("snakefmt", "--check", "Snakefile", "workflow")
-    assert done.returncode == 0, done.stderr
-
-
 @pytest.mark.slow
 def test_the_rules_are_lint_free_but_for_what_is_waived():
     done = run("snakemake", "--lint")
