@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from made_campaign import made_motion, write_campaign
 from scipy.special import logit
 
 from rocking.calibration import scores
@@ -49,37 +50,12 @@ def shake_table() -> Campaign:
 # ---- a small campaign made here
 
 
-def made_motion(seed: int, peak: float) -> np.ndarray:
-    """float32, g, at 200 Hz, with an offset of the sensor."""
-    draw, times = np.random.default_rng(seed), np.arange(1600) / 200
-    tones = sum(
-        draw.normal() * np.sin(2 * np.pi * f * times + draw.uniform(0, 7)) / f for f in (0.5, 0.9, 1.7)
-    )
-    values = np.sin(np.pi * times / 8) ** 2 * tones
-    return (values * peak / np.abs(values).max() + 0.01).astype(np.float32)
-
-
 @pytest.fixture(scope="module")
 def made(tmp_path_factory) -> tuple[Path, Path]:
     """A catalogue and a folder of 32 tests; the specimens overturn where the motion is strong enough."""
     folder = tmp_path_factory.mktemp("campaign")
-    rows, arrays, listed = [], {}, []
-    names = "test,n,dt,motion,pgv_over_pga,pga_g,overturned_specimen_1,overturned_specimen_2,specimen_1_dem_a"
-    for k in range(32):
-        peak = (0.08, 0.2, 0.5, 0.9)[k % 4]
-        samples = made_motion(k // 4, peak)
-        arrays[f"{k + 1:03d}"] = samples
-        listed.append(
-            (k + 1, f"Test{k + 1:03d}.txt", samples.size, hashlib.sha256(samples.tobytes()).hexdigest())
-        )
-        rows.append(
-            f"{k + 1},{samples.size},0.005,motion_{k // 4},0.1,{peak},{int(peak > 0.4)},{int(peak > 0.6)},1"
-        )
-    (folder / "tests.csv").write_text("\n".join([names, *rows]) + "\n")
-    np.savez(folder / "accelerations.npz", **arrays)
     catalogue = folder / "catalogue.csv"
-    lines = ["test,source_path,samples,samples_sha256", *(",".join(map(str, row)) for row in listed)]
-    catalogue.write_text("\n".join(lines) + "\n")
+    write_campaign(folder, catalogue, tests=32)
     return catalogue, folder
 
 
