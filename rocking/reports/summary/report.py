@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 
+FEWEST_POINTS = 3
+"""Cases from which on the closed form is drawn against the integration; fewer are read from the tables."""
+
+
 def summary_report(
     tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any], trade: Sequence[Mapping[str, str]] = ()
 ) -> bytes:
@@ -81,7 +85,7 @@ def _subtitle(tables: Mapping[str, "DataFrame"]) -> str:
 
 def _scatter(comparison: "DataFrame") -> list[dict[str, str]]:
     both = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]]
-    if not (both.max(axis="columns", skipna=False) > 0).any():
+    if (both.max(axis="columns", skipna=False) > 0).sum() < FEWEST_POINTS:
         return []
     alt = "Scatter of predicted against integrated rotation ratio, with factor-two lines."
     return [{"svg": svg(prediction_scatter(comparison)), "alt": alt}]

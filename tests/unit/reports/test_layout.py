@@ -1,16 +1,20 @@
 """How a report falls onto pages: no table torn after a row or three, no page nearly empty."""
 
+import itertools
 import re
 import shutil
 import subprocess
 from dataclasses import replace
+from html import unescape
 
 import pytest
 
+from rocking.assessment.rows import RecordTables
 from rocking.reports.document import compile_document
 from rocking.reports.record.report import record_report
+from rocking.reports.summary.report import summary_report
 
-from .conftest import SETTINGS
+from .conftest import SETTINGS, SUMMARISED, summarised
 
 TEMPLATE = """
 #import "layout.typ": data, document-page, ruled
@@ -23,15 +27,48 @@ FOOTER = 780.0
 COUNTS = (1, 3, 10, 40)
 
 
-def pages(document: bytes) -> list[list[tuple[float, str]]]:
-    """The words of each page, with the points of their lower edges from the upper edge of the page."""
+Word = tuple[float, float, float, float, str]
+"""Left, upper, right and lower edge [points] from the upper left corner of the page, and text."""
+
+
+def pages(document: bytes) -> list[list[Word]]:
+    """The words of each page."""
     if shutil.which("pdftotext") is None:
         pytest.skip("pdftotext (poppler-utils) is not installed; it says for this test where the words stand")
     run = subprocess.run(["pdftotext", "-bbox", "-", "-"], input=document, capture_output=True, check=True)
-    word = re.compile(r'yMax="([\d.]+)">(.*?)</word>')
+    word = re.compile(r'<word xMin="(.*?)" yMin="(.*?)" xMax="(.*?)" yMax="(.*?)">(.*?)</word>')
     return [
-        [(float(low), text) for low, text in word.findall(page)]
+        [(*map(float, edges), unescape(text)) for *edges, text in word.findall(page)]
         for page in run.stdout.decode().split("<page ")[1:]
+    ]
+
+
+def covered(page: list[Word]) -> list[tuple[str, str]]:
+    """Pairs of words of which one stands on half of the other or more; a subscript reaches into the line below it."""
+    found = []
+    for one, other in itertools.combinations(page, 2):
+        width = min(one[2], other[2]) - max(one[0], other[0])
+        height = min(one[3], other[3]) - max(one[1], other[1])
+        smaller = min((each[2] - each[0]) * (each[3] - each[1]) for each in (one, other))
+        if width > 0 and height > 0 and width * height > smaller / 2:
+            found.append((one[4], other[4]))
+    return found
+
+
+def assert_well_laid(document: bytes) -> list[list[Word]]:
+    """No page is three quarters empty, no word stands on another; returns the words of the pages."""
+    found = pages(document)
+    for page in found:
+        assert max(word[3] for word in page if word[3] < FOOTER) > 842 / 4
+        assert covered(page) == []
+    return found
+
+
+def sixty(noun: str, count: int) -> list[str]:
+    """Names of 60 characters."""
+    return [
+        f"{noun} {place} of the north transept, its upper gallery, to the west"[:60]
+        for place in range(1, count + 1)
     ]
 
 
@@ -44,7 +81,7 @@ def test_no_table_goes_on_over_a_page_after_one_row(count, tmp_path):
     torn = 0
     for above in range(150, 245, 8):
         document = compile_document(tmp_path / "one.typ", {"table": table, "above": str(above)})
-        found = [sum(text.startswith("row") for _, text in page) for page in pages(document)]
+        found = [sum(word[4].startswith("row") for word in page) for page in pages(document)]
         found = [many for many in found if many]
         assert sum(found) == count
         assert min(found) >= min(count, 4), above
@@ -53,12 +90,9 @@ def test_no_table_goes_on_over_a_page_after_one_row(count, tmp_path):
 
 
 @pytest.mark.parametrize("count", COUNTS)
-def test_no_page_is_three_quarters_empty(example, count):
-    """With names of 60 characters too: the last words of each page stand in its lower three quarters."""
-    names = [
-        f"structure {place} of the north transept, its upper gallery, west"[:60]
-        for place in range(1, count + 1)
-    ]
+def test_the_report_of_a_record_is_well_laid(example, count):
+    """With names of 60 characters too."""
+    names = sixty("structure", count)
     kept = {
         table: [
             replace(row, structure=name)
@@ -70,6 +104,31 @@ def test_no_page_is_three_quarters_empty(example, count):
     }
     structures = dict.fromkeys(names, example.structures["wall 3 m"])
     tables = replace(example.tables, **kept)
-    document = record_report(example.record, example.accelerograms, structures, tables, SETTINGS)
-    for page in pages(document):
-        assert max(low for low, _ in page if low < FOOTER) > 842 / 4
+    assert_well_laid(record_report(example.record, example.accelerograms, structures, tables, SETTINGS))
+
+
+@pytest.mark.parametrize(("count", "records"), list(zip(COUNTS, (1, 13, 3, 13), strict=True)))
+def test_the_summary_is_well_laid(example, count, records):
+    """Structures that overturn, rock and rest in turn, under one record and under many."""
+    names, kinds = sixty("structure", count), list(example.structures)
+    kind = {name: kinds[place % len(kinds)] for place, name in enumerate(names)}
+    tables = RecordTables()
+    for record in sixty("record", records):
+        for table in SUMMARISED:
+            kept = getattr(tables, table)
+            for row in getattr(example.tables, table):
+                if not hasattr(row, "structure"):
+                    kept.append(replace(row, record=record))
+                else:
+                    kept += [
+                        replace(row, record=record, structure=name)
+                        for name in names
+                        if kind[name] == row.structure
+                    ]
+    structures = {name: example.structures[kind[name]] for name in names}
+    document = assert_well_laid(summary_report(summarised(tables, structures), SETTINGS))
+    rows = [sum(word[4] == "transept," for word in page) for page in document]
+    assert sum(rows) >= 3 * count + records, (
+        "in the headlines, the fates and the agreement; in the list of records"
+    )
+    assert (len(document) > 1) == (count * records > 1), "one case takes one page"
