@@ -56,7 +56,8 @@
     const shown = known ? Math.round(100 * each.probability) : each && typeof each.found === "number" ? ratio(each.found) : "";
     button.textContent = `${SIGNS[verdict] || ""} ${shown}`.trim();
     button.setAttribute("aria-pressed", "false");
-    button.setAttribute("aria-label", each ? described(each) : `${structures[structure].name} under ${records[record].id}: no result. ${records[record].failure}`);
+    button.title = each ? described(each) : `${structures[structure].name} under ${records[record].id}: no result. ${records[record].failure}`;
+    button.setAttribute("aria-label", button.title);
     return button;
   }
 
@@ -128,11 +129,11 @@
   const [LEFT, RIGHT] = [72, 610];
   const PANELS = [{ top: 12, bottom: 190 }, { top: 232, bottom: 415 }];
 
-  function drawn(name, attributes, text) {
+  function drawn(name, attributes, text = "", parent = at("histories")) {
     const made = document.createElementNS(SVG, name);
     Object.entries(attributes).forEach(([key, value]) => made.setAttribute(key, value));
-    if (text !== undefined) made.textContent = text;
-    at("histories").append(made);
+    made.textContent = text;
+    parent.append(made);
     return made;
   }
 
@@ -226,57 +227,32 @@
     return { parts: a.parts.map((part, k) => mixed(part, b.parts[k], share)), hinges: mixed(a.hinges, b.hinges, share) };
   }
 
+  // Metres in the drawing, whose groups turn y upwards and move with the ground
   function paintWith(structure, motion, reach) {
-    const canvas = at("mechanism");
-    const paper = canvas.getContext("2d");
     const frames = framesOf(structure.drawings);
     const moves = motion ? unpacked(motion.displacement) : null;
-    const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
-    for (const frame of frames.filter((each) => Math.abs(each.rotation) <= reach || Math.abs(each.rotation) < 1e-3))
-      for (const points of frame.parts)
-        points.forEach((value, k) => {
-          low[k % 2] = Math.min(low[k % 2], value);
-          high[k % 2] = Math.max(high[k % 2], value);
-        });
     const travel = moves ? largest(moves) : 0;
-    const [width, height] = [high[0] - low[0] + 2 * travel, high[1] - low[1]];
-    const scale = Math.min((canvas.width - 40) / width, (canvas.height - 60) / height);
-    const middle = (low[0] + high[0]) / 2;
-    const x = (value) => canvas.width / 2 + (value - middle) * scale;
-    const y = (value) => canvas.height - 36 - (value - low[1]) * scale;
+    const near = frames.filter((each) => Math.abs(each.rotation) <= reach || Math.abs(each.rotation) < 1e-3);
+    const [left, right, low, high] = [0, 1].flatMap((axis) => {
+      const values = near.flatMap((each) => each.parts.flatMap((points) => [...points.filter((_, k) => k % 2 === axis)]));
+      return [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))];
+    });
+    const margin = 0.06 * Math.max(right - left, high - low);
+    const wide = right - left + 2 * (travel + margin);
+    at("mechanism").setAttribute("viewBox", `${(left + right - wide) / 2} ${-high - margin} ${wide} ${high - low + 2 * margin}`);
+    const foot = Math.max(low, Math.min(0, high));
+    const ground = { x1: left - 9 * wide, x2: right + 9 * wide };
     return (rotation, time) => {
       const shift = moves ? valueAt(moves, [0, motion.duration], time) : 0;
       const pose = poseAt(frames, rotation);
-      const foot = y(Math.max(low[1], Math.min(0, high[1])));
-      paper.clearRect(0, 0, canvas.width, canvas.height);
-      paper.strokeStyle = "#777";
-      paper.lineWidth = 1;
-      paper.beginPath();
-      paper.moveTo(0, foot);
-      paper.lineTo(canvas.width, foot);
-      for (let k = -40; k < 80; k += 1) { // hatches that move with the ground
-        const begin = k * 14 + x(shift) - x(0);
-        paper.moveTo(begin, foot);
-        paper.lineTo(begin - 8, foot + 9);
-      }
-      paper.stroke();
-      paper.lineWidth = 1.3;
-      paper.strokeStyle = "#222";
-      paper.fillStyle = "#d9d4c8";
-      for (const points of pose.parts) {
-        paper.beginPath();
-        for (let k = 0; k < points.length; k += 2) paper.lineTo(x(points[k] + shift), y(points[k + 1]));
-        paper.closePath();
-        paper.fill();
-        paper.stroke();
-      }
-      paper.fillStyle = "#fff";
-      for (let k = 0; k < pose.hinges.length; k += 2) {
-        paper.beginPath();
-        paper.arc(x(pose.hinges[k] + shift), y(pose.hinges[k + 1]), 4.5, 0, 2 * Math.PI);
-        paper.fill();
-        paper.stroke();
-      }
+      const group = at("moving");
+      group.replaceChildren();
+      group.setAttribute("transform", `translate(${shift} 0) scale(1 -1)`);
+      drawn("line", { ...ground, y1: foot, y2: foot }, "", group);
+      drawn("line", { ...ground, y1: foot - margin / 4, y2: foot - margin / 4, "stroke-width": margin / 2, "stroke-dasharray": margin / 5, class: "ground" }, "", group);
+      for (const points of pose.parts) drawn("polygon", { points: points.join(" ") }, "", group);
+      for (let k = 0; k < pose.hinges.length; k += 2)
+        drawn("circle", { cx: pose.hinges[k], cy: pose.hinges[k + 1], r: margin / 5 }, "", group);
     };
   }
 
@@ -358,21 +334,12 @@
   }
 
   // Points of the figure ---------------------------------------------------------------------------------
-  function tip(text, event) {
-    at("tip").hidden = !text;
-    if (!text) return;
-    at("tip").textContent = text;
-    at("tip").style.left = `${Math.min(event.pageX + 12, window.scrollX + window.innerWidth - 280)}px`;
-    at("tip").style.top = `${event.pageY + 12}px`;
-  }
-
   function watchPoints() {
-    const ofPoint = new Map(cases.filter((each) => each.point !== undefined).map((each) => [each.point, each]));
+    const ofPoint = new Map(cases.map((each) => [each.point, each]));
     document.querySelectorAll("#cases use").forEach((point, k) => {
       const each = ofPoint.get(k);
       if (!each) return;
-      point.addEventListener("pointermove", (event) => tip(described(each), event));
-      point.addEventListener("pointerleave", () => tip(""));
+      drawn("title", {}, described(each), point);
       point.addEventListener("click", () => {
         choose(each.record, each.structure);
         at("case").scrollIntoView({ block: "start", behavior: still ? "auto" : "smooth" });
@@ -395,14 +362,8 @@
     roam(button);
     choose(Number(button.dataset.record), Number(button.dataset.structure));
   });
-  at("matrix").addEventListener("pointerover", (event) => {
-    const button = event.target.closest("button");
-    tip(button ? button.getAttribute("aria-label") : "", event);
-  });
-  at("matrix").addEventListener("pointerleave", () => tip(""));
   at("play").addEventListener("click", play);
   at("scrub").addEventListener("input", () => { stop(); show(); });
-  document.addEventListener("keydown", (event) => { if (event.key === "Escape") tip(""); });
   const moving = cases.filter((each) => each.history);
   const first = moving.find((each) => each.verdict === "overturns") || moving[0];
   if (first) choose(first.record, first.structure);
