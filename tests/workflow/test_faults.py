@@ -99,4 +99,6 @@ def test_a_full_disk_is_said_and_leaves_nothing_half_written(
         done = study.run()
         assert done.returncode == 0, done.stdout
         assert study.rows_of("good_1") == expected
-        assert (study.results / "summary" / "record.csv").read_text().count("\n") == 2, "a head and one record"
+        assert (study.results / "summary" / "record.csv").read_text().count("\n") == 2, (
+            "a head and one record"
+        )
