@@ -33,7 +33,7 @@ def _hash(record: CatalogueRecord, hashes: ContentHashes | None = None, **settin
     return files_sha256([record], Settings(**settings), hashes or ContentHashes())
 
 
-@pytest.mark.parametrize("when", [1e9, time.time() + 3e8])
+@pytest.mark.parametrize("when", [1e9, time.time() + 3e8], ids=["long ago", "in ten years"])
 def test_a_new_date_changes_no_hash_and_a_new_content_with_the_old_date_does(
     tmp_path: Path, when: float
 ) -> None:
