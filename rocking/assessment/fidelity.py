@@ -152,7 +152,7 @@ def find_limits(mechanism: Mechanism, risk: float, fits: Mapping[Tier, TierFit])
         block, own = mechanism.equivalent_block("rest"), intensity.of_structure(mechanism)
     except StructureError:
         return _NEVER
-    if not fit.knows(own):
+    if fit.unlike(own):
         return _NEVER
     terms = np.array([[z, *(own[name] for name in fit.tier.terms[1:])] for z in _GRID])
     stands, overturns = fit.settled(terms, risk)

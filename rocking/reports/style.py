@@ -59,6 +59,11 @@ def svg(figure: Figure) -> str:
     return stream.getvalue()
 
 
+def picture(figure: Figure, alt: str) -> dict[str, str]:
+    """Return a figure as the templates take it: SVG and alternative text."""
+    return {"svg": svg(figure), "alt": alt}
+
+
 def shared_legend(figure: Figure, names: Sequence[str], ncols: int) -> None:
     """Name the lines of all panels once, below them, in the order of `names`."""
     handles: dict[str, Artist] = {}

@@ -4,7 +4,7 @@ from rocking.assessment.fragility.analysis import IncrementalDynamicAnalysis, in
 from rocking.assessment.fragility.curve import Fragility, fragility_of
 from rocking.assessment.fragility.front import fragility
 from rocking.assessment.fragility.intensity import INTENSITY_MEASURES, IntensityMeasure
-from rocking.assessment.fragility.lognormal import LognormalFits, fit_lognormal
+from rocking.assessment.fragility.lognormal import fit_lognormal
 from rocking.assessment.fragility.multifidelity import MultiFidelityAnalysis, multi_fidelity_analysis
 from rocking.assessment.fragility.purchase import Purchase, purchases
 
@@ -13,7 +13,6 @@ __all__ = [
     "Fragility",
     "IncrementalDynamicAnalysis",
     "IntensityMeasure",
-    "LognormalFits",
     "MultiFidelityAnalysis",
     "Purchase",
     "fit_lognormal",

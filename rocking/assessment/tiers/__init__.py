@@ -5,7 +5,7 @@ of mechanisms under real records; its tables lie in this folder. The interval of
 resampling sites in the large (a sandwich of their scores).
 """
 
-from rocking.assessment.tiers.expectation import Expectation, band_in_words, probability_in_words
+from rocking.assessment.tiers.expectation import Expectation
 from rocking.assessment.tiers.fit import TierFit
 from rocking.assessment.tiers.rows import TierBand, TierCovariance, TierTerm
 from rocking.assessment.tiers.shipped import expect, read_tiers, shipped_tiers, unlike
@@ -19,9 +19,7 @@ __all__ = [
     "TierCovariance",
     "TierFit",
     "TierTerm",
-    "band_in_words",
     "expect",
-    "probability_in_words",
     "read_tiers",
     "shipped_tiers",
     "unlike",

@@ -27,35 +27,21 @@ class Expectation:
     rotation_high: float
 
     def __str__(self) -> str:
-        return f"{self.in_words}, {self.band_in_words}"
-
-    @property
-    def in_words(self) -> str:
-        """The probability as "overturns with 30 % (18–45)"."""
-        return probability_in_words(self.probability, self.probability_low, self.probability_high)
-
-    @property
-    def band_in_words(self) -> str:
-        """The band as "between 0.05 and 0.4 φ_cr"."""
-        return band_in_words(self.rotation_low, self.rotation_high)
+        said = probability_in_words(self.probability, self.probability_low, self.probability_high)
+        return f"{said}, {band_in_words(self.rotation_low, self.rotation_high)}"
 
 
-def probability_in_words(probability: float, low: float = math.nan, high: float = math.nan) -> str:
-    """Say a probability of overturning with its interval: "overturns with 30 % (18–45)"; "" for nan."""
-    if math.isnan(probability):
-        return ""
+def probability_in_words(probability: float, low: float, high: float) -> str:
+    """Say a probability of overturning with its interval: "overturns with 30 % (18–45)"."""
     if probability < SURE:
         return f"overturns with less than {_percent(SURE)} %"
     if probability > 1 - SURE:
         return f"overturns with more than {_percent(1 - SURE)} %"
-    interval = "" if math.isnan(low + high) else f" ({_percent(low)}–{_percent(high)})"
-    return f"overturns with {_percent(probability)} %{interval}"
+    return f"overturns with {_percent(probability)} % ({_percent(low)}–{_percent(high)})"
 
 
 def band_in_words(low: float, high: float) -> str:
-    """Say a band of the rotation ratio: "between 0.05 and 0.4 φ_cr"; "" for nan."""
-    if math.isnan(low) or math.isnan(high):
-        return ""
+    """Say a band of the rotation ratio: "between 0.05 and 0.4 φ_cr"."""
     if low == math.inf:
         return "overturns"
     if high <= NEGLIGIBLE:

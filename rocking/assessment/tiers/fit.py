@@ -40,10 +40,6 @@ class TierFit:
                 return f"{name.replace('_', ' ')} is {said}, beyond the {low} to {high} of the calibration"
         return ""
 
-    def knows(self, measures: Mapping[str, float]) -> bool:
-        """Whether structures like this one are behind the fit."""
-        return not self.unlike(measures)
-
     def design(self, known: np.ndarray) -> np.ndarray:
         """(n, k + 1) of the terms (n, k): an intercept, and what is centred and scaled."""
         return np.column_stack([np.ones(len(known)), (known - self.centre) / self.spread])

@@ -21,7 +21,7 @@ def expect(
     fits: by tier; None: those that the package ships. Raises KeyError where a measure is missing.
     """
     fit = (fits or shipped_tiers())[tier]
-    if not fit.knows(measures):
+    if fit.unlike(measures):
         return None
     known = np.array([[measures[term] for term in tier.terms]])
     shares = (float(each[0]) for each in fit.probabilities(known))

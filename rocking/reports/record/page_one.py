@@ -74,7 +74,7 @@ def fates(tables: RecordTables, structures: Sequence[StructureRow]) -> list[Fate
         heights = [row for row in tables.candidates if row.structure == name and row.governs_record]
         done = [row.rotation_ratio for row in tables.processing if row.structure == name]
         done = [ratio for ratio in done if not math.isnan(ratio)]
-        ensemble = ensembles.get(name)
+        ensemble, own = ensembles.get(name), known.get(name)
         direction = (ensemble.worst_direction if ensemble else "") or (worst.component if several else "")
         polarity = ensemble.worst_polarity if ensemble else ""
         found.append(
@@ -82,8 +82,8 @@ def fates(tables: RecordTables, structures: Sequence[StructureRow]) -> list[Fate
                 name,
                 worst.found_rotation_ratio,
                 ", ".join(filter(None, (direction, polarity))),
-                known[name].geometry if name in known else "",
-                "crack" if name in known and "spire" in known[name].type.lower() else "hinge",
+                own.geometry if own else "",
+                "crack" if own and "spire" in own.type.lower() else "hinge",
                 ensemble,
                 max(heights, key=lambda row: _known(row.integrated_rotation_ratio), default=None),
                 (min(done), max(done)) if done else None,

@@ -14,7 +14,7 @@ from rocking.assessment.rows.of_trade import (
 )
 from rocking.reports import printing
 from rocking.reports.document import compile_document
-from rocking.reports.style import svg
+from rocking.reports.style import picture, svg
 from rocking.reports.trade.figures import duration, trade_figure
 from rocking.tables import read_table, write_whole
 
@@ -28,10 +28,10 @@ _GAIN, _BIAS = 5.0, 0.1
 """Times fewer runs than without the block from which multi-fidelity pays, and bias over width up to which it may."""
 
 
-def write_trade_report(folder: Path, pdf: Path, picture: Path) -> None:
-    """Set the tables in `folder` as the files `pdf` and `picture` (SVG)."""
+def write_trade_report(folder: Path, pdf: Path, image: Path) -> None:
+    """Set the tables in `folder` as the files `pdf` and `image` (SVG)."""
     write_whole(pdf, compile_document("trade/trade.typ", trade_data(folder)))
-    write_whole(picture, svg(trade_figure(*_rows_of_figure(folder))).encode())
+    write_whole(image, svg(trade_figure(*_rows_of_figure(folder))).encode())
 
 
 def trade_data(folder: Path) -> dict[str, object]:
@@ -61,8 +61,7 @@ def trade_picture(folder: Path) -> list[dict[str, str]]:
     methods, curves = _rows_of_figure(folder)
     if not methods:
         return []
-    (picture,) = _picture(methods, curves)
-    return [picture | {"conclusion": conclusion(methods)}]
+    return [each | {"conclusion": conclusion(methods)} for each in _picture(methods, curves)]
 
 
 def conclusion(rows: Sequence[TradeMethodRow]) -> str:
@@ -258,7 +257,7 @@ def _rows_of_figure(folder: Path) -> tuple[list[TradeMethodRow], list[TradeFragi
 
 def _picture(methods: Sequence[TradeMethodRow], curves: Sequence[TradeFragilityRow]) -> list[dict[str, str]]:
     alt = "Error against processor time of every method, for one response and for the fragility of one structure."
-    return [{"svg": svg(trade_figure(methods, curves)), "alt": alt}]
+    return [picture(trade_figure(methods, curves), alt)]
 
 
 def _spent(seconds: float) -> str:

@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from matplotlib.figure import Figure
-
 from rocking.assessment.rows.of_validation import (
     ConfusionRow,
     FailureRow,
@@ -17,7 +15,7 @@ from rocking.assessment.rows.of_validation import (
 from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.printing import number
-from rocking.reports.style import svg
+from rocking.reports.style import picture
 from rocking.reports.validation.figures import (
     PARAMETERS,
     by_specimen,
@@ -46,18 +44,18 @@ def validation_data(folder: Path) -> dict[str, object]:
         "left out of the fit that predicts it.",
         "verdicts": [_verdict(own, timing) for own in by_specimen(scores).values()],
         "scores": [_score_table(own) for own in by_specimen(scores).values()],
-        "score-figure": _picture(
+        "score-figure": picture(
             score_figure(scores), "Accuracy and Brier score of every method with 95 % intervals."
         ),
-        "reliability": _picture(
+        "reliability": picture(
             reliability_figure(read_table(ReliabilityRow, folder)),
             "Share that overturned against predicted probability.",
         ),
-        "confusion": _picture(
+        "confusion": picture(
             confusion_figure(read_table(ConfusionRow, folder)),
             "Right and wrong verdicts by class of peak velocity.",
         ),
-        "identified-figure": _picture(
+        "identified-figure": picture(
             identified_figure(identified), "Ranges of the identified parameters beside those of the mesh."
         ),
         "identified": _identified_table(identified),
@@ -168,7 +166,3 @@ def _members(rows: Sequence[MemberRow]) -> str:
         f"Specimen {first.specimen}: {len(rows)} distinct blocks, {first.iterations} steps, "
         f"ε = {printing.given(first.unexplained)}, b = {printing.given(first.sharpness)}."
     )
-
-
-def _picture(figure: Figure, alt: str) -> dict[str, str]:
-    return {"svg": svg(figure), "alt": alt}
