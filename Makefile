@@ -12,7 +12,7 @@ COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --
 EXECUTOR := snakemake-executor-plugin-slurm
 SLURM := workflow/profiles/slurm/requirements.lock
 
-.PHONY: all run setup slurm test bench check schema paper lock clean
+.PHONY: all run setup slurm test bench check schema paper documentation lock clean
 
 all: run
 
@@ -57,6 +57,9 @@ schema: setup
 
 paper: setup
 	$(BIN)/snakemake --workflow-profile workflow/profiles/default paper
+
+documentation: $(TOOLS)
+	$(BIN)/snakemake --workflow-profile workflow/profiles/default documentation
 
 lock:
 	$(COMPILE) pyproject.toml --extra build -o requirements.lock

@@ -27,7 +27,7 @@ def write_site(target: Path, workflow: Path) -> list[Path]:
         from mkdocs.exceptions import Abort
     except ImportError as error:
         raise ConfigurationError(
-            f"the package {error.name} is missing, but the documentation needs it; install rocking with its extra docs."
+            f"the package {error.name} is missing, but the documentation needs it; make documentation installs it."
         ) from None
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder) / "pages"

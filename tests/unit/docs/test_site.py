@@ -239,7 +239,7 @@ def test_an_unknown_generated_part_is_refused():
 
 def test_a_missing_package_is_said_in_one_sentence(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "latex2mathml", None)
-    with pytest.raises(ConfigurationError, match="extra docs"):
+    with pytest.raises(ConfigurationError, match="make documentation"):
         write_site(tmp_path, WORKFLOW)
     assert not list(tmp_path.iterdir())
 
