@@ -1,7 +1,7 @@
 """The masonry wall that bends out of plane about a hinge at any height (Fig. 2; theory: section 4)."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar
 
@@ -166,10 +166,9 @@ class Wall(Structure):
 
     def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
         """Return this wall hinged at each of `positions` [m] above the base instead, by height."""
-        return {
-            float(hinge): Wall.hinged_at(self.height, hinge, self.thickness, self.restitution, self.one_sided)
-            for hinge in positions
-        }
+        heights, given = map(float, positions), (self.thickness, self.restitution, self.one_sided)
+        walls = {z: Wall.hinged_at(self.height, z, *given) for z in heights}
+        return {z: replace(wall, restitution_range=self.restitution_range) for z, wall in walls.items()}
 
     def _outline(self, rotation: float) -> list[np.ndarray]:
         half, psi = self.thickness / 2, self.linkage.motion(rotation).angles[1]

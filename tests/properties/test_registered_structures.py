@@ -232,12 +232,13 @@ def test_contacts_are_finite_or_refused_in_words(structure):
 
 @registered
 def test_candidates_stand_and_are_of_the_same_kind(structure):
-    fixed = dataclasses.replace(structure, restitution=0.9)
+    fixed = dataclasses.replace(structure, restitution=0.9, restitution_range=0.03)
     positions = fixed.candidate_positions(5)
     assert (len(positions) > 0) == bool(structure.moved)
     for position, other in fixed.candidates(positions).items():
         assert type(other) is type(structure)
         assert other.mechanism().uplift_multiplier > 0
+        assert other.restitution_range == 0.03
         assert fixed.moved.replace(" ", "_") and getattr(
             other, structure.moved.replace(" ", "_")
         ) == pytest.approx(position)
