@@ -45,20 +45,22 @@ def draw_dimensions(pen: Pen, dimensions: Sequence[Dimension], placed: Placed, v
         pen.letters(*_beside(line, feet, f" {text} "), paper=True)
 
 
-def draw_marks(pen: Pen, marks: Sequence[Mark], placed: Placed, values: bool = True) -> None:
-    """Draw loads and thrusts as arrows, ties as lines to an anchorage."""
-    sides: dict[str, tuple[Across, Along]] = {
-        "load": ("middle", "bottom"),
-        "thrust": ("right", "middle"),
-        "tie": ("left", "bottom"),
-    }
+def draw_marks(pen: Pen, marks: Sequence[Mark], placed: Placed, beside: float | None = None) -> None:
+    """Draw loads and thrusts as arrows, ties as lines to an anchorage.
+
+    beside: the left end of what they act on [m], for drawings with values: those of ties end there.
+    """
+    sides: dict[str, tuple[Across, Along]] = {"load": ("middle", "bottom"), "thrust": ("right", "middle")}
     for mark in marks:
         ends = placed(mark.line)
         if mark.kind == "tie":
             pen.tie(ends)
         else:
             pen.arrow(*ends.T)
-        if values:
+        if beside is not None and mark.kind == "tie":
+            end = placed(np.array([[beside, mark.line[0, 1]]]))[:, 0]
+            pen.letters(end, mark.text.replace(", ", " \n") + " ", "right", "bottom", paper=False)
+        elif beside is not None:
             pen.letters(ends[:, 0], f" {mark.text} ", *sides[mark.kind], paper=False)
 
 

@@ -177,7 +177,9 @@ def plot_structure(
         axes.plot(*structure.hinges(rotation).T, "o", color="white", markeredgecolor="black")
     if dimensions:
         draw_dimensions(AxesPen(axes), structure.dimensions(), np.transpose, values=False)
-    draw_marks(AxesPen(axes), structure.marks(rotation), np.transpose, values=not dimensions)
+    drawn = [*structure.outline(rotation), *structure.outline()]
+    left = None if dimensions else min(float(each[:, 0].min()) for each in drawn)
+    draw_marks(AxesPen(axes), structure.marks(rotation), np.transpose, left)
     if not rotation and len(structure.thrust_line()):
         axes.plot(*structure.thrust_line().T, color="C3", linewidth=1.0, label="thrust line at uplift")
         axes.legend(loc="upper right")

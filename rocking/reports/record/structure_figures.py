@@ -104,7 +104,7 @@ def _draw(canvas: Canvas, structure: Structure, foot: np.ndarray) -> None:
         canvas.path(_down(placed(outline)), "black", 0.7, "dashed", closed=True)
     pen = _Paper(canvas)
     draw_dimensions(pen, dimensions, placed, values=False)
-    draw_marks(pen, marks, placed, values=False)
+    draw_marks(pen, marks, placed)
     for hinge in _down(placed(structure.hinges(rotation))):
         canvas.circle(hinge, 0.6, "black")
     _scale_bar(canvas, scale, foot)
