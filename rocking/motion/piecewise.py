@@ -20,22 +20,30 @@ _PROBES = np.linspace(-0.99, 0.99, 16)
 
 
 def fitted(
-    functions: Callable[[np.ndarray], np.ndarray], start: float, end: float, largest: np.ndarray
+    functions: Callable[[np.ndarray], np.ndarray],
+    start: float,
+    end: float,
+    largest: np.ndarray,
+    least: np.ndarray | float = 0.0,
 ) -> np.ndarray | None:
     """Polynomials (f, m, 8) of f functions on m equal pieces of [start, end], good to ROOM beyond its ends, or None.
 
     Pieces are halved, as often at once as the order of the error, DEGREE + 1, says is surely needed, until the error is
     AIM of the zone's own maximum, or no longer falls because it is the rounding of the functions themselves; it must
-    then be within ACCURACY of `largest` (f,), the maxima over the whole side.
+    then be within ACCURACY of `largest` (f,), the maxima over the whole side. Maxima below `least` (f,) count as that.
     """
     best, best_error, good, count = None, np.inf, False, 2
     while count <= _MOST_PIECES:
         powers, errors, zone = _fit(functions, start, end, count)
         if not np.all(np.isfinite(errors)):
             return None
-        error = (errors / zone).max()
+        error = (errors / np.maximum(zone, least)).max()
         if error < best_error:
-            best, best_error, good = powers, error, bool(np.all(errors <= ACCURACY * largest))
+            best, best_error, good = (
+                powers,
+                error,
+                bool(np.all(errors <= ACCURACY * np.maximum(largest, least))),
+            )
         elif good:
             break
         if best_error <= AIM:

@@ -21,6 +21,10 @@ from rocking.structures.mechanism import CUTS, EquivalentBlock, Side, SideTie
 _NEAR = 1 / 64
 """Share of the arc of φ_cr within which a chain of impacts is looked at as a whole."""
 
+_STILL = 0.1
+"""A tie whose point moves less, in m, is as accurate as one that moves so far: its motion is a difference of lengths,
+rounded as they are, and nothing is left of it where the point stands still, as the top of a wall that a floor holds."""
+
 _GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(40)
 
 
@@ -176,10 +180,13 @@ def _tabulated(side: Side, last: float, apart: bool) -> SideTable | None:
     end, critical = float(arc.at(last)), float(arc.at(side.critical_rotation))
     split = min(2 * critical, (critical + end) / 2)
     largest = np.abs(functions(np.linspace(end / 1000, end, 1000))).max(axis=1)
-    inner, outer = fitted(functions, 0.0, split, largest), fitted(functions, split, end, largest)
+    rest = side.at("inertia", 0.0)
+    least = np.array([0.0] * 3 + [_STILL / rest, _STILL**2 / rest, _STILL] * len(ties))
+    inner = fitted(functions, 0.0, split, largest, least)
+    outer = fitted(functions, split, end, largest, least)
     if inner is None or outer is None:
         return None
-    powers, rest = np.concatenate([inner, outer], axis=1), side.at("inertia", 0.0)
+    powers = np.concatenate([inner, outer], axis=1)
     grid, starts = _grid(split, end, inner.shape[1], outer.shape[1])
     lift = float(gravity(np.asarray(0.0))) / rest, side.at("ground", 0.0) / rest
     near = np.column_stack([lift, functions(np.linspace(0, critical * _NEAR, 65)[1:])[:2]])

@@ -3,6 +3,7 @@
 import dataclasses
 import itertools
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from tied import Held, TiedBody
@@ -406,3 +407,42 @@ def test_the_defect_of_the_block_knows_a_tie_that_breaks_at_once(stiffness):
     )
     assert brittle.block_defects.restoring == pytest.approx(hair.block_defects.restoring, rel=1e-3)
     assert brittle.block_defects.restoring > 0.1
+
+
+@pytest.mark.parametrize("structure", [FACADE, WALL], ids=["façade", "wall"])
+def test_two_ties_at_one_height_are_one_of_twice_the_stiffness_and_strength(structure):
+    z = structure.tie_heights[0]
+    two = dataclasses.replace(structure, tie_heights=(z, z))
+    one = dataclasses.replace(
+        structure, tie_heights=(z,), tie_stiffness=2 * two.tie_stiffness, tie_strength=2 * two.tie_strength
+    )
+    pulse = Pulse(-2.8 if structure is FACADE else -11.0, 6.0 if structure is FACADE else 9.0)
+    assert two.mechanism().critical_rotation == pytest.approx(one.mechanism().critical_rotation, rel=1e-12)
+    assert one.tie_events(history(one, pulse)[0]) != ""
+    # the same sums, rounded otherwise, over some tens of steps
+    assert history(two, pulse) == pytest.approx(history(one, pulse), rel=1e-10)
+
+
+@pytest.mark.parametrize("height", [3.4, 3.4 - 1e-9, 1e-9])
+def test_a_tie_where_nothing_moves_does_nothing(height):
+    """At the top that the floor holds, or at the foot: its motion is rounding, and its strength holds nothing back."""
+    free = dataclasses.replace(
+        WALL, tie_heights=(), tie_stiffness=0.0, tie_strength=None, tie_plastic_elongation=0.0
+    )
+    still = dataclasses.replace(WALL, tie_heights=(height,))
+    found, expected = (history(each, Pulse(-6.0, 8.0))[:2] for each in (still, free))
+    assert expected[0] > 1e-3
+    assert found == pytest.approx(expected, rel=1e-6)  # what a strength of .07 weights does over 1e-9 m
+    assert still.tie_events(found[0]) == ""
+
+
+@pytest.mark.parametrize("structure", [FACADE, WALL], ids=["façade", "wall"])
+def test_a_drawing_says_of_each_tie_what_it_is_beside_the_wall(structure):
+    axes = structure.plot(0.01)
+    said = [text for text in axes.texts if "yields" in text.get_text()]
+    left = min(float(each[:, 0].min()) for each in (*structure.outline(), *structure.outline(0.01)))
+    assert [text.get_position()[1] for text in said] == pytest.approx(
+        [mark.line[0, 1] for mark in structure.marks(0.01) if mark.kind == "tie"]
+    )
+    assert all(text.get_ha() == "right" and text.get_position()[0] <= left for text in said)
+    plt.close(axes.figure)
