@@ -11,6 +11,7 @@ rule compile:
         f"{SUMMARY}/logs/compile.log",
     benchmark:
         f"{SUMMARY}/benchmarks/compile.tsv"
+    threads: 2
     params:
         package_sha256=PLAN.package_sha256,
     message:
