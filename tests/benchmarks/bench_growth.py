@@ -1,7 +1,8 @@
 """How the cost of a study grows: python bench_growth.py [10 100 1000 ...] [KEY=VALUE ...].
 
-First the cost of one record, with and without the ensemble, and what of it is the compiled integration of the ensemble
-alone; then its cost against samples, structures and members, with the exponents.
+First the cost of one record, with and without the ensemble, what of it is the compiled integration of the ensemble
+alone, and what the first record of a job costs more; then its cost against samples, structures and members, with the
+exponents.
 Then whole studies of so many records of 40 s at 100 Hz, made by the seeded generator, with the shipped structures and
 settings, on two cores: CPU per record by stage, the share of snakemake's own process, that of everything that is
 neither, the largest process, and the time of a second run that has nothing to do. KEY=VALUE changes a setting:
@@ -158,6 +159,39 @@ def whole_records(folder: Path) -> None:
         )
 
 
+JOB = """
+import sys
+from pathlib import Path
+from time import process_time
+from rocking.records.catalogue import load_catalogue
+from rocking.structures import load_structures
+from rocking.study.config_file import read_settings
+from rocking.study.run import Study, assess_record
+folder = Path(sys.argv[1])
+catalogue = str(folder / "records" / "catalogue.csv")
+(record, *_), listed = load_catalogue(catalogue), load_structures(folder / "structures.yaml")
+study = Study(listed, read_settings({"catalogue": catalogue, "reports": False, "ensemble": {"members": 0}}))
+for _ in range(3):
+    print(process_time())
+    assess_record(record, study)
+"""
+"""What a job does, as a process of its own: prints the time before the first, second and third record."""
+
+
+def first_record(folder: Path) -> None:
+    """Print what a job spends on its imports and on its first record beyond another one, all compiled."""
+    spent = []
+    for _ in range(3):
+        command = [sys.executable, "-c", JOB, str(folder / f"{DURATION:g}_0.01")]
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        imported, first, second = map(float, done.stdout.split())
+        spent.append((imported, 2 * first - imported - second))
+    imports, beyond = np.min(spent, axis=0)
+    print(
+        f"first record of a job: {beyond:.2f} s beyond another, after {imports:.2f} s of imports", flush=True
+    )
+
+
 @contextmanager
 def clocked(module: Any, name: str) -> Iterator[list[float]]:
     """Note the CPU time of each call of a function."""
@@ -217,6 +251,7 @@ def main(arguments: Sequence[str]) -> None:
     with tempfile.TemporaryDirectory() as folder:
         of_a_record(Path(folder) / "growth")  # imports, tables and what is compiled
         whole_records(Path(folder) / "growth")
+        first_record(Path(folder) / "growth")
         growth(Path(folder) / "growth")
         measure(Path(folder) / "warm", 2, changed)  # compiles, so that the first number does not pay for it
         previous = None
