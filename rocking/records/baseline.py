@@ -5,7 +5,7 @@ fitted to the velocity before shaking, a polynomial of low degree to that after 
 the acceleration of that drift is subtracted.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -39,32 +39,30 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
         return acceleration, "Adaptive baseline left the record as it is: shaking lasts to its end."
     last = min(strong + int(0.85 * (acceleration.size - strong)), acceleration.size - _LEFT)
     tried = np.unique(np.linspace(strong, last, _CANDIDATES).astype(int)).tolist()
-    drifts = _drifts(velocity, onset, tried)
-    best = int(np.argmin([_wandering(velocity - drift, time_step) for drift in drifts]))
-    end, degree = tried[best // len(_DEGREES)], _DEGREES[best % len(_DEGREES)]
+    end, degree, drift = min(
+        _drifts(velocity, onset, tried), key=lambda found: _wandering(velocity - found[-1], time_step)
+    )
     sentence = (
         f"Adaptive baseline: drift of velocity fitted before {onset * time_step:g} s and after {end * time_step:g} s "
         f"(degree {degree}), bridged between, and its acceleration removed."
     )
-    return acceleration - np.gradient(drifts[best], time_step), sentence
+    return acceleration - np.gradient(drift, time_step), sentence
 
 
-def _drifts(velocity: np.ndarray, onset: int, ends: Sequence[int]) -> list[np.ndarray]:
-    """Return a drift (n,) for each end and, of each end, for each degree.
+def _drifts(velocity: np.ndarray, onset: int, ends: Sequence[int]) -> Iterator[tuple[int, int, np.ndarray]]:
+    """Yield end, degree and drift (n,) for each end and, of each end, for each degree.
 
-    It is a line before the onset, a polynomial after the end, and a cubic Hermite bridge between.
+    The drift is a line before the onset, a polynomial after the end, and a cubic Hermite bridge between.
     """
     (known, slope), _ = _fitted(velocity[:onset])
     height = known[-1] + slope
-    drifts = []
     for end in ends:
         width = end - onset
         s = np.arange(width) / width
         begun = (1 + 2 * s) * (1 - s) ** 2 * height + s * (1 - s) ** 2 * (slope * width)
         reach, lean = s**2 * (3 - 2 * s), s**2 * (s - 1) * width
-        for after, rise in _fitted(velocity[end:]):
-            drifts.append(np.concatenate([known, begun + reach * after[0] + lean * rise, after]))
-    return drifts
+        for degree, (after, rise) in zip(_DEGREES, _fitted(velocity[end:]), strict=True):
+            yield end, degree, np.concatenate([known, begun + reach * after[0] + lean * rise, after])
 
 
 def _fitted(values: np.ndarray) -> list[tuple[np.ndarray, float]]:
@@ -83,4 +81,5 @@ def _fitted(values: np.ndarray) -> list[tuple[np.ndarray, float]]:
 
 def _wandering(velocity: np.ndarray, time_step: float) -> float:
     """Return the largest displacement, m: a drift left in the velocity makes it larger than the ground's own."""
-    return float(np.abs(time_step * np.cumsum(velocity)).max())
+    course = np.cumsum(velocity)
+    return time_step * max(float(course.max()), -float(course.min()))
