@@ -71,9 +71,9 @@ def _fitted(values: np.ndarray) -> list[tuple[np.ndarray, float]]:
     In Legendre's polynomials of these places, which are orthogonal, so that a degree only adds its own term.
     """
     x = np.linspace(-1, 1, values.size)
-    square = x @ x
+    square = (x * x).sum()  # sums, because a dot product of many samples wakes a thread on every core
     bow = x * x - square / x.size
-    first, second = float(x @ values / square), float(bow @ values / (bow @ bow))
+    first, second = float((x * values).sum() / square), float((bow * values).sum() / (bow * bow).sum())
     line = values.mean() + first * x
     per_sample = 2 / (x.size - 1)
     return [(line, first * per_sample), (line + second * bow, (first - 2 * second) * per_sample)]
