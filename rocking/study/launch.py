@@ -137,6 +137,7 @@ def _watched(folder: Path, plan: Plan, command: Sequence[str], target: str | Non
     print(
         *plan.doubts,
         f"{counted(len(plan.records), 'record')}; log of the scheduler: {log}",
+        "Numbers: members of the ensemble that overturn, or the largest rotation over the critical rotation.",
         sep="\n",
         flush=True,
     )

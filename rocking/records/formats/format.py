@@ -52,7 +52,10 @@ class Options:
         """
         unit = in_file or self.unit
         if unit is None:
-            raise UndeclaredError("unit is not declared, neither in the file nor by the caller; give unit=.")
+            raise UndeclaredError(
+                "unit is not declared, neither in the file nor by the caller; declare it: the column unit of the "
+                "catalogue, --unit on the command line, unit= in Python."
+            )
         factor = acceleration_factor(unit)
         if self.unit is not None and acceleration_factor(self.unit) != factor:
             raise RecordError(
@@ -65,7 +68,8 @@ class Options:
         step = in_file if in_file is not None else self.time_step
         if step is None:
             raise UndeclaredError(
-                "time_step is not declared, neither in the file nor by the caller; give time_step=."
+                "time_step is not declared, neither in the file nor by the caller; declare it: the column "
+                "time_step_s of the catalogue, --time-step on the command line, time_step= in Python."
             )
         step = positive(RecordError, "time_step", float(step), "s")
         if not _STEPS[0] <= step <= _STEPS[1]:

@@ -26,6 +26,7 @@ from rocking.errors import ConfigurationError
 from rocking.records.formats import FORMATS
 from rocking.structures import load_structures
 from rocking.study.cli import _parser
+from tests.workflow.conftest import new_study
 
 ROOT = Path(rocking.__file__).parents[1]
 WORKFLOW = ROOT / "workflow"
@@ -39,9 +40,13 @@ def written(path: Path) -> str:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory) -> Path:
-    """The site, as MkDocs sets it without a complaint."""
+    """The site, as the target of the workflow has MkDocs set it without a complaint."""
     pytest.importorskip("material", reason="the site is set with mkdocs-material, of the extra docs")
-    return write_site(tmp_path_factory.mktemp("site"), WORKFLOW)[0].parent
+    study = new_study(tmp_path_factory.mktemp("site") / "study", ROOT)
+    study.add_synthetic("one", 1)
+    done = study.run("documentation")
+    assert done.returncode == 0, done.stdout
+    return study.results / "documentation"
 
 
 @pytest.fixture(scope="module")
