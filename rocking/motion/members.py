@@ -285,9 +285,7 @@ def _room(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _restitutions(given: np.ndarray | None, own: tuple[float, float], count: int) -> np.ndarray:
-    found = np.empty((count, 2))
-    found[:] = own if given is None else given
-    return found
+    return np.full((count, 2), own if given is None else given, dtype=float)
 
 
 def _by_side(restitution: np.ndarray) -> np.ndarray:
