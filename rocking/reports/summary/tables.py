@@ -65,7 +65,8 @@ def _overturning(every: AgreementRow) -> str:
         return f"Nothing overturns in the full integration; the closed form overturns {false}."
     return (
         f"Of {every.overturning} overturnings in the full integration the closed form finds "
-        f"{every.overturning_found} and misses {every.overturning_missed}; it overturns {false} that stay up."
+        f"{every.overturning_found} and misses {every.overturning_missed}; it overturns {false} "
+        f"that {'stays' if every.overturning_false == 1 else 'stay'} up."
     )
 
 
