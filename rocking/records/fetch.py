@@ -17,15 +17,6 @@ LONGEST_DOWNLOAD, _SILENCE = 300.0, 30.0
 _RAW = "https://raw.githubusercontent.com/{repository}/{commit}/{path}"
 
 
-def source_address(record: CatalogueRecord) -> str:
-    """Return the address from which a remote record is downloaded."""
-    return _RAW.format(
-        repository=record.source_repository,
-        commit=record.source_commit,
-        path=quote(record.source_path, safe="/"),
-    )
-
-
 def fetch(record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None) -> Path:
     """Return the path of the record's file after checking its sha256.
 
@@ -36,7 +27,8 @@ def fetch(record: CatalogueRecord, mirror: str | Path | None = None, cache: str 
         named = record.example_name is not None
         path = _example(record) if named else _beside(record, record.file, mirror)
         if path is None and record.is_remote:
-            path = _download(record, cache)
+            source = record.source_repository, record.source_commit, record.source_path
+            path = download(record.file, *source, sha256=record.sha256, cache=cache)
         if path is None:
             places = " or ".join(str(folder) for folder in (mirror, record.folder) if folder)
             raise RecordError(f"file {record.file!r} is not in {places}; mend the catalogue or add the file.")
@@ -105,14 +97,20 @@ def _example(record: CatalogueRecord) -> Path:
         raise RecordError(f"obspy installs no example file {record.example_name!r}.") from None
 
 
-def _download(record: CatalogueRecord, cache: str | Path | None) -> Path:
+def download(
+    file: str, repository: str, commit: str, path: str, *, sha256: str = "", cache: str | Path | None = None
+) -> Path:
+    """Return where the cache keeps `path` of a GitHub repository, downloaded if need be, its sha256 checked if given.
+
+    Raises RecordError naming `file` when it cannot be had.
+    """
     import pooch
 
-    name = f"{record.sha256[:16]}-{Path(record.source_path).name}"
-    address = source_address(record)
+    name = f"{(sha256 or commit)[:16]}-{Path(path).name}"
+    address = _RAW.format(repository=repository, commit=commit, path=quote(path, safe="/"))
     store = pooch.create(
         path=Path(cache) if cache else pooch.os_cache("rocking"), base_url="",
-        registry={name: f"sha256:{record.sha256}"}, urls={name: address}, retry_if_failed=_RETRIES,
+        registry={name: f"sha256:{sha256}" if sha256 else None}, urls={name: address}, retry_if_failed=_RETRIES,
     )  # fmt: skip
     pooch.get_logger().setLevel("WARNING")
     try:
@@ -120,8 +118,7 @@ def _download(record: CatalogueRecord, cache: str | Path | None) -> Path:
     except Exception as error:
         reason = str(error).splitlines()[0][:200] if str(error) else type(error).__name__
         raise RecordError(
-            f"file {record.file!r} cannot be fetched from {address}, {reason}; "
-            "try again or give a mirror folder."
+            f"file {file!r} cannot be fetched from {address}, {reason}; try again or give a mirror folder."
         ) from error
 
 

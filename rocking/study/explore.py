@@ -11,8 +11,9 @@ import numpy as np
 from scipy.signal import detrend
 
 from rocking.assessment.rows.of_case import ComparisonRow
-from rocking.assessment.rows.of_ensemble import BOTH_COMPONENTS, EnsembleRow
+from rocking.assessment.rows.of_ensemble import EnsembleRow, governing_ensembles
 from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.rows.of_fragility import FragilityRow
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.errors import RockingError
 from rocking.motion.integration import integrate
@@ -26,7 +27,7 @@ from rocking.reports.style import svg
 from rocking.structures import Structure
 from rocking.study.parts import read_part
 from rocking.study.run import Opened, Study
-from rocking.tables import write_whole
+from rocking.tables import frame, write_whole
 
 Content = dict[str, Any]
 
@@ -79,8 +80,8 @@ def _record(record: CatalogueRecord, study: Study, tables: RecordTables) -> tupl
         "failure": " ".join(failure.message for failure in tables.failures),
         "motions": {},
     }
-    verdicts = _verdicts(tables.ensemble)
-    cases = [_case(row, verdicts.get(row.structure)) for row in rows]
+    ensembles = governing_ensembles(tables.ensemble)
+    cases = [_case(row, ensembles.get((row.record, row.structure))) for row in rows]
     if rows:
         try:
             opened = study.open(record)
@@ -98,32 +99,13 @@ def _record(record: CatalogueRecord, study: Study, tables: RecordTables) -> tupl
 
 def _worse(rows: Sequence[ComparisonRow], structures: Mapping[str, Structure]) -> list[ComparisonRow]:
     """Of each structure the row of the component that turns it farthest."""
-    worse: dict[str, ComparisonRow] = {}
-    for row in rows:
-        known = worse.get(row.structure)
-        if row.structure in structures and (known is None or _demand(row) > _demand(known)):
-            worse[row.structure] = row
-    return list(worse.values())
+    names = dict.fromkeys(row.structure for row in rows if row.structure in structures)
+    return [max((row for row in rows if row.structure == name), key=_demand) for name in names]
 
 
 def _demand(row: ComparisonRow) -> float:
     ratio = row.found_rotation_ratio
     return -1.0 if math.isnan(ratio) else ratio
-
-
-def _verdicts(rows: Sequence[EnsembleRow]) -> dict[str, EnsembleRow]:
-    """Of each structure the ensemble over both components, else the one that overturns most."""
-    found: dict[str, EnsembleRow] = {}
-    for row in rows:
-        known = found.get(row.structure)
-        if known is None or _precedence(row) > _precedence(known):
-            found[row.structure] = row
-    return found
-
-
-def _precedence(row: EnsembleRow) -> tuple[bool, float]:
-    probability = row.overturning_probability
-    return row.component == BOTH_COMPONENTS, -1.0 if math.isnan(probability) else probability
 
 
 def _case(row: ComparisonRow, ensemble: EnsembleRow | None) -> Content:
@@ -214,10 +196,7 @@ def _scatter(cases: Sequence[Content]) -> str:
 
 def _fragility(path: Path) -> str:
     """The figure of the fragility of this study, "" where it was not asked for."""
-    import pandas as pd
-
     if not path.exists():
         return ""
-    curves = pd.read_csv(path)
-    curves["rotation_ratio"] = curves["rotation_ratio"].astype(float)
+    curves = frame(FragilityRow, path)
     return svg(fragility_curves(curves)) if np.isinf(curves["rotation_ratio"]).any() else ""

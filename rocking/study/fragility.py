@@ -30,7 +30,7 @@ from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
 from rocking.structures import Structure
 from rocking.study.run import Study
-from rocking.tables import Row, data_package, write_rows, write_whole
+from rocking.tables import Row, write_tables
 
 
 def write_fragility(
@@ -51,24 +51,18 @@ def write_fragility(
     hazard = read_hazard(Path(settings.hazard)) if settings.hazard else None
     measure = intensity_measure(settings.intensity_measure)
     names, accelerograms, unused = _opened(records, study, measure)
-    tables: dict[str, list[Row]] = {name: [] for name in FRAGILITY_TABLES}
+    tables: dict[type[Row], list[Row]] = {each: [] for each in FRAGILITY_TABLES.values()}
     for count, (name, structure) in enumerate(study.structures.items(), start=1):
         found, followed, complete = _analysed(accelerograms, structure, study)
-        tables[IdaRow.table.name] += ida_rows(name, names, followed)
+        tables[IdaRow] += ida_rows(name, names, followed)
         for threshold in ROTATION_RATIOS:
             curve = found.fragility(threshold)
-            tables[FragilityRow.table.name] += fragility_rows(name, curve)
-            tables[FragilitySummaryRow.table.name].append(fragility_summary_row(name, curve, hazard))
-        tables[IntensityMeasureRow.table.name] += intensity_measure_rows(
-            name, structure.mechanism(), accelerograms, complete
-        )
+            tables[FragilityRow] += fragility_rows(name, curve)
+            tables[FragilitySummaryRow].append(fragility_summary_row(name, curve, hazard))
+        measured = intensity_measure_rows(name, structure.mechanism(), accelerograms, complete)
+        tables[IntensityMeasureRow] += measured
         tell(f"{count} of {len(study.structures)}: {name}")
-    for name, row_class in FRAGILITY_TABLES.items():
-        write_rows(row_class, tables[name], folder / row_class.table.file_name)  # type: ignore[type-var]
-    described = {
-        name: (row_class.table, row_class.table.file_name) for name, row_class in FRAGILITY_TABLES.items()
-    }
-    write_whole(folder / "datapackage.json", data_package("rocking-fragility", described))
+    write_tables(tables, folder, "rocking-fragility")
     return unused
 
 

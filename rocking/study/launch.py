@@ -22,41 +22,10 @@ from rocking.study.progress import NewLines, Progress, finished_rule, fitting, p
 from rocking.study.workspace import workflow_folder
 
 _CORES = re.compile(r"(--cores|--jobs)(=.*)?|-[cj]\d*|-[cj]all")
-_ANSWERS = {
-    *(
-        "-n",
-        "--dry-run",
-        "--dryrun",
-        "-h",
-        "--help",
-        "-v",
-        "--version",
-        "-l",
-        "--list",
-        "--list-rules",
-        "--lint",
-    ),
-    *(
-        "--dag",
-        "--rulegraph",
-        "--filegraph",
-        "--d3dag",
-        "-S",
-        "--summary",
-        "-D",
-        "--detailed-summary",
-        "--report",
-    ),
-    *(
-        "--unlock",
-        "-t",
-        "--touch",
-        "--archive",
-        "--delete-all-output",
-        "--list-changes",
-        "--print-compilation",
-    ),
-}
+_ANSWERS = re.compile(
+    r"(-[nhvlSDt]|--(dry-?run|help|version|list|list-rules|list-changes|lint|dag|rulegraph|filegraph|d3dag|summary|"
+    r"detailed-summary|report|unlock|touch|archive|delete-all-output|print-compilation))(=.*)?"
+)
 """Options with which snakemake answers a question instead of running the study: its answer is shown as it is."""
 _POLL = 0.1
 """s between two looks at the logs."""
@@ -70,7 +39,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
     """
     plan = _planned(folder)
     command = _command(folder, options)
-    if _ANSWERS & {option.partition("=")[0] for option in options}:
+    if any(_ANSWERS.fullmatch(option) for option in options):
         return subprocess.run(command, check=False, env=_environment()).returncode
     target = next((option for option in options[:1] if not option.startswith("-")), None)
     return _alone(folder, plan, command, target)

@@ -10,7 +10,7 @@ from rocking.assessment.rows.of_record import FailureRow
 from rocking.assessment.verdict import Verdict, rests, rocks
 from rocking.errors import RecordError
 from rocking.quantities import counted
-from rocking.tables import read_rows
+from rocking.tables import read_rows, read_table
 
 _ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, "rocks", Verdict.STANDS, "rests", Verdict.UNKNOWN)
 _MOST = 6
@@ -30,7 +30,7 @@ class CameOf:
         """Read the tables in `folder`, cases and ensembles one at a time as they are asked for."""
         return cls(
             read_rows(ComparisonRow, folder / ComparisonRow.table.file_name),
-            list(read_rows(FailureRow, folder / FailureRow.table.file_name)),
+            read_table(FailureRow, folder),
             read_rows(EnsembleRow, folder / EnsembleRow.table.file_name),
         )
 
@@ -88,12 +88,9 @@ def check_any_read(summary: str | Path, records: Collection[str]) -> None:
 
     Without a summary, as where another target was asked for, nothing is said.
     """
-    table = Path(summary) / FailureRow.table.file_name
-    unread = (
-        {row.record: row for row in read_rows(FailureRow, table) if row.stage == "read"}
-        if table.is_file()
-        else {}
-    )
+    if not (Path(summary) / FailureRow.table.file_name).is_file():
+        return
+    unread = {row.record: row for row in read_table(FailureRow, Path(summary)) if row.stage == "read"}
     if set(unread) >= set(records):
         first = next(iter(unread.values()))
         raise RecordError(

@@ -61,14 +61,9 @@ _HASHES = Path(".snakemake") / "rocking_hashes.json"
 
 _CHANGE_NO_NUMBER = (
     "reports/",
-    *(
-        f"study/{name}.py"
-        for name in ("cli", "config_file", "inputs", "launch", "locks", "outcome", "progress")
-    ),
-    *(
-        f"study/{name}.py"
-        for name in ("explore", "record_reports", "single_record", "summary_report", "workspace")
-    ),
+    *("study/cli.", "study/config_file.", "study/explore.", "study/inputs.", "study/launch.", "study/locks."),
+    *("study/outcome.", "study/progress.", "study/record_reports.", "study/single_record."),
+    *("study/summary_report.", "study/workspace."),
 )
 """Source whose edit leaves every number of a table as it is."""
 
@@ -122,18 +117,12 @@ def package_sha256(leave_out: Sequence[str] = ()) -> str:
     digest = hashlib.sha256()
     for path in sorted(root.rglob("*")):
         name = path.relative_to(root).as_posix()
-        if path.suffix in {
-            ".py",
-            ".csv",
-            ".typ",
-            ".yaml",
-            ".mplstyle",
-            ".html",
-            ".css",
-            ".js",
-        } and not name.startswith(tuple(leave_out)):
+        if path.suffix in _SOURCE and not name.startswith(tuple(leave_out)):
             digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
+
+
+_SOURCE = {".py", ".csv", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
 
 
 def records_sha256(records: Iterable[CatalogueRecord]) -> str:

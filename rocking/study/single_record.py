@@ -28,7 +28,7 @@ from rocking.study.inputs import structures_sha256
 from rocking.study.plan import package_sha256, settings_sha256
 from rocking.study.run import Opened, Study, assess_components
 from rocking.study.settings import Settings
-from rocking.tables import write_rows
+from rocking.tables import write_rows, write_tables
 
 FREQUENCY_PARAMETERS = np.geomspace(0.5, 10, 40)
 """p of the spectrum that is written, rad/s."""
@@ -113,9 +113,8 @@ def _write_report(record: CatalogueRecord, opened: Opened, study: Study, output:
 
     folder = output / record.id
     write_report(record.id, lambda: opened, RecordTables.read(folder), study, folder)
-    summary = output / "summary"
-    write_rows(StructureRow, structure_rows(study.structures), summary / StructureRow.table.file_name)
-    write_rows(CapacityRow, capacity_rows(study.structures), summary / CapacityRow.table.file_name)
+    described = {StructureRow: structure_rows(study.structures), CapacityRow: capacity_rows(study.structures)}
+    write_tables(described, output / "summary")
 
 
 def _lines(tables: RecordTables) -> Iterator[str]:

@@ -21,7 +21,7 @@ from rocking.assessment.rows.of_study import (
 )
 from rocking.structures import Structure
 from rocking.study.parts import IN_PARTS, gathered, part
-from rocking.tables import Row, data_package, frame, write_rows, write_whole
+from rocking.tables import data_package, frame, write_tables, write_whole
 
 _GATHERED = [each for each in SUMMARY_TABLES if each in IN_PARTS]
 
@@ -35,15 +35,14 @@ def write_summary(
     """
     for each in _GATHERED:
         write_whole(target / each.table.file_name, gathered(each, parts, records))
-    _write(StructureRow, structure_rows(structures), target)
-    _write(EquivalenceRow, equivalence_rows(structures), target)
-    _write(CapacityRow, capacity_rows(structures), target)
+    of_structures = {
+        StructureRow: structure_rows,
+        EquivalenceRow: equivalence_rows,
+        CapacityRow: capacity_rows,
+    }
+    write_tables({each: rows(structures) for each, rows in of_structures.items()}, target)  # type: ignore[operator]
     cases = frame(ComparisonRow, target / ComparisonRow.table.file_name, AGREEMENT_COLUMNS)
-    _write(AgreementRow, agreement_rows(cases), target)
-
-
-def _write(row_class: type[Row], rows: Iterable[Row], target: Path) -> None:
-    write_rows(row_class, rows, target / row_class.table.file_name)
+    write_tables({AgreementRow: agreement_rows(cases)}, target)
 
 
 def write_description(jobs: Iterable[str], results: Path) -> None:

@@ -98,8 +98,9 @@ def governing_ensembles(rows: Iterable[EnsembleRow]) -> dict[tuple[str, str], En
     return found
 
 
-def _weight(each: EnsembleRow) -> tuple[bool, float, float]:
-    return each.component == BOTH_COMPONENTS, each.overturning_probability, each.rotation_ratio_high
+def _weight(each: EnsembleRow) -> tuple[float, ...]:
+    known = (each.component == BOTH_COMPONENTS, each.overturning_probability, each.rotation_ratio_high)
+    return tuple(-1.0 if np.isnan(value) else value for value in known)
 
 
 def _worst(found: Ensemble, cause: str) -> str:

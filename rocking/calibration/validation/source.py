@@ -8,6 +8,7 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.catalogue_record import CatalogueRecord
+from rocking.records.fetch import download
 from rocking.tables import Row, column, read_rows, row
 
 REPOSITORY = "ZhiangChen/virtual_shake_robot_pybullet"
@@ -77,7 +78,7 @@ def fetch_table_motion(motion: TableMotion) -> np.ndarray:
 
     Raises RecordError when it cannot be had or is another version.
     """
-    path = _download(motion.source_path)
+    path = download(motion.source_path, REPOSITORY, COMMIT, motion.source_path)
     samples = converted(path.read_bytes(), path.name)
     try:
         motion.check(samples)
@@ -85,18 +86,3 @@ def fetch_table_motion(motion: TableMotion) -> np.ndarray:
         path.unlink()
         raise
     return samples
-
-
-def _download(source_path: str) -> Path:
-    import pooch
-
-    address = f"https://raw.githubusercontent.com/{REPOSITORY}/{COMMIT}/{source_path}"
-    pooch.get_logger().setLevel("WARNING")
-    name, folder = f"{COMMIT[:12]}-{source_path.rpartition('/')[2]}", pooch.os_cache("rocking")
-    try:
-        return Path(pooch.retrieve(address, None, name, folder))
-    except Exception as error:
-        reason = str(error).splitlines()[0][:200] if str(error) else type(error).__name__
-        raise RecordError(
-            f"{source_path} cannot be fetched from {address}, {reason}; try again or give a mirror folder."
-        ) from error

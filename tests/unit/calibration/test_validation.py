@@ -123,7 +123,7 @@ def test_what_the_mirror_lacks_is_fetched_and_checked(made, tmp_path, monkeypatc
     samples = made_motion(0, 0.08)
     file = tmp_path / "Test001.txt"
     file.write_text("head\n" + "".join(f"0\t{float(a)!r}\n" for a in samples))
-    monkeypatch.setattr(source, "_download", lambda path: file)
+    monkeypatch.setattr(source, "download", lambda *_: file)
     (tmp_path / "tests.csv").write_bytes((made[1] / "tests.csv").read_bytes())
     opened = Campaign.open(made[0], tmp_path)
     assert np.array_equal(opened.table_motion(opened.tests[0]).acceleration, samples.astype(float) * GRAVITY)
