@@ -2,7 +2,7 @@
 
 import csv
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -61,6 +61,16 @@ def open_record(
     Raises RecordError naming record and file.
     """
     return horizontal_of(channels_of(record, mirror, cache), record)
+
+
+def open_records(
+    records: Collection[CatalogueRecord], mirror: str | Path | None, tell: Callable[[str], object]
+) -> Iterator[tuple[str, Accelerogram]]:
+    """Yield identifier and accelerogram of every component of `records`. tell: takes a line for each record."""
+    for count, record in enumerate(records, start=1):
+        tell(f"{count} of {len(records)}: {record.id}")
+        for accelerogram in open_record(record, mirror=mirror):
+            yield record.id, accelerogram
 
 
 def horizontal_of(channels: list[Accelerogram], record: CatalogueRecord) -> list[Accelerogram]:

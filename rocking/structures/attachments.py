@@ -18,41 +18,25 @@ Path = Callable[[np.ndarray], PointMotion]
 
 
 @dataclass(frozen=True)
-class Weight:
-    """A constant vertical force `weight` (downwards) that follows its point; it scales with g + ü_v."""
+class ConstantForce:
+    """A force on its point, complex, towards the side of rocking and upwards; it scales with g + ü_v."""
 
-    weight: float
-
-    def work(self, point: PointMotion) -> np.ndarray:
-        """What was done against it since rest."""
-        return self.weight * point.moved.imag
-
-    def force(self, point: PointMotion) -> np.ndarray:
-        """Derivative of `work` with φ."""
-        return self.weight * point.velocity.imag
-
-    def slope(self, point: PointMotion) -> np.ndarray:
-        """Second derivative of `work` with φ."""
-        return self.weight * point.acceleration.imag
-
-
-@dataclass(frozen=True)
-class Thrust:
-    """A horizontal force `thrust` on its point, towards the side of rocking if positive; it scales with g + ü_v."""
-
-    thrust: float
+    vector: complex
 
     def work(self, point: PointMotion) -> np.ndarray:
         """What was done against it since rest."""
-        return -self.thrust * point.moved.real
+        return self._against(point.moved)
 
     def force(self, point: PointMotion) -> np.ndarray:
         """Derivative of `work` with φ."""
-        return -self.thrust * point.velocity.real
+        return self._against(point.velocity)
 
     def slope(self, point: PointMotion) -> np.ndarray:
         """Second derivative of `work` with φ."""
-        return -self.thrust * point.acceleration.real
+        return self._against(point.acceleration)
+
+    def _against(self, way: np.ndarray) -> np.ndarray:
+        return -(self.vector.conjugate() * way).real
 
 
 @dataclass(frozen=True)
@@ -63,7 +47,7 @@ class Attached:
     """
 
     path: Path
-    force: Weight | Thrust | Tie | None = None
+    force: ConstantForce | Tie | None = None
     mass: float = 0.0
     sideways: bool = True
 

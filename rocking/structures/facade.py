@@ -13,7 +13,7 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import whole
-from rocking.structures.attachments import Thrust, Weight
+from rocking.structures.attachments import ConstantForce
 from rocking.structures.bars import Bodies
 from rocking.structures.contacts import Contacts, MotionState, on_side
 from rocking.structures.drawing import Kind, Mark, Path, rectangle, span, turned
@@ -190,9 +190,11 @@ class Facade(Tied):
     def _held(self, seen: Callable[[complex], complex], mirrored: bool) -> Iterable[Held]:
         """What hangs on the part above the crack, at points seen from the toe."""
         for point, load in self._bearings(mirrored):
-            yield Held(seen(point), Weight(load)) if self.loads_held else Held(seen(point), None, load)
+            held = (ConstantForce(-1j * load),) if self.loads_held else (None, load)
+            yield Held(seen(point), *held)
         if self.thrust and self._thrust_point.imag > self.crack_height:
-            yield Held(seen(self._thrust_point), Thrust(-self.thrust if mirrored else self.thrust))
+            thrust = complex(-self.thrust if mirrored else self.thrust)
+            yield Held(seen(self._thrust_point), ConstantForce(thrust))
         for height in () if mirrored else self._tied:
             yield Held(seen(1j * height), self._tie())
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
-from rocking.structures.attachments import Attached, LoadedForm, Weight
+from rocking.structures.attachments import Attached, ConstantForce, LoadedForm
 from rocking.structures.bars import Bodies, carried
 from rocking.structures.contacts import Contacts, MotionState, on_side
 from rocking.structures.drawing import Mark, Path, span
@@ -154,7 +154,7 @@ class LoadedWall(Tied):
         if self.top_load:
             path, load = OnBlock(linkage, 1, self._bearing(mirrored)), self.top_load / unit
             moving = Attached(path, None, load, sideways=False)
-            found.append(Attached(path, Weight(load)) if self.load_held else moving)
+            found.append(Attached(path, ConstantForce(-1j * load)) if self.load_held else moving)
         if mirrored or not (self.tie_stiffness or self.tie_pretension):
             return tuple(found)
         tie = self._tie(unit)
@@ -235,8 +235,8 @@ class LoadedWall(Tied):
             if isinstance(each.force, Tie):
                 tension = each.force.tension(point.moved.real, each.path(state.largest).moved.real)
                 force = -tension * GRAVITY + 0j
-            elif isinstance(each.force, Weight):
-                force = -1j * each.force.weight * state.pull.imag
+            elif isinstance(each.force, ConstantForce):
+                force = each.force.vector * state.pull.imag
             else:
                 rise = point.velocity.imag * state.acceleration + point.acceleration.imag * state.velocity**2
                 force = -1j * each.mass * (rise + state.pull.imag)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.quantities import GRAVITY
-from rocking.structures.attachments import Attached, LoadedForm, Thrust, Weight
+from rocking.structures.attachments import Attached, ConstantForce, LoadedForm
 from rocking.structures.bars import Bodies
 from rocking.structures.contacts import Contacts, MotionState, corner
 from rocking.structures.mechanism import Side
@@ -18,7 +18,7 @@ class Held(NamedTuple):
     """What hangs on a body at a `point` (at rest, complex, m): a `force`, or a weight `mass` that moves along."""
 
     point: complex
-    force: Weight | Thrust | Tie | None
+    force: ConstantForce | Tie | None
     mass: float = 0.0
 
 
@@ -102,12 +102,11 @@ class TurningBody:
         found = corner(-centre.real, centre.imag, state)
         pressed, pushed = np.zeros(state.rotation.shape), np.zeros(state.rotation.shape)
         for each in self.held:
-            if isinstance(each.force, Weight):
-                pressed = pressed + each.force.weight / total * state.pull.imag
+            if isinstance(each.force, ConstantForce):
+                pressed = pressed - each.force.vector.imag / total * state.pull.imag
+                pushed = pushed - each.force.vector.real / total * state.pull.imag
             elif isinstance(each.force, Tie):
                 path = Turning(each.point)
                 tension = each.force.tension(path(state.rotation).moved.real, path(state.largest).moved.real)
                 pushed = pushed + tension / total * GRAVITY
-            elif isinstance(each.force, Thrust):
-                pushed = pushed - each.force.thrust / total * state.pull.imag
         return Contacts(found.names, found.normal + pressed, found.tangential + pushed)

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from rocking.assessment.method import Method
 from rocking.assessment.rows.of_case import ComparisonRow, ResponseRow
@@ -27,6 +28,7 @@ from rocking.reports.printing import (
     words,
 )
 from rocking.reports.record.verdict import contact_failure
+from rocking.tables import Row
 
 NO_BLOCK = 1.0
 """Defect from which on the block means nothing: it is as large as what is described."""
@@ -161,9 +163,9 @@ def method_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, 
             "r",
             lambda case: strong(ratio(case.row.integrated_rotation_ratio, 6)),
         ),
-        ("Rotation [rad]", "1", "r", lambda case: number(case.response and case.response.rotation_rad, 5)),
-        ("Peak at [s]", "0.7", "r", lambda case: number(case.response and case.response.peak_time_s, 4)),
-        ("Im\u00adpacts", "0.6", "r", lambda case: printing.whole(case.response and case.response.impacts)),
+        ("Rotation [rad]", "1", "r", lambda case: number(_of(case.response, "rotation_rad"), 5)),
+        ("Peak at [s]", "0.7", "r", lambda case: number(_of(case.response, "peak_time_s"), 4)),
+        ("Im\u00adpacts", "0.6", "r", lambda case: printing.whole(_of(case.response, "impacts"))),
     )
 
 
@@ -173,32 +175,16 @@ def trust_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, o
         _cases(tables),
         ("No.", "auto", "r", lambda case: numbers[case.row.structure]),
         ("Comp.", "auto", "l", lambda case: words(case.row.component)),
-        (
-            "Pulse rank",
-            "0.6",
-            "r",
-            lambda case: printing.whole(case.prediction and case.prediction.pulse_rank),
-        ),
-        (
-            "Amplitude ratio [-]",
-            "1",
-            "r",
-            lambda case: number(case.prediction and case.prediction.amplitude_ratio),
-        ),
-        (
-            "Frequency ratio [-]",
-            "1",
-            "r",
-            lambda case: number(case.prediction and case.prediction.frequency_ratio),
-        ),
-        (
-            "Friction needed [-]",
-            "1",
-            "r",
-            lambda case: number(case.response and case.response.friction_needed),
-        ),
+        ("Pulse rank", "0.6", "r", lambda case: printing.whole(_of(case.prediction, "pulse_rank"))),
+        ("Amplitude ratio [-]", "1", "r", lambda case: number(_of(case.prediction, "amplitude_ratio"))),
+        ("Frequency ratio [-]", "1", "r", lambda case: number(_of(case.prediction, "frequency_ratio"))),
+        ("Friction needed [-]", "1", "r", lambda case: number(_of(case.response, "friction_needed"))),
         ("Contacts", "1.1", "l", lambda case: _contacts(case.response)),
     )
+
+
+def _of(row: Row | None, column: str) -> Any:
+    return None if row is None else getattr(row, column)
 
 
 def _contacts(response: ResponseRow | None) -> Cell:
