@@ -83,7 +83,9 @@ class SmallStudy:
     @property
     def surroundings(self) -> dict[str, Any]:
         """How a process is started: python -m looks for the package in the folder it stands in, then in PYTHONPATH."""
-        return {"cwd": self.folder, "env": os.environ | {"PYTHONPATH": str(self.tree)}}
+        # A worker of pytest-xdist names the width of a terminal that is not the process's.
+        inherited = {name: value for name, value in os.environ.items() if name not in ("COLUMNS", "LINES")}
+        return {"cwd": self.folder, "env": inherited | {"PYTHONPATH": str(self.tree)}}
 
     def run(self, *options: str) -> subprocess.CompletedProcess[str]:
         """Run snakemake on this study; its output and errors as one text."""
