@@ -1,7 +1,8 @@
 """How a value of a row is printed: rounded, with a real minus, never changed otherwise."""
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import accumulate
 from typing import TypeVar
 
 Cell = str | dict[str, object]
@@ -103,6 +104,37 @@ def listed(names: Sequence[str], most: int = 6) -> str:
     shown = ", ".join(names[:most])
     more = len(names) - most
     return shown if more <= 0 else f"{shown} and {counted(more, 'other')}"
+
+
+MOST_NAMED, MOST_LETTERS = 12, 300
+"""Structures that the first lines name with one verdict, and their letters; the table below them holds all."""
+
+
+def headlines(groups: Mapping[str, Sequence[str]]) -> list[dict[str, str]]:
+    """Return the first lines of a report: each verdict with its structures, as many as there is room for."""
+    return [
+        {"verdict": sentence(verdict), "names": _fitting(names)} for verdict, names in groups.items() if names
+    ]
+
+
+def _fitting(names: Sequence[str]) -> str:
+    room = sum(end <= MOST_LETTERS for end in accumulate(map(len, names)))
+    return listed(names, max(1, min(MOST_NAMED, room)))
+
+
+def of(part: float, whole: float) -> str:
+    """Return "n of m" on one line, NOTHING where there are none."""
+    return f"{int(part)}\u00a0of\u00a0{int(whole)}" if whole > 0 else NOTHING
+
+
+def strip(places: Sequence[float], overturns: float) -> Cell:
+    """Return the band of rotation ratios, ends and middle, on a line from rest to the critical rotation.
+
+    overturns: the share beyond the line's end.
+    """
+    if math.isnan(places[0]):
+        return NOTHING
+    return {"strip": [min(float(place), 1.0) for place in places], "overturns": float(overturns)}
 
 
 def short(name: str, most: int = 44) -> str:

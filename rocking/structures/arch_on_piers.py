@@ -67,9 +67,6 @@ class ArchOnPiers(Arch):
     @property
     def ring(self) -> PierRing:
         """Arch and piers with a centreline radius of 1."""
-        return self._ring(feet=2)
-
-    def _ring(self, feet: int) -> PierRing:
         return PierRing(
             self.thickness / self.radius,
             self.embrace_angle,
@@ -78,7 +75,6 @@ class ArchOnPiers(Arch):
             self.pier_width / self.radius,
             self.pier_height / self.radius,
             self.pier_density_ratio,
-            feet,
         )
 
     @cached_property
@@ -105,21 +101,6 @@ class ArchOnPiers(Arch):
     def governing(self) -> str:
         """The mechanism that governs, one of MECHANISMS."""
         return MECHANISMS[int((np.abs(self._hinge_sections) > self.embrace_angle / 2 + FOOT / 2).sum())]
-
-    def multipliers(self) -> dict[str, float]:
-        """Return λ with none, one or both of the piers free to rock, by mechanism; inf where none can start.
-
-        The more may rock, the smaller it is; the last one is that of the structure.
-        """
-        found = {}
-        for feet, name in enumerate(MECHANISMS):
-            try:
-                found[name] = static_onset(self._ring(feet)).multiplier
-            except NoMechanism:
-                found[name] = float("inf")
-            except TooThin:
-                found[name] = 0.0
-        return found
 
     def thrust_line(self, count: int = 200) -> np.ndarray:
         """Return the line of thrust at the onset: (count + 2,) points in m, from foot to foot."""

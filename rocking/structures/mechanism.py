@@ -223,11 +223,6 @@ class Mechanism:
         """η of the positive side."""
         return self.positive.restitution
 
-    def with_restitution(self, restitution: float) -> "Mechanism":
-        """Return this mechanism with the same η on every side."""
-        negative = None if self.negative is None else replace(self.negative, restitution=restitution)
-        return replace(self, positive=replace(self.positive, restitution=restitution), negative=negative)
-
     def equivalent_block(self, scale: Scale = "rest") -> EquivalentBlock:
         """Return the linear block that stands for this mechanism.
 

@@ -20,14 +20,12 @@ FOOT = 1.0
 class PierRing(Ring):
     """A ring on equal rectangular piers, flush with its intrados at the springings.
 
-    pier_width, pier_height: over r. pier_density: over that of the arch. feet: how many piers may rock (2, the right
-    one alone 1, none 0); the others stand fast.
+    pier_width, pier_height: over r. pier_density: over that of the arch.
     """
 
     pier_width: float = 0.0
     pier_height: float = 0.0
     pier_density: float = 1.0
-    feet: int = 2
 
     @property
     def pier_mass(self) -> float:
@@ -63,9 +61,9 @@ class PierRing(Ring):
         return np.sign(section) * beyond
 
     def sections(self) -> np.ndarray:
-        """Those of the ring, with the feet of the piers that may rock."""
+        """Those of the ring, with the feet of both piers."""
         ring, edge = super().sections(), self.embrace_angle / 2 + FOOT
-        return np.concatenate([[-edge] * (self.feet == 2), ring, [edge] * (self.feet >= 1)])
+        return np.concatenate([[-edge], ring, [edge]])
 
     def kept(self, hinges: np.ndarray) -> np.ndarray:
         """Sections moved back onto the ring; feet stay."""

@@ -4,7 +4,6 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
-from itertools import accumulate
 
 from rocking.assessment.rows.of_ensemble import EnsembleRow, governing_ensembles
 from rocking.assessment.rows.of_folder import RecordTables
@@ -15,8 +14,6 @@ from rocking.assessment.verdict import Verdict, rests, rocks
 from rocking.reports import printing
 from rocking.reports.printing import NOTHING, Cell, strong, table_of, words
 
-MOST_NAMED, MOST_LETTERS = 12, 300
-"""Structures that the first lines name with one verdict, and their letters; the table below them holds all."""
 _ROCKS, _RESTS = "rocks and stays up", "rests"
 _ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, _ROCKS, Verdict.STANDS, _RESTS, Verdict.UNKNOWN)
 
@@ -110,14 +107,10 @@ def headlines(found: Sequence[Fate]) -> list[dict[str, str]]:
     groups: dict[str, list[Fate]] = {verdict: [] for verdict in _ORDER}
     for fate in found:
         groups[fate.verdict].append(fate)
-    return [
-        {
-            "verdict": printing.sentence(verdict),
-            "names": _listed([_named(fate) for fate in sorted(group, key=_rank)]),
-        }
-        for verdict, group in groups.items()
-        if group
-    ]
+    named = {
+        verdict: [_named(fate) for fate in sorted(group, key=_rank)] for verdict, group in groups.items()
+    }
+    return printing.headlines(named)
 
 
 def remarks(found: Sequence[Fate]) -> list[str]:
@@ -177,12 +170,6 @@ def origin(rows: Sequence[RecordRow]) -> str:
     )
 
 
-def _listed(names: Sequence[str]) -> str:
-    """As many names as the first lines have room for, at least one."""
-    ends = accumulate(len(name) for name in names)
-    return printing.listed(names, max(1, min(MOST_NAMED, sum(end <= MOST_LETTERS for end in ends))))
-
-
 def _known(ratio: float) -> float:
     return -1.0 if math.isnan(ratio) else ratio
 
@@ -204,19 +191,15 @@ def _named(fate: Fate) -> str:
 
 def _members(fate: Fate) -> str:
     found = fate.followed
-    return f"{found.overturning_members}\u00a0of\u00a0{found.members}" if found else NOTHING
+    return printing.of(found.overturning_members, found.members) if found else NOTHING
 
 
 def _strip(fate: Fate) -> Cell:
-    """Ends and middle of the band on a line from rest to the critical rotation; beyond it, it overturns."""
     found = fate.followed
     if found is None:
         return NOTHING
     places = found.rotation_ratio_low, found.rotation_ratio_median, found.rotation_ratio_high
-    return {
-        "strip": [min(_known(value), 1.0) for value in places],
-        "overturns": found.overturning_probability,
-    }
+    return printing.strip(places, found.overturning_probability)
 
 
 def _range(fate: Fate) -> str:

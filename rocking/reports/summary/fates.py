@@ -18,14 +18,13 @@ MOST_MATRIX_RECORDS = 40
 MOST_MATRIX_STRUCTURES = 20
 """Structures of the matrix, in the order of the list."""
 _CASE = ["record", "structure"]
+_BAND = ("rotation_ratio_low", "rotation_ratio_median", "rotation_ratio_high")
 _OF_ENSEMBLE = [
     "verdict",
     "overturning_probability",
     "overturning_members",
     "members",
-    "rotation_ratio_low",
-    "rotation_ratio_median",
-    "rotation_ratio_high",
+    *_BAND,
 ]
 _COUNTED = (Verdict.OVERTURNS, Verdict.UNDECIDED, Verdict.STANDS)
 
@@ -72,11 +71,7 @@ def headlines(found: "DataFrame") -> list[dict[str, str]]:
         Verdict.UNDECIDED: "Undecided at worst",
         Verdict.STANDS: "Stands under every record that could be assessed",
     }
-    return [
-        {"verdict": heads[verdict], "names": printing.listed(names, 12)}
-        for verdict, names in groups.items()
-        if names
-    ]
+    return printing.headlines({heads[verdict]: names for verdict, names in groups.items()})
 
 
 def structure_table(found: "DataFrame") -> dict[str, object]:
@@ -94,7 +89,9 @@ def structure_table(found: "DataFrame") -> dict[str, object]:
     for number, (name, of_it) in enumerate(counts.items(), start=1):
         worst = _worst(found[found["structure"] == name])
         shown: list[Cell] = [str(number), strong(name), *(str(of_it[verdict]) for verdict in _COUNTED)]
-        rows.append([*shown, str(worst["record"]), _members(worst), _strip(worst)])
+        several = printing.of(worst["overturning_members"], worst["members"])
+        band = printing.strip([worst[name] for name in _BAND], worst["probability"])
+        rows.append([*shown, str(worst["record"]), several, band])
     return table(columns, rows)
 
 
@@ -133,21 +130,6 @@ def _counts(found: "DataFrame") -> dict[str, dict[str, int]]:
 def _worst(of_it: "DataFrame") -> Mapping[str, Any]:
     ordered = of_it.sort_values(["probability", "high"], ascending=False, na_position="last", kind="stable")
     return dict(ordered.iloc[0])
-
-
-def _members(worst: Mapping[str, Any]) -> str:
-    many = float(worst["members"])
-    if not many > 0:
-        return NOTHING
-    return f"{int(worst['overturning_members'])}\u00a0of\u00a0{int(many)}"
-
-
-def _strip(worst: Mapping[str, Any]) -> Cell:
-    low, median, high = (float(worst[f"rotation_ratio_{end}"]) for end in ("low", "median", "high"))
-    if np.isnan(low):
-        return NOTHING
-    ends = [min(low, 1.0), min(median, 1.0), min(high, 1.0)]
-    return {"strip": ends, "overturns": float(worst["probability"])}
 
 
 def _cell(share: float | None) -> dict[str, object]:
