@@ -84,7 +84,7 @@ def channels_of(
 ) -> list[Accelerogram]:
     """Return every channel of the record's file as it was read. Raises RecordError naming record and file."""
     path = fetch(record, mirror, cache)
-    with about(f"{record.id} ({record.file})"):
+    with about(record.id):  # the reader names the file
         channels = read(
             path, unit=record.unit or None, time_step=record.time_step, inventory=inventory_of(record, mirror)
         )
