@@ -88,18 +88,6 @@ def _repeated(found: ListedFile, row: Row, first: str) -> ListedFile:
     return replace(found, row=row | note, doubts=(*found.doubts, sentence))
 
 
-def catalogue_from_folder(
-    folder: str | Path, *, unit: str | None = None, time_step: float | None = None
-) -> tuple[list[Row], list[tuple[str, str]]]:
-    """Return (rows, unread): a catalogue row for each file under `folder` that can be used, (file, reason) for others.
-
-    A file without a unit or a time step keeps a row, with a blank cell to fill. Paths are relative to `folder`: the
-    catalogue belongs there, or `folder` serves as its mirror. Options and errors as in list_folder.
-    """
-    listed = list_folder(folder, unit=unit, time_step=time_step)
-    return [f.row for f in listed if f.row], [(f.file, f.unread) for f in listed if f.unread]
-
-
 def write_catalogue_rows(rows: Iterable[Row]) -> str:
     """Return `rows` as the text of a catalogue."""
     text = StringIO(newline="")

@@ -19,21 +19,8 @@ from rocking.reports.record.sheet_figures import SHEET_HEIGHTS
 from rocking.structures.structure import Structure
 
 
-def record_report(
-    record: str,
-    accelerograms: Sequence[Accelerogram],
-    structures: Mapping[str, Structure],
-    tables: RecordTables,
-    settings: Mapping[str, Any],
-    vertical: Accelerogram | None = None,
-) -> bytes:
-    """Return the PDF of one record.
-
-    Every number printed is a cell of `tables` or of the structures table, rounded. Only curves are computed here, from
-    `accelerograms` and the mechanisms of `structures` (by name). settings: at least tolerance and acceleration_scale.
-    vertical: the vertical component, if it acted on the responses of the tables.
-    """
-    data = record_data(record, accelerograms, structures, tables, settings, vertical)
+def record_report(data: Mapping[str, object]) -> bytes:
+    """Return the PDF of one record from its `record_data`."""
     return compile_document("record/record.typ", data)
 
 
@@ -51,7 +38,12 @@ def record_data(
     settings: Mapping[str, Any],
     vertical: Accelerogram | None = None,
 ) -> dict[str, object]:
-    """Return what the template of the record report is given: texts, tables and figures."""
+    """Return what the template of the record report is given: texts, tables and figures.
+
+    Every number printed is a cell of `tables` or of the structures table, rounded. Only curves are computed here, from
+    `accelerograms` and the mechanisms of `structures` (by name). settings: at least tolerance and acceleration_scale.
+    vertical: the vertical component, if it acted on the responses of the tables.
+    """
     numbers = record_tables.structure_numbers(structures, tables.comparison)
     scale_note = record_verdict.scale_note(tables.record)
     by_component = {row.component: tables.of_component(row.component) for row in tables.record}

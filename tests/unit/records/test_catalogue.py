@@ -23,7 +23,7 @@ from rocking.records import fetch as fetching
 from rocking.records.catalogue import vertical_of
 from rocking.records.catalogue_record import COLUMNS
 from rocking.records.fetch import download, fetch
-from rocking.records.folder import catalogue_from_folder, list_folder, write_catalogue_rows
+from rocking.records.folder import list_folder, write_catalogue_rows
 from rocking.records.hashes import fill_hashes, repeated
 from rocking.records.listing import listing_text
 
@@ -32,6 +32,14 @@ TABLE = "time,NS (gal),EW (gal),UD (gal)\n" + "".join(
 )
 SHA = hashlib.sha256(TABLE.encode()).hexdigest()
 SHIPPED = Path(__file__).parents[3] / "records"
+
+
+def catalogue_from_folder(folder, **declared):
+    """Rows of the files that can be used, and (file, reason) of the others."""
+    listed = list_folder(folder, **declared)
+    return [each.row for each in listed if each.row], [
+        (each.file, each.unread) for each in listed if each.unread
+    ]
 
 
 def write(folder: Path, *rows: dict[str, str], columns: tuple[str, ...] = COLUMNS) -> Path:

@@ -171,11 +171,11 @@ def test_the_origin_names_version_file_and_time_of_the_record_and_no_time_of_the
 
 
 def test_the_same_input_gives_the_same_bytes(example):
-    assert record_report(*example.arguments) == record_report(*example.arguments)
+    assert record_report(record_data(*example.arguments)) == record_report(record_data(*example.arguments))
 
 
 def test_the_report_is_a_tagged_archive_document_of_two_to_six_pages(example):
-    document = record_report(*example.arguments)
+    document = record_report(record_data(*example.arguments))
     assert document.startswith(b"%PDF-1.7")
     assert b"<pdfaid:part>2</pdfaid:part>" in document and b"<pdfaid:conformance>A" in document
     pages = max(int(count) for count in re.findall(rb"/Count (\d+)", document))
@@ -206,8 +206,8 @@ def extracted(document: bytes) -> str:
 
 
 def test_hostile_names_are_printed_as_they_are(hostile):
-    document = record_report(*hostile.arguments)
-    assert record_report(*hostile.arguments) == document
+    document = record_report(record_data(*hostile.arguments))
+    assert record_report(record_data(*hostile.arguments)) == document
     text = extracted(document)
     for name in HOSTILE:
         assert "".join(name.split()) in text, name
@@ -218,7 +218,7 @@ def test_the_declared_factor_stands_wherever_numbers_do(hostile):
     assert "×\u00a012.5" in data["notices"][0]["text"] and data["notices"][0]["strong"]
     assert "×\u00a012.5" in data["running"]
     assert all("×\u00a012.5" in part["caption"] for part in data["verdicts"])
-    assert extracted(record_report(*hostile.arguments)).count("×12.5") >= 10
+    assert extracted(record_report(record_data(*hostile.arguments))).count("×12.5") >= 10
 
 
 def test_nothing_that_lifts_is_said_first():
@@ -231,7 +231,7 @@ def test_nothing_that_lifts_is_said_first():
 def test_a_record_without_a_structure_still_gives_a_document():
     case = assessed("empty", [shaken()], {})
     assert "No structure could be assessed" in record_data(*case.arguments)["notices"][0]["text"]
-    assert record_report(*case.arguments).startswith(b"%PDF")
+    assert record_report(record_data(*case.arguments)).startswith(b"%PDF")
 
 
 def test_a_record_without_a_pulse_still_gives_a_document():
@@ -239,7 +239,7 @@ def test_a_record_without_a_pulse_still_gives_a_document():
     case = assessed("flat", [flat], {"block": Block.of_size(1.0, 4.0)})
     data = record_data(*case.arguments)
     assert any("No pulse could be sought" in notice["text"] for notice in data["notices"])
-    assert record_report(*case.arguments).startswith(b"%PDF")
+    assert record_report(record_data(*case.arguments)).startswith(b"%PDF")
 
 
 def test_a_hundred_structures_are_all_in_the_first_table_and_few_are_drawn(example):
