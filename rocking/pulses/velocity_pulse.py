@@ -47,14 +47,13 @@ class VelocityPulse:
     """The velocity pulse of two horizontal components.
 
     period: T_p, s, pseudo-period of the wavelet. orientation: rad from the first component towards the second, in
-    (−π/2, π/2]. peak_velocity, residual_peak_velocity: m/s, in that orientation, before and after extraction.
+    (−π/2, π/2]. peak_velocity: m/s, in that orientation, before extraction.
     indicator: PI; the motion is pulse-like where PI > 0 and the pulse is not late. centre_time: s.
     """
 
     period: float
     orientation: float
     peak_velocity: float
-    residual_peak_velocity: float
     indicator: float
     late: bool
     centre_time: float
@@ -207,7 +206,6 @@ def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, c
         period=PERIOD_OF_SCALE * scale * step,
         orientation=orientation,
         peak_velocity=float(peak),
-        residual_peak_velocity=float(left),
         indicator=float(pulse_indicator(left / peak, energy, peak)),
         late=_late(velocity, pulse),
         centre_time=centre * step,
