@@ -1,5 +1,6 @@
 """What came of records, in a few lines: which structures overturn, what failed, and where to read on."""
 
+import math
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -42,14 +43,20 @@ class CameOf:
         worst: dict[tuple[str, str], float] = {}
         for case in self.cases:
             key = case.record, case.structure
-            worst[key] = max(worst.get(key, 0.0), case.found_rotation_ratio)
+            worst[key] = max(worst.get(key, 0.0), case.found_rotation_ratio, key=_severity)
         ensembles = governing_ensembles(self.ensembles)
         return {key: _verdict(ratio, ensembles.get(key)) for key, ratio in worst.items()}
 
 
+def _severity(ratio: float) -> tuple[int, float]:
+    """What is not known may overturn, and so counts for more than any rocking."""
+    return 2 if math.isinf(ratio) else int(math.isnan(ratio)), ratio
+
+
 def _verdict(ratio: float, found: EnsembleRow | None) -> tuple[str, float, str]:
     if found is None:
-        return ("rests" if rests(ratio) else "rocks" if rocks(ratio) else "overturns"), ratio, ""
+        named = {"rests": rests(ratio), "rocks": rocks(ratio), Verdict.OVERTURNS: math.isinf(ratio)}
+        return next((word for word, holds in named.items() if holds), Verdict.UNKNOWN), ratio, ""
     doubtful = found.verdict is Verdict.UNDECIDED
     return found.verdict, ratio, f"{found.overturning_members} of {found.members}" if doubtful else ""
 
@@ -76,8 +83,8 @@ def closing_lines(came: CameOf) -> list[str]:
     read = set()
     for (record, structure), (word, _, _) in came.verdicts().items():
         read.add(record)
-        if word in (Verdict.OVERTURNS, Verdict.UNDECIDED):
-            under.setdefault(structure, {})[record] = word == Verdict.UNDECIDED
+        if word in (Verdict.OVERTURNS, Verdict.UNDECIDED, Verdict.UNKNOWN):
+            under.setdefault(structure, {})[record] = word != Verdict.OVERTURNS
     failed = sorted({failure.record for failure in came.failures})
     told = f"{counted(len(failed), 'record')} failed, wholly or in part: {', '.join(failed)}"
     return [*_overturned(under, len(read)), *([told] if failed else [])]

@@ -3,6 +3,8 @@
 import math
 from pathlib import Path
 
+import pytest
+
 from rocking.assessment.rows.of_case import ComparisonRow
 from rocking.assessment.rows.of_ensemble import EnsembleRow
 from rocking.assessment.rows.of_record import FailureRow
@@ -48,6 +50,19 @@ def test_the_worst_component_counts() -> None:
     assert record_line(CameOf(cases)) == "overturns: pier; rocks: wall 0.25; rests: arch"
 
 
+@pytest.mark.parametrize(
+    ("ratios", "line"),
+    [
+        ((math.nan,), "unknown: pier"),
+        ((0.2, math.nan), "unknown: pier"),
+        ((math.nan, 0.2), "unknown: pier"),
+        ((math.nan, math.inf), "overturns: pier"),
+    ],
+)
+def test_a_component_that_is_not_known_is_not_told_as_rest(ratios, line):
+    assert record_line(CameOf([_case("a", "pier", ratio) for ratio in ratios])) == line
+
+
 def test_the_verdict_is_that_of_the_ensemble_over_all_directions() -> None:
     cases = [_case("a", "pier", math.inf), _case("a", "wall", 0.25), _case("a", "arch", 0.0)]
     ensembles = [
@@ -82,6 +97,7 @@ def test_the_table_at_the_end_names_records_and_marks_what_is_undecided() -> Non
 
 def test_nothing_overturns() -> None:
     assert closing_lines(CameOf([_case("a", "pier", 0.1)])) == ["Nothing overturns under 1 record."]
+    assert closing_lines(CameOf([_case("a", "pier", math.nan)]))[1].endswith("a?")
 
 
 def test_of_many_structures_those_that_overturn_most_are_listed() -> None:
