@@ -29,10 +29,11 @@ STRUCTURES = f"""
 - {{name: colonnade, type: frame, column_breadth_m: 1.1, column_height_m: 8.0, columns: 4, beam_mass_ratio: 0.3}}
 - {{name: spire, type: spire, width_m: 3.0, height_m: 15.0, wall_thickness_m: 0.25, crack_height_m: 5.0}}
 """
-FRAGILITY = """structure,intensity_measure,rotation_ratio,level,probability,probability_low,probability_high
-pier,pga,INF,0.1,0.0,0.0,0.2
-pier,pga,INF,0.5,0.5,0.3,0.7
-pier,pga,INF,1.0,1.0,0.8,1.0
+FRAGILITY = """structure,intensity_measure,rotation_ratio,level,probability,probability_low,probability_high,\
+lognormal,lognormal_low,lognormal_high
+pier,pga,INF,0.1,0.0,0.0,0.2,0.01,0.0,0.1
+pier,pga,INF,0.5,0.5,0.3,0.7,0.5,0.3,0.7
+pier,pga,INF,1.0,1.0,0.8,1.0,0.95,0.8,1.0
 """
 
 
