@@ -1,4 +1,4 @@
-# make: set up and run the shipped example.  make test: set up and run the tests.
+# make: set up and run the shipped example.  make test: the tests of minutes.  make test-all: every test, within an hour.
 PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
@@ -12,7 +12,7 @@ COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --
 EXECUTOR := snakemake-executor-plugin-slurm
 SLURM := workflow/profiles/slurm/requirements.lock
 
-.PHONY: all run setup slurm test bench check schema paper documentation lock clean
+.PHONY: all run setup slurm test test-all bench check schema paper documentation lock clean
 
 all: run
 
@@ -40,6 +40,10 @@ slurm: setup
 
 test: $(TOOLS)
 	$(BIN)/python -m pytest -n logical --dist loadfile
+
+# The slow ones too: research, every page, ten thousand damaged files, and twenty runs that are killed and go on.
+test-all: $(TOOLS)
+	ROCKING_KILLS=20 $(BIN)/python -m pytest -n logical --dist loadfile -m ""
 
 bench: $(TOOLS)
 	for script in tests/benchmarks/bench_*.py; do $(BIN)/python $$script || exit 1; done

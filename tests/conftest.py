@@ -20,6 +20,17 @@ settings.load_profile("any machine")
 
 sys.path.append(str(Path(__file__).parent / "oracles"))  # what several folders of tests compare with
 
+ON_DEMAND = Path(__file__).parent / "research"
+"""The tests of docs/research, each marked slow: `make test-all` runs them."""
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark every test of research as slow, before the slow ones are left out."""
+    for item in items:
+        if item.path.is_relative_to(ON_DEMAND):
+            item.add_marker(pytest.mark.slow)
+
 
 @pytest.fixture(scope="session")
 def real_records() -> Path:
