@@ -33,7 +33,10 @@ ONLY_IN = {
 }
 DRAWN = ("rocking.reports.plots", "matplotlib.axes.Axes")
 """What the methods plot() still reach up to, at their call."""
-TYPED = {("rocking.structures.capacity", "rocking.structures.structure")}
+TYPED = {
+    ("rocking.structures.capacity", "rocking.structures.structure"),
+    ("rocking.structures.equivalent_block", "rocking.structures.mechanism"),
+}
 """What still leads back for a type checker."""
 MODULES = {
     ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__"): path
