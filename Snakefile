@@ -27,15 +27,17 @@ include: "workflow/rules/assess.smk"
 include: "workflow/rules/summarise.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/histories.smk"
-include: "workflow/rules/calibrate_ensemble.smk"
 include: "workflow/rules/explore.smk"
 include: "workflow/rules/trade.smk"
 include: "workflow/rules/fragility.smk"
-include: "workflow/rules/calibrate.smk"
-include: "workflow/rules/validate.smk"
-include: "workflow/rules/compare.smk"
 include: "workflow/rules/paper.smk"
 include: "workflow/rules/documentation.smk"
+
+
+# The installed package does not carry it.
+if Path(workflow.basedir, "docs", "research").is_dir():
+
+    include: "docs/research/research.smk"
 
 
 PLAN.hashes.save()

@@ -2,10 +2,8 @@ from .assessment.fragility import Fragility as Fragility
 from .assessment.fragility import fragility as fragility
 from .assessment.single import StructureAssessment as StructureAssessment
 from .assessment.single import assess as assess
+from .assessment.trade import trade as trade
 from .assessment.verdict import Verdict as Verdict
-from .calibration.identification import BlockPrior as BlockPrior
-from .calibration.identification import Identification as Identification
-from .calibration.identification import identify as identify
 from .errors import CatalogueError as CatalogueError
 from .errors import ConfigurationError as ConfigurationError
 from .errors import MotionError as MotionError

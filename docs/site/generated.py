@@ -115,7 +115,6 @@ WINGS = {
     "sine_pulse": "Closed form under one sine pulse",
     "motion": "Integration",
     "assessment": "Assessment",
-    "calibration": "Identification from tests",
     "study": "Studies",
     "errors": "Errors",
 }

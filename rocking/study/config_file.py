@@ -27,7 +27,7 @@ def read_settings(config: Mapping[str, Any]) -> Settings:
     defects: list[str] = []
     made: Settings = _read(Settings, config, "", defects)
     if not defects:
-        for part in ("assessment", "raw_processing", "error_against_time"):
+        for part in ("assessment", "raw_processing"):
             try:
                 getattr(made, part)
             except RockingError as error:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from rocking.assessment.rows.of_folder import PER_RECORD
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
-from rocking.assessment.rows.of_trade import TRADE_TABLES
+from rocking.assessment.rows.of_trade import TradeRow
 from rocking.errors import RockingError
 from rocking.study.parts import copy_tables, parts_in
 from rocking.tables import Row, frame
@@ -14,7 +14,7 @@ from rocking.tables import Row, frame
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-_ROWS: tuple[type[Row], ...] = (*PER_RECORD, *SUMMARY_TABLES, *TRADE_TABLES.values())
+_ROWS: tuple[type[Row], ...] = (*PER_RECORD, *SUMMARY_TABLES, TradeRow)
 _TABLES = {each.table.name: each for each in _ROWS}
 
 

@@ -11,7 +11,6 @@ from typing import Any, Literal
 from rocking.assessment.ensemble import EnsembleSettings
 from rocking.assessment.fragility.settings import FragilitySettings
 from rocking.assessment.settings import AssessmentSettings
-from rocking.calibration.settings import TradeSettings
 from rocking.pulses.settings import PulseSettings
 from rocking.quantities import setting
 from rocking.records.processing import UNPROCESSED_DEFAULT, Processing
@@ -93,11 +92,8 @@ class StudyFragilitySettings:
 
 @dataclass(frozen=True)
 class StudyTradeSettings:
-    """How much is tried where error is measured against time."""
+    """When error is measured against time."""
 
-    cases: int = _of(TradeSettings, "cases", numbers=False)
-    samples: int = _of(TradeSettings, "samples", numbers=False)
-    budget_s: float = _of(TradeSettings, "budget_s", numbers=False)
     in_summary: bool = _own(False, "measure it in every run, and draw it in summary.pdf", numbers=False)
 
 
@@ -117,11 +113,6 @@ class Settings:
     )
     structures: str = _own("structures.yaml", "which structures, SI units and degrees", numbers=False)
     results: str = _own("results", "folder of the results", numbers=False)
-    calibration_catalogue: str = _own(
-        "records/near_fault.csv",
-        "real near-fault records, for the targets calibrate and paper",
-        numbers=False,
-    )
     mirror: str | None = _own(None, "folder that already holds the files of remote records", numbers=False)
     processing: ProcessingSettings = _section(ProcessingSettings, "Processing, told in every report")
     acceleration_scale: Scale = _of(AssessmentSettings, "acceleration_scale", heading="Method")
@@ -142,14 +133,6 @@ class Settings:
         StudyFragilitySettings, "Fragility from all records of the study: snakemake fragility"
     )
     trade: StudyTradeSettings = _section(StudyTradeSettings, "Trade of error for time: snakemake trade")
-    comparison_share: float = _own(
-        1.0,
-        "share of the cases that are run; 1: as in the documentation",
-        heading="Work against precision of several codes: snakemake compare",
-        numbers=False,
-        ge=0.01,
-        le=1.0,
-    )
     reports: bool = _own(
         True, "PDF reports; the tables are written either way", heading="Output", numbers=False
     )
@@ -181,11 +164,6 @@ class Settings:
     def fragility_analysis(self) -> FragilitySettings:
         """What the target fragility measures with."""
         return FragilitySettings(**self._values(FragilitySettings))
-
-    @property
-    def error_against_time(self) -> TradeSettings:
-        """How much the target trade tries."""
-        return TradeSettings(**self._values(TradeSettings), assessment=self.assessment)
 
     def numbers(self) -> dict[str, Any]:
         """The settings that change a number of a table, by their full name."""

@@ -9,7 +9,7 @@ from rocking.assessment.rows.of_study import SUMMARY_TABLES
 from rocking.reports.style import svg
 from rocking.reports.summary.figures import prediction_scatter
 from rocking.reports.summary.report import summary_report
-from rocking.reports.trade.report import trade_picture
+from rocking.reports.trade import trade_picture
 from rocking.tables import frame, write_whole
 
 _GOVERNING = ("structure", "record", "level", "overturning_probability")

@@ -17,7 +17,7 @@ def workflow_folder() -> Path:
 
 
 def start(folder: Path) -> list[Path]:
-    """Write config.yaml, structures.yaml and records/ into `folder` and return what was written.
+    """Write config.yaml and structures.yaml into `folder` and return what was written.
 
     Raises ConfigurationError, before anything is written, when one of the files stands there already.
     """
@@ -33,11 +33,9 @@ def start(folder: Path) -> list[Path]:
 
 
 def _starting_files() -> Mapping[str, bytes]:
-    workflow, real = workflow_folder() / "workflow", Path("records", "near_fault.csv")
     return {
         "config.yaml": commented_yaml(Settings()).encode(),
-        "structures.yaml": (workflow / "structures.yaml").read_bytes(),
-        str(real): (workflow_folder() / real).read_bytes(),
+        "structures.yaml": (workflow_folder() / "workflow" / "structures.yaml").read_bytes(),
     }
 
 

@@ -21,7 +21,7 @@ FLOORS = [
     {"pulses"},
     {"sine_pulse", "motion"},
     {"assessment"},
-    {"calibration", "reports"},
+    {"reports"},
     {"study"},
 ]
 ONLY_IN = {

@@ -78,7 +78,7 @@ def test_on_a_terminal_a_bar_stands_below_lines_that_fit(finished, tmp_path: Pat
 @pytest.mark.slow
 def test_a_long_target_shows_how_far_it_is(finished, tmp_path: Path) -> None:
     study = finished.copy_to(tmp_path / "study")
-    done = study.rocking("run", str(study.folder), "trade", "--", "--config", "trade={cases: 2, budget_s: 1}")
+    done = study.rocking("run", str(study.folder), "trade")
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "trade: 1 of 2: good_" in done.stdout and "trade: 2 of 2: good_" in done.stdout
+    assert "trade: 1 of 3: good_" in done.stdout and "trade: 3 of 3: good_" in done.stdout
     assert "Finished: trade" in done.stdout

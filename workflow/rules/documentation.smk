@@ -6,7 +6,7 @@ rule documentation:
         pages=sorted(
             str(path)
             for path in Path(workflow.basedir, "docs").rglob("*")
-            if path.suffix in (".css", ".js", ".md", ".py", ".yml")
+            if path.suffix in (".css", ".js", ".md", ".py", ".yml") and "research" not in path.parts
         ),
         schemas=[
             f"{workflow.basedir}/workflow/schemas/{name}.schema.yaml" for name in ("config", "structures")

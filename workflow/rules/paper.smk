@@ -3,7 +3,7 @@
 
 rule paper:
     input:
-        catalogue=SETTINGS.calibration_catalogue,
+        catalogue=f"{workflow.basedir}/records/near_fault.csv",
         source=sorted(
             str(path) for path in Path(workflow.basedir, "docs", "paper").iterdir() if path.is_file()
         ),

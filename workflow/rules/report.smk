@@ -38,7 +38,7 @@ for JOB, RECORDS in PLAN.jobs.items():
 rule report_summary:
     input:
         tables=[f"{SUMMARY}/{table}.csv" for table in SUMMARIES],
-        trade=f"{SUMMARY}/trade_methods.csv" if SETTINGS.trade.in_summary else [],
+        trade=f"{SUMMARY}/trade.csv" if SETTINGS.trade.in_summary else [],
         fragility=FRAGILITY if SETTINGS.fragility.in_every_run else [],
     output:
         document=report(

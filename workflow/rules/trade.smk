@@ -1,11 +1,9 @@
 """Measure what accuracy costs, on records and structures of this study, and say which method to buy."""
 
-from rocking.assessment.rows.of_trade import TRADE_TABLES
-
 
 rule trade:
     output:
-        [f"{SUMMARY}/{table}.csv" for table in TRADE_TABLES],
+        table=f"{SUMMARY}/trade.csv",
         description=f"{SUMMARY}/trade.json",
         pdf=f"{SUMMARY}/trade.pdf",
         svg=f"{SUMMARY}/trade.svg",
@@ -14,8 +12,7 @@ rule trade:
     benchmark:
         f"{SUMMARY}/benchmarks/trade.tsv"
     params:
-        settings=SETTINGS.mapping()["trade"],
-        intensity_measure=SETTINGS.fragility.intensity_measure,
+        settings_sha256=PLAN.settings_sha256,
         records_sha256=[PLAN.records_sha256(job) for job in PLAN.jobs],
         files_sha256=PLAN.files_sha256(*PLAN.jobs),
         structures_sha256=PLAN.structures_sha256,

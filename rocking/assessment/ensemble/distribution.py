@@ -13,9 +13,9 @@ UNANIMOUS = 64
 """Members of which none overturns, or none stands, that settle a verdict."""
 FAR = 0.3
 """Largest rotation ratio of fewer members up to which they settle that it stands: of 16 on the sites for choosing, no
-case up to it overturned in more than 2 % of 64. rocking.calibration.answers measures what it does on all sites."""
+case up to it overturned in more than 2 % of 64. docs/research measures what it does on all sites."""
 LATTICE_ERROR = 4.0
-"""Members times the error of a probability that 95 in 100 cases stay below; see rocking.calibration.ensembles."""
+"""Members times the error of a probability that 95 in 100 cases stay below; see docs/research/ensembles.py."""
 _STRATA = 8
 """Parts of its range between which the share of a continuous cause is measured."""
 

@@ -8,10 +8,8 @@ import numpy as np
 import pytest
 from tied import Held, TiedBody
 
-from rocking.errors import MotionError
 from rocking.motion import Members, integrate, integrate_batch, integrate_members
 from rocking.motion.contact_check import check_model
-from rocking.motion.reference import reference_maximum
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
@@ -389,13 +387,6 @@ def test_the_critical_rotation_is_where_the_way_out_loses_its_hold():
     )
     assert yields.at("gravity", yields.critical_rotation) == pytest.approx(0.0, abs=1e-12)
     assert side.frequency_parameter > 0 and yields.frequency_parameter > 0
-
-
-def test_the_reference_solution_refuses_what_remembers():
-    with pytest.raises(
-        MotionError, match="ties that yield or break, but the reference solution knows elastic ones"
-    ):
-        reference_maximum(FACADE.mechanism(), Accelerogram(np.ones(5), 0.01))
 
 
 @pytest.mark.parametrize("stiffness", [4e5, 4e7, 4e9])

@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from jsonschema import Draft7Validator
 
 from rocking.assessment.settings import AssessmentSettings
-from rocking.calibration.settings import TradeSettings
 from rocking.errors import ConfigurationError
 from rocking.pulses import PulseSettings
 from rocking.records.processing import UNPROCESSED_DEFAULT
@@ -55,7 +54,6 @@ def test_what_a_part_of_the_package_takes_by_default_is_the_default_of_a_study()
     settings = Settings()
     assert settings.assessment == AssessmentSettings()
     assert settings.raw_processing == UNPROCESSED_DEFAULT
-    assert settings.error_against_time == TradeSettings()
 
 
 def test_a_value_reaches_the_part_it_is_for() -> None:
@@ -63,14 +61,12 @@ def test_a_value_reaches_the_part_it_is_for() -> None:
         "tolerance": 1e-9,
         "pulse": {"highest_frequency_hz": 8, "choice": "demand"},
         "processing": {"high_pass_hz": None},
-        "trade": {"cases": 3},
     }
     settings = read_settings(config)
     assert settings.assessment == AssessmentSettings(
         tolerance=1e-9, pulse=PulseSettings(highest_frequency=8.0), pulse_choice="demand"
     )
     assert settings.raw_processing == replace(UNPROCESSED_DEFAULT, high_pass=None)
-    assert settings.error_against_time.cases == 3
 
 
 def test_the_shipped_files_are_those_that_the_tree_writes(tmp_path: Path) -> None:
@@ -123,7 +119,7 @@ def test_all_defects_stand_in_one_message_each_with_its_value_and_what_is_allowe
         "setting pulse.lowest_frequency_hz is -1 Hz, but must be a number above 0.",
         "setting pulse.frequencies_per_octave is 24.0, but must be a whole number from 4 to 200.",
         "setting pulse.choice is 'best', but must be energy or demand or velocity.",
-        "setting trade is 3, but must be a mapping of cases, samples, budget_s, in_summary.",
+        "setting trade is 3, but must be a mapping of in_summary.",
         "setting records_per_job is 0, but must be a whole number of at least 1 or null.",
     ]
 

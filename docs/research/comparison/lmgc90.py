@@ -1,0 +1,102 @@
+"""Rigid bodies on a moving base by LMGC90 (non-smooth contact dynamics): a case from standard input, answered in JSON.
+
+The shock law is inelastic (IQS_CLB) with more friction than the bodies need, so that an impact keeps what the balance
+of angular momentum keeps. The method is of first order: three time steps are run and extrapolated.
+"""
+
+import math
+
+import numpy as np
+from scipy.integrate import cumulative_trapezoid
+
+from docs.research.comparison.bodies import RigidBodies, rigid_bodies
+from docs.research.comparison.cases import structures
+from docs.research.comparison.runs import Run, landings, run_of, serve, still_from
+from rocking.quantities import GRAVITY
+
+STEPS = (2e-3, 1e-3, 5e-4)
+"""Time steps, s."""
+FRICTION = 5.0
+STILL = 6.0
+"""How long still ground is followed, in units of 1/p."""
+FALLEN = 6.0
+"""Turn of a body, in critical rotations, from which nothing comes back."""
+ALERT = 1e-2
+"""Gap within which contacts are sought, m."""
+
+
+def runs(given: dict) -> list[Run]:
+    """Return the runs of a case."""
+    bodies = rigid_bodies(structures()[given["structure"]])
+    return [_run(given, bodies, step) for step in STEPS]
+
+
+def _run(given: dict, bodies: RigidBodies, step: float) -> Run:
+    times, turns, centres = _follow(given, bodies, step)
+    rotation, critical = bodies.rotation(turns), given["critical_rotation"]
+    largest = int(np.abs(rotation).argmax())
+    if np.abs(turns[-1]).max() > FALLEN * critical:
+        return Run(math.inf, landings=landings(times, rotation))
+    energy = _energy(bodies, times, turns, centres)
+    return run_of(given, times, rotation, energy, bodies.outside_hinges(turns[largest]))
+
+
+def _follow(given: dict, bodies: RigidBodies, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Times (n,), counterclockwise turns (n, bodies) and centres of mass (n, bodies, 2), until the end or a fall."""
+    from compas_lmgc90.solver import Solver
+
+    solver = Solver(dt=step, theta=0.5, density=2000.0)
+    solver.geometry_from_v_f([_prism(polygon) for polygon in bodies.polygons])
+    times, speed = _base(given, step)
+    for body in bodies.driven:
+        for component in ("Vy", "Vz", "Rx", "Ry", "Rz"):
+            solver.apply_velocity(body, component, 0.0)
+        solver.apply_velocity(body, "Vx", np.array([[*times, times[-1] + 1], [*speed, speed[-1]]]))
+    solver.contact_law("IQS_CLB", FRICTION, alert=ALERT)
+    solver.preprocess()
+    # LMGC90 turns the frame of a body into its principal axes before it starts.
+    axes = np.array(solver.init_frame)
+    turns, centres = [np.zeros(len(bodies.polygons))], [np.array(solver.init_coor)]
+    for _ in range(times.size - 1):
+        state = solver.lmgc90.compute_one_step()
+        turned = np.array(state.body_frames).reshape(-1, 3, 3).transpose(0, 2, 1) @ axes
+        turns.append(np.arctan2(turned[:, 2, 0], turned[:, 0, 0]))
+        centres.append(np.array(state.bodies))
+        if np.abs(turns[-1]).max() > FALLEN * given["critical_rotation"]:
+            break
+    solver.finalize()
+    return times[: len(turns)], np.array(turns), np.array(centres)[:, :, [0, 2]]
+
+
+def _energy(bodies: RigidBodies, times: np.ndarray, turns: np.ndarray, centres: np.ndarray) -> np.ndarray:
+    """Energy (n,) relative to the ground, per density and thickness, from differences over two steps."""
+    masses, gyrations = bodies.masses()
+    moved = centres - centres[:, bodies.driven[:1]]
+    velocity, spin = np.gradient(moved, times, axis=0), np.gradient(turns, times, axis=0)
+    moving = ((velocity**2).sum(axis=2) + gyrations * spin**2) @ masses / 2
+    return moving + GRAVITY * (centres[:, :, 1] - centres[0, :, 1]) @ masses
+
+
+def _base(given: dict, step: float) -> tuple[np.ndarray, np.ndarray]:
+    """Times and velocity of the base, the acceleration linear between its samples."""
+    acceleration, sample = np.array(given["acceleration"]), given["time_step"]
+    velocity = cumulative_trapezoid(acceleration, dx=sample, initial=0.0)
+    end = still_from(given) + STILL / given["frequency_parameter"]
+    times = np.arange(int(end / step) + 2) * step
+    place = np.minimum((times / sample).astype(int), acceleration.size - 2)
+    inside = np.minimum(times - place * sample, sample)
+    slope = (acceleration[place + 1] - acceleration[place]) / sample
+    return times, velocity[place] + inside * (acceleration[place] + slope * inside / 2)
+
+
+def _prism(polygon: np.ndarray) -> dict:
+    """The polygon as a body 1 m thick, its faces wound outwards."""
+    count = len(polygon)
+    corners = [[x, y, z] for y in (-0.5, 0.5) for x, z in polygon.tolist()]
+    ends = [list(range(count)), list(range(2 * count - 1, count - 1, -1))]
+    sides = [[k, count + k, count + (k + 1) % count, (k + 1) % count] for k in range(count)]
+    return {"vertices": corners, "faces": ends + sides}
+
+
+if __name__ == "__main__":
+    serve(runs, "The verdict depends on the time step.")

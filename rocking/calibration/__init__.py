@@ -1,1 +1,0 @@
-"""Calibration: how far each method may be trusted, and what accuracy costs."""

@@ -1,1 +1,0 @@
-"""Validation: predictions held against shake-table tests that took no part in the fit."""

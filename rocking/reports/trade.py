@@ -1,0 +1,72 @@
+"""The report of the trade of error for time, from its table."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from rocking.assessment.rows.of_trade import TradeMethod, TradeRow
+from rocking.reports import printing
+from rocking.reports.document import compile_document
+from rocking.reports.style import new_figure, picture, styled, svg
+from rocking.tables import read_table, write_whole
+
+SMALLEST_ERROR = 1e-8
+"""Smaller errors, down to none at all, are drawn here."""
+_MARKERS = dict(zip(TradeMethod, "opsdD^*", strict=True))
+
+
+def write_trade_report(folder: Path, pdf: Path, image: Path) -> None:
+    """Set the table in `folder` as the files `pdf` and `image` (SVG)."""
+    rows = read_table(TradeRow, folder)
+    table = printing.table_of(
+        rows,
+        ("Method", "1.4", "l", lambda row: row.method),
+        ("Structure", "1.6", "l", lambda row: row.structure or "all"),
+        ("Cases", "0.5", "r", lambda row: printing.whole(row.cases)),
+        ("Median error (%)", "0.8", "r", lambda row: printing.number(100 * row.error, 2)),
+        ("95 % quantile (%)", "0.8", "r", lambda row: printing.number(100 * row.error_high, 2)),
+        ("Wrong verdicts", "0.7", "r", lambda row: printing.whole(row.wrong_verdicts)),
+        ("unsafe", "0.6", "r", lambda row: printing.whole(row.unsafe_verdicts)),
+        ("A response (ms)", "0.8", "r", lambda row: printing.number(1e3 * row.cpu_s, 2)),
+        ("A record (ms)", "0.7", "r", lambda row: printing.number(1e3 * row.preparation_record_s, 2)),
+        ("Pays from", "0.6", "r", lambda row: printing.number(row.pays_from)),
+    )
+    caption = (
+        "Cases: those in which the method or the reference, the mechanism at a tolerance of 1e-12, does not rest. "
+        "Errors: of the largest rotation where both rock. Unsafe: verdicts that say less than the reference. A record: "
+        "the search for its pulses. Pays from: structures per record from which it costs less than the mechanism at "
+        "1e-6, that search counted. The ensemble answers for all alike cases; its error is that of its median."
+    )
+    parts = [*trade_picture(folder), {**table, "caption": caption}]
+    subtitle = "Processor times of the machine that measured, on the records and structures of the study."
+    data = {"title": "What accuracy costs", "subtitle": subtitle, "parts": parts}
+    write_whole(pdf, compile_document("plain.typ", data))
+    write_whole(image, svg(trade_figure(rows)).encode())
+
+
+def trade_picture(folder: Path) -> list[dict[str, str]]:
+    """Return the figure and its conclusion for another document; nothing where no structure was followed."""
+    rows = [row for row in read_table(TradeRow, folder) if row.structure == ""]
+    said = "; ".join(
+        f"{row.method}: {1e3 * row.cpu_s:.2g} ms, {printing.of(row.wrong_verdicts, row.cases)} verdicts wrong"
+        for row in rows
+    )
+    shown = picture(trade_figure(rows), "Median error against processor time of every method.")
+    caption = "Median error of the largest rotation against the processor time of one response, over all structures."
+    return [shown | {"caption": caption, "conclusion": f"{said}."}] if rows else []
+
+
+@styled
+def trade_figure(rows: Sequence[TradeRow]) -> Figure:
+    """Draw what each method errs against what it costs, over all structures."""
+    figure = new_figure(80, margins=(16, 60, 12, 4))
+    panel = figure.subplots()
+    for row in (each for each in rows if each.structure == "" and each.error >= 0):
+        error = max(row.error, SMALLEST_ERROR)
+        panel.plot(1e3 * row.cpu_s, error, _MARKERS[row.method], markersize=6, label=row.method)
+    panel.set(xscale="log", yscale="log", xlabel="processor time of a response (ms)")
+    panel.set_ylabel("relative error of the largest rotation")
+    panel.grid(True)
+    figure.legend(loc="center right")
+    return figure

@@ -1,1 +1,0 @@
-"""The trade of error for time as a document."""

@@ -1,0 +1,93 @@
+"""Ensembles held against draws: trials are what they say, and a measure counts what it names."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from docs.research.ensembles import (
+    CHOSEN,
+    LEFT_OUT,
+    EnsembleTrial,
+    ensemble_accuracy,
+    try_ensembles,
+    write_ensemble_accuracy,
+)
+from rocking.assessment.verdict import Verdict
+from rocking.records import Accelerogram
+from rocking.structures import Block
+from rocking.tables import read_rows
+
+TIMES = np.arange(0, 6, 0.01)
+RECORDS = [
+    (
+        f"made {k}",
+        Accelerogram(
+            np.sin(2 * np.pi * TIMES / period) * np.exp(-((TIMES - 2) ** 2)),
+            0.01,
+            event="made",
+            station=f"{k}",
+        ),
+    )
+    for k, period in enumerate((0.5, 0.8, 1.1, 1.6))
+]
+STRUCTURES = {"slender": Block(2.0, 0.15), "stout": Block(3.0, 0.3)}
+TRIAL = EnsembleTrial(
+    record="a",
+    site="s",
+    half=CHOSEN,
+    structure="b",
+    scale_factor=1.0,
+    verdict=Verdict.UNDECIDED,
+    members=64,
+    probability=0.5,
+    probability_64=0.5,
+    probability_256=0.5,
+    probability_drawn=0.5,
+    draws=4000,
+    inside_band=0.9,
+)
+
+
+def _measured(trials: list[EnsembleTrial]) -> dict[str, float]:
+    return {row.measure: row.value for row in ensemble_accuracy(trials, replicates=20)}
+
+
+def test_trials_are_the_same_at_every_call_and_scatter_about_the_draws():
+    trials = list(try_ensembles(RECORDS, [], STRUCTURES, draws=400))
+    again = try_ensembles(RECORDS, [], STRUCTURES, draws=400)
+    assert [repr(trial) for trial in again] == [repr(trial) for trial in trials]
+    assert len(trials) == 3 * len(RECORDS) and {trial.draws for trial in trials} == {400}
+    for trial in trials:
+        spread = 4 * math.sqrt(0.25 / 400)
+        assert abs(trial.probability_256 - trial.probability_drawn) < spread, (
+            "four standard errors of the draws"
+        )
+
+
+def test_each_measure_counts_what_it_names():
+    wrong = replace(TRIAL, probability_64=0.6, probability_256=0.54, site="t")
+    sure = replace(TRIAL, verdict=Verdict.STANDS, probability=0.0, probability_drawn=0.09, site="u")
+    found = _measured([TRIAL, wrong, sure])
+    assert found["share within 0.07 with 64 members"] == pytest.approx(1 / 3)
+    assert found["share within 0.035 with 256 members"] == pytest.approx(1 / 3)
+    assert found["share of verdicts beyond their risk by more than 0.03"] == 1
+    assert found["share of cases decided"] == pytest.approx(1 / 3)
+    assert found["Brier score"] == pytest.approx((0.25 + 0.25 + 0.09 * 0.91 + 0.09**2) / 3)
+
+
+def test_halves_are_kept_apart_and_the_tables_can_be_read(tmp_path):
+    halves = {row.half for row in ensemble_accuracy([TRIAL, replace(TRIAL, half=LEFT_OUT)], replicates=5)}
+    assert halves == {CHOSEN, LEFT_OUT}
+    write_ensemble_accuracy(RECORDS[:1], [], STRUCTURES, tmp_path)
+    (*trials,) = read_rows(EnsembleTrial, tmp_path / "ensemble_trials.csv")
+    assert [trial.structure for trial in trials] == ["slender", "stout", "slender"]
+
+
+def test_a_site_counts_once_and_what_came_later_is_left_out():
+    half = len(RECORDS) // 2
+    trials = list(try_ensembles(RECORDS[:half], RECORDS, STRUCTURES, draws=20))
+    assert [trial.record for trial in trials[::3]] == [name for name, _ in RECORDS]
+    assert {trial.half for trial in trials[3 * half :]} == {LEFT_OUT}
+    assert {trial.half for trial in try_ensembles(RECORDS, [], STRUCTURES, draws=20)} == {CHOSEN}

@@ -1,0 +1,148 @@
+"""Identification: known structures are found again, and predictions hold on tests that took no part."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from docs.research.identification import PARAMETERS, BlockPrior, identify, overturning_table, two_sided_block
+from rocking.errors import ConfigurationError
+from rocking.motion.integration import integrate
+from rocking.records import Accelerogram
+from rocking.records.processing import Processing
+from rocking.structures import Block
+
+STEP = 0.02
+TRUTH = (0.13, 0.11, 4.5, 0.9)
+PRIOR = BlockPrior((0.06, 0.2), (2.5, 8.0), restitution=(0.75, 0.99), size=256)
+
+
+def motion(seed: int, peak: float) -> Accelerogram:
+    """A few seconds of coloured noise that swells and fades, of a peak acceleration in m/s²."""
+    draw = np.random.default_rng(seed)
+    times = np.arange(500) * STEP
+    shape = np.sin(np.pi * times / times[-1]) ** 2
+    tones = sum(
+        draw.normal() * np.sin(2 * np.pi * f * times + draw.uniform(0, 7)) / f for f in (0.4, 0.7, 1.1, 1.9)
+    )
+    values = shape * tones
+    return Accelerogram(values * peak / np.abs(values).max(), STEP, event=str(seed))
+
+
+def campaign(seeds: range, scatter: float) -> tuple[list[Accelerogram], list[bool]]:
+    """Each motion at seven scales, and how a specimen ends whose λ scatters from test to test."""
+    draw = np.random.default_rng(99)
+    records, outcomes = [], []
+    for seed in seeds:
+        for peak in np.geomspace(1.0, 6.0, 7):
+            change = math.exp(scatter * draw.normal())
+            block = two_sided_block(TRUTH[0] * change, TRUTH[1] * change, TRUTH[2], TRUTH[3])
+            records.append(motion(seed, peak))
+            outcomes.append(math.isinf(integrate(block, records[-1]).rotation_ratio))
+    return records, outcomes
+
+
+@pytest.fixture(scope="module")
+def found():
+    records, outcomes = campaign(range(12), 0.05)
+    return identify(records, outcomes, PRIOR, motions=[each.event for each in records], workers=1)
+
+
+def test_the_true_parameters_lie_within_the_ranges(found):
+    for name, value in zip(PARAMETERS, TRUTH, strict=True):
+        low, median, high = found.ranges()[name]
+        assert low <= value <= high
+        assert low <= median <= high
+
+
+def test_the_ranges_are_narrower_than_the_prior(found):
+    low, _, high = found.ranges()["uplift_multiplier_positive"]
+    prior_low, prior_high = np.quantile(PRIOR.parameters()[:, 0], [0.05, 0.95])
+    assert high / low < 0.8 * prior_high / prior_low
+
+
+def test_motions_that_took_no_part_are_predicted(found):
+    records, outcomes = campaign(range(100, 112), 0.05)
+    probability = found.overturning_probabilities(records)
+    share = np.mean(outcomes)
+    assert 0.1 < share < 0.9
+    assert np.mean((probability > 0.5) == outcomes) >= 0.9
+    assert np.mean((probability - outcomes) ** 2) < 0.4 * share * (1 - share)
+
+
+def test_one_record_and_many_agree(found):
+    record = motion(200, 3.0)
+    assert found.overturning_probability(record) == found.overturning_probabilities([record])[0]
+
+
+def test_probabilities_keep_clear_of_certainty(found):
+    still = Accelerogram(np.full(50, 0.01), STEP)
+    assert 1e-5 < found.overturning_probability(still) < 0.05
+
+
+def test_any_structure_may_be_a_candidate():
+    """A wall of blocks whose breadth alone is unknown: the weights sit where the truth is."""
+    truth, breadths = 0.16, np.linspace(0.08, 0.24, 9)
+    candidates = [Block(1.2, each) for each in breadths]
+    records = [motion(seed, peak) for seed in range(6) for peak in np.geomspace(0.8, 8.0, 5)]
+    outcomes = [math.isinf(integrate(Block(1.2, truth), each).rotation_ratio) for each in records]
+    found = identify(records, outcomes, candidates, workers=1)
+    assert found.mixture.weights @ breadths == pytest.approx(truth, abs=0.015)
+    with pytest.raises(ConfigurationError, match="ranges are known of equivalent blocks only"):
+        found.ranges()
+
+
+def test_the_same_processing_goes_before_fit_and_prediction():
+    """An offset of the sensor is taken out of both, or of neither."""
+    records = [motion(seed, peak) for seed in range(4) for peak in (1.0, 2.5, 5.0)]
+    outcomes = [math.isinf(integrate(two_sided_block(*TRUTH), each).rotation_ratio) for each in records]
+    shifted = [Accelerogram(each.acceleration + 0.15, STEP) for each in records]
+    plain = [
+        Accelerogram(a - np.polyval(np.polyfit(np.arange(a.size), a, 1), np.arange(a.size)), STEP)
+        for a in (each.acceleration for each in records)
+    ]
+    prior = replace(PRIOR, size=64)
+    with_offset = identify(shifted, outcomes, prior, processing=Processing(baseline="linear"))
+    without = identify(plain, outcomes, prior)
+    assert np.array_equal(with_offset.members, without.members)
+    assert np.array_equal(
+        with_offset.overturning_probabilities(shifted), without.overturning_probabilities(plain)
+    )
+
+
+def test_the_table_says_what_integrate_says():
+    blocks = PRIOR.blocks()[:16]
+    records = [motion(3, 2.0), motion(4, 4.0)]
+    table = overturning_table(blocks, records)
+    expected = [[math.isinf(integrate(block, each).rotation_ratio) for block in blocks] for each in records]
+    assert table.tolist() == expected
+
+
+def test_the_prior_fills_its_box():
+    values = BlockPrior((0.1, 0.1), (3.0, 6.0), 2.0, (0.8, 0.9), size=512).parameters()
+    assert np.allclose(values[:, 0] * values[:, 1], 0.01)
+    ratio = values[:, 0] / values[:, 1]
+    assert 0.5 <= ratio.min() < 0.51
+    assert 1.96 < ratio.max() <= 2.0
+    assert np.exp(np.log(values[:, 2]).mean()) == pytest.approx(math.sqrt(18), rel=1e-2)
+    assert values[:, 3].mean() == pytest.approx(0.85, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("settings", "told"),
+    [
+        ({"size": 100}, "power of two"),
+        ({"restitution": (0.9, 1.2)}, "restitution, highest"),
+        ({"uplift_multiplier": (0.2, 0.1)}, "uplift_multiplier, highest"),
+        ({"side_ratio": 0.5}, "side_ratio"),
+    ],
+)
+def test_a_prior_out_of_order_is_refused(settings, told):
+    with pytest.raises(ConfigurationError, match=told):
+        replace(PRIOR, **settings)
+
+
+def test_sequences_of_unlike_length_are_refused():
+    with pytest.raises(ConfigurationError, match="1 records, 2 outcomes and 1 motions"):
+        identify([motion(1, 2.0)], [True, False], PRIOR)

@@ -1,0 +1,50 @@
+"""The trade of error for time: what each row says is what the methods themselves say."""
+
+import math
+
+import numpy as np
+import pytest
+
+import rocking
+from rocking.assessment.rows.of_trade import TradeMethod
+
+STRUCTURES = {"block": rocking.Block(2.0, 0.15), "stout": rocking.Block(2.0, 0.7)}
+
+
+@pytest.fixture(scope="module")
+def records():
+    """A sine that lifts the block, one that overturns it, and one that lifts nothing."""
+    times = np.arange(0, 4, 0.01)
+    sine = np.where(times < 1.0, np.sin(2 * np.pi * times), 0.0)
+    return [rocking.Accelerogram(peak * sine, 0.01) for peak in (2.0, 9.0, 0.2)]
+
+
+@pytest.fixture(scope="module")
+def rows(records):
+    told = []
+    found = rocking.trade(records, STRUCTURES, tell=told.append)
+    assert [line.partition(":")[0] for line in told] == ["record 1", "record 2", "record 3"]
+    return {(row.method, row.structure): row for row in found}
+
+
+def test_every_method_has_a_row_for_each_structure_and_for_all(rows):
+    assert list(rows) == [(method, name) for name in ("", *STRUCTURES) for method in TradeMethod]
+
+
+def test_errors_are_those_of_the_methods(rows, records):
+    block = STRUCTURES["block"]
+    reference, answer = (rocking.integrate(block, records[0], each).rotation_ratio for each in (1e-12, 1e-3))
+    assert 0.001 < reference < 1
+    assert rows[TradeMethod.COARSE, "block"].error == pytest.approx(abs(answer / reference - 1), rel=1e-9)
+    assert rows[TradeMethod.FINE, "block"].error < 1e-6
+    assert rows[TradeMethod.MECHANISM, "block"].cases == 2, "under the weakest sine it rests"
+    assert rows[TradeMethod.MECHANISM, "block"].wrong_verdicts == 0
+
+
+def test_times_and_what_pays_go_together(rows):
+    usual = rows[TradeMethod.MECHANISM, ""].cpu_s
+    for (method, _), row in rows.items():
+        assert row.cpu_s > 0
+        assert (row.preparation_record_s > 0) == (method in (TradeMethod.ONE_SINE, TradeMethod.SINES))
+    ensemble = rows[TradeMethod.ENSEMBLE, ""]
+    assert ensemble.cpu_s > usual and math.isinf(ensemble.pays_from)
