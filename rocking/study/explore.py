@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from scipy.signal import detrend
 
+from rocking.assessment.fate import Fate
 from rocking.assessment.rows.of_case import ComparisonRow
-from rocking.assessment.rows.of_ensemble import EnsembleRow, governing_ensembles
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_fragility import FragilityRow
-from rocking.assessment.verdict import NEGLIGIBLE, Verdict
+from rocking.assessment.verdict import NEGLIGIBLE
 from rocking.errors import RockingError
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram, displacement
@@ -80,8 +80,8 @@ def _record(record: CatalogueRecord, study: Study, tables: RecordTables) -> tupl
         "failure": " ".join(failure.message for failure in tables.failures),
         "motions": {},
     }
-    ensembles = governing_ensembles(tables.ensemble)
-    cases = [_case(row, ensembles.get((row.record, row.structure))) for row in rows]
+    verdicts = {fate.structure: fate for fate in tables.verdicts}
+    cases = [_case(row, verdicts[row.structure]) for row in rows]
     if rows:
         try:
             opened = study.open(record)
@@ -108,30 +108,23 @@ def _demand(row: ComparisonRow) -> float:
     return -1.0 if math.isnan(ratio) else ratio
 
 
-def _case(row: ComparisonRow, ensemble: EnsembleRow | None) -> Content:
-    found = row.found_rotation_ratio
+def _case(row: ComparisonRow, fate: Fate) -> Content:
     case: Content = {
         "structure": row.structure,
         "component": row.component,
         "integrated": number(row.integrated_rotation_ratio),
-        "found": number(found),
+        "found": number(row.found_rotation_ratio),
         "predicted": number(row.predicted_rotation_ratio),
-        "verdict": str(ensemble.verdict if ensemble else _nominal(found)),
+        "verdict": str(fate.verdict),
     }
-    if ensemble:
+    if fate.members:
         case |= {
-            "probability": number(ensemble.overturning_probability),
-            "members": ensemble.members,
-            "low": number(ensemble.rotation_ratio_low),
-            "high": number(ensemble.rotation_ratio_high),
+            "probability": number(fate.overturning_share),
+            "members": fate.members,
+            "low": number(fate.rotation_ratio_low),
+            "high": number(fate.rotation_ratio_high),
         }
     return case
-
-
-def _nominal(ratio: float) -> Verdict:
-    if math.isnan(ratio):
-        return Verdict.UNKNOWN
-    return Verdict.OVERTURNS if math.isinf(ratio) else Verdict.STANDS
 
 
 def _motion(accelerogram: Accelerogram, tables: RecordTables) -> Content:

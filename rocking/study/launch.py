@@ -12,14 +12,17 @@ from pathlib import Path
 
 import yaml
 
+from rocking.assessment.fate import Fate
+from rocking.assessment.rows.of_record import FailureRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted
 from rocking.study.config_file import named_files
 from rocking.study.locks import ends_with, is_locked, is_stale, mark, only_run, unmark
-from rocking.study.outcome import CameOf, closing_lines, paths_to_read
+from rocking.study.outcome import closing_lines, paths_to_read
 from rocking.study.plan import Plan, make_plan
 from rocking.study.progress import NewLines, Progress, finished_rule, fitting, planned_jobs
 from rocking.study.workspace import workflow_folder
+from rocking.tables import read_rows, read_table
 
 _CORES = re.compile(r"(--cores|--jobs)(=.*)?|-[cj]\d*|-[cj]all")
 _ANSWERS = re.compile(
@@ -136,9 +139,11 @@ def _watched(folder: Path, plan: Plan, command: Sequence[str], target: str | Non
     if target is not None:
         print(f"Finished: {target}; what it wrote lies in {results}")
         return 0
-    came = CameOf.read(results / "summary")
-    print(*map(fitting, closing_lines(came)), *paths_to_read(results), sep="\n", flush=True)
-    return int(bool(came.failures))
+    summary = results / "summary"
+    failures = read_table(FailureRow, summary)
+    lines = closing_lines(read_rows(Fate, summary / Fate.table.file_name), failures)
+    print(*map(fitting, lines), *paths_to_read(results), sep="\n", flush=True)
+    return int(bool(failures))
 
 
 class _Stop:

@@ -1,93 +1,47 @@
 """What came of records, in a few lines: which structures overturn, what failed, and where to read on."""
 
-import math
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
-from rocking.assessment.rows.of_case import ComparisonRow
-from rocking.assessment.rows.of_ensemble import EnsembleRow, governing_ensembles
+from rocking.assessment.fate import ORDER, Fate
 from rocking.assessment.rows.of_record import FailureRow
-from rocking.assessment.verdict import Verdict, rests, rocks
+from rocking.assessment.verdict import Verdict, rocks
 from rocking.errors import RecordError
 from rocking.quantities import counted
-from rocking.tables import read_rows, read_table
+from rocking.tables import read_table
 
-_ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, "rocks", Verdict.STANDS, "rests", Verdict.UNKNOWN)
 _MOST = 6
 """Rows of a list at the end; a screen should hold it beside the lines of a dozen records."""
+_MARKS = {Verdict.UNDECIDED: "?", Verdict.UNKNOWN: "–"}
 
 
-@dataclass(frozen=True)
-class CameOf:
-    """The cases, failures and ensembles in the tables of a record or of a summary."""
-
-    cases: Iterable[ComparisonRow]
-    failures: Sequence[FailureRow] = ()
-    ensembles: Iterable[EnsembleRow] = ()
-
-    @classmethod
-    def read(cls, folder: Path) -> "CameOf":
-        """Read the tables in `folder`, cases and ensembles one at a time as they are asked for."""
-        return cls(
-            read_rows(ComparisonRow, folder / ComparisonRow.table.file_name),
-            read_table(FailureRow, folder),
-            read_rows(EnsembleRow, folder / EnsembleRow.table.file_name),
-        )
-
-    def verdicts(self) -> dict[tuple[str, str], tuple[str, float, str]]:
-        """Verdict, rotation ratio of the worst component, and what stands behind a doubt, by record and structure.
-
-        The verdict is that of the ensemble; without one it is what the worst component does by itself.
-        """
-        worst: dict[tuple[str, str], float] = {}
-        for case in self.cases:
-            key = case.record, case.structure
-            worst[key] = max(worst.get(key, 0.0), case.found_rotation_ratio, key=_severity)
-        ensembles = governing_ensembles(self.ensembles)
-        return {key: _verdict(ratio, ensembles.get(key)) for key, ratio in worst.items()}
-
-
-def _severity(ratio: float) -> tuple[int, float]:
-    """What is not known may overturn, and so counts for more than any rocking."""
-    return 2 if math.isinf(ratio) else int(math.isnan(ratio)), ratio
-
-
-def _verdict(ratio: float, found: EnsembleRow | None) -> tuple[str, float, str]:
-    if found is None:
-        named = {"rests": rests(ratio), "rocks": rocks(ratio), Verdict.OVERTURNS: math.isinf(ratio)}
-        return next((word for word, holds in named.items() if holds), Verdict.UNKNOWN), ratio, ""
-    doubtful = found.verdict is Verdict.UNDECIDED
-    return found.verdict, ratio, f"{found.overturning_members} of {found.members}" if doubtful else ""
-
-
-def record_line(came: CameOf) -> str:
+def record_line(verdicts: Iterable[Fate], failures: Iterable[FailureRow]) -> str:
     """Say in one line what came of a record: "overturns: pier; undecided: wall (12 of 64); stands: arch 0.31".
 
     The numbers are members of the ensemble that overturn, or the largest rotation over the critical one of the worst
     component. What could not be assessed comes first.
     """
-    parts: dict[str, list[str]] = {word: [] for word in _ORDER}
-    for (_, name), (word, ratio, behind) in came.verdicts().items():
-        number = f" ({behind})" if behind else f" {ratio:.2g}" if rocks(ratio) else ""
-        parts[word].append(name + number)
-    verdicts = [f"{word}: {', '.join(names)}" for word, names in parts.items() if names]
-    failures = came.failures
+    parts: dict[str, list[str]] = {word: [] for word in ORDER}
+    for fate in sorted(verdicts, key=lambda fate: fate.severity, reverse=True):
+        number = f" {fate.rotation_ratio:.2g}" if rocks(fate.rotation_ratio) else ""
+        parts[fate.verdict].append(fate.structure + (f" ({fate.leaning})" if fate.leaning else number))
+    verdicts_line = [f"{word}: {', '.join(names)}" for word, names in parts.items() if names]
     failed = " ".join(_sentence(failure) for failure in failures)
-    return "; ".join([f"failed: {failed}", *verdicts] if failed else verdicts)
+    return "; ".join([f"failed: {failed}", *verdicts_line] if failed else verdicts_line)
 
 
-def closing_lines(came: CameOf) -> list[str]:
-    """Return the table of what overturns, or may, under which records, and which records failed."""
-    under: dict[str, dict[str, bool]] = {}
-    read = set()
-    for (record, structure), (word, _, _) in came.verdicts().items():
-        read.add(record)
-        if word in (Verdict.OVERTURNS, Verdict.UNDECIDED, Verdict.UNKNOWN):
-            under.setdefault(structure, {})[record] = word != Verdict.OVERTURNS
-    failed = sorted({failure.record for failure in came.failures})
+def closing_lines(verdicts: Iterable[Fate], failures: Sequence[FailureRow]) -> list[str]:
+    """Return the table of what overturns, is undecided or unknown under how many records, and which records failed."""
+    under: dict[str, list[Fate]] = {}
+    records = set()
+    for fate in verdicts:
+        records.add(fate.record)
+        of_structure = under.setdefault(fate.structure, [])
+        if fate.verdict is not Verdict.STANDS:
+            of_structure.append(fate)
+    failed = sorted({failure.record for failure in failures})
     told = f"{counted(len(failed), 'record')} failed, wholly or in part: {', '.join(failed)}"
-    return [*_overturned(under, len(read)), *([told] if failed else [])]
+    return [*_table(under, len(records)), *([told] if failed else [])]
 
 
 def check_any_read(summary: str | Path, records: Collection[str]) -> None:
@@ -112,21 +66,27 @@ def paths_to_read(results: Path) -> Iterator[str]:
     yield f"Summary: {report if (report := summary / 'summary.pdf').is_file() else summary}"
 
 
-def _overturned(under: dict[str, dict[str, bool]], read: int) -> Iterator[str]:
-    if not read:
+def _table(under: dict[str, list[Fate]], records: int) -> Iterator[str]:
+    """A row for each structure that does not stand everywhere: two counts, and the names of the records."""
+    worst = {name: fates for name, fates in under.items() if fates}
+    if not records:
         return
-    if not under:
-        yield f"Nothing overturns under {counted(read, 'record')}."
+    if not worst:
+        yield f"Every structure stands under {counted(records, 'record')}."
         return
-    yield f"Overturns under how many of {counted(read, 'record')} (? where that is undecided):"
-    ordered = sorted(under.items(), key=lambda item: -len(item[1]))
-    width = max(len(name) for name, _ in ordered[:_MOST])
-    for name, records in ordered[:_MOST]:
-        names = ", ".join(record + ("?" if doubtful else "") for record, doubtful in records.items())
-        yield f"  {name:<{width}}  {len(records):>3}  {names}"
+    overturning = {name: sum(fate.verdict is Verdict.OVERTURNS for fate in worst[name]) for name in worst}
+    ordered = sorted(worst, key=lambda name: (-overturning[name], -len(worst[name])))
+    shown = ordered[:_MOST]
+    width = max(9, *map(len, shown))
+    yield f"Of {counted(records, 'record')}:"
+    yield f"  {'':<{width}}  overturns  undecided  records (?: undecided, –: unknown)"
+    for name in shown:
+        fates = sorted(worst[name], key=lambda fate: fate.severity, reverse=True)
+        undecided = sum(fate.verdict is Verdict.UNDECIDED for fate in fates)
+        names = ", ".join(fate.record + _MARKS.get(fate.verdict, "") for fate in fates)
+        yield f"  {name:<{width}}  {overturning[name]:>9}  {undecided:>9}  {names}"
     if len(ordered) > _MOST:
-        left = counted(len(ordered) - _MOST, "more structure")
-        yield f"  and {left}, in {ComparisonRow.table.file_name}"
+        yield f"  and {counted(len(ordered) - _MOST, 'more structure')}, in {Fate.table.file_name}"
 
 
 def _sentence(failure: FailureRow) -> str:

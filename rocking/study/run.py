@@ -8,10 +8,11 @@ from time import process_time
 
 from rocking.assessment.assess import Assessment, Failure, assess_structures
 from rocking.assessment.ensemble import GroundMotions, ensemble
+from rocking.assessment.fate import BOTH_COMPONENTS
 from rocking.assessment.horizontal_motion import horizontal_motions
 from rocking.assessment.method import Method
 from rocking.assessment.processings import processed
-from rocking.assessment.rows.of_ensemble import BOTH_COMPONENTS, ensemble_row
+from rocking.assessment.rows.of_ensemble import ensemble_row
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_record import TimingRow
 from rocking.assessment.rows.of_variation import candidate_rows, processing_rows
@@ -24,7 +25,7 @@ from rocking.records.catalogue import CatalogueRecord, as_declared, horizontal_o
 from rocking.records.processing import process
 from rocking.records.vertical import aligned, open_vertical
 from rocking.structures import Structure
-from rocking.study.outcome import CameOf, record_line
+from rocking.study.outcome import record_line
 from rocking.study.parts import written_part
 from rocking.study.settings import Settings
 
@@ -85,8 +86,8 @@ def assess_records(records: Iterable[CatalogueRecord], study: Study, folder: Pat
         for record in records:
             found = assess_record(record, study)
             add(found)
-            came = CameOf(found.comparison, found.failures, found.ensemble)
-            print(f"{record.id}: {record_line(came)}", file=stream, flush=True)
+            line = record_line(found.verdicts, found.failures)
+            print(f"{record.id}: {line}", file=stream, flush=True)
 
 
 def assess_record(record: CatalogueRecord, study: Study) -> RecordTables:

@@ -13,7 +13,7 @@ from rocking.reports.trade import trade_picture
 from rocking.tables import frame, write_whole
 
 _GOVERNING = ("structure", "record", "level", "overturning_probability")
-_SHOWN = ("record", "pulses", "comparison", "ensemble", "structures", "agreement", "failures")
+_SHOWN = ("record", "pulses", "comparison", "verdicts", "structures", "agreement", "failures")
 
 
 def report_summary(

@@ -16,3 +16,4 @@ SCALE_FACTOR = "What the accelerations of the file were multiplied by, beyond th
 RECORD_SHA256 = "SHA-256 of the file the record was read from"
 FREQUENCY_PARAMETER = "p of the equivalent block"
 RESTITUTION = "Ratio of angular velocities after and before an impact"
+PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift"

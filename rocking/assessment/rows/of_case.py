@@ -27,7 +27,7 @@ class ResponseRow(CaseRow):
     rotation_rad: float = column(meanings.ROTATION)
     outcome: Outcome = column(meanings.OUTCOME)
     impacts: int = column(meanings.IMPACTS)
-    peak_side: int = column("Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift")
+    peak_side: int = column(meanings.PEAK_SIDE)
     peak_time_s: float = column("Time of the largest rotation after the first sample")
     uplift_time_s: float = column("Time of the first uplift after the first sample")
     tolerance: float = column("Relative tolerance of the integration; 0 for an exact solution")

@@ -1,7 +1,5 @@
 """Rows about how sure an answer is: the ensemble of a structure under a component, or under both."""
 
-from collections.abc import Iterable
-
 import numpy as np
 
 from rocking.assessment.ensemble import Ensemble
@@ -9,8 +7,6 @@ from rocking.assessment.rows.shared import CaseRow, Identity
 from rocking.assessment.verdict import Verdict
 from rocking.tables import column, row
 
-BOTH_COMPONENTS = "both"
-"""In place of a component: the ensemble over the directions of a record."""
 _SHARE = (
     "Share of the variance of the rotation (1 where it overturns) that {} explains; empty where it is fixed"
 )
@@ -84,23 +80,6 @@ def ensemble_row(identity: Identity, structure: str, found: Ensemble, component:
         worst_polarity={"1.0": "as recorded", "-1.0": "reversed"}.get(_worst(found, "polarity"), ""),
         worst_processing=_worst(found, "processing"),
     )
-
-
-def governing_ensembles(rows: Iterable[EnsembleRow]) -> dict[tuple[str, str], EnsembleRow]:
-    """Return by record and structure the ensemble that speaks for all components.
-
-    It is the one over all directions, or where there is none the one that overturns, then rotates, most.
-    """
-    found: dict[tuple[str, str], EnsembleRow] = {}
-    for each in rows:
-        key = each.record, each.structure
-        found[key] = max(found[key], each, key=_weight) if key in found else each
-    return found
-
-
-def _weight(each: EnsembleRow) -> tuple[float, ...]:
-    known = (each.component == BOTH_COMPONENTS, each.overturning_probability, each.rotation_ratio_high)
-    return tuple(-1.0 if np.isnan(value) else value for value in known)
 
 
 def _worst(found: Ensemble, cause: str) -> str:

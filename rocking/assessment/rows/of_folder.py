@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import get_args, get_type_hints
 
 from rocking.assessment.assess import Assessment, Failure
+from rocking.assessment.fate import Fate, fates
 from rocking.assessment.horizontal_motion import HorizontalMotion
 from rocking.assessment.rows.of_case import (
     ComparisonRow,
@@ -62,6 +63,11 @@ class RecordTables:
         """Write every table into `folder`."""
         with written_together():
             write_tables({each: getattr(self, each.table.name) for each in PER_RECORD}, folder)
+
+    @property
+    def verdicts(self) -> list[Fate]:
+        """What became of each structure, all components considered."""
+        return fates(self.comparison, self.ensemble, self.failures, self.responses)
 
     @property
     def maxima(self) -> Iterator[MaximumRow]:

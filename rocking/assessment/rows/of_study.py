@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rocking.assessment.fate import Fate
 from rocking.assessment.rows import meanings
 from rocking.assessment.rows.of_case import ComparisonRow, MaximumRow
 from rocking.assessment.rows.of_ensemble import EnsembleRow
@@ -35,6 +36,7 @@ class StructureRow(Row):
     structure: str = column(meanings.STRUCTURE)
     type: str = column("Type of the structure, as in the structure list")
     geometry: str = column("Its sizes with units, as they were given")
+    crack: str = column("What opens, in a word: hinge, crack; empty where nothing else may open")
     frequency_parameter_rad_s: float = column(meanings.FREQUENCY_PARAMETER, equation="Eq. 11")
     critical_rotation_rad: float = column("Critical rotation")
     uplift_multiplier: float = column("Uplift acceleration in g", equation="Eq. 7")
@@ -135,6 +137,7 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
             structure=name,
             type=structure.type_name,
             geometry=structure.description,
+            crack=structure.moved.removesuffix(" height"),
             frequency_parameter_rad_s=side.frequency_parameter,
             critical_rotation_rad=side.critical_rotation,
             uplift_multiplier=mechanism.uplift_multiplier,
@@ -258,6 +261,7 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     PulseRow,
     ComparisonRow,
     EnsembleRow,
+    Fate,
     AgreementRow,
     MaximumRow,
     StructureRow,

@@ -5,95 +5,66 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 
-from rocking.assessment.rows.of_ensemble import EnsembleRow, governing_ensembles
+from rocking.assessment.fate import ORDER, Fate
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_record import RecordRow
 from rocking.assessment.rows.of_study import StructureRow
 from rocking.assessment.rows.of_variation import CandidateRow
-from rocking.assessment.verdict import Verdict, rests, rocks
+from rocking.assessment.verdict import Verdict, rests
 from rocking.reports import printing
 from rocking.reports.printing import NOTHING, Cell, strong, table_of, words
 
-_ROCKS, _RESTS = "rocks and stays up", "rests"
-_ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, _ROCKS, Verdict.STANDS, _RESTS, Verdict.UNKNOWN)
+_RESTS = "rests"
 
 
 @dataclass(frozen=True)
-class Fate:
-    """What is known of one structure under one record, all components considered.
+class Line:
+    """One structure on page one: its fate, and what stands beside it.
 
-    rotation_ratio: of the case as given, the worst component. direction: the worst one, and the worse sign of the
-    motion where the sides differ. ensemble: None where none was asked for.
-    crack: "crack" of a spire, else "hinge". candidate: its governing height, None without candidates.
+    crack: what opens, in a word. candidate: its governing height, None without candidates.
     processed: smallest and largest rotation ratio over the processings of the record.
     """
 
-    structure: str
-    rotation_ratio: float
-    direction: str
+    fate: Fate
     geometry: str
     crack: str
-    ensemble: EnsembleRow | None
     candidate: CandidateRow | None
     processed: tuple[float, float] | None
 
     @property
-    def verdict(self) -> str:
-        """That of the ensemble, or without one what the case as given does."""
-        if self.ensemble is not None:
-            return self.ensemble.verdict
-        if math.isnan(self.rotation_ratio):
-            return Verdict.UNKNOWN
-        word = _RESTS if rests(self.rotation_ratio) else _ROCKS if rocks(self.rotation_ratio) else ""
-        return word or Verdict.OVERTURNS
-
-    @property
-    def followed(self) -> EnsembleRow | None:
-        """The ensemble, if any of its members could be followed."""
-        return self.ensemble if self.ensemble and self.ensemble.members else None
-
-    @property
     def overturns_elsewhere(self) -> bool:
         """Whether it stays up as given and overturns when hinged or cracked at another height."""
-        stays = self.rotation_ratio < math.inf
+        stays = self.fate.rotation_ratio < math.inf
         return stays and self.candidate is not None and math.isinf(self.candidate.integrated_rotation_ratio)
 
 
-def fates(tables: RecordTables, structures: Sequence[StructureRow]) -> list[Fate]:
+def fate_lines(tables: RecordTables, structures: Sequence[StructureRow]) -> list[Line]:
     """Return what becomes of each structure, in the order of the comparison table."""
-    ensembles = {structure: found for (_, structure), found in governing_ensembles(tables.ensemble).items()}
     known = {row.structure: row for row in structures}
-    several = len({row.component for row in tables.comparison}) > 1
-    found = []
-    for name in dict.fromkeys(row.structure for row in tables.comparison):
-        cases = [row for row in tables.comparison if row.structure == name]
-        worst = max(cases, key=lambda row: _known(row.found_rotation_ratio))
+    lines = []
+    for fate in tables.verdicts:
+        name = fate.structure
         heights = [row for row in tables.candidates if row.structure == name and row.governs_record]
         done = [row.rotation_ratio for row in tables.processing if row.structure == name]
         done = [ratio for ratio in done if not math.isnan(ratio)]
-        ensemble, own = ensembles.get(name), known.get(name)
-        direction = (ensemble.worst_direction if ensemble else "") or (worst.component if several else "")
-        polarity = ensemble.worst_polarity if ensemble else ""
-        found.append(
-            Fate(
-                name,
-                worst.found_rotation_ratio,
-                ", ".join(filter(None, (direction, polarity))),
+        own = known.get(name)
+        lines.append(
+            Line(
+                fate,
                 own.geometry if own else "",
-                "crack" if own and "spire" in own.type.lower() else "hinge",
-                ensemble,
+                (own.crack if own else "") or "hinge",
                 max(heights, key=lambda row: _known(row.integrated_rotation_ratio), default=None),
                 (min(done), max(done)) if done else None,
             )
         )
-    return found
+    return lines
 
 
 def page_one_data(
     tables: RecordTables, structures: Sequence[StructureRow], numbers: Mapping[str, str]
 ) -> dict[str, object]:
     """Return what the template of the first page is given."""
-    found = fates(tables, structures)
+    found = fate_lines(tables, structures)
     return {
         "origin": origin(tables.record),
         "headlines": headlines(found),
@@ -102,28 +73,26 @@ def page_one_data(
     }
 
 
-def headlines(found: Sequence[Fate]) -> list[dict[str, str]]:
+def headlines(found: Sequence[Line]) -> list[dict[str, str]]:
     """Return the first lines of the report: each verdict with the structures that it is of, the worst first."""
-    groups: dict[str, list[Fate]] = {verdict: [] for verdict in _ORDER}
-    for fate in found:
-        groups[fate.verdict].append(fate)
-    named = {
-        verdict: [_named(fate) for fate in sorted(group, key=_rank)] for verdict, group in groups.items()
-    }
+    groups: dict[str, list[Line]] = {verdict: [] for verdict in ORDER}
+    for line in sorted(found, key=lambda line: line.fate.severity, reverse=True):
+        groups[line.fate.verdict].append(line)
+    named = {verdict: [_named(line) for line in group] for verdict, group in groups.items()}
     return printing.headlines(named)
 
 
-def remarks(found: Sequence[Fate]) -> list[str]:
+def remarks(found: Sequence[Line]) -> list[str]:
     """Return what the verdicts leave out and a reader has to know beside them, in sentences."""
     elsewhere = [
-        f"{fate.structure} ({fate.crack} at {printing.number(fate.candidate.position_m)} m)"
-        for fate in found
-        if fate.candidate and fate.overturns_elsewhere
+        f"{line.fate.structure} ({line.crack} at {printing.number(line.candidate.position_m)} m)"
+        for line in found
+        if line.candidate and line.overturns_elsewhere
     ]
     processed = [
-        fate.structure
-        for fate in found
-        if fate.processed and math.isinf(fate.processed[1]) and math.isfinite(fate.processed[0])
+        line.fate.structure
+        for line in found
+        if line.processed and math.isinf(line.processed[1]) and math.isfinite(line.processed[0])
     ]
     said = [
         (elsewhere, "Stays up as given and overturns with another height of hinge or crack: {}."),
@@ -132,24 +101,24 @@ def remarks(found: Sequence[Fate]) -> list[str]:
     return [text.format(printing.listed(names)) for names, text in said if names]
 
 
-def fate_table(found: Sequence[Fate], numbers: Mapping[str, str]) -> dict[str, object]:
+def fate_table(found: Sequence[Line], numbers: Mapping[str, str]) -> dict[str, object]:
     """Return the table of page one: one row per structure, without the columns that are empty for all."""
-    columns: list[tuple[str, str, str, Callable[[Fate], Cell]]] = [
-        ("No.", "auto", "r", lambda fate: numbers[fate.structure]),
-        ("Structure", "2.1", "l", lambda fate: strong(fate.structure, below=fate.geometry)),
-        ("Verdict", "auto", "l", lambda fate: strong(fate.verdict, fate.verdict != Verdict.STANDS)),
-        ("Over\u00adturns in", "auto", "l", _members),
+    columns: list[tuple[str, str, str, Callable[[Line], Cell]]] = [
+        ("No.", "auto", "r", lambda line: numbers.get(line.fate.structure, NOTHING)),
+        ("Structure", "2.1", "l", lambda line: strong(line.fate.structure, below=line.geometry)),
+        ("Verdict", "auto", "l", _verdict),
+        ("Over\u00adturns in", "auto", "l", lambda line: _members(line.fate)),
         ("5–95 %, of the critical rotation", "1.5", "c", _strip),
         ("from – to", "0.95", "l", _range),
-        ("As given", "0.75", "l", lambda fate: _printed(fate.rotation_ratio, fate.ensemble)),
+        ("As given", "0.75", "l", lambda line: _printed(line.fate.rotation_ratio, line.fate)),
         ("Worst hinge or crack", "0.9", "l", _height),
-        ("Processing of the record", "1", "l", lambda fate: _from_to(fate, fate.processed)),
-        ("Worst direction, sign", "0.75", "l", lambda fate: words(fate.direction)),
+        ("Processing of the record", "1", "l", lambda line: _from_to(line.fate, line.processed)),
+        ("Worst direction, sign", "0.75", "l", _direction),
     ]
     kept = [
         column
         for place, column in enumerate(columns)
-        if place < 3 or any(column[3](fate) != NOTHING for fate in found)
+        if place < 3 or any(column[3](line) != NOTHING for line in found)
     ]
     return table_of(found, *kept)
 
@@ -174,50 +143,48 @@ def _known(ratio: float) -> float:
     return -1.0 if math.isnan(ratio) else ratio
 
 
-def _rank(fate: Fate) -> tuple[float, float]:
-    probability = fate.ensemble.overturning_probability if fate.ensemble else 0.0
-    return -_known(probability), -_known(fate.rotation_ratio)
+def _verdict(line: Line) -> Cell:
+    return strong(line.fate.verdict, line.fate.verdict != Verdict.STANDS)
 
 
-def _named(fate: Fate) -> str:
-    notes = []
-    if fate.verdict == Verdict.UNDECIDED:
-        notes.append(f"overturns in {_members(fate)}")
-    if fate.candidate is not None and not rests(fate.candidate.integrated_rotation_ratio):
-        at = f"{fate.crack} at {printing.number(fate.candidate.position_m)}\u00a0m"
-        notes.append(f"as given; with the {at} it overturns" if fate.overturns_elsewhere else f"{at} governs")
-    return fate.structure + (f" ({', '.join(notes)})" if notes else "")
+def _direction(line: Line) -> str:
+    return words(", ".join(filter(None, (line.fate.direction, line.fate.polarity))))
+
+
+def _named(line: Line) -> str:
+    notes = [line.fate.leaning.replace(line.fate.count, _members(line.fate))] if line.fate.leaning else []
+    if line.candidate is not None and not rests(line.candidate.integrated_rotation_ratio):
+        at = f"{line.crack} at {printing.number(line.candidate.position_m)}\u00a0m"
+        notes.append(f"as given; with the {at} it overturns" if line.overturns_elsewhere else f"{at} governs")
+    return line.fate.structure + (f" ({', '.join(notes)})" if notes else "")
 
 
 def _members(fate: Fate) -> str:
-    found = fate.followed
-    return printing.of(found.overturning_members, found.members) if found else NOTHING
+    return printing.of(fate.overturning_members, fate.members)
 
 
-def _strip(fate: Fate) -> Cell:
-    found = fate.followed
-    if found is None:
-        return NOTHING
-    places = found.rotation_ratio_low, found.rotation_ratio_median, found.rotation_ratio_high
-    return printing.strip(places, found.overturning_probability)
+def _strip(line: Line) -> Cell:
+    fate = line.fate
+    places = fate.rotation_ratio_low, fate.rotation_ratio_median, fate.rotation_ratio_high
+    return printing.strip(places, fate.overturning_share)
 
 
-def _range(fate: Fate) -> str:
-    found = fate.followed
-    return _from_to(fate, (found.rotation_ratio_low, found.rotation_ratio_high) if found else None)
+def _range(line: Line) -> str:
+    fate = line.fate
+    return _from_to(fate, (fate.rotation_ratio_low, fate.rotation_ratio_high) if fate.members else None)
 
 
 def _from_to(fate: Fate, ends: tuple[float, float] | None) -> str:
     """A range of rotation ratios, closed up between numbers."""
     if ends is None:
         return NOTHING
-    low, high = (_printed(value, fate.ensemble) for value in ends)
+    low, high = (_printed(value, fate) for value in ends)
     if low == high:
         return low
     return f"{low}–{high}" if high[0].isdigit() and low[0].isdigit() else f"{low} – {high}"
 
 
-def _printed(ratio: float, found: EnsembleRow | None) -> str:
+def _printed(ratio: float, fate: Fate) -> str:
     """A rotation ratio with no more digits than the spread of the ensemble leaves a meaning."""
     if math.isnan(ratio):
         return NOTHING
@@ -225,14 +192,14 @@ def _printed(ratio: float, found: EnsembleRow | None) -> str:
         return "overturns"
     if rests(ratio):
         return _RESTS
-    low, high = (found.rotation_ratio_low, found.rotation_ratio_high) if found else (ratio, ratio)
-    return printing.to_spread(ratio, high - low)
+    spread = fate.rotation_ratio_high - fate.rotation_ratio_low if fate.members else 0.0
+    return printing.to_spread(ratio, spread)
 
 
-def _height(fate: Fate) -> Cell:
-    if fate.candidate is None or rests(fate.candidate.integrated_rotation_ratio):
+def _height(line: Line) -> Cell:
+    if line.candidate is None or rests(line.candidate.integrated_rotation_ratio):
         return NOTHING
-    said = _printed(fate.candidate.integrated_rotation_ratio, fate.ensemble)
+    said = _printed(line.candidate.integrated_rotation_ratio, line.fate)
     return strong(
-        f"{fate.crack} {printing.number(fate.candidate.position_m)}\u00a0m: {said}", fate.overturns_elsewhere
+        f"{line.crack} {printing.number(line.candidate.position_m)}\u00a0m: {said}", line.overturns_elsewhere
     )

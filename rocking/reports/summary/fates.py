@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.assessment.rows.of_ensemble import BOTH_COMPONENTS
 from rocking.assessment.verdict import Verdict
 from rocking.reports import printing
 from rocking.reports.printing import NOTHING, Cell, strong, table
@@ -14,45 +13,13 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 MOST_MATRIX_RECORDS = 40
-"""Records of the matrix, those under which most overturns; ensemble.csv holds all."""
+"""Records of the matrix, those under which most overturns; verdicts.csv holds all."""
 MOST_MATRIX_STRUCTURES = 20
 """Structures of the matrix, in the order of the list."""
 _CASE = ["record", "structure"]
+_SEVERITY = ["overturning_share", "rotation_ratio_high", "rotation_ratio"]
 _BAND = ("rotation_ratio_low", "rotation_ratio_median", "rotation_ratio_high")
-_OF_ENSEMBLE = [
-    "verdict",
-    "overturning_probability",
-    "overturning_members",
-    "members",
-    *_BAND,
-]
 _COUNTED = (Verdict.OVERTURNS, Verdict.UNDECIDED, Verdict.STANDS)
-
-
-def fates(comparison: "DataFrame", ensemble: "DataFrame") -> "DataFrame":
-    """Return one row per record and structure, all components considered.
-
-    The ensemble over all directions speaks, or where there is none the component that overturns, then rotates, most;
-    without any ensemble the single run of the worst component.
-    """
-    ratio = comparison["integrated_rotation_ratio"].fillna(comparison["answer_rotation_ratio"])
-    single = comparison[_CASE].assign(ratio=ratio).groupby(_CASE, sort=False, observed=True, as_index=False)
-    order = ["of_all", "overturning_probability", "rotation_ratio_high"]
-    ordered = ensemble.assign(of_all=ensemble["component"] == BOTH_COMPONENTS).sort_values(
-        order, kind="stable"
-    )
-    governing = ordered.drop_duplicates(_CASE, keep="last")[_CASE + _OF_ENSEMBLE]
-    found = single["ratio"].max().merge(governing, how="left", on=_CASE)
-    falls = np.isinf(found["ratio"])
-    alone = np.where(falls, Verdict.OVERTURNS, Verdict.STANDS)
-    alone[found["ratio"].isna()] = Verdict.UNKNOWN
-    share = found["overturning_probability"].fillna(falls.astype(float).where(found["ratio"].notna()))
-    verdict = found["verdict"].astype(object)
-    return found.assign(
-        probability=share,
-        high=found["rotation_ratio_high"].fillna(found["ratio"]),
-        verdict=np.where(verdict.isna(), alone.astype(object), verdict),
-    )
 
 
 def headlines(found: "DataFrame") -> list[dict[str, str]]:
@@ -90,7 +57,7 @@ def structure_table(found: "DataFrame") -> dict[str, object]:
         worst = _worst(found[found["structure"] == name])
         shown: list[Cell] = [str(number), strong(name), *(str(of_it[verdict]) for verdict in _COUNTED)]
         several = printing.of(worst["overturning_members"], worst["members"])
-        band = printing.strip([worst[name] for name in _BAND], worst["probability"])
+        band = printing.strip([worst[name] for name in _BAND], worst["overturning_share"])
         rows.append([*shown, str(worst["record"]), several, band])
     return table(columns, rows)
 
@@ -99,9 +66,9 @@ def matrix(found: "DataFrame") -> dict[str, object]:
     """Return the shares that overturn by record (the worst first) and structure (by number)."""
     numbers = {name: str(place) for place, name in enumerate(found["structure"].unique(), start=1)}
     shown = list(numbers)[:MOST_MATRIX_STRUCTURES]
-    weight = found.groupby("record", sort=False, observed=True)["probability"].sum()
+    weight = found.groupby("record", sort=False, observed=True)["overturning_share"].sum()
     records = weight.sort_values(ascending=False, kind="stable").index[:MOST_MATRIX_RECORDS]
-    cells = found[found["record"].isin(records)].set_index(_CASE)["probability"].to_dict()
+    cells = found[found["record"].isin(records)].set_index(_CASE)["overturning_share"].to_dict()
     left = [
         (weight.size - len(records), "record"),
         (len(numbers) - len(shown), "structure"),
@@ -113,7 +80,7 @@ def matrix(found: "DataFrame") -> dict[str, object]:
             {"record": str(record), "cells": [_cell(cells.get((record, name))) for name in shown]}
             for record in records
         ],
-        "note": f" Not shown, but in ensemble.csv: {rest}." if rest else "",
+        "note": f" Not shown, but in verdicts.csv: {rest}." if rest else "",
     }
 
 
@@ -128,7 +95,12 @@ def _counts(found: "DataFrame") -> dict[str, dict[str, int]]:
 
 
 def _worst(of_it: "DataFrame") -> Mapping[str, Any]:
-    ordered = of_it.sort_values(["probability", "high"], ascending=False, na_position="last", kind="stable")
+    ordered = of_it.sort_values(
+        ["overturning_share", "rotation_ratio_high", "rotation_ratio"],
+        ascending=False,
+        na_position="last",
+        kind="stable",
+    )
     return dict(ordered.iloc[0])
 
 

@@ -30,7 +30,7 @@ def summary_report(
 ) -> bytes:
     """Return the PDF over all records.
 
-    tables: the summary tables "record", "pulses", "comparison", "ensemble", "structures", "agreement" and "failures",
+    tables: the summary tables "record", "pulses", "comparison", "verdicts", "structures", "agreement" and "failures",
     and where they exist "fragility", "fragility_summary" and "ida". settings: at least tolerance and
     acceleration_scale. trade: figure and conclusion, where it was measured.
     """
@@ -42,7 +42,7 @@ def summary_data(
 ) -> dict[str, object]:
     """Return what the template of the summary is given: texts, tables and figures."""
     comparison = tables["comparison"]
-    found = summary_fates.fates(comparison, tables["ensemble"])
+    found = tables["verdicts"]
     worst = comparison[comparison["agreement"] == Agreement.TOO_LOW].sort_values(
         "integrated_rotation_ratio", ascending=False, kind="stable"
     )

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import AssessmentSettings, assess_structures
+from rocking.assessment.fate import Fate
 from rocking.assessment.processings import processed
 from rocking.assessment.rows.of_case import ComparisonRow
-from rocking.assessment.rows.of_ensemble import EnsembleRow
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow
 from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows, structure_rows
@@ -24,7 +24,7 @@ SUMMARISED = {
     "record": RecordRow,
     "pulses": PulseRow,
     "comparison": ComparisonRow,
-    "ensemble": EnsembleRow,
+    "verdicts": Fate,
     "failures": FailureRow,
 }
 ASSESSMENT = AssessmentSettings()

@@ -12,7 +12,7 @@ from rocking.assessment.method import Method
 from rocking.assessment.rows.of_study import structure_rows
 from rocking.assessment.verdict import Verdict
 from rocking.records.accelerogram import Accelerogram
-from rocking.reports.record.page_one import fates, headlines
+from rocking.reports.record.page_one import fate_lines, headlines
 from rocking.reports.record.report import failure_report, record_data, record_report
 from rocking.structures import Block
 from rocking.structures.outcome import Outcome
@@ -140,21 +140,15 @@ def test_what_stands_only_as_it_is_given_is_said_on_page_one(example):
 
 def test_the_worse_sign_of_the_motion_stands_on_page_one(example):
     turned = [replace(row, worst_polarity="reversed") for row in example.tables.ensemble]
-    found = fates(replace(example.tables, ensemble=turned), [])
-    assert turned and all(fate.direction.endswith("reversed") for fate in found if fate.ensemble)
+    found = fate_lines(replace(example.tables, ensemble=turned), [])
+    assert turned and all(line.fate.polarity == "reversed" for line in found)
 
 
 def test_without_an_ensemble_page_one_says_what_the_single_run_does(example):
     tables = replace(example.tables, ensemble=[])
     data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
     for row in tables.comparison:
-        word = (
-            "Overturns"
-            if np.isinf(row.found_rotation_ratio)
-            else "Rests"
-            if row.found_rotation_ratio <= 1e-3
-            else "Rocks"
-        )
+        word = "Overturns" if np.isinf(row.found_rotation_ratio) else "Stands"
         assert any(
             line["verdict"].startswith(word) and row.structure in line["names"] for line in data["headlines"]
         )
@@ -316,5 +310,5 @@ def test_the_first_lines_hold_few_long_names_and_say_how_many_more(example):
     many = {f"{place} {'W' * 60}": example.tables.comparison[0] for place in range(12)}
     comparison = [replace(row, structure=name) for name, row in many.items()]
     tables = replace(example.tables, comparison=comparison, ensemble=[], candidates=[], processing=[])
-    (line,) = headlines(fates(tables, []))
+    (line,) = headlines(fate_lines(tables, []))
     assert len(line["names"]) < 340 and line["names"].endswith("and eight others")

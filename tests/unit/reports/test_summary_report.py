@@ -5,9 +5,10 @@ import math
 
 import pandas
 
+from rocking.assessment.fate import BOTH_COMPONENTS, Fate, fates
 from rocking.assessment.method import Method
 from rocking.assessment.rows.of_case import ComparisonRow
-from rocking.assessment.rows.of_ensemble import BOTH_COMPONENTS, EnsembleRow
+from rocking.assessment.rows.of_ensemble import EnsembleRow
 from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow
 from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow
 from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows
@@ -82,7 +83,7 @@ def summary_tables(comparison, record=(), failures=(), ensemble=()):
         "record": frame(RecordRow, record),
         "pulses": frame(PulseRow, []),
         "comparison": cases,
-        "ensemble": frame(EnsembleRow, ensemble),
+        "verdicts": frame(Fate, fates(comparison, ensemble)),
         "structures": frame(StructureRow, []),
         "agreement": frame(AgreementRow, agreement_rows(cases)),
         "failures": frame(FailureRow, failures),
@@ -175,7 +176,7 @@ def test_a_large_matrix_is_cut_and_says_so():
     cases = [case(f"s{k}", 0.1, 0.2, f"r{j}") for j in range(50) for k in range(25)]
     shown = summary_data(summary_tables(cases), SETTINGS)["matrix"]
     assert len(shown["rows"]) == 40 and len(shown["heads"]) == 20
-    assert shown["note"] == " Not shown, but in ensemble.csv: ten records and five structures."
+    assert shown["note"] == " Not shown, but in verdicts.csv: ten records and five structures."
 
 
 def test_unsafe_cases_are_listed():

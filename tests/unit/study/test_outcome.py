@@ -5,11 +5,12 @@ from pathlib import Path
 
 import pytest
 
+from rocking.assessment.fate import fates
 from rocking.assessment.rows.of_case import ComparisonRow
 from rocking.assessment.rows.of_ensemble import EnsembleRow
 from rocking.assessment.rows.of_record import FailureRow
 from rocking.assessment.verdict import Verdict
-from rocking.study.outcome import CameOf, closing_lines, paths_to_read, record_line
+from rocking.study.outcome import closing_lines, paths_to_read, record_line
 
 
 def _case(record: str, structure: str, ratio: float) -> ComparisonRow:
@@ -47,7 +48,7 @@ def test_the_worst_component_counts() -> None:
         *(_case("a", "pier", 0.5), _case("a", "pier", math.inf)),
         *(_case("a", "wall", 0.25), _case("a", "wall", 0.0005), _case("a", "arch", 0.0)),
     ]
-    assert record_line(CameOf(cases)) == "overturns: pier; rocks: wall 0.25; rests: arch"
+    assert record_line(fates(cases), []) == "overturns: pier; stands: wall 0.25, arch"
 
 
 @pytest.mark.parametrize(
@@ -60,51 +61,49 @@ def test_the_worst_component_counts() -> None:
     ],
 )
 def test_a_component_that_is_not_known_is_not_told_as_rest(ratios, line):
-    assert record_line(CameOf([_case("a", "pier", ratio) for ratio in ratios])) == line
+    assert record_line(fates([_case("a", "pier", ratio) for ratio in ratios]), []) == line
 
 
-def test_the_verdict_is_that_of_the_ensemble_over_all_directions() -> None:
-    cases = [_case("a", "pier", math.inf), _case("a", "wall", 0.25), _case("a", "arch", 0.0)]
+def test_undecided_is_ordered_by_share_and_says_what_it_leans_to() -> None:
+    cases = [_case("a", name, 0.25) for name in ("pier", "wall", "arch")]
     ensembles = [
-        _ensemble("a", "pier", Verdict.OVERTURNS, 64),
-        _ensemble("a", "pier", Verdict.UNDECIDED, 12, "both"),
-        _ensemble("a", "wall", Verdict.STANDS, 0),
+        _ensemble("a", "pier", Verdict.UNDECIDED, 5),
+        _ensemble("a", "wall", Verdict.UNDECIDED, 60),
         _ensemble("a", "arch", Verdict.STANDS, 0),
     ]
-    line = record_line(CameOf(cases, ensembles=ensembles))
-    assert line == "undecided: pier (12 of 64); stands: wall 0.25, arch"
+    assert record_line(fates(cases, ensembles), []) == (
+        "undecided: wall (leans to overturns, overturns in 60 of 64), "
+        "pier (leans to stands, overturns in 5 of 64); stands: arch 0.25"
+    )
 
 
 def test_a_failure_stands_first_without_repeating_the_record() -> None:
     failures = [_failure("a", "wall", "it cannot stand."), _failure("a", "", "a: it cannot be read.")]
-    line = record_line(CameOf([_case("a", "pier", 0.5)], failures))
-    assert line == "failed: wall: it cannot stand. it cannot be read.; rocks: pier 0.5"
+    line = record_line(fates([_case("a", "pier", 0.5)]), failures)
+    assert line == "failed: wall: it cannot stand. it cannot be read.; stands: pier 0.5"
 
 
-def test_the_table_at_the_end_names_records_and_marks_what_is_undecided() -> None:
+def test_the_table_at_the_end_counts_what_overturns_and_what_is_undecided_apart() -> None:
     cases = [
         *(_case("a", "pier", math.inf), _case("b", "pier", math.inf)),
         *(_case("a", "wall", math.inf), _case("b", "wall", 0.1), _case("b", "arch", 0.1)),
     ]
     doubts = [_ensemble("a", "pier", Verdict.UNDECIDED, 60)]
-    assert closing_lines(CameOf(cases, [_failure("c", "", "not read.")], doubts)) == [
-        "Overturns under how many of 2 records (? where that is undecided):",
-        "  pier    2  a?, b",
-        "  wall    1  a",
-        "1 record failed, wholly or in part: c",
-    ]
+    lines = closing_lines(fates(cases, doubts), [_failure("c", "", "not read.")])
+    assert [line.split() for line in lines[2:4]] == [["pier", "1", "1", "b,", "a?"], ["wall", "1", "0", "a"]]
+    assert lines[4:] == ["1 record failed, wholly or in part: c"]
 
 
 def test_nothing_overturns() -> None:
-    assert closing_lines(CameOf([_case("a", "pier", 0.1)])) == ["Nothing overturns under 1 record."]
-    assert closing_lines(CameOf([_case("a", "pier", math.nan)]))[1].endswith("a?")
+    assert closing_lines(fates([_case("a", "pier", 0.1)]), []) == ["Every structure stands under 1 record."]
+    assert closing_lines(fates([_case("a", "pier", math.nan)]), [])[2].endswith("a–")
 
 
 def test_of_many_structures_those_that_overturn_most_are_listed() -> None:
     cases = [_case(f"r{j}", f"s{i}", math.inf) for i in range(9) for j in range(i + 1)]
-    lines = closing_lines(CameOf(cases))
-    assert len(lines) == 1 + 6 + 1 and lines[-1] == "  and 3 more structures, in comparison.csv"
-    assert [line.split()[0] for line in lines[1:-1]] == ["s8", "s7", "s6", "s5", "s4", "s3"]
+    lines = closing_lines(fates(cases), [])
+    assert len(lines) == 2 + 6 + 1 and lines[-1] == "  and 3 more structures, in verdicts.csv"
+    assert [line.split()[0] for line in lines[2:-1]] == ["s8", "s7", "s6", "s5", "s4", "s3"]
 
 
 def test_the_paths_are_those_that_exist(tmp_path: Path) -> None:

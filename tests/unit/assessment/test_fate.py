@@ -1,0 +1,86 @@
+"""One verdict for one case, whoever asks."""
+
+import math
+
+import pytest
+
+from rocking.assessment.fate import fates
+from rocking.assessment.rows.of_case import ComparisonRow
+from rocking.assessment.rows.of_ensemble import EnsembleRow
+from rocking.assessment.rows.of_record import FailureRow
+from rocking.assessment.verdict import Verdict
+
+
+def case(component: str, ratio: float, **more: object) -> ComparisonRow:
+    ratios = dict.fromkeys(("integrated_rotation_ratio", "answer_rotation_ratio"), ratio)
+    whose = {"record": "a", "structure": "pier", "component": component, "answer_reason": ""}
+    return ComparisonRow(**dict.fromkeys(ComparisonRow.table.column_names) | whose | ratios | more)
+
+
+def ensemble(component: str, verdict: Verdict, overturning: int, members: int = 64) -> EnsembleRow:
+    known = {
+        "record": "a",
+        "structure": "pier",
+        "component": component,
+        "verdict": verdict,
+        "overturning_members": overturning,
+        "members": members,
+        "overturning_probability": overturning / members,
+        "rotation_ratio_high": 0.5,
+    }
+    return EnsembleRow(**dict.fromkeys(EnsembleRow.table.column_names) | known)
+
+
+def failure(component: str, structure: str = "pier") -> FailureRow:
+    return FailureRow(record="a", component=component, structure=structure, stage="responses", message="No.")
+
+
+@pytest.mark.parametrize(
+    ("ratios", "verdict"),
+    [
+        ([0.97], Verdict.STANDS),
+        ([math.inf], Verdict.OVERTURNS),
+        ([0.2, math.inf], Verdict.OVERTURNS),
+        ([0.2, math.nan], Verdict.UNKNOWN),
+        ([math.inf, math.nan], Verdict.OVERTURNS),
+        ([math.nan], Verdict.UNKNOWN),
+    ],
+)
+def test_without_an_ensemble_the_single_run_of_the_worst_component_decides(ratios, verdict):
+    (fate,) = fates([case(str(place), ratio) for place, ratio in enumerate(ratios)])
+    assert fate.verdict is verdict and fate.members == 0 and fate.count == ""
+
+
+def test_the_ensemble_over_all_directions_decides_before_those_of_the_components():
+    cases = [case("EW", 0.3), case("NS", math.inf)]
+    alone = [ensemble("EW", Verdict.STANDS, 0), ensemble("NS", Verdict.OVERTURNS, 64)]
+    (fate,) = fates(cases, alone)
+    assert (fate.verdict, fate.component) == (Verdict.OVERTURNS, "NS")
+    (fate,) = fates(cases, [*alone, ensemble("both", Verdict.UNDECIDED, 40)])
+    assert (fate.verdict, fate.component, fate.count) == (Verdict.UNDECIDED, "both", "40 of 64")
+    assert fate.leaning == "leans to overturns, overturns in 40 of 64"
+    assert math.isinf(fate.rotation_ratio), "of the worst component as recorded"
+
+
+def test_a_component_that_failed_leaves_the_verdict_unknown_unless_another_overturns():
+    (fate,) = fates([case("EW", 0.3)], [ensemble("EW", Verdict.STANDS, 0)], [failure("NS")])
+    assert fate.verdict is Verdict.UNKNOWN and "NS" in fate.why
+    (fate,) = fates([case("EW", math.inf)], [ensemble("EW", Verdict.OVERTURNS, 64)], [failure("NS")])
+    assert fate.verdict is Verdict.OVERTURNS
+
+
+def test_a_structure_that_failed_under_every_component_is_unknown_and_says_why():
+    pier, arch = fates([case("EW", 0.3)], failures=[failure("EW", "arch"), failure("NS", "arch")])
+    assert pier.verdict is Verdict.STANDS
+    assert (arch.structure, arch.verdict, arch.why) == ("arch", Verdict.UNKNOWN, "No.")
+
+
+def test_the_worst_of_several_comes_last_by_severity():
+    found = [
+        *fates([case("EW", 0.9)], [ensemble("EW", Verdict.STANDS, 0)]),
+        *fates([case("EW", math.nan)]),
+        *fates([case("EW", 0.1)], [ensemble("EW", Verdict.UNDECIDED, 5)]),
+        *fates([case("EW", 0.05)], [ensemble("EW", Verdict.UNDECIDED, 60)]),
+        *fates([case("EW", math.inf)], [ensemble("EW", Verdict.OVERTURNS, 63)]),
+    ]
+    assert sorted(found[3:] + found[:3], key=lambda fate: fate.severity) == found
