@@ -8,4 +8,5 @@ from rocking.records.catalogue_record import CatalogueRecord as CatalogueRecord
 from rocking.records.processing import displacement as displacement
 from rocking.records.read import read as read
 from rocking.records.rotation import RotD as RotD
+from rocking.records.rotation import aligned as aligned
 from rocking.records.rotation import rotd as rotd

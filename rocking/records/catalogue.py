@@ -10,9 +10,9 @@ from typing import Any
 from rocking.errors import CatalogueError, RecordError, RockingError, about
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue_record import COLUMNS, CatalogueRecord
-from rocking.records.directions import azimuth, is_vertical
 from rocking.records.fetch import fetch, inventory_of
 from rocking.records.formats.text import is_number
+from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.plausibility import scaled
 from rocking.records.read import is_unnamed, plain, read
 
@@ -98,6 +98,26 @@ def vertical_of(channels: list[Accelerogram], record: CatalogueRecord) -> Accele
     named = [c for c in channels if c.component == record.vertical_component]
     spoken = [c for c in channels if c.vertical and not c.borehole]
     return next(iter(named if record.vertical_component else spoken), None)
+
+
+def open_vertical(
+    record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None
+) -> Accelerogram | None:
+    """Return the vertical accelerogram of `record`, scaled as the row says; None where there is none.
+
+    It comes from the row's vertical_file, which lies beside the catalogue or in the mirror, else from the file itself.
+    Raises RecordError naming record and file.
+    """
+    other = record.of_vertical
+    channels = channels_of(other, mirror, cache)
+    found = vertical_of(channels, other)
+    if found is None and record.vertical_file:
+        if len(channels) > 1:
+            raise RecordError(
+                f"{record.id} ({other.file}): no channel says that it is vertical; name it in vertical_component."
+            )
+        found = channels[0]
+    return None if found is None else as_declared(found, record)
 
 
 def _rows(path: Path) -> list[tuple[int, dict[str, str]]]:

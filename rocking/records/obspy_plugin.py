@@ -9,7 +9,7 @@ from pathlib import Path
 
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats import FORMATS, Format, Options
-from rocking.records.read import LARGEST_FILE, read_content, unpacked
+from rocking.records.read import LARGEST_FILE, read_content, undressed, unpacked
 
 PLUGINS = {form.plugin: form.name for form in FORMATS if form.plugin}
 """Name in obspy → name in FORMATS. K-NET, EVT, SAC and miniSEED are obspy's own already."""
@@ -20,7 +20,7 @@ _HEAD = 2**16
 def is_format(form: Format, source) -> bool:
     """Whether `source`, a path or an open binary file, is of this format; False for whatever cannot be read."""
     try:
-        return form.recognise(unpacked(_bytes(source, _HEAD), "file"))
+        return form.recognise(undressed(unpacked(_bytes(source, _HEAD), "file")))
     except Exception:
         return False
 

@@ -5,9 +5,7 @@ import zlib
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
-from errno import EINVAL
 from itertools import combinations
-from os import fstat
 from pathlib import Path
 
 import numpy as np
@@ -16,22 +14,15 @@ from rocking.errors import RecordError, UnknownFormatError, about
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
-from rocking.records.formats.site import channel_warnings
+from rocking.records.instrument import channel_warnings
 from rocking.records.plausibility import pass_limits
+from rocking.tables import read_whole
 
 LARGEST_FILE = 8 * 2**20
 """Bytes, unpacked: three channels of ten minutes at 100 Hz as text; the worst content of that size reads in seconds."""
 
-_PICKLE = (
-    b"\x80\x02",
-    b"\x80\x03",
-    b"\x80\x04",
-    b"\x80\x05",
-    b"ccopy_reg",
-    b"(iobspy",
-    b"cobspy",
-    b"c__builtin__",
-)
+_PICKLE = tuple(b"\x80%c" % n for n in range(2, 6))
+_PICKLED = (b"ccopy_reg", b"(iobspy", b"cobspy", b"c__builtin__")
 
 
 def read(
@@ -70,37 +61,62 @@ def read_content(
     """
     source = source or Source(name, sha256=hashlib.sha256(content).hexdigest())
     with about(name[:120]):
-        reader = reader or recognise(content)
-        records = told_apart(reader.read(content, replace(options, file=name)))
+        text = undressed(content)
+        reader = reader or recognise(text)
+        records = told_apart(reader.read(text, replace(options, file=name)))
         if not records:
             raise RecordError("the file holds no channel of acceleration.")
-        return [_signed(record, replace(source, format=reader.name)) for record in records]
+        source = replace(source, format=reader.name)
+        notes = (_DOUBLED,) if b"\r\r\n" in content[:2000] and text is not content else ()
+        return [
+            replace(
+                record,
+                source=replace(source, unit=record.source.unit),
+                warnings=(*record.warnings, *notes, *pass_limits(record)),
+            )
+            for record in records
+        ]
+
+
+def undressed(content: bytes) -> bytes:
+    """Return a text without a byte order mark and the blanks, zeros and ^Z that pad its end; lines end in \\n.
+
+    Content that holds a zero byte among its first is no text and stays as it is.
+    """
+    text = content.removeprefix(b"\xef\xbb\xbf")
+    kept = text.rstrip(b"\x1a\0 \t\r\n")
+    if b"\0" in kept[:512]:
+        return content
+    ended = any(end in text[len(kept) :] for end in (b"\r", b"\n"))
+    if b"\r" in kept:
+        kept = kept.replace(b"\r\r\n", b"\n").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    return kept + b"\n" if ended else kept
+
+
+_DOUBLED = (
+    "The line ends are doubled (CR CR LF), as a faulty conversion leaves them; the numbers are unharmed."
+)
 
 
 def recognise(content: bytes) -> Format:
     """Return the one format that recognises `content`. Raises UnknownFormatError when none or several do."""
-    if not content.strip(b" \t\r\n\0"):
+    if not content.strip(b"\0 \n"):
         raise RecordError("the file is empty; fetch it again.")
-    if content.startswith(_PICKLE):
+    if content.startswith(_PICKLE + _PICKLED):
         raise UnknownFormatError("this is a pickled Python object, which could run code; it is never opened.")
-    found = [form for form in FORMATS if form.recognise(content)]
-    if len(found) == 1:
-        return found[0]
-    if found:
-        names = ", ".join(form.name for form in found)
+    forms = [form for form in FORMATS if form.recognise(content)]
+    if len(forms) == 1:
+        return forms[0]
+    if forms:
+        names = ", ".join(form.name for form in forms)
         raise UnknownFormatError(f"several readers recognise this file ({names}); none is preferred.")
+    head = content.lstrip()[:40]
+    words = head.decode("latin-1").splitlines()[0].strip() if head else ""
     raise UnknownFormatError(
-        f"no reader recognises this file, which begins with {_beginning(content)}; "
+        f"no reader recognises this file, which begins with {(words if words.isprintable() else head[:8])!r}; "
         "rocking read --details says what each of them looked for.",
         details=tuple(f"{form.name}: no {form.sought}" for form in FORMATS),
     )
-
-
-def _beginning(content: bytes) -> str:
-    """Return the first words of a text, or the first bytes of what is none, in quotation marks."""
-    head = content.lstrip()[:40]
-    text = head.decode("latin-1").splitlines()[0].strip() if head else ""
-    return repr(text if text.isprintable() else head[:8])
 
 
 def unpacked(raw: bytes, name: str) -> bytes:
@@ -122,24 +138,9 @@ def unpacked(raw: bytes, name: str) -> bytes:
     return content
 
 
-def bytes_of(path: Path) -> bytes:
+def bytes_of(path: Path, largest: int = LARGEST_FILE) -> bytes:
     """Return the bytes of a regular file. Raises RecordError when it is missing or larger than any accelerogram."""
-    try:
-        if path.exists() and not path.is_file():
-            raise OSError(EINVAL, "it is no regular file")
-        with path.open("rb") as stream:
-            size = fstat(stream.fileno()).st_size
-            raw = stream.read(size + 1) if size <= LARGEST_FILE else b""
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise RecordError(
-            f"{printable(str(path))}: the file cannot be opened, {reason}; give the path of a record."
-        ) from None
-    if max(size, len(raw)) > LARGEST_FILE:
-        raise RecordError(
-            f"{printable(path.name)}: the file is larger than {LARGEST_FILE} bytes, which no accelerogram is."
-        )
-    return raw
+    return read_whole(path, largest, RecordError, printable(str(path)))
 
 
 def hash_of(path: Path) -> str:
@@ -152,11 +153,6 @@ def printable(text: str) -> str:
     return plain(text.encode("utf-8", "backslashreplace").decode()) if not text.isprintable() else text
 
 
-def _signed(record: Accelerogram, source: Source) -> Accelerogram:
-    warnings = record.warnings + pass_limits(record)
-    return replace(record, source=replace(source, unit=record.source.unit), warnings=warnings)
-
-
 def told_apart(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     """Return the channels of a file, each with a component of its own and what is doubtful of it as warnings.
 
@@ -164,32 +160,23 @@ def told_apart(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     Raises RecordError when one channel stands in the file twice: it was appended to itself.
     """
     for (i, a), (k, b) in combinations(enumerate(records, 1), 2):
-        if a.component == b.component and _same(a, b):
+        same = a.component == b.component and a.peak_acceleration > 0
+        if same and np.array_equal(a.acceleration, b.acceleration):
             raise RecordError(
                 f"channel {k} ({a.component or 'not named'}) repeats channel {i} number by number: the file is "
                 "appended to itself; fetch it again."
             )
     shared = Counter(record.component for record in records)
-    return [
-        replace(
-            record,
-            component=_component(record.component, place, shared[record.component] > 1),
-            warnings=(*record.warnings, *channel_warnings(record.component)),
-        )
-        for place, record in enumerate(records, 1)
-    ]
+    channels = []
+    for place, record in enumerate(records, 1):
+        name = record.component or f"channel {place}"
+        if record.component and shared[record.component] > 1:
+            name += f" (channel {place})"
+        warnings = (*record.warnings, *channel_warnings(record.component))
+        channels.append(replace(record, component=name, warnings=warnings))
+    return channels
 
 
 def is_unnamed(record: Accelerogram) -> bool:
     """Whether the component is no more than the place of the channel in its file."""
     return not record.component or record.component.removeprefix("channel ").isdecimal()
-
-
-def _component(name: str, place: int, shared: bool) -> str:
-    if not name:
-        return f"channel {place}"
-    return f"{name} (channel {place})" if shared else name
-
-
-def _same(a: Accelerogram, b: Accelerogram) -> bool:
-    return a.peak_acceleration > 0 and np.array_equal(a.acceleration, b.acceleration)

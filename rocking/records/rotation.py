@@ -1,4 +1,4 @@
-"""Rotation: a pair of horizontal components seen from another direction, and the peaks over all directions."""
+"""The components of one station: a horizontal pair seen from another direction, and the vertical one beside it."""
 
 from dataclasses import dataclass, replace
 
@@ -47,7 +47,12 @@ def rotate(first: Accelerogram, second: Accelerogram, azimuth: float) -> Acceler
         f"Rotated from {first.azimuth:g}° and {second.azimuth:g}° to {azimuth:g}° clockwise from north."
     )
     turned = first.processed_by(motion, sentence, component=f"{azimuth:g}", azimuth=azimuth % 360)
-    return replace(turned, warnings=_together(first, second))
+    warnings = dict.fromkeys((*first.warnings, *second.warnings))
+    sizes = sorted((first.acceleration.size, second.acceleration.size))
+    if sizes[0] != sizes[1]:
+        cut = f"The components hold {sizes[0]} and {sizes[1]} samples; the longer was cut to the shorter."
+        warnings[cut] = None
+    return replace(turned, warnings=tuple(warnings))
 
 
 def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
@@ -81,12 +86,18 @@ def _paired(first: Accelerogram, second: Accelerogram) -> tuple[np.ndarray, np.n
     return first.acceleration[:n], second.acceleration[:n]
 
 
-def _together(first: Accelerogram, second: Accelerogram) -> tuple[str, ...]:
-    warnings = tuple(dict.fromkeys((*first.warnings, *second.warnings)))
-    if first.acceleration.size == second.acceleration.size:
-        return warnings
-    sizes = sorted((first.acceleration.size, second.acceleration.size))
-    return (
-        *warnings,
-        f"The components hold {sizes[0]} and {sizes[1]} samples; the longer was cut to the shorter.",
-    )
+def aligned(vertical: Accelerogram, horizontal: Accelerogram) -> Accelerogram:
+    """Return `vertical` with as many samples as `horizontal`: cut, or still after its end.
+
+    Raises RecordError when their time steps differ by more than rounding.
+    """
+    if not np.isclose(vertical.time_step, horizontal.time_step, rtol=1e-9, atol=0):
+        raise RecordError(
+            f"time_step of the vertical component is {vertical.time_step!r} s, but must equal that of the horizontal "
+            f"one, {horizontal.time_step!r} s; resample one of them."
+        )
+    size = horizontal.acceleration.size
+    samples = np.zeros(size)
+    kept = min(size, vertical.acceleration.size)
+    samples[:kept] = vertical.acceleration[:kept]
+    return replace(vertical, acceleration=samples, time_step=horizontal.time_step)

@@ -117,7 +117,7 @@ def _start(options: argparse.Namespace) -> None:
 
 
 def _catalogue(options: argparse.Namespace) -> None:
-    from rocking.records.listing import listing_text
+    from rocking.records.folder import listing_text
     from rocking.study.workspace import write_catalogue
 
     target = options.output or options.folder / "catalogue.csv"

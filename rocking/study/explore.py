@@ -19,7 +19,7 @@ from rocking.errors import RockingError
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram, displacement
 from rocking.records.catalogue import CatalogueRecord
-from rocking.records.vertical import aligned
+from rocking.records.rotation import aligned
 from rocking.reports.explore.figures import fragility_curves, scatter
 from rocking.reports.explore.packed import drawings, extremes, number, packed
 from rocking.reports.explore.page import explore_page

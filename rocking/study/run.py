@@ -21,9 +21,16 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, processed_variants
 from rocking.errors import RockingError
 from rocking.records import Accelerogram
-from rocking.records.catalogue import CatalogueRecord, as_declared, horizontal_of, open_record, vertical_of
+from rocking.records.catalogue import (
+    CatalogueRecord,
+    as_declared,
+    horizontal_of,
+    open_record,
+    open_vertical,
+    vertical_of,
+)
 from rocking.records.processing import process
-from rocking.records.vertical import aligned, open_vertical
+from rocking.records.rotation import aligned
 from rocking.structures import Structure
 from rocking.study.outcome import record_line
 from rocking.study.parts import written_part

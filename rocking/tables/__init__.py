@@ -17,6 +17,7 @@ from rocking.tables.csv_rows import head as head
 from rocking.tables.csv_rows import read_rows as read_rows
 from rocking.tables.csv_rows import rows_written as rows_written
 from rocking.tables.csv_rows import write_rows as write_rows
+from rocking.tables.files import read_whole as read_whole
 from rocking.tables.files import write_whole as write_whole
 from rocking.tables.files import written_together as written_together
 from rocking.tables.folder import read_table as read_table

@@ -1,7 +1,9 @@
 """Files that appear whole or not at all, and after the disk has them."""
 
+import errno
 import glob
 import os
+import stat
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -10,6 +12,27 @@ from pathlib import Path
 from typing import BinaryIO
 
 from rocking.errors import RockingError
+
+
+def read_whole(path: Path, largest: int, error: type[RockingError], name: str = "") -> bytes:
+    """Return the bytes of a regular file of at most `largest` bytes, which is opened once.
+
+    name: what the message calls it (default: its path). Raises `error` for whatever cannot be opened or is larger; a
+    pipe or a device is refused without waiting for it.
+    """
+    name = name or str(path)
+    try:
+        handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+        with os.fdopen(handle, "rb") as stream:
+            if not stat.S_ISREG(os.fstat(handle).st_mode):
+                raise OSError(errno.EINVAL, "it is no regular file")
+            content = stream.read(largest + 1)
+    except (OSError, ValueError) as reason:
+        why = getattr(reason, "strerror", None) or reason
+        raise error(f"{name}: the file cannot be opened, {why}; give the path of a file.") from None
+    if len(content) > largest:
+        raise error(f"{name}: the file is larger than {largest} bytes, the most that is read.")
+    return content
 
 
 def write_whole(path: Path, content: bytes | Iterable[bytes]) -> None:

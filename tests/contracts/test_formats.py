@@ -214,7 +214,7 @@ def test_rotated_peak_velocities(real_records: Path, manifest: list[dict[str, st
 def _agrees(rsn: str, pair: list) -> bool:
     from dataclasses import replace
 
-    from rocking.records.directions import azimuth
+    from rocking.records.instrument import azimuth
 
     taken = ORTHOGONAL_IN_THE_SOURCE.get(rsn) or [azimuth(row["component"]) for row, _ in pair]
     first, second = (replace(record, azimuth=at) for (_, record), at in zip(pair, taken, strict=True))

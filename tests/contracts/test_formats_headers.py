@@ -10,7 +10,7 @@ from made_files import MADE, MADE_BINARY, format_of, knet, peer, table
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
-from rocking.records.formats import FORMATS, Options, evt, smc
+from rocking.records.formats import FORMATS, Options, binary
 from rocking.records.formats.header import magnitude
 from rocking.records.read import read_content
 
@@ -154,20 +154,13 @@ def test_unam_columns_are_ten_wide_where_the_header_names_no_width() -> None:
     assert (plain.acceleration == other.acceleration).all()
 
 
-@pytest.mark.parametrize("value", [-1.0, 1e8, 1.7e38])
-def test_a_count_of_smc_is_below_a_hundred_million(value: float) -> None:
-    assert smc._whole(99_999_999.0) == 99_999_999
-    with pytest.raises(RecordError, match="count in the integer header"):
-        smc._whole(value)
-
-
 def test_the_third_of_three_channels_of_a_recorder_is_vertical_by_its_place() -> None:
     """A second instrument on the same recorder begins again with X."""
     found = []
     for place in range(6):
         trace = obspy.Trace(np.arange(9.0), {"delta": 0.01, "station": "MADE"})
         trace.stats.kinemetrics_evt = {}
-        record = evt._record(trace, place, Options(), ())
+        record = binary._evt_record(trace, place, Options(), ())
         found.append((record.component, record.vertical))
     assert found == 2 * [("X", False), ("Y", False), ("Z", True)]
 

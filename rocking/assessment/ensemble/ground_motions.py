@@ -9,7 +9,7 @@ import numpy as np
 from rocking.assessment.processings import is_raw, processed
 from rocking.pulses.components import rotated
 from rocking.records import Accelerogram, rotd
-from rocking.records.vertical import aligned
+from rocking.records.rotation import aligned
 
 
 @dataclass(frozen=True, eq=False)

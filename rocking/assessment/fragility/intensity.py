@@ -10,8 +10,7 @@ from rocking.errors import ConfigurationError, RockingError
 from rocking.pulses import extract_pulses
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.records.measures import record_measures
-from rocking.records.response_spectrum import response_spectrum
+from rocking.records.measures import record_measures, response_spectrum
 from rocking.structures import Mechanism
 
 SPECTRAL_PERIOD = 1.0

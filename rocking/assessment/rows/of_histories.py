@@ -6,7 +6,7 @@ from rocking.assessment.rows import meanings
 from rocking.errors import RockingError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
-from rocking.records.vertical import aligned
+from rocking.records.rotation import aligned
 from rocking.structures import Structure
 from rocking.tables import Row, column, row
 

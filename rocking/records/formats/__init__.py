@@ -1,4 +1,4 @@
-"""One file per strong-motion format, each a recogniser and a reader; FORMATS lists them all.
+"""Strong-motion formats, each a recogniser and a reader; FORMATS lists them all.
 
 A new format is a new file here that makes a Format, and its name in _FILES.
 """
@@ -12,29 +12,23 @@ _FILES = (
     "cosmos",
     "csmip",
     "smc",
-    "usc",
+    "volume1",
     "knet",
-    "dyna",
-    "afad",
-    "resorce",
+    "keyed",
+    "csmnc",
     "geonet",
     "unam",
-    "bhrc",
-    "renadic",
-    "cwb",
-    "csmnc",
-    "evt",
-    "sac",
+    "binary",
     "miniseed",
     "titled",
     "columns",
 )
 
 FORMATS: tuple[Format, ...] = tuple(
-    found
+    form
     for file in _FILES
-    for found in vars(import_module(f"{__name__}.{file}")).values()
-    if isinstance(found, Format)
+    for form in vars(import_module(f"{__name__}.{file}")).values()
+    if isinstance(form, Format)
 )
 """Every format there is. Exactly one recognises a file; the order does not matter."""
 

@@ -2,17 +2,17 @@
 
 import re
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_unit
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.quantity import other_quantity, refuse_other_quantity
+from rocking.records.formats.format import Format, Options
 from rocking.records.formats.sampling import even_step, resampled
-from rocking.records.formats.separators import points_for_commas
 from rocking.records.formats.text import after_lines, is_number, lines, numbers
+from rocking.records.instrument import other_quantity, refuse_other_quantity
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _TIME = re.compile(
@@ -23,7 +23,7 @@ _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
 _DECIMALS = re.compile(r"[.]?(\d*)(?:[eE][+-]?\d+)?\s*$")
 _HEAD, _TAIL = 12, 4000
 """Lines and bytes that are looked at, of the beginning and of the end."""
-_BLANK, _LINE_END, _RETURN = 32, 10, 13
+_BLANK, _LINE_END = 32, 10
 _COMMENTED_FORMAT = b"#Earthquake Information"
 """CWB's header, which looks like comments above columns."""
 
@@ -103,7 +103,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
 
 def _cut_number(body: bytes) -> tuple[str, ...]:
     """Return a warning when the last number has fewer decimals than all above it, and no line end: the file is cut."""
-    if body.endswith((b"\n", b"\r")):
+    if body.endswith(b"\n"):
         return ()
     last = [_DECIMALS.search(line) for line in lines(body[-_TAIL:])[1:] if line.strip()]
     decimals = [len(found[1]) for found in last if found]
@@ -124,7 +124,7 @@ def _check_rows(body: bytes, width: int, last_may_be_short: bool) -> None:
     octets = np.frombuffer(body + b"\n", dtype=np.uint8)
     apart = (octets <= _BLANK) | (octets == ord(",")) | (octets == ord(";"))
     first = np.flatnonzero(~apart & np.concatenate([[True], apart[:-1]]))
-    ends = np.flatnonzero((octets == _LINE_END) | (octets == _RETURN))
+    ends = np.flatnonzero(octets == _LINE_END)
     filled = np.diff(np.searchsorted(first, ends), prepend=0)
     rows = filled[filled != 0]
     wrong = np.flatnonzero(rows != width)
@@ -173,9 +173,7 @@ def _evened(rows: np.ndarray) -> tuple[float, np.ndarray, tuple[str, ...]]:
 def _channel(
     component: str, label: str, values: np.ndarray, step: float | None, options: Options, **fields
 ) -> Accelerogram:
-    unit = options.unit_of(_unit(label))
-    step = options.time_step_of(step)
-    return accelerogram(unit, values, step, component=component, processed=None, **fields)
+    return options.accelerogram(_unit(label), values, step, component=component, processed=None, **fields)
 
 
 def _unit(label: str) -> str | None:
@@ -185,6 +183,44 @@ def _unit(label: str) -> str | None:
 
 def _component(label: str) -> str:
     return re.sub(r"^(acc|acceleration|a)[_\s-]+", "", _UNIT.sub("", label).strip(), flags=re.I)
+
+
+_WITH_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
+_NUMERIC = re.compile(r"[\d+\-.,;eE \t]+")
+_SAMPLE = 40
+"""Lines that are looked at: the rest of a table is like them, or its numbers are refused one by one."""
+
+
+def points_for_commas(content: bytes) -> bytes | None:
+    """Return `content` with points for its decimal commas; unchanged where commas part numbers or there are none.
+
+    A comma is a decimal sign where something else (a semicolon, a tab, blanks) parts the numbers and none has a point.
+    None where both readings are possible.
+    """
+    head = content[: 400 * _SAMPLE].decode("latin-1").split("\n")[:-1]
+    rows = [line.strip() for line in head if line.strip() and _NUMERIC.fullmatch(line)][:_SAMPLE]
+    if not any("," in row for row in rows):
+        return content
+    cells = [[cell for cell in re.split(r"[;\t ]+", row) if cell] for row in rows]
+    if any((cell.startswith(",") and len(cell) == 1) or cell.endswith(",") for row in cells for cell in row):
+        return content  # a comma beside a blank parts
+    with_comma = [cell for row in cells for cell in row if "," in cell]
+    decimal = all(_WITH_COMMA.fullmatch(cell) for cell in with_comma)
+    if any("." in row for row in rows):
+        return None if decimal and any(";" in row for row in rows) else content
+    if decimal and max(map(len, cells)) > 1:
+        return re.sub(rb"(?<=\d),(?=\d)|(?<![\d,]),(?=\d)", b".", content)
+    named = re.search(r"[A-Za-z]", next(line for line in head if line.strip()))
+    return content if named or _counts(rows) else None
+
+
+def _counts(rows: list[str]) -> bool:
+    """Whether the first numbers count evenly upwards, as times do."""
+    first = [row.split(",")[0] for row in rows]
+    if not all(cell.isdecimal() for cell in first):
+        return False
+    steps = {int(b) - int(a) for a, b in pairwise(first)}
+    return len(rows) > 2 and len(steps) == 1 and steps.pop() > 0
 
 
 COLUMNS = Format(

@@ -6,7 +6,7 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import (
     blocks,
     check_nothing_left,
@@ -14,10 +14,9 @@ from rocking.records.formats.header import (
     missing_channels,
     optional,
     optional_number,
-    starts,
 )
-from rocking.records.formats.site import site_warnings
 from rocking.records.formats.text import count, fields, filled
+from rocking.records.instrument import site_warnings
 from rocking.records.plausibility import agree_with_header
 
 _FIRST = re.compile(r"(Corrected|Uncorrected)\s+(acceleration|velocity|displacement)\s+\(Format v", re.I)
@@ -52,21 +51,21 @@ def _block(block: list[str], options: Options, held: int) -> Accelerogram | None
         return None
     head = "\n".join(block[:at])
     reals = _reals(block[:at])
-    unit = options.unit_of(data["unit"])
+    step = float(reals[_STEP]) / 1000 if 0 < reals[_STEP] < 1e4 else float(reals[_RECORDER_STEP])
     values = _samples(block[at + 1 :], data)
-    time_step = options.time_step_of(_step(reals))
-    place = optional(r"\bLocation:\s*(.*?)\s*$", head)
-    notes = (
-        *missing_channels(head, held),
-        *site_warnings(place),
-        *_length(values.size * time_step, float(reals[_LENGTH]), time_step),
-    )
-    record = accelerogram(
-        unit,
+    length, lasts = float(reals[_LENGTH]), values.size * step
+    wrong = 0 < length < 1e5 and abs(length - lasts) > 1.5 * step + 5e-4  # not all agencies fill it
+    note = f"The header gives the series a length of {length:g} s, but its samples last {lasts:g} s."
+    record = options.accelerogram(
+        data["unit"],
         values,
-        time_step,
+        step,
         component=_component(head),
-        warnings=notes,
+        warnings=(
+            *missing_channels(head, held),
+            *site_warnings(optional(r"\bLocation:\s*(.*?)\s*$", head)),
+            *([note] if wrong else []),
+        ),
         station=optional(r"Code:\s*(\S+)", head),
         event=optional(r"(?:Rcrd|Record)?\s*(?:of)?\s*(.*)", block[1]),
         processed=block[0].lower().startswith("corrected"),
@@ -75,7 +74,7 @@ def _block(block: list[str], options: Options, held: int) -> Accelerogram | None
     peak, when = (
         None if abs(value - _UNKNOWN) < 1e-3 else float(value) for value in reals[[_PEAK, _PEAK_TIME]]
     )
-    return agree_with_header(record, peak, unit, half_digit=5e-7, at=when)
+    return agree_with_header(record, peak, data["unit"], half_digit=5e-7, at=when)
 
 
 def _samples(rows: list[str], data: re.Match[str]) -> np.ndarray:
@@ -85,18 +84,6 @@ def _samples(rows: list[str], data: re.Match[str]) -> np.ndarray:
     check_nothing_left(rows[end + 1 :])
     declared = count("number of points", data["n"])
     return filled(rows[:end], declared, max(1, int(data["per_line"])), max(1, int(data["width"])))
-
-
-def _step(reals: np.ndarray) -> float:
-    step = float(reals[_STEP])
-    return step / 1000 if 0 < step < 1e4 else float(reals[_RECORDER_STEP])
-
-
-def _length(lasts: float, stated: float, time_step: float) -> tuple[str, ...]:
-    """Return a warning when the header gives the series another length than its samples: not all agencies fill it."""
-    if not 0 < stated < 1e5 or abs(stated - lasts) <= 1.5 * time_step + 5e-4:
-        return ()
-    return (f"The header gives the series a length of {stated:g} s, but its samples last {lasts:g} s.",)
 
 
 def _reals(head: list[str]):
@@ -121,5 +108,11 @@ def _component(head: str) -> str:
     return code if direction.lower() in ("", "other") and code else direction
 
 
-COSMOS = Format("COSMOS V1/V2", "COSMOS, CESMD and USGS, USA", "first line like Corrected acceleration (Format v01.20",
-                lambda content: starts(content, _FIRST), _read, plugin="COSMOS_V1V2")  # fmt: skip
+COSMOS = Format(
+    "COSMOS V1/V2",
+    "COSMOS, CESMD and USGS, USA",
+    "first line like Corrected acceleration (Format v01.20",
+    _FIRST,
+    _read,
+    plugin="COSMOS_V1V2",
+)

@@ -7,7 +7,7 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.format import Format, Options, starts
 from rocking.records.formats.header import (
     check_duration,
     check_equal,
@@ -16,11 +16,10 @@ from rocking.records.formats.header import (
     missing_channels,
     optional,
     optional_number,
-    starts,
 )
-from rocking.records.formats.site import site_warnings
 from rocking.records.formats.text import column_width, count, filled, lines, number, period
 from rocking.records.formats.volume1 import evened, pairs, volume1_block
+from rocking.records.instrument import site_warnings
 from rocking.records.plausibility import agree_with_header
 
 _VOLUME_1 = re.compile(r"Uncorrected Accelerogram Data\s+Processed", re.I)
@@ -88,28 +87,23 @@ def _record(
     head: str, data: re.Match[str], values: np.ndarray, options: Options, channels: int
 ) -> Accelerogram:
     corrected = bool(_VOLUME_2.match(head))
-    step = (
-        number("step", data["step"])
-        if "step" in data.groupdict()
-        else period("points per second", data["rate"])
-    )
-    time_step = options.time_step_of(step)
-    _check_sampling(head, values.size, time_step, corrected)
-    record = accelerogram(
-        options.unit_of(data["unit"]),
+    said = data.groupdict()
+    record = options.accelerogram(
+        data["unit"],
         values,
-        time_step,
+        number("step", data["step"]) if "step" in said else period("points per second", data["rate"]),
         processed=corrected,
         high_pass_frequency=corner(
             optional_number(r"3 dB pts at\s+([\d.]+)", head) or optional_number(r"RAMPS AT\s+([\d.]+)", head)
         ),
         **_named(head, channels),
     )
-    if corrected:
-        peak = optional_number(r"Peak acceleration\s*=\s*(-?[\d.]+)", head)
-        at = optional_number(r"Peak acceleration\s*=.*?\bat\s+([\d.]+)\s*sec", head)
-        return agree_with_header(record, peak, "cm/s2", 5e-4, at=at)
-    return agree_with_header(record, *_uncorrected_peak(head))
+    _check_sampling(head, values.size, record.time_step, corrected)
+    if not corrected:
+        return agree_with_header(record, *_uncorrected_peak(head))
+    peak = optional_number(r"Peak acceleration\s*=\s*(-?[\d.]+)", head)
+    at = optional_number(r"Peak acceleration\s*=.*?\bat\s+([\d.]+)\s*sec", head)
+    return agree_with_header(record, peak, "cm/s2", 5e-4, at=at)
 
 
 def _check_sampling(head: str, samples: int, time_step: float, corrected: bool) -> None:
@@ -133,17 +127,15 @@ def _uncorrected_peak(head: str) -> tuple[float | None, str, float]:
 
 
 def _named(head: str, channels: int) -> dict:
+    direction = optional(r"^Chan\s*\d+:\s*(\S+(?: Deg)?)", head)
+    title = next((row.strip() for row in head.split("\n") if re.search(r"\bEARTHQUAKE\b", row)), "")
     place = optional(r"\bLocation:\s*(.*?)\s*$", head)
     return {
-        "component": _component(head),
+        "component": re.sub(r"\s+deg$", "", direction, flags=re.I),
         "station": optional(r"^Station No\.\s*(\S+)", head),
-        "event": optional(r"^(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)", head) or _old_event(head),
+        "event": optional(r"^(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)", head) or title[:60],
         "warnings": (*missing_channels(head, channels), *site_warnings(place)),
     }
-
-
-def _old_event(head: str) -> str:
-    return next((row.strip() for row in head.split("\n") if re.search(r"\bEARTHQUAKE\b", row)), "")[:60]
 
 
 def _film(block: list[str], options: Options, channels: int) -> Accelerogram:
@@ -151,18 +143,11 @@ def _film(block: list[str], options: Options, channels: int) -> Accelerogram:
     film = volume1_block(block)
     times, values = pairs(film, margin=0)
     step, even, notes = evened(times, values)
-    unit = options.unit_of("g/10")
     named = _named(film.head, channels)
     named["warnings"] = (*notes, *named["warnings"])
-    record = accelerogram(unit, even, options.time_step_of(step), processing=notes, **named)
-    return agree_with_header(
-        record, *_uncorrected_peak(film.head), samples=values * acceleration_factor(unit)
-    )
-
-
-def _component(head: str) -> str:
-    direction = optional(r"^Chan\s*\d+:\s*(\S+(?: Deg)?)", head)
-    return re.sub(r"\s+deg$", "", direction, flags=re.I)
+    record = options.accelerogram("g/10", even, step, processing=notes, **named)
+    samples = values * acceleration_factor("g/10")
+    return agree_with_header(record, *_uncorrected_peak(film.head), samples=samples)
 
 
 def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
@@ -181,6 +166,6 @@ SPECTRA = Format(
     "CSMIP V3 spectra",
     "California Geological Survey (CSMIP, CDMG)",
     "first line that names response or Fourier spectra",
-    lambda content: starts(content, _VOLUME_3),
+    _VOLUME_3,
     _refuse,
 )

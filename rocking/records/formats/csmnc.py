@@ -2,7 +2,7 @@
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import check_duration, magnitude, optional, optional_number, required
 from rocking.records.formats.text import count, fields, lines, number, whole
 from rocking.records.plausibility import agree_with_header
@@ -26,12 +26,11 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     said = required(
         "points and interval", r"NO\. OF POINTS:\s*(\S+)\s+EQUALLY SPACED INTERVALS OF:\s*(\S+)", head
     )
-    values = fields(text[_HEADER:], _WIDTH)
-    values, notes = whole(values, count("NO. OF POINTS", said[1]), _PER_LINE)
-    record = accelerogram(
-        options.unit_of("cm/s2"),
+    values, notes = whole(fields(text[_HEADER:], _WIDTH), count("NO. OF POINTS", said[1]), _PER_LINE)
+    record = options.accelerogram(
+        "cm/s2",
         values,
-        options.time_step_of(number("interval", said[2])),
+        number("interval", said[2]),
         component=optional(r"^COMP\.\s*(\S+)", head),
         warnings=notes,
         station=optional(r"^STATION:\s*(\S+)", head),
@@ -40,13 +39,8 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         processed=optional(r"^((?:UN)?CORRECTED) ", head).upper() == "CORRECTED",
     )
     if duration := optional(r"\bDURATION:\s*([\d.]+)", head):
-        check_duration(
-            "DURATION",
-            duration,
-            values.size,
-            record.time_step,
-            rounding=None if "." in duration else 1.0,
-        )
+        rounding = None if "." in duration else 1.0
+        check_duration("DURATION", duration, values.size, record.time_step, rounding=rounding)
     peak = optional_number(r"^PEAK VALUE:\s*(-?[\d.]+)", head)
     at = optional_number(r"^PEAK VALUE:.*?\bAT\s+([\d.]+)\s*SEC", head)
     return [agree_with_header(record, peak, "cm/s2", half_digit=5e-4, at=at)]

@@ -11,7 +11,7 @@ import numpy as np
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_factor, acceleration_unit, positive
 from rocking.records.accelerogram import Accelerogram, Source
-from rocking.records.directions import azimuth, is_vertical
+from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.plausibility import LARGEST_PEAK
 
 Response = Literal["sensitivity", "full"]
@@ -78,36 +78,52 @@ class Options:
             raise RecordError(f"time_step is {step!r} s in the file, but {self.time_step!r} s was declared.")
         return step
 
+    def accelerogram(
+        self, unit: str | None, values: np.ndarray, time_step: float | None, **fields
+    ) -> Accelerogram:
+        """Return an Accelerogram from `values` (n,) of a file; unit and time step [s] as the file declares them.
+
+        fields: of Accelerogram; vertical, and the azimuth of a horizontal one, follow from the component's name unless
+        the file gives them, and text is cleared of control characters.
+        """
+        fields = {key: plain(value) if isinstance(value, str) else value for key, value in fields.items()}
+        component = fields.get("component", "")
+        fields.setdefault("vertical", is_vertical(component))
+        if fields["vertical"]:
+            fields["azimuth"] = None
+        elif fields.get("azimuth") is None:
+            fields["azimuth"] = azimuth(component)
+        unit = self.unit_of(unit)
+        step = self.time_step_of(time_step)
+        return Accelerogram(values * acceleration_factor(unit), step, source=Source(unit=unit), **fields)
+
 
 @dataclass(frozen=True)
 class Format:
     """One kind of file.
 
     origin: who publishes records in it. sought: what the recogniser looks for, as the end of "no ...".
-    recognise: whole content to bool, never raises. read: (content, options) to accelerograms; raises RecordError only,
-    whose message need not name the file. plugin: its name among obspy's formats, where it is offered to obspy.
+    recognise: whole content to bool, never raises; or a pattern of the first line that is not empty.
+    read: (content, options) to accelerograms; raises RecordError only, whose message need not name the file.
+    plugin: its name among obspy's formats, where it is offered to obspy.
     """
 
     name: str
     origin: str
     sought: str
-    recognise: Callable[[bytes], bool]
+    first: Callable[[bytes], bool] | re.Pattern[str]
     read: Callable[[bytes, Options], list[Accelerogram]]
     plugin: str = ""
 
+    def recognise(self, content: bytes) -> bool:
+        """Whether `content` is of this format."""
+        return starts(content, self.first) if isinstance(self.first, re.Pattern) else self.first(content)
 
-def accelerogram(unit: str, values: np.ndarray, time_step: float, **fields) -> Accelerogram:
-    """Return an Accelerogram from `values` in `unit` of a file.
 
-    fields: of Accelerogram; vertical, and the azimuth of a horizontal one, follow from the component's name unless they
-    are known, and text is cleared of control characters.
-    """
-    fields = {key: plain(value) if isinstance(value, str) else value for key, value in fields.items()}
-    component = fields.get("component", "")
-    known = fields.get("azimuth")
-    fields.setdefault("vertical", is_vertical(component))
-    fields["azimuth"] = None if fields["vertical"] else azimuth(component) if known is None else known
-    return Accelerogram(values * acceleration_factor(unit), time_step, source=Source(unit=unit), **fields)
+def starts(content: bytes, pattern: re.Pattern[str]) -> bool:
+    """Whether the first line that is not empty, among the first five, matches `pattern`."""
+    head = content[:2000].decode("latin-1").split("\n", 5)[:5]
+    return any(pattern.match(line) for line in [row for row in head if row.strip()][:1])
 
 
 def plain(text: str) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import (
     blocks,
     check_duration,
@@ -23,7 +23,10 @@ from rocking.records.plausibility import agree_with_header
 _FIRST = re.compile(r"(Un)?corrected accelerogram\s", re.I)
 _TEXT, _HEADER, _PER_LINE, _WIDTH = 16, 26, 10, 8
 _PREPENDED = 31
-"""Place in the integer header (GNS accelerogram data files, Standard Format, 2008)."""
+"""Place in the integer header of the number of samples put before the first digitised one, from which times count.
+
+After GNS accelerogram data files, Standard Format (2008).
+"""
 _STEP = r"intervals of\s+([\d.]+)\s*s|data at\s+([\d.]+)\s*sec intervals"
 
 
@@ -34,12 +37,8 @@ def _recognise(content: bytes) -> bool:
 
 def _read(content: bytes, options: Options) -> list[Accelerogram]:
     found = blocks(content, _FIRST)
-    notes = (
-        ()
-        if len(found) % 3 == 0
-        else (f"A GeoNet file holds 3 components, but this one holds {len(found)}.",)
-    )
-    return [_record(block, options, notes) for block in found]
+    note = f"A GeoNet file holds 3 components, but this one holds {len(found)}."
+    return [_record(block, options, (note,) if len(found) % 3 else ()) for block in found]
 
 
 def _record(block: list[str], options: Options, notes: tuple[str, ...]) -> Accelerogram:
@@ -52,11 +51,11 @@ def _record(block: list[str], options: Options, notes: tuple[str, ...]) -> Accel
     required("acceleration in mm/s/s", r"^Acceleration:\s+peak\s+\S+\s+mm/s/s", head)
     steps = required("the sampling step", _STEP, head)
     values = _samples(block[_HEADER:], declared)
-    time_step = options.time_step_of(number("step", steps[1] or steps[2]))
+    time_step = number("step", steps[1] or steps[2])
     if duration := optional(r"\bDuration\s+([\d.]+)", head):
         check_duration("Duration", duration, declared, time_step)
-    record = accelerogram(
-        options.unit_of("mm/s2"),
+    record = options.accelerogram(
+        "mm/s2",
         values * factor,
         time_step,
         component=optional(r"^Component\s+(\S+)", head),
@@ -71,15 +70,10 @@ def _record(block: list[str], options: Options, notes: tuple[str, ...]) -> Accel
     )
     peak = optional_number(r"^Acceleration:\s+peak\s+(-?[\d.]+)", head)
     at = optional_number(r"^Acceleration:\s+peak\s+\S+\s+mm/s/s at\s+([\d.]+)\s*s", head)
-    if at is not None:
-        at += _prepended(block) * time_step
-    return agree_with_header(record, peak, "mm/s2", half_digit=0.05, at=at)
-
-
-def _prepended(block: list[str]) -> int:
-    """Return the number of samples put before the first digitised one, from which the header counts its times."""
     integers = " ".join(block[_TEXT : _TEXT + 4]).split()
-    return int(integers[_PREPENDED]) if len(integers) == 40 and integers[_PREPENDED].isdecimal() else 0
+    if at is not None and len(integers) == 40 and integers[_PREPENDED].isdecimal():
+        at += int(integers[_PREPENDED]) * time_step
+    return agree_with_header(record, peak, "mm/s2", half_digit=0.05, at=at)
 
 
 def _samples(rows: list[str], declared: int) -> np.ndarray:

@@ -23,11 +23,6 @@ def place_of(text: list[str], is_sought: Callable[[str], object], what: str) -> 
     return at
 
 
-def starts(content: bytes, pattern: re.Pattern[str]) -> bool:
-    """Whether the first line that is not empty matches `pattern`."""
-    return any(pattern.match(line) for line in [row for row in lines(content, 5) if row.strip()][:1])
-
-
 def required(what: str, pattern: str, text: str) -> re.Match[str]:
     """Return the first match of `pattern` in `text`. Raises RecordError saying `what` the header lacks."""
     found = re.search(pattern, text, re.I | re.M)

@@ -6,7 +6,7 @@ from datetime import datetime, timedelta
 from rocking.errors import RecordError
 from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, accelerogram, without_offset
+from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.header import check_duration, magnitude
 from rocking.records.formats.text import after_lines, lines, number, numbers, period
 from rocking.records.plausibility import agree_with_header
@@ -31,14 +31,12 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     fields = _header(content)
     options.unit_of("gal")
     counts = numbers(after_lines(content, len(_FIELDS)))
-    time_step = options.time_step_of(
-        period("Sampling Freq(Hz)", fields["Sampling Freq(Hz)"].removesuffix("Hz"))
-    )
+    time_step = period("Sampling Freq(Hz)", fields["Sampling Freq(Hz)"].removesuffix("Hz"))
     duration = fields["Duration Time(s)"]
     check_duration("Duration Time(s)", duration, counts.size, time_step, rounding=-0.5 * time_step)
     values, offset = without_offset(counts * _scale(fields["Scale Factor"]), "gal")
     direction = fields["Dir."]
-    record = accelerogram(
+    record = options.accelerogram(
         "gal",
         values,
         time_step,

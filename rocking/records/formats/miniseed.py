@@ -7,8 +7,8 @@ from pathlib import Path
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.waveform import joined, stream
+from rocking.records.formats.binary import joined, stream
+from rocking.records.formats.format import Format, Options
 
 _FIXED_HEADER = re.compile(rb"[0-9 \0]{6}[DRQM][ \0]")
 _LARGEST_XML = 32 * 2**20
@@ -32,10 +32,10 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
 def _record(trace, inventory, options: Options, noticed: tuple[str, ...]) -> Accelerogram:
     stats = trace.stats
     values, unit, steps = _calibrated(trace, inventory, options)
-    return accelerogram(
+    return options.accelerogram(
         unit,
         values,
-        options.time_step_of(float(f"{stats.delta:.9g}")),
+        float(f"{stats.delta:.9g}"),
         component=stats.channel,
         station=stats.station,
         network=stats.network,

@@ -4,7 +4,7 @@ import re
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.format import Format, Options
 from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
 from rocking.records.plausibility import agree_with_header
 
@@ -23,6 +23,7 @@ _FILTER_POINTS = re.compile(r"HP\s*=\s*([0-9.]+)\s*HZ", re.I)
 _POLES = re.compile(r"(-?\d+)\s+POLE\s+@\s*([0-9.]+)", re.I)
 _HEADER_LINES = 8
 _LONGEST_COMPONENT = 16
+_MATCHED = "The header says that the record is matched to a spectrum: artificial, not a recorded motion."
 
 
 def _header(content: bytes) -> tuple[list[str], re.Match[str]] | None:
@@ -64,41 +65,22 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError("the header holds no line with NPTS and DT; give a PEER AT2 file.")
     head, found = header
     declared = count("NPTS", found["npts"])
-    time_step = options.time_step_of(number("DT", found["dt"]))
-    unit = options.unit_of(_unit(head))
+    text = " ".join(head)
+    unit = next((unit for pattern, unit in _UNITS if pattern.search(text)), None)
     values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)
-    record = accelerogram(
+    record = options.accelerogram(
         unit,
         values,
-        time_step,
+        number("DT", found["dt"]),
         component=_component(head),
         station=_field(head, -2),
         event=_field(head, 0),
-        warnings=warnings + _doubled(content) + _matched(head),
+        warnings=(*warnings, *([_MATCHED] if re.search(r"\bmatched\b", head[0], re.I) else [])),
         processed=True,
-        high_pass_frequency=_high_pass(head),
+        high_pass_frequency=_high_pass(text),
     )
-    peak = _PEAK.search(" ".join(head))
+    peak = _PEAK.search(text)
     return [agree_with_header(record, number("PGA", peak[1]) if peak else None, "g", half_digit=5e-6)]
-
-
-def _matched(head: list[str]) -> tuple[str, ...]:
-    if not re.search(r"\bmatched\b", head[0], re.I):
-        return ()
-    return ("The header says that the record is matched to a spectrum: artificial, not a recorded motion.",)
-
-
-def _doubled(content: bytes) -> tuple[str, ...]:
-    if b"\r\r\n" not in content[:2000]:
-        return ()
-    return (
-        "The line ends are doubled (CR CR LF), as a faulty conversion leaves them; the numbers are unharmed.",
-    )
-
-
-def _unit(head: list[str]) -> str | None:
-    text = " ".join(head)
-    return next((unit for pattern, unit in _UNITS if pattern.search(text)), None)
 
 
 def _field(head: list[str], index: int) -> str:
@@ -115,8 +97,7 @@ def _component(head: list[str]) -> str:
     return last if len(last) <= _LONGEST_COMPONENT else ""
 
 
-def _high_pass(head: list[str]) -> float | None:
-    text = " ".join(head)
+def _high_pass(text: str) -> float | None:
     points, poles = _FILTER_POINTS.search(text), _POLES.findall(text)
     corner = points[1] if points else poles[1][1] if len(poles) > 1 and poles[1][0] != "0" else "0"
     return float(corner) or None if corner.count(".") <= 1 and corner != "." else None

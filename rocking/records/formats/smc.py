@@ -4,8 +4,8 @@ import re
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.header import corner, distance, magnitude, optional, starts
+from rocking.records.formats.format import Format, Options, starts
+from rocking.records.formats.header import corner, distance, magnitude, optional
 from rocking.records.formats.text import column_width, fields, lines, whole
 from rocking.records.plausibility import agree_with_header
 
@@ -55,10 +55,10 @@ def _record(head: str, kind: str, values, notes, reals, options: Options) -> Acc
         raise RecordError(
             f"samples per second is {reals[_RATE]:g}, but must be greater than 0 and below 1e6."
         )
-    record = accelerogram(
-        options.unit_of("cm/s2"),
+    record = options.accelerogram(
+        "cm/s2",
         values,
-        options.time_step_of(1 / float(reals[_RATE])),
+        1 / float(reals[_RATE]),
         component=optional(r"component\s*=\s*(\S+)", head),
         station=optional(r"station\s*=\s*(.*?)\s*component", head),
         warnings=notes,

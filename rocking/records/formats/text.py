@@ -17,19 +17,12 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 def lines(content: bytes, limit: int | None = None) -> list[str]:
     """Return the first `limit` lines (all by default) as text; bytes beyond ASCII are taken as Latin-1."""
     head = content if limit is None else content[: 400 * limit]
-    text = head.removeprefix(b"\xef\xbb\xbf").decode("latin-1")
-    if "\r" in text:
-        text = text.replace("\r\r\n", "\n").replace("\r\n", "\n").replace("\r", "\n")
-    return text.split("\n", -1 if limit is None else limit)[:limit]
+    return head.decode("latin-1").split("\n", -1 if limit is None else limit)[:limit]
 
 
 def after_lines(content: bytes, number: int) -> bytes:
-    """Return `content` after its first `number` lines, whatever ends them."""
-    content = content.removeprefix(b"\xef\xbb\xbf")
-    if number == 0:
-        return content
-    ends = re.finditer(rb"\r*\n|\r+(?!\n)", content)
-    return next((content[m.end() :] for i, m in enumerate(ends, 1) if i == number), b"")
+    """Return `content` after its first `number` lines."""
+    return content.split(b"\n", number)[number] if content.count(b"\n") >= number else b""
 
 
 def is_number(token: str) -> bool:
@@ -60,8 +53,9 @@ def count(field: str, token: str) -> int:
     return int(value)
 
 
-def numbers(text: bytes) -> np.ndarray:
+def numbers(text: bytes | str) -> np.ndarray:
     """Return the numbers of `text`, separated by blanks and line ends, (n,); RecordError at the first that is none."""
+    text = text.encode("latin-1") if isinstance(text, str) else text
     if not text.translate(None, _NUMERIC):
         try:
             with warnings.catch_warnings():
@@ -70,14 +64,24 @@ def numbers(text: bytes) -> np.ndarray:
         except (DeprecationWarning, ValueError):
             pass
         else:
-            return _bounded(values)
-    raise RecordError(f"{_first_defect(text)}; every sample must be a plain decimal number.")
+            if values.size and not np.abs(values).max() < _LARGEST:
+                at = int(np.argmax(~(np.abs(values) < _LARGEST)))
+                raise RecordError(f"number {at + 1} of the samples is {values[at]:g}, beyond {_LARGEST:g}.")
+            return values
+    broken = (
+        (i, token) for i, line in enumerate(lines(text), 1) for token in line.split() if not is_number(token)
+    )
+    line, token = next(broken, (0, ""))
+    defect = (
+        f"line {line} of the samples holds {token[:40]!r}" if line else "the samples cannot be told apart"
+    )
+    raise RecordError(f"{defect}; every sample must be a plain decimal number.")
 
 
 def fields(rows: list[str], width: int, margin: int = 0) -> np.ndarray:
     """Return the numbers of `rows`, (n,), apart by blanks; where they touch, by columns of `width` after a `margin`."""
     try:
-        return numbers("\n".join(rows).encode("latin-1"))
+        return numbers("\n".join(rows))
     except RecordError:
         pieces = [row[i : i + width].strip() for row in rows for i in range(margin, len(row.rstrip()), width)]
         broken = next((piece for piece in pieces if len(piece.split()) != 1), None)
@@ -85,7 +89,7 @@ def fields(rows: list[str], width: int, margin: int = 0) -> np.ndarray:
             raise RecordError(
                 f"a column of {width} characters holds {broken!r}, but must hold one number: it is damaged."
             ) from None
-        return numbers(" ".join(pieces).encode("latin-1"))
+        return numbers(" ".join(pieces))
 
 
 def in_columns(values: np.ndarray, width: int) -> np.ndarray:
@@ -137,18 +141,3 @@ def filled(rows: list[str], declared: int, per_line: int, width: int, margin: in
         )
     values, _ = whole(fields(rows, width, margin), declared, per_line=0)
     return values
-
-
-def _bounded(values: np.ndarray) -> np.ndarray:
-    if values.size and not np.abs(values).max() < _LARGEST:
-        at = int(np.argmax(~(np.abs(values) < _LARGEST)))
-        raise RecordError(f"number {at + 1} of the samples is {values[at]:g}, beyond {_LARGEST:g}.")
-    return values
-
-
-def _first_defect(text: bytes) -> str:
-    for i, line in enumerate(lines(text), start=1):
-        for token in line.split():
-            if not is_number(token):
-                return f"line {i} of the samples holds {token[:40]!r}"
-    return "the samples cannot be told apart"

@@ -5,13 +5,14 @@ import re
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_unit
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, accelerogram
-from rocking.records.formats.quantity import refuse_other_quantity
+from rocking.records.formats.format import Format, Options
 from rocking.records.formats.text import after_lines, count, is_number, lines, number, numbers, whole
+from rocking.records.instrument import refuse_other_quantity
 
 _HEAD = 12
 _WORDS = re.compile(r"[A-Za-z=:,;()]+")
 _UNIT = re.compile(r"(?:\b(?:in|units?(?: of| are|:)?)\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)", re.I)
+"""The unit follows the word "in" or "units", or stands in brackets."""
 _LONGEST_STEP = 1.0
 """s; of a record, so that a line of two numbers is known for samples and step."""
 
@@ -46,27 +47,13 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError("the second line does not give the number of samples and the time step.")
     title, second = lines(content, _HEAD)[:2]
     refuse_other_quantity(options.file, f"{title}\n{second}")
-    step = options.time_step_of(number("time step", found[1]))
+    unit = next(filter(None, (acceleration_unit(m[1]) for m in _UNIT.finditer(f"{title}\n{second}"))), None)
     declared = count("number of samples", found[0])
-    body = after_lines(content, 2)
     per_line = max(len(row.split()) for row in lines(content, _HEAD)[2:])
-    values, notes = whole(numbers(body), declared, per_line)
-    return [
-        accelerogram(
-            options.unit_of(_unit(f"{title}\n{second}")),
-            values,
-            step,
-            event=title.strip()[:60],
-            warnings=notes,
-            processed=None,
-        )
-    ]
-
-
-def _unit(text: str) -> str | None:
-    """Return the unit that follows the word "in" or "units", or stands in brackets."""
-    found = (acceleration_unit(match[1]) for match in _UNIT.finditer(text))
-    return next(filter(None, found), None)
+    values, notes = whole(numbers(after_lines(content, 2)), declared, per_line)
+    step = number("time step", found[1])
+    event = title.strip()[:60]
+    return [options.accelerogram(unit, values, step, event=event, warnings=notes, processed=None)]
 
 
 TITLED = Format(

@@ -6,10 +6,10 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, accelerogram
+from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import check_duration, check_equal, magnitude, mapping, valued
-from rocking.records.formats.quantity import other_quantity
 from rocking.records.formats.text import count, fields, in_columns, is_number, lines, number, whole
+from rocking.records.instrument import other_quantity
 from rocking.records.plausibility import agree_with_header
 
 _HEADER = 160
@@ -82,10 +82,10 @@ def _record(i: int, values, notes, pairs: dict[str, str], options: Options) -> A
     if rate:
         factor = float(thinned) if is_number(thinned) else 1.0
         check_equal("the interval", step, factor / max(1e-9, number("VEL. DE MUESTREO", rate)))
-    record = accelerogram(
-        options.unit_of("gal"),
+    record = options.accelerogram(
+        "gal",
         values,
-        options.time_step_of(step),
+        step,
         component=_listed(pairs, _ORIENTATION)[i].split(";")[-1].strip(),
         station=pairs.get("CLAVE DE LA ESTACION", ""),
         event=pairs.get("FECHA DEL SISMO [GMT]", ""),

@@ -124,7 +124,7 @@ def history_picture(
 ) -> Picture | None:
     """Return the response histories of one component, the most demanding first chosen; None when nothing moves."""
     from rocking.motion.integration import integrate
-    from rocking.records.vertical import aligned
+    from rocking.records.rotation import aligned
 
     moving = [
         row for row in rows if row.integrated_rotation_ratio > NEGLIGIBLE and row.structure in structures

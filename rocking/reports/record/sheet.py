@@ -22,8 +22,7 @@ def sheet_picture(
     height: float,
 ) -> Picture:
     """Return the record sheet of one component."""
-    from rocking.records.measures import record_measures
-    from rocking.records.response_spectrum import response_spectrum
+    from rocking.records.measures import record_measures, response_spectrum
 
     known = math.isfinite(row.velocity_pulse_period_s)
     figure = record_sheet(

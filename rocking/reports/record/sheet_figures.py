@@ -9,9 +9,8 @@ import numpy as np
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.measures import RecordMeasures
+from rocking.records.measures import RecordMeasures, ResponseSpectrum
 from rocking.records.processing import displacement, velocity
-from rocking.records.response_spectrum import ResponseSpectrum
 from rocking.reports.paper.canvas import SMALL, TEXT_WIDTH, Box, Canvas, Symbol
 from rocking.reports.paper.labels import draw_labels, placed_labels
 from rocking.reports.paper.panel import GREY, GRID, Panel, panels_in

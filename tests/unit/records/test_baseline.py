@@ -8,7 +8,7 @@ from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicHermiteSpline
 
 from rocking.errors import RecordError
-from rocking.records.baseline import adaptive_baseline
+from rocking.records.processing import adaptive_baseline
 
 STEP = 0.01
 

@@ -23,9 +23,8 @@ from rocking.records import fetch as fetching
 from rocking.records.catalogue import vertical_of
 from rocking.records.catalogue_record import COLUMNS
 from rocking.records.fetch import download, fetch
-from rocking.records.folder import list_folder, write_catalogue_rows
+from rocking.records.folder import list_folder, listing_text, write_catalogue_rows
 from rocking.records.hashes import fill_hashes, repeated
-from rocking.records.listing import listing_text
 
 TABLE = "time,NS (gal),EW (gal),UD (gal)\n" + "".join(
     f"{i / 100},{i % 5},{i % 7},{i % 3}\n" for i in range(50)

@@ -9,8 +9,8 @@ import pytest
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records import read
-from rocking.records.directions import azimuth, is_vertical
 from rocking.records.formats import FORMATS
+from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.obspy_plugin import PLUGINS
 from rocking.records.synthetic import BUNDLED, at2_text, synthetic_record
 

@@ -8,7 +8,7 @@ from scipy import integrate
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram, read
-from rocking.records.response_spectrum import response_spectrum
+from rocking.records.measures import response_spectrum
 
 STEP = 0.005
 TIMES = np.arange(8001) * STEP

@@ -7,8 +7,9 @@ import pytest
 
 from rocking.errors import CatalogueError, RecordError
 from rocking.records import Accelerogram
+from rocking.records.catalogue import open_vertical
 from rocking.records.catalogue_record import CatalogueRecord
-from rocking.records.vertical import aligned, open_vertical
+from rocking.records.rotation import aligned
 
 VALUES = np.sin(np.arange(300) * 0.3)
 

@@ -8,8 +8,7 @@ from scipy.constants import g
 
 from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.measures import record_measures
-from rocking.records.response_spectrum import response_spectrum
+from rocking.records.measures import record_measures, response_spectrum
 from rocking.reports.record.sheet_figures import RecordSheet, record_sheet
 
 from .drawn import circles, number, paths, read_axis, texts

@@ -1,0 +1,104 @@
+"""The instrument: where a component points, where it stood and what it measured, as far as names and headers say it."""
+
+import re
+
+from rocking.errors import RecordError
+
+_VERTICAL = {
+    "UP", "-UP", "DOWN", "DN", "DWN", "V", "Z", "UD", "U-D", "U", "VER", "VERT", "VERTICAL", "UPDO", "U/D", "UPWARD",
+    "UP-DOWN", "UP/DOWN", "VERT.",
+}  # fmt: skip
+_NAMED = {
+    "N": 0.0, "NS": 0.0, "N-S": 0.0, "S-N": 180.0, "NORTH": 0.0, "E": 90.0, "EW": 90.0, "E-W": 90.0, "W-E": 90.0,
+    "EAST": 90.0, "S": 180.0, "SOUTH": 180.0, "W": 270.0, "WEST": 270.0,
+}  # fmt: skip
+_QUADRANT = re.compile(r"([NS])\s*(\d{1,2})\s*([EW])")
+_BAND = re.compile(r"[A-Z][HNGL][ENZ123]")
+
+
+def is_vertical(component: str) -> bool:
+    """Whether the component's name says that it is vertical: UP, V, UD, or a channel code ending in Z."""
+    name = component.strip().upper()
+    return name in _VERTICAL or (bool(_BAND.fullmatch(name)) and name.endswith("Z"))
+
+
+def azimuth(component: str) -> float | None:
+    """Return the azimuth the name says, degrees clockwise from north in [0, 360), or None.
+
+    Reads plain degrees ("228"), quadrants ("N26W"), words ("NS", "E-W") and channel codes ("HNE").
+
+    >>> azimuth("N26W")
+    334.0
+    """
+    name = component.strip().upper()
+    if re.fullmatch(r"\d{1,3}(\.\d*)?", name):
+        return float(name) % 360 if float(name) <= 360 else None
+    if _BAND.fullmatch(name):
+        name = name[2]
+    if quadrant := _QUADRANT.fullmatch(name):
+        pole, degrees, side = quadrant.groups()
+        turn = int(degrees) if (pole == "N") == (side == "E") else -int(degrees)
+        return float(((0 if pole == "N" else 180) + turn) % 360)
+    return _NAMED.get(name)
+
+
+_STRUCTURE = re.compile(
+    r"\b(roof|floor|fl|flr|storey|story|penthouse|mezzanine|attic|deck|bent|column|girder|abutment|pier|crest|tower|"
+    r"dam|gallery|basement|bsmt|bldg|building|bridge)\b",
+    re.I,
+)
+_FREE = re.compile(r"\bfree[- ]?field\b", re.I)
+_DOWN_HOLE = re.compile(
+    r"\b(down-?hole|bore-?hole|depth|below (?:ground|surface))\b|-\s*\d+(?:\.\d+)?\s*m\b", re.I
+)
+_CODE = re.compile(r"[A-Z]([HLMP])[ENZ123](\d\d)?")
+
+
+def site_warnings(place: str) -> tuple[str, ...]:
+    """Return a warning when the `place` of an instrument is in a structure or below the ground."""
+    if _DOWN_HOLE.search(place):
+        return (f"The instrument stood down-hole ({place}): this is not the motion of the surface.",)
+    if _STRUCTURE.search(place) and not _FREE.search(place):
+        return (f"The instrument stood in a structure ({place}): its motion may not be that of the ground.",)
+    return ()
+
+
+def channel_warnings(component: str) -> tuple[str, ...]:
+    """Return a warning when a channel code is that of a seismometer (BH?, HH?, HL?), not of an accelerometer (?N?)."""
+    code = _CODE.fullmatch(component.strip().upper())
+    if not code:
+        return ()
+    kind = {"H": "high-gain seismometer", "L": "low-gain seismometer", "M": "mass position", "P": "geophone"}
+    return (
+        f"The channel code {component.strip()} is that of a {kind[code[1]]}, which measures velocity and clips in "
+        "strong motion; an accelerometer's code has N in second place.",
+    )
+
+
+_ACCELERATION = re.compile(r"(?<![a-z])(acc|acel|beschl)", re.I)
+_OTHER = {
+    "velocity": re.compile(r"(?<![a-z])vel(oc\w*|\b)|(?<![\w/])(cm|m|mm|in)/s(ec)?\b(?!\s*[/^*²2])", re.I),
+    "displacement": re.compile(r"(?<![a-z])displ?(ac\w*|\b)", re.I),
+}
+_OF_THE_GROUND = re.compile(r"shear|wave|vs[ _,]?30", re.I)
+"""The velocity of a site is no record."""
+_SUFFIXES = {
+    ".vt2": "velocity", ".vel": "velocity", ".vtx": "velocity",
+    ".dt2": "displacement", ".dis": "displacement", ".disp": "displacement",
+}  # fmt: skip
+
+
+def other_quantity(text: str) -> str | None:
+    """Return "velocity" or "displacement" when `text`, a header or the name of a column, speaks of it alone."""
+    if _ACCELERATION.search(text) or _OF_THE_GROUND.search(text):
+        return None
+    return next((word for word, pattern in _OTHER.items() if pattern.search(text)), None)
+
+
+def refuse_other_quantity(file: str, text: str) -> None:
+    """Raise RecordError when `text`, a header, or the ending of the name `file` speaks of another quantity."""
+    suffix = next((word for end, word in _SUFFIXES.items() if file.lower().endswith(end)), None)
+    if quantity := other_quantity(text) or suffix:
+        raise RecordError(
+            f"this is a file of {quantity}, not of acceleration; use the acceleration of the same record."
+        )
