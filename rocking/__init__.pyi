@@ -25,6 +25,7 @@ from .pulses import PulseSettings as PulseSettings
 from .pulses import extract_pulses as extract_pulses
 from .records import Accelerogram as Accelerogram
 from .records import read as read
+from .reports.panels import plot as plot
 from .sine_pulse import Maximum as Maximum
 from .sine_pulse import Regime as Regime
 from .sine_pulse import overturning_amplitudes as overturning_amplitudes

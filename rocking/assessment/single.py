@@ -84,9 +84,9 @@ class StructureAssessment:
 
     def plot(self, axes: "Axes | None" = None) -> "Axes":
         """Draw the rotation of the case as given against time, with the members' 5–95 % beside it; return the axes."""
-        from rocking.reports.plots import plot_assessment
+        from rocking import plot  # the drawing stands above everything
 
-        return plot_assessment(self, axes)
+        return plot(self, axes)
 
 
 def assess(

@@ -62,9 +62,9 @@ class Response:
 
         Raises MotionError without a history.
         """
-        from rocking.reports.plots import plot_response
+        from rocking import plot  # the drawing stands above everything
 
-        return plot_response(self, axes)
+        return plot(self, axes)
 
     def frame(self) -> "DataFrame":
         """Return a pandas frame of the history: time_s, rotation_rad, angular_velocity_rad_s.

@@ -32,9 +32,9 @@ class RockingSpectrum(np.ndarray):
 
         Raises MotionError for fewer than two values on either axis, or for a part of a spectrum.
         """
-        from rocking.reports.plots import plot_spectrum
+        from rocking import plot  # the drawing stands above everything
 
-        return plot_spectrum(self, axes)
+        return plot(self, axes)
 
 
 def rocking_spectrum(

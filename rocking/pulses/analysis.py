@@ -110,9 +110,9 @@ class PulseAnalysis:
 
     def plot(self, axes: "Axes | None" = None) -> "Axes":
         """Draw the record with its dominant pulse, on `axes` or on new ones, and return the axes."""
-        from rocking.reports.plots import plot_analysis
+        from rocking import plot  # the drawing stands above everything
 
-        return plot_analysis(self, axes)
+        return plot(self, axes)
 
     def frame(self) -> "DataFrame":
         """Return a pandas frame with one row per pulse, by gain, the dominant one first."""

@@ -52,6 +52,6 @@ class Pulse:
 
     def plot(self, axes: "Axes | None" = None) -> "Axes":
         """Draw the cycle against time, on `axes` or on new ones, and return the axes."""
-        from rocking.reports.plots import plot_pulse
+        from rocking import plot  # the drawing stands above everything
 
-        return plot_pulse(self, axes)
+        return plot(self, axes)

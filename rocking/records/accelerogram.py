@@ -117,9 +117,9 @@ class Accelerogram:
 
     def plot(self, axes: "Axes | None" = None) -> "Axes":
         """Draw the acceleration against time, on `axes` or on new ones, and return the axes."""
-        from rocking.reports.plots import plot_accelerogram
+        from rocking import plot  # the drawing stands above everything
 
-        return plot_accelerogram(self, axes)
+        return plot(self, axes)
 
     def frame(self) -> "DataFrame":
         """Return a pandas frame of the columns time_s and acceleration_m_s2."""

@@ -1,23 +1,32 @@
-"""The one style of the figures that matplotlib draws, and how such a figure becomes bytes."""
+"""The one style of the figures, how a figure becomes bytes, and names cut to the room that they have."""
 
 import io
+import math
 from collections.abc import Callable, Sequence
 from functools import cache, wraps
 from pathlib import Path
 from typing import ParamSpec, TypeVar
 
 import matplotlib
+import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
+from matplotlib.ft2font import FT2Font
+from matplotlib.ticker import FixedFormatter, FixedLocator, LogLocator, NullLocator, StrMethodFormatter
 
-from rocking.reports.paper.canvas import TEXT_WIDTH
-
+TEXT_WIDTH = 170.0
+"""Width of the text of a page, mm."""
+RECORD, PULSE, PREDICTED, UPLIFT = "0.35", "#D55E00", "#0072B2", "#009E73"
+"""Colours of a recorded motion, of its sine pulse, of a closed form, and of what lifts a structure."""
+MOST_POINTS = 4000
+"""Points of a trace; a longer one keeps the least and the largest value of each stretch."""
+FONT_FOLDER = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 Margins = tuple[float, float, float, float]
 MARGINS: Margins = (14.0, 2.0, 8.5, 4.0)
 """Left, right, bottom, top, mm: room for tick labels and one line of axis label."""
 _MILLIMETRES_PER_INCH = 25.4
+_STEPS = (1.0, 2.0, 5.0, 10.0)
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -43,12 +52,18 @@ def styled(function: Callable[P, R]) -> Callable[P, R]:
 def new_figure(height: float, width: float = TEXT_WIDTH, margins: Margins = MARGINS) -> Figure:
     """Return an empty figure of `width` by `height` mm with the margins left, right, bottom and top of its panels, mm.
 
-    Margins are given, not found: finding them costs more than drawing.
+    Margins are given, not sought: seeking them costs more than drawing.
     """
     figure = Figure(figsize=(width / _MILLIMETRES_PER_INCH, height / _MILLIMETRES_PER_INCH))
     left, right, bottom, top = margins
     figure.subplots_adjust(left / width, bottom / height, 1 - right / width, 1 - top / height)
     return figure
+
+
+def panel_at(figure: Figure, left: float, top: float, width: float, height: float) -> Axes:
+    """Return new axes whose box stands at `left` and `top` of the figure, in mm from its upper left corner."""
+    wide, high = (size * _MILLIMETRES_PER_INCH for size in figure.get_size_inches())
+    return figure.add_axes((left / wide, 1 - (top + height) / high, width / wide, height / high))
 
 
 @styled
@@ -77,6 +92,53 @@ def plain_logarithmic(panel: Axes, which: str) -> None:
     """Give the x or y axis of `panel` a logarithmic scale with ticks at 1, 2, 5 and plain numbers on them."""
     axis = panel.xaxis if which == "x" else panel.yaxis
     panel.set(**{f"{which}scale": "log"})
-    axis.set_major_locator(LogLocator(subs=(1, 2, 3, 5, 7)))
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axis.set_minor_locator(NullLocator())
+
+
+def fixed_ticks(panel: Axes, which: str, low: float, high: float, wished: int = 5) -> None:
+    """Give the x or y axis its limits and about `wished` round ticks between them, which nothing has to seek again."""
+    raw = (high - low) / wished
+    power = 10.0 ** math.floor(math.log10(raw))
+    step = power * next(each for each in _STEPS if each * power >= raw * (1 - 1e-9))
+    places = step * np.arange(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)
+    axis = panel.xaxis if which == "x" else panel.yaxis
+    axis.set_major_locator(FixedLocator(places.tolist()))
+    axis.set_major_formatter(FixedFormatter([f"{round(place, 12):g}".replace("-", "−") for place in places]))
+    panel.set(**{f"{which}lim": (low, high)})
+
+
+def thinned(times: np.ndarray, values: np.ndarray, most: int = MOST_POINTS) -> tuple[np.ndarray, np.ndarray]:
+    """Return the envelope of a trace in at most `most` points: least and largest value of each stretch, in order.
+
+    No peak is lost, or moved by more than a stretch; a trace of few samples stays as it is.
+    """
+    size = values.size
+    if size <= most:
+        return times, values
+    stretch = math.ceil(2 * size / most)
+    padded = np.pad(values, (0, -size % stretch), mode="edge").reshape(-1, stretch)
+    begins = np.arange(len(padded)) * stretch
+    kept = np.unique(np.concatenate([begins + padded.argmin(axis=1), begins + padded.argmax(axis=1)]))
+    kept = kept[kept < size]
+    return times[kept], values[kept]
+
+
+@cache
+def glyphs() -> frozenset[int]:
+    """Return the code points that the fonts of the figures and of the page hold."""
+    return frozenset(FT2Font(str(FONT_FOLDER / "DejaVuSans.ttf")).get_charmap())
+
+
+def elided(text: str, length: float) -> str:
+    """Return `text` as a figure can show it: cut to the width of about `length` small letters, the last one an
+    ellipsis if something was cut, and a box for each character that no font of the figure holds.
+    """
+    width = 0.0
+    readable = "".join(letter if ord(letter) in glyphs() else "□" for letter in text)
+    for place, letter in enumerate(readable):
+        width += 1.0 if letter.isascii() and not letter.isupper() else 1.6
+        if width > length:
+            return readable[: max(place - 1, 0)] + "…"
+    return readable

@@ -39,9 +39,9 @@ class CapacityCurve:
 
     def plot(self, axes: "Axes | None" = None) -> "Axes":
         """Draw the multiplier against the displacement of the control point; return the axes."""
-        from rocking.reports.plots import plot_capacity
+        from rocking import plot  # the drawing stands above everything
 
-        return plot_capacity(self, axes)
+        return plot(self, axes)
 
 
 def capacity_curve(structure: "Structure", side: int = 1, count: int = 41) -> CapacityCurve:

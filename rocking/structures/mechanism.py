@@ -252,6 +252,6 @@ class Mechanism:
 
     def plot(self, axes: "Axes | None" = None) -> "Axes":
         """Draw I, G and B against the rotation, on `axes` or on new ones, and return the axes."""
-        from rocking.reports.plots import plot_mechanism
+        from rocking import plot  # the drawing stands above everything
 
-        return plot_mechanism(self, axes)
+        return plot(self, axes)

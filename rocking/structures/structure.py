@@ -83,9 +83,9 @@ class Structure(ABC):
 
         dimensions: also draw the lines of its sizes, each with its letter, about the structure at rest.
         """
-        from rocking.reports.plots import plot_structure
+        from rocking import plot  # the drawing stands above everything
 
-        return plot_structure(self, rotation, axes, dimensions)
+        return plot(self, axes, rotation=rotation, dimensions=dimensions)
 
     def capacity_curve(self, side: int = 1, count: int = 41) -> CapacityCurve:
         """Return the load multiplier against displacement of one side, from rest to the critical rotation."""

@@ -31,8 +31,8 @@ ONLY_IN = {
     "typst": ("reports/",),
     "snakemake": ("study/",),
 }
-DRAWN = ("rocking.reports.plots", "matplotlib.axes.Axes")
-"""What the methods plot() still reach up to, at their call."""
+DRAWN = ("matplotlib.axes.Axes",)
+"""What the methods plot() return, for a type checker; they call `rocking.plot` of the package root."""
 TYPED = {
     ("rocking.structures.capacity", "rocking.structures.structure"),
     ("rocking.structures.equivalent_block", "rocking.structures.mechanism"),

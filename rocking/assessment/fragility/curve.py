@@ -75,9 +75,9 @@ class Fragility:
 
     def plot(self, axes: "Axes | None" = None) -> "Axes":
         """Draw the empirical curve with its interval and the lognormal one; return the axes."""
-        from rocking.reports.plots import plot_fragility
+        from rocking import plot  # the drawing stands above everything
 
-        return plot_fragility(self, axes)
+        return plot(self, axes)
 
 
 def fragility_of(

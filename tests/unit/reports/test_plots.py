@@ -58,8 +58,8 @@ def test_the_record_and_the_pulse_are_drawn_as_they_are():
     assert np.array_equal(lines(RECORD.plot())[r"event, \$x^\$, NS"], RECORD.acceleration)
     drawn = lines(PLOTTED["analysis"].plot())
     assert np.array_equal(drawn["record"], RECORD.acceleration)
-    # 400 points on 1.5 periods: the nearest to the peak is at most π/267 away, which costs 1 − cos of it
-    assert np.abs(drawn["sine pulse, T = 0.9 s"]).max() == pytest.approx(4.0, rel=7e-5)
+    # one of the 121 points stands at a quarter of the period
+    assert np.abs(drawn["dominant pulse"]).max() == pytest.approx(4.0, rel=1e-9)
 
 
 def test_the_response_is_drawn_with_its_largest_rotation_marked():

@@ -1,0 +1,357 @@
+"""Every picture of the package, drawn once: one panel on the axes given, for `.plot()`, reports and documentation.
+
+Units stand on every axis. A long trace is drawn as its envelope.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from rocking.errors import MotionError
+from rocking.reports.drawings import draw_dimensions, draw_marks, draw_structure
+from rocking.reports.style import PREDICTED, PULSE, RECORD, UPLIFT, plain_logarithmic, thinned
+
+if TYPE_CHECKING:
+    from rocking.assessment.fragility import Fragility
+    from rocking.assessment.single import StructureAssessment
+    from rocking.motion.response import Response
+    from rocking.motion.spectrum import RockingSpectrum
+    from rocking.pulses import Pulse, PulseAnalysis
+    from rocking.records.accelerogram import Accelerogram
+    from rocking.records.response_spectrum import ResponseSpectrum
+    from rocking.structures import Mechanism, Side, Structure
+    from rocking.structures.capacity import CapacityCurve
+
+TIME = "time [s]"
+ACCELERATION = "ground acceleration [m/s²]"
+RATIO = "rotation / critical rotation [-]"
+_LEVELS = (0.05, 0.1, 0.2, 0.5, 1.0)
+"""Rotation ratios that get a line in a rocking spectrum."""
+_POINTS = 400
+_SMALLEST, _FALLEN = 1e-3, 1.6
+"""Rotation ratio below which a point is set on the edge of a scatter, and where overturning is set."""
+_MOST_DRAWN = 5000
+"""Points that are drawn as shapes; more become a picture, whose size does not grow with them."""
+
+Placed = tuple[str, float, float]
+"""Number, frequency parameter p [rad/s] and uplift multiplier λ of an equivalent block."""
+
+
+def plot(thing: object, axes: Axes | None = None, **options: Any) -> Axes:
+    """Draw anything of this package that has a method plot, in the caller's own style, on `axes` or on new ones.
+
+    Returns the axes, so that title, limits and labels can still be changed. options: those of its method plot.
+    """
+    draw = next(_PLOTS[kind.__name__] for kind in type(thing).__mro__ if kind.__name__ in _PLOTS)
+    if axes is None:
+        from matplotlib import pyplot  # it owns the windows, which who gives axes does not need
+
+        axes = pyplot.subplots()[1]
+    draw(thing, axes, **options)
+    return axes
+
+
+# What a report and a method draw alike ---------------------------------------------------------------------
+
+
+def draw_motion(axes: Axes, record: "Accelerogram", pulse: "Pulse | None" = None, most: int = 4000) -> None:
+    """Draw the acceleration against time, with its pulse. most: points of the trace."""
+    times, samples = thinned(record.times, record.acceleration, most)
+    axes.plot(times, samples, color=RECORD, linewidth=0.6, label="record")
+    if pulse is not None:
+        inside = np.linspace(pulse.start_time, pulse.end_time, 121)
+        axes.plot(inside, pulse.acceleration(inside), color=PULSE, linewidth=1.5, label="dominant pulse")
+
+
+def draw_rotation(
+    axes: Axes,
+    times: np.ndarray,
+    ratio: np.ndarray,
+    predicted: float = math.nan,
+    band: tuple[float, float] | None = None,
+    most: int = 4000,
+) -> None:
+    """Draw rotation over critical rotation (k,) against time, its impacts as ticks at the lower edge.
+
+    predicted: the largest of the closed form, drawn on both sides. band: 5 and 95 % of the members' largest.
+    """
+    axes.axhline(0, color="0.8", linewidth=0.5, zorder=0)
+    if band is not None:
+        low, high = (min(value, 1.0) for value in band)
+        for sign in (1, -1):
+            axes.axhspan(sign * low, sign * high, color="#E69F00", alpha=0.25, linewidth=0)
+    axes.plot(*thinned(times, ratio, most), color="black", linewidth=0.8, label="as given")
+    impacts = times[1:][ratio[1:] * ratio[:-1] < 0]
+    axes.plot(impacts, np.zeros(impacts.size), "|", color="black", markersize=3, markeredgewidth=0.4)
+    if 0 < predicted < math.inf:
+        for sign in (1, -1):
+            axes.axhline(sign * predicted, color=PREDICTED, linewidth=1.0, linestyle="-.")
+
+
+def draw_levels(
+    axes: Axes, across: np.ndarray, up: np.ndarray, ratios: np.ndarray, placed: Sequence[Placed] = ()
+) -> None:
+    """Draw lines of equal rotation ratio (m, n) over p (m,) and λ (n,), hatched where it overturns, with structures."""
+    overturns = np.isinf(ratios).T
+    if overturns.any():
+        axes.contourf(across, up, overturns.astype(float), levels=[0.5, 1.5], colors="0.85", hatches=["///"])
+    shown = np.where(overturns, np.nan, ratios.T)
+    if np.nanmax(shown, initial=0) > _LEVELS[0] and np.nanmin(shown, initial=np.inf) < _LEVELS[-1]:
+        lines = axes.contour(across, up, shown, levels=_LEVELS, colors="black", linewidths=0.7)
+        axes.clabel(lines, fmt="%g", fontsize=7)
+    _draw_placed(axes, [(number, p, multiplier) for number, p, multiplier in placed])
+    axes.set_xlabel("frequency parameter p [rad/s]")
+    axes.set_ylabel("uplift multiplier λ [-]")
+
+
+def draw_response_spectra(
+    axes: Axes, spectra: Mapping[str, "ResponseSpectrum"], placed: Sequence[Placed] = ()
+) -> None:
+    """Draw the pseudo-acceleration by component, and equivalent blocks at their period 2π/p and acceleration gλ."""
+    from rocking.quantities import GRAVITY
+
+    for (name, each), line in zip(spectra.items(), ("-", "--", ":"), strict=False):
+        shown = np.maximum(each.pseudo_acceleration, 1e-3 * max(each.pseudo_acceleration.max(), 1e-9))
+        axes.plot(each.periods, shown, line, color="black", linewidth=0.9, label=name or "record")
+    _draw_placed(axes, [(number, 2 * math.pi / p, GRAVITY * lam) for number, p, lam in placed])
+    plain_logarithmic(axes, "x")
+    plain_logarithmic(axes, "y")
+    axes.set_xlabel("period T, or 2π/p of a structure [s]")
+    axes.set_ylabel("PSA, 5 % [m/s²]")
+
+
+def _draw_placed(axes: Axes, places: Iterable[Placed]) -> None:
+    """Structures as circles; those that stand in one place share a label."""
+    shared: dict[tuple[float, float], list[str]] = {}
+    for number, x, y in places:
+        shared.setdefault((float(f"{x:.3g}"), float(f"{y:.3g}")), []).append(number)
+    for (x, y), numbers in shared.items():
+        axes.plot(x, y, "o", color=UPLIFT, markersize=3.5, fillstyle="none")
+        axes.annotate(
+            ",".join(numbers), (x, y), xytext=(3, 2), textcoords="offset points", fontsize=7, color=UPLIFT
+        )
+
+
+def draw_energy_map(
+    axes: Axes, onsets: np.ndarray, periods: np.ndarray, gains: np.ndarray, pulses: Sequence["Pulse"]
+) -> None:
+    """Draw energy gains (n, m) [m²/s³] over onset (n,) [s] and period (m,) [s], darker for more, with ranked pulses."""
+    share = np.sqrt(gains / max(float(gains.max()), np.finfo(float).tiny))  # the root shows the weaker maxima
+    axes.pcolormesh(
+        onsets, periods, share.T, cmap="Greys", vmin=0, vmax=1.25, shading="nearest", rasterized=True
+    )
+    for rank, pulse in enumerate(pulses, start=1):
+        axes.plot(pulse.start_time, pulse.period, "o", color=PULSE, markersize=3.5, fillstyle="none")
+        axes.annotate(
+            str(rank),
+            (pulse.start_time, pulse.period),
+            xytext=(3, 2),
+            textcoords="offset points",
+            fontsize=7,
+            color=PULSE,
+        )
+    plain_logarithmic(axes, "y")
+    axes.set_ylim(float(periods.min()), float(periods.max()))
+    axes.set_xlabel("onset of the pulse [s]")
+    axes.set_ylabel("period [s]")
+
+
+def draw_agreement(axes: Axes, integrated: np.ndarray, predicted: np.ndarray) -> None:
+    """Draw predicted against integrated rotation ratio with factor-two lines; what overturns stands at the far edges.
+
+    A case without one of the two is left out, and so is one that neither lifts.
+    """
+    span = np.array([_SMALLEST, 1.0])
+    for factor, line in ((1.0, "-"), (0.5, "--"), (2.0, "--")):
+        axes.plot(span, factor * span, line, color="black", linewidth=0.6)
+    shown = np.isfinite(integrated + 0 * predicted) | np.isinf(integrated)
+    shown &= ~np.isnan(predicted) & (np.fmax(integrated, predicted) > 0)
+    places = np.clip(np.stack([integrated, predicted])[:, shown], 0.7 * _SMALLEST, None)
+    places[np.isinf(places)] = _FALLEN
+    axes.plot(
+        *places,
+        "o",
+        color="none",
+        markeredgecolor=PREDICTED,
+        markeredgewidth=0.8,
+        rasterized=places.shape[1] > _MOST_DRAWN,
+        label=f"cases ({places.shape[1]})",
+    )
+    for edge in (1.25, 0.85 * _SMALLEST):
+        axes.axvline(edge, color="0.5", linewidth=0.5)
+        axes.axhline(edge, color="0.5", linewidth=0.5)
+    for which in ("x", "y"):
+        plain_logarithmic(axes, which)
+    limits = 0.55 * _SMALLEST, 2.1
+    ticks, names = (
+        [0.7 * _SMALLEST, 0.001, 0.01, 0.1, 1.0, _FALLEN],
+        ["", "0.001", "0.01", "0.1", "1", "overturns"],
+    )
+    axes.set(xlim=limits, ylim=limits)
+    axes.set_xticks(ticks, [*names[:-1], "\noverturns"])
+    axes.set_yticks(ticks, names)
+    axes.set_xlabel("rotation / critical rotation, full integration [-]")
+    axes.set_ylabel("rotation / critical rotation, closed form [-]")
+    axes.legend(loc="upper left", bbox_to_anchor=(0.03, 0.88))
+
+
+def draw_probability(
+    axes: Axes,
+    levels: np.ndarray,
+    probability: np.ndarray,
+    interval: tuple[np.ndarray, np.ndarray] | None = None,
+    lognormal: np.ndarray | None = None,
+    label: str = "empirical",
+    colour: str = "C0",
+) -> None:
+    """Draw a fragility curve over the levels of its intensity measure, with its 90 % interval and lognormal curve."""
+    if interval is not None:
+        axes.fill_between(
+            levels, *interval, color=colour, alpha=0.2, linewidth=0, label="90 % interval, by stations"
+        )
+    axes.plot(levels, probability, ".-", color=colour, linewidth=0.9, markersize=3, label=label)
+    if lognormal is not None:
+        axes.plot(levels, lognormal, "--", color="black", linewidth=0.7, label="lognormal")
+    plain_logarithmic(axes, "x")
+    axes.set_ylim(-0.02, 1.02)
+
+
+# The methods plot ------------------------------------------------------------------------------------------
+
+
+def _plot_accelerogram(record: "Accelerogram", axes: Axes) -> None:
+    axes.plot(*thinned(record.times, record.acceleration), linewidth=0.7, label=_named(axes, record))
+    axes.set(xlabel=TIME, ylabel=ACCELERATION)
+
+
+def _plot_pulse(pulse: "Pulse", axes: Axes) -> None:
+    times = np.linspace(pulse.start_time - pulse.period / 4, pulse.end_time + pulse.period / 4, _POINTS)
+    axes.plot(times, pulse.acceleration(times), label=f"sine pulse, T = {pulse.period:.3g} s")
+    axes.set(xlabel=TIME, ylabel=ACCELERATION)
+
+
+def _plot_analysis(analysis: "PulseAnalysis", axes: Axes) -> None:
+    draw_motion(axes, analysis.accelerogram, analysis.dominant)
+    _named(axes, analysis.accelerogram)
+    axes.set(xlabel=TIME, ylabel=ACCELERATION)
+    axes.legend(title=f"pulse explains {100 * analysis.explained_energy:.0f} %\nof the energy")
+
+
+def _plot_response(response: "Response", axes: Axes) -> None:
+    times, rotation = _history(response, "integrate with history=True to plot it")
+    axes.plot(*thinned(times, rotation), linewidth=0.9, label="rotation")
+    axes.axhline(0, color="0.8", linewidth=0.7, zorder=0)
+    if 0 < response.rotation_ratio < math.inf:
+        place = int(np.abs(rotation).argmax())
+        axes.plot(times[place], rotation[place], "o", fillstyle="none", color="black")
+    axes.set(xlabel=TIME, ylabel="rotation [rad]", title=response.outcome.of(response.rotation_ratio))
+
+
+def _plot_assessment(assessment: "StructureAssessment", axes: Axes) -> None:
+    times, rotation = _history(assessment.response, "assess the structure again to plot it")
+    mechanism = next(iter(assessment.cases.values())).mechanism
+    band = (assessment.rotation_ratio_low, assessment.rotation_ratio_high)
+    draw_rotation(axes, times, rotation / mechanism.critical_rotation, band=band)
+    axes.plot([], [], color="#E69F00", alpha=0.4, linewidth=5, label=f"{assessment.members} members, 5–95 %")
+    share = f"{100 * assessment.overturning_probability:.0f} %"
+    axes.set(xlabel=TIME, ylabel=RATIO, ylim=(-1.15, 1.15))
+    axes.set_title(f"{assessment.verdict}: overturns in {share} of the members")
+    axes.legend(loc="upper right")
+
+
+def _plot_fragility(fragility: "Fragility", axes: Axes) -> None:
+    overturning = math.isinf(fragility.threshold)
+    event = "overturning" if overturning else f"a rotation above {fragility.threshold:g} of the critical one"
+    interval = fragility.probability_low, fragility.probability_high
+    label = f"empirical, {len(fragility.stations)} records"
+    draw_probability(axes, fragility.levels, fragility.probability, interval, fragility.lognormal, label)
+    axes.set(xlabel=f"{fragility.measure} [{fragility.unit or '-'}]", ylabel=f"probability of {event} [-]")
+    axes.legend(loc="upper left")
+
+
+def _plot_spectrum(spectrum: "RockingSpectrum", axes: Axes) -> None:
+    """Raises MotionError for fewer than two values on either axis, or for a part of a spectrum."""
+    if spectrum.shape != (spectrum.frequency_parameters.size, spectrum.uplift_multipliers.size):
+        raise MotionError(
+            f"the spectrum has shape {spectrum.shape}, which is a part of one; plot the whole of it."
+        )
+    if min(spectrum.shape) < 2:
+        raise MotionError(f"the spectrum has shape {spectrum.shape}, but lines need at least (2, 2).")
+    draw_levels(axes, spectrum.frequency_parameters, spectrum.uplift_multipliers, np.asarray(spectrum))
+    axes.set_title("largest rotation / critical rotation; hatched: overturns")
+
+
+def _plot_mechanism(mechanism: "Mechanism", axes: Axes) -> None:
+    """I, G and B over their values at rest, up to the critical rotation of each side."""
+    for side, sign in zip(mechanism.sides, (1, -1), strict=False):
+        _plot_side(axes, side, sign)
+    axes.axhline(0, color="0.8", linewidth=0.7, zorder=0)
+    axes.set(xlabel="rotation [rad]", ylabel="over the value at rest [-]")
+    axes.legend()
+
+
+def _plot_side(axes: Axes, side: "Side", sign: int) -> None:
+    rotations = np.linspace(0, side.critical_rotation, _POINTS)
+    for letter, name in (("I", "inertia"), ("G", "gravity"), ("B", "ground")):
+        values = np.array([side.at(name, rotation) for rotation in rotations])
+        colour, label = f"C{'IGB'.index(letter)}", letter if sign > 0 else None
+        axes.plot(sign * rotations, values / values[0], "-" if sign > 0 else "--", color=colour, label=label)
+
+
+def _plot_capacity(curve: "CapacityCurve", axes: Axes) -> None:
+    x, y = curve.control_point
+    axes.plot(curve.displacement, curve.multiplier, label=f"control point ({x:.3g}, {y:.3g}) m")
+    axes.axhline(0, color="0.8", linewidth=0.7, zorder=0)
+    axes.margins(x=0)
+    axes.set(xlabel="horizontal displacement of the control point [m]", ylabel="load multiplier G/B [g]")
+    axes.legend()
+
+
+def _plot_structure(
+    structure: "Structure", axes: Axes, rotation: float = 0.0, dimensions: bool = False
+) -> None:
+    """To scale; loads, thrusts and ties too, and at rest the line of thrust as it starts to rock."""
+    draw_structure(axes, structure, rotation)
+    if dimensions:
+        draw_dimensions(axes, structure.dimensions())
+    drawn = [*structure.outline(rotation), *structure.outline()]
+    left = None if dimensions else min(float(each[:, 0].min()) for each in drawn)
+    draw_marks(axes, structure.marks(rotation), left)
+    if not rotation and len(structure.thrust_line()):
+        axes.plot(*structure.thrust_line().T, color="C3", linewidth=1.0, label="thrust line at uplift")
+        axes.legend(loc="upper right")
+    axes.set(xlabel="[m]", ylabel="[m]")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.margins(0.06)
+    axes.autoscale_view()
+
+
+_PLOTS: dict[str, Callable[..., None]] = {
+    "Accelerogram": _plot_accelerogram,
+    "Pulse": _plot_pulse,
+    "PulseAnalysis": _plot_analysis,
+    "Response": _plot_response,
+    "StructureAssessment": _plot_assessment,
+    "Fragility": _plot_fragility,
+    "RockingSpectrum": _plot_spectrum,
+    "Mechanism": _plot_mechanism,
+    "CapacityCurve": _plot_capacity,
+    "Structure": _plot_structure,
+}
+"""By the name of the class: to import the classes would cost whoever draws a record the kernels of the motion."""
+
+
+def _history(response: "Response", otherwise: str) -> tuple[np.ndarray, np.ndarray]:
+    if response.times is None or response.rotation is None:
+        raise MotionError(f"the history of the response is not there; {otherwise}.")
+    return response.times, response.rotation
+
+
+def _named(axes: Axes, record: "Accelerogram") -> str:
+    """Write what the record is called above the axes, with no letter taken for markup, and return it."""
+    name = ", ".join(name for name in (record.event, record.station, record.component) if name) or "record"
+    axes.set_title(name).set_parse_math(False)
+    return name.replace("$", r"\$")  # as a legend shows it, which has no such switch
