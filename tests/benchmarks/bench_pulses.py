@@ -1,16 +1,11 @@
-"""What the extraction costs: compiled beside plain numpy in one run, and how it grows with the record.
+"""What the extraction of pulses costs: compiled beside plain numpy in one run.
 
 Run as a script. A 40 s, 200 Hz component, five refined alternatives; the plain version does the same scan, maxima
 and refinement with numpy and scipy, one frequency after the other.
 """
 
-import os
-import subprocess
-import sys
-import tempfile
-import time
-
 import numpy as np
+from clock import least_cpu
 from scipy import ndimage, optimize
 
 from rocking.pulses import PulseSettings, extract_pulses
@@ -67,37 +62,15 @@ def plain_refinement(samples, step, frequency, start):
     return -found.fun, frequency * np.exp(found.x[0]), start + found.x[1] / frequency
 
 
-def best_time(function, repeats):
-    """Least processor time of several runs, ms: what else the machine does is not counted."""
-    spent = []
-    for _ in range(repeats):
-        begin = time.process_time()
-        function()
-        spent.append(time.process_time() - begin)
-    return 1e3 * min(spent)
-
-
-def compilation():
-    """CPU time, s, of a first import of the compiled functions: from an empty cache, then from a full one."""
-    program = "import time, rocking.pulses; begin = time.process_time(); "
-    program += "import rocking.pulses.scan, rocking.pulses.refinement; print(time.process_time() - begin)"
-    with tempfile.TemporaryDirectory() as folder:
-        run = {"env": {**os.environ, "NUMBA_CACHE_DIR": folder}, "capture_output": True, "text": True}
-        return [
-            float(subprocess.run([sys.executable, "-c", program], check=True, **run).stdout) for _ in range(2)
-        ]
-
-
 def main():
     """Print the table."""
     settings = PulseSettings(alternatives=ALTERNATIVES)
     record = component(40)
-    empty, full = compilation()
-    print(
-        f"compilation and import of numba: {empty:.2f} s of CPU from an empty cache, {full:.2f} s from a full one"
+    compiled, plain = least_cpu(
+        lambda: extract_pulses(record, settings=settings),
+        lambda: plain_extraction(record, settings),
+        repeats=5,
     )
-    compiled = best_time(lambda: extract_pulses(record, settings=settings), 30)
-    plain = best_time(lambda: plain_extraction(record, settings), 5)
     found, other = extract_pulses(record, settings=settings), plain_extraction(record, settings)
     print("\n40 s at 200 Hz, five refined alternatives; compiled also holds flags and a pursuit of three")
     print(f"{'method':10} {'ms':>8} {'ratio':>7} {'gain m²/s³':>12} {'T_g s':>9} {'t_0 s':>9}")
@@ -105,12 +78,7 @@ def main():
         ("numpy", plain, other[0][0], 1 / other[0][1], other[0][2]),
         ("compiled", compiled, found.evidence.gain, found.dominant.period, found.dominant.start_time),
     ):
-        print(f"{name:10} {spent:8.2f} {plain / spent:7.1f} {gain:12.6f} {period:9.5f} {start:9.5f}")
-    print(f"\n{'samples':>8} {'ms':>8} {'µs/sample':>10}")
-    for duration in (20, 40, 80, 160):
-        record = component(duration)
-        spent = best_time(lambda record=record: extract_pulses(record, settings=settings), 10)
-        print(f"{record.acceleration.size:8d} {spent:8.2f} {1e3 * spent / record.acceleration.size:10.3f}")
+        print(f"{name:10} {1e3 * spent:8.2f} {plain / spent:7.1f} {gain:12.6f} {period:9.5f} {start:9.5f}")
 
 
 if __name__ == "__main__":

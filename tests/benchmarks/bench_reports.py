@@ -1,29 +1,18 @@
-"""What a report costs: CPU of one record with ten structures, its parts, the first of a process, and memory.
+"""CPU of a record's report of ten structures, and the memory that many of them leave: bench_reports.py [REPORTS]."""
 
-Run: python tests/benchmarks/bench_reports.py [reports]
-"""
-
-import os
 import resource
-import statistics
-import subprocess
 import sys
-import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
+from clock import least_cpu
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "unit" / "reports"))
+sys.path.append(str(Path(__file__).parents[1] / "unit" / "reports"))
 
-from conftest import Assessed, assessed, shaken, summarised
+from conftest import Assessed, assessed, shaken
 
-from rocking.assessment.rows.of_record import FailureRow
-from rocking.reports.document import compile_document
 from rocking.reports.record.report import record_data, record_report
-from rocking.reports.summary.report import summary_report
 from rocking.structures import Arch, Block, Wall
-from rocking.tables import frame
 
 
 def ten_structures() -> Assessed:
@@ -38,46 +27,10 @@ def ten_structures() -> Assessed:
     return assessed("ten", [shaken(station="STA")], structures)
 
 
-def median_cpu(function, repeats: int = 7) -> float:
-    """Median CPU time of function(place) after one call that warms up, s.
-
-    Every call gets another place, for another name and motion: the typesetter remembers what it has set before.
-    """
-    function(0)
-    spent = []
-    for place in range(1, repeats + 1):
-        started = time.process_time()
-        function(place)
-        spent.append(time.process_time() - started)
-    return statistics.median(spent)
-
-
-def another(case: Assessed, place: int) -> tuple:
-    """The arguments of a report that shares no figure but the drawings with those before."""
+def another(case: Assessed, place: int) -> bytes:
+    """A report of another name and motion: the typesetter remembers what it has set before."""
     moved = [accelerogram.scaled(1 + 1e-3 * place) for accelerogram in case.accelerograms]
-    return (f"report {place}", moved, *case.arguments[2:])
-
-
-def first_report() -> float:
-    """CPU of a new process that sets its first report, on a machine that has compiled but never drawn, s."""
-    text = (
-        "import bench_reports as b, time\ncase = b.ten_structures()\nstarted = time.process_time()\n"
-        "b.record_report(b.record_data(*case.arguments))\nprint(time.process_time() - started)"
-    )
-    with tempfile.TemporaryDirectory() as empty:
-        run = subprocess.run(
-            [sys.executable, "-c", text],
-            cwd=Path(__file__).parent,
-            env={**os.environ, "MPLCONFIGDIR": empty},
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-    return float(run.stdout)
-
-
-def _failure(name: str) -> FailureRow:
-    return FailureRow(record=name, component="", structure="", stage="read", message="is empty.")
+    return record_report(record_data(f"report {place}", moved, *case.arguments[2:]))
 
 
 def resident() -> float:
@@ -86,32 +39,14 @@ def resident() -> float:
 
 
 def main(reports: int) -> None:
-    """Print CPU times, their shares and the growth of memory."""
-    case = ten_structures()
-    tables = summarised(case.tables, case.structures)
-    data = record_data(*case.arguments)
-    whole = median_cpu(lambda place: record_report(record_data(*another(case, place))))
-    parts = {
-        "tables and figures": median_cpu(lambda place: record_data(*another(case, place))),
-        "document, its figures known": median_cpu(
-            lambda place: compile_document("record/record.typ", data | {"title": f"report {place}"})
-        ),
-    }
-    print(f"record report, 10 structures: {whole:.3f} s CPU (asked for: 0.5 s)")
-    for name, spent in parts.items():
-        print(f"  {name}: {spent:.3f} s, {spent / whole:.0%}")
-    first = first_report()
-    print(f"first report of a process: {first:.2f} s CPU, {first / whole:.1f} × a later one (asked for: 5 s)")
-    summary = median_cpu(
-        lambda place: summary_report(
-            tables | {"failures": frame(FailureRow, [_failure(str(place))])}, case.arguments[-1]
-        )
-    )
-    print(f"summary report: {summary:.3f} s CPU, {summary / whole:.0%} of a record report")
+    """Print CPU time and growth of memory."""
+    case, places = ten_structures(), iter(range(10_000))
+    (whole,) = least_cpu(lambda: another(case, next(places)), repeats=7)
     before = resident()
-    for place in range(reports):
-        record_report(record_data(*another(case, place)))
-    print(f"memory after {reports} more reports: {resident() / before:.3f} of {before:.0f} MB")
+    for _ in range(reports):
+        another(case, next(places))
+    print(f"record report, 10 structures: {whole:.3f} s CPU")
+    print(f"memory after {reports} more: {resident() / before:.3f} of {before:.0f} MB")
 
 
 if __name__ == "__main__":

@@ -5,14 +5,14 @@ Prints seconds, microseconds per answer and ratios; nothing is asserted.
 
 import math
 import time
-from collections.abc import Callable
 
 import numpy as np
+from clock import least_cpu
 from scipy.constants import g
 from scipy.integrate import solve_ivp
 
 from rocking.pulses.pulse import Pulse
-from rocking.sine_pulse import Regime, predict_maxima, predict_maximum, printed_maximum, pulse_spectrum
+from rocking.sine_pulse import predict_maxima, pulse_spectrum
 from rocking.structures import Arch, Block
 from rocking.structures.mechanism import EquivalentBlock
 
@@ -59,31 +59,6 @@ def stepped(a: float, omega: float, tolerance: float) -> float:
     return peak
 
 
-def best(work: Callable[[], object], repeats: int) -> float:
-    """Shortest of some runs, s."""
-    times = []
-    for _ in range(repeats):
-        start = time.perf_counter()
-        work()
-        times.append(time.perf_counter() - start)
-    return min(times)
-
-
-def latency() -> None:
-    """Microseconds per prediction, by regime."""
-    spent: dict[Regime, list[float]] = {}
-    for omega in FREQUENCIES[::10]:
-        for a in AMPLITUDES[::10]:
-            pulse = Pulse(float(a), float(omega))
-            regime = predict_maximum(BLOCK, pulse).regime
-            spent.setdefault(regime, []).append(best(lambda pulse=pulse: predict_maximum(BLOCK, pulse), 5))
-    print("one prediction            median us    slowest us    cells")
-    for regime, seconds in spent.items():
-        print(f"  {regime:34s} {1e6 * np.median(seconds):6.0f} {1e6 * max(seconds):12.0f} {len(seconds):8d}")
-    pulse = Pulse(3.0, 5.0)
-    print(f"  {'Eq. 15 as printed':34s} {1e6 * best(lambda: printed_maximum(BLOCK, pulse), 200):6.0f}")
-
-
 def many() -> None:
     """A million predictions in one call: blocks exact at rest by pulses."""
     blocks = [
@@ -105,7 +80,7 @@ def many() -> None:
 
 def spectrum() -> None:
     """The whole map, and the same cells by a scipy loop."""
-    seconds = best(lambda: pulse_spectrum(FREQUENCIES, AMPLITUDES, ETA), 3)
+    (seconds,) = least_cpu(lambda: pulse_spectrum(FREQUENCIES, AMPLITUDES, ETA), repeats=3)
     cells = FREQUENCIES.size * AMPLITUDES.size
     ratios = pulse_spectrum(FREQUENCIES, AMPLITUDES, ETA)
     print(
@@ -116,9 +91,9 @@ def spectrum() -> None:
         (generator.integers(FREQUENCIES.size), generator.integers(AMPLITUDES.size)) for _ in range(SAMPLE)
     ]
     for tolerance in (1e-6, 1e-10):
-        start = time.perf_counter()
+        start = time.process_time()
         found = [stepped(AMPLITUDES[j], FREQUENCIES[i], tolerance) for i, j in picked]
-        each = (time.perf_counter() - start) / SAMPLE
+        each = (time.process_time() - start) / SAMPLE
         truth = [ratios[i, j] for i, j in picked]
         rocking = [
             abs(f / t - 1) for f, t in zip(found, truth, strict=True) if 0 < t < math.inf and f < math.inf
@@ -131,6 +106,5 @@ def spectrum() -> None:
 
 
 if __name__ == "__main__":
-    latency()
     many()
     spectrum()
