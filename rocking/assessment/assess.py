@@ -24,7 +24,6 @@ from rocking.pulses import (
     extract_pulses,
     predicting_pulse,
 )
-from rocking.pulses.interval import PulseInterval, pulse_interval
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.sine_pulse import Maximum, predict_maximum, printed_maximum
@@ -79,14 +78,13 @@ class Failure:
 
 @dataclass(frozen=True)
 class Assessment:
-    """One accelerogram against all structures. analysis and interval are None where no pulse could be sought.
+    """One accelerogram against all structures. analysis is None where no pulse could be sought.
 
     candidates: the pulses that the chosen method offers for prediction, none where it fails.
     """
 
     accelerogram: Accelerogram
     analysis: PulseAnalysis | None
-    interval: PulseInterval | None
     candidates: tuple[PulseEvidence, ...]
     cases: tuple[Case, ...]
     failures: tuple[Failure, ...]
@@ -104,14 +102,10 @@ def assess_structures(
     settings = settings or AssessmentSettings()
     started = process_time()
     failures: list[Failure] = []
-    analysis = interval = None
+    analysis = None
     candidates: tuple[PulseEvidence, ...] = ()
     try:
         analysis = extract_pulses(accelerogram, settings=settings.pulse)
-        if settings.bootstrap_replicates:
-            interval = pulse_interval(
-                analysis, settings=settings.pulse, replicates=settings.bootstrap_replicates
-            )
         candidates = PULSE_METHODS[settings.pulse_choice].candidates(analysis)
     except PulseError as error:
         failures.append(Failure("pulses", "", str(error)))
@@ -123,7 +117,7 @@ def assess_structures(
         except RockingError as error:
             failures.append(Failure("responses", name, str(error)))
     durations = {"pulses": extracted - started, "responses": process_time() - extracted}
-    return Assessment(accelerogram, analysis, interval, candidates, tuple(cases), tuple(failures), durations)
+    return Assessment(accelerogram, analysis, candidates, tuple(cases), tuple(failures), durations)
 
 
 def predict(

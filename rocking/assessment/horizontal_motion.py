@@ -4,8 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rocking.errors import PulseError, RecordError
-from rocking.pulses import Pulse, VelocityPulse, velocity_pulse
-from rocking.pulses.components import azimuth_of_axis
+from rocking.pulses import Pulse, VelocityPulse, azimuth_of_axis, velocity_pulse
 from rocking.records import Accelerogram, RotD, rotd
 
 

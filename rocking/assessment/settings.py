@@ -9,7 +9,6 @@ from rocking.pulses import DEFAULT_PULSE_METHOD, PULSE_METHODS, PulseSettings
 from rocking.quantities import check_settings, setting
 from rocking.structures.mechanism import Scale
 
-FEWEST_REPLICATES = 20
 """From which order statistics are an interval at all."""
 
 
@@ -30,9 +29,6 @@ class AssessmentSettings:
     )
     pulse: PulseSettings = field(default_factory=PulseSettings)
     ensemble: EnsembleSettings = field(default_factory=EnsembleSettings)
-    bootstrap_replicates: int = setting(
-        0, f"of the pulse's 90 % interval, at least {FEWEST_REPLICATES}; 0: no interval", ge=0, le=10_000
-    )
     friction_coefficient: float = setting(0.6, "beyond which a contact is said to slide", gt=0)
     pulse_choice: str = setting(
         DEFAULT_PULSE_METHOD,
@@ -50,7 +46,3 @@ class AssessmentSettings:
 
     def __post_init__(self) -> None:
         check_settings(ConfigurationError, self)
-        if 0 < self.bootstrap_replicates < FEWEST_REPLICATES:
-            raise ConfigurationError(
-                f"bootstrap_replicates is {self.bootstrap_replicates}, but must be 0 or at least {FEWEST_REPLICATES}."
-            )

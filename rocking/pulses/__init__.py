@@ -1,16 +1,18 @@
 """The dominant sine pulse of a record, its rivals, and the evidence to trust or refuse it."""
 
+from rocking.pulses.analysis import Flag as Flag
 from rocking.pulses.analysis import PulseAnalysis as PulseAnalysis
 from rocking.pulses.analysis import PulseEvidence as PulseEvidence
+from rocking.pulses.analysis import PulseMethod as PulseMethod
+from rocking.pulses.analysis import PulseSettings as PulseSettings
 from rocking.pulses.extraction import energy_map as energy_map
 from rocking.pulses.extraction import extract_pulses as extract_pulses
-from rocking.pulses.flags import Flag as Flag
-from rocking.pulses.interval import pulse_interval as pulse_interval
-from rocking.pulses.method import predicting_pulse as predicting_pulse
 from rocking.pulses.methods import DEFAULT_PULSE_METHOD as DEFAULT_PULSE_METHOD
+from rocking.pulses.methods import DEMAND_CANDIDATES as DEMAND_CANDIDATES
 from rocking.pulses.methods import PULSE_METHODS as PULSE_METHODS
-from rocking.pulses.orientation import extract_pulses_oriented as extract_pulses_oriented
+from rocking.pulses.methods import predicting_pulse as predicting_pulse
 from rocking.pulses.pulse import Pulse as Pulse
-from rocking.pulses.settings import PulseSettings as PulseSettings
 from rocking.pulses.velocity_pulse import VelocityPulse as VelocityPulse
+from rocking.pulses.velocity_pulse import azimuth_of_axis as azimuth_of_axis
+from rocking.pulses.velocity_pulse import rotated as rotated
 from rocking.pulses.velocity_pulse import velocity_pulse as velocity_pulse

@@ -1,19 +1,75 @@
-"""PulseEvidence and PulseAnalysis: the pulses of one record and what the record says for them."""
+"""The pulses of a record: what is searched, what is found there with its doubts, and which of it may predict."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rocking.errors import PulseError
-from rocking.pulses.flags import Flag
 from rocking.pulses.pulse import Pulse
-from rocking.quantities import counted
+from rocking.quantities import check_settings, counted, setting
 from rocking.records.accelerogram import Accelerogram
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from pandas import DataFrame
+
+
+@dataclass(frozen=True)
+class PulseSettings:
+    """What is searched in a record, and how much of it is reported.
+
+    Frequencies in Hz are those of the band of 1/T. Raises PulseError when a value is outside what is allowed.
+    """
+
+    lowest_frequency: float = setting(0.15, "lowest frequency of the pulses sought", "Hz", gt=0)
+    highest_frequency: float = setting(5.0, "highest frequency of the pulses sought", "Hz", gt=0)
+    per_octave: int = setting(24, "frequencies scanned in one octave", ge=4, le=200)
+    candidates: int = setting(10, "maxima of the scan that are refined", ge=1)
+    alternatives: int = setting(5, "pulses reported, the dominant one among them", ge=1)
+    pursuit: int = setting(3, "pulses of the pursuit sequence", ge=1)
+    overlap: float = setting(0.5, "common over joint time from which two pulses count as one", gt=0)
+    samples_per_cycle: float = setting(8.0, "fewest samples that can carry one cycle", gt=0)
+
+    def __post_init__(self) -> None:
+        check_settings(PulseError, self)
+        if self.highest_frequency <= self.lowest_frequency:
+            raise PulseError(
+                f"highest_frequency is {self.highest_frequency:g} Hz, but must be above lowest_frequency "
+                f"({self.lowest_frequency:g} Hz)."
+            )
+
+
+class Flag(StrEnum):
+    """A reason to doubt a dominant pulse."""
+
+    UNSTABLE = "unstable"
+    EDGE = "edge"
+    FILTERED = "filtered"
+    SYMMETRIC = "symmetric"
+    BAND_LIMIT = "band_limit"
+    SHORT_RECORD = "short_record"
+    COARSE_SAMPLING = "coarse_sampling"
+    GAP = "gap"
+
+    @property
+    def sentence(self) -> str:
+        """One sentence for the reader."""
+        return _SENTENCES[self]
+
+
+_SENTENCES = {
+    Flag.UNSTABLE: "The choice is unstable: another pulse often wins when the record is turned or processed otherwise.",
+    Flag.EDGE: "The pulse touches an end of the record, so part of it may be missing.",
+    Flag.FILTERED: "The pulse is long enough that the record's high-pass filter has reduced it.",
+    Flag.SYMMETRIC: "Two pulses of opposite sign, half a cycle apart, stand for the motion equally well.",
+    Flag.BAND_LIMIT: "The period lies at a limit of the band that was searched, so the true pulse may lie outside it.",
+    Flag.SHORT_RECORD: "The record is shorter than the longest period sought, so that period was left out.",
+    Flag.COARSE_SAMPLING: "The sampling is too coarse for the upper frequency; shorter periods were left out.",
+    Flag.GAP: "The record holds a run of identical samples longer than a second, which may be a gap that was filled.",
+}
 
 
 @dataclass(frozen=True)
@@ -36,22 +92,6 @@ class PulseEvidence:
     def effective_length(self) -> float:
         """L_e = |a_g| T_g², m: the length scale of the pulse."""
         return abs(self.pulse.amplitude) * self.pulse.period**2
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        """Times at which the cycle starts and ends, s."""
-        return self.pulse.start_time, self.pulse.end_time
-
-
-def evidence_of(pulse: Pulse, accelerogram: Accelerogram) -> PulseEvidence:
-    """Return what the record says for any pulse, also one that was not fitted to it; its gain may then be negative."""
-    from rocking.pulses.scan import envelope_phase
-
-    samples, step = accelerogram.acceleration, accelerogram.time_step
-    left = samples - pulse.acceleration(accelerogram.times)
-    energy, gain = float(np.square(samples).sum()), float((np.square(samples) - np.square(left)).sum())
-    phase = envelope_phase(samples, round(pulse.start_time / step), pulse.circular_frequency * step)
-    return PulseEvidence(pulse, gain * step, gain / energy, phase)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -120,12 +160,25 @@ class PulseAnalysis:
 
         rows = [
             {
-                "amplitude_m_s2": found.pulse.amplitude,
-                "period_s": found.pulse.period,
-                "start_time_s": found.pulse.start_time,
-                "gain_m2_s3": found.gain,
-                "explained_energy": found.explained_energy,
+                "amplitude_m_s2": each.pulse.amplitude,
+                "period_s": each.pulse.period,
+                "start_time_s": each.pulse.start_time,
+                "gain_m2_s3": each.gain,
+                "explained_energy": each.explained_energy,
             }
-            for found in self.ranked
+            for each in self.ranked
         ]
         return DataFrame(rows)
+
+
+@dataclass(frozen=True)
+class PulseMethod:
+    """Which pulses may stand for a record; of several, each structure meets the one of largest demand.
+
+    name: its value of the setting pulse.choice. description: one clause for the reader.
+    candidates: the pulses that may stand for a record, the best first; raises PulseError where there is none.
+    """
+
+    name: str
+    description: str
+    candidates: Callable[[PulseAnalysis], tuple[PulseEvidence, ...]]

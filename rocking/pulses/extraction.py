@@ -1,21 +1,49 @@
-"""The dominant sinusoidal acceleration pulse of a record: matched filter on acceleration with projected amplitude."""
+"""The dominant sinusoidal acceleration pulse of a record: matched filter on acceleration with projected amplitude.
+
+The compiled scan is imported where it is called: it loads numba, and who only names a setting or a method does not pay.
+"""
 
 import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rocking.errors import PulseError
-from rocking.pulses import flags as rules
-from rocking.pulses.analysis import PulseAnalysis, PulseEvidence
-from rocking.pulses.flags import Flag
-from rocking.pulses.search import Band, Maxima, PulseSearch, energy_of, searched_band
-from rocking.pulses.settings import PulseSettings
+from rocking.pulses.analysis import Flag, PulseAnalysis, PulseEvidence, PulseSettings
+from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 
 NOTHING_LEFT = 1e-20
 """Share of the record's energy below which what the pursuit leaves, or what a cycle gains, is rounding."""
 LEAST_PEAK, GREATEST_PEAK = 1e-100, 1e100
 """Peak accelerations, m/s², whose squares neither vanish nor overflow."""
+REFINEMENT_REACH = 3.0
+"""Steps of the frequency grid that a refinement may walk from its scanned maximum."""
+SCANNED_OVERLAP = 0.7
+"""Share of common time from which two scanned maxima count as one; the narrower limit is applied after refinement."""
+LEAST_SHARE = 0.01
+"""Share of the largest gain below which a maximum of the scan is no rival."""
+NEAR_BEST = 0.8
+"""Share of the largest scanned gain from which a maximum is worth a look when only the best is wanted."""
+NEAR_TIME, NEAR_OCTAVES = 0.5, 0.5
+"""Periods of onset and octaves of frequency within which a pulse is still the same pulse, sought again."""
+
+EQUAL_GAIN_RATIO = 0.85
+"""Second gain over first above which the choice between the two is not the record's."""
+OSCILLATION_GAIN_RATIO = 0.7
+"""Gain of the half-shifted twins over that of a cycle amid an oscillation: 1 in two full cycles, 0.25 in one."""
+ADJOINING_PERIOD_CHANGE = 0.25
+"""Relative change of period up to which a neighbouring cycle continues the same oscillation."""
+ADJOINING_GAP = 0.25
+"""Distance between the end of one cycle and the start of the next, in periods, up to which they adjoin."""
+EDGE_ACCELERATION = 0.3
+"""First or last acceleration over the pulse's amplitude from which the motion was cut, not quiet."""
+EDGE_DISTANCE = 0.1
+"""Distance from an end of the record, in periods, below which the cycle may have been cut."""
+FILTERED_CYCLES = 0.2
+"""Periods beyond this share of the longest period that a high-pass leaves are reduced by it."""
+GAP_DURATION = 1.0
+"""Run of identical samples, s, that looks like a filled gap."""
 
 
 def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None = None) -> PulseAnalysis:
@@ -24,12 +52,33 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
     The gain G = ⟨a, s⟩²/⟨s, s⟩ is scanned over frequencies and onsets; the best maxima are refined on the
     continuous sine and ranked by gain. The record is taken as it stands: no filter, no baseline.
     Raises PulseError when the samples are all equal or no period of the band fits the record.
+
+    >>> import numpy as np
+    >>> from rocking import Accelerogram, Pulse, extract_pulses
+    >>> motion = Pulse(amplitude=3.0, circular_frequency=5.0, start_time=4.0).acceleration(np.arange(0, 20, 0.01))
+    >>> extract_pulses(Accelerogram(motion, time_step=0.01)).dominant
+    Pulse(3 m/s² = 0.306 g, period 1.26 s, start 4 s)
     """
     settings = settings or PulseSettings()
-    samples = _varying(accelerogram)
+    samples, name = accelerogram.acceleration, accelerogram.source.path or "The accelerogram"
+    if np.ptp(samples) == 0:
+        raise PulseError(
+            f"{name} holds {samples.size} samples that all equal {samples[0]:g} m/s², but a pulse can only be sought "
+            "in a record that moves; check the file and its channel."
+        )
+    if not LEAST_PEAK < accelerogram.peak_acceleration < GREATEST_PEAK:
+        raise PulseError(
+            f"{name} has a peak of {accelerogram.peak_acceleration:g} m/s², but a peak between {LEAST_PEAK:g} and "
+            f"{GREATEST_PEAK:g} m/s² is needed; check its unit."
+        )
     band = searched_band(accelerogram, settings)
     search = PulseSearch(accelerogram.time_step, band, settings)
-    maxima = _something(accelerogram, search.maxima(samples))
+    maxima = search.maxima(samples)
+    if maxima.gains.max(initial=0.0) <= NOTHING_LEFT * search.energy(samples):
+        raise PulseError(
+            f"{name} holds no motion that a cycle within it could explain; its samples differ only at its ends, so "
+            "check the file."
+        )
     ranked = search.ranked(samples, maxima)
     sequence = _pursued(search, samples, maxima, ranked[0])
     residual = samples - ranked[0].pulse.acceleration(accelerogram.times)
@@ -52,21 +101,192 @@ def energy_map(
     return energy_gains(accelerogram.acceleration[np.newaxis], accelerogram.time_step, angles), frequencies
 
 
+def evidence_of(pulse: Pulse, accelerogram: Accelerogram) -> PulseEvidence:
+    """Return what the record says for any pulse, also one that was not fitted to it; its gain may then be negative."""
+    from rocking.pulses.scan import envelope_phase
+
+    samples, step = accelerogram.acceleration, accelerogram.time_step
+    left = samples - pulse.acceleration(accelerogram.times)
+    energy = float(np.square(samples).sum())
+    gain = float((np.square(samples) - np.square(left)).sum())
+    phase = envelope_phase(samples, round(pulse.start_time / step), pulse.circular_frequency * step)
+    return PulseEvidence(pulse, gain * step, gain / energy, phase)
+
+
+@dataclass(frozen=True, eq=False)
+class Band:
+    """The frequencies that can be sought in a record: (m,) Hz, ascending, and why the band was narrowed."""
+
+    frequencies: np.ndarray
+    flags: tuple[Flag, ...]
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Lowest and highest frequency, Hz."""
+        return float(self.frequencies[0]), float(self.frequencies[-1])
+
+
+def searched_band(accelerogram: Accelerogram, settings: PulseSettings) -> Band:
+    """Return the frequencies that `settings` asks for and the record can hold. Raises PulseError when none is left."""
+    low, high = settings.lowest_frequency, settings.highest_frequency
+    flags: list[Flag] = []
+    if 1 / accelerogram.duration > low:
+        low = 1 / accelerogram.duration
+        flags.append(Flag.SHORT_RECORD)
+    finest = 1 / (settings.samples_per_cycle * accelerogram.time_step)
+    if finest < high:
+        high = finest
+        flags.append(Flag.COARSE_SAMPLING)
+    if low >= high:
+        raise PulseError(
+            f"{accelerogram.source.path or 'The accelerogram'} lasts {accelerogram.duration:g} s at a time step of "
+            f"{accelerogram.time_step:g} s, but a pulse between {settings.lowest_frequency:g} and "
+            f"{settings.highest_frequency:g} Hz needs one period of record and {settings.samples_per_cycle:g} "
+            "samples in a cycle; give a longer or more finely sampled record, or widen the band."
+        )
+    steps = math.ceil(settings.per_octave * math.log2(high / low) - 1e-9)
+    frequencies = low * 2.0 ** (np.arange(steps + 1) / settings.per_octave)
+    frequencies[-1] = high
+    return Band(frequencies, tuple(flags))
+
+
+@dataclass(frozen=True, eq=False)
+class Maxima:
+    """Local maxima of the energy gain on the grid: onsets (k,) samples, columns (k,) of the frequency, gains (k,)."""
+
+    onsets: np.ndarray
+    columns: np.ndarray
+    gains: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class PulseSearch:
+    """A search with one time step, band and settings; the samples may be a record or a residual."""
+
+    time_step: float
+    band: Band
+    settings: PulseSettings
+
+    def energy(self, samples: np.ndarray) -> float:
+        """∫a² dt, m²/s³. A plain sum: a dot product of long vectors starts threads and depends on their number."""
+        return float(np.square(samples).sum()) * self.time_step
+
+    def maxima(
+        self,
+        samples: np.ndarray,
+        onsets: slice = slice(None),
+        frequencies: np.ndarray | None = None,
+        share: float = LEAST_SHARE,
+    ) -> Maxima:
+        """Return the maxima of `samples`, (n,) m/s², at `onsets` and `frequencies` (m,) Hz, by default of the band."""
+        from rocking.pulses.scan import local_maxima
+
+        angles = 2 * np.pi * self.time_step * (self.band.frequencies if frequencies is None else frequencies)
+        first, last, _ = onsets.indices(samples.size)
+        places, gains = local_maxima(samples[np.newaxis], self.time_step, angles, first, last, share)
+        kept = gains >= share * gains.max(initial=0.0)
+        return Maxima(places[kept, 0], places[kept, 1], gains[kept])
+
+    def renewed(self, maxima: Maxima, samples: np.ndarray, changed: Pulse) -> Maxima:
+        """Return `maxima` with those whose cycle can meet `changed`, where alone `samples` differ, sought again."""
+        first = math.floor((changed.start_time - 1 / self.band.limits[0]) / self.time_step) - 2
+        last = math.ceil(changed.end_time / self.time_step) + 2
+        onsets = slice(max(first, 0), min(last, samples.size))
+        kept = (maxima.onsets < onsets.start) | (maxima.onsets >= onsets.stop)
+        new = self.maxima(samples, onsets)
+        return Maxima(
+            np.concatenate((maxima.onsets[kept], new.onsets)),
+            np.concatenate((maxima.columns[kept], new.columns)),
+            np.concatenate((maxima.gains[kept], new.gains)),
+        )
+
+    def ranked(self, samples: np.ndarray, maxima: Maxima) -> tuple[PulseEvidence, ...]:
+        """Return the best pulses that do not cover one another, by refined gain."""
+        kept: list[PulseEvidence] = []
+        for evidence in self._refined_candidates(samples, maxima, self.settings.candidates):
+            if all(shared_time(evidence.pulse, other.pulse) < self.settings.overlap for other in kept):
+                kept.append(evidence)
+        return tuple(kept[: self.settings.alternatives])
+
+    def best(self, samples: np.ndarray, maxima: Maxima) -> PulseEvidence | None:
+        """Return the pulse of largest refined gain; None where nothing is left to find."""
+        return next(iter(self._refined_candidates(samples, maxima, 2)), None)
+
+    def _refined_candidates(self, samples: np.ndarray, maxima: Maxima, count: int) -> list[PulseEvidence]:
+        """The best maxima that do not cover one another, refined, by refined gain."""
+        order = np.argsort(-maxima.gains, kind="stable")
+        onsets, frequencies = maxima.onsets[order], self.band.frequencies[maxima.columns[order]]
+        starts, free = onsets * self.time_step, np.ones(order.size, bool)
+        ends = starts + 1 / frequencies
+        energy = self.energy(samples)
+        refined: list[PulseEvidence] = []
+        while len(refined) < count and free.any():
+            best = int(np.argmax(free))
+            refined.append(self.refined(samples, energy, int(onsets[best]), float(frequencies[best])))
+            common = np.minimum(ends, ends[best]) - np.maximum(starts, starts[best])
+            joint = np.maximum(ends, ends[best]) - np.minimum(starts, starts[best])
+            free &= common < SCANNED_OVERLAP * joint
+        return sorted(refined, key=lambda evidence: -evidence.gain)
+
+    def refined(self, samples: np.ndarray, energy: float, onset: int, frequency: float) -> PulseEvidence:
+        """Return the pulse at the maximum of the gain near one scanned maximum; energy: ∫a² dt, m²/s³."""
+        from rocking.pulses.scan import envelope_phase, refine
+
+        turn = 2 * math.pi * self.time_step
+        lowest, highest = (turn * limit for limit in self.band.limits)
+        reach = REFINEMENT_REACH * math.log(2) / self.settings.per_octave
+        angle, start, sine, norm = refine(samples, onset, turn * frequency, lowest, highest, reach)
+        pulse = Pulse(sine / norm, angle / self.time_step, start * self.time_step)
+        gain = sine * sine / norm * self.time_step
+        return PulseEvidence(pulse, gain, gain / energy, envelope_phase(samples, round(start), angle))
+
+    def near(self, pulse: Pulse, samples: np.ndarray) -> Pulse:
+        """Return the best pulse in `samples` within half a period of onset and half an octave of `pulse`.
+
+        Only the samples that such a pulse can touch are searched. Raises PulseError where no such cycle lies within
+        the record or the samples there are still.
+        """
+        first = max(math.floor((pulse.start_time - NEAR_TIME * pulse.period) / self.time_step), 0)
+        longest = (NEAR_TIME + 2**NEAR_OCTAVES) * pulse.period
+        window = samples[first : math.ceil((pulse.start_time + longest) / self.time_step) + 2]
+        steps = round(NEAR_OCTAVES * self.settings.per_octave)
+        frequencies = 2.0 ** (np.arange(-steps, steps + 1) / self.settings.per_octave) / pulse.period
+        frequencies = np.unique(np.clip(frequencies, *self.band.limits))
+        onsets = math.ceil((pulse.start_time + NEAR_TIME * pulse.period) / self.time_step) + 1 - first
+        maxima = self.maxima(window, slice(0, onsets), frequencies, NEAR_BEST)
+        if not maxima.gains.size:
+            raise PulseError(
+                f"No sine of about {pulse.period:.3g} s lies within the record near {pulse.start_time:.3g} s; "
+                "give a longer record or another pulse method."
+            )
+        best = np.argmax(maxima.gains)
+        frequency = float(frequencies[maxima.columns[best]])
+        sine = self.refined(window, 1.0, int(maxima.onsets[best]), frequency).pulse
+        return replace(sine, start_time=sine.start_time + first * self.time_step)
+
+
+def shared_time(one: Pulse, other: Pulse) -> float:
+    """Common time of two pulses over the time from the first start to the last end, 0 to 1."""
+    common = min(one.end_time, other.end_time) - max(one.start_time, other.start_time)
+    return max(common, 0.0) / (max(one.end_time, other.end_time) - min(one.start_time, other.start_time))
+
+
 def _pursued(
     search: PulseSearch, samples: np.ndarray, maxima: Maxima, first: PulseEvidence
 ) -> tuple[PulseEvidence, ...]:
     """Return `first` and the pulses sought in turn in what the ones before left."""
-    sequence, residual = [first], samples.copy()
+    sequence = [first]
+    residual = samples.copy()
     times = np.arange(samples.size) * search.time_step
     while len(sequence) < search.settings.pursuit:
         residual -= sequence[-1].pulse.acceleration(times)
-        if energy_of(residual, search.time_step) <= NOTHING_LEFT * energy_of(samples, search.time_step):
+        if search.energy(residual) <= NOTHING_LEFT * search.energy(samples):
             break
         maxima = search.renewed(maxima, residual, sequence[-1].pulse)
-        found = search.best(residual, maxima)
-        if found is None:
+        following = search.best(residual, maxima)
+        if following is None:
             break
-        sequence.append(found)
+        sequence.append(following)
     return tuple(sequence)
 
 
@@ -76,43 +296,59 @@ def _raised(
     sequence: tuple[PulseEvidence, ...],
     band: Band,
 ) -> tuple[Flag, ...]:
+    """The flags of the dominant pulse."""
     pulse, second = ranked[0].pulse, ranked[1] if len(ranked) > 1 else None
-    ratio = second.gain / ranked[0].gain if second else 0.0
+    equal = second is not None and second.gain / ranked[0].gain > EQUAL_GAIN_RATIO
+    strong = [other.pulse for other in ranked[1:] if other.gain > OSCILLATION_GAIN_RATIO * ranked[0].gain]
+    more_cycles = (len(sequence) > 1 and adjoins(pulse, sequence[1].pulse)) or oscillates(pulse, strong)
+    high_pass, samples, step = (
+        accelerogram.high_pass_frequency,
+        accelerogram.acceleration,
+        accelerogram.time_step,
+    )
     frequency = pulse.circular_frequency / (2 * math.pi)
-    strong = rules.OSCILLATION_GAIN_RATIO * ranked[0].gain
-    found = {
-        Flag.AMBIGUOUS: rules.ambiguous(ratio),
-        Flag.MULTI_CYCLE: (len(sequence) > 1 and rules.adjoins(pulse, sequence[1].pulse))
-        or rules.oscillates(pulse, [other.pulse for other in ranked[1:] if other.gain > strong]),
-        Flag.EDGE: rules.at_edge(pulse, accelerogram.acceleration, accelerogram.time_step),
-        Flag.FILTERED: rules.filtered(pulse, accelerogram.high_pass_frequency),
-        Flag.SYMMETRIC: second is not None and rules.mirrored(pulse, second.pulse, ratio),
+    raised = {
+        Flag.UNSTABLE: equal or more_cycles,
+        Flag.EDGE: at_edge(pulse, samples, step),
+        Flag.FILTERED: high_pass is not None and pulse.period > FILTERED_CYCLES / high_pass,
+        Flag.SYMMETRIC: equal and second is not None and _twin(pulse, second.pulse),
         Flag.BAND_LIMIT: not band.limits[0] * (1 + 1e-9) < frequency < band.limits[1] * (1 - 1e-9),
-        Flag.GAP: rules.holds_gap(accelerogram.acceleration, accelerogram.time_step),
+        Flag.GAP: holds_gap(samples, step),
     }
-    return tuple(flag for flag, raised in found.items() if raised)
+    return tuple(flag for flag, holds in raised.items() if holds)
 
 
-def _varying(accelerogram: Accelerogram) -> np.ndarray:
-    samples, name = accelerogram.acceleration, accelerogram.source.path or "The accelerogram"
-    if np.ptp(samples) == 0:
-        raise PulseError(
-            f"{name} holds {samples.size} samples that all equal {samples[0]:g} m/s², but a pulse can only be sought "
-            "in a record that moves; check the file and its channel."
-        )
-    if not LEAST_PEAK < accelerogram.peak_acceleration < GREATEST_PEAK:
-        raise PulseError(
-            f"{name} has a peak of {accelerogram.peak_acceleration:g} m/s², but a peak between {LEAST_PEAK:g} and "
-            f"{GREATEST_PEAK:g} m/s² is needed; check its unit."
-        )
-    return samples
+def adjoins(pulse: Pulse, neighbour: Pulse) -> bool:
+    """Whether `neighbour` begins where `pulse` ends, or ends where it begins, with nearly its period."""
+    change = abs(neighbour.period / pulse.period - 1)
+    gap = min(abs(neighbour.start_time - pulse.end_time), abs(pulse.start_time - neighbour.end_time))
+    return change <= ADJOINING_PERIOD_CHANGE and gap <= ADJOINING_GAP * pulse.period
 
 
-def _something(accelerogram: Accelerogram, maxima: Maxima) -> Maxima:
-    energy = energy_of(accelerogram.acceleration, accelerogram.time_step)
-    if maxima.gains.max(initial=0.0) <= NOTHING_LEFT * energy:
-        raise PulseError(
-            f"{accelerogram.source.path or 'The accelerogram'} holds no motion that a cycle within it could explain; "
-            "its samples differ only at its ends, so check the file."
-        )
-    return maxima
+def oscillates(pulse: Pulse, strong_rivals: list[Pulse]) -> bool:
+    """Whether twins of opposite sign lie half a cycle before and after: the middle cycle of a longer motion."""
+    starts = [rival.start_time for rival in strong_rivals if _twin(pulse, rival)]
+    return bool(starts) and min(starts) < pulse.start_time < max(starts)
+
+
+def _twin(pulse: Pulse, rival: Pulse) -> bool:
+    """Whether `rival` has the opposite sign, nearly the same period and lies half a cycle away."""
+    distance = abs(rival.start_time + rival.period / 2 - pulse.start_time - pulse.period / 2)
+    return (
+        rival.amplitude * pulse.amplitude < 0
+        and abs(rival.period / pulse.period - 1) <= ADJOINING_PERIOD_CHANGE
+        and abs(distance / pulse.period - 0.5) <= ADJOINING_GAP / 2
+    )
+
+
+def at_edge(pulse: Pulse, samples: np.ndarray, time_step: float) -> bool:
+    """Whether the cycle lies within a tenth of a period of an end, or within one of an end that is not quiet."""
+    rooms = pulse.start_time / pulse.period, ((samples.size - 1) * time_step - pulse.end_time) / pulse.period
+    cut = np.abs(samples[[0, -1]]) > EDGE_ACCELERATION * abs(pulse.amplitude)
+    return any(room < (1.0 if loud else EDGE_DISTANCE) for room, loud in zip(rooms, cut, strict=True))
+
+
+def holds_gap(samples: np.ndarray, time_step: float) -> bool:
+    """Whether other samples enclose a run of identical ones longer than a second; padding at the ends is no gap."""
+    changes = np.flatnonzero(np.diff(samples))
+    return bool((np.diff(changes).max(initial=1) - 1) * time_step > GAP_DURATION)

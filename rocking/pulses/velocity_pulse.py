@@ -7,17 +7,20 @@ the largest coefficient over all orientations; the five largest are pulses that 
 
 import math
 from dataclasses import dataclass
+from functools import cache, lru_cache
 from itertools import pairwise
 
 import numpy as np
 
 from rocking.errors import PulseError
-from rocking.pulses.components import same_sampling
 from rocking.pulses.pulse import Pulse
-from rocking.pulses.wavelet import SUPPORT, coefficient_at, coefficients, overlap, transform
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import integral
 
+SUPPORT = 7.0
+"""Length of db4 in its own time; its centre frequency is 5 cycles over it."""
+LARGEST_KEPT = 2**16
+"""Length of the longest transform of a wavelet that is kept for the next time: 1 MB each."""
 SHORTEST_PERIOD, LONGEST_PERIOD = 0.25, 15.0
 """Band of T_p that is searched, s."""
 SCALES = 50
@@ -67,6 +70,45 @@ class VelocityPulse:
         """Whether T_p and the period of `sine` differ by more than a factor 2."""
         ratio = sine.period / self.period
         return max(ratio, 1 / ratio) > UNLIKE_PERIODS
+
+
+def same_sampling(first: Accelerogram, second: Accelerogram) -> np.ndarray:
+    """Return both accelerations, (2, n) m/s², over the samples they share from the first on.
+
+    Components of one recording often differ by a few samples at the end; those are dropped.
+    Raises PulseError when the time steps differ or one is vertical.
+    """
+    if first.vertical or second.vertical:
+        raise PulseError("One of the two components is vertical, but a direction needs two horizontal ones.")
+    if not math.isclose(first.time_step, second.time_step, rel_tol=1e-9):
+        raise PulseError(
+            f"The time steps are {first.time_step:g} and {second.time_step:g} s, but two components must share one; "
+            "resample one of them."
+        )
+    count = min(first.acceleration.size, second.acceleration.size)
+    return np.array([first.acceleration[:count], second.acceleration[:count]])
+
+
+def rotated(first: Accelerogram, second: Accelerogram, angle: float) -> Accelerogram:
+    """Return the motion along an axis at `angle`, rad, from the first component towards the second, as a record."""
+    one, two = same_sampling(first, second)
+    return first.processed_by(
+        one * math.cos(angle) + two * math.sin(angle),
+        f"Rotated by {math.degrees(angle):.2f}° from component {first.component or 'one'} "
+        f"towards component {second.component or 'two'}.",
+        component=f"{math.degrees(angle):.0f}° from {first.component or 'one'}",
+        azimuth=azimuth_of_axis(first.azimuth, second.azimuth, angle),
+    )
+
+
+def azimuth_of_axis(first: float | None, second: float | None, angle: float) -> float | None:
+    """Azimuth in degrees of the rotated axis; None unless the components are known to be square to each other."""
+    if first is None or second is None:
+        return None
+    apart = (second - first) % 360
+    if not math.isclose(min(apart, 360 - apart), 90, abs_tol=1.0):
+        return None
+    return (first + math.degrees(angle) * (1 if apart < 180 else -1)) % 360
 
 
 def velocity_pulse(first: Accelerogram, second: Accelerogram | None = None) -> VelocityPulse:
@@ -249,3 +291,67 @@ def _late(velocity: np.ndarray, pulse: np.ndarray) -> bool:
     spent, started = (np.cumsum(values**2) / np.sum(values**2) for values in (velocity, pulse))
     before = np.flatnonzero(started <= PULSE_START)
     return bool(before.size and spent[before[-1]] >= LATE_ENERGY)
+
+
+@cache
+def _table() -> tuple[np.ndarray, np.ndarray]:
+    import pywt
+
+    _, wavelet, places = pywt.Wavelet("db4").wavefun(level=10)
+    return places, wavelet
+
+
+def _half_length(scale: float) -> int:
+    return math.floor(SUPPORT / 2 * scale)
+
+
+def _wavelet(scale: float) -> np.ndarray:
+    """db4 stretched to `scale` samples per unit and of unit energy, centred on the middle sample (odd count)."""
+    half = _half_length(scale)
+    places, wavelet = _table()
+    return np.interp(np.arange(-half, half + 1) / scale + SUPPORT / 2, places, wavelet) / math.sqrt(scale)
+
+
+def coefficients(velocities: np.ndarray, scale: int, low: int, high: int) -> np.ndarray:
+    """Coefficients of one scale centred at the samples [low, high); only what they see is transformed."""
+    begin = max(0, low - _half_length(scale))
+    return transform(velocities[begin : high + _half_length(scale)], scale)[low - begin : high - begin]
+
+
+def transform(velocities: np.ndarray, scale: float) -> np.ndarray:
+    """Coefficient of the wavelet of one scale centred at each sample of (n,) velocities, real or complex."""
+    from scipy import fft
+
+    half = _half_length(scale)
+    size = fft.next_fast_len(velocities.size + 2 * half)
+    spectrum = _kept_spectrum(scale, size) if size <= LARGEST_KEPT else _spectrum(scale, size)
+    if np.iscomplexobj(velocities):
+        full = fft.ifft(fft.fft(velocities, size) * spectrum)
+    else:
+        full = fft.irfft(fft.rfft(velocities, size) * spectrum[: size // 2 + 1], size)
+    return np.concatenate([full[size - half :], full[: velocities.size]])[: velocities.size]
+
+
+def _spectrum(scale: float, size: int) -> np.ndarray:
+    """Fourier transform of the wavelet read backwards: the conjugate of its own, as it is real."""
+    from scipy import fft
+
+    return np.conj(fft.fft(_wavelet(scale), size))
+
+
+_kept_spectrum = lru_cache(maxsize=128)(_spectrum)
+"""The records of a study often have one length, and some seventy scales are asked for in each."""
+
+
+def coefficient_at(velocity: np.ndarray, scale: int, column: int) -> float:
+    """Coefficient of one wavelet at one sample."""
+    begin, end, wavelet = overlap(velocity.size, scale, column)
+    return float((velocity[begin:end] * wavelet).sum())
+
+
+def overlap(count: int, scale: int, column: int) -> tuple[int, int, np.ndarray]:
+    """First and last sample of the wavelet centred at `column` inside `count` samples, and that part of it."""
+    wavelet = _wavelet(scale)
+    begin = column - wavelet.size // 2
+    low, high = max(begin, 0), min(begin + wavelet.size, count)
+    return low, high, wavelet[low - begin : high - begin]

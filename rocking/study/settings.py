@@ -11,7 +11,7 @@ from typing import Any, Literal
 from rocking.assessment.ensemble import EnsembleSettings
 from rocking.assessment.fragility.settings import FragilitySettings
 from rocking.assessment.settings import AssessmentSettings
-from rocking.pulses.settings import PulseSettings
+from rocking.pulses import PulseSettings
 from rocking.quantities import setting
 from rocking.records.processing import UNPROCESSED_DEFAULT, Processing
 from rocking.structures.mechanism import Scale
@@ -64,7 +64,6 @@ class DominantPulseSettings:
     highest_frequency_hz: float = _of(PulseSettings, "highest_frequency")
     frequencies_per_octave: int = _of(PulseSettings, "per_octave")
     choice: str = _of(AssessmentSettings, "pulse_choice")
-    bootstrap_replicates: int = _of(AssessmentSettings, "bootstrap_replicates")
 
 
 @dataclass(frozen=True)

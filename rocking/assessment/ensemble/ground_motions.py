@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from rocking.assessment.processings import is_raw, processed
-from rocking.pulses.components import rotated
+from rocking.pulses import rotated
 from rocking.records import Accelerogram, rotd
 from rocking.records.rotation import aligned
 

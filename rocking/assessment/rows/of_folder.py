@@ -96,9 +96,7 @@ class RecordTables:
         """Append what one assessment gives. motion: of the pair of components, or None for that of one alone."""
         dominant = assessment.analysis.dominant if assessment.analysis else None
         self.record.append(record_row(identity, licence, vertical, motion, dominant))
-        self.pulses.extend(
-            pulse_rows(identity, assessment.analysis, assessment.interval, assessment.candidates)
-        )
+        self.pulses.extend(pulse_rows(identity, assessment.analysis, assessment.candidates))
         for case in assessment.cases:
             self.predictions.extend(prediction_rows(identity, case, settings.acceleration_scale))
             self.responses.extend(response_rows(identity, case, settings.friction_coefficient))

@@ -8,7 +8,6 @@ from rocking.assessment.horizontal_motion import HorizontalMotion, horizontal_mo
 from rocking.assessment.rows import meanings
 from rocking.assessment.rows.shared import ComponentRow, Identity
 from rocking.pulses import Pulse, PulseAnalysis, PulseEvidence
-from rocking.pulses.interval import PulseInterval
 from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
 from rocking.tables import Row, column, row
@@ -83,12 +82,8 @@ class PulseRow(ComponentRow):
     )
     rank: int = column("Place in its kind, from 1")
     amplitude_m_s2: float = column("Signed amplitude a_g")
-    amplitude_low_m_s2: float = column("Lower end of the 90 % bootstrap interval of the amplitude")
-    amplitude_high_m_s2: float = column("Upper end of the 90 % bootstrap interval of the amplitude")
     circular_frequency_rad_s: float = column("Circular frequency of the pulse")
     period_s: float = column("Period of the pulse")
-    period_low_s: float = column("Lower end of the 90 % bootstrap interval of the period")
-    period_high_s: float = column("Upper end of the 90 % bootstrap interval of the period")
     start_time_s: float = column("Start of the pulse after the first sample")
     gain_m2_s3: float = column("Energy gain of the matched filter")
     gain_ratio: float = column("Energy gain over that of the dominant pulse")
@@ -188,10 +183,7 @@ def _motion_columns(motion: HorizontalMotion, dominant: Pulse | None) -> dict[st
 
 
 def pulse_rows(
-    identity: Identity,
-    analysis: PulseAnalysis | None,
-    interval: PulseInterval | None,
-    candidates: Sequence[PulseEvidence] = (),
+    identity: Identity, analysis: PulseAnalysis | None, candidates: Sequence[PulseEvidence] = ()
 ) -> Iterator[PulseRow]:
     """Yield the rows of the ranked alternatives, the dominant pulse first, then those of the pursuit sequence.
 
@@ -204,20 +196,13 @@ def pulse_rows(
     for kind, found in kinds.items():
         for rank, evidence in enumerate(found, start=1):
             pulse, dominant = evidence.pulse, kind == "alternative" and rank == 1
-            known = interval if dominant else None
-            unknown = (math.nan, math.nan)
-            amplitude, period = (known.amplitude, known.period) if known else (unknown, unknown)
             yield PulseRow(
                 **identity.columns,
                 kind=kind,
                 rank=rank,
                 amplitude_m_s2=pulse.amplitude,
-                amplitude_low_m_s2=amplitude[0],
-                amplitude_high_m_s2=amplitude[1],
                 circular_frequency_rad_s=pulse.circular_frequency,
                 period_s=pulse.period,
-                period_low_s=period[0],
-                period_high_s=period[1],
                 start_time_s=pulse.start_time,
                 gain_m2_s3=evidence.gain,
                 gain_ratio=evidence.gain / analysis.evidence.gain,

@@ -19,7 +19,7 @@ from rocking.reports import printing
 from rocking.reports.paper.canvas import TEXT_WIDTH, Canvas
 from rocking.reports.record.ground_figure import ground_motion
 from rocking.reports.record.history_figure import History, response_histories
-from rocking.reports.record.pulse_figures import energy_map, orientation
+from rocking.reports.record.pulse_figures import energy_map
 from rocking.reports.record.spectrum_figure import rocking_spectrum_figure
 from rocking.reports.record.structure_figures import structure_drawings
 from rocking.structures.mechanism import Mechanism
@@ -34,7 +34,6 @@ MOST_HISTORIES = 12
 SPECTRUM_POINTS = 32
 MOTION_HEIGHTS = (62.0, 38.0)
 """Height of the time histories of the ground, mm: of a single component, and of each of several."""
-MAP_WIDTH = 58.0
 """Width of an energy map that stands beside others, mm."""
 PAIRED_WIDTH = 83.0
 """Width of a figure that stands beside another, mm."""
@@ -75,24 +74,6 @@ def map_picture(accelerogram: Accelerogram, rows: Sequence[PulseRow], width: flo
     figure = energy_map(starts * accelerogram.time_step, 1 / frequencies, pooled, ranked_pulses(rows), width)
     alt = "Map of the energy that one sine pulse explains in component {}, over onset and period."
     return component_picture(accelerogram, figure, alt)
-
-
-def orientation_picture(accelerograms: Sequence[Accelerogram]) -> Picture | None:
-    """Return the direction in which the dominant pulse of two horizontal components points; None without two."""
-    from rocking.pulses.orientation import extract_pulses_oriented
-
-    horizontal = [each for each in accelerograms if not each.vertical and np.ptp(each.acceleration)]
-    if len(horizontal) != 2:
-        return None
-    first, second = horizontal
-    if not math.isclose(first.time_step, second.time_step, rel_tol=1e-9):
-        return None
-    oriented = extract_pulses_oriented(first, second)
-    angles = np.linspace(0, 2 * np.pi, 361)
-    names = printing.words(first.component), printing.words(second.component)
-    figure = orientation(angles, oriented.gain(angles), oriented.angle, names)
-    alt = f"Polar plot of the energy of the dominant pulse along every axis of components {names[0]}, {names[1]}."
-    return {"svg": figure.svg(), "alt": alt}
 
 
 def drawing_pictures(structures: Mapping[str, Structure], numbers: Mapping[str, str]) -> list[Picture]:

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from rocking.pulses.pulse import Pulse
-from rocking.reports.paper.canvas import SMALL, TEXT_WIDTH, Box, Canvas
+from rocking.reports.paper.canvas import TEXT_WIDTH, Box, Canvas
 from rocking.reports.paper.labels import draw_labels, placed_labels
-from rocking.reports.paper.letters import elided
 from rocking.reports.paper.panel import Panel
 from rocking.reports.paper.scales import Scale
 from rocking.reports.record.ground_figure import PULSE
@@ -18,8 +17,6 @@ _ROWS = 160
 """Rows of the picture of a map."""
 _DARKEST = 213
 """Of 255: how dark the largest energy is."""
-_RADIUS = 20.0
-"""Of the circle of directions, mm."""
 
 
 def energy_map(
@@ -66,33 +63,3 @@ def _shaded(share: np.ndarray, periods: np.ndarray, scale: Scale) -> bytes:
     stream = io.BytesIO()
     Image.fromarray(grey).save(stream, format="png")
     return stream.getvalue()
-
-
-def orientation(angles: np.ndarray, gains: np.ndarray, best: float, components: tuple[str, str]) -> Canvas:
-    """Draw energy gains over the angle [rad] from the first component towards the second, and the best axis."""
-    canvas = Canvas(50, _HEIGHT)
-    middle = np.array([25.0, _HEIGHT / 2])
-    for radius in (_RADIUS / 2, _RADIUS):
-        canvas.path(_around(middle, radius, np.linspace(0, 2 * np.pi, 91)), "#cccccc", 0.4)
-    one, two = (elided(name, 8) for name in components)
-    names = [one, "45°", two, "135°", f"−{one}", "225°", f"−{two}", "315°"]
-    for place, name in enumerate(names):
-        rim = _around(middle, _RADIUS, np.array([place * np.pi / 4]))
-        canvas.path(np.vstack((middle, rim)), "#cccccc", 0.3)
-        across, up = np.round(np.cos(place * np.pi / 4)), -np.round(np.sin(place * np.pi / 4))
-        sides = {0: "middle", 1: "left", -1: "right"}, {0: "middle", 1: "top", -1: "bottom"}
-        canvas.text(
-            rim[0] + 0.8 * np.array([across, up]), name, SMALL, sides[0][int(across)], sides[1][int(up)]
-        )
-    share = gains / max(float(gains.max()), np.finfo(float).tiny)
-    canvas.path(_around(middle, _RADIUS * share, angles), "black")
-    canvas.path(_around(middle, _RADIUS, np.array([best, best + np.pi])), PULSE, 1.2, "dash-dot")
-    for level in (0.5, 1.0):
-        place = _around(middle, _RADIUS * level, np.array([np.pi / 8]))[0]
-        canvas.text(place, f"{level:g}", SMALL, "middle", "middle", paper=True)
-    return canvas
-
-
-def _around(middle: np.ndarray, radius: np.ndarray | float, angles: np.ndarray) -> np.ndarray:
-    """Places on a circle of paper, counterclockwise from the right."""
-    return middle + np.column_stack((radius * np.cos(angles), -radius * np.sin(angles)))

@@ -121,7 +121,6 @@ def _pictures(
 ) -> dict[str, list[dict[str, str]]]:
     used = [accelerogram for accelerogram in accelerograms if accelerogram.component in by_component]
     alone = len(used) == 1
-    map_width = TEXT_WIDTH if alone else record_curves.MAP_WIDTH
     width = TEXT_WIDTH if alone else record_curves.PAIRED_WIDTH
     height = record_curves.MOTION_HEIGHTS[0 if alone else 1]
     sheet_height = SHEET_HEIGHTS[0 if alone else 1]
@@ -136,7 +135,7 @@ def _pictures(
             "sheets": record_sheet.sheet_picture(
                 accelerogram, tables.record[0], pulses, tables.predictions, numbers, sheet_height
             ),
-            "maps": record_curves.map_picture(accelerogram, pulses, map_width) if pulses else None,
+            "maps": record_curves.map_picture(accelerogram, pulses, width) if pulses else None,
             "histories": record_curves.history_picture(
                 accelerogram, structures, tables.comparison, numbers, tolerance, vertical
             ),
@@ -144,8 +143,6 @@ def _pictures(
         }
         for name, picture in new.items():
             pictures[name] += [picture] if picture else []
-    oriented = record_curves.orientation_picture(used)
-    pictures["orientations"] = [oriented] if oriented else []
     return pictures | {"drawings": record_curves.drawing_pictures(structures, numbers)}
 
 

@@ -13,7 +13,7 @@ from rocking.assessment.rows.of_record import PulseRow, RecordRow
 from rocking.assessment.rows.of_study import StructureRow
 from rocking.assessment.rows.of_variation import CandidateRow, ProcessingRow
 from rocking.assessment.rows.shared import CaseRow
-from rocking.pulses.flags import Flag
+from rocking.pulses import Flag
 from rocking.reports import printing
 from rocking.reports.printing import (
     Cell,
@@ -89,29 +89,14 @@ def pulse_table(rows: Sequence[PulseRow]) -> dict[str, object]:
         rows,
         ("Kind", "auto", "l", lambda row: row.kind),
         ("Rank", "auto", "r", lambda row: printing.whole(row.rank)),
-        (
-            "Amplitude [m/s²]",
-            "1.2",
-            "r",
-            lambda row: _with_interval(row.amplitude_m_s2, row.amplitude_low_m_s2, row.amplitude_high_m_s2),
-        ),
-        (
-            "Period [s]",
-            "1.2",
-            "r",
-            lambda row: _with_interval(row.period_s, row.period_low_s, row.period_high_s),
-        ),
+        ("Amplitude [m/s²]", "1.2", "r", lambda row: number(row.amplitude_m_s2)),
+        ("Period [s]", "1.2", "r", lambda row: number(row.period_s)),
         ("Circular frequency [rad/s]", "1.1", "r", lambda row: number(row.circular_frequency_rad_s)),
         ("Start [s]", "0.7", "r", lambda row: number(row.start_time_s)),
         ("Gain ratio [-]", "0.7", "r", lambda row: number(row.gain_ratio)),
         ("Explained energy [-]", "0.8", "r", lambda row: number(row.explained_energy)),
         ("Effective length [m]", "0.8", "r", lambda row: number(row.effective_length_m)),
     )
-
-
-def _with_interval(middle: float, low: float, high: float) -> str:
-    known = not math.isnan(low + high)
-    return f"{number(middle)} [{number(low)}, {number(high)}]" if known else number(middle)
 
 
 def pulse_sentences(rows: Sequence[PulseRow]) -> list[str]:

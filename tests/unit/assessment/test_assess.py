@@ -19,7 +19,7 @@ STEP = 0.01
 PULSE = Pulse(3.0, 2 * np.pi / 0.8, 2.0)
 RECORD = Accelerogram(PULSE.acceleration(np.arange(1000) * STEP), STEP, component="H1")
 BLOCK = Block(2.0, 0.2)
-SETTINGS = AssessmentSettings(bootstrap_replicates=20)
+SETTINGS = AssessmentSettings()
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from rocking.assessment.single import assess
 from rocking.assessment.verdict import Verdict, ratio_in_words, verdict
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
-from rocking.pulses.components import rotated
+from rocking.pulses import rotated
 from rocking.records import Accelerogram, rotd
 from rocking.records.accelerogram import Source
 from rocking.records.processing import Processing, process

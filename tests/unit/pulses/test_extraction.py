@@ -70,10 +70,9 @@ def test_pursuit_equals_a_new_search_of_the_residual(found):
     assert found.sequence[1].gain == pytest.approx(again.evidence.gain, rel=1e-6)
 
 
-def test_effective_length_phase_and_interval(found):
+def test_effective_length_and_phase(found):
     evidence = found.evidence
     assert evidence.effective_length == abs(evidence.pulse.amplitude) * evidence.pulse.period**2
-    assert evidence.interval == (evidence.pulse.start_time, evidence.pulse.end_time)
     assert (
         abs(evidence.phase) < 0.5
     )  # a planted sine of positive amplitude; noise of 0.3 m/s² turns it little

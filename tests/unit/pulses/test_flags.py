@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rocking.pulses import Flag, Pulse, extract_pulses
-from rocking.pulses.flags import adjoins, mirrored, oscillates
+from rocking.pulses.extraction import adjoins, oscillates
 from rocking.records.accelerogram import Accelerogram
 
 STEP = 0.01
@@ -36,15 +36,14 @@ def test_a_truncated_pulse_is_at_the_edge(missing, period):
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_two_cycles_are_more_than_one(seed):
-    assert Flag.MULTI_CYCLE in flags(cycle(2, 0.9, 8.003, cycles=2) + noise(seed, 0.3))
+def test_two_cycles_are_unstable(seed):
+    assert Flag.UNSTABLE in flags(cycle(2, 0.9, 8.003, cycles=2) + noise(seed, 0.3))
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_equal_pulses_are_ambiguous(seed):
+def test_equal_pulses_are_unstable(seed):
     raised = flags(cycle(2, 0.9, 8.003) + cycle(-2, 1.0, 15) + noise(seed, 0.1))
-    assert Flag.AMBIGUOUS in raised
-    assert Flag.MULTI_CYCLE not in raised
+    assert Flag.UNSTABLE in raised
     assert Flag.SYMMETRIC not in raised
 
 
@@ -60,7 +59,7 @@ def test_a_symmetric_shape_reports_both_solutions(shape):
         shape = np.cos(2 * np.pi * phase) * ((phase >= 0) & (phase <= 1))
     found = extract_pulses(Accelerogram(shape, STEP))
     first, second = found.ranked[0].pulse, found.ranked[1].pulse
-    assert {Flag.SYMMETRIC, Flag.AMBIGUOUS} <= set(found.flags)
+    assert {Flag.SYMMETRIC, Flag.UNSTABLE} <= set(found.flags)
     # mirror images: equal gain, period and magnitude, opposite sign. The middle of the shape lies on a sample, so
     # that the mirror is exact up to the last bits of the search
     assert second.amplitude == pytest.approx(-first.amplitude, rel=1e-4)
@@ -77,7 +76,7 @@ def test_the_middle_of_an_oscillation_shows_in_the_gains_of_its_twins(share, osc
     samples = 3 * np.sin(2 * np.pi * phase) * ((half < 0.5) + share * ((half >= 0.5) & (half < 1)))
     found = extract_pulses(Accelerogram(samples, STEP))
     assert found.gain_ratio == pytest.approx(((1 + share) / 2) ** 2, rel=1e-2)
-    assert (Flag.MULTI_CYCLE in found.flags) is oscillates
+    assert (Flag.UNSTABLE in found.flags) is oscillates
 
 
 def test_a_filter_that_reduces_the_pulse_is_told():
@@ -101,11 +100,6 @@ def test_a_filled_gap_is_told_and_padding_is_not():
     assert Flag.GAP not in flags(padded)
 
 
-def test_every_flag_has_a_sentence():
-    assert all(flag.sentence.endswith(".") for flag in Flag)
-    assert len({flag.sentence for flag in Flag}) == len(Flag)
-
-
 def test_pulse_and_rival_order_does_not_matter_to_adjoining():
     first, second = Pulse(1, 2 * np.pi, 3.0), Pulse(-1, 2 * np.pi / 1.1, 4.05)
     assert adjoins(first, second) and adjoins(second, first)
@@ -121,6 +115,5 @@ def test_a_twin_lies_half_a_cycle_from_the_middle_of_the_pulse(distance, twin, p
     # an eighth of a cycle to either side of the half, whatever the twin's own period
     pulse = Pulse(1, 2 * np.pi, 3.0)
     before, after = (Pulse(-1, 2 * np.pi / period, 3.5 + side * distance - period / 2) for side in (-1, 1))
-    assert mirrored(pulse, before, 1.0) is mirrored(pulse, after, 1.0) is twin
     assert oscillates(pulse, [before, after]) is twin
     assert not oscillates(pulse, [before]) and not oscillates(pulse, [after])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy import optimize
 
-from rocking.pulses.refinement import PROBES, _climbed, _moments, _newton_step, _score, refine
+from rocking.pulses.scan import PROBES, _climbed, _moments, _newton_step, _score, refine
 
 STEP = 0.02
 

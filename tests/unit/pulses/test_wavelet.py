@@ -4,8 +4,13 @@ import numpy as np
 import pytest
 import pywt
 
-from rocking.pulses.velocity_pulse import largest_velocity_pulse, searched_scales
-from rocking.pulses.wavelet import coefficient_at, coefficients, transform
+from rocking.pulses.velocity_pulse import (
+    coefficient_at,
+    coefficients,
+    largest_velocity_pulse,
+    searched_scales,
+    transform,
+)
 from rocking.records.accelerogram import Accelerogram
 
 

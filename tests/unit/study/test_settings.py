@@ -128,7 +128,6 @@ def test_all_defects_stand_in_one_message_each_with_its_value_and_what_is_allowe
     ("config", "words"),
     [
         ({"pulse": {"lowest_frequency_hz": 6}}, "highest_frequency is 5 Hz, but must be above"),
-        ({"pulse": {"bootstrap_replicates": 5}}, "bootstrap_replicates is 5, but must be 0 or at least 20"),
         ({"processing": {"low_pass_hz": 0.05}}, "high_pass is 0.1 Hz, but must be below"),
         ([], "must be a mapping"),
     ],
@@ -143,7 +142,7 @@ def test_settings_that_do_not_go_together_are_refused(config: object, words: str
         (("tolerance",), "1e-7", 1e-7),
         (("reports",), "false", False),
         (("records_per_job",), "null", None),
-        (("pulse", "bootstrap_replicates"), "40", 40),
+        (("pulse", "frequencies_per_octave"), "40", 40),
     ],
 )
 def test_a_text_that_says_a_value_is_that_value(name: tuple[str, ...], text: str, value: object) -> None:

@@ -1,0 +1,75 @@
+"""The pulse methods: ways to say which pulse of a record predicts, and their registry, the default first."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+
+from rocking.errors import PulseError
+from rocking.pulses.analysis import PulseAnalysis, PulseEvidence, PulseMethod, PulseSettings
+from rocking.pulses.extraction import PulseSearch, evidence_of, searched_band
+from rocking.pulses.pulse import Pulse
+from rocking.pulses.velocity_pulse import LONGEST_PERIOD, SHORTEST_PERIOD, largest_velocity_pulse
+from rocking.records.accelerogram import Accelerogram
+
+DEMAND_CANDIDATES = 5
+"""Best-ranked sines among which the largest demand is sought."""
+PERIOD_OF_SINE = 1.93
+"""T_p of the wavelet that fits a sine cycle of acceleration best, over the period of the cycle."""
+
+Demand = Callable[[Pulse], float]
+"""A prediction of the rotation ratio φ_max/φ_cr under one pulse; infinite where the structure overturns."""
+
+
+def predicting_pulse(candidates: Sequence[PulseEvidence], demand: Demand) -> PulseEvidence:
+    """Return the candidate of largest demand; of equal demands the first. Raises PulseError without a candidate."""
+    if not candidates:
+        raise PulseError(
+            "There is no pulse to predict with, but at least one is needed; check the pulse method."
+        )
+    if len(candidates) == 1:
+        return candidates[0]
+    return max(candidates, key=lambda evidence: demand(evidence.pulse))
+
+
+def sine_of_velocity_pulse(accelerogram: Accelerogram) -> Pulse:
+    """Return the sine of largest energy gain within half a period and half an octave of the largest velocity pulse.
+
+    The closed form asks for a sine of acceleration, and the period T_p of a velocity pulse (Shahi & Baker 2014) is not
+    its period: so the velocity pulse only says where to look, and the sine is fitted there. The largest velocity pulse
+    is taken whether or not the indicator, which depends on the size of the motion, calls it one.
+    Raises PulseError when the record is still or too short for a velocity pulse.
+    """
+    settings = PulseSettings(
+        lowest_frequency=1 / LONGEST_PERIOD, highest_frequency=2 * PERIOD_OF_SINE / SHORTEST_PERIOD
+    )
+    velocity_period, centre = largest_velocity_pulse(accelerogram)
+    period = velocity_period / PERIOD_OF_SINE
+    there = Pulse(1.0, 2 * math.pi / period, centre - period / 2)
+    search = PulseSearch(accelerogram.time_step, searched_band(accelerogram, settings), settings)
+    return search.near(there, accelerogram.acceleration)
+
+
+def _of_velocity_pulse(analysis: PulseAnalysis) -> tuple[PulseEvidence, ...]:
+    return (evidence_of(sine_of_velocity_pulse(analysis.accelerogram), analysis.accelerogram),)
+
+
+DEFAULT_PULSE_METHOD = "energy"
+PULSE_METHODS: Mapping[str, PulseMethod] = {
+    method.name: method
+    for method in (
+        PulseMethod(
+            DEFAULT_PULSE_METHOD,
+            "the sine that explains most of the record's acceleration energy",
+            lambda analysis: (analysis.evidence,),
+        ),
+        PulseMethod(
+            "demand",
+            f"of the {DEMAND_CANDIDATES} best-ranked sines the one that turns the structure farthest",
+            lambda analysis: analysis.ranked[:DEMAND_CANDIDATES],
+        ),
+        PulseMethod(
+            "velocity",
+            "the sine of acceleration in the velocity pulse of the component",
+            _of_velocity_pulse,
+        ),
+    )
+}
