@@ -16,8 +16,7 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import Agreement, agreement, ratio, rests
 from rocking.errors import PulseError, RockingError
 from rocking.motion.integration import integrate
-from rocking.pulses import Pulse, extract_pulses
-from rocking.pulses.methods.sine_by_demand import CANDIDATES
+from rocking.pulses import DEMAND_CANDIDATES, Pulse, extract_pulses
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import EquivalentBlock, Mechanism, Structure
@@ -123,7 +122,7 @@ def _sines(record: Accelerogram, settings: AssessmentSettings) -> tuple[Pulse, .
         ranked = extract_pulses(record, settings=settings.pulse).ranked
     except PulseError:
         return ()
-    return tuple(each.pulse for each in ranked[:CANDIDATES])
+    return tuple(each.pulse for each in ranked[:DEMAND_CANDIDATES])
 
 
 def _worst(block: EquivalentBlock, sines: Sequence[Pulse]) -> float:
