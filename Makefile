@@ -56,7 +56,7 @@ check: $(TOOLS)
 
 # What the package's own fields say, written where the workflow reads it; a test compares.
 schema: setup
-	$(BIN)/python -c "from rocking.structures.schema import structures_schema_file as text; print(text(), end='')" \
+	$(BIN)/python -c "from rocking.structures.structure_list import structures_schema_file as text; print(text(), end='')" \
 	  > workflow/schemas/structures.schema.yaml
 
 paper: setup

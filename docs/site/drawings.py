@@ -5,9 +5,8 @@ from collections.abc import Iterator
 from matplotlib.figure import Figure
 
 from rocking.reports.style import styled
-from rocking.structures.config import structure_from_config
 from rocking.structures.fields import Form
-from rocking.structures.registry import TYPES
+from rocking.structures.structure_list import TYPES, structure_from_config
 
 
 def forms() -> Iterator[tuple[str, str, Form]]:

@@ -111,7 +111,7 @@ def _rotation_ratios(
 @lru_cache(maxsize=64)
 def _moved(structure: Structure, count: int) -> dict[float, Structure]:
     """All candidates take the restitution of the structure: their own momentum balance may be unphysical."""
-    if not structure.moved:
+    if not structure.crack_name:
         return {}
     fixed = replace(structure, restitution=structure.mechanism().restitution)  # type: ignore[type-var,call-arg]
     return dict(fixed.candidates(fixed.candidate_positions(count)))

@@ -8,8 +8,7 @@ import numpy as np
 from rocking.motion.response import Response
 from rocking.records import Accelerogram
 from rocking.structures import Structure
-from rocking.structures.contact_forces import contact_history, largest_so_far
-from rocking.structures.contacts import UnknownContacts
+from rocking.structures.contacts import UnknownContacts, contact_history, largest_so_far
 
 
 @dataclass(frozen=True)

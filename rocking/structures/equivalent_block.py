@@ -1,17 +1,193 @@
-"""The equivalent block: a mechanism's motion made linear, and what that leaves out."""
+"""The equivalent block: a mechanism's motion made linear, and what that leaves out.
 
+It is linear in the arc q = ∫ √(I(φ)/I(0)) dφ, a measure of rotation in which the kinetic energy is I(0) q'²/2.
+"""
+
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
+from numpy.polynomial import chebyshev, legendre
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, positive, within
-from rocking.structures.arc import RotationMap
 
 if TYPE_CHECKING:
     from rocking.structures.mechanism import Side
+
+
+Function = Callable[[np.ndarray], np.ndarray]
+"""A function of the rotation φ [rad], any shape in, the same shape out."""
+
+_ORDER = 15
+_MOST_PIECES = 4096
+_NODES = chebyshev.chebpts1(_ORDER + 1)
+_GAUSS, _WEIGHTS = legendre.leggauss(12)
+_SQUARED_IS_ROUNDING = 1e-9
+"""Newton's method squares the error: after a relative step this small none is left."""
+
+
+@dataclass(frozen=True, eq=False)
+class Arc:
+    """The arc of one side over the rotations [0, last].
+
+    stretch: dq/dφ at a rotation. integrals: Chebyshev coefficients (16, m) of the arc over m equal pieces of rotation,
+    starts: (m + 1,) the arc at their ends. rigid: dq/dφ is 1 throughout, so that q = φ.
+    """
+
+    stretch: Function
+    last: float
+    integrals: np.ndarray
+    starts: np.ndarray
+    rigid: bool
+
+    def at(self, rotation: np.ndarray | float) -> np.ndarray:
+        """Return the arc at `rotation` [rad], any shape; small rotations keep their relative accuracy."""
+        rotation = np.asarray(rotation, dtype=float)
+        if self.rigid:
+            return rotation
+        piece, x = _placed(rotation / self.last, self.starts.size - 1)
+        arc = self.starts[piece] + _clenshaw(self.integrals[:, piece], x)
+        first = piece == 0
+        if np.any(first):
+            small = rotation[first]
+            arc = np.array(arc)
+            arc[first] = small * (self.stretch(small[..., None] * (_GAUSS + 1) / 2) @ _WEIGHTS / 2)
+        return arc
+
+    def rotation(self, arc: np.ndarray) -> np.ndarray:
+        """Return the rotation [rad] at `arc`, any shape, by Newton's method."""
+        arc = np.asarray(arc, dtype=float)
+        if self.rigid:
+            return np.clip(arc, 0.0, self.last)
+        rotation = np.interp(arc, self.starts, np.linspace(0.0, self.last, self.starts.size))
+        for _ in range(6):
+            step = (self.at(rotation) - arc) / self.stretch(rotation)
+            rotation = np.clip(rotation - step, 0.0, self.last)
+            if np.all(np.abs(step) <= _SQUARED_IS_ROUNDING * rotation):
+                break
+        return rotation
+
+
+def arc_of(inertia: Function, last: float, accuracy: float) -> Arc | None:
+    """Return the arc over the rotations [0, last], or None where it is not smooth enough for `accuracy` (relative)."""
+    rest = float(inertia(np.zeros(())))
+
+    def stretch(rotation: np.ndarray) -> np.ndarray:
+        return np.sqrt(inertia(np.asarray(rotation, dtype=float)) / rest)
+
+    found = _pieces(stretch, last, accuracy, 8)
+    if found is None:
+        return None
+    coefficients, values = found
+    integrals = chebyshev.chebint(coefficients, lbnd=-1) * (last / coefficients.shape[1] / 2)
+    starts = np.concatenate([[0.0], np.cumsum(integrals.sum(axis=0))])
+    return Arc(stretch, last, integrals, starts, bool(np.all(values == 1)))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class RotationMap:
+    """φ as a function of the arc q over [0, end], the inverse of an Arc without its functions.
+
+    coefficients: Chebyshev coefficients (16, m) of φ/q over m equal pieces of the arc.
+    """
+
+    coefficients: np.ndarray
+    end: float
+
+    def rotation(self, arc: np.ndarray) -> np.ndarray:
+        """Return the rotation [rad] at `arc`, any shape; inf beyond the end."""
+        arc = np.asarray(arc, dtype=float)
+        piece, x = _placed(arc / self.end, self.coefficients.shape[1])
+        later = latest = np.zeros_like(x)
+        # row by row: the coefficients of all places at once would fill memory
+        for row in self.coefficients[:0:-1]:
+            later, latest = row[piece] + 2 * x * later - latest, later
+        ratio = self.coefficients[0][piece] + x * later - latest
+        return np.where(arc > self.end, np.inf, np.minimum(arc, self.end) * ratio)
+
+    def rotation_at(self, arc: float) -> float:
+        """The same of one arc, in a microsecond or two."""
+        if not arc <= self.end:
+            return arc if arc != arc else np.inf
+        pieces = self._pieces
+        place = max(arc / self.end * len(pieces), 0.0)
+        index = min(int(place), len(pieces) - 1)
+        x, later, latest = 2 * (place - index) - 1, 0.0, 0.0
+        first, *others = pieces[index]
+        for coefficient in reversed(others):
+            later, latest = coefficient + 2 * x * later - latest, later
+        return arc * (first + x * later - latest)
+
+    def slope(self, arc: np.ndarray) -> np.ndarray:
+        """Return dφ/dq at `arc`, any shape; that of the end beyond it."""
+        arc = np.clip(np.asarray(arc, dtype=float), 0.0, self.end)
+        count = self.coefficients.shape[1]
+        piece, x = _placed(arc / self.end, count)
+        ratio = _clenshaw(self.coefficients[:, piece], x)
+        return (
+            ratio + arc * _clenshaw(chebyshev.chebder(self.coefficients)[:, piece], x) * 2 * count / self.end
+        )
+
+    def arc(self, rotation: float) -> float:
+        """Return the arc at one rotation [rad], up to the end, by Newton's method."""
+        arc = min(rotation, self.end)
+        for _ in range(50):
+            step = (self.rotation_at(arc) - rotation) / float(self.slope(np.array(arc)))
+            arc = min(max(arc - step, 0.0), self.end)
+            if abs(step) <= _SQUARED_IS_ROUNDING * arc:
+                break
+        return arc
+
+    @cached_property
+    def _pieces(self) -> list[list[float]]:
+        pieces: list[list[float]] = self.coefficients.T.tolist()
+        return pieces
+
+
+def rotation_map(arc: Arc, accuracy: float) -> RotationMap | None:
+    """Return the inverse of an arc, or None where it is not smooth enough for `accuracy` (relative)."""
+    end = float(arc.starts[-1])
+
+    def ratio(arcs: np.ndarray) -> np.ndarray:
+        return arc.rotation(arcs) / arcs
+
+    found = _pieces(ratio, end, accuracy, 1)
+    return None if found is None else RotationMap(found[0], end)
+
+
+def _pieces(
+    function: Function, last: float, accuracy: float, count: int
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Chebyshev coefficients (16, m) of a function on m ≥ count pieces of [0, last], and its values at the nodes."""
+    while count <= _MOST_PIECES:
+        half = last / count / 2
+        values = function((2 * np.arange(count)[:, None] + 1) * half + half * _NODES)
+        if not np.all(np.isfinite(values)):
+            return None
+        coefficients = chebyshev.chebfit(_NODES, values.T, _ORDER)
+        # The last two coefficients of each piece tell what a longer expansion would add.
+        if np.abs(coefficients[-2:]).max() <= accuracy * np.abs(values).max():
+            return coefficients, values
+        count *= 2
+    return None
+
+
+def _placed(share: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Which of `count` equal pieces of [0, 1] each share lies in, and where in it, from −1 to 1."""
+    place = np.clip(share * count, 0, count)
+    piece = np.minimum(place.astype(int), count - 1)
+    return piece, 2 * (place - piece) - 1
+
+
+def _clenshaw(coefficients: np.ndarray, x: np.ndarray) -> np.ndarray:
+    twice, later, latest = 2 * x, np.zeros_like(x), np.zeros_like(x)
+    for c in coefficients[:0:-1]:
+        later, latest = c + twice * later - latest, later
+    return coefficients[0] + x * later - latest
+
 
 Scale = Literal["rest", "linearised", "uplift", "mean"]
 """Which equivalent block: exact at rest, or linearised about φ_cr with a_sc, a_sc,alt = φ_cr/λ, or their mean."""

@@ -6,14 +6,12 @@ from typing import ClassVar
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.structures.bars import Bodies
-from rocking.structures.block import Block
+from rocking.structures.block import Block, corner_side
+from rocking.structures.bodies import Bodies, Restitution, momentum_balance, resolve_restitution
 from rocking.structures.contacts import Contacts, MotionState, UnknownContacts
 from rocking.structures.drawing import Path, rectangle, span, turned
 from rocking.structures.fields import Form, count_field, length_field, number_field, restitution_field
 from rocking.structures.mechanism import Mechanism
-from rocking.structures.restitution import Restitution, momentum_balance, resolve_restitution
-from rocking.structures.single_body import corner_side
 from rocking.structures.structure import Structure
 
 _MOST_COLUMNS = 1000

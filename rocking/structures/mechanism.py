@@ -16,13 +16,23 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, positive, shown, within
-from rocking.structures.arc import Arc, Function, RotationMap, arc_of, rotation_map
-from rocking.structures.equivalent_block import BlockDefects, Scale, block_of, defects_of
+from rocking.structures.equivalent_block import (
+    Arc,
+    BlockDefects,
+    Function,
+    RotationMap,
+    Scale,
+    arc_of,
+    block_of,
+    defects_of,
+    rotation_map,
+)
 from rocking.structures.equivalent_block import EquivalentBlock as EquivalentBlock
-from rocking.structures.ties import SideTie
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from rocking.structures.attachments import SideTie
 
 _ARC_ACCURACY, _MAP_ACCURACY = 2e-14, 1e-14
 CUTS = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.4)
@@ -49,7 +59,7 @@ class Side:
     critical_rotation: float
     end_rotation: float
     restitution: float
-    ties: tuple[SideTie, ...] = ()
+    ties: "tuple[SideTie, ...]" = ()
     untied_gravity: Function | None = None
 
     def __post_init__(self) -> None:

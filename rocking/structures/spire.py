@@ -8,7 +8,8 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.structures.bars import Bodies, body_about
+from rocking.structures.block import RigidBody
+from rocking.structures.bodies import Bodies, Restitution, body_about
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Path, span, turned
 from rocking.structures.fields import (
@@ -20,8 +21,6 @@ from rocking.structures.fields import (
     restitution_field,
 )
 from rocking.structures.mechanism import Mechanism
-from rocking.structures.restitution import Restitution
-from rocking.structures.rigid_body import RigidBody
 from rocking.structures.structure import HIGHEST_SHARE, Structure
 
 _SPREAD = {"circular": 3 / 20, "square": 1 / 5}
@@ -39,7 +38,7 @@ class Spire(Structure):
     """
 
     type_name: ClassVar[str] = "spire"
-    moved: ClassVar[str] = "crack height"
+    crack_name: ClassVar[str] = "crack"
     forms: ClassVar[tuple[Form, ...]] = (
         Form(
             "Cone or square pyramid, solid or hollow, that rocks above a horizontal crack",

@@ -1,14 +1,162 @@
-"""Structures from a YAML list: read safely, all defects in one message, each size remembered as it was typed."""
+"""The types of structure there are, and the door through which a file brings them in.
+
+Degrees, metres and kilonewtons outside, SI and radians inside. A YAML list is read safely, all defects stand in one
+message, and each size is remembered as it was typed. The JSON schema follows from the forms of the types.
+"""
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from difflib import get_close_matches
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import yaml
 
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
-from rocking.structures.config import structure_from_config
-from rocking.structures.structure import Structure
+from rocking.structures.fields import RESTITUTION_RANGE, Field, Form, article
+from rocking.structures.structure import Structure, typed_text
+
+_CLASSES = (
+    "rocking.structures.block.Block",
+    "rocking.structures.wall.Wall",
+    "rocking.structures.arch.Arch",
+    "rocking.structures.frame.Frame",
+    "rocking.structures.spire.Spire",
+    "rocking.structures.block.RigidBody",
+    "rocking.structures.facade.Facade",
+    "rocking.structures.wall.LoadedWall",
+    "rocking.structures.arch.ArchOnPiers",
+)
+
+
+def _found(path: str) -> type[Structure]:
+    module, name = path.rsplit(".", 1)
+    return getattr(import_module(module), name)  # type: ignore[no-any-return]
+
+
+TYPES: dict[str, type[Structure]] = {each.type_name: each for each in map(_found, _CLASSES)}
+"""By the `type` of a structure list."""
+
+
+def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str] | None = None) -> Structure:
+    """Return the structure that `mapping` describes: its type, the keys of one of the type's forms, perhaps a name.
+
+    Lengths in m (keys …_m), angles in degrees (keys …_deg). texts: the values as they were typed, by key, for the
+    structure's description. Raises ConfigurationError when a key is unknown or missing, and StructureError when the
+    geometry cannot stand.
+    """
+    if not isinstance(mapping, Mapping):
+        raise ConfigurationError(
+            f"a structure is {mapping!r}, but must be a mapping with a type and its sizes."
+        )
+    kind = mapping.get("type")
+    if not isinstance(kind, str) or kind not in TYPES:
+        raise ConfigurationError(
+            f"type is {kind!r}, but must be one of {', '.join(TYPES)}{_nearest(kind, TYPES)}."
+        )
+    given = {
+        key: value for key, value in mapping.items() if key not in ("type", "name") and value is not None
+    }
+    form = _form(kind, given)
+    arguments: dict[str, Any] = {
+        form.keys[key].parameter: form.keys[key].inward(value) for key, value in given.items()
+    }
+    known = arguments.pop(RESTITUTION_RANGE.parameter, None)
+    make: Callable[..., Structure] = getattr(TYPES[kind], form.make) if form.make else TYPES[kind]
+    structure = make(**arguments)
+    if known is not None:
+        structure = replace(structure, restitution_range=known)
+    structure.typed(given, {key: typed_text(value) for key, value in given.items()} | dict(texts or {}))
+    return structure
+
+
+def _form(kind: str, given: Mapping[str, object]) -> Form:
+    """The form of `kind` that the keys `given` fill; ConfigurationError names what is unknown, missing or too much."""
+    forms = TYPES[kind].forms
+    allowed = {key for form in forms for key in form.keys}
+    for key in given:
+        if key not in allowed:
+            keys = ", ".join(sorted(allowed))
+            raise ConfigurationError(
+                f"{key} is not a key of {article(kind)}{_nearest(key, allowed)}; use {keys}."
+            )
+    form = max(forms, key=lambda form: len(set(form.required) & given.keys()))
+    missing = [key for key in form.required if key not in given]
+    if missing:
+        raise ConfigurationError(f"{article(kind)} needs {' and '.join(missing)}; give it.")
+    foreign = [key for key in given if key not in form.keys]
+    if foreign:
+        raise ConfigurationError(
+            f"{article(kind)} is given {' and '.join(foreign)} beside {' and '.join(form.required)}; give one set."
+        )
+    return form
+
+
+def _nearest(word: object, allowed: Iterable[str]) -> str:
+    found = get_close_matches(str(word), list(allowed), n=1, cutoff=0.5)
+    return f" (did you mean {found[0]}?)" if found else ""
+
+
+_HEAD = "# Written from rocking/structures by `make schema`; edit the structure's own file instead.\n"
+_NAME = {
+    "type": "string",
+    "minLength": 1,
+    "description": "Name of the structure in every table; each its own",
+}
+
+
+def structures_schema() -> dict[str, object]:
+    """Return the schema (draft 7); a definition for each form of each type."""
+    definitions = {
+        kind if len(each.forms) == 1 else f"{kind}_{number}": _definition(kind, form)
+        for kind, each in TYPES.items()
+        for number, form in enumerate(each.forms, start=1)
+    }
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "Structures to assess",
+        "type": "array",
+        "minItems": 1,
+        "items": {"oneOf": [{"$ref": f"#/definitions/{name}"} for name in definitions]},
+        "definitions": definitions,
+    }
+
+
+def structures_schema_file() -> str:
+    """Return the schema as the YAML file of the workflow."""
+    return _HEAD + yaml.dump(
+        structures_schema(), Dumper=_PlainDumper, sort_keys=False, allow_unicode=True, width=110
+    )
+
+
+class _PlainDumper(yaml.SafeDumper):
+    """Every value in its place, without anchors."""
+
+    def ignore_aliases(self, data: object) -> bool:
+        return True
+
+
+def _definition(kind: str, form: Form) -> dict[str, object]:
+    properties = {each.key: _property(each) for each in form.fields}
+    return {
+        "description": form.meaning,
+        "type": "object",
+        "additionalProperties": False,
+        "required": ["name", "type", *form.required],
+        "properties": {"name": dict(_NAME), "type": {"const": kind}, **properties},
+        "examples": [
+            {"name": f"my {kind}", "type": kind, **{each.key: each.example for each in form.fields}}
+        ],
+    }
+
+
+def _property(each: Field) -> dict[str, object]:
+    usual = f"; usually {each.usual[0]:g} to {each.usual[1]:g}" if each.usual and each.unit else ""
+    unit = f", {each.unit}" if each.unit else ""
+    return {**each.schema, "description": f"{each.meaning}{unit}{usual}"}
+
 
 LARGEST_FILE = 1_000_000
 """Bytes; a thousand structures take about a tenth of it."""

@@ -8,9 +8,9 @@ from itertools import combinations
 import numpy as np
 from scipy.optimize import minimize
 
-from rocking.structures.arch_onset import NoMechanism, Onset
+from rocking.structures.arch_mechanism import NoMechanism, Onset
 from rocking.structures.arch_ring import PATTERN, Ring
-from rocking.structures.bars import cross
+from rocking.structures.bodies import cross
 
 
 def kinematic_onset(ring: Ring) -> Onset:

@@ -8,13 +8,11 @@ from kinematic_onset import kinematic_onset
 
 from rocking.errors import RockingError
 from rocking.structures.arch import Arch
-from rocking.structures.arch_onset import maximum_thickness, minimum_thickness
-from rocking.structures.block import Block
-from rocking.structures.config import structure_from_config
+from rocking.structures.arch_mechanism import maximum_thickness, minimum_thickness
+from rocking.structures.block import Block, RigidBody
 from rocking.structures.frame import Frame
-from rocking.structures.registry import TYPES
-from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
+from rocking.structures.structure_list import TYPES, structure_from_config
 from rocking.structures.wall import Wall
 
 LENGTH = st.floats(0.1, 20.0)

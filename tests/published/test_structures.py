@@ -5,7 +5,7 @@ import pytest
 
 from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch
-from rocking.structures.arch_onset import minimum_thickness
+from rocking.structures.arch_mechanism import minimum_thickness
 from rocking.structures.block import Block
 from rocking.structures.frame import Frame
 from rocking.structures.wall import Wall

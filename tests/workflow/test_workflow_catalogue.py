@@ -12,7 +12,7 @@ import yaml
 import rocking
 from rocking.errors import CatalogueError
 from rocking.records.catalogue_record import CatalogueRecord
-from rocking.structures.registry import TYPES
+from rocking.structures.structure_list import TYPES
 
 ROOT = Path(rocking.__file__).parents[1]
 WAIVED = {"Specify a conda environment or container for each rule."}

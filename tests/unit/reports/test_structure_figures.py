@@ -5,8 +5,7 @@ import pytest
 
 from rocking.reports.record.structure_figures import drawn_rotation, round_length, structure_drawings
 from rocking.structures import Arch, Block, Wall
-from rocking.structures.config import structure_from_config
-from rocking.structures.registry import TYPES
+from rocking.structures.structure_list import TYPES, structure_from_config
 
 from .drawn import paths, texts
 

@@ -9,7 +9,7 @@ from scipy.optimize import brentq, linprog
 
 from rocking.errors import StructureError, StructureWarning
 from rocking.structures.arch import Arch
-from rocking.structures.arch_onset import (
+from rocking.structures.arch_mechanism import (
     NoMechanism,
     TooThin,
     maximum_thickness,

@@ -13,8 +13,8 @@ from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.structures import Arch
-from rocking.structures.arch_on_piers import ArchOnPiers
-from rocking.structures.contact_forces import angular_acceleration, contact_forces
+from rocking.structures.arch import ArchOnPiers
+from rocking.structures.contacts import angular_acceleration, contact_forces
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)
 

@@ -6,7 +6,7 @@ import pytest
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures import Arch, ArchOnPiers, Block, Facade, LoadedWall, RigidBody, Wall
-from rocking.structures.contact_forces import angular_acceleration
+from rocking.structures.contacts import angular_acceleration
 
 STRUCTURES = {
     "block": Block.of_size(0.6, 6.0),

@@ -22,8 +22,7 @@ from rocking.structures import (
     load_structures,
     structure_from_config,
 )
-from rocking.structures.registry import TYPES
-from rocking.structures.schema import structures_schema, structures_schema_file
+from rocking.structures.structure_list import TYPES, structures_schema, structures_schema_file
 
 WORKFLOW = Path(__file__).parents[3] / "workflow"
 SCHEMA = yaml.safe_load((WORKFLOW / "schemas" / "structures.schema.yaml").read_text(encoding="utf-8"))

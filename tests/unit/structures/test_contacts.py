@@ -5,11 +5,15 @@ import pytest
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
-from rocking.structures.block import Block
-from rocking.structures.contact_forces import angular_acceleration, contact_forces, contact_history
-from rocking.structures.contacts import Contacts, UnknownContacts
+from rocking.structures.block import Block, RigidBody
+from rocking.structures.contacts import (
+    Contacts,
+    UnknownContacts,
+    angular_acceleration,
+    contact_forces,
+    contact_history,
+)
 from rocking.structures.frame import Frame
-from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
 from rocking.structures.wall import Wall
 

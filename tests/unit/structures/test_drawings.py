@@ -5,10 +5,9 @@ import pytest
 
 from rocking.errors import StructureError
 from rocking.structures.arch import Arch
-from rocking.structures.block import Block
+from rocking.structures.block import Block, RigidBody
 from rocking.structures.drawing import turned
 from rocking.structures.frame import Frame
-from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
 from rocking.structures.wall import Wall
 

@@ -8,8 +8,8 @@ from scipy.integrate import solve_ivp
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch
-from rocking.structures.block import Block
-from rocking.structures.contact_forces import angular_acceleration
+from rocking.structures.block import Block, RigidBody
+from rocking.structures.contacts import angular_acceleration
 from rocking.structures.equivalence import (
     block_overturning_time,
     block_period,
@@ -20,7 +20,6 @@ from rocking.structures.equivalence import (
 )
 from rocking.structures.frame import Frame
 from rocking.structures.mechanism import Mechanism
-from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
 from rocking.structures.wall import Wall
 

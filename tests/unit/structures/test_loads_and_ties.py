@@ -13,7 +13,7 @@ from rocking.motion import integrate
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Block, Facade, Frame, LoadedWall, Wall
-from rocking.structures.contact_forces import angular_acceleration, contact_forces
+from rocking.structures.contacts import angular_acceleration, contact_forces
 
 FACADE = Facade(
     (3.5, 3.0, 2.5),

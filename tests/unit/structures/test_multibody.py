@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 
 from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch
-from rocking.structures.contact_forces import angular_acceleration, contact_forces
+from rocking.structures.contacts import angular_acceleration, contact_forces
 from rocking.structures.wall import Wall
 
 

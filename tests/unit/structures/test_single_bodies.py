@@ -6,9 +6,8 @@ from scipy.integrate import dblquad
 
 from rocking.errors import StructureError, StructureWarning
 from rocking.quantities import GRAVITY
-from rocking.structures.block import Block
+from rocking.structures.block import Block, RigidBody
 from rocking.structures.frame import Frame
-from rocking.structures.rigid_body import RigidBody
 from rocking.structures.spire import Spire
 
 
