@@ -8,7 +8,8 @@ import numpy as np
 from rocking.motion.response import Response
 from rocking.records import Accelerogram
 from rocking.structures import Structure
-from rocking.structures.contacts import UnknownContacts, contact_history, largest_so_far
+from rocking.structures.bodies import UnknownContacts
+from rocking.structures.structure import largest_so_far
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ def check_model(
     lift = 0.0 if vertical is None else _at(vertical, times[rocks])
     try:
         so_far = largest_so_far(rotation)[rocks]
-        contacts = contact_history(structure, rotation[rocks], velocity[rocks], ground, lift, so_far)
+        contacts = structure.contact_history(rotation[rocks], velocity[rocks], ground, lift, so_far)
     except UnknownContacts as why:
         return unknown(str(why))
     largest = min(float(rotation.max()), structure.mechanism().positive.end_rotation)

@@ -15,9 +15,9 @@ from rocking.motion.nonlinear_kernel import Ties
 from rocking.motion.piecewise import ACCURACY, AIM, DEGREE, ROOM, fitted
 from rocking.motion.tie_tables import tie_law
 from rocking.quantities import GRAVITY
-from rocking.structures.attachments import SideTie
 from rocking.structures.equivalent_block import Arc, Function, RotationMap, arc_of
 from rocking.structures.mechanism import CUTS, EquivalentBlock, Side
+from rocking.structures.ties import SideTie
 
 _NEAR = 1 / 64
 """Share of the arc of φ_cr within which a chain of impacts is looked at as a whole."""

@@ -6,9 +6,9 @@ import numpy as np
 
 from rocking.motion.nonlinear_kernel import Ties
 from rocking.quantities import GRAVITY
-from rocking.structures.attachments import SideTie
 from rocking.structures.equivalent_block import Arc
 from rocking.structures.mechanism import Side
+from rocking.structures.ties import SideTie
 
 
 def tie_law(side: Side, tie: SideTie, arc: Arc, reach: float) -> tuple[float, ...]:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from rocking.records.accelerogram import Accelerogram
     from rocking.records.response_spectrum import ResponseSpectrum
     from rocking.structures import Mechanism, Side, Structure
-    from rocking.structures.capacity import CapacityCurve
+    from rocking.structures.structure import CapacityCurve
 
 TIME = "time [s]"
 ACCELERATION = "ground acceleration [m/s²]"

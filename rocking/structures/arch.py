@@ -26,8 +26,16 @@ from rocking.structures.arch_mechanism import (
     thrust_line,
 )
 from rocking.structures.arch_ring import FOOT, PATTERN, Fill, PierRing, Ring
-from rocking.structures.bodies import Bodies, Restitution, cross, resolve_restitution
-from rocking.structures.contacts import Contacts, MotionState, dalembert, resolved
+from rocking.structures.bodies import (
+    Bodies,
+    Contacts,
+    MotionState,
+    Restitution,
+    cross,
+    dalembert,
+    resolve_restitution,
+    resolved,
+)
 from rocking.structures.drawing import Path, plane, span, swept
 from rocking.structures.fields import (
     Form,

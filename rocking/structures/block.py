@@ -7,8 +7,16 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import LENGTHS, length
-from rocking.structures.bodies import Bodies, Restitution, body_about, momentum_balance, resolve_restitution
-from rocking.structures.contacts import Contacts, MotionState, corner
+from rocking.structures.bodies import (
+    Bodies,
+    Contacts,
+    MotionState,
+    Restitution,
+    body_about,
+    corner,
+    momentum_balance,
+    resolve_restitution,
+)
 from rocking.structures.drawing import Path, rectangle, span, swept, turned
 from rocking.structures.fields import ONE_SIDED, Form, length_field, number_field, restitution_field
 from rocking.structures.mechanism import Mechanism, Side

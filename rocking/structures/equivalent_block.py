@@ -6,17 +6,13 @@ It is linear in the arc q = ∫ √(I(φ)/I(0)) dφ, a measure of rotation in wh
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
 
 from rocking.errors import StructureError
-from rocking.quantities import GRAVITY, positive, within
-
-if TYPE_CHECKING:
-    from rocking.structures.mechanism import Side
-
+from rocking.quantities import positive, within
 
 Function = Callable[[np.ndarray], np.ndarray]
 """A function of the rotation φ [rad], any shape in, the same shape out."""
@@ -192,8 +188,6 @@ def _clenshaw(coefficients: np.ndarray, x: np.ndarray) -> np.ndarray:
 Scale = Literal["rest", "linearised", "uplift", "mean"]
 """Which equivalent block: exact at rest, or linearised about φ_cr with a_sc, a_sc,alt = φ_cr/λ, or their mean."""
 
-_DEFECT_SAMPLES = 401
-
 
 @dataclass(frozen=True)
 class EquivalentBlock:
@@ -283,42 +277,3 @@ class BlockDefects:
 
     restoring: float
     forcing: float
-
-
-def block_of(side: "Side", scale: Scale) -> EquivalentBlock:
-    """Return the block of one side."""
-    if scale == "rest":
-        return _exact_at_rest(side)
-    return EquivalentBlock(
-        frequency_parameter=side.frequency_parameter,
-        critical_rotation=side.critical_rotation,
-        acceleration_scale=side.scaled_acceleration(scale),
-        restitution=side.restitution,
-    )
-
-
-def _exact_at_rest(side: "Side") -> EquivalentBlock:
-    """p² = g G(0)/(I(0) q_cr) and the true λ, in x = q/q_cr with the arc q (theory: section 9)."""
-    arc, rotation_map = side.arc
-    stiffness = GRAVITY * side.at("gravity", 0.0) / side.at("inertia", 0.0)
-    return EquivalentBlock(
-        frequency_parameter=float(np.sqrt(stiffness / arc.at(side.critical_rotation))),
-        critical_rotation=side.critical_rotation,
-        acceleration_scale=side.critical_rotation / side.uplift_multiplier,
-        restitution=side.restitution,
-        rotation_map=rotation_map,
-    )
-
-
-def defects_of(side: "Side") -> BlockDefects:
-    """Return what the block exact at rest leaves out of one side."""
-    arc, _ = side.arc
-    rotation = np.linspace(0.0, side.critical_rotation, _DEFECT_SAMPLES)
-    if side.remembers:
-        bends = np.array([bend for bend in side.bends if bend < side.critical_rotation])
-        rotation = np.unique([*rotation, *bends * (1 - 1e-12), *bends])  # before a tie breaks, and after
-    x = arc.at(rotation) / arc.at(side.critical_rotation)
-    stretch = arc.stretch(rotation)
-    restoring = side.gravity(rotation) / side.at("gravity", 0.0) / stretch - (1 - x)
-    forcing = side.at("ground", side.critical_rotation) / side.at("ground", 0.0) / stretch[-1] - 1
-    return BlockDefects(float(np.abs(restoring).max()), float(forcing))

@@ -7,40 +7,37 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, ClassVar, Literal, NamedTuple
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.quantities import GRAVITY, whole
-from rocking.structures.attachments import (
-    ECCENTRICITY,
-    TOP_SLAB,
-    UNIT_WEIGHT,
-    Attached,
-    ConstantForce,
-    LoadedForm,
-    PointMotion,
-    Tie,
-    Tied,
-    check_eccentricity,
-    check_inside,
-    tie_fields,
+from rocking.quantities import whole
+from rocking.structures.bodies import (
+    Bodies,
+    Contacts,
+    MotionState,
+    Restitution,
+    corner,
+    momentum_balance,
+    on_side,
+    resolve_restitution,
 )
-from rocking.structures.bodies import Bodies, Restitution, momentum_balance, resolve_restitution
-from rocking.structures.contacts import Contacts, MotionState, corner, on_side
 from rocking.structures.drawing import Kind, Mark, Path, rectangle, span, turned
 from rocking.structures.fields import ONE_SIDED, Field, Form, flag_field, number_field, restitution_field
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.structure import Structure
-
-
-class Held(NamedTuple):
-    """What hangs on a body at a `point` (at rest, complex, m): a `force`, or a weight `mass` that moves along."""
-
-    point: complex
-    force: ConstantForce | Tie | None
-    mass: float = 0.0
+from rocking.structures.tied import (
+    ECCENTRICITY,
+    TOP_SLAB,
+    UNIT_WEIGHT,
+    Tied,
+    check_eccentricity,
+    check_inside,
+    loaded_side,
+    tie_fields,
+)
+from rocking.structures.ties import Attached, ConstantForce, LoadedForm, PointMotion
 
 
 @dataclass(frozen=True)
@@ -59,7 +56,7 @@ class Turning:
 
 @dataclass(frozen=True, eq=False)
 class TurningBody:
-    """weights (k,), centres (k,) complex and inertias (k,) about them (weight times m²) of rigid parts; what is held.
+    """weights (k,), centres (k,) complex and inertias (k,) about them (weight times m²) of rigid parts, and what hangs.
 
     The centre of mass lies to the left of the toe, above it; it turns clockwise, to the right.
     """
@@ -67,15 +64,15 @@ class TurningBody:
     weights: np.ndarray
     centres: np.ndarray
     inertias: np.ndarray
-    held: tuple[Held, ...]
+    attached: tuple[Attached, ...]
 
     @cached_property
     def masses(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Weights, centres and inertias of all that moves, the masses held among them."""
-        moving = [each for each in self.held if each.mass]
+        """Weights, centres and inertias of all that moves, the attached masses among them."""
+        moving = [each for each in self.attached if each.mass]
         return (
             np.append(self.weights, [each.mass for each in moving]),
-            np.append(self.centres, [each.point for each in moving]),
+            np.append(self.centres, [each.path.start for each in moving]),
             np.append(self.inertias, np.zeros(len(moving))),
         )
 
@@ -93,12 +90,11 @@ class TurningBody:
             lambda phi: -size * np.cos(slenderness - phi),
             lambda phi: size * np.cos(slenderness - phi),
         )
-        forces = tuple(Attached(Turning(each.point), each.force) for each in self.held if each.force)
-        return LoadedForm(bare, forces, size)
+        return LoadedForm(bare, tuple(each for each in self.attached if each.force), size)
 
     def side(self, restitution: float) -> Side:
         """Return the side of rocking about the toe, until the body lies."""
-        return self.form.side(np.pi / 2, restitution)
+        return loaded_side(self.form, np.pi / 2, restitution)
 
     def bodies(self, rotation: float | np.ndarray) -> Bodies:
         """Return all that moves; see Structure.bodies."""
@@ -121,16 +117,9 @@ class TurningBody:
         total = weights.sum()
         centre = complex(weights @ centres) / total
         found = corner(-centre.real, centre.imag, state)
-        pressed, pushed = np.zeros(state.rotation.shape), np.zeros(state.rotation.shape)
-        for each in self.held:
-            if isinstance(each.force, ConstantForce):
-                pressed = pressed - each.force.vector.imag / total * state.pull.imag
-                pushed = pushed - each.force.vector.real / total * state.pull.imag
-            elif isinstance(each.force, Tie):
-                path = Turning(each.point)
-                tension = each.force.tension(path(state.rotation).moved.real, path(state.largest).moved.real)
-                pushed = pushed + tension / total * GRAVITY
-        return Contacts(found.names, found.normal + pressed, found.tangential + pushed)
+        forces = [each.acting(state)[1] / total for each in self.attached if each.force]
+        held = sum(forces, np.zeros(state.rotation.shape, dtype=complex))
+        return Contacts(found.names, found.normal - held.imag, found.tangential - held.real)
 
 
 _MOST_STOREYS = 50
@@ -287,18 +276,18 @@ class Facade(Tied):
         weights = self.unit_weight * heights * thicknesses
         centres = seen(-thicknesses / 2 + 1j * (self.levels[:-1][storeys] + heights / 2))
         inertias = weights * (heights**2 + thicknesses**2) / 12
-        return TurningBody(weights, centres, inertias, tuple(self._held(seen, mirrored)))
+        return TurningBody(weights, centres, inertias, tuple(self._attached(seen, mirrored)))
 
-    def _held(self, seen: Callable[[complex], complex], mirrored: bool) -> Iterable[Held]:
+    def _attached(self, seen: Callable[[complex], complex], mirrored: bool) -> Iterable[Attached]:
         """What hangs on the part above the crack, at points seen from the toe."""
         for point, load in self._bearings(mirrored):
-            held = (ConstantForce(-1j * load),) if self.loads_held else (None, load)
-            yield Held(seen(point), *held)
+            path = Turning(seen(point))
+            yield Attached(path, ConstantForce(-1j * load)) if self.loads_held else Attached(path, None, load)
         if self.thrust and self._thrust_point.imag > self.crack_height:
             thrust = complex(-self.thrust if mirrored else self.thrust)
-            yield Held(seen(self._thrust_point), ConstantForce(thrust))
+            yield Attached(Turning(seen(self._thrust_point)), ConstantForce(thrust))
         for height in () if mirrored else self._tied:
-            yield Held(seen(1j * height), self._tie())
+            yield Attached(Turning(seen(1j * height)), self._tie())
 
     def _bearings(self, mirrored: bool) -> Iterable[tuple[complex, float]]:
         """The points of the loads above the crack, and the loads."""

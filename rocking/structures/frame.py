@@ -7,8 +7,15 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.structures.block import Block, corner_side
-from rocking.structures.bodies import Bodies, Restitution, momentum_balance, resolve_restitution
-from rocking.structures.contacts import Contacts, MotionState, UnknownContacts
+from rocking.structures.bodies import (
+    Bodies,
+    Contacts,
+    MotionState,
+    Restitution,
+    UnknownContacts,
+    momentum_balance,
+    resolve_restitution,
+)
 from rocking.structures.drawing import Path, rectangle, span, turned
 from rocking.structures.fields import Form, count_field, length_field, number_field, restitution_field
 from rocking.structures.mechanism import Mechanism

@@ -10,9 +10,10 @@ motion on this side; the angular velocity of the next flight is `restitution` ti
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, positive, shown, within
@@ -23,20 +24,28 @@ from rocking.structures.equivalent_block import (
     RotationMap,
     Scale,
     arc_of,
-    block_of,
-    defects_of,
     rotation_map,
 )
 from rocking.structures.equivalent_block import EquivalentBlock as EquivalentBlock
+from rocking.structures.ties import SideTie
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from rocking.structures.attachments import SideTie
-
 _ARC_ACCURACY, _MAP_ACCURACY = 2e-14, 1e-14
 CUTS = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.4)
 """Shares that may be cut off beyond φ_cr, where a mechanism locks and its inertia has no bound."""
+_DEFECT_SAMPLES = 401
+
+
+class StandardForm(Protocol):
+    """Whatever has I, I', G, G' and B as methods of the rotation [rad], any shape."""
+
+    def inertia(self, rotation: np.ndarray, /) -> np.ndarray: ...
+    def inertia_slope(self, rotation: np.ndarray, /) -> np.ndarray: ...
+    def gravity(self, rotation: np.ndarray, /) -> np.ndarray: ...
+    def gravity_slope(self, rotation: np.ndarray, /) -> np.ndarray: ...
+    def ground(self, rotation: np.ndarray, /) -> np.ndarray: ...
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -59,7 +68,7 @@ class Side:
     critical_rotation: float
     end_rotation: float
     restitution: float
-    ties: "tuple[SideTie, ...]" = ()
+    ties: tuple[SideTie, ...] = ()
     untied_gravity: Function | None = None
 
     def __post_init__(self) -> None:
@@ -85,6 +94,20 @@ class Side:
                 raise StructureError(
                     f"{name} is {value!r} at a rotation of {at!r} rad, but must be positive there."
                 )
+
+    @classmethod
+    def of(
+        cls,
+        form: StandardForm,
+        critical_rotation: float,
+        end_rotation: float,
+        restitution: float,
+        ties: tuple[SideTie, ...] = (),
+        untied_gravity: Function | None = None,
+    ) -> "Side":
+        """Return the side whose five functions are the methods of `form`."""
+        functions = form.inertia, form.inertia_slope, form.gravity, form.gravity_slope, form.ground
+        return cls(*functions, critical_rotation, end_rotation, restitution, ties, untied_gravity)
 
     def __repr__(self) -> str:
         return f"Side({self.described})"
@@ -156,6 +179,36 @@ class Side:
             f"the mechanism's inertia is not smooth up to {self.critical_rotation!r} rad, its critical_rotation, but "
             "must be for a block that is exact at rest; take the one linearised about φ_cr."
         )
+
+    def equivalent_block(self, scale: Scale = "rest") -> EquivalentBlock:
+        """Return the linear block that stands for this side alone; see Mechanism.equivalent_block."""
+        frequency_parameter, mapped = 0.0, None
+        if scale == "rest":
+            arc, mapped = self.arc
+            stiffness = GRAVITY * self.at("gravity", 0.0) / self.at("inertia", 0.0)
+            # p² = g G(0)/(I(0) q_cr) in x = q/q_cr with the arc q (theory: section 9)
+            frequency_parameter = float(np.sqrt(stiffness / arc.at(self.critical_rotation)))
+        return EquivalentBlock(
+            frequency_parameter=frequency_parameter or self.frequency_parameter,
+            critical_rotation=self.critical_rotation,
+            acceleration_scale=self.scaled_acceleration(scale),
+            restitution=self.restitution,
+            rotation_map=mapped,
+        )
+
+    @cached_property
+    def block_defects(self) -> BlockDefects:
+        """What the block exact at rest leaves out."""
+        arc, _ = self.arc
+        rotation = np.linspace(0.0, self.critical_rotation, _DEFECT_SAMPLES)
+        if self.remembers:
+            bends = np.array([bend for bend in self.bends if bend < self.critical_rotation])
+            rotation = np.unique([*rotation, *bends * (1 - 1e-12), *bends])  # before a tie breaks, and after
+        x = arc.at(rotation) / arc.at(self.critical_rotation)
+        stretch = arc.stretch(rotation)
+        restoring = self.gravity(rotation) / self.at("gravity", 0.0) / stretch - (1 - x)
+        forcing = self.at("ground", self.critical_rotation) / self.at("ground", 0.0) / stretch[-1] - 1
+        return BlockDefects(float(np.abs(restoring).max()), float(forcing))
 
     def scaled_acceleration(self, scale: Scale) -> float:
         """a_sc, a_sc,alt = φ_cr/λ (Eq. 13), or their mean; that of the block exact at rest is a_sc,alt."""
@@ -243,8 +296,8 @@ class Mechanism:
         Raises StructureError for another scale.
         """
         if scale not in self._blocks:
-            block = block_of(self.positive, scale)
-            other = None if self.negative is None else block_of(self.negative, scale)
+            block = self.positive.equivalent_block(scale)
+            other = None if self.negative is None else self.negative.equivalent_block(scale)
             self._blocks[scale] = replace(block, other_side=other, one_sided=self.one_sided)
         return self._blocks[scale]
 
@@ -255,10 +308,45 @@ class Mechanism:
     @cached_property
     def block_defects(self) -> BlockDefects:
         """What the block exact at rest leaves out, of the worse side."""
-        found = [defects_of(side) for side in self.sides]
+        found = [side.block_defects for side in self.sides]
         return BlockDefects(
             max(each.restoring for each in found), max((each.forcing for each in found), key=abs)
         )
+
+    def angular_acceleration(
+        self,
+        rotation: ArrayLike,
+        angular_velocity: ArrayLike,
+        ground: ArrayLike = 0.0,
+        vertical: ArrayLike = 0.0,
+        largest: ArrayLike = 0.0,
+    ) -> np.ndarray:
+        """Return the signed φ'' [rad/s²] in motion (the standard form, with gravity g + ü_v).
+
+        rotation [rad] and angular_velocity [rad/s] are signed; ground and vertical are ü_g and ü_v [m/s²]; largest is
+        the largest rotation on that side so far [rad], where it was beyond `rotation`; all broadcast.
+        """
+        rotation, velocity, ground, vertical, largest = np.broadcast_arrays(
+            rotation, angular_velocity, ground, vertical, largest
+        )
+        result = np.empty(rotation.shape)
+        signs = self.side_of(rotation, velocity)
+        for sign, side in ((1.0, self.sides[0]), (-1.0, self.sides[-1])):
+            here = signs == sign
+            phi = np.abs(rotation[here])
+            restoring = side.restoring(phi, np.maximum(largest[here], phi), GRAVITY + vertical[here])
+            pull = side.inertia_slope(phi) / 2 * velocity[here] ** 2 + restoring
+            result[here] = -sign * (pull + sign * side.ground(phi) * ground[here]) / side.inertia(phi)
+        return result
+
+    def side_of(self, rotation: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+        """Return the side of each state, 1 or −1: the sign of the rotation, at 0 of the velocity; positive at rest."""
+        if self.one_sided and (rotation < 0).any():
+            raise StructureError(
+                "rotation is negative, but a one-sided mechanism rocks to the positive side only."
+            )
+        negative = (rotation < 0) | ((rotation == 0) & (velocity < 0) & (not self.one_sided))
+        return np.where(negative, -1.0, 1.0)
 
     def plot(self, axes: "Axes | None" = None) -> "Axes":
         """Draw I, G and B against the rotation, on `axes` or on new ones, and return the axes."""

@@ -9,8 +9,7 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.structures.block import RigidBody
-from rocking.structures.bodies import Bodies, Restitution, body_about
-from rocking.structures.contacts import Contacts, MotionState
+from rocking.structures.bodies import Bodies, Contacts, MotionState, Restitution, body_about
 from rocking.structures.drawing import Path, span, turned
 from rocking.structures.fields import (
     ONE_SIDED,

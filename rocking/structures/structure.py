@@ -7,11 +7,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import within
-from rocking.structures.bodies import Bodies
-from rocking.structures.contacts import Contacts, MotionState
+from rocking.structures.bodies import Bodies, Contacts, MotionState
 from rocking.structures.drawing import Dimension, Mark, Path
 from rocking.structures.fields import Field, Form
 from rocking.structures.mechanism import Mechanism
@@ -26,8 +26,10 @@ _STEP = 1e-5
 
 @dataclass(frozen=True, eq=False)
 class CapacityCurve:
-    """Load multiplier and displacements of one side at k rotations from rest to the critical one.
+    """Static load multiplier against displacement, at k rotations from rest to the critical one.
 
+    By virtual work a horizontal body force λ g that just holds the structure at φ has λ(φ) = G(φ)/B(φ). It starts at
+    the uplift multiplier and falls to 0 at the critical rotation.
     rotation: (k,) rad. multiplier: (k,) λ. displacement: (k,) horizontal, of the control point, m. control_point: (2,)
     where it is at rest, m: of all corners of the drawing the one that moves furthest sideways.
     effective_displacement: (k,) d* = d_k Σ P δ²/(δ_k Σ P δ), m, with the virtual horizontal displacements δ of the
@@ -46,56 +48,6 @@ class CapacityCurve:
         from rocking import plot  # the drawing stands above everything
 
         return plot(self, axes)
-
-
-def capacity_curve(structure: "Structure", side: int = 1, count: int = 41) -> CapacityCurve:
-    """Return the curve of the positive (1) or negative (−1) side of `structure` at `count` equal steps of rotation.
-
-    Where ties yield or break on the way there is a point more, and just beyond it another.
-    Raises StructureError for a side to which it does not rock, or fewer than two points.
-    """
-    mechanism = structure.mechanism()
-    if side not in (1, -1) or (side == -1 and mechanism.one_sided):
-        raise StructureError(
-            f"side is {side!r}, but must be 1, or -1 where the structure rocks to both sides."
-        )
-    if count < 2:
-        raise StructureError(f"count is {count!r}, but must be 2 or more.")
-    of = mechanism.sides[0 if side > 0 else -1]
-    rotation = np.linspace(0.0, of.critical_rotation, count)
-    if of.remembers:
-        bends = np.array([bend for bend in of.bends if bend < of.critical_rotation])
-        rotation = np.unique(np.concatenate([rotation, bends, bends * (1 + 1e-12)]))
-    control_point, displacement, control_speed = _control(structure, side * rotation)
-    across, masses = _virtual_displacements(structure)
-    first, second = masses @ across, masses @ across**2
-    return CapacityCurve(
-        rotation=rotation,
-        multiplier=of.gravity(rotation) / of.ground(rotation),
-        displacement=displacement,
-        effective_displacement=displacement * second / (control_speed * first),
-        control_point=control_point,
-        participating_mass_ratio=float(first**2 / (masses.sum() * second)),
-    )
-
-
-def _control(structure: "Structure", rotations: np.ndarray) -> tuple[tuple[float, float], np.ndarray, float]:
-    """The corner that moves furthest sideways: where it is at rest, how far it moves, and its speed for φ' = 1."""
-    sign = np.sign(rotations[-1])
-    rotations = np.append(rotations, [sign * _STEP, sign * 2 * _STEP])
-    places = np.array([np.vstack(structure.outline(rotation or sign * 1e-300)) for rotation in rotations])
-    moved = np.abs(places[:, :, 0] - places[0, :, 0])
-    corner = int(np.argmax(moved[(len(rotations) - 2) // 2]))
-    once, twice = moved[-2:, corner]
-    x, y = places[0, corner]
-    return (float(x), float(y)), moved[:-2, corner], float(2 * once - twice / 2) / _STEP
-
-
-def _virtual_displacements(structure: "Structure") -> tuple[np.ndarray, np.ndarray]:
-    """Horizontal velocity of each moving mass at rest for φ' = 1, and the masses."""
-    masses = structure.bodies(0.0).masses
-    places = structure.bodies(np.array([-_STEP, _STEP])).centres.real
-    return (places[:, 1] - places[:, 0]) / (2 * _STEP), masses
 
 
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
@@ -166,8 +118,96 @@ class Structure(ABC):
         return plot(self, axes, rotation=rotation, dimensions=dimensions)
 
     def capacity_curve(self, side: int = 1, count: int = 41) -> CapacityCurve:
-        """Return the load multiplier against displacement of one side, from rest to the critical rotation."""
-        return capacity_curve(self, side, count)
+        """Return the curve of the positive (1) or negative (−1) side at `count` equal steps of rotation.
+
+        Where ties yield or break on the way there is a point more, and just beyond it another.
+        Raises StructureError for a side to which it does not rock, or fewer than two points.
+        """
+        mechanism = self.mechanism()
+        if side not in (1, -1) or (side == -1 and mechanism.one_sided):
+            raise StructureError(
+                f"side is {side!r}, but must be 1, or -1 where the structure rocks to both sides."
+            )
+        if count < 2:
+            raise StructureError(f"count is {count!r}, but must be 2 or more.")
+        of = mechanism.sides[0 if side > 0 else -1]
+        rotation = np.linspace(0.0, of.critical_rotation, count)
+        if of.remembers:
+            bends = np.array([bend for bend in of.bends if bend < of.critical_rotation])
+            rotation = np.unique(np.concatenate([rotation, bends, bends * (1 + 1e-12)]))
+
+        # the control point is the corner that moves furthest sideways; two small steps give its speed for φ' = 1
+        steps = side * np.append(rotation, [_STEP, 2 * _STEP])
+        places = np.array([np.vstack(self.outline(each or side * 1e-300)) for each in steps])
+        moved = np.abs(places[:, :, 0] - places[0, :, 0])
+        control = int(np.argmax(moved[(rotation.size) // 2]))
+        once, twice = moved[-2:, control]
+        control_speed = float(2 * once - twice / 2) / _STEP
+
+        masses = self.bodies(0.0).masses
+        at_rest = self.bodies(np.array([-_STEP, _STEP])).centres.real
+        across = (at_rest[:, 1] - at_rest[:, 0]) / (2 * _STEP)
+        first = masses @ across
+        second = masses @ across**2
+        x, y = places[0, control]
+        return CapacityCurve(
+            rotation=rotation,
+            multiplier=of.gravity(rotation) / of.ground(rotation),
+            displacement=moved[:-2, control],
+            effective_displacement=moved[:-2, control] * second / (control_speed * first),
+            control_point=(float(x), float(y)),
+            participating_mass_ratio=float(first**2 / (masses.sum() * second)),
+        )
+
+    def contact_forces(
+        self,
+        rotation: ArrayLike,
+        angular_velocity: ArrayLike,
+        angular_acceleration: ArrayLike,
+        ground: ArrayLike = 0.0,
+        vertical: ArrayLike = 0.0,
+        largest: ArrayLike = 0.0,
+    ) -> Contacts:
+        """Return the contact forces in motion.
+
+        rotation, angular_velocity, angular_acceleration: signed, (k,). ground, vertical: ü_g and ü_v, (k,) m/s².
+        largest: the largest rotation on that side so far [rad], where it was beyond `rotation`, (k,).
+        At rotation 0 the side is that of the velocity. Tangential forces are positive towards the side it rocks to.
+        Raises UnknownContacts, in words, where they are not known (a frame's are indeterminate).
+        """
+        given = np.broadcast_arrays(
+            rotation, angular_velocity, angular_acceleration, ground, vertical, largest
+        )
+        state = [np.atleast_1d(np.asarray(values, dtype=float)) for values in given]
+        sign = self.mechanism().side_of(state[0], state[1])
+        phi, velocity, acceleration, push = (values * sign for values in state[:4])
+        so_far = np.maximum(phi, state[5])
+        return self.contacts(MotionState(sign, phi, velocity, acceleration, push, state[4], so_far))
+
+    def contact_history(
+        self,
+        rotation: ArrayLike,
+        angular_velocity: ArrayLike,
+        ground: ArrayLike,
+        vertical: ArrayLike = 0.0,
+        largest: ArrayLike | None = None,
+    ) -> Contacts:
+        """Return the contact forces along a response, (k,) each, with φ'' from its own mechanism.
+
+        largest: the largest rotation on that side so far [rad], (k,); None: within the states given.
+        At rest a single body carries the ground's whole acceleration; the joints of a wall or an arch are then
+        statically indeterminate and their forces nan.
+        """
+        state = np.broadcast_arrays(rotation, angular_velocity, ground, vertical)
+        phi, velocity, push, lift = (np.atleast_1d(np.asarray(values, dtype=float)) for values in state)
+        resting = (phi == 0) & (velocity == 0)
+        so_far = largest_so_far(phi) if largest is None else np.broadcast_to(largest, phi.shape)
+        moving = self.mechanism().angular_acceleration(phi, velocity, push, lift, so_far)
+        found = self.contact_forces(phi, velocity, np.where(resting, 0.0, moving), push, lift, so_far)
+        if len(found.names) == 1:
+            return found
+        unknown = np.where(resting, np.nan, 0.0)
+        return Contacts(found.names, found.normal + unknown, found.tangential + unknown)
 
     @abstractmethod
     def bodies(self, rotation: float | np.ndarray) -> Bodies:
@@ -325,3 +365,9 @@ def typed_text(value: object, number: str = "{}") -> str:
     if isinstance(value, list | tuple):
         return ", ".join(typed_text(each, number) for each in value)
     return number.format(value) if isinstance(value, float) else str(value)
+
+
+def largest_so_far(rotation: np.ndarray) -> np.ndarray:
+    """Return the largest rotation [rad] so far on the side of each of the signed `rotation`, (k,)."""
+    out, back = (np.maximum.accumulate(np.maximum(each, 0.0)) for each in (rotation, -rotation))
+    return np.where(rotation < 0, back, out)

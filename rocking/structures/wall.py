@@ -13,31 +13,22 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
-from rocking.quantities import GRAVITY, finite, length
-from rocking.structures.attachments import (
-    ECCENTRICITY,
-    TOP_SLAB,
-    UNIT_WEIGHT,
-    Attached,
-    ConstantForce,
-    LoadedForm,
-    PointMotion,
-    Tie,
-    Tied,
-    check_eccentricity,
-    tie_fields,
-)
+from rocking.quantities import finite, length
 from rocking.structures.bodies import (
     Bars,
     Bodies,
+    Contacts,
     Motion,
+    MotionState,
     Restitution,
     carried,
     cross,
+    dalembert,
     momentum_balance,
+    on_side,
     resolve_restitution,
+    resolved,
 )
-from rocking.structures.contacts import Contacts, MotionState, dalembert, on_side, resolved
 from rocking.structures.drawing import Mark, Path, plane, rectangle, span, turned
 from rocking.structures.fields import (
     ONE_SIDED,
@@ -49,6 +40,16 @@ from rocking.structures.fields import (
 )
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.structure import HIGHEST_SHARE, Structure
+from rocking.structures.tied import (
+    ECCENTRICITY,
+    TOP_SLAB,
+    UNIT_WEIGHT,
+    Tied,
+    check_eccentricity,
+    loaded_side,
+    tie_fields,
+)
+from rocking.structures.ties import Attached, ConstantForce, LoadedForm, PointMotion, Tie
 
 _LINKAGE_MARGIN = 0.9
 """Share of the reach of the shorter half that the motion may use: the linkage locks at 1, where ψ' is
@@ -231,21 +232,11 @@ class Wall(Structure):
 
     def _build(self) -> Mechanism:
         linkage = self.linkage
-        return Mechanism(
-            Side(
-                inertia=linkage.inertia,
-                inertia_slope=linkage.inertia_slope,
-                gravity=linkage.gravity,
-                gravity_slope=linkage.gravity_slope,
-                ground=linkage.ground,
-                critical_rotation=linkage.slenderness,
-                end_rotation=linkage.end_rotation,
-                restitution=resolve_restitution(
-                    self.restitution, "momentum", lambda: momentum_balance(*self.impact())
-                ),
-            ),
-            one_sided=self.one_sided,
+        restitution = resolve_restitution(
+            self.restitution, "momentum", lambda: momentum_balance(*self.impact())
         )
+        side = Side.of(linkage, linkage.slenderness, linkage.end_rotation, restitution)
+        return Mechanism(side, one_sided=self.one_sided)
 
     @cached_property
     def linkage(self) -> WallLinkage:
@@ -463,7 +454,7 @@ class LoadedWall(Tied):
         restitution = resolve_restitution(
             self.restitution, "momentum", lambda: self._momentum_balance(mirrored)
         )
-        return self._form(mirrored).side(self.wall.linkage.end_rotation, restitution)
+        return loaded_side(self._form(mirrored), self.wall.linkage.end_rotation, restitution)
 
     def _build(self) -> Mechanism:
         tied = bool(self.tie_heights) and bool(self.tie_stiffness or self.tie_pretension)
@@ -516,16 +507,8 @@ class LoadedWall(Tied):
         factor = self.wall.linkage.lower_diagonal
         for each in self.attached(mirrored):
             assert isinstance(each.path, OnBlock)
-            point = each.path(state.rotation)
-            if isinstance(each.force, Tie):
-                tension = each.force.tension(point.moved.real, each.path(state.largest).moved.real)
-                force = -tension * GRAVITY + 0j
-            elif isinstance(each.force, ConstantForce):
-                force = each.force.vector * state.pull.imag
-            else:
-                rise = point.velocity.imag * state.acceleration + point.acceleration.imag * state.velocity**2
-                force = -1j * each.mass * (rise + state.pull.imag)
-            yield each.path.block, each.path.start + point.moved, force * factor
+            point, force = each.acting(state)
+            yield each.path.block, point, force * factor
 
     def tie_stretches(self, rotation: float) -> dict[float, float]:
         return {

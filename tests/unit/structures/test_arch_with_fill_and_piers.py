@@ -14,7 +14,6 @@ from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.structures import Arch
 from rocking.structures.arch import ArchOnPiers
-from rocking.structures.contacts import angular_acceleration, contact_forces
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)
 
@@ -151,15 +150,15 @@ def test_motion_and_thrusts_are_those_of_free_bars_with_constraints(arch):
     def rate(time, state):
         return [
             state[1],
-            float(angular_acceleration(mechanism, state[0], state[1], ground(time), vertical(time))),
+            float(mechanism.angular_acceleration(state[0], state[1], ground(time), vertical(time))),
         ]
 
     motion = solve_ivp(rate, (0.0, times[-1]), [0.0, speed], "DOP853", times, rtol=1e-12, atol=1e-14)
     assert motion.y[0].min() >= 0 and motion.y[0].max() > 0.2 * mechanism.critical_rotation
     angles, _ = system.simulate(-speed, times, ground, vertical)
     np.testing.assert_allclose(-angles[:, 0], motion.y[0], rtol=0, atol=1e-8 * motion.y[0].max())
-    contacts = contact_forces(
-        arch, 0.1 * reach, speed, angular_acceleration(mechanism, 0.1 * reach, speed, 1.3, -2.0), 1.3, -2.0
+    contacts = arch.contact_forces(
+        0.1 * reach, speed, mechanism.angular_acceleration(0.1 * reach, speed, 1.3, -2.0), 1.3, -2.0
     )
     state = arch.linkage.motion(0.1 * reach)
     _, forces = system.solve(state.angles, state.spins * speed, 1.3, -2.0)

@@ -9,7 +9,6 @@ from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch
 from rocking.structures.block import Block, RigidBody
-from rocking.structures.contacts import angular_acceleration
 from rocking.structures.equivalence import (
     block_overturning_time,
     block_period,
@@ -38,7 +37,7 @@ def time_until(side, start, stop, acceleration):
     mechanism = Mechanism(side)
 
     def rate(_, state):
-        return [state[1], float(angular_acceleration(mechanism, max(state[0], 0.0), state[1], acceleration))]
+        return [state[1], float(mechanism.angular_acceleration(max(state[0], 0.0), state[1], acceleration))]
 
     def arrived(_, state):
         return state[0] - stop

@@ -13,7 +13,6 @@ from rocking.motion import integrate
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Block, Facade, Frame, LoadedWall, Wall
-from rocking.structures.contacts import angular_acceleration, contact_forces
 
 FACADE = Facade(
     (3.5, 3.0, 2.5),
@@ -149,7 +148,7 @@ def test_acceleration_is_that_of_positions_and_energy(case, sign):
         # the façade's own coordinates keep x; the wall's oracle is mirrored with the side
         push = ground if lagrangian is facade_lagrangian else sign * ground
         expected = sign * oracle.acceleration(rotation, velocity, push, GRAVITY)
-        found = angular_acceleration(mechanism, sign * rotation, sign * velocity, ground)
+        found = mechanism.angular_acceleration(sign * rotation, sign * velocity, ground)
         assert float(found) == pytest.approx(expected, rel=1e-9)
 
 
@@ -228,7 +227,7 @@ def test_energy_with_the_work_of_ties_is_kept_over_a_hundred_cycles(case):
 def test_the_toe_carries_what_moves_and_what_hangs_on_it(case):
     """Vertical force at rest: all weights; horizontal force in static balance: ties less thrust."""
     structure, _ = CASES[case]
-    found = contact_forces(structure, 0.0, 0.0, 0.0)
+    found = structure.contact_forces(0.0, 0.0, 0.0)
     moving = structure.bodies(0.0).masses.sum()
     if isinstance(structure, Facade):
         masonry = structure.unit_weight * sum(
@@ -330,7 +329,7 @@ def test_the_toe_carries_mass_times_acceleration_and_what_hangs_on_it(case):
     tie = facade.tie_pretension + facade.tie_stiffness * stretch
     # bodies are in weights: forces times g
     pushed += 1j * held * (GRAVITY + vertical) + GRAVITY * tie - facade.thrust * (GRAVITY + vertical)
-    found = contact_forces(facade, rotation(0.0), speed, turn, ground, vertical)
+    found = facade.contact_forces(rotation(0.0), speed, turn, ground, vertical)
     assert found.normal[0, 0] == pytest.approx(pushed.imag / masses.sum(), abs=1e-8)
     assert found.tangential[0, 0] == pytest.approx(pushed.real / masses.sum(), abs=1e-8)
 
@@ -340,8 +339,8 @@ def test_the_lower_block_is_in_balance_under_the_force_at_the_hinge(case):
     """The hinge's force comes from the upper block; the moments of the lower one about the base must then vanish."""
     wall, _ = CASES[case]
     rotation, speed, ground = 0.04, 0.25, 1.3
-    turn = float(angular_acceleration(wall.mechanism(), rotation, speed, ground))
-    found = contact_forces(wall, rotation, speed, turn, ground)
+    turn = float(wall.mechanism().angular_acceleration(rotation, speed, ground))
+    found = wall.contact_forces(rotation, speed, turn, ground)
     motion = wall.wall.linkage.motion(rotation)
     thrust = complex(found.normal[1, 0], found.tangential[1, 0]) * 1j * np.exp(0.5j * motion.angles.sum())
     base, hinge = motion.hinges[:2]

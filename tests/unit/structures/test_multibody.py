@@ -7,7 +7,6 @@ from scipy.integrate import solve_ivp
 
 from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch
-from rocking.structures.contacts import angular_acceleration, contact_forces
 from rocking.structures.wall import Wall
 
 
@@ -72,7 +71,7 @@ def test_motion_is_that_of_free_bars_with_constraints(case):
     times = np.linspace(0.0, 0.25, 26)
 
     def rate(time, state):
-        acceleration = angular_acceleration(mechanism, state[0], state[1], ground(time), vertical(time))
+        acceleration = mechanism.angular_acceleration(state[0], state[1], ground(time), vertical(time))
         return [state[1], float(acceleration)]
 
     motion = solve_ivp(rate, (0.0, times[-1]), [0.0, speed], "DOP853", times, rtol=1e-12, atol=1e-14)
@@ -92,8 +91,8 @@ def test_hinge_thrusts_are_the_constraint_forces(case):
     if isinstance(structure, Arch):
         mass = structure.embrace_angle * structure.radius * structure.thickness
     for phi, velocity in ((0.0, 0.0), (0.05, speed), (0.6 * mechanism.critical_rotation, -speed)):
-        acceleration = angular_acceleration(mechanism, phi, velocity, 1.3, -2.0)
-        contacts = contact_forces(structure, phi, velocity, acceleration, 1.3, -2.0)
+        acceleration = mechanism.angular_acceleration(phi, velocity, 1.3, -2.0)
+        contacts = structure.contact_forces(phi, velocity, acceleration, 1.3, -2.0)
         motion = structure.linkage.motion(phi)
         _, forces = system.solve(motion.angles, motion.spins * velocity, 1.3, -2.0)
         for hinge in range(len(contacts.names)):
@@ -105,7 +104,7 @@ def test_hinge_thrusts_are_the_constraint_forces(case):
 def test_thrusts_of_an_arch_at_rest_at_onset_are_those_of_the_limit_analysis():
     arch = Arch(2.0, 0.36, np.radians(170))
     onset, sections = arch.onset, arch.onset.hinges - arch.embrace_angle / 2
-    contacts = contact_forces(arch, 0.0, 0.0, 0.0, -onset.multiplier * GRAVITY)
+    contacts = arch.contact_forces(0.0, 0.0, 0.0, -onset.multiplier * GRAVITY)
     _, vertical_force, horizontal = onset.reaction
     across = horizontal + onset.multiplier * onset.hinges
     up = vertical_force - onset.hinges

@@ -14,8 +14,7 @@ from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Facade, LoadedWall
-from rocking.structures.attachments import Tie
-from rocking.structures.contacts import angular_acceleration, contact_history
+from rocking.structures.ties import Tie
 
 FACADE = Facade(
     (3.2, 2.8), (0.6, 0.5), 20e3, (10e3, 5e3), 0.05, tie_heights=(3.1, 5.8), tie_stiffness=3e5,
@@ -350,10 +349,10 @@ def test_acceleration_and_capacity_know_the_ties(structure):
         )
         force = np.minimum(force, tie.strength)
         expected = -(bend / 2 * 0.09 + weight * (GRAVITY + 0.4) + push * 1.1 + force @ pull) / inertia
-        found = angular_acceleration(mechanism, rotation, 0.3, 1.1, 0.4, largest)
+        found = mechanism.angular_acceleration(rotation, 0.3, 1.1, 0.4, largest)
         assert float(found) == pytest.approx(expected, rel=1e-9)
     curve = structure.capacity_curve()
-    still = angular_acceleration(mechanism, curve.rotation[1:], 0.0, -curve.multiplier[1:] * GRAVITY)
+    still = mechanism.angular_acceleration(curve.rotation[1:], 0.0, -curve.multiplier[1:] * GRAVITY)
     np.testing.assert_allclose(still, 0.0, atol=1e-9 * GRAVITY)
     side = mechanism.positive
     assert {bend for bend in side.bends if bend < side.critical_rotation} <= set(curve.rotation)
@@ -363,7 +362,7 @@ def test_acceleration_and_capacity_know_the_ties(structure):
 def test_contacts_remember_what_yielded():
     """Horizontal force at the toe, which carries what the ties do not: less of it once they are broken."""
     state = {"rotation": [0.006, 0.006], "angular_velocity": [0.0, 0.0], "ground": [0.0, 0.0]}
-    found = contact_history(FACADE, **state, largest=[0.006, 0.3])
+    found = FACADE.contact_history(**state, largest=[0.006, 0.3])
     assert found.tangential[0, 0] < found.tangential[0, 1] - 0.01 * GRAVITY
     record = Accelerogram(-3.2 * np.sin(np.arange(400) / 20), 0.01)
     response = integrate(FACADE, record, history=True)
