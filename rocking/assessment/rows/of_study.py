@@ -137,7 +137,7 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
             structure=name,
             type=structure.type_name,
             geometry=structure.description,
-            crack=structure.moved.removesuffix(" height"),
+            crack=structure.crack_name,
             frequency_parameter_rad_s=side.frequency_parameter,
             critical_rotation_rad=side.critical_rotation,
             uplift_multiplier=mechanism.uplift_multiplier,
