@@ -106,7 +106,7 @@ def assess_structures(
     candidates: tuple[PulseEvidence, ...] = ()
     try:
         analysis = extract_pulses(accelerogram, settings=settings.pulse)
-        candidates = PULSE_METHODS[settings.pulse_choice].candidates(analysis)
+        candidates = PULSE_METHODS[settings.pulse.choice].candidates(analysis)
     except PulseError as error:
         failures.append(Failure("pulses", "", str(error)))
     extracted = process_time()

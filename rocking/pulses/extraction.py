@@ -144,8 +144,8 @@ def searched_band(accelerogram: Accelerogram, settings: PulseSettings) -> Band:
             f"{settings.highest_frequency:g} Hz needs one period of record and {settings.samples_per_cycle:g} "
             "samples in a cycle; give a longer or more finely sampled record, or widen the band."
         )
-    steps = math.ceil(settings.per_octave * math.log2(high / low) - 1e-9)
-    frequencies = low * 2.0 ** (np.arange(steps + 1) / settings.per_octave)
+    steps = math.ceil(settings.frequencies_per_octave * math.log2(high / low) - 1e-9)
+    frequencies = low * 2.0 ** (np.arange(steps + 1) / settings.frequencies_per_octave)
     frequencies[-1] = high
     return Band(frequencies, tuple(flags))
 
@@ -234,7 +234,7 @@ class PulseSearch:
 
         turn = 2 * math.pi * self.time_step
         lowest, highest = (turn * limit for limit in self.band.limits)
-        reach = REFINEMENT_REACH * math.log(2) / self.settings.per_octave
+        reach = REFINEMENT_REACH * math.log(2) / self.settings.frequencies_per_octave
         angle, start, sine, norm = refine(samples, onset, turn * frequency, lowest, highest, reach)
         pulse = Pulse(sine / norm, angle / self.time_step, start * self.time_step)
         gain = sine * sine / norm * self.time_step
@@ -249,8 +249,10 @@ class PulseSearch:
         first = max(math.floor((pulse.start_time - NEAR_TIME * pulse.period) / self.time_step), 0)
         longest = (NEAR_TIME + 2**NEAR_OCTAVES) * pulse.period
         window = samples[first : math.ceil((pulse.start_time + longest) / self.time_step) + 2]
-        steps = round(NEAR_OCTAVES * self.settings.per_octave)
-        frequencies = 2.0 ** (np.arange(-steps, steps + 1) / self.settings.per_octave) / pulse.period
+        steps = round(NEAR_OCTAVES * self.settings.frequencies_per_octave)
+        frequencies = (
+            2.0 ** (np.arange(-steps, steps + 1) / self.settings.frequencies_per_octave) / pulse.period
+        )
         frequencies = np.unique(np.clip(frequencies, *self.band.limits))
         onsets = math.ceil((pulse.start_time + NEAR_TIME * pulse.period) / self.time_step) + 1 - first
         maxima = self.maxima(window, slice(0, onsets), frequencies, NEAR_BEST)

@@ -6,8 +6,8 @@ from typing import Literal
 
 import numpy as np
 
+from rocking.described import check_described, described
 from rocking.errors import RecordError
-from rocking.quantities import check_settings, setting
 from rocking.records.accelerogram import Accelerogram
 
 Baseline = Literal["none", "linear", "adaptive"]
@@ -25,23 +25,23 @@ class Processing:
     time_step: s, to which the record is resampled at last. Raises RecordError when a setting is out of range.
     """
 
-    pre_event: float | None = setting(
+    pre_event: float | None = described(
         None, "window at the start whose mean is removed from the record", "s", gt=0
     )
-    baseline: Baseline = setting(
+    baseline: Baseline = described(
         "none",
         "none; linear: the least-squares line is removed; adaptive: the drift of velocity before and after shaking",
     )
-    taper: float = setting(0.0, "share of the record that a cosine taper covers at each end", ge=0, le=0.5)
-    high_pass: float | None = setting(None, "corner of the acausal Butterworth high-pass", "Hz", gt=0)
-    low_pass: float | None = setting(None, "corner of the acausal Butterworth low-pass", "Hz", gt=0)
-    order: int = setting(4, "order of the filters", ge=1, le=10)
-    padding: bool = setting(True, "whether zeros stand before and after while filtering")
-    keep_padding: bool = setting(False, "whether those zeros stay")
-    time_step: float | None = setting(None, "to which the record is resampled at last", "s", gt=0)
+    taper: float = described(0.0, "share of the record that a cosine taper covers at each end", ge=0, le=0.5)
+    high_pass: float | None = described(None, "corner of the acausal Butterworth high-pass", "Hz", gt=0)
+    low_pass: float | None = described(None, "corner of the acausal Butterworth low-pass", "Hz", gt=0)
+    order: int = described(4, "order of the filters", ge=1, le=10)
+    padding: bool = described(True, "whether zeros stand before and after while filtering")
+    keep_padding: bool = described(False, "whether those zeros stay")
+    time_step: float | None = described(None, "to which the record is resampled at last", "s", gt=0)
 
     def __post_init__(self) -> None:
-        check_settings(RecordError, self)
+        check_described(RecordError, self)
         if self.high_pass and self.low_pass and self.high_pass >= self.low_pass:
             raise RecordError(
                 f"high_pass is {self.high_pass!r} Hz, but must be below low_pass = {self.low_pass!r} Hz."

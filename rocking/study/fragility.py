@@ -47,7 +47,7 @@ def write_fragility(
     Raises ConfigurationError, before anything is written, where the records that are left come from fewer than two
     stations, or the hazard curve is none.
     """
-    settings = study.settings.fragility_analysis
+    settings = study.settings.fragility
     hazard = read_hazard(Path(settings.hazard)) if settings.hazard else None
     measure = intensity_measure(settings.intensity_measure)
     names, accelerograms, unused = _opened(records, study, measure)
@@ -72,7 +72,7 @@ def _analysed(
     IncrementalDynamicAnalysis | MultiFidelityAnalysis, IncrementalDynamicAnalysis, IncrementalDynamicAnalysis
 ]:
     """What the curves come from, what was followed of the mechanism, and what is known of every case."""
-    settings = study.settings.fragility_analysis
+    settings = study.settings.fragility
     taken: dict[str, Any] = {
         "intensity_measure": settings.intensity_measure,
         "ensemble": study.assessment.ensemble if settings.members else None,

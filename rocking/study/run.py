@@ -54,7 +54,7 @@ class Study:
     @cached_property
     def assessment(self) -> AssessmentSettings:
         """What a record is compared with: in full where a report is made, which shows every method."""
-        chosen = self.settings.assessment
+        chosen = self.settings
         return replace(chosen, fidelity="full") if self.settings.reports else chosen
 
     def open(self, record: CatalogueRecord) -> Opened:
@@ -84,7 +84,7 @@ class Study:
     def _process(self, accelerogram: Accelerogram) -> Accelerogram:
         which = self.settings.processing.apply
         wanted = which == "always" or (which == "raw" and accelerogram.processed is False)
-        return process(accelerogram, self.settings.raw_processing) if wanted else accelerogram
+        return process(accelerogram, self.settings.processing) if wanted else accelerogram
 
 
 def assess_records(records: Iterable[CatalogueRecord], study: Study, folder: Path, log: Path) -> None:

@@ -17,7 +17,7 @@ def workflow_folder() -> Path:
 
 
 def start(folder: Path) -> list[Path]:
-    """Write config.yaml and structures.yaml into `folder` and return what was written.
+    """Write config.yaml, structures.yaml and an empty records/ into `folder` and return what was written.
 
     Raises ConfigurationError, before anything is written, when one of the files stands there already.
     """
@@ -29,6 +29,7 @@ def start(folder: Path) -> list[Path]:
             )
     for name, content in contents.items():
         write_whole(folder / name, content)
+    (folder / "records").mkdir(exist_ok=True)
     return [folder / name for name in contents]
 
 

@@ -16,6 +16,7 @@ PACKAGE = Path(rocking.__file__).parent
 FLOORS = [
     {"errors"},
     {"quantities"},
+    {"described"},
     {"tables"},
     {"records", "structures"},
     {"pulses"},
@@ -25,6 +26,7 @@ FLOORS = [
     {"study"},
 ]
 ONLY_IN = {
+    "pydantic": ("described.py",),
     "obspy": ("records/",),
     "numba": ("motion/", "pulses/", "sine_pulse/"),
     "matplotlib": ("reports/",),

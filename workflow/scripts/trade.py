@@ -36,6 +36,6 @@ if __name__ == "__main__":
     settings, tell = read_settings(snakemake.config), line_writer(Path(snakemake.log[0]))
     study = Study(planned_structures(Path(settings.structures), params.structures_sha256), settings)
     records, folder = opened(study, Path(settings.catalogue), tell), Path(output.pdf).parent
-    rows = trade(records, study.structures, settings=settings.assessment, tell=tell)
+    rows = trade(records, study.structures, settings=settings, tell=tell)
     write_tables({TradeRow: rows}, folder, "rocking-trade", "trade.json")
     write_trade_report(folder, Path(output.pdf), Path(output.svg))

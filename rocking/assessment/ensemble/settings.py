@@ -3,41 +3,41 @@
 from dataclasses import dataclass
 
 from rocking.assessment.ensemble.design import SIZES
+from rocking.described import check_described, described
 from rocking.errors import ConfigurationError
-from rocking.quantities import check_settings, setting
 
 
 @dataclass(frozen=True)
 class EnsembleSettings:
     """What is not known of a case, and how much of it a verdict bears. Raises ConfigurationError."""
 
-    members: int = setting(
+    members: int = described(
         64,
         "members of an ensemble, taken up to the next of 16, 64, 256, 1024 and 4096; 0: none",
         ge=0,
         le=4096,
     )
-    amplitude_range: float = setting(
+    amplitude_range: float = described(
         0.05, "the ground motion is known to plus or minus this share", ge=0, le=0.9
     )
-    restitution_range: float = setting(
+    restitution_range: float = described(
         0.05,
         "the restitution is known to plus or minus this much, where a structure does not say its own",
         ge=0,
         le=1,
     )
-    polarity: bool = setting(
+    polarity: bool = described(
         True, "whether the sign of the motion is unknown to a structure with unlike sides"
     )
-    processing: bool = setting(
+    processing: bool = described(
         True, "whether baseline and corner frequency of a record are unknown whose file says that it is raw"
     )
-    risk: float = setting(
+    risk: float = described(
         0.05, "largest probability of the opposite under which a structure stands or overturns", gt=0, le=0.45
     )
 
     def __post_init__(self) -> None:
-        check_settings(ConfigurationError, self)
+        check_described(ConfigurationError, self)
 
     @property
     def size(self) -> int:

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import AssessmentSettings, Method, assess_structures, predict
+from rocking.assessment.settings import PredictingPulse
 from rocking.assessment.verdict import NEGLIGIBLE, agreement, ratio, rests, within_factor_two
-from rocking.errors import ConfigurationError, StructureError
+from rocking.errors import ConfigurationError, PulseError, StructureError
 from rocking.pulses import PULSE_METHODS, Pulse, extract_pulses
 from rocking.records import Accelerogram
 from rocking.structures import Block, Wall
@@ -87,7 +88,9 @@ def test_choice_by_demand_never_asks_less_than_choice_by_energy():
 
 @pytest.mark.parametrize("name", PULSE_METHODS)
 def test_every_pulse_method_predicts(name):
-    found = assess_structures(RECORD, {"block": BLOCK}, AssessmentSettings(pulse_choice=name))
+    found = assess_structures(
+        RECORD, {"block": BLOCK}, AssessmentSettings(pulse=PredictingPulse(choice=name))
+    )
     assert not found.failures
     assert found.cases[0].prediction.pulse == found.candidates[found.cases[0].prediction.rank - 1].pulse
 
@@ -95,15 +98,17 @@ def test_every_pulse_method_predicts(name):
 def test_a_pulse_method_that_finds_nothing_costs_no_integration():
     # 1.1 s of record hold a sine of 0.5 s, but no wavelet of T_p = 0.24 s, which is 1.19 s long
     short = Accelerogram(Pulse(3.0, 4 * np.pi, 0.3).acceleration(np.arange(110) * STEP), STEP)
-    found = assess_structures(short, {"block": BLOCK}, AssessmentSettings(pulse_choice="velocity"))
+    found = assess_structures(
+        short, {"block": BLOCK}, AssessmentSettings(pulse=PredictingPulse(choice="velocity"))
+    )
     assert [failure.stage for failure in found.failures] == ["pulses"]
     assert found.cases[0].prediction is None and found.analysis is not None
     assert found.cases[0].responses[Method.MECHANISM_ON_RECORD].rotation_ratio > 0
 
 
 def test_an_unknown_pulse_method_is_refused_with_those_there_are():
-    with pytest.raises(ConfigurationError, match="'best', but must be energy or demand or velocity"):
-        AssessmentSettings(pulse_choice="best")
+    with pytest.raises(PulseError, match="'best', but must be energy or demand or velocity"):
+        PredictingPulse(choice="best")
 
 
 def test_a_steady_vertical_acceleration_scales_gravity():

@@ -152,7 +152,7 @@ def test_the_sampling_limit_is_a_setting():
     [
         ({"lowest_frequency": 0}, "lowest_frequency is 0"),
         ({"highest_frequency": 0.1}, "highest_frequency is 0.1 Hz"),
-        ({"per_octave": 2.5}, "per_octave is 2.5"),
+        ({"frequencies_per_octave": 2.5}, "frequencies_per_octave is 2.5"),
         ({"candidates": 0}, "candidates is 0"),
         ({"pursuit": True}, "pursuit is True"),
         ({"overlap": float("nan")}, "overlap is nan"),

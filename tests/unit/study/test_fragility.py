@@ -20,14 +20,14 @@ from rocking.reports.summary.fragility_figures import write_fragility_figure
 from rocking.structures import Block
 from rocking.study.fragility import write_fragility
 from rocking.study.run import Study
-from rocking.study.settings import Settings, StudyFragilitySettings
+from rocking.study.settings import Settings, StudyFragility
 from rocking.tables import read_rows
 
 STRUCTURES = {"slender": Block.of_size(0.5, 3.0), "stout": Block.of_size(1.0, 3.0)}
 
 
 def _study(**fragility: object) -> Study:
-    settings = StudyFragilitySettings(**({"members": False} | fragility))
+    settings = StudyFragility(**({"members": False} | fragility))
     return Study(STRUCTURES, Settings(fragility=settings), "made")
 
 

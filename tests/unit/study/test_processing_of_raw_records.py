@@ -1,6 +1,7 @@
 """Which records of a study are processed."""
 
 import hashlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,13 +12,13 @@ from rocking.records.catalogue import load_catalogue
 from rocking.records.synthetic import BUNDLED, at2_text
 from rocking.structures import Block
 from rocking.study.run import Study, assess_record
-from rocking.study.settings import ProcessingSettings, Settings
+from rocking.study.settings import Settings
 
 STUDY = Study({})
 
 
 def _applied(which):
-    return Study({}, Settings(processing=ProcessingSettings(apply=which)))
+    return Study({}, Settings(processing=replace(Settings().processing, apply=which)))
 
 
 @pytest.fixture

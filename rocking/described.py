@@ -1,0 +1,208 @@
+"""A described value: type, unit, bounds and meaning said once, for settings, structures, catalogue and columns.
+
+pydantic decides what a type and its bounds allow, and strictly: neither a text nor a truth is a number. It also writes
+the JSON schema, from which the sentences of an error are made. It is imported only where a value is not its default.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from difflib import get_close_matches
+from functools import cache, cached_property
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_type_hints
+
+from rocking.errors import RockingError
+
+T = TypeVar("T")
+
+_IN_KEYS = str.maketrans({"/": "_", "²": "2", "³": "3", "°": "deg", "H": "h"})
+"""A unit as the key of a value ends in it."""
+_BOUNDS = ("gt", "ge", "lt", "le")
+
+
+@dataclass(frozen=True)
+class Described:
+    """What there is to say of one value.
+
+    name: of the attribute. kind: its type. unit: of the value in a file, in which its key ends. one_of: gives the names
+    that are allowed, where a registry holds them. bounds: any of gt, ge, lt, le. default: ... where there is none.
+    more: what some kinds of values say besides.
+    """
+
+    name: str
+    kind: Any
+    meaning: str
+    unit: str = ""
+    one_of: Callable[[], tuple[str, ...]] | None = None
+    bounds: Mapping[str, float] = field(default_factory=dict)
+    default: Any = ...
+    more: Mapping[str, Any] = field(default_factory=dict)
+
+    @cached_property
+    def key(self) -> str:
+        """The name in a file: with the unit at its end."""
+        end = f"_{self.unit.translate(_IN_KEYS)}" if self.unit else ""
+        return self.name if self.name.endswith(end) else self.name + end
+
+    @cached_property
+    def _adapter(self) -> Any:
+        from pydantic import ConfigDict, Field, TypeAdapter  # takes 0.1 s, and defaults need no check
+
+        kind: Any = Literal[self.one_of()] if self.one_of else self.kind
+        text = {"min_length": 1} if str in (kind, *get_args(kind)) else {}
+        limits: Any = {**self.bounds, **text}
+        return TypeAdapter(
+            Annotated[kind, Field(**limits)], config=ConfigDict(strict=True, allow_inf_nan=False)
+        )
+
+    @cached_property
+    def schema(self) -> dict[str, Any]:
+        """The JSON schema of the value."""
+        return dict(self._adapter.json_schema())
+
+    @property
+    def must(self) -> str:
+        """What the value must be, in words: "a number above 0 and up to 0.5 or null"."""
+        return _words(self.schema)
+
+    def checked(self, value: Any) -> Any:
+        """Return an allowed value with the type of its description: 1 as 1.0 where a number is asked for.
+
+        Raises ValueError for another: "-1 s, but must be a number above 0 or null."
+        """
+        if type(value) is type(self.default) and value == self.default:
+            return value
+        try:
+            return self._adapter.validate_python(value)
+        except ValueError:
+            raise ValueError(self.refusal(value)) from None
+
+    def refusal(self, value: object) -> str:
+        """Return the end of the sentence on a `value` that is not allowed."""
+        unit = f" {self.unit}" if self.unit and type(value) in (int, float) else ""
+        return f"{value!r}{unit}, but must be {self.must}."
+
+    def allows(self, value: object) -> bool:
+        """Whether `value` is of the type and within the bounds."""
+        try:
+            self.checked(value)
+        except ValueError:
+            return False
+        return True
+
+
+def described(
+    default: Any,
+    meaning: str,
+    unit: str = "",
+    *,
+    one_of: Callable[[], tuple[str, ...]] | None = None,
+    **more: Any,
+) -> Any:
+    """Declare a field of a frozen dataclass with all there is to say of its value; see Described."""
+    said = {"meaning": meaning, "unit": unit, "one_of": one_of}
+    bounds = {name: more.pop(name) for name in _BOUNDS if name in more}
+    return field(default=default, metadata={**said, "bounds": bounds, "more": more})
+
+
+@cache
+def described_values(kind: Any) -> Mapping[str, Described]:
+    """Return the descriptions of the fields of a dataclass, by their name."""
+    hints = get_type_hints(kind, include_extras=True)
+    return {
+        each.name: Described(each.name, hints[each.name], default=each.default, **each.metadata)
+        for each in fields(kind)
+        if "bounds" in each.metadata
+    }
+
+
+@cache
+def parts_of(kind: Any) -> tuple[str, ...]:
+    """Return the names of the fields of a dataclass whose default is a dataclass of described values."""
+    return tuple(each.name for each in fields(kind) if is_dataclass(each.default))
+
+
+def check_described(error: type[RockingError], made: Any) -> None:
+    """Hold every described value of the frozen dataclass `made` against its type and bounds.
+
+    A part of its own must be of the class of its default. Raises `error` naming the first field that is wrong.
+    """
+    kind = made.__class__
+    for name, each in described_values(kind).items():
+        try:
+            object.__setattr__(made, name, each.checked(getattr(made, name)))
+        except ValueError as wrong:
+            raise error(f"{name} is {wrong}") from None
+    for name in parts_of(kind):
+        if not isinstance(getattr(made, name), needed := type(getattr(kind, name))):
+            raise error(f"{name} is {getattr(made, name)!r}, but must be a {needed.__name__}.")
+
+
+def read_described(
+    default: T,
+    mapping: object,
+    defects: list[str],
+    above: str = "",
+    heard: Callable[[Any], Any] = lambda value: value,
+) -> T:
+    """Return `default`, a dataclass of described values, with the values that `mapping` gives by their keys.
+
+    A field whose default is a dataclass is a mapping of its own. above: what stands before a key in a sentence. heard:
+    what a text says that is not allowed as it stands. Each defect adds a sentence to `defects`: the key, its value and
+    what is allowed.
+    """
+    kind: Any = type(default)
+    known = {each.key: each for each in described_values(kind).values()}
+    parts = {name: getattr(default, name) for name in parts_of(kind)}
+    names = [*known, *parts]
+    if not isinstance(mapping, Mapping):
+        defects.append(f"{above.rstrip('.')} is {mapping!r}, but must be a mapping of {', '.join(names)}.")
+        return default
+    values, before = {}, len(defects)
+    for key, value in mapping.items():
+        if key in parts:
+            values[key] = read_described(parts[key], value, defects, f"{above}{key}.", heard)
+        elif key not in known:
+            near = get_close_matches(str(key), names, n=1, cutoff=0.6)
+            hint = f"did you mean {near[0]}?" if near else f"the names are {', '.join(names)}."
+            defects.append(f"{above}{key} is {value!r}, but nothing has this name; {hint}")
+        else:
+            said = value if known[key].allows(value) or not isinstance(value, str) else heard(value)
+            try:
+                values[known[key].name] = known[key].checked(said)
+            except ValueError:
+                defects.append(f"{above}{key} is {known[key].refusal(value)}")
+    if len(defects) == before:
+        try:
+            return replace(default, **values)  # type: ignore[type-var]
+        except RockingError as wrong:
+            defects.append(f"{above}{wrong}")
+    return default
+
+
+def _words(schema: Mapping[str, Any]) -> str:
+    """What a JSON schema allows."""
+    if options := schema.get("anyOf") or schema.get("oneOf"):
+        return " or ".join(map(_words, options))
+    if names := schema.get("enum") or ([schema["const"]] if "const" in schema else None):
+        return " or ".join("null" if name is None else str(name) for name in names)
+    if schema["type"] == "array":
+        return f"a list, each of it {_words(schema['items'])}"
+    low, high = schema.get("minimum"), schema.get("maximum")
+    limits = [f"{words} {schema[name]:g}" for name, words in _LIMITS.items() if name in schema]
+    limit = f" from {low:g} to {high:g}" if None not in (low, high) else "".join([" ", *" and ".join(limits)])
+    return _TYPES[schema["type"]] + limit.rstrip()
+
+
+_TYPES = {
+    "integer": "a whole number",
+    "number": "a number",
+    "boolean": "true or false",
+    "string": "a text that is not empty",
+    "null": "null",
+}
+_LIMITS = {
+    "exclusiveMinimum": "above",
+    "minimum": "of at least",
+    "exclusiveMaximum": "below",
+    "maximum": "up to",
+}
