@@ -53,8 +53,10 @@ def trade(
     Every structure is met by every record with every method, one response at a time. tell: is given a line for each
     record, and one for each case that cannot be followed. Times are processor times of this machine, in s.
 
-    >>> rows = rocking.trade(rocking.read("record.AT2"), {"pier": rocking.Block(2.0, 0.15)})
-    >>> min((row for row in rows if row.error < 0.01), key=lambda row: row.cpu_s).method
+    >>> pier = rocking.Block.of_size(0.8, 6.0)
+    >>> rows = rocking.trade(rocking.read("records/synthetic_strong_pulse.AT2"), {"pier": pier})
+    >>> [str(row.method) for row in rows if row.structure == "pier" and row.wrong_verdicts]
+    ['one sine', 'five sines']
     """
     chosen = settings or AssessmentSettings()
     mechanisms = {name: structure.mechanism() for name, structure in structures.items()}

@@ -21,8 +21,8 @@ _TABLES = {each.table.name: each for each in _ROWS}
 class Results:
     """The folder of a study's results: each table is an attribute, read when it is asked for.
 
-    >>> results = rocking.open_results("results")
-    >>> results.comparison.groupby("structure")["within_factor_two"].mean()
+    >>> results = rocking.open_results("results")  # doctest: +SKIP
+    >>> results.comparison.groupby("structure")["within_factor_two"].mean()  # doctest: +SKIP
 
     A table that the summary does not hold, as `responses`, is gathered from those of the jobs, sorted by record.
     """

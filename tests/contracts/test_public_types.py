@@ -1,5 +1,6 @@
 """The public names carry their types, are as cheap to import as promised, and can be read when they are printed."""
 
+import doctest
 import inspect
 import math
 import os
@@ -49,8 +50,8 @@ REVEALED = [
     "Literal[rocking.structures.outcome.Outcome.ROCKS]?",
 ]
 
-ARRAY = re.compile(r"numpy\.ndarray\[tuple\[Any, \.\.\.\], numpy\.dtype\[Any\]\]")
-"""How an array is shown; its shape and its number type are said by the docstring."""
+ARRAY = re.compile(r"\*\*options: Any|numpy\.ndarray\[tuple\[Any, \.\.\.\], numpy\.dtype\[Any\]\]")
+"""How an array is shown, whose shape and number type its docstring states, and options handed on to matplotlib."""
 
 
 def members() -> list[str]:
@@ -58,72 +59,56 @@ def members() -> list[str]:
 
     Not the frames: pandas carries no types of its own.
     """
-    found = []
+    expressions = []
     for name in rocking.__all__:
         value = getattr(rocking, name)
-        found.append(f"rocking.{name}")
+        expressions.append(f"rocking.{name}")
         if inspect.isclass(value) and not issubclass(value, Exception | Enum):
             own = (
                 name for base in value.__mro__ if base.__module__.startswith("rocking") for name in vars(base)
             )
             public = (member for member in dict.fromkeys(own) if not member.startswith("_"))
-            found += [
+            expressions += [
                 f"rocking.{name}.{member}" for member in public if not gives_frame(getattr(value, member))
             ]
-    return found
+    return expressions
 
 
 def gives_frame(member: object) -> bool:
     return "DataFrame" in str(getattr(member, "__annotations__", {}).get("return", ""))
 
 
-def reveals(output: str) -> dict[int, str]:
-    """The revealed types by line."""
-    return {
-        int(line): kind for line, kind in re.findall(r'\.py:(\d+): note: Revealed type is "(.*)"', output)
-    }
+def revealed(output: str, script: str) -> dict[int, str]:
+    """The revealed types of one script, by line."""
+    notes = re.findall(rf'{script}\.py:(\d+): note: Revealed type is "(.*)"', output)
+    return {int(line): kind for line, kind in notes}
 
 
-def strictly_checked(script: Path, cache: Path) -> tuple[int, str]:
+def test_a_typed_script_passes_strictly_and_no_public_name_is_untyped(tmp_path):
     pytest.importorskip("mypy", reason="mypy checks the types, of the extra test")
+    expressions = members()
+    surface = "\n".join(["import rocking", *(f"reveal_type({name})" for name in expressions)])
+    for name, text in (("user", USER_SCRIPT), ("surface", surface)):
+        (tmp_path / f"{name}.py").write_text(text, encoding="utf-8")
     command = [
         sys.executable,
         "-m",
         "mypy",
         "--strict",
         "--config-file=",
-        f"--cache-dir={cache}",
-        str(script),
+        "--cache-dir=cache",
+        "user.py",
+        "surface.py",
     ]
-    done = subprocess.run(
-        command, cwd=script.parent, env=os.environ | {"MYPYPATH": str(ROOT)}, capture_output=True, text=True
-    )
-    return done.returncode, done.stdout + done.stderr
-
-
-@pytest.fixture(scope="module")
-def cache(tmp_path_factory) -> Path:
-    return tmp_path_factory.mktemp("mypy")
-
-
-def test_a_typed_script_passes_strictly_and_knows_what_it_gets(tmp_path, cache):
-    script = tmp_path / "user.py"
-    script.write_text(USER_SCRIPT, encoding="utf-8")
-    status, output = strictly_checked(script, cache)
-    assert status == 0, output
-    assert list(reveals(output).values()) == REVEALED
-
-
-def test_no_public_name_is_untyped(tmp_path, cache):
-    script = tmp_path / "surface.py"
-    expressions = members()
-    script.write_text("\n".join(["import rocking", *(f"reveal_type({name})" for name in expressions)]))
-    _, output = strictly_checked(script, cache)
-    found = reveals(output)
+    surroundings = os.environ | {"MYPYPATH": str(ROOT)}
+    done = subprocess.run(command, cwd=tmp_path, env=surroundings, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert list(revealed(done.stdout, "user").values()) == REVEALED
+    types = revealed(done.stdout, "surface")
     untyped = {
-        name: found.get(line)
+        name: types.get(line)
         for line, name in enumerate(expressions, start=2)
-        if line not in found or re.search(r"\bAny\b", ARRAY.sub("array", found[line]))
+        if line not in types or re.search(r"\bAny\b", ARRAY.sub("array", types[line]))
     }
     assert not untyped
 
@@ -134,6 +119,19 @@ def test_every_name_of_the_stub_is_there():
         assert getattr(rocking, name).__doc__, name
     with pytest.raises(AttributeError):
         _ = rocking.nonsense
+
+
+@pytest.mark.parametrize("name", rocking.__all__)
+def test_the_example_of_a_public_name_runs(name, monkeypatch):
+    """At the top of the repository, so that an example may read records/, with numpy as np and the package."""
+    monkeypatch.chdir(ROOT)
+    value = getattr(rocking, name)
+    finder = doctest.DocTestFinder()
+    given = {"np": np, "rocking": rocking}
+    for example in finder.find(value, name, globs=given):
+        shown: list[str] = []
+        doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(example, out=shown.append)
+        assert not shown, "".join(shown)
 
 
 def test_importing_the_package_imports_nothing_heavy():
@@ -169,12 +167,3 @@ def test_a_person_can_read_what_a_notebook_shows():
         for unreadable in ("lambda", "<", " at 0x", "array", "..."):
             assert unreadable not in text, text
         assert not re.search(r"\d\.\d{6,}", text), text
-
-
-def test_what_is_shown_is_what_is_there():
-    record, pulse, analysis, _, mechanism, *_ = results().values()
-    assert repr(pulse) == "Pulse(6.57 m/s² = 0.67 g, period 0.81 s, start 2.05 s)"
-    assert repr(record) == "Accelerogram(NS, Rinaldi, 4000 samples at 0.005 s, peak 6.569 m/s² = 0.6699 g)"
-    assert repr(analysis.dominant) in repr(analysis) and "100 % of the energy" in repr(analysis)
-    for number in (mechanism.uplift_multiplier, mechanism.critical_rotation):
-        assert f"{number:.4g}" in repr(mechanism)
