@@ -5,15 +5,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rocking.quantities import GRAVITY
-from rocking.structures.arch import Arch
-from rocking.structures.equivalence import (
+from docs.paper.equivalence import (
     block_overturning_time,
     block_period,
     natural_period,
     overturning_time,
     uplift_ratio,
 )
+from rocking.quantities import GRAVITY
+from rocking.structures.arch import Arch
 from rocking.structures.mechanism import Scale, Side
 from rocking.structures.wall import Wall
 from rocking.tables import Row, column, row

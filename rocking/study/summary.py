@@ -12,11 +12,9 @@ from rocking.assessment.rows.of_study import (
     SUMMARY_TABLES,
     AgreementRow,
     CapacityRow,
-    EquivalenceRow,
     StructureRow,
     agreement_rows,
     capacity_rows,
-    equivalence_rows,
     structure_rows,
 )
 from rocking.structures import Structure
@@ -37,7 +35,6 @@ def write_summary(
         write_whole(target / each.table.file_name, gathered(each, parts, records))
     of_structures = {
         StructureRow: structure_rows,
-        EquivalenceRow: equivalence_rows,
         CapacityRow: capacity_rows,
     }
     write_tables({each: rows(structures) for each, rows in of_structures.items()}, target)  # type: ignore[operator]

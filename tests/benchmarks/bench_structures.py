@@ -9,7 +9,6 @@ import numpy as np
 
 from rocking.structures.arch import Arch
 from rocking.structures.block import Block
-from rocking.structures.equivalence import measure_equivalence
 from rocking.structures.wall import Wall
 
 EMBRACE = np.radians(157.5)
@@ -23,7 +22,7 @@ def milliseconds(call, number=20) -> float:
 
 def main() -> None:
     """Print the tables."""
-    print("structure   make [ms]   five functions at 1000 rotations [ms]   equivalence, 3 + 3 points [ms]")
+    print("structure   make [ms]   five functions at 1000 rotations [ms]")
     makers = {
         "block": lambda: Block(2.0, 0.2),
         "wall": lambda: Wall(1.5, 2.5, 0.4),
@@ -35,8 +34,7 @@ def main() -> None:
         rotation = np.linspace(0, side.end_rotation, 1000)
         made = milliseconds(lambda make=make: make().mechanism())
         functions = milliseconds(lambda s=side, r=rotation: [getattr(s, f)(r) for f in NAMES])
-        measured = milliseconds(lambda s=side: measure_equivalence(s, [0.2, 0.5, 0.9], [1.1, 2, 9]), 2)
-        print(f"{name:10} {made:10.3f} {functions:28.3f} {measured:32.1f}")
+        print(f"{name:10} {made:10.3f} {functions:28.3f}")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,6 @@
 """Rows about a whole study: its structures, their blocks, its counts, its spectrum and what accuracy costs."""
 
-import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -15,18 +14,13 @@ from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow, T
 from rocking.motion.spectrum import rocking_spectrum
 from rocking.records import Accelerogram
 from rocking.structures import Structure
-from rocking.structures.equivalence import measure_equivalence
 from rocking.tables import Row, column, row
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-AMPLITUDES = (0.1, 0.3, 0.5, 0.7, 0.9)
-"""Rotations over φ_cr at which natural periods are compared."""
 CAPACITY_POINTS = 21
 """Rotations of a capacity curve, from rest to the critical one."""
-ACCELERATIONS = (1.1, 1.5, 2.0, 5.0)
-"""Constant ground accelerations over that of uplift under which times to overturn are compared."""
 
 
 @row("structures", "One row per structure: its mechanism and its equivalent block")
@@ -52,23 +46,6 @@ class StructureRow(Row):
     forcing_defect: float = column(
         "Growth of the true forcing at φ_cr over that at rest, which that block leaves out; above 0 is unsafe"
     )
-
-
-@row(
-    "equivalence",
-    "One row per structure, side and measure: what the equivalent block gets wrong, by quadrature",
-)
-class EquivalenceRow(Row):
-    """The equivalent block of one side of one structure by one measure."""
-
-    structure: str = column(meanings.STRUCTURE)
-    side: str = column("positive or negative: the side to which it rocks")
-    measure: str = column("natural period, uplift acceleration or time to overturn")
-    acceleration_scale_choice: str = column("linearised, uplift or mean, where the measure depends on it")
-    at: float = column(
-        "Rotation amplitude over critical rotation, or constant ground acceleration over uplift acceleration"
-    )
-    block_over_structure: float = column("Equivalent block over structure", equation="Figs. 3, 4, 6, 7")
 
 
 @row("capacity", "One row per structure, side and rotation: the static load multiplier against displacement")
@@ -148,31 +125,6 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
             restoring_defect=mechanism.block_defects.restoring,
             forcing_defect=mechanism.block_defects.forcing,
         )
-
-
-def equivalence_rows(structures: Mapping[str, Structure]) -> Iterator[EquivalenceRow]:
-    """Yield the rows that hold each side of each structure against its linearisation."""
-    for name, structure in structures.items():
-        for which, side in zip(("positive", "negative"), structure.mechanism().sides, strict=False):
-            found = measure_equivalence(side, AMPLITUDES, ACCELERATIONS)
-            measures: list[tuple[str, str, Sequence[float], Iterable[float]]] = [
-                ("natural period", "", AMPLITUDES, found.period_ratio),
-                ("uplift acceleration", "linearised", (math.nan,), (found.uplift_ratio,)),
-                *(
-                    ("time to overturn", scale, ACCELERATIONS, r)
-                    for scale, r in found.overturning_ratio.items()
-                ),
-            ]
-            for measure, scale, places, ratios in measures:
-                for place, value in zip(places, ratios, strict=True):
-                    yield EquivalenceRow(
-                        structure=name,
-                        side=which,
-                        measure=measure,
-                        acceleration_scale_choice=scale,
-                        at=place,
-                        block_over_structure=float(value),
-                    )
 
 
 def capacity_rows(structures: Mapping[str, Structure]) -> Iterator[CapacityRow]:
@@ -265,7 +217,6 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     AgreementRow,
     MaximumRow,
     StructureRow,
-    EquivalenceRow,
     CapacityRow,
     FailureRow,
     TimingRow,

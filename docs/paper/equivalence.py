@@ -1,4 +1,4 @@
-"""The error of the equivalent block, measured for any side of any mechanism by quadrature (Figs. 3, 4, 6 and 7).
+"""The error of the equivalent block, measured for a side without ties by quadrature (Figs. 3, 4, 6 and 7).
 
 Energy gives φ'² = 2E/I, so a time is the integral of sqrt(I/2E) over φ. It is singular where the motion turns or
 starts; φ = φ₀(1 − u²) or φ = φ_cr u² takes the singularity out, and the energy is itself an integral of G and B.
@@ -6,18 +6,16 @@ No time stepping anywhere.
 """
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
+from collections.abc import Callable
 
 import numpy as np
+from scipy.integrate import quad
+from scipy.optimize import minimize_scalar
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, within
 from rocking.structures.equivalent_block import Scale
 from rocking.structures.mechanism import Mechanism, Side
-
-SCALES: tuple[Scale, ...] = ("linearised", "uplift", "mean")
 
 _TOLERANCE = 1e-10
 """Relative, of each quadrature; two decimal digits better than what is promised of a ratio."""
@@ -25,40 +23,6 @@ _TOLERANCE = 1e-10
 _NODES, _WEIGHTS = (values / 2 for values in np.polynomial.legendre.leggauss(40))
 _NODES = _NODES + 0.5
 """Gauss nodes on [0, 1] for the work of the smooth G and B: exact to rounding for every shipped structure."""
-
-
-@dataclass(frozen=True, eq=False)
-class Equivalence:
-    """Linearised over true, for one side of a mechanism.
-
-    amplitudes (k,): φ₀/φ_cr in (0, 1), and period_ratio (k,) of free rocking. uplift_ratio: λ_lin/λ.
-    accelerations (m,): ü_g/(gλ) > 1, and overturning_ratio (m,) for each acceleration scale.
-    """
-
-    amplitudes: np.ndarray
-    period_ratio: np.ndarray
-    uplift_ratio: float
-    accelerations: np.ndarray
-    overturning_ratio: dict[Scale, np.ndarray]
-
-
-def measure_equivalence(
-    side: Side, amplitudes: Sequence[float], accelerations: Sequence[float]
-) -> Equivalence:
-    """Return the errors of the linearisation of `side`. Raises StructureError for a value out of range."""
-    true_period = np.array([natural_period(side, ratio * side.critical_rotation) for ratio in amplitudes])
-    true_time = np.array([overturning_time(side, ratio) for ratio in accelerations])
-    linear_time = {
-        scale: np.array([block_overturning_time(side, ratio, scale) for ratio in accelerations])
-        for scale in SCALES
-    }
-    return Equivalence(
-        amplitudes=np.array(amplitudes, dtype=float),
-        period_ratio=np.array([block_period(side, ratio) for ratio in amplitudes]) / true_period,
-        uplift_ratio=uplift_ratio(side),
-        accelerations=np.array(accelerations, dtype=float),
-        overturning_ratio={scale: times / true_time for scale, times in linear_time.items()},
-    )
 
 
 def uplift_ratio(side: Side) -> float:
@@ -69,11 +33,9 @@ def uplift_ratio(side: Side) -> float:
 def natural_period(side: Side, amplitude: float) -> float:
     """Return the period [s] of free rocking without loss from a rotation `amplitude` [rad].
 
-    Four times the time from φ₀ to 0, as if both sides were alike; nan where a tie has yielded or broken by φ₀.
+    Four times the time from φ₀ to 0, as if both sides were alike.
     """
     _check_amplitude(amplitude / side.critical_rotation)
-    if side.remembers and side.bends and amplitude > side.bends[0]:
-        return np.nan
 
     def rate(u: float) -> float:
         fallen = amplitude * u**2
@@ -102,24 +64,17 @@ def overturning_time(side: Side, acceleration_ratio: float) -> float:
     push = acceleration_ratio * side.uplift_multiplier
     critical = side.critical_rotation
 
-    bends = [bend for bend in side.bends if 0 < bend < critical] if side.remembers else []
-
     def work(u: float) -> float:
-        """Done by the push less taken by gravity and ties, per g and per rotation reached."""
-        end, done = critical * u**2, 0.0
-        ends = [0.0, *(bend for bend in bends if bend < end), end]
-        for before, after in pairwise(ends):
-            reached = before + (after - before) * _NODES
-            balance = float(_WEIGHTS @ (push * side.ground(reached) - side.gravity(reached)))
-            done += balance * ((after - before) / end if len(ends) > 2 else 1.0)
-        return done
+        """Done by the push less taken by gravity, per g and per rotation reached."""
+        reached = critical * u**2 * _NODES
+        return float(_WEIGHTS @ (push * side.ground(reached) - side.gravity(reached)))
 
     def rate(u: float) -> float:
         return 2 * math.sqrt(critical * side.at("inertia", critical * u**2) / (2 * GRAVITY * work(u)))
 
     if _least(work) <= 0:
         return np.inf
-    return _integral(rate, [math.sqrt(bend / critical) for bend in bends])
+    return _integral(rate)
 
 
 def block_overturning_time(side: Side, acceleration_ratio: float, scale: Scale = "linearised") -> float:
@@ -132,8 +87,6 @@ def block_overturning_time(side: Side, acceleration_ratio: float, scale: Scale =
 
 def _least(work: Callable[[float], float]) -> float:
     """Return the smallest of a smooth function on [0, 1]."""
-    from scipy.optimize import minimize_scalar  # slow to import too
-
     places = np.linspace(0.0, 1.0, 33)
     values = [work(u) for u in places]
     near = int(np.argmin(values))
@@ -141,10 +94,8 @@ def _least(work: Callable[[float], float]) -> float:
     return min(values[near], float(minimize_scalar(work, bounds=between, method="bounded").fun))
 
 
-def _integral(rate: Callable[[float], float], bends: Sequence[float] = ()) -> float:
-    from scipy.integrate import quad  # slow to import, and needed by this measure only
-
-    return float(quad(rate, 0.0, 1.0, epsabs=0.0, epsrel=_TOLERANCE, limit=200, points=bends or None)[0])
+def _integral(rate: Callable[[float], float]) -> float:
+    return float(quad(rate, 0.0, 1.0, epsabs=0.0, epsrel=_TOLERANCE, limit=200)[0])
 
 
 def _check_amplitude(ratio: float) -> None:
