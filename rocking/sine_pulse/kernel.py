@@ -46,7 +46,7 @@ compiled = njit(cache=True, nogil=True, error_model="numpy")
 
 
 class Side(NamedTuple):
-    """One side of a block under one pulse; see `rocking.sine_pulse.ratios.Ratios`.
+    """One side of a block under one pulse; ω = ω_g/p, a = |a_g|/(gλ), η of the impact that ends rocking here.
 
     end: x beyond which the mechanism ends. exists: whether the block rocks to this side at all.
     """
@@ -378,18 +378,6 @@ def _after_pulse(sides, index, x, velocity, peaks, at, impacts, margin):
 
 
 @compiled
-def _alike(first, second):
-    """Whether a flight to either side is the same, or there is only one."""
-    return not (first.exists and second.exists) or (
-        first.frequency_ratio == second.frequency_ratio
-        and first.amplitude_ratio == second.amplitude_ratio
-        and first.restitution == second.restitution
-        and first.velocity_scale == second.velocity_scale
-        and first.end == second.end
-    )
-
-
-@compiled
 def _ended(first, second, peaks, margin):
     """Peaks and margin with an overturning where a peak passes the end of the mechanism."""
     one = math.inf if peaks[0] > first.end else peaks[0]
@@ -404,7 +392,8 @@ def course(first, second):
 
     first: the side that the pulse's first half lifts; second: the other one.
     """
-    sides, alike, velocity = (first, second), _alike(first, second), 0.0
+    sides, velocity = (first, second), 0.0
+    alike = not (first.exists and second.exists) or first == second
     peaks, at, contacts, impacts, margin, _ = Course((0.0, 0.0), (-1, -1), 0, 0, 1.0, False)
     phase, index = _next_uplift(sides, 0.0)
     while index >= 0:
@@ -490,13 +479,3 @@ def _overturns(one, other, frequency, amplitude):
     """Whether a block overturns; one: the row of the side that the pulse's first half lifts."""
     found = course(_side_of(one, frequency, amplitude), _side_of(other, frequency, amplitude))
     return max(found.peaks) == math.inf
-
-
-@compiled
-def spectrum(frequency_ratios, amplitude_ratios, restitution, ratios):
-    """Fill ratios (m, n) with the largest x of the symmetric block of each ω and a; nan where it is unresolved."""
-    for i in range(frequency_ratios.size):
-        for j in range(amplitude_ratios.size):
-            side = Side(frequency_ratios[i], amplitude_ratios[j], restitution, 1.0, math.inf, True)
-            found = course(side, side)
-            ratios[i, j] = math.nan if found.unresolved else max(found.peaks)

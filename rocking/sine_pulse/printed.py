@@ -5,7 +5,7 @@ import math
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import finite, positive
-from rocking.sine_pulse.ratios import Ratios, first_and_second
+from rocking.sine_pulse.maximum import check_ratios, sides_under
 from rocking.structures.mechanism import EquivalentBlock
 
 _LARGEST_EXPONENT = 709.0
@@ -22,9 +22,9 @@ def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     the side that the pulse lifts first, as if the other were the same; for a one-sided block its only side, as if the
     pulse's first half lifted it.
     """
-    first, second = first_and_second(equivalent_block, pulse)
-    side = first or second
-    if side is None or side.amplitude_ratio <= 1:
+    first, second = sides_under(equivalent_block, pulse)
+    side = first if first.exists else second
+    if side.amplitude_ratio <= 1:
         return 0.0
     eta = side.restitution
     drop = 0.0 if eta == 0 else eta**2 * pulse_end_energy(side.frequency_ratio, side.amplitude_ratio)
@@ -32,8 +32,7 @@ def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
         return math.nan
     root = math.sqrt(1 - drop)
     maximum = drop / (1 + root) if drop > -1 else 1 - root
-    positive_first = first is not None and pulse.amplitude < 0
-    own = equivalent_block.sides[0 if positive_first or first is None else -1]
+    own = equivalent_block.sides[-1 if first.exists and pulse.amplitude >= 0 else 0]
     return own.rotation_ratio(maximum) if maximum > 0 else maximum
 
 
@@ -46,19 +45,21 @@ def pulse_end_energy(frequency_ratio: float, amplitude_ratio: float) -> float:
     the zeros of 1 − D₀ and of √(a² − 1) − ω, where terms cancel: it grows as 1e-15 times the largest term over the sum.
     Raises PulseError for an argument that is not finite or out of range.
     """
-    omega, side = _checked(frequency_ratio, amplitude_ratio)
-    a, s = side.amplitude_ratio, side.uplift_slope
-    exponent = (2 * math.pi - side.uplift_phase) / omega
+    omega = positive(PulseError, "frequency_ratio", frequency_ratio)
+    a = finite(PulseError, "amplitude_ratio", amplitude_ratio)
+    if not a > 1:
+        raise PulseError(
+            f"amplitude_ratio is {amplitude_ratio!r}, but must exceed 1 for the pulse to lift the block."
+        )
+    check_ratios(omega, a)
+    # s = √(a² − 1), the slope of a sin θ where it reaches 1, and asin(1/a) written so that it keeps its digits
+    s = math.sqrt((a - 1) * (a + 1))
+    exponent = (2 * math.pi - math.atan2(1.0, s)) / omega
     if exponent < 1:
-        return _energy_of_short_pulse(omega, a, s, exponent)
-    growth = _times_exponential((omega - s) / 2, exponent)
-    bracket = a + growth - (omega + s) / 2 * math.exp(-exponent)
-    return 1 / (omega**2 + 1) + 2 * a * (omega / (omega**2 + 1)) ** 2 * bracket
-
-
-def _energy_of_short_pulse(omega: float, a: float, s: float, exponent: float) -> float:
-    """1 − D₀ with a − s cosh T + ω sinh T, T = ln E, freed of its cancellations: a − s = 1/(a + s)."""
-    bracket = 1 / (a + s) - 2 * s * math.sinh(exponent / 2) ** 2 + omega * math.sinh(exponent)
+        # a − s cosh T + ω sinh T freed of its cancellations: a − s = 1/(a + s)
+        bracket = 1 / (a + s) - 2 * s * math.sinh(exponent / 2) ** 2 + omega * math.sinh(exponent)
+    else:
+        bracket = a + _times_exponential((omega - s) / 2, exponent) - (omega + s) / 2 * math.exp(-exponent)
     return 1 / (omega**2 + 1) + 2 * a * (omega / (omega**2 + 1)) ** 2 * bracket
 
 
@@ -69,13 +70,3 @@ def _times_exponential(factor: float, exponent: float) -> float:
         return math.copysign(math.inf, factor)
     half = math.exp(exponent / 2)
     return factor * half * half
-
-
-def _checked(frequency_ratio: float, amplitude_ratio: float) -> tuple[float, Ratios]:
-    omega = positive(PulseError, "frequency_ratio", frequency_ratio)
-    a = finite(PulseError, "amplitude_ratio", amplitude_ratio)
-    if not a > 1:
-        raise PulseError(
-            f"amplitude_ratio is {amplitude_ratio!r}, but must exceed 1 for the pulse to lift the block."
-        )
-    return omega, Ratios(omega, a, 1.0)

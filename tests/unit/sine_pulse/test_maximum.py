@@ -228,11 +228,6 @@ def test_restitution_too_close_to_one_for_a_slow_pulse_is_said_and_not_guessed()
     assert "restitution" in found.regime.sentence
 
 
-def test_every_regime_has_one_sentence() -> None:
-    assert len({regime.sentence for regime in Regime}) == len(Regime)
-    assert all(regime.sentence.endswith(".") for regime in Regime)
-
-
 def test_bad_input_is_refused_in_words() -> None:
     with pytest.raises(PulseError, match="circular_frequency is -1"):
         predict_maximum(SYMMETRIC, Pulse(1.0, -1.0))
