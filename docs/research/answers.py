@@ -3,12 +3,14 @@
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from time import process_time
-from typing import TypeVar
+from typing import Protocol, TypeVar
+
+import numpy as np
 
 from docs.research import scores
-from docs.research.tier_cases import TierCase, structures_tried
-from docs.research.tier_fit import fit_tier, known, ratios_of, sites_of
+from docs.research.sites import structures_tried
 from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.fidelity import Answer, Limits, cheapest_answer, find_limits
 from rocking.assessment.intensity import Shape
@@ -18,28 +20,19 @@ from rocking.assessment.verdict import Verdict
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism
-from rocking.tables import Row, column, row
 
 RISK = 0.01
 FACTORS = (0.5, 1.0, 2.0)
-REPLICATES = 500
 
-Found = TypeVar("Found")
+T = TypeVar("T")
 
 
-@row(
-    "tier_answers",
-    "One row per measure of fidelity: auto on sites left out, with a 90 % interval by site",
-)
-class AnswerScore(Row):
-    """One measure."""
+class Fits(Protocol):
+    """Cases at sites (n,) to which a tier can be fitted, or to some of them."""
 
-    measure: str = column("What was measured; CPU times differ between runs")
-    value: float = column("Its value")
-    value_low: float = column("5 % quantile over resampled sites")
-    value_high: float = column("95 % quantile over resampled sites")
-    trials: int = column("Records times structures times factors behind it")
-    sites: int = column("Sites behind it")
+    sites: np.ndarray
+
+    def fit(self, tier: Tier, kept: np.ndarray) -> TierFit: ...
 
 
 @dataclass(frozen=True)
@@ -64,28 +57,24 @@ class AnswerTrial:
     quick_s: float
 
 
-def try_answers(
-    records: Iterable[tuple[str, str, Accelerogram]], cases: Sequence[TierCase]
-) -> Iterator[AnswerTrial]:
+def try_answers(records: Iterable[tuple[str, str, Accelerogram]], cases: Fits) -> Iterator[AnswerTrial]:
     """Yield a trial of each structure at each factor on the first component of each site, with tiers fitted without it.
 
     records: as `independent` gives them. cases: of all of them.
     """
     mechanisms = [structure.mechanism() for structure in structures_tried().values()]
-    ratios, sites = ratios_of(cases), sites_of(cases)
-    terms = {tier: known(cases, tier) for tier in (Tier.PEAK_VELOCITY, Tier.BLOCK_AT_FIVE_SCALES)}
     first = {site: record for _, site, record in reversed(list(records))}
     for site, record in first.items():
-        kept = sites != site
-        fits = {tier: fit_tier(tier, each[kept], ratios[kept], sites[kept]) for tier, each in terms.items()}
+        fits = {
+            tier: cases.fit(tier, cases.sites != site)
+            for tier in (Tier.PEAK_VELOCITY, Tier.BLOCK_AT_FIVE_SCALES)
+        }
         limits = [find_limits(mechanism, RISK, fits) for mechanism in mechanisms]
         for factor in FACTORS:
             motion = record.scaled(factor)
-            started = process_time()
-            shape = Shape.of(motion)
-            each = (process_time() - started) / len(mechanisms)
+            shape, shape_s = _timed(partial(Shape.of, motion))
             for mechanism, own in zip(mechanisms, limits, strict=True):
-                yield _trial(site, mechanism, shape, own, fits, each)
+                yield _trial(site, mechanism, shape, own, fits, shape_s / len(mechanisms))
 
 
 def _trial(
@@ -97,125 +86,93 @@ def _trial(
     shape_s: float,
 ) -> AnswerTrial:
     record = shape.accelerogram
-    truth, whole_s = _timed(lambda: integrate(mechanism, record))
+    truth, mechanism_s = _timed(lambda: integrate(mechanism, record))
     alone, alone_s = _timed(lambda: cheapest_answer(mechanism, shape, risk=RISK, limits=limits))
     beside, beside_s = _timed(
         lambda: cheapest_answer(mechanism, shape, risk=RISK, ensemble_follows=True, limits=limits, fits=fits)
     )
     motions = GroundMotions.of(record)
-    sure, many_s = _timed(lambda: ensemble(mechanism, motions))
+    whole, ensemble_s = _timed(lambda: ensemble(mechanism, motions))
     quick, quick_s = _timed(lambda: ensemble(mechanism, motions, verdict_only=True))
     return AnswerTrial(
         site=site,
         alone=alone,
         beside=beside,
         truth=truth.rotation_ratio,
-        share=sure.overturning_probability,
-        verdict=sure.verdict,
+        share=whole.overturning_probability,
+        verdict=whole.verdict,
         quick_verdict=quick.verdict,
         alone_s=alone_s + shape_s,
         beside_s=beside_s + shape_s,
-        mechanism_s=whole_s,
-        ensemble_s=many_s,
+        mechanism_s=mechanism_s,
+        ensemble_s=ensemble_s,
         quick_s=quick_s,
     )
 
 
-def _timed(call: Callable[[], Found]) -> tuple[Found, float]:
-    """What a call returns, and its CPU time the second time."""
-    call()
+def _timed(run: Callable[[], T]) -> tuple[T, float]:
     started = process_time()
-    return call(), process_time() - started
+    return run(), process_time() - started
 
 
-Measure = Callable[[Sequence[AnswerTrial]], float]
-
-
-def answer_scores(trials: Sequence[AnswerTrial], replicates: int = REPLICATES) -> list[AnswerScore]:
+def answer_scores(trials: Sequence[AnswerTrial], replicates: int = scores.REPLICATES) -> list[scores.Score]:
     """Return every measure with its interval."""
-    sites = [trial.site for trial in trials]
-    draws = scores.resampled(sites, replicates)
-    counts = {"trials": len(trials), "sites": len(set(sites))}
-    return [
-        AnswerScore(
-            measure=name, **scores.scored(scores.of_cases(measure, trials), len(trials), draws), **counts
-        )
-        for name, measure in MEASURES.items()
-    ]
+    measures: dict[str, scores.Measure] = {
+        f"share answered by {method}": scores.mean(_each(trials, lambda t, m=method: t.beside.method is m))
+        for method in (Method.NOTHING_TO_INTEGRATE, *SETTLING)
+    }
+    measures |= {
+        f"members against the verdict of {method}": scores.mean(_each(trials, _members_against, (method,)))
+        for method in SETTLING
+    }
+    measures |= {
+        name: scores.mean(_each(trials, which, SETTLING)) for name, which in OF_THOSE_SETTLED.items()
+    }
+    measures["wrong verdicts among all without an ensemble"] = scores.mean(
+        _each(trials, lambda t: _overturns(t.alone) != math.isinf(t.truth))
+    )
+    measures["verdicts of the ensemble that its early end changes"] = scores.mean(
+        _each(trials, lambda t: t.quick_verdict is not t.verdict)
+    )
+    alone, beside, usual, dear = (
+        np.array([getattr(t, name) for t in trials])
+        for name in ("alone_s", "beside_s", "mechanism_s", "ensemble_s")
+    )
+    quick = _each(trials, lambda t: t.quick_s if t.beside.method is Method.MECHANISM_ON_RECORD else 0.0)
+    measures["CPU saved of the mechanism for all"] = lambda rows: 1 - alone[rows].sum() / usual[rows].sum()
+    measures["CPU saved of mechanism and ensemble for all"] = lambda rows: (
+        1 - (beside + quick)[rows].sum() / (usual + dear)[rows].sum()
+    )
+    return scores.scored("fidelity: auto", "sites left out", measures, [t.site for t in trials], replicates)
 
 
-def _share(
-    which: Callable[[AnswerTrial], float], among: Callable[[AnswerTrial], bool] = lambda trial: True
-) -> Measure:
-    def measure(trials: Sequence[AnswerTrial]) -> float:
-        chosen = [trial for trial in trials if among(trial)]
-        return sum(map(which, chosen)) / len(chosen) if chosen else math.nan
-
-    return measure
-
-
-def _by(method: Method) -> Callable[[AnswerTrial], bool]:
-    return lambda trial: trial.beside.method is method
-
-
-def _settled(trial: AnswerTrial) -> bool:
-    return trial.beside.method in (Method.PEAK_VELOCITY, Method.BLOCK_ON_RECORD)
+def _each(
+    trials: Sequence[AnswerTrial],
+    which: Callable[[AnswerTrial], float],
+    methods: Sequence[Method] = tuple(Method),
+) -> np.ndarray:
+    """Return (n,) of what `which` says of each trial, nan of those that none of `methods` answered."""
+    return np.array([float(which(t)) if t.beside.method in methods else math.nan for t in trials])
 
 
 def _overturns(answer: Answer) -> bool:
     return math.isinf(answer.rotation_ratio)
 
 
-def _wrong(trial: AnswerTrial) -> bool:
-    return _overturns(trial.beside) != math.isinf(trial.truth)
-
-
-def _unsafe(trial: AnswerTrial) -> bool:
-    return _wrong(trial) and not _overturns(trial.beside)
-
-
 def _members_against(trial: AnswerTrial) -> float:
     return 1 - trial.share if _overturns(trial.beside) else trial.share
 
 
-def _opposite(trial: AnswerTrial) -> bool:
-    return trial.verdict is (Verdict.STANDS if _overturns(trial.beside) else Verdict.OVERTURNS)
+def _wrong(trial: AnswerTrial) -> bool:
+    return _overturns(trial.beside) != math.isinf(trial.truth)
 
 
-def _saved_of_mechanism(trials: Sequence[AnswerTrial]) -> float:
-    return 1 - sum(t.alone_s for t in trials) / sum(t.mechanism_s for t in trials)
-
-
-def _saved_of_ensemble(trials: Sequence[AnswerTrial]) -> float:
-    """With the ensemble asked for: it is made, ending early, where nothing cheap settled the case."""
-    made = [t.quick_s if t.beside.method is Method.MECHANISM_ON_RECORD else 0.0 for t in trials]
-    spent = sum(t.beside_s for t in trials) + sum(made)
-    return 1 - spent / sum(t.mechanism_s + t.ensemble_s for t in trials)
-
-
-MEASURES: dict[str, Measure] = {
-    "share at rest": _share(_by(Method.NOTHING_TO_INTEGRATE)),
-    "share settled by the peak velocity": _share(_by(Method.PEAK_VELOCITY)),
-    "share settled by the block": _share(_by(Method.BLOCK_ON_RECORD)),
-    "members against the verdict where the peak velocity settles": _share(
-        _members_against, _by(Method.PEAK_VELOCITY)
+SETTLING = (Method.PEAK_VELOCITY, Method.BLOCK_ON_RECORD)
+OF_THOSE_SETTLED: Mapping[str, Callable[[AnswerTrial], float]] = {
+    "wrong verdicts among those settled": _wrong,
+    "overturnings called standing among those settled": lambda t: _wrong(t) and not _overturns(t.beside),
+    "opposite verdict of the ensemble among those settled": lambda t: (
+        t.verdict is (Verdict.STANDS if _overturns(t.beside) else Verdict.OVERTURNS)
     ),
-    "members against the verdict where the block settles": _share(
-        _members_against, _by(Method.BLOCK_ON_RECORD)
-    ),
-    "wrong verdicts among all without an ensemble": _share(
-        lambda trial: _overturns(trial.alone) != math.isinf(trial.truth)
-    ),
-    "wrong verdicts among those settled": _share(_wrong, _settled),
-    "overturnings called standing among those settled": _share(_unsafe, _settled),
-    "opposite verdict of the ensemble among those settled": _share(_opposite, _settled),
-    "undecided in the ensemble among those settled": _share(
-        lambda trial: trial.verdict is Verdict.UNDECIDED, _settled
-    ),
-    "verdicts of the ensemble that its early end changes": _share(
-        lambda trial: trial.quick_verdict is not trial.verdict
-    ),
-    "CPU saved of the mechanism for all": _saved_of_mechanism,
-    "CPU saved of mechanism and ensemble for all": _saved_of_ensemble,
+    "undecided in the ensemble among those settled": lambda t: t.verdict is Verdict.UNDECIDED,
 }
-"""Name, and how it is computed."""

@@ -1,4 +1,4 @@
-"""Is the probability of an ensemble right? Its few members held against thousands of random draws of the same causes.
+"""Is the share of an ensemble right? Its few members held against thousands of random draws of the same causes.
 
 This measures the design, not the causes: whether the motion and the restitution are known as well as the ranges say
 is for measured tests to tell. The design is a published one. The allowance of the verdicts was chosen on half of the
@@ -6,34 +6,36 @@ near-fault sites, named "chosen" here; the other half and all further sites are 
 """
 
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from docs.research import scores
-from docs.research.reliability_figure import write_reliability
-from docs.research.tier_cases import independent
+from docs.research.scores import Score
+from docs.research.sites import independent, site_of
 from rocking.assessment.ensemble import CAUSES, Ensemble, EnsembleSettings, GroundMotions, drawn, ensemble
 from rocking.assessment.ensemble.design import lattice
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
+from rocking.reports.style import new_figure, styled, svg
 from rocking.structures import Structure
-from rocking.tables import Row, column, frame, row, write_tables
+from rocking.tables import Row, column, row, write_rows, write_whole
 
 DRAWS = 4000
 STRUCTURES_PER_RECORD = 3
 UPLIFTS = (1.3, 8.0)
 """Range of peak acceleration over uplift acceleration to which the records are scaled, log-uniform."""
 OPEN = (0.02, 0.98)
-"""Probabilities between which an error of the design matters."""
+"""Shares between which an error of the design matters."""
 ALLOWED = {64: 0.07, 256: 0.035}
-"""Error asked of a probability, by members."""
+"""Error asked of a share, by members."""
 BEYOND = 0.03
-"""By how much the probability of the opposite may exceed the risk of a verdict."""
-REPLICATES = 2000
+"""By how much the share of the opposite may exceed the risk of a verdict."""
 CHOSEN, LEFT_OUT = "chosen", "left out"
 
 
@@ -50,30 +52,14 @@ class EnsembleTrial(Row):
     scale_factor: float = column("What the record was multiplied by")
     verdict: Verdict = column("Verdict of the ensemble")
     members: int = column("Members it took")
-    probability: float = column("Share of them that overturn")
-    probability_64: float = column("Share of 64 members that overturn")
-    probability_256: float = column("Share of 256 members that overturn")
-    probability_drawn: float = column("Share of the random draws that overturn")
+    share: float = column("Share of them that overturn")
+    share_64: float = column("Share of 64 members that overturn")
+    share_256: float = column("Share of 256 members that overturn")
+    share_drawn: float = column("Share of the random draws that overturn")
     draws: int = column("Random draws")
     inside_band: float = column(
         "Share of the draws within the 5-95 % band of the ensemble; empty where it rests or may overturn"
     )
-
-
-@row(
-    "ensemble_accuracy", "One row per half of the sites and measure, with a 90 % interval by resampling sites"
-)
-class EnsembleAccuracy(Row):
-    """One measure."""
-
-    half: str = column("chosen or left out")
-    measure: str = column("What was measured")
-    value: float = column("Its value")
-    value_low: float = column("5 % quantile over resampled sites")
-    value_high: float = column("95 % quantile over resampled sites")
-    asked: str = column("What is asked of it")
-    cases: int = column("Cases behind it")
-    sites: int = column("Sites behind it")
 
 
 def try_ensembles(
@@ -86,27 +72,16 @@ def try_ensembles(
 
     others: records that took no part in any choice. Each component is tried with some of `structures`.
     """
-    chosen: set[str] = set()
-
-    def marked() -> Iterator[tuple[str, Accelerogram]]:
-        for name, record in near_fault:
-            if zlib.crc32(_site(record).encode()) % 2:
-                chosen.add(_site(record))
-            yield name, record
-        yield from others
-
-    names = list(structures)
-    for place, (name, _, record) in enumerate(independent(marked())):
+    first, names = list(near_fault), list(structures)
+    near = {site_of(record) for _, record in first}
+    for place, (name, site, record) in enumerate(independent(chain(first, others))):
         rng = np.random.default_rng(zlib.crc32(name.encode()))
-        half = CHOSEN if _site(record) in chosen else LEFT_OUT
+        odd = zlib.crc32(f"{record.event}; {record.station}".encode()) % 2  # how the halves were once drawn
+        half = CHOSEN if odd and site in near else LEFT_OUT
         for k in range(STRUCTURES_PER_RECORD):
             structure = names[(place * STRUCTURES_PER_RECORD + k) % len(names)]
-            found = _trial(structures[structure], record, rng, draws)
-            yield EnsembleTrial(record=name, site=_site(record), half=half, structure=structure, **found)
-
-
-def _site(record: Accelerogram) -> str:
-    return f"{record.event}; {record.station}"
+            trial = _trial(structures[structure], record, rng, draws)
+            yield EnsembleTrial(record=name, site=site, half=half, structure=structure, **trial)
 
 
 def _trial(
@@ -119,103 +94,62 @@ def _trial(
     motions = GroundMotions.of(record.scaled(factor))
     few, more = (drawn(mechanism, motions, lattice(size, CAUSES), settings) for size in ALLOWED)
     many = drawn(mechanism, motions, rng.random((draws, CAUSES)), settings)
-    found = ensemble(mechanism, motions, settings)
+    whole = ensemble(mechanism, motions, settings)
     return {
         "scale_factor": factor,
-        "verdict": found.verdict,
-        "members": found.members,
-        "probability": found.overturning_probability,
-        "probability_64": few.overturning_probability,
-        "probability_256": more.overturning_probability,
-        "probability_drawn": many.overturning_probability,
+        "verdict": whole.verdict,
+        "members": whole.members,
+        "share": whole.overturning_probability,
+        "share_64": few.overturning_probability,
+        "share_256": more.overturning_probability,
+        "share_drawn": many.overturning_probability,
         "draws": many.members,
-        "inside_band": _inside(found, many),
+        "inside_band": _inside(whole, many),
     }
 
 
-def _inside(found: Ensemble, many: Ensemble) -> float:
+def _inside(whole: Ensemble, many: Ensemble) -> float:
     """Where some overturn the band is open above and holds more than its share, so it says nothing of the design."""
-    if found.median <= NEGLIGIBLE or np.isinf(many.rotation_ratios).any():
+    if whole.median <= NEGLIGIBLE or np.isinf(many.rotation_ratios).any():
         return float("nan")
-    return float(((many.rotation_ratios >= found.low) & (many.rotation_ratios <= found.high)).mean())
+    return float(((many.rotation_ratios >= whole.low) & (many.rotation_ratios <= whole.high)).mean())
 
 
-Measure = Callable[[Sequence[EnsembleTrial]], float]
-
-
-def _error(size: int) -> tuple[str, str, Measure]:
-    def measure(trials: Sequence[EnsembleTrial]) -> float:
-        errors = [abs(getattr(t, f"probability_{size}") - t.probability_drawn) for t in trials if _open(t)]
-        return float(np.mean(np.array(errors) <= ALLOWED[size])) if errors else float("nan")
-
-    return f"share within {ALLOWED[size]} with {size} members", "0.95 at least", measure
-
-
-def _open(trial: EnsembleTrial) -> bool:
-    return OPEN[0] < trial.probability_drawn < OPEN[1]
-
-
-def _opposite(trial: EnsembleTrial) -> float:
-    """Probability of what the verdict excludes; nan without a verdict."""
-    excluded = {Verdict.STANDS: trial.probability_drawn, Verdict.OVERTURNS: 1 - trial.probability_drawn}
-    return excluded.get(trial.verdict, float("nan"))
-
-
-def _each(trials: Sequence[EnsembleTrial], column: str) -> np.ndarray:
-    return np.array([getattr(trial, column) for trial in trials])
-
-
-def _band(trials: Sequence[EnsembleTrial]) -> float:
-    inside = _each(trials, "inside_band")
-    return float(np.nanmean(inside)) if np.isfinite(inside).any() else float("nan")
-
-
-def _too_sure(trials: Sequence[EnsembleTrial]) -> float:
-    limit = EnsembleSettings().risk + BEYOND
-    decided = [_opposite(trial) > limit for trial in trials if not np.isnan(_opposite(trial))]
-    return float(np.mean(decided)) if decided else float("nan")
-
-
-MEASURES: tuple[tuple[str, str, Measure], ...] = (
-    _error(64),
-    _error(256),
-    ("share of draws inside the 5-95 % band", "0.87 to 0.93", _band),
-    (f"share of verdicts beyond their risk by more than {BEYOND}", "0", _too_sure),
-    (
-        "share of cases decided",
-        "",
-        lambda trials: float(np.mean([t.verdict is not Verdict.UNDECIDED for t in trials])),
-    ),
-    (
-        "Brier score",
-        "",
-        lambda trials: scores.brier(_each(trials, "probability"), _each(trials, "probability_drawn")),
-    ),
-    (
-        "Brier score of the draws themselves",
-        "",
-        lambda trials: scores.brier(*[_each(trials, "probability_drawn")] * 2),
-    ),
-)
-"""Name, what is asked, and how it is computed."""
-
-
-def ensemble_accuracy(
-    trials: Sequence[EnsembleTrial], replicates: int = REPLICATES
-) -> list[EnsembleAccuracy]:
+def ensemble_accuracy(trials: Sequence[EnsembleTrial], replicates: int = scores.REPLICATES) -> list[Score]:
     """Return every measure on each half of the sites, with its interval."""
     halves = {half: [trial for trial in trials if trial.half == half] for half in (CHOSEN, LEFT_OUT)}
-    return [row for half, own in halves.items() if own for row in _accuracy(half, own, replicates)]
+    return [
+        row
+        for half, own in halves.items()
+        if own
+        for row in scores.scored("ensemble", half, _measures(own), [trial.site for trial in own], replicates)
+    ]
 
 
-def _accuracy(half: str, trials: Sequence[EnsembleTrial], replicates: int) -> Iterator[EnsembleAccuracy]:
-    places: dict[str, int] = {}
-    sites = [places.setdefault(trial.site, len(places)) for trial in trials]
-    draws = scores.resampled(sites, replicates)
-    counts = {"cases": len(trials), "sites": len(places)}
-    for name, asked, measure in MEASURES:
-        found = scores.scored(scores.of_cases(measure, trials), len(trials), draws)
-        yield EnsembleAccuracy(half=half, measure=name, asked=asked, **found, **counts)
+def _measures(trials: Sequence[EnsembleTrial]) -> Mapping[str, scores.Measure]:
+    said, truth, inside = (
+        np.array([getattr(trial, name) for trial in trials])
+        for name in ("share", "share_drawn", "inside_band")
+    )
+    is_open = (truth > OPEN[0]) & (truth < OPEN[1])
+    verdicts = [trial.verdict for trial in trials]
+    excluded = {Verdict.STANDS: truth, Verdict.OVERTURNS: 1 - truth}
+    against = np.array([excluded[each][k] if each in excluded else np.nan for k, each in enumerate(verdicts)])
+    too_sure = np.where(np.isnan(against), np.nan, against > EnsembleSettings().risk + BEYOND)
+    measures: dict[str, scores.Measure] = {}
+    for size, allowed in ALLOWED.items():
+        few = np.array([getattr(trial, f"share_{size}") for trial in trials])
+        within = np.where(is_open, np.abs(few - truth) <= allowed, np.nan)
+        measures[f"share within {allowed} with {size} members (0.95 is asked)"] = scores.mean(within)
+    return measures | {
+        "share of draws inside the 5-95 % band (0.87 to 0.93 is asked)": scores.mean(inside),
+        f"share of verdicts beyond their risk by more than {BEYOND} (0 is asked)": scores.mean(too_sure),
+        "share of cases decided": scores.mean(
+            np.array([float(v is not Verdict.UNDECIDED) for v in verdicts])
+        ),
+        "Brier score": lambda rows: scores.brier(said[rows], truth[rows]),
+        "Brier score of the draws themselves": lambda rows: scores.brier(truth[rows], truth[rows]),
+    }
 
 
 def write_ensemble_accuracy(
@@ -223,11 +157,35 @@ def write_ensemble_accuracy(
     others: Iterable[tuple[str, Accelerogram]],
     structures: Mapping[str, Structure],
     folder: Path,
-) -> list[EnsembleAccuracy]:
-    """Write ensemble_trials.csv and ensemble_accuracy.csv into `folder` and return the rows of the second."""
+) -> None:
+    """Write ensemble_trials.csv, ensemble_accuracy.csv and ensemble_reliability.svg into `folder`."""
     trials = list(try_ensembles(near_fault, others, structures))
-    accuracy = ensemble_accuracy(trials)
-    write_tables({EnsembleTrial: trials, EnsembleAccuracy: accuracy}, folder)
-    shown = frame(EnsembleTrial, folder / EnsembleTrial.table.file_name)
-    write_reliability(shown, folder / "ensemble_reliability.svg")
-    return accuracy
+    write_rows(EnsembleTrial, trials, folder / "ensemble_trials.csv")
+    write_rows(Score, ensemble_accuracy(trials), folder / "ensemble_accuracy.csv")
+    write_whole(folder / "ensemble_reliability.svg", svg(reliability_figure(trials)).encode())
+
+
+@styled
+def reliability_figure(trials: Sequence[EnsembleTrial]) -> Figure:
+    """Draw the share of each ensemble against that of the draws, by its verdict; the diagonal is right."""
+    figure = new_figure(95, 115, margins=(16, 3, 13, 3))
+    panel = figure.subplots()
+    panel.plot([0, 1], [0, 1], color="black", linewidth=0.7)
+    for verdict, marker in {
+        Verdict.STANDS: "oC0",
+        Verdict.UNDECIDED: "xC7",
+        Verdict.OVERTURNS: "sC3",
+    }.items():
+        own = [(trial.share_drawn, trial.share) for trial in trials if trial.verdict is verdict]
+        look = {
+            "color": "none",
+            "markeredgecolor": marker[1:],
+            "markersize": 4,
+            "label": f"{verdict} ({len(own)})",
+        }
+        panel.plot(*np.array(own).reshape(-1, 2).T, marker[0], **look)
+    panel.set_xlabel(f"share of {max(trial.draws for trial in trials)} random draws that overturn [-]")
+    panel.set_ylabel("share of the ensemble that overturns [-]")
+    panel.set(xlim=(-0.03, 1.03), ylim=(-0.03, 1.03), aspect="equal")
+    panel.legend(loc="upper left")
+    return figure

@@ -18,6 +18,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import minimize_scalar
 from scipy.special import expit, logit
 
 ITERATIONS = (10, 20, 40, 80)
@@ -45,11 +46,8 @@ class Mixture:
 
     def probability(self, overturns: np.ndarray) -> np.ndarray:
         """P' of overturning, (n,), of tests whose verdicts by candidate are `overturns`, (n, m)."""
-        return self.of_share(overturns @ self.weights)
-
-    def of_share(self, share: np.ndarray) -> np.ndarray:
-        """P' of overturning where `share` of the population does."""
-        return expit(self.sharpness * logit(with_unexplained(share, self.unexplained)))
+        share = with_unexplained(overturns @ self.weights, self.unexplained)
+        return expit(self.sharpness * logit(share))
 
 
 def with_unexplained(share: np.ndarray, unexplained: float | np.ndarray) -> np.ndarray:
@@ -74,25 +72,6 @@ def fit_mixture(overturns: np.ndarray, outcomes: np.ndarray, groups: Sequence[st
     return Mixture(shared, unexplained, iterations, sharpness, log_score)
 
 
-def equal_members(overturns: np.ndarray, weights: np.ndarray, count: int) -> np.ndarray:
-    """Return `count` candidates whose plain share of overturnings is nearest to the weighted share, test by test.
-
-    Greedy: each next member is the one that brings the mean of those chosen nearest to the target; one may be chosen
-    twice. overturns: (n, m), of the tests of the fit.
-    """
-    table = overturns.astype(np.float64)
-    allowed = np.flatnonzero(weights > weights.max() * 1e-3)
-    table = table[:, allowed]
-    target, chosen, total = overturns @ weights, [], np.zeros(len(table))
-    squares = (table**2).sum(axis=0)
-    for size in range(1, count + 1):
-        gap = size * target - total
-        nearest = int(np.argmin(squares - 2 * (gap @ table)))
-        chosen.append(allowed[nearest])
-        total += table[:, nearest]
-    return np.array(chosen)
-
-
 def _left_out(
     hits: np.ndarray, prior: np.ndarray, groups: np.ndarray
 ) -> Mapping[tuple[float, int], np.ndarray]:
@@ -115,8 +94,6 @@ def _left_out(
 
 def _sharpened(said: np.ndarray) -> tuple[float, float]:
     """Return b that makes outcomes of probabilities `said` likeliest, and their mean ln P'; 1 if nothing was."""
-    from scipy.optimize import minimize_scalar  # slow to import, and needed by the fit only
-
     odds = logit(said.astype(np.float64))
     if not np.isfinite(odds).all():
         return 1.0, float("nan")

@@ -16,19 +16,18 @@ def main(target, catalogues, mirror, structures, folder, tell):
     if target == "calibrate":
         from docs.research.tiers import write_tiers
 
-        for score in write_tiers((record for each in records() for record in each), folder):
-            tell(str(score))
+        write_tiers((record for each in records() for record in each), folder)
     elif target == "calibrate_ensemble":
         from docs.research.ensembles import write_ensemble_accuracy
 
         write_ensemble_accuracy(*records(), load_structures(Path(structures)), folder)
     elif target == "validate":
-        from docs.research.validation.write import write_validation
+        from docs.research.validation import write_validation
 
         write_validation(Path(catalogues[0]), Path(mirror) if mirror else None, folder, tell=tell)
     elif target == "compare":
         from docs.research.comparison.cases import RECORDS
-        from docs.research.comparison.write import write_comparison
+        from docs.research.comparison.table import write_comparison
 
         listed = load_catalogue(Path(catalogues[0]))[: RECORDS // 3]
         write_comparison([open_record(record, mirror=mirror)[0] for record in listed], folder, tell)

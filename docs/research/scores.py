@@ -1,36 +1,99 @@
 """How good probabilities are against what happened, and how well each score is known: by drawing sites anew."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any, TypeVar
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from docs.research.tier_fit import logistic
+from rocking.tables import Row, column, row
 
-T = TypeVar("T")
-
-NINETY = (0.05, 0.95)
-"""Levels of a 90 % interval."""
+REPLICATES = 1000
+"""Draws of the sites behind an interval."""
+LEVELS = (0.05, 0.95)
+"""Quantiles of the draws between which a 90 % interval lies."""
 Measure = Callable[[np.ndarray], float]
 """A score of some of the cases, by index, with repeats; nan where they tell none."""
 
 
-@dataclass(frozen=True)
-class ReliabilityClass:
-    """Cases whose probability lies between two edges. stated, observed: mean probability and share that overturned.
+@row("scores", "One row per subject, part of the cases and measure, with a 90 % interval by resampling sites")
+class Score(Row):
+    """One measure of one subject."""
 
-    low, high: 90 % interval of the share that overturned.
-    """
+    subject: str = column("What was judged: a tier, a method, an ensemble")
+    part: str = column("Cases on which it was judged")
+    measure: str = column("What was measured")
+    value: float = column("Its value on all cases of the part")
+    value_low: float = column("5 % quantile over resampled sites")
+    value_high: float = column("95 % quantile over resampled sites")
+    cases: int = column("Cases behind it")
+    sites: int = column("Sites behind it; of a shake table: input motions")
 
-    probability_from: float
-    probability_to: float
-    rows: np.ndarray
-    stated: float
-    observed: float
-    low: float
-    high: float
+
+@row("reliability", "One row per subject, part and class of the stated probability")
+class Reliability(Row):
+    """One class of a reliability diagram."""
+
+    subject: str = column("What was judged")
+    part: str = column("Cases on which it was judged")
+    probability_from: float = column("Lower edge of the class")
+    probability_to: float = column("Upper edge of the class")
+    stated: float = column("Mean probability stated in it")
+    observed: float = column("Share that overturned")
+    observed_low: float = column("5 % quantile of that share over resampled sites")
+    observed_high: float = column("95 % quantile of that share over resampled sites")
+    cases: int = column("Cases in it")
+    sites: int = column("Sites in it")
+
+
+def scored(
+    subject: str,
+    part: str,
+    measures: Mapping[str, Measure],
+    sites: Sequence[object],
+    replicates: int = REPLICATES,
+) -> list[Score]:
+    """Return every measure of the cases at `sites` (n,), with its interval."""
+    draws, every = resampled(sites, replicates), np.arange(len(sites))
+    counts = {"subject": subject, "part": part, "cases": every.size, "sites": len(set(sites))}
+    rows = []
+    for name, measure in measures.items():
+        low, high = interval(measure, draws)
+        rows.append(Score(measure=name, value=measure(every), value_low=low, value_high=high, **counts))
+    return rows
+
+
+def reliability(
+    subject: str,
+    part: str,
+    probability: np.ndarray,
+    outcomes: np.ndarray,
+    sites: Sequence[object],
+    edges: Sequence[float],
+    replicates: int = REPLICATES,
+) -> Iterator[Reliability]:
+    """Yield the classes between `edges` that hold a case. probability, outcomes: (n,) in [0, 1]."""
+    place = np.clip(np.searchsorted(edges, probability, side="right") - 1, 0, len(edges) - 2)
+    labels, draws = np.asarray(sites), resampled(sites, replicates)
+
+    def observed(rows: np.ndarray) -> float:
+        inside = rows[place[rows] == which]
+        return float(outcomes[inside].mean()) if inside.size else math.nan
+
+    for which in np.unique(place).tolist():
+        rows = np.flatnonzero(place == which)
+        low, high = interval(observed, draws)
+        yield Reliability(
+            subject=subject,
+            part=part,
+            probability_from=edges[which],
+            probability_to=edges[which + 1],
+            stated=float(probability[rows].mean()),
+            observed=float(outcomes[rows].mean()),
+            observed_low=low,
+            observed_high=high,
+            cases=rows.size,
+            sites=len(np.unique(labels[rows])),
+        )
 
 
 def resampled(labels: Sequence[object] | np.ndarray, replicates: int) -> list[np.ndarray]:
@@ -47,46 +110,21 @@ def resampled(labels: Sequence[object] | np.ndarray, replicates: int) -> list[np
     ]
 
 
-def interval(
-    measure: Measure, draws: Sequence[np.ndarray], levels: tuple[float, float] = NINETY
-) -> tuple[float, float]:
+def interval(measure: Measure, draws: Sequence[np.ndarray]) -> tuple[float, float]:
     """Return the quantiles of a measure over `draws`, where it tells something; nan where it never does."""
-    known = [value for rows in draws if not math.isnan(value := measure(rows))]
-    low, high = np.quantile(known, levels) if known else (math.nan, math.nan)
+    values = [value for rows in draws if not math.isnan(value := measure(rows))]
+    low, high = np.quantile(values, LEVELS) if values else (math.nan, math.nan)
     return float(low), float(high)
 
 
-def scored(measure: Measure, cases: int, draws: Sequence[np.ndarray]) -> dict[str, Any]:
-    """Return a measure of all cases with its 90 % interval, by the names of the columns of a table."""
-    low, high = interval(measure, draws)
-    return {"value": measure(np.arange(cases)), "value_low": low, "value_high": high}
+def mean(values: np.ndarray) -> Measure:
+    """Return the mean of `values` (n,) as a measure; cases of nan do not count."""
 
+    def measure(rows: np.ndarray) -> float:
+        counted = values[rows][~np.isnan(values[rows])]
+        return float(counted.mean()) if counted.size else math.nan
 
-def of_cases(measure: Callable[[Sequence[T]], float], cases: Sequence[T]) -> Measure:
-    """Return a score of cases as one of their indices."""
-    return lambda rows: measure([cases[k] for k in rows])
-
-
-def reliability(
-    probability: np.ndarray, outcomes: np.ndarray, edges: Sequence[float], draws: Sequence[np.ndarray]
-) -> Iterator[ReliabilityClass]:
-    """Yield the classes of a reliability diagram that hold a case. outcomes: (n,) in [0, 1]."""
-    place = np.clip(np.searchsorted(edges, probability, side="right") - 1, 0, len(edges) - 2)
-
-    def observed(rows: np.ndarray) -> float:
-        inside = rows[place[rows] == which]
-        return float(outcomes[inside].mean()) if inside.size else math.nan
-
-    for which in np.unique(place).tolist():
-        rows = np.flatnonzero(place == which)
-        stated, share = float(probability[rows].mean()), float(outcomes[rows].mean())
-        low, high = interval(observed, draws)
-        yield ReliabilityClass(edges[which], edges[which + 1], rows, stated, share, low, high)
-
-
-def accuracy(probability: np.ndarray, outcomes: np.ndarray) -> float:
-    """Share of cases whose verdict, overturning where P > 1/2, is right."""
-    return float(np.mean((probability > 0.5) == outcomes))
+    return measure
 
 
 def brier(probability: np.ndarray, shares: np.ndarray) -> float:
@@ -95,20 +133,42 @@ def brier(probability: np.ndarray, shares: np.ndarray) -> float:
 
 
 def brier_skill(probability: np.ndarray, shares: np.ndarray) -> float:
-    """1 − Brier score over that of who says the mean share of every case; nan where nothing or everything overturns."""
+    """1 − Brier score over that of the mean share of all cases; nan where nothing or everything overturns."""
     base = shares.mean()
     return 1 - brier(probability, shares) / float(base * (1 - base)) if 0 < base < 1 else math.nan
 
 
-def calibration_slope(probability: np.ndarray, outcomes: np.ndarray) -> float:
-    """Slope of the least-squares line of the outcomes over P; 1 where P means what it says, nan for a constant P."""
-    centred = probability - probability.mean()
-    spread = float(centred @ centred)
-    return float(centred @ outcomes / spread) if spread > 0 else math.nan
-
-
 def logit_slope(odds: np.ndarray, outcomes: np.ndarray) -> float:
-    """Slope of the logistic regression of the outcomes, or shares, on the log odds said (Cox 1958); 1 is right."""
+    """Slope of the logistic regression of the outcomes, or shares, on the log odds stated (Cox 1958); 1 is right."""
     kept = np.clip(odds, -12, 12)
     coefficients, _ = logistic(np.column_stack([np.ones(kept.size), kept]), outcomes, np.arange(kept.size))
     return float(coefficients[1])
+
+
+def logistic(
+    design: np.ndarray, outcomes: np.ndarray, groups: np.ndarray, ridge: float = 1e-5
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the coefficients (k,) of a logistic regression by Newton's method, and their covariance (k, k).
+
+    design: (n, k), its first column ones. outcomes: (n,) in [0, 1]; a share counts as that much of a case that
+    overturned beside the rest of one that did not. groups: (n,), what is independent: the covariance is the sandwich of
+    their scores (Liang & Zeger 1986). ridge: penalty on the coefficients after the first, per case; it keeps those
+    finite that no case contradicts.
+    """
+    penalty = ridge * len(design) * np.r_[0.0, np.ones(design.shape[1] - 1)]
+    coefficients = np.zeros(design.shape[1])
+    for _ in range(100):
+        shares = 1 / (1 + np.exp(-design @ coefficients))
+        weights = np.maximum(shares * (1 - shares), 1e-12)
+        curvature = (design * weights[:, None]).T @ design + np.diag(penalty)
+        step = np.linalg.solve(curvature, design.T @ (outcomes - shares) - penalty * coefficients)
+        if np.abs(step).max() > 0:
+            coefficients = coefficients + step * min(1.0, 4.0 / np.abs(step).max())
+        if np.abs(step).max() < 1e-10:
+            break
+    inverse = np.linalg.inv(curvature)
+    _, places = np.unique(groups, return_inverse=True)
+    summed = np.zeros((places.max() + 1, design.shape[1]))
+    np.add.at(summed, places, design * (outcomes - shares)[:, None])
+    many = len(summed)
+    return coefficients, inverse @ (summed.T @ summed * many / max(many - 1, 1)) @ inverse

@@ -1,169 +1,172 @@
-"""What the tiers rest on: fitted to the ensembles of mechanisms under real records, judged by leaving sites out.
-
-Each member of a case counts as an outcome that a tier is judged by, so that even the true share of a case leaves a
-score: what cannot be known of it.
-"""
+"""The tiers: what a cheap figure says of overturning, fitted to real records and judged by leaving sites out."""
 
 import hashlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from docs.research import scores
-from docs.research.answers import AnswerScore, answer_scores, try_answers
-from docs.research.tier_cases import TierCase, independent, tier_cases
-from docs.research.tier_fit import fit_tier, known, ratios_of, shares_of, sites_of
-from rocking.assessment.tiers import Tier, TierBand, TierCovariance, TierFit, TierTerm
+from docs.research.answers import answer_scores, try_answers
+from docs.research.scores import Reliability, Score
+from docs.research.sites import independent, structures_tried
+from rocking.assessment import intensity
+from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn
+from rocking.assessment.ensemble.design import lattice
+from rocking.assessment.fidelity import stays_at_rest
+from rocking.assessment.intensity import NUDGES, Shape
+from rocking.assessment.tiers import Tier, TierFit
+from rocking.motion.batch import integrate_batch
 from rocking.records import Accelerogram
-from rocking.tables import Row, column, row, write_tables
+from rocking.structures import Structure
+from rocking.tables import write_rows
 
-REPLICATES = 500
+TIERS = (Tier.PEAK_VELOCITY, Tier.BLOCK_AT_FIVE_SCALES)
+FACTORS = (0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8)
+"""On each record, so that it speaks for weaker and stronger shaking of the same shape."""
+MEMBERS = 64
+"""Of the ensemble of a case."""
+CLASSES = 30
+"""Of location, between which the band of the rotation steps."""
 BINS = (0.0, 0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
 
 
-@row(
-    "tier_scores", "One row per tier and measure on sites left out, with a 90 % interval by resampling sites"
-)
-class TierScore(Row):
-    """One measure of one tier."""
+@dataclass(frozen=True, eq=False)
+class TierCase:
+    """A structure under a record times a factor: what is known of it by measure, and what becomes of it.
 
-    tier: Tier = column("What is known of a case")
-    measure: str = column("What was measured")
-    value: float = column("Its value")
-    value_low: float = column("5 % quantile over resampled sites")
-    value_high: float = column("95 % quantile over resampled sites")
-    cases: int = column("Cases behind it")
-    sites: int = column("Sites behind it")
+    rotation_ratios: of the mechanism, (m,), in the members of the case's ensemble.
+    """
 
-
-@row("tier_reliability", "One row per tier and class of probability: said and found, on sites left out")
-class TierReliability(Row):
-    """One class of one tier."""
-
-    tier: Tier = column("What is known of a case")
-    probability_from: float = column("Lower edge of the class")
-    probability_to: float = column("Upper edge of the class")
-    said: float = column("Mean probability in it")
-    found: float = column("Share of the members that overturn")
-    found_low: float = column("5 % quantile of that over resampled sites")
-    found_high: float = column("95 % quantile of that over resampled sites")
-    cases: int = column("Cases in it")
-    sites: int = column("Sites in it")
+    record: str
+    site: str
+    structure: str
+    factor: float
+    measures: Mapping[str, float]
+    rotation_ratios: np.ndarray
 
 
-def left_out(tier: Tier, cases: Sequence[TierCase]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return what `tier` says of each case when fitted without its site.
+@dataclass(frozen=True, eq=False)
+class TierCases:
+    """All cases as arrays. ratios: (n, m) rotation ratios of the members. sites: (n,)."""
 
-    Log odds (n,), their error (n,) and the band of the rotation (n, 3)."""
-    terms, ratios, sites = known(cases, tier), ratios_of(cases), sites_of(cases)
-    odds, errors, rotations = np.empty(len(cases)), np.empty(len(cases)), np.empty((len(cases), 3))
-    for site in np.unique(sites):
-        out = sites == site
-        fit = fit_tier(tier, terms[~out], ratios[~out], sites[~out])
-        odds[out], errors[out] = fit.log_odds(terms[out])
+    cases: Sequence[TierCase]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "ratios", np.array([case.rotation_ratios for case in self.cases]))
+        object.__setattr__(self, "sites", np.array([case.site for case in self.cases]))
+
+    def fit(self, tier: Tier, kept: np.ndarray | slice = slice(None)) -> TierFit:
+        """Return `tier` fitted to the cases `kept`."""
+        return fit_tier(tier, self.terms(tier)[kept], self.ratios[kept], self.sites[kept])
+
+    def terms(self, tier: Tier) -> np.ndarray:
+        """Return (n, k) of the terms that `tier` takes."""
+        return np.array([[case.measures[term] for term in tier.terms] for case in self.cases])
+
+
+def tier_cases(
+    records: Iterable[tuple[str, str, Accelerogram]], structures: Mapping[str, Structure] | None = None
+) -> Iterator[TierCase]:
+    """Yield the cases of each record, as `independent` gives them, but those that rest as given, which is certain."""
+    mechanisms = {name: s.mechanism() for name, s in (structures or structures_tried()).items()}
+    blocks = [mechanism.equivalent_block("rest") for mechanism in mechanisms.values()]
+    nudged = np.outer(FACTORS, NUDGES)
+    for name, site, record in records:
+        shape = Shape.of(record)
+        on_block = integrate_batch(blocks, record, nudged.ravel()).reshape(len(blocks), *nudged.shape)
+        for k, (structure, mechanism) in enumerate(mechanisms.items()):
+            block = mechanism.equivalent_block("rest")
+            measures = intensity.of_structure(mechanism) | intensity.of_peaks(shape, block)
+            for i, factor in enumerate(FACTORS):
+                motion = record.scaled(factor)
+                if stays_at_rest(mechanism, motion):
+                    continue
+                motions, points = GroundMotions.of(motion), lattice(MEMBERS, CAUSES)
+                members = drawn(mechanism, motions, points, EnsembleSettings())
+                if not members.failed:
+                    known = intensity.scaled(measures, factor) | intensity.from_nudged(on_block[k, i])
+                    yield TierCase(name, site, structure, factor, known, members.rotation_ratios)
+
+
+def fit_tier(tier: Tier, terms: np.ndarray, ratios: np.ndarray, sites: np.ndarray) -> TierFit:
+    """Fit one tier to terms (n, k), rotation ratios (n, m) of the members of each case (inf: overturns) and sites (n,).
+
+    The share of a case that overturns is what its probability is fitted to, one case weighing as much as another.
+    """
+    centre, spread = terms.mean(axis=0), terms.std(axis=0)
+    spread = np.where(spread > 0, spread, 1.0)
+    design = np.column_stack([np.ones(len(terms)), (terms - centre) / spread])
+    coefficients, covariance = scores.logistic(design, np.isinf(ratios).mean(axis=1), sites)
+    bounds = terms.min(axis=0), terms.max(axis=0)
+    fit = TierFit(tier, centre, spread, *bounds, coefficients, covariance, np.zeros(1), np.zeros((1, 3)))
+    edges, bands = _bands(fit.location(terms), ratios / fit.anchor(terms)[:, None])
+    return replace(fit, edges=edges, bands=bands)
+
+
+def _bands(location: np.ndarray, ratios: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Classes of about equal numbers by location (n,), and in each the 5, 50 and 95 % quantile of all members (n, m).
+
+    A quantile between two members is the outer one.
+    """
+    edges = np.unique(np.quantile(location, np.arange(CLASSES) / CLASSES, method="lower"))
+    place = np.searchsorted(edges, location, side="right") - 1
+    outer = {0.05: "lower", 0.5: "nearest", 0.95: "higher"}
+    classes = [ratios[place == k] for k in range(edges.size)]
+    bands = [[np.quantile(each, level, method=side) for level, side in outer.items()] for each in classes]
+    return edges, np.array(bands)
+
+
+def left_out(tier: Tier, cases: TierCases) -> tuple[np.ndarray, np.ndarray]:
+    """Return what `tier` says of each case when fitted without its site: log odds (n,) and band of rotation (n, 3)."""
+    odds, rotations, terms = np.empty(len(cases.cases)), np.empty((len(cases.cases), 3)), cases.terms(tier)
+    for site in np.unique(cases.sites):
+        out = cases.sites == site
+        fit = cases.fit(tier, ~out)
+        odds[out], _ = fit.log_odds(terms[out])
         rotations[out] = fit.rotations(terms[out])
-    return odds, errors, rotations
+    return odds, rotations
 
 
 def tier_scores(
-    cases: Sequence[TierCase], replicates: int = REPLICATES
-) -> Iterator[tuple[list[TierScore], list[TierReliability]]]:
+    cases: TierCases, replicates: int = scores.REPLICATES
+) -> Iterator[tuple[list[Score], list[Reliability]]]:
     """Yield the scores and the reliability of each tier on sites left out."""
-    ratios, sites = ratios_of(cases), sites_of(cases)
-    fallen = shares_of(ratios)
-    draws = scores.resampled(sites, replicates)
-    counts = {"cases": len(cases), "sites": len(set(sites))}
-    for tier in Tier:
-        odds, _, rotations = left_out(tier, cases)
-        measures = _measures(odds, rotations, ratios)
+    overturned, part = np.isinf(cases.ratios).mean(axis=1), "sites left out"
+    for tier in TIERS:
+        odds, rotations = left_out(tier, cases)
+        stated = 1 / (1 + np.exp(-odds))
+        inside = ((cases.ratios >= rotations[:, :1]) & (cases.ratios <= rotations[:, 2:])).mean(axis=1)
+        measures: dict[str, scores.Measure] = {
+            "Brier skill": lambda rows, stated=stated: scores.brier_skill(stated[rows], overturned[rows]),
+            "Brier skill of the shares themselves": lambda rows: scores.brier_skill(
+                overturned[rows], overturned[rows]
+            ),
+            "calibration slope": lambda rows, odds=odds: scores.logit_slope(odds[rows], overturned[rows]),
+            "share inside the 5-95 % band": scores.mean(inside),
+        }
         yield (
-            [
-                TierScore(tier=tier, measure=name, **scores.scored(measure, len(cases), draws), **counts)
-                for name, measure in measures.items()
-            ],
-            [
-                TierReliability(
-                    tier=tier,
-                    probability_from=each.probability_from,
-                    probability_to=each.probability_to,
-                    said=each.stated,
-                    found=each.observed,
-                    found_low=each.low,
-                    found_high=each.high,
-                    cases=each.rows.size,
-                    sites=len(set(sites[each.rows])),
-                )
-                for each in scores.reliability(1 / (1 + np.exp(-odds)), fallen, BINS, draws)
-            ],
+            scores.scored(tier, part, measures, cases.sites, replicates),
+            list(scores.reliability(tier, part, stated, overturned, cases.sites, BINS, replicates)),
         )
 
 
-def _measures(odds: np.ndarray, rotations: np.ndarray, ratios: np.ndarray) -> dict[str, scores.Measure]:
-    """What a tier is judged by: log odds (n,) and bands (n, 3) that it says, rotation ratios (n, m) of the members."""
-    shares, fallen = 1 / (1 + np.exp(-odds)), shares_of(ratios)
-    inside = ((ratios >= rotations[:, :1]) & (ratios <= rotations[:, 2:])).mean(axis=1)
-    return {
-        "Brier skill": lambda rows: scores.brier_skill(shares[rows], fallen[rows]),
-        "Brier skill of who knew the shares": lambda rows: scores.brier_skill(fallen[rows], fallen[rows]),
-        "calibration slope": lambda rows: scores.logit_slope(odds[rows], fallen[rows]),
-        "share inside the 5-95 % band": lambda rows: float(inside[rows].mean()),
-    }
-
-
 def write_tiers(
-    records: Iterable[tuple[str, Accelerogram]], folder: Path, replicates: int = REPLICATES
-) -> list[TierScore]:
-    """Fit and judge every tier on `records`; write its tables into `folder` and return the scores.
-
-    tiers.csv, tier_covariances.csv and tier_bands.csv are what the package ships.
-    """
+    records: Iterable[tuple[str, Accelerogram]], folder: Path, replicates: int = scores.REPLICATES
+) -> None:
+    """Fit and judge every tier on `records`; write the fits and the scores into `folder`; tiers.json is what ships."""
     counted = list(independent(records))
-    cases = list(tier_cases(counted))
-    ratios, sites = ratios_of(cases), sites_of(cases)
-    fits = {tier: fit_tier(tier, known(cases, tier), ratios, sites) for tier in Tier}
+    cases = TierCases(list(tier_cases(counted)))
+    found = list(tier_scores(cases, replicates))
+    answers = answer_scores(list(try_answers(counted, cases)), replicates)
+    write_rows(Score, [row for each, _ in found for row in each] + answers, folder / "tier_scores.csv")
+    write_rows(Reliability, [row for _, each in found for row in each], folder / "tier_reliability.csv")
     hashes = sorted({record.source.sha256 for _, _, record in counted})
-    sha256 = hashlib.sha256("\n".join(hashes).encode()).hexdigest()
-    found, classes = (
-        list(chain.from_iterable(each)) for each in zip(*tier_scores(cases, replicates), strict=True)
-    )
-    tables: Mapping[type[Row], Iterable[Row]] = {
-        TierTerm: [row for fit in fits.values() for row in _terms(fit, cases, sha256)],
-        TierCovariance: [row for fit in fits.values() for row in _covariances(fit)],
-        TierBand: [row for fit in fits.values() for row in _bands(fit)],
-        TierScore: found,
-        TierReliability: classes,
-        AnswerScore: answer_scores(list(try_answers(counted, cases)), replicates),
+    about = {
+        "records": len({case.record for case in cases.cases}),
+        "sites": len(set(cases.sites)),
+        "cases": len(cases.cases),
+        "records_sha256": hashlib.sha256("\n".join(hashes).encode()).hexdigest(),
     }
-    write_tables(tables, folder)
-    return found
-
-
-def _terms(fit: TierFit, cases: Sequence[TierCase], sha256: str) -> Iterator[TierTerm]:
-    counts = {
-        "records": len({case.record for case in cases}),
-        "sites": len({case.site for case in cases}),
-        "cases": len(cases),
-    }
-    of_intercept = {"centre": 0, "spread": 1, "least": 1, "largest": 1}
-    numbers = {name: np.r_[first, getattr(fit, name)] for name, first in of_intercept.items()}
-    numbers["coefficient"] = fit.coefficients
-    for k, term in enumerate(("", *fit.tier.terms)):
-        own: dict[str, Any] = {name: float(values[k]) for name, values in numbers.items()}
-        yield TierTerm(tier=fit.tier, term=term, **own, **counts, records_sha256=sha256)
-
-
-def _covariances(fit: TierFit) -> Iterator[TierCovariance]:
-    names = ("", *fit.tier.terms)
-    for i, name in enumerate(names):
-        for k, other in enumerate(names[: i + 1]):
-            yield TierCovariance(
-                tier=fit.tier, term=name, other_term=other, covariance=float(fit.covariance[i, k])
-            )
-
-
-def _bands(fit: TierFit) -> Iterator[TierBand]:
-    for edge, (low, median, high) in zip(fit.edges.tolist(), fit.bands.tolist(), strict=True):
-        yield TierBand(tier=fit.tier, location_from=edge, low=low, median=median, high=high)
+    write_fits({tier: cases.fit(tier) for tier in TIERS}, about, folder / "tiers.json")

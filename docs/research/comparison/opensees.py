@@ -1,4 +1,4 @@
-"""A block or a frame by OpenSees' RockingBC element (Avgenakis & Psycharis 2020), from standard input to JSON.
+"""A block by OpenSees' RockingBC element (Avgenakis & Psycharis 2020), from standard input to JSON.
 
 The element is deformable; three stiffnesses are run, each twice the one before, and extrapolated to the rigid body.
 The strain under all that a column carries, σ/E, measures the flexibility. Time steps shrink at impacts, as those of
@@ -17,12 +17,12 @@ from scipy.integrate import cumulative_trapezoid
 from docs.research.comparison.cases import structures
 from docs.research.comparison.runs import Run, landings, run_of, serve, still_from
 from rocking.quantities import GRAVITY
-from rocking.structures import Block, Frame, Mechanism, Structure
+from rocking.structures import Block, Mechanism
 
-STRAINS = {"block": (4e-5, 2e-5, 1e-5), "frame": (4e-4, 2e-4, 1e-4)}
+STRAINS = (4e-5, 2e-5, 1e-5)
 """σ/E of the three runs."""
-LONGEST = {"block": 5e-4, "frame": 1e-3}
-"""Time steps at most, s."""
+LONGEST = 5e-4
+"""Time step at most, s."""
 SHORTEST = 1e-7
 DAMPING = 0.05
 """Of the first mode, stiffness-proportional."""
@@ -33,13 +33,14 @@ REVERSALS = 3
 """Reversals on still ground after which nothing new comes."""
 BUDGET = 90.0
 """Processor seconds of one run."""
-_WATCHED, _BEAM = 12, 9
+_WATCHED = 12
+"""Node in the middle of the block, whose rotation is read."""
 _LIBRARIES = ("libquadmath.so.0", "libgfortran.so.4", "libblas.so.3", "liblapack.so.3")
 
 
 def runs(given: dict) -> list[Run]:
     """Return the runs of a case."""
-    return [_run(given, strain) for strain in STRAINS[given["structure"]]]
+    return [_run(given, strain) for strain in STRAINS]
 
 
 def _run(given: dict, strain: float) -> Run:
@@ -54,7 +55,7 @@ def _run(given: dict, strain: float) -> Run:
     ops.analysis("Transient")
     still = still_from(given)
     end = still + STILL / given["frequency_parameter"]
-    times, rotation, ended = _follow(ops, still, end, LONGEST[given["structure"]])
+    times, rotation, ended = _follow(ops, still, end)
     if not ended:
         return Run(math.nan)
     if abs(rotation[-1]) > 1.0:
@@ -62,9 +63,9 @@ def _run(given: dict, strain: float) -> Run:
     return run_of(given, times, rotation, _potential(structure.mechanism(), rotation))
 
 
-def _follow(ops, still: float, end: float, longest: float) -> tuple[np.ndarray, np.ndarray, bool]:
+def _follow(ops, still: float, end: float) -> tuple[np.ndarray, np.ndarray, bool]:
     """Times and rotations (n,), and whether it came to an end: overturned, enough reversals, or all the time."""
-    step, good, reversals, start = longest, 0, 0, time.process_time()
+    step, good, reversals, start = LONGEST, 0, 0, time.process_time()
     history, ended = [(0.0, 0.0)], True
     while ended and ops.getTime() < end and abs(history[-1][1]) <= 1.0 and reversals < REVERSALS:
         if ops.analyze(1, step) == 0:
@@ -72,7 +73,7 @@ def _follow(ops, still: float, end: float, longest: float) -> tuple[np.ndarray, 
             history.append((ops.getTime(), ops.nodeDisp(_WATCHED, 3)))
             reversals += history[-1][0] > still and history[-1][1] * history[-2][1] < 0
             if good >= 10:
-                step = min(longest, 1.5 * step)
+                step = min(LONGEST, 1.5 * step)
         elif step > SHORTEST:
             step, good = max(SHORTEST, 0.5 * step), 0
         else:
@@ -89,71 +90,34 @@ def _potential(mechanism: Mechanism, rotation: np.ndarray) -> np.ndarray:
     return np.interp(np.abs(rotation), grid, cumulative_trapezoid(gravity, grid, initial=0.0))
 
 
-def _build(ops, structure: Structure, strain: float) -> None:
-    """Columns of two elements, the upper one rocking against the beam; a block is a column with a free upper end."""
+def _build(ops, block: Block, strain: float) -> None:
+    """A column that rocks at its foot (node 11); all mass is in its middle (12), above which nothing rocks."""
+    breadth, height = block.breadth, block.height
+    modulus, mass = DENSITY * GRAVITY * height / strain, DENSITY * breadth * height
     ops.wipe()
     ops.model("basic", "-ndm", 2, "-ndf", 3)
     ops.timeSeries("Linear", 1)
     ops.pattern("Plain", 1, 1)
-    if isinstance(structure, Frame):
-        _frame(ops, structure, strain)
-    elif isinstance(structure, Block):
-        _block(ops, structure, strain)
+    ops.node(11, 0.0, 0.0)
+    ops.node(_WATCHED, 0.0, height / 2)
+    ops.element(
+        "RockingBC", 11, _WATCHED, 11, 15, modulus, 0.0, -4e3 * DENSITY * GRAVITY * height, breadth, 1.0, 0.0,
+        "-convlim", 1e-14, "-useshear", 0, "-blevery", 1, "-useUelNM", 1, "-usecomstiff", 0, "-af", 1.0,
+        "-aflim", 0.4, "-convlimmult", 1.0, "-maxtries", 50, "-NlimN", 0.01, "-NlimT", 1.0, "-Dtlim", SHORTEST,
+        "-errorifNexceeds", 1,
+    )  # fmt: skip
+    ops.fix(11, 1, 1, 1)
+    ops.mass(_WATCHED, mass, mass, mass * (breadth**2 + height**2) / 12)
+    ops.load(_WATCHED, 0.0, -mass * GRAVITY, 0.0)
+    ops.node(13, 0.0, height)
+    ops.geomTransf("Corotational", 1)
+    ops.element("elasticBeamColumn", 12, _WATCHED, 13, breadth, modulus, breadth**3 / 12, 1)
     _solver(ops, ("EnergyIncr", 1e-10, 100))
     ops.integrator("LoadControl", 0.1)
     ops.analysis("Static")
     ops.analyze(10)
     ops.loadConst("-time", 0.0)
     ops.rayleigh(0, 2 * DAMPING / math.sqrt(ops.eigen("-fullGenLapack", 1)[0]), 0, 0)
-
-
-def _block(ops, block: Block, strain: float) -> None:
-    breadth, height = block.breadth, block.height
-    modulus = DENSITY * GRAVITY * height / strain
-    _column(ops, 10, 0.0, breadth, height, modulus)
-    ops.node(13, 0.0, height)
-    ops.geomTransf("Corotational", 1)
-    ops.element("elasticBeamColumn", 12, 12, 13, breadth, modulus, breadth**3 / 12, 1)
-
-
-def _frame(ops, frame: Frame, strain: float) -> None:
-    breadth, height = frame.column_breadth, frame.column_height
-    column = DENSITY * breadth * height
-    beam = column * frame.columns * frame.beam_mass_ratio
-    modulus = DENSITY * GRAVITY * height * (1 + frame.beam_mass_ratio) / strain
-    axes = 0.6 * height * (np.arange(frame.columns) - (frame.columns - 1) / 2)
-    ops.node(_BEAM, 0.0, height)
-    for k, axis in enumerate(axes.tolist()):
-        first = 10 * (k + 1)
-        _column(ops, first, axis, breadth, height, modulus)
-        ops.node(first + 3, axis, height)
-        _rocking_end(ops, first + 2, first + 3, breadth, height, modulus)
-        ops.rigidLink("beam", _BEAM, first + 3)
-    ops.mass(_BEAM, beam, beam, beam * (2 * axes[-1] + breadth) ** 2 / 12)
-    ops.load(_BEAM, 0.0, -beam * GRAVITY, 0.0)
-
-
-def _column(ops, first: int, axis: float, breadth: float, height: float, modulus: float) -> None:
-    """Nodes first + 1 on the ground and first + 2 in the middle, where all mass is, and the element between them."""
-    mass = DENSITY * breadth * height
-    foot, middle = first + 1, first + 2
-    ops.node(foot, axis, 0.0)
-    ops.node(middle, axis, height / 2)
-    _rocking_end(ops, middle, foot, breadth, height, modulus)
-    ops.fix(foot, 1, 1, 1)
-    ops.mass(middle, mass, mass, mass * (breadth**2 + height**2) / 12)
-    ops.load(middle, 0.0, -mass * GRAVITY, 0.0)
-
-
-def _rocking_end(ops, middle: int, end: int, breadth: float, height: float, modulus: float) -> None:
-    """Half a column that rocks at `end`; its strength is out of reach."""
-    strength = -4e3 * DENSITY * GRAVITY * height
-    ops.element(
-        "RockingBC", end, middle, end, 15, modulus, 0.0, strength, breadth, 1.0, 0.0,
-        "-convlim", 1e-14, "-useshear", 0, "-blevery", 1, "-useUelNM", 1, "-usecomstiff", 0, "-af", 1.0,
-        "-aflim", 0.4, "-convlimmult", 1.0, "-maxtries", 50, "-NlimN", 0.01, "-NlimT", 1.0, "-Dtlim", SHORTEST,
-        "-errorifNexceeds", 1,
-    )  # fmt: skip
 
 
 def _solver(ops, test: tuple) -> None:

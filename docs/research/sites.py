@@ -1,0 +1,72 @@
+"""Real records by site: what counts as independent, and the structures that are tried under them."""
+
+import re
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from rocking.errors import PulseError
+from rocking.pulses import Pulse, extract_pulses
+from rocking.records import Accelerogram
+from rocking.structures import Arch, Block, Structure, Wall
+
+MOST_COMPONENTS = 2
+"""Of a site that count."""
+
+
+def structures_tried() -> dict[str, Structure]:
+    """Return blocks, walls and arches of p from 0.86 to 4.1 rad/s, from no defect to a forcing that grows by 30 %."""
+    blocks = [(1.0, 0.2), (2.0, 0.12), (2.0, 0.4), (5.0, 0.15), (10.0, 0.1)]
+    walls = [(1.5, 1.5, 0.4), (2.0, 1.0, 0.3)]
+    arches = [(157.5, 0.15), (140.0, 0.15), (150.0, 0.10), (120.0, 0.15)]
+    made: dict[str, Structure] = {f"block R {r:g} m, {a:g} rad": Block(r, a) for r, a in blocks}
+    made |= {f"wall {h:g} + {k:g} m, {t:g} m": Wall(h, k, t) for h, k, t in walls}
+    for degrees, share in arches:
+        made[f"arch {degrees:g}°, t/r {share:g}"] = Arch(10.0, 10.0 * share, np.radians(degrees))
+    made["one-sided block"] = Block.of_size(0.6, 6.0, one_sided=True, restitution=0.5)
+    return made
+
+
+def independent(records: Iterable[tuple[str, Accelerogram]]) -> Iterator[tuple[str, str, Accelerogram]]:
+    """Yield identifier, site and record of the components that count, none under two names.
+
+    A site is an event and a station. Events are alike in the first four letters, stations where the words of one begin
+    with all those of the other: catalogues differ in how much they add. What comes first names the site; a file of
+    another catalogue for the same site, or of a direction that is there already, does not count.
+    """
+    sites: list[tuple[str, list[str], str, set]] = []
+    for name, record in records:
+        named = site_of(record)
+        event = "".join(re.findall(r"[a-z]+", record.event.lower()))[:4]
+        words = re.findall(r"[a-z0-9]+", record.station.lower())
+        place = next(
+            (k for k, site in enumerate(sites) if site[0] == event and _begins(site[1], words)), None
+        )
+        if place is None:
+            place = len(sites)
+            sites.append((event, words, named, set()))
+        _, _, site_name, directions = sites[place]
+        azimuth = record.azimuth
+        direction = name if azimuth is None and not record.component else record.component
+        direction = direction if azimuth is None else round(azimuth) % 180
+        if named == site_name and direction not in directions and len(directions) < MOST_COMPONENTS:
+            directions.add(direction)
+            yield name, site_name, record
+
+
+def site_of(record: Accelerogram) -> str:
+    """Return the event and the station of a record, which name its site."""
+    return f"{record.event}, {record.station}"
+
+
+def dominant_pulse(record: Accelerogram) -> Pulse | None:
+    """Return the dominant sine of a record; None where it has none."""
+    try:
+        return extract_pulses(record).dominant
+    except PulseError:
+        return None
+
+
+def _begins(one: list[str], other: list[str]) -> bool:
+    few = min(len(one), len(other))
+    return few > 0 and one[:few] == other[:few]
