@@ -36,14 +36,10 @@ class TableMotion(Row):
     samples: int = column("Number of samples")
     samples_sha256: str = column("SHA-256 of the acceleration as little-endian float32, g")
 
-    def check(self, samples: np.ndarray) -> None:
-        """Raise RecordError when `samples` (n,) are not those of the catalogue."""
-        sha256 = hashlib.sha256(np.ascontiguousarray(samples, dtype="<f4").tobytes()).hexdigest()
-        if sha256 != self.samples_sha256:
-            raise RecordError(
-                f"test {self.test}: the samples have sha256 {sha256}, but the catalogue says {self.samples_sha256}; "
-                "it is another version."
-            )
+    def holds(self, samples: np.ndarray) -> bool:
+        """Whether `samples` (n,) are those of the catalogue."""
+        content = np.ascontiguousarray(samples, dtype="<f4").tobytes()
+        return hashlib.sha256(content).hexdigest() == self.samples_sha256
 
 
 @dataclass(frozen=True)
@@ -103,12 +99,17 @@ class Campaign:
         elif listed is not None:
             path = download(listed.source_path, REPOSITORY, COMMIT, listed.source_path)
             samples = converted(path.read_bytes(), path.name)
+            if not listed.holds(samples):
+                path.unlink()
         else:
             raise RecordError(
                 f"test {test.number}: no samples in {self.folder / MOTIONS} nor in the catalogue."
             )
-        if listed is not None:
-            listed.check(samples)
+        if listed is not None and not listed.holds(samples):
+            raise RecordError(
+                f"test {test.number}: the samples have another sha256 than {listed.samples_sha256} of the catalogue; "
+                "it is another version."
+            )
         return Accelerogram(
             samples.astype(np.float64) * acceleration_factor("g"),
             test.time_step,

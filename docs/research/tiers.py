@@ -1,6 +1,7 @@
 """The tiers: what a cheap figure says of overturning, fitted to real records and judged by leaving sites out."""
 
 import hashlib
+import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -20,7 +21,7 @@ from rocking.assessment.tiers import Tier, TierFit
 from rocking.motion.batch import integrate_batch
 from rocking.records import Accelerogram
 from rocking.structures import Structure
-from rocking.tables import write_rows
+from rocking.tables import write_rows, write_whole
 
 TIERS = (Tier.PEAK_VELOCITY, Tier.BLOCK_AT_FIVE_SCALES)
 FACTORS = (0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8)
@@ -169,4 +170,5 @@ def write_tiers(
         "cases": len(cases.cases),
         "records_sha256": hashlib.sha256("\n".join(hashes).encode()).hexdigest(),
     }
-    write_fits({tier: cases.fit(tier) for tier in TIERS}, about, folder / "tiers.json")
+    fits = {tier: {k: np.asarray(v).tolist() for k, v in vars(cases.fit(tier)).items()} for tier in TIERS}
+    write_whole(folder / "tiers.json", json.dumps({"about": about, "tiers": fits}, indent=1).encode())

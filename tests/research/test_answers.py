@@ -50,11 +50,11 @@ TRIALS = [
 @pytest.mark.parametrize(
     ("measure", "value"),
     [
-        ("share at rest", 1 / 5),
-        ("share settled by the peak velocity", 1 / 5),
-        ("share settled by the block", 2 / 5),
-        ("members against the verdict where the peak velocity settles", 0.02),
-        ("members against the verdict where the block settles", 0.25),
+        (f"share answered by {Method.NOTHING_TO_INTEGRATE}", 1 / 5),
+        (f"share answered by {Method.PEAK_VELOCITY}", 1 / 5),
+        (f"share answered by {Method.BLOCK_ON_RECORD}", 2 / 5),
+        (f"members against the verdict of {Method.PEAK_VELOCITY}", 0.02),
+        (f"members against the verdict of {Method.BLOCK_ON_RECORD}", 0.25),
         ("wrong verdicts among those settled", 1 / 3),
         ("overturnings called standing among those settled", 1 / 3),
         ("opposite verdict of the ensemble among those settled", 0.0),
@@ -66,7 +66,7 @@ TRIALS = [
 def test_a_measure_counts_what_it_names(measure, value):
     scores = {score.measure: score for score in answer_scores(TRIALS, replicates=20)}
     assert scores[measure].value == pytest.approx(value)
-    assert (scores[measure].trials, scores[measure].sites) == (5, 2)
+    assert (scores[measure].cases, scores[measure].sites) == (5, 2)
 
 
 def test_a_verdict_that_turns_is_counted_once():

@@ -7,12 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from docs.research.comparison import lmgc90, write
+from docs.research.comparison import lmgc90, table
 from docs.research.comparison.cases import PULSES, RECORDS, SAMPLES, pulse_cases, record_cases
 from docs.research.comparison.codes import LMGC90, Answer, inner_codes, landings_of, outer_codes
-from docs.research.comparison.report import comparison_data
 from docs.research.comparison.runs import Run, answer_of, limit_of
-from docs.research.comparison.write import SAMPLED, code_rows, missed, slow_cases
+from docs.research.comparison.table import SAMPLED, code_rows, missed, report_data, slow_cases
 from docs.research.reference import event_landings, reference_landings
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram
@@ -92,8 +91,8 @@ def test_this_package_has_the_reference_s_answer(block_case):
         assert row.verdict_agrees
         assert row.error <= 3 * tolerance
         assert row.missed_impacts == 0
-    table = comparison_data([reference, *rows])["table"]
-    assert [line[2] for line in table["rows"]] == ["1"] * 4
+    work = report_data([reference, *rows])["parts"][1]
+    assert [line[2] for line in work["rows"]] == ["1"] * 4
 
 
 def test_the_base_of_lmgc90_moves_as_the_accelerogram():
@@ -146,15 +145,10 @@ def test_the_slow_codes_get_a_drawn_few_of_the_cases_that_rock():
 def test_what_solves_another_model_has_no_error(block_case):
     """Its rotation stands beside the reference and beside ours with its own restitution, in a table of its own."""
     answer = Answer(0.3, 1.0, 0.01, landings=np.empty(0), restitution=0.5)
-    row = write._row(replace(block_case, structure="arch"), LMGC90, answer, 0.4, np.array([1.0]))
+    row = table._row(replace(block_case, structure="arch"), LMGC90, answer, 0.4, np.array([1.0]))
     assert row.another_model
     assert math.isnan(row.error)
     assert row.missed_impacts is None
     side = replace(block_case.mechanism.positive, restitution=0.5)
     expected = integrate(Mechanism(side), block_case.motion, 1e-9).rotation_ratio
     assert row.same_restitution_rotation_ratio == pytest.approx(expected, rel=1e-5)
-    data = comparison_data([row])
-    assert data["table"]["rows"] == []
-    assert data["slow"]["rows"] == []
-    assert len(data["another"]["rows"]) == 1
-    assert data["another"]["rows"][0][3] == "0.750"

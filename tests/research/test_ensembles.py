@@ -41,10 +41,10 @@ TRIAL = EnsembleTrial(
     scale_factor=1.0,
     verdict=Verdict.UNDECIDED,
     members=64,
-    probability=0.5,
-    probability_64=0.5,
-    probability_256=0.5,
-    probability_drawn=0.5,
+    share=0.5,
+    share_64=0.5,
+    share_256=0.5,
+    share_drawn=0.5,
     draws=4000,
     inside_band=0.9,
 )
@@ -61,24 +61,22 @@ def test_trials_are_the_same_at_every_call_and_scatter_about_the_draws():
     assert len(trials) == 3 * len(RECORDS) and {trial.draws for trial in trials} == {400}
     for trial in trials:
         spread = 4 * math.sqrt(0.25 / 400)
-        assert abs(trial.probability_256 - trial.probability_drawn) < spread, (
-            "four standard errors of the draws"
-        )
+        assert abs(trial.share_256 - trial.share_drawn) < spread, "four standard errors of the draws"
 
 
 def test_each_measure_counts_what_it_names():
-    wrong = replace(TRIAL, probability_64=0.6, probability_256=0.54, site="t")
-    sure = replace(TRIAL, verdict=Verdict.STANDS, probability=0.0, probability_drawn=0.09, site="u")
+    wrong = replace(TRIAL, share_64=0.6, share_256=0.54, site="t")
+    sure = replace(TRIAL, verdict=Verdict.STANDS, share=0.0, share_drawn=0.09, site="u")
     found = _measured([TRIAL, wrong, sure])
-    assert found["share within 0.07 with 64 members"] == pytest.approx(1 / 3)
-    assert found["share within 0.035 with 256 members"] == pytest.approx(1 / 3)
-    assert found["share of verdicts beyond their risk by more than 0.03"] == 1
+    assert found["share within 0.07 with 64 members (0.95 is asked)"] == pytest.approx(1 / 3)
+    assert found["share within 0.035 with 256 members (0.95 is asked)"] == pytest.approx(1 / 3)
+    assert found["share of verdicts beyond their risk by more than 0.03 (0 is asked)"] == 1
     assert found["share of cases decided"] == pytest.approx(1 / 3)
     assert found["Brier score"] == pytest.approx((0.25 + 0.25 + 0.09 * 0.91 + 0.09**2) / 3)
 
 
 def test_halves_are_kept_apart_and_the_tables_can_be_read(tmp_path):
-    halves = {row.half for row in ensemble_accuracy([TRIAL, replace(TRIAL, half=LEFT_OUT)], replicates=5)}
+    halves = {row.part for row in ensemble_accuracy([TRIAL, replace(TRIAL, half=LEFT_OUT)], replicates=5)}
     assert halves == {CHOSEN, LEFT_OUT}
     write_ensemble_accuracy(RECORDS[:1], [], STRUCTURES, tmp_path)
     (*trials,) = read_rows(EnsembleTrial, tmp_path / "ensemble_trials.csv")

@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import minimize
 
 from docs.research import mixture
-from docs.research.mixture import equal_members, fit_mixture, with_unexplained
+from docs.research.mixture import fit_mixture, with_unexplained
 
 
 def test_one_candidate_that_falls_and_one_that_stands_share_the_tests():
@@ -57,24 +57,6 @@ def test_scattered_outcomes_ask_for_fewer_steps_than_clear_ones():
     assert clear.log_score > chance.log_score
 
 
-def test_a_single_group_takes_the_middle_settings():
-    table = np.eye(6, dtype=bool)
-    found = fit_mixture(table, np.ones(6, bool), ["one"] * 6)
-    assert found.iterations == mixture.ITERATIONS[2]
-    assert found.unexplained == mixture.UNEXPLAINED[1]
-
-
-def test_members_stand_for_the_weighted_population():
-    draw = np.random.default_rng(7)
-    table = draw.random((80, 1)) * 1.4 - 0.2 > draw.random((1, 200)) * np.ones((80, 1))
-    weights = draw.random(200) ** 6
-    weights /= weights.sum()
-    members = equal_members(table, weights, 24)
-    error = np.abs(table[:, members].mean(axis=1) - table @ weights)
-    assert members.size == 24
-    assert error.max() < 0.04
-
-
 def test_probability_follows_from_the_weights():
     found = mixture.Mixture(np.array([0.25, 0.75]), 0.1, 10, 1.0, -0.1)
     table = np.array([[True, False], [True, True], [False, False]])
@@ -83,9 +65,10 @@ def test_probability_follows_from_the_weights():
 
 def test_sharpness_multiplies_the_log_odds():
     found = mixture.Mixture(np.array([0.25, 0.75]), 0.1, 10, 2.0, -0.1)
-    share = np.array([0.0, 0.25, 0.5, 1.0])
+    share = np.array([0.0, 0.25, 0.75, 1.0])
     odds = with_unexplained(share, 0.1) / (1 - with_unexplained(share, 0.1))
-    assert found.of_share(share) == pytest.approx(odds**2 / (1 + odds**2))
+    table = np.array([[False, False], [True, False], [False, True], [True, True]])
+    assert found.probability(table) == pytest.approx(odds**2 / (1 + odds**2))
 
 
 def test_probabilities_that_are_too_careful_are_sharpened_and_bold_ones_blunted():

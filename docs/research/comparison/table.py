@@ -210,13 +210,13 @@ def report_data(rows: Sequence[CodeRow]) -> dict[str, object]:
 
 
 _WORK = (
-    "Errors of the largest rotation where both rock. Impacts missed: of those of the reference under moving ground, faster "
-    "than p φ_cr/1000, how many have none of the code within 0.02/p."
+    "Errors of the largest rotation where both rock. Impacts missed: of those of the reference under moving ground, "
+    "faster than p φ_cr/1000, how many have none of the code within 0.02/p."
 )
 _OTHERS = (
-    "LMGC90 follows rigid bodies with inelastic shocks and dry friction; its arch is another model: hinges open where they "
-    "like, so a difference is no error of either. RockingBC is deformable and loses by damping. Each is run at three "
-    "settings, halved each time, and extrapolated, on a sample of the cases that rock, drawn with a stated seed."
+    "LMGC90 follows rigid bodies with inelastic shocks and dry friction; its arch is another model: hinges open where "
+    "they like, so a difference is no error of either. RockingBC is deformable and loses by damping. Each is run at "
+    "three settings, halved each time, and extrapolated, on a sample of the cases that rock, drawn with a stated seed."
 )
 
 
