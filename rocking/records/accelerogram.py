@@ -59,6 +59,8 @@ class Accelerogram:
     warnings: tuple[str, ...] = ()
     high_pass_frequency: float | None = None
     network: str = ""
+    location: str = ""
+    """Code that tells apart the instruments of one station, if the file has one."""
     start_time: str = ""
     """ISO 8601 UTC time of the first sample, if the file says it."""
     azimuth: float | None = None

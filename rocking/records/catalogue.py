@@ -1,33 +1,194 @@
-"""Catalogue: the list of records a run uses, checked as a whole before the first file is opened."""
+"""Catalogue: the list of records a study uses, one row for each station, checked before the first file is opened."""
 
 import csv
+import re
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Iterator
-from dataclasses import replace
-from pathlib import Path
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import MISSING, dataclass
+from io import StringIO
+from pathlib import Path, PurePosixPath
 from typing import Any
 
-from rocking.errors import CatalogueError, RecordError, RockingError, about
-from rocking.records.accelerogram import Accelerogram
-from rocking.records.catalogue_record import COLUMNS, CatalogueRecord
-from rocking.records.fetch import fetch, inventory_of
+from rocking.described import described, described_values
+from rocking.errors import CatalogueError, RockingError
+from rocking.quantities import acceleration_factor
+from rocking.records.formats.format import plain
 from rocking.records.formats.text import is_number
-from rocking.records.instrument import azimuth, is_vertical
-from rocking.records.plausibility import scaled
-from rocking.records.read import is_unnamed, plain, read
+from rocking.tables import read_whole
 
-_REQUIRED = ("id", "file")
+_OBSPY = "obspy:"
+_ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
+_RESERVED = re.compile(
+    r"(con|prn|aux|nul|(com|lpt)\d|summary|datapackage|paper|calibration|documentation|fragility|validation|comparison)"
+    r"(\..*)?",
+    re.I,
+)
+_HASH = re.compile(r"[0-9a-f]{64}")
+_REPOSITORY = re.compile(r"(?!\.+/)[\w.-]+/(?!\.+$)[\w.-]+", re.ASCII)
 _PROSE = ("event", "station", "licence", "note")
-_NUMBERS = {
-    "time_step_s": "time_step",
-    "scale_factor": "scale_factor",
-    "high_pass_hz": "high_pass_frequency",
-    "magnitude": "magnitude",
-    "epicentral_distance_km": "epicentral_distance",
-}
-"""Columns of numbers, which may be blank, and the fields that hold them."""
 _LARGEST = 16 * 2**20
 """Bytes of a catalogue: a hundred thousand rows."""
+
+
+@dataclass(frozen=True)
+class RecordFile:
+    """One file of a record: its name in the catalogue, its sha256 and its path in the source, "" if unknown."""
+
+    name: str
+    sha256: str = ""
+    source_path: str = ""
+
+
+@dataclass(frozen=True)
+class CatalogueRecord:
+    """One row: what a station recorded, where it is, what its files do not say, and what must be true of them.
+
+    Each field but `folder`, that of the catalogue, is a column. Raises CatalogueError with every defect of the row.
+
+    >>> CatalogueRecord("KOBE_TAK", "TAK000.AT2;TAK090.AT2").files[1].name
+    'TAK090.AT2'
+    """
+
+    id: str = described(
+        MISSING, "name of the record in every result: letters, digits, `.`, `_`, `-`; at most 80"
+    )
+    file: str = described(
+        MISSING,
+        "path beside the catalogue or in the mirror, or `obspy:NAME` for a file that obspy installs; the files of one "
+        "station, the vertical component among them, are separated by `;`",
+    )
+    sha256: str = described(
+        "",
+        "of each file as it lies on disk, in the order of `file`; a blank one is filled in when a study first reads "
+        "the file, and checked from then on",
+    )
+    source_repository: str = described("", "where on GitHub the files are fetched from, as owner/name")
+    source_path: str = described("", "of each file in that repository, in the order of `file`")
+    source_commit: str = described("", "of that repository, 40 hexadecimal digits")
+    component: str = described(
+        "",
+        "channels to use, separated by `;` (empty: every horizontal one at the surface); names the channels of files "
+        "that leave them unnamed, in the order of `file`",
+    )
+    vertical_component: str = described(
+        "", "the vertical channel, where the file's own name for it does not say so"
+    )
+    unit: str = described(
+        "", "of the samples, where the file is silent; a contradiction with the file is an error"
+    )
+    time_step: float | None = described(None, "of the samples, where the file is silent", "s", gt=0)
+    scale_factor: float = described(1.0, "multiplies the acceleration")
+    event: str = described("", "the earthquake, for the reader")
+    station: str = described("", "the station, for the reader")
+    licence: str = described("", "under which the files may be used, for the reader")
+    inventory: str = described("", "StationXML of a miniSEED file, a path like `file`")
+    high_pass: float | None = described(
+        None, "corner of a high-pass that was applied, if the file does not say it", "Hz", gt=0
+    )
+    magnitude: float | None = described(
+        None, "of the earthquake, where the file is silent or errs", ge=-2, le=10
+    )
+    epicentral_distance: float | None = described(
+        None, "distance from the epicentre, where the file is silent or errs", "km", ge=0, le=20_100
+    )
+    note: str = described("", "anything else, for the reader")
+    folder: Path = Path()
+
+    def __post_init__(self) -> None:
+        if defects := list(_defects(self)):
+            raise CatalogueError(" ".join(defects))
+
+    @property
+    def is_remote(self) -> bool:
+        """Whether the files can be fetched from their source repository."""
+        return bool(self.source_repository)
+
+    @property
+    def example_name(self) -> str | None:
+        """NAME of "obspy:NAME", else None."""
+        return self.file.removeprefix(_OBSPY) if self.file.startswith(_OBSPY) else None
+
+    @property
+    def files(self) -> tuple[RecordFile, ...]:
+        """The files of the station."""
+        names = _parts(self.file)
+        blank = ("",) * len(names)
+        paths = _parts(self.source_path) or blank
+        return tuple(map(RecordFile, names, _parts(self.sha256) or blank, paths))
+
+    @property
+    def components(self) -> tuple[str, ...]:
+        """The channels asked for by name."""
+        return tuple(filter(None, _parts(self.component)))
+
+
+COLUMNS = tuple(each.key for each in described_values(CatalogueRecord).values())
+"""Columns of a catalogue. Required: id and file; sha256 and the source columns for files that are fetched."""
+
+
+def _parts(cell: str) -> tuple[str, ...]:
+    return tuple(part.strip() for part in cell.split(";")) if cell.strip(" ;") else ()
+
+
+def _defects(record: CatalogueRecord) -> Iterator[str]:
+    for name, each in described_values(CatalogueRecord).items():
+        if each.kind is str and isinstance(getattr(record, name), str):
+            continue
+        try:
+            object.__setattr__(record, name, each.checked(getattr(record, name)))
+        except ValueError as error:
+            yield f"{each.key} is {error}"
+    if not is_safe_id(record.id):
+        allowed = "a safe file name: letters, digits, . _ -, at most 80, not a reserved name"
+        yield f"id is {record.id!r}, but must be {allowed}."
+    names = _parts(record.file)
+    if not names:
+        yield "file is missing; give a path beside the catalogue or obspy:NAME."
+    for name, value in [
+        *(("file", part) for part in names),
+        *(("inventory", x) for x in [record.inventory] if x),
+    ]:
+        if not stays_inside(value.removeprefix(_OBSPY)):
+            yield f"{name} is {value!r}, but must be a relative path without '..'."
+    hashes = _parts(record.sha256)
+    for value in filter(None, hashes):
+        if not _HASH.fullmatch(value):
+            yield f"sha256 is {value!r}, but must be 64 hexadecimal digits in lower case, or blank to be filled in."
+    if hashes and len(hashes) != len(names):
+        yield f"sha256 holds {len(hashes)} hashes for {len(names)} files; give one for each, separated by ';'."
+    if record.is_remote and not (hashes and all(hashes)):
+        yield "sha256 is missing; a file that is fetched needs it."
+    if any((record.source_repository, record.source_path, record.source_commit)):
+        yield from _source_defects(record, len(names))
+    if record.scale_factor == 0:
+        yield "scale_factor is 0, but must not be; leave the row out instead."
+    if record.unit:
+        try:
+            acceleration_factor(record.unit)
+        except RockingError as error:
+            yield str(error)
+
+
+def _source_defects(record: CatalogueRecord, files: int) -> Iterator[str]:
+    if not _REPOSITORY.fullmatch(record.source_repository):
+        yield f"source_repository is {record.source_repository!r}, but must be owner/name."
+    paths = _parts(record.source_path)
+    if len(paths) != files or not all(map(stays_inside, paths)):
+        yield f"source_path is {record.source_path!r}, but must be a relative path without '..' for each file."
+    if not re.fullmatch(r"[0-9a-f]{40}", record.source_commit):
+        yield f"source_commit is {record.source_commit!r}, but must be 40 hexadecimal digits."
+
+
+def is_safe_id(text: str) -> bool:
+    """Whether `text` can name a record: a file name that every system allows, and no name of a file of results."""
+    return bool(_ID.fullmatch(text)) and not text.endswith(".") and not _RESERVED.fullmatch(text)
+
+
+def stays_inside(path: str) -> bool:
+    """Whether `path` is relative, plain, and never leads out of the folder it starts from."""
+    parts = PurePosixPath(path).parts
+    is_plain = not re.search(r"[\\:;\x00-\x1f]", path)
+    return bool(parts) and is_plain and not path.startswith("/") and ".." not in parts
 
 
 def load_catalogue(path: str | Path, mirror: str | Path | None = None) -> tuple[CatalogueRecord, ...]:
@@ -37,102 +198,52 @@ def load_catalogue(path: str | Path, mirror: str | Path | None = None) -> tuple[
     Raises CatalogueError with every defect of the file in one message.
     """
     path = Path(path)
-    rows = _rows(path)
-    records, defects = [], []
+    rows = read_rows(path)
+    records: list[CatalogueRecord] = []
+    defects: list[str] = []
     for line, row in rows:
         try:
             records.append(_record(row, path.parent))
         except RockingError as error:
             defects.append(f"line {line} ({row.get('id') or 'no id'}): {error}")
-    defects += _duplicates(row.get("id", "") for _, row in rows)
-    if mirror is not None:
-        defects += [d for record in records for d in _absent(record, Path(mirror))]
+    counts = Counter(row.get("id", "").strip().lower() for _, row in rows)
+    defects += [
+        f"id {name!r} stands {n} times (upper and lower case count as one)"
+        for name, n in counts.items()
+        if n > 1 and name
+    ]
+    for record in records if mirror is not None else ():
+        for file in record.files:
+            places = [Path(folder) / file.name for folder in (mirror, record.folder) if folder is not None]
+            if not (record.example_name or record.is_remote or any(place.is_file() for place in places)):
+                defects.append(
+                    f"{record.id}: file {file.name!r} is neither in {mirror} nor in {record.folder}."
+                )
     if defects:
         raise CatalogueError(f"{path.name} has {len(defects)} defects: " + " | ".join(defects))
     return tuple(records)
 
 
-def open_record(
-    record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None
-) -> list[Accelerogram]:
-    """Return the accelerograms of `record`: the components it names, else every horizontal one at the surface.
-
-    scale_factor, station, event and high_pass_frequency of the row are applied.
-    Raises RecordError naming record and file.
-    """
-    return horizontal_of(channels_of(record, mirror, cache), record)
-
-
-def open_records(
-    records: Collection[CatalogueRecord], mirror: str | Path | None, tell: Callable[[str], object]
-) -> Iterator[tuple[str, Accelerogram]]:
-    """Yield identifier and accelerogram of every component of `records`. tell: takes a line for each record."""
-    for count, record in enumerate(records, start=1):
-        tell(f"{count} of {len(records)}: {record.id}")
-        for accelerogram in open_record(record, mirror=mirror):
-            yield record.id, accelerogram
-
-
-def horizontal_of(channels: list[Accelerogram], record: CatalogueRecord) -> list[Accelerogram]:
-    """Return the channels that open_record returns, from all `channels` of the record's file."""
-    with about(f"{record.id} ({record.file})"):
-        return [as_declared(channel, record) for channel in _selected(channels, record)]
-
-
-def channels_of(
-    record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None
-) -> list[Accelerogram]:
-    """Return every channel of the record's file as it was read. Raises RecordError naming record and file."""
-    path = fetch(record, mirror, cache)
-    with about(record.id):  # the reader names the file
-        channels = read(
-            path, unit=record.unit or None, time_step=record.time_step, inventory=inventory_of(record, mirror)
-        )
-        if record.sha256 and channels[0].source.sha256 != record.sha256:
-            raise RecordError(f"{path.name}: the file changed while it was read.")
-        return channels
-
-
-def vertical_of(channels: list[Accelerogram], record: CatalogueRecord) -> Accelerogram | None:
-    """Return the vertical channel among `channels`: the one the row names, else the first that says it is."""
-    named = [c for c in channels if c.component == record.vertical_component]
-    spoken = [c for c in channels if c.vertical and not c.borehole]
-    return next(iter(named if record.vertical_component else spoken), None)
-
-
-def open_vertical(
-    record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None
-) -> Accelerogram | None:
-    """Return the vertical accelerogram of `record`, scaled as the row says; None where there is none.
-
-    It comes from the row's vertical_file, which lies beside the catalogue or in the mirror, else from the file itself.
-    Raises RecordError naming record and file.
-    """
-    other = record.of_vertical
-    channels = channels_of(other, mirror, cache)
-    found = vertical_of(channels, other)
-    if found is None and record.vertical_file:
-        if len(channels) > 1:
-            raise RecordError(
-                f"{record.id} ({other.file}): no channel says that it is vertical; name it in vertical_component."
-            )
-        found = channels[0]
-    return None if found is None else as_declared(found, record)
-
-
-def _rows(path: Path) -> list[tuple[int, dict[str, str]]]:
+def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
+    """Return line and cells of each row of the catalogue at `path`. Raises CatalogueError for what is no catalogue."""
+    content = read_whole(path, _LARGEST, CatalogueError)
     try:
-        if path.stat().st_size > _LARGEST:
-            raise CatalogueError(f"{path}: the file is larger than {_LARGEST} bytes, which no catalogue is.")
-        with path.open(encoding="utf-8-sig", newline="") as stream:
-            reader = csv.DictReader(stream, restkey="", restval="", strict=True)
-            rows = [(reader.line_num, row) for row in reader]
-            names = list(reader.fieldnames or ())
-    except (OSError, ValueError, csv.Error) as error:
+        reader = csv.DictReader(
+            StringIO(content.decode("utf-8-sig"), newline=""), restkey="", restval="", strict=True
+        )
+        rows = [(reader.line_num, row) for row in reader]
+        names = list(reader.fieldnames or ())
+    except (ValueError, csv.Error) as error:
         raise CatalogueError(f"{path}: the catalogue cannot be read as UTF-8 CSV, {error}.") from None
-    defects = [f"column {name!r} is not known" for name in names if name not in COLUMNS]
+    defects = [
+        f"column {name!r} is gone; name the file of the vertical component in file, behind a ';'"
+        if name in ("vertical_file", "vertical_sha256")
+        else f"column {name!r} is not known"
+        for name in names
+        if name not in COLUMNS
+    ]
     defects += [f"column {name!r} stands {n} times" for name, n in Counter(names).items() if n > 1]
-    defects += [f"column {name!r} is missing" for name in _REQUIRED if name not in names]
+    defects += [f"column {name!r} is missing" for name in ("id", "file") if name not in names]
     defects += [f"line {line} has more cells than there are columns" for line, row in rows if row.get("")]
     if defects:
         raise CatalogueError(f"{path.name}: {'; '.join(defects)}; the columns are {', '.join(COLUMNS)}.")
@@ -141,80 +252,45 @@ def _rows(path: Path) -> list[tuple[int, dict[str, str]]]:
     return rows
 
 
-def _record(row: dict[str, str], folder: Path) -> CatalogueRecord:
-    cells: dict[str, Any] = {name: (value or "").strip() for name, value in row.items() if name}
-    cells |= {name: plain(cells[name]) for name in _PROSE if name in cells}
-    for column, field in _NUMBERS.items():
-        if cell := cells.pop(column, ""):
-            cells[field] = _number(cell, column)
-    if "epicentral_distance" in cells:
-        cells["epicentral_distance"] *= 1000
-    return CatalogueRecord(**cells, folder=folder)
+def _record(row: Mapping[str, str], folder: Path) -> CatalogueRecord:
+    values: dict[str, Any] = {}
+    for name, each in described_values(CatalogueRecord).items():
+        cell = (row.get(each.key) or "").strip()
+        if not cell and each.default is not MISSING:
+            continue
+        values[name] = plain(cell) if name in _PROSE else cell
+        if each.kind is not str:
+            if not is_number(cell):
+                raise CatalogueError(f"{each.key} is {cell!r}, but must be a number.")
+            values[name] = float(cell)
+    return CatalogueRecord(**values, folder=folder)
 
 
-def _number(cell: str, column: str) -> float:
-    if not is_number(cell):
-        raise CatalogueError(f"{column} is {cell!r}, but must be a number.")
-    return float(cell)
+def catalogue_text(rows: Iterable[Mapping[str, str]], columns: Sequence[str] = COLUMNS) -> str:
+    """Return `rows` as the text of a catalogue."""
+    text = StringIO(newline="")
+    writer = csv.DictWriter(text, columns, restval="", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
 
 
-def _duplicates(ids: Iterable[str]) -> list[str]:
-    counts = Counter(name.strip().lower() for name in ids)
-    return [
-        f"id {name!r} stands {n} times (upper and lower case count as one)"
-        for name, n in counts.items()
-        if n > 1 and name
-    ]
-
-
-def _absent(record: CatalogueRecord, mirror: Path) -> Iterable[str]:
-    here = record.example_name or record.is_remote
-    if not here and not any((folder / record.file).is_file() for folder in (mirror, record.folder)):
-        yield f"{record.id}: file {record.file!r} is neither in {mirror} nor in {record.folder}."
-
-
-def _selected(channels: list[Accelerogram], record: CatalogueRecord) -> list[Accelerogram]:
-    held = ", ".join(c.component or "(unnamed)" for c in channels)
-    if len(channels) == len(record.components) == 1 and is_unnamed(channels[0]):
-        return [_named(channels[0], record.component.strip())]
-    if record.components:
-        missing = [name for name in record.components if name not in {c.component for c in channels}]
-        if missing:
-            raise RecordError(f"component is {missing[0]!r}, but the file holds {held}.")
-        return [_asked_for(next(c for c in channels if c.component == name)) for name in record.components]
-    vertical = vertical_of(channels, record)
-    chosen = [c for c in channels if c is not vertical and not c.vertical and not c.borehole]
-    if not chosen:
-        raise RecordError(
-            f"the file holds no horizontal component at the surface, only {held}; name a component."
-        )
-    return chosen
-
-
-def _asked_for(channel: Accelerogram) -> Accelerogram:
-    """Return a channel that the catalogue names, with a warning when it is vertical: it will shake sideways."""
-    if not channel.vertical:
-        return channel
-    sentence = f"Component {channel.component} is vertical, but the catalogue takes it as horizontal."
-    return replace(channel, warnings=(*channel.warnings, sentence))
-
-
-def _named(channel: Accelerogram, component: str) -> Accelerogram:
-    """Return a channel that its file leaves unnamed under the name that the catalogue gives it."""
-    return replace(channel, component=component, azimuth=azimuth(component), vertical=is_vertical(component))
-
-
-def as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
-    """Return a channel with what its row says of name, scale, station, event, corner, magnitude and distance."""
-    channel = scaled(channel, record.scale_factor) if record.scale_factor != 1 else channel
-    return replace(
-        channel,
-        source=replace(channel.source, path=record.file),
-        station=record.station or channel.station,
-        event=record.event or channel.event,
-        high_pass_frequency=record.high_pass_frequency or channel.high_pass_frequency,
-        magnitude=channel.magnitude if record.magnitude is None else record.magnitude,
-        epicentral_distance=(
-            channel.epicentral_distance if record.epicentral_distance is None else record.epicentral_distance
-        ),
-    )
+def repeated(records: Iterable[CatalogueRecord]) -> tuple[str, ...]:
+    """Return a sentence for each record that is an earlier one again: one content and scale, a component in common."""
+    sentences: list[str] = []
+    earlier: dict[tuple[str, float], list[CatalogueRecord]] = {}
+    for record in records:
+        for file in record.files:
+            if not file.sha256:
+                continue
+            same = earlier.setdefault((file.sha256, record.scale_factor), [])
+            for other in same:
+                chosen = set(other.components), set(record.components)  # of which none names all
+                if not all(chosen) or chosen[0] & chosen[1]:
+                    sentences.append(
+                        f"{record.id} ({file.name}): its content is that of {other.id} ({other.file}), "
+                        "so that one motion counts twice; leave one of them out."
+                    )
+                    break
+            same.append(record)
+    return tuple(sentences)

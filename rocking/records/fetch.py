@@ -1,14 +1,16 @@
-"""Fetch: the file of a catalogue row, from mirror, catalogue folder, obspy or network, its hash checked."""
+"""Fetch: the files of a catalogue row, from mirror, catalogue folder, obspy or network."""
 
 import time
 import urllib.request
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from urllib.parse import quote
 
 from rocking.errors import RecordError, about
-from rocking.records.catalogue_record import CatalogueRecord
+from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
 from rocking.records.read import LARGEST_FILE, hash_of
+from rocking.tables import write_whole
 
 _RETRIES = 3
 _PIECE = 2**16
@@ -17,26 +19,31 @@ LONGEST_DOWNLOAD, _SILENCE = 300.0, 30.0
 _RAW = "https://raw.githubusercontent.com/{repository}/{commit}/{path}"
 
 
-def fetch(record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None) -> Path:
-    """Return the path of the record's file after checking its sha256.
+def path_of(
+    record: CatalogueRecord,
+    file: RecordFile,
+    mirror: str | Path | None = None,
+    cache: str | Path | None = None,
+) -> Path:
+    """Return where `file` of the record lies, downloaded if need be.
 
     mirror: a folder that is looked into first. cache: where downloads are kept (default: the user's cache folder).
-    Raises RecordError naming the record and the file when it cannot be had or its hash differs.
+    Raises RecordError naming the file when it cannot be had.
     """
-    with about(record.id):
-        named = record.example_name is not None
-        path = _example(record) if named else _beside(record, record.file, mirror)
-        if path is None and record.is_remote:
-            source = record.source_repository, record.source_commit, record.source_path
-            path = download(record.file, *source, sha256=record.sha256, cache=cache)
-        if path is None:
-            places = " or ".join(str(folder) for folder in (mirror, record.folder) if folder)
-            raise RecordError(f"file {record.file!r} is not in {places}; mend the catalogue or add the file.")
-        if record.sha256 and (found := hash_of(path)) != record.sha256:
-            raise RecordError(
-                f"file {path} has sha256 {found}, but the catalogue says {record.sha256}; it is another version."
-            )
+    if record.example_name is not None:
+        from obspy.core.util.base import get_example_file  # which takes a second to import
+
+        try:
+            return Path(get_example_file(record.example_name))
+        except (OSError, ValueError):
+            raise RecordError(f"obspy installs no example file {record.example_name!r}.") from None
+    if path := _beside(record, file.name, mirror):
         return path
+    if record.is_remote:
+        source = record.source_repository, record.source_commit, file.source_path
+        return download(file.name, *source, sha256=file.sha256, cache=cache)
+    places = " or ".join(str(folder) for folder in (mirror, record.folder) if folder)
+    raise RecordError(f"file {file.name!r} is not in {places}; mend the catalogue or add the file.")
 
 
 def inventory_of(record: CatalogueRecord, mirror: str | Path | None = None) -> Path | None:
@@ -49,22 +56,19 @@ def inventory_of(record: CatalogueRecord, mirror: str | Path | None = None) -> P
         raise RecordError(f"inventory {record.inventory!r} is not there; mend the catalogue or add the file.")
 
 
-def local_files(
-    record: CatalogueRecord, mirror: str | Path | None = None, vertical: bool = False
-) -> list[Path]:
+def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> list[Path]:
     """Return the files on this machine that opening `record` would read; none that leads out of its folder.
 
-    Its own file, that of its vertical component where `vertical`, and the StationXML it names; for a miniSEED file that
-    names none and declares no unit, every XML file beside it, among which the reader looks.
+    Its own files and the StationXML it names; for a miniSEED file that names none and declares no unit, every XML file
+    beside it, among which the reader looks.
     """
-    own = [] if record.example_name else [record.file]
-    named = [*own, record.inventory, *([record.vertical_file] if vertical else [])]
-    found = []
-    for file in filter(None, named):
+    own = [] if record.example_name else [file.name for file in record.files]
+    paths = []
+    for name in filter(None, [*own, record.inventory]):
         with suppress(RecordError):
-            found += [path] if (path := _beside(record, file, mirror)) else []
-    sought = [] if record.inventory or record.unit else [path for path in found if _may_hold_counts(path)]
-    return [*found, *(xml for path in sought for xml in sorted(path.parent.glob("*.xml")))]
+            paths += [path] if (path := _beside(record, name, mirror)) else []
+    sought = [] if record.inventory or record.unit else [path for path in paths if _may_hold_counts(path)]
+    return [*paths, *(xml for path in sought for xml in sorted(path.parent.glob("*.xml")))]
 
 
 def _may_hold_counts(path: Path) -> bool:
@@ -88,23 +92,14 @@ def _beside(record: CatalogueRecord, file: str, mirror: str | Path | None) -> Pa
     return None
 
 
-def _example(record: CatalogueRecord) -> Path:
-    from obspy.core.util.base import get_example_file
-
-    try:
-        return Path(get_example_file(record.example_name))
-    except (OSError, ValueError):
-        raise RecordError(f"obspy installs no example file {record.example_name!r}.") from None
-
-
 def download(
-    file: str, repository: str, commit: str, path: str, *, sha256: str = "", cache: str | Path | None = None
+    file: str, repository: str, commit: str, path: str, *, sha256: str, cache: str | Path | None = None
 ) -> Path:
-    """Return where the cache keeps `path` of a GitHub repository, downloaded if need be, its sha256 checked if given.
+    """Return where the cache keeps `path` of a GitHub repository, downloaded if need be, its sha256 checked.
 
     Raises RecordError naming `file` when it cannot be had.
     """
-    import pooch
+    import pooch  # which only a download needs
 
     name = f"{(sha256 or commit)[:16]}-{Path(path).name}"
     address = _RAW.format(repository=repository, commit=commit, path=quote(path, safe="/"))
@@ -122,6 +117,15 @@ def download(
         ) from error
 
 
+class _Direct(urllib.request.HTTPRedirectHandler):
+    """Follow a redirect to https only: what comes over http may have been changed on the way."""
+
+    def redirect_request(self, req, fp, code, msg, headers, newurl):
+        if not newurl.startswith("https://"):
+            raise RecordError(f"the server redirects to {newurl[:100]}, which is not https")
+        return super().redirect_request(req, fp, code, msg, headers, newurl)
+
+
 class _Downloader:
     """Download for pooch, within a size that a record can have and a time, both for all tries together."""
 
@@ -130,10 +134,8 @@ class _Downloader:
 
     def __call__(self, address: str, target: str, _: object) -> None:
         request = urllib.request.Request(address, headers={"User-Agent": "rocking"})
-        with (
-            urllib.request.urlopen(request, timeout=self._left()) as answer,
-            Path(target).open("wb") as stream,
-        ):
+        opener = urllib.request.build_opener(_Direct)
+        with opener.open(request, timeout=self._left()) as answer, Path(target).open("wb") as stream:
             size = 0
             while piece := answer.read1(_PIECE):
                 size += len(piece)
@@ -149,3 +151,37 @@ class _Downloader:
         if left <= 0:
             raise RecordError(f"the download took more than {LONGEST_DOWNLOAD:g} s")
         return min(left, _SILENCE)
+
+
+def fill_hashes(path: str | Path, mirror: str | Path | None = None) -> tuple[str, ...]:
+    """Write the sha256 of each file into the rows of the catalogue at `path` that leave it blank; return their ids.
+
+    A file that is not there stays blank: opening it says so. The other cells stay as they are, and nothing is written
+    when nothing is to be filled. Raises CatalogueError for a catalogue with defects.
+    """
+    path = Path(path)
+    cells = {
+        record.id: with_hashes.sha256
+        for record in load_catalogue(path)
+        if (with_hashes := filled(record, mirror)) != record
+    }
+    if not cells:
+        return ()
+    rows = [row for _, row in read_rows(path)]
+    names = [*rows[0], *([] if "sha256" in rows[0] else ["sha256"])]
+    given = ({"sha256": cells[name]} if (name := row["id"].strip()) in cells else {} for row in rows)
+    text = catalogue_text((row | cell for row, cell in zip(rows, given, strict=True)), names)
+    write_whole(path, text.encode())
+    return tuple(cells)
+
+
+def filled(record: CatalogueRecord, mirror: str | Path | None = None) -> CatalogueRecord:
+    """Return `record` as it stands in the catalogue once fill_hashes has been there."""
+    hashes = []
+    for file in record.files:
+        sha256 = file.sha256
+        if not sha256:
+            with suppress(RecordError):
+                sha256 = hash_of(path_of(record, file, mirror))
+        hashes.append(sha256)
+    return replace(record, sha256=";".join(hashes)) if any(hashes) else record

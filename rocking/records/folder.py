@@ -1,18 +1,19 @@
-"""A catalogue from a folder of files: each is listed with what was read and what is doubtful, and may get a row."""
+"""A catalogue from a folder of files: each is listed with what was read, and those of one station share a row."""
 
-import csv
 import re
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
-from io import StringIO
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, fields
+from datetime import datetime
 from pathlib import Path
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.catalogue_record import COLUMNS, is_safe_id, stays_inside
+from rocking.records.catalogue import is_safe_id, stays_inside
 from rocking.records.processing import process, velocity
-from rocking.records.read import plain, printable, read
+from rocking.records.read import is_unnamed, plain, printable, read
 
 Row = dict[str, str]
 
@@ -20,110 +21,239 @@ _STAND_IN = "mm/s2"
 """Unit in which a file that declares none is looked at, small enough for counts: for its step and number of samples."""
 _UPWARDS = re.compile(r"(?:^|[-_. ])(UP|UD|DN|DWN|DOWN|VER|VERT|VERTICAL)(?=[-_. ]|$)", re.I)
 _FORMULA = "=+-@"
+_ENDING = re.compile(r"\.(at2|txt|csv|asc|dat|acc|gz)$", re.I)
+_RSN = re.compile(r"(RSN\d+)_")
+_SQUARE = 5.0
+"""Degrees by which two components may be off a right angle without a word."""
 
 
 @dataclass(frozen=True)
 class ListedChannel:
-    """One channel as it was read: time_step in s, peak_acceleration in m/s², peak_velocity in m/s; None if unknown."""
+    """One channel as it was read, without its samples: format, number of samples, and what an Accelerogram says of it.
+
+    time_step: s. peak_acceleration: m/s². peak_velocity: m/s, as a study clears the record by default. None if unknown.
+    """
 
     component: str
+    time_step: float
+    azimuth: float | None
+    vertical: bool
+    borehole: bool
+    network: str
+    station: str
+    location: str
+    event: str
+    start_time: str
     format: str
-    time_step: float | None
+    sha256: str
     samples: int
     peak_acceleration: float | None
     peak_velocity: float | None
 
+    @classmethod
+    def of(cls, record: Accelerogram, is_declared: bool) -> "ListedChannel":
+        """Return what is listed of `record`; is_declared: whether its unit and its time step are known."""
+        speed = None
+        if is_declared:
+            with suppress(RecordError):  # it is too short to be processed
+                speed = float(abs(velocity(process(record))).max())
+        own = {each.name: getattr(record, each.name) for each in fields(cls)[:10]}
+        source = record.source
+        peak = record.peak_acceleration if is_declared else None
+        return cls(**own, format=source.format, sha256=source.sha256, samples=record.acceleration.size,
+                   peak_acceleration=peak, peak_velocity=speed)  # fmt: skip
 
-@dataclass(frozen=True)
+    @property
+    def is_horizontal(self) -> bool:
+        """Whether it is a horizontal component at the surface."""
+        return not self.vertical and not self.borehole
+
+
+@dataclass
 class ListedFile:
-    """One file of a folder: its channels, the catalogue row it gets (None if it cannot be used) and its status.
+    """One file of a folder as it was read, and the id of the catalogue row it stands in, "" if it cannot be used.
 
-    doubts: what is plausibly wrong with it, one sentence each. unread: why it gets no row, or "".
-    to_fill: the cells that the row leaves blank and that must be filled before it can be used.
+    doubts: what is plausibly wrong with it, one sentence each. unread: why it gets no row, or "". apart: why it does
+    not share the row of other files of its station, or "". to_fill: the cells that its row leaves blank and that must
+    be filled before it can be used; declared: those that hold what its header does not say.
     """
 
     file: str
-    channels: tuple[ListedChannel, ...] = ()
-    row: Row | None = None
-    doubts: tuple[str, ...] = ()
+    channels: Sequence[ListedChannel] = ()
     unread: str = ""
+    doubts: tuple[str, ...] = ()
+    declared: Row = field(default_factory=dict)
     to_fill: tuple[str, ...] = ()
+    apart: str = ""
+    record: str = ""
+    beside: int = 0
+    """Number of other files in its row."""
+    is_again: bool = False
+    """Whether it has the content of an earlier file."""
 
     @property
     def status(self) -> str:
         """What there is to say of the file, in one line."""
         if self.unread:
             return f"not read: {self.unread}"
-        if self.to_fill:
-            return f"to fill: {', '.join(self.to_fill)}"
-        return " ".join(self.doubts) or "read"
+        said = [f"to fill: {', '.join(self.to_fill)}"] if self.to_fill else list(self.doubts)
+        if self.beside:
+            said.append(f"Joined with {self.beside} more as {self.record}.")
+        return " ".join([*said, *([self.apart] if self.apart else [])]) or "read"
 
 
 def list_folder(
-    folder: str | Path, *, unit: str | None = None, time_step: float | None = None
-) -> list[ListedFile]:
-    """Return every file under `folder`, as it can be read, in the order of names.
+    folder: str | Path,
+    *,
+    unit: str | None = None,
+    time_step: float | None = None,
+    known: Iterable[Mapping[str, str]] = (),
+) -> tuple[list[ListedFile], list[Row]]:
+    """Return every file under `folder` as it can be read, in the order of names, and the rows of a catalogue for them.
 
-    unit and time_step [s] are used only where a file does not declare them. Catalogues, and files whose name
-    starts with a dot, are passed over. Raises RecordError when `folder` is no folder.
+    Files of one event, station and start share a row, the vertical component among them. unit and time_step [s] are
+    used only where a file does not declare them. known: rows that stand in a catalogue already; their files get no
+    other. Catalogues, and files whose name starts with a dot, are passed over. Raises RecordError when there is no
+    folder.
     """
     folder = Path(folder)
     if not folder.is_dir():
         raise RecordError(f"{folder}: this is no folder; give the folder that holds the records.")
-    listed: list[ListedFile] = []
-    taken: set[str] = set()
-    known: dict[str, str] = {}
-    for path in sorted(p for p in folder.rglob("*") if p.is_file() and not _passed_over(p)):
-        found = _listed(path, folder, unit, time_step, taken)
-        if found.row:
-            taken.add(found.row["id"].lower())
-            first = known.setdefault(found.row["sha256"], found.file)
-            found = found if first == found.file else _repeated(found, found.row, first)
-        listed.append(found)
-    return listed
+    names = {name.strip(): row["id"] for row in known for name in row["file"].split(";")}
+    listed = [
+        _listed(path, folder, unit, time_step)
+        for path in sorted(p for p in folder.rglob("*") if p.is_file() and not _passed_over(p))
+    ]
+    first: dict[str, str] = {}
+    for file in listed:
+        file.record = names.get(file.file, "") or names.get(f"./{file.file}", "")
+        if file.channels and not file.unread:
+            earlier = first.setdefault(file.channels[0].sha256, file.file)
+            if earlier != file.file:
+                file.is_again = True
+                file.doubts += (f"Its content is that of {earlier}: as two records it would count twice.",)
+    taken = {row["id"].lower() for row in known}
+    rows = []
+    for group in _stations([file for file in listed if not (file.unread or file.record)]):
+        if not any(channel.is_horizontal for file in group for channel in file.channels):
+            for file in group:
+                file.unread = " ".join(
+                    filter(None, ("it holds no horizontal component at the surface.", file.apart))
+                )
+            continue
+        row = _row(group, taken)
+        taken.add(row["id"].lower())
+        rows.append(row)
+        for file in group:
+            file.record = row["id"]
+            file.beside = len(group) - 1
+    return listed, rows
 
 
-def _repeated(found: ListedFile, row: Row, first: str) -> ListedFile:
-    sentence = f"Its content is that of {first}: as two records it would count twice."
-    note = {"note": f"{row['note']} {sentence}"}
-    return replace(found, row=row | note, doubts=(*found.doubts, sentence))
+def _stations(files: Sequence[ListedFile]) -> list[list[ListedFile]]:
+    """Return the files that share a row, in the order of their first; those of a station that do not fit say why."""
+    groups: dict[object, list[ListedFile]] = {}
+    for file in files:
+        key = None if file.is_again else _station_key(file)
+        groups.setdefault(key or file.file, []).append(file)
+    stations = []
+    for group in (part for of_one in groups.values() for part in _simultaneous(of_one)):
+        level = [file for file in group if file.channels[0].is_horizontal]
+        together = next((files for files in (group, level) if not _why_apart(files)), [])
+        for file in group:
+            if file not in together:
+                file.apart = f"Not joined with the other files of its station: {_why_apart(group)}."
+                stations.append([file])
+        stations += [together] if together else []
+    return sorted(stations, key=lambda group: files.index(group[0]))
 
 
-def write_catalogue_rows(rows: Iterable[Row]) -> str:
-    """Return `rows` as the text of a catalogue."""
-    text = StringIO(newline="")
-    writer = csv.DictWriter(text, COLUMNS, restval="", lineterminator="\n")
-    writer.writeheader()
-    writer.writerows({name: plain(value) for name, value in row.items()} for row in rows)
-    return text.getvalue()
+def _station_key(file: ListedFile) -> object:
+    """Return what the files of one station and event have in common; None where a header does not name the station."""
+    first = file.channels[0]
+    folder, _, name = file.file.rpartition("/")
+    number = _RSN.match(name)
+    is_named = number or (first.station and (first.event or first.start_time))
+    if len(file.channels) > 1 or not is_named or first.borehole:
+        return None
+    of_header = (first.network, first.station, first.location, first.event)
+    return folder, first.format, number[1] if number else of_header, file.to_fill
 
 
-def _listed(
-    path: Path, folder: Path, unit: str | None, time_step: float | None, taken: set[str]
-) -> ListedFile:
+def _simultaneous(files: list[ListedFile]) -> list[list[ListedFile]]:
+    """Return `files` of one station parted where one begins after the end of the first, as far as starts are known."""
+    if not all(file.channels[0].start_time for file in files):
+        return [files]
+    parts: list[list[ListedFile]] = []
+    end = 0.0
+    for start, file in sorted(((_start(file), file) for file in files), key=lambda pair: pair[0]):
+        if not parts or start >= end:
+            parts.append([])
+            end = start + file.channels[0].samples * file.channels[0].time_step
+        parts[-1].append(file)
+    return [sorted(part, key=files.index) for part in parts]
+
+
+def _start(file: ListedFile) -> float:
+    return datetime.fromisoformat(file.channels[0].start_time).timestamp()
+
+
+def _why_apart(group: Sequence[ListedFile]) -> str:
+    """Return why the files of one station cannot share a row, or ""."""
+    if len(group) == 1:
+        return ""
+    channels = [channel for file in group for channel in file.channels]
+    names = Counter(channel.component for channel in channels)
+    level = [channel for channel in channels if not channel.vertical]
+    steps = {f"{channel.time_step:g}" for channel in channels}
+    sizes = {channel.samples for channel in channels}
+    if unnamed := next(
+        (file.file for file in group if any(is_unnamed(c.component) for c in file.channels)), ""
+    ):
+        return f"{unnamed} does not name its component"
+    if twice := next((name for name, n in names.items() if n > 1), ""):
+        return f"component {twice} comes {names[twice]} times"
+    if len(level) > 2 or len(channels) - len(level) > 1:
+        return f"it has {len(level)} horizontal and {len(channels) - len(level)} vertical components"
+    if len(steps) > 1:
+        return f"their time steps are {' and '.join(sorted(steps))} s"
+    if len(sizes) > 1 and not all(channel.start_time for channel in channels):
+        return f"they hold {min(sizes)} and {max(sizes)} samples and do not say when they begin"
+    if any(file.declared != group[0].declared for file in group):
+        return "not all of them declare unit and time step"
+    if (angle := _angle(level)) is not None and min(angle, 180 - angle) < _SQUARE:
+        return f"components {level[0].component} and {level[1].component} point the same way"
+    return ""
+
+
+def _angle(level: Sequence[ListedChannel]) -> float | None:
+    """Return the angle between two horizontal components, degrees in [0, 180), None where it is unknown."""
+    if len(level) != 2 or level[0].azimuth is None or level[1].azimuth is None:
+        return None
+    return (level[1].azimuth - level[0].azimuth) % 180
+
+
+def _listed(path: Path, folder: Path, unit: str | None, time_step: float | None) -> ListedFile:
     name = path.relative_to(folder).as_posix()
     file = printable(name)
     try:
         channels, declared, to_fill = _read(path, unit, time_step)
     except RecordError as error:
         return ListedFile(file, unread=printable(str(error)))
-    told = tuple(_channel(channel, to_fill) for channel in channels)
-    if reason := _unusable(path, folder, name, channels):
-        return ListedFile(file, told, unread=reason)
-    doubts = _together([(channel.component, _doubts(channel, name)) for channel in channels])
-    row = _row(name, channels, declared, taken) | {"note": _note(channels[0], doubts, to_fill)}
-    return ListedFile(file, told, row, doubts, to_fill=to_fill)
-
-
-def _unusable(path: Path, folder: Path, name: str, channels: Sequence[Accelerogram]) -> str:
-    """Return why a file that reads cannot stand in a catalogue, or ""."""
-    if not stays_inside(name) or name != name.strip() or name != printable(name):
-        return "its name holds a character that a catalogue does not allow, or begins or ends with a blank; rename it."
-    if not path.resolve().is_relative_to(folder.resolve()):
-        return "it is a link that leads out of the folder; copy the file instead."
-    if not any(not c.vertical and not c.borehole for c in channels):
-        return "it holds no horizontal component at the surface."
-    return ""
+    reason = ""
+    if not stays_inside(name) or name != name.strip() or name != file:
+        reason = (
+            "its name holds a character that a catalogue does not allow, or a blank at its end; rename it."
+        )
+    elif not path.resolve().is_relative_to(folder.resolve()):
+        reason = "it is a link that leads out of the folder; copy the file instead."
+    doubts: dict[str, list[str]] = {}
+    for channel in channels:
+        for sentence in _doubts(channel, name):
+            doubts.setdefault(sentence, []).append(channel.component)
+    told = tuple(s if len(of) == len(channels) else f"{', '.join(of)}: {s}" for s, of in doubts.items())
+    listed = tuple(ListedChannel.of(channel, not to_fill) for channel in channels)
+    return ListedFile(file, listed, reason, told, declared, to_fill)
 
 
 def _passed_over(path: Path) -> bool:
@@ -131,96 +261,60 @@ def _passed_over(path: Path) -> bool:
         return True
     try:
         with path.open("rb") as stream:
-            return path.suffix.lower() == ".csv" and stream.read(11).removeprefix(b"\xef\xbb\xbf").startswith(
-                b"id,file"
-            )
+            head = stream.read(11).removeprefix(b"\xef\xbb\xbf")
+            return path.suffix.lower() == ".csv" and head.startswith(b"id,file")
     except OSError:
         return False
+
+
+_CELLS = {"unit": "unit", "time_step": "time_step_s"}
 
 
 def _read(
     path: Path, unit: str | None, time_step: float | None
 ) -> tuple[list[Accelerogram], Row, tuple[str, ...]]:
     """Return (channels, cells that had to be declared, cells to fill), declaring no more than the file leaves out."""
-    for declared in ({}, {"unit": unit}, {"time_step": time_step}, {"unit": unit, "time_step": time_step}):
-        try:
-            return read(path, **declared), _cells(declared), ()
-        except UndeclaredError:
-            continue
+    given = {"unit": unit, "time_step": time_step}
     stand_ins: dict = {"unit": unit or _STAND_IN, "time_step": time_step or 1.0}
-    for missing in (("unit",), ("time_step",), ("unit", "time_step")):
+    for missing in ((), ("unit",), ("time_step",), ("unit", "time_step")):
         try:
             channels = read(path, **{name: stand_ins[name] for name in missing})
         except UndeclaredError:
             continue
-        given = {
-            name: value
-            for name, value in (("unit", unit), ("time_step", time_step))
-            if name in missing and value
-        }
-        return channels, _cells(given), tuple(_CELLS[name] for name in missing if name not in given)
+        declared = {_CELLS[name]: f"{given[name]}" for name in missing if given[name]}
+        return channels, declared, tuple(_CELLS[name] for name in missing if not given[name])
     raise UndeclaredError(f"{printable(path.name)}: neither unit nor time step is declared.")
 
 
-_CELLS = {"unit": "unit", "time_step": "time_step_s"}
-
-
-def _cells(declared: dict) -> Row:
-    return {_CELLS[key]: f"{value}" for key, value in declared.items() if value is not None}
-
-
-def _channel(record: Accelerogram, to_fill: tuple[str, ...]) -> ListedChannel:
-    known = not to_fill
-    return ListedChannel(
-        component=record.component,
-        format=record.source.format,
-        time_step=None if "time_step_s" in to_fill else record.time_step,
-        samples=record.acceleration.size,
-        peak_acceleration=record.peak_acceleration if known else None,
-        peak_velocity=_peak_velocity(record) if known else None,
-    )
-
-
-def _peak_velocity(record: Accelerogram) -> float | None:
-    """Return the largest velocity, m/s, of a record cleared as a study does by default; None when it is too short."""
-    try:
-        return float(abs(velocity(process(record))).max())
-    except RecordError:
-        return None
-
-
 def _doubts(record: Accelerogram, file: str) -> tuple[str, ...]:
-    said = _UPWARDS.search(Path(file).stem)
-    if said and not record.vertical:
+    upwards = _UPWARDS.search(Path(file).stem)
+    if upwards and not record.vertical:
         name = record.component
-        return (*record.warnings, f"The file's name says {said[1]}, but {name} is taken as horizontal.")
+        return (*record.warnings, f"The file's name says {upwards[1]}, but {name} is taken as horizontal.")
     return record.warnings
 
 
-def _together(told: Sequence[tuple[str, tuple[str, ...]]]) -> tuple[str, ...]:
-    """Return each sentence once, behind the components that it is of where it is not of all."""
-    of: dict[str, list[str]] = {}
-    for component, sentences in told:
-        for sentence in sentences:
-            of.setdefault(sentence, []).append(component)
-    return tuple(s if len(names) == len(told) else f"{', '.join(names)}: {s}" for s, names in of.items())
-
-
-def _note(first: Accelerogram, doubts: tuple[str, ...], to_fill: tuple[str, ...]) -> str:
-    fill = f"Fill in {' and '.join(to_fill)}." if to_fill else ""
-    told = tuple(s for s in doubts if "m/s" not in s and " g," not in s) if to_fill else doubts
-    return " ".join(part for part in (f"{first.source.format}.", fill, *told) if part)
-
-
-def _row(file: str, channels: Sequence[Accelerogram], declared: Row, taken: set[str]) -> Row:
-    first = next(c for c in channels if not c.vertical and not c.borehole)
+def _row(group: Sequence[ListedFile], taken: set[str]) -> Row:
+    channels = [channel for file in group for channel in file.channels]
+    level = [channel for channel in channels if channel.is_horizontal]
+    first = level[0]
+    fill = group[0].to_fill
+    doubts = dict.fromkeys(doubt for file in group for doubt in file.doubts)
+    told = [s for s in doubts if not fill or ("m/s" not in s and " g," not in s)]
+    if (angle := _angle(level)) is not None and abs(angle - 90) > _SQUARE:
+        told.append(
+            f"Components {level[0].component} and {level[1].component} are {min(angle, 180 - angle):g}° apart, "
+            "not at right angles."
+        )
+    note = [f"{first.format}.", *([f"Fill in {' and '.join(fill)}."] if fill else []), *told]
     return {
-        "id": _id(file, taken),
-        "file": f"./{file}" if file[0] in _FORMULA else file,
+        "id": _id(group, taken),
+        "file": ";".join(f"./{file.file}" if file.file[0] in _FORMULA else file.file for file in group),
         "event": _no_formula(first.event),
         "station": _no_formula(first.station),
-        "sha256": first.source.sha256,
-        **declared,
+        "sha256": ";".join(file.channels[0].sha256 for file in group),
+        **group[0].declared,
+        "note": plain(" ".join([*note, *([group[0].apart] if group[0].apart else [])])),
     }
 
 
@@ -229,9 +323,17 @@ def _no_formula(text: str) -> str:
     return text.lstrip(_FORMULA + " ")
 
 
-def _id(file: str, taken: set[str]) -> str:
-    """Return the file's name as a safe identifier that is not taken yet."""
-    base = re.sub(r"\.(at2|txt|csv|asc|dat|acc|gz)$", "", Path(file).name, flags=re.I)
+def _id(group: Sequence[ListedFile], taken: set[str]) -> str:
+    """Return the file's name, without its component where several share the row, as an identifier not taken yet."""
+    base = _ENDING.sub("", Path(group[0].file).name)
+    component = group[0].channels[0].component
+    if len(group) > 1:
+        names = [Path(file.file).name for file in group]
+        same = next((i for i in range(len(base)) if len({name[i : i + 1] for name in names}) > 1), len(base))
+        if component and base.endswith(component):
+            base = base.removesuffix(component)
+        elif same > 2:
+            base = base[:same]
     base = re.sub(r"[^A-Za-z0-9._-]+", "_", base)[:70].strip("._-") or "record"
     base = base if is_safe_id(base) else f"record_{base}"
     name, number = base, 2
@@ -248,42 +350,35 @@ _RIGHT = range(3, 7)
 def listing_text(listed: Sequence[ListedFile]) -> str:
     """Return one line for each channel of each file: format, step, samples, PGA, PGV, component and status."""
     rows = [_HEAD, *(line for file in listed for line in _lines(file))]
-    cells = [[_short(text, width) for text, width in zip(row, _WIDEST, strict=True)] for row in rows]
+    cells = [
+        [
+            text if len(text) <= width else text[: width - 1] + "…"
+            for text, width in zip(row, _WIDEST, strict=True)
+        ]
+        for row in rows
+    ]
     widths = [max(len(row[i]) for row in cells) for i in range(len(_HEAD))]
-    return (
-        "\n".join("  ".join(_placed(row, i, widths[i]) for i in range(len(_HEAD))).rstrip() for row in cells)
-        + "\n"
+    lines = (
+        [
+            cell.rjust(w) if i in _RIGHT else cell.ljust(w)
+            for i, (cell, w) in enumerate(zip(row, widths, strict=True))
+        ]
+        for row in cells
     )
+    return "".join("  ".join(line).rstrip() + "\n" for line in lines)
 
 
 def _lines(file: ListedFile) -> list[tuple[str, ...]]:
     if not file.channels:
         return [(file.file, "", "", "", "", "", "", file.status)]
     return [
-        (file.file if i == 0 else "", *_measures(channel), file.status if i == 0 else "")
+        (file.file if i == 0 else "", *_measures(channel, file.to_fill), file.status if i == 0 else "")
         for i, channel in enumerate(file.channels)
     ]
 
 
-def _measures(channel: ListedChannel) -> tuple[str, ...]:
-    peak = channel.peak_acceleration
-    return (
-        channel.component,
-        channel.format,
-        _number(channel.time_step),
-        str(channel.samples),
-        "" if peak is None else f"{peak / GRAVITY:.3g}",
-        _number(channel.peak_velocity, "{:.3g}"),
-    )
-
-
-def _number(value: float | None, form: str = "{:g}") -> str:
-    return "" if value is None else form.format(value)
-
-
-def _short(text: str, width: int) -> str:
-    return text if len(text) <= width else text[: width - 1] + "…"
-
-
-def _placed(row: Sequence[str], i: int, width: int) -> str:
-    return row[i].rjust(width) if i in _RIGHT else row[i].ljust(width)
+def _measures(channel: ListedChannel, to_fill: tuple[str, ...]) -> tuple[str, ...]:
+    step = "" if "time_step_s" in to_fill else f"{channel.time_step:g}"
+    peak = "" if channel.peak_acceleration is None else f"{channel.peak_acceleration / GRAVITY:.3g}"
+    speed = "" if channel.peak_velocity is None else f"{channel.peak_velocity:.3g}"
+    return channel.component, channel.format, step, str(channel.samples), peak, speed

@@ -42,8 +42,13 @@ def read(
     nowhere, RecordError for every other defect.
     """
     path = Path(path)
-    name, raw = printable(path.name), bytes_of(path)
     options = Options(unit, time_step, Path(inventory) if inventory else None, path.parent, response)
+    return read_raw(bytes_of(path), path, options)
+
+
+def read_raw(raw: bytes, path: Path, options: Options) -> list[Accelerogram]:
+    """Return the channels in `raw`, the bytes of the file at `path`, as read() does."""
+    name = printable(path.name)
     source = Source(printable(str(path)), sha256=hashlib.sha256(raw).hexdigest())
     return read_content(unpacked(raw, name), name, options, source)
 
@@ -177,6 +182,6 @@ def told_apart(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     return channels
 
 
-def is_unnamed(record: Accelerogram) -> bool:
-    """Whether the component is no more than the place of the channel in its file."""
-    return not record.component or record.component.removeprefix("channel ").isdecimal()
+def is_unnamed(component: str) -> bool:
+    """Whether a component's name is no more than the place of the channel in its file."""
+    return not component or (component.startswith("channel ") and component[8:].isdecimal())

@@ -131,6 +131,7 @@ def _sac_record(trace, unit: str, options: Options, warnings: tuple[str, ...]) -
         component=stats.channel,
         station=stats.station,
         network=stats.network,
+        location=stats.location,
         warnings=warnings,
         start_time=str(stats.starttime),
         processing=(offset,),

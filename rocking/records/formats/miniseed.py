@@ -39,6 +39,7 @@ def _record(trace, inventory, options: Options, noticed: tuple[str, ...]) -> Acc
         component=stats.channel,
         station=stats.station,
         network=stats.network,
+        location=stats.location,
         start_time=str(stats.starttime),
         processing=steps,
         warnings=noticed,

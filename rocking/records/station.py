@@ -1,0 +1,194 @@
+"""Station: the components that one row of a catalogue names, from one file or several, on one span of time."""
+
+import hashlib
+from collections import Counter
+from collections.abc import Callable, Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+
+from rocking.errors import RecordError, about
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.catalogue import CatalogueRecord
+from rocking.records.fetch import inventory_of, path_of
+from rocking.records.formats import Options
+from rocking.records.instrument import azimuth, is_vertical
+from rocking.records.plausibility import scaled
+from rocking.records.read import bytes_of, is_unnamed, read_raw
+
+_OFF_GRID = 0.1
+"""Share of a time step by which the samples of two files may lie between one another."""
+
+
+@dataclass(frozen=True)
+class Station:
+    """What a station recorded of one earthquake: its horizontal components, and the vertical one, None if unknown."""
+
+    horizontal: tuple[Accelerogram, ...]
+    vertical: Accelerogram | None = None
+
+
+def open_station(
+    record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None
+) -> Station:
+    """Return the components of `record`, each of its files read once.
+
+    Horizontal are the components it names, else every one at the surface that is not vertical. scale_factor, station,
+    event, high_pass, magnitude and distance of the row are applied. Raises RecordError naming record and file.
+    """
+    return station_of(channels_of(record, mirror, cache), record)
+
+
+def open_record(
+    record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None
+) -> list[Accelerogram]:
+    """Return the horizontal components of `record`, as open_station does."""
+    return list(open_station(record, mirror, cache).horizontal)
+
+
+def open_records(
+    records: Collection[CatalogueRecord], mirror: str | Path | None, tell: Callable[[str], object]
+) -> Iterator[tuple[str, Accelerogram]]:
+    """Yield identifier and accelerogram of every component of `records`. tell: takes a line for each record."""
+    for count, record in enumerate(records, start=1):
+        tell(f"{count} of {len(records)}: {record.id}")
+        for accelerogram in open_record(record, mirror=mirror):
+            yield record.id, accelerogram
+
+
+def channels_of(
+    record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None
+) -> list[Accelerogram]:
+    """Return every channel of the record's files as it was read, those of several files on their common span.
+
+    Raises RecordError naming record and file.
+    """
+    inventory = inventory_of(record, mirror)
+    channels: list[Accelerogram] = []
+    with about(record.id):
+        for file in record.files:
+            path = path_of(record, file, mirror, cache)
+            raw = bytes_of(path)
+            if file.sha256 and (sha256 := hashlib.sha256(raw).hexdigest()) != file.sha256:
+                raise RecordError(
+                    f"file {path} has sha256 {sha256}, but the catalogue says {file.sha256}; it is another version."
+                )
+            options = Options(record.unit or None, record.time_step, inventory, path.parent)
+            channels += [
+                replace(channel, source=replace(channel.source, path=file.name))
+                for channel in read_raw(raw, path, options)
+            ]
+        channels = _named(channels, record)
+        return channels if len(record.files) == 1 else joined(channels)
+
+
+def _named(channels: Sequence[Accelerogram], record: CatalogueRecord) -> list[Accelerogram]:
+    """Return channels that their files leave unnamed, one in each, under the names that the row gives them."""
+    one_each = len(record.files) == len(channels) == len(record.components)
+    if not one_each or not all(is_unnamed(channel.component) for channel in channels):
+        return list(channels)
+    return [
+        replace(channel, component=name, azimuth=azimuth(name), vertical=is_vertical(name))
+        for channel, name in zip(channels, record.components, strict=True)
+    ]
+
+
+def joined(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
+    """Return the channels of several files on the span that is common to them.
+
+    Raises RecordError when two have one name or unlike time steps, or when their lengths differ and a start is unknown.
+    """
+    names = Counter(channel.component for channel in channels if not channel.borehole)
+    if twice := [name for name, n in names.items() if n > 1]:
+        files = " and ".join(c.source.path for c in channels if c.component == twice[0])
+        raise RecordError(
+            f"{files} hold a component {twice[0]!r} each, but those of a station must differ; "
+            "give each pair a row of its own."
+        )
+    steps = [channel.time_step for channel in channels]
+    if max(steps) / min(steps) - 1 > 1e-6:
+        raise RecordError(
+            f"the time steps of the files are {min(steps):g} and {max(steps):g} s, but must be one; "
+            "give each file a row of its own."
+        )
+    if all(channel.start_time for channel in channels):
+        return _cut(channels)
+    sizes = {channel.acceleration.size for channel in channels}
+    if len(sizes) > 1:
+        raise RecordError(
+            f"the files hold {min(sizes)} and {max(sizes)} samples and do not all say when they begin, so that it is "
+            "unknown how they lie to one another; give each file a row of its own."
+        )
+    return list(channels)
+
+
+def _cut(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
+    starts = [datetime.fromisoformat(channel.start_time).timestamp() for channel in channels]
+    step = channels[0].time_step
+    late = [(max(starts) - start) / step for start in starts]
+    first = [round(places) for places in late]
+    off = max(abs(places - place) for places, place in zip(late, first, strict=True))
+    if off > _OFF_GRID:
+        raise RecordError(
+            f"the samples of the files lie {off:.2g} of a time step between one another; resample them first."
+        )
+    size = min(channel.acceleration.size - place for channel, place in zip(channels, first, strict=True))
+    if size < 2:
+        raise RecordError("the files have no span of time in common; give each file a row of its own.")
+    begin = channels[int(np.argmax(starts))].start_time
+    sentence = f"Cut to the span common to the station's files, {size * step:g} s from {begin} on."
+    return [
+        channel
+        if channel.acceleration.size == size
+        else channel.processed_by(channel.acceleration[place : place + size], sentence, start_time=begin)
+        for channel, place in zip(channels, first, strict=True)
+    ]
+
+
+def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Station:
+    """Return the components that open_station returns, from all `channels` of the record's files."""
+    with about(f"{record.id} ({record.file})"):
+        channels = _named(channels, record)
+        held = ", ".join(channel.component or "(unnamed)" for channel in channels)
+        of = {channel.component: channel for channel in reversed(channels)}
+        for name in filter(None, (*record.components, record.vertical_component)):
+            if name not in of:
+                raise RecordError(f"component is {name!r}, but the file holds {held}.")
+        upwards = (channel for channel in channels if channel.vertical and not channel.borehole)
+        vertical = of[record.vertical_component] if record.vertical_component else next(upwards, None)
+        chosen = [of[name] for name in record.components]
+        if chosen and len(record.files) == 1:
+            horizontal = list(map(_asked_for, chosen))
+        else:
+            sideways = chosen or [channel for channel in channels if not channel.borehole]
+            horizontal = [channel for channel in sideways if channel is not vertical and not channel.vertical]
+        if not horizontal:
+            raise RecordError(
+                f"the file holds no horizontal component at the surface, only {held}; name a component."
+            )
+        declared = tuple(_as_declared(channel, record) for channel in horizontal)
+        return Station(declared, None if vertical is None else _as_declared(vertical, record))
+
+
+def _asked_for(channel: Accelerogram) -> Accelerogram:
+    """Return a channel that the catalogue names, with a warning when it is vertical: it will shake sideways."""
+    if not channel.vertical:
+        return channel
+    sentence = f"Component {channel.component} is vertical, but the catalogue takes it as horizontal."
+    return replace(channel, warnings=(*channel.warnings, sentence))
+
+
+def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
+    """Return a channel with what its row says of name, scale, station, event, corner, magnitude and distance."""
+    channel = scaled(channel, record.scale_factor) if record.scale_factor != 1 else channel
+    distance = None if record.epicentral_distance is None else 1000 * record.epicentral_distance
+    return replace(
+        channel,
+        station=record.station or channel.station,
+        event=record.event or channel.event,
+        high_pass_frequency=record.high_pass or channel.high_pass_frequency,
+        magnitude=channel.magnitude if record.magnitude is None else record.magnitude,
+        epicentral_distance=channel.epicentral_distance if distance is None else distance,
+    )
