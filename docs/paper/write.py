@@ -4,7 +4,7 @@ from pathlib import Path
 
 from docs.paper.report import EquationRow, equation_rows, paper_figures, paper_report
 from rocking.errors import RecordError
-from rocking.records.catalogue import load_catalogue, open_record
+from rocking.records import load_catalogue, open_record
 from rocking.reports.style import svg
 from rocking.tables import write_rows, write_whole
 

@@ -6,8 +6,7 @@ from pathlib import Path
 
 def main(target, catalogues, mirror, structures, folder, tell):
     """Write the tables and the report of `target` into `folder`."""
-    from rocking.records import load_catalogue
-    from rocking.records.catalogue import open_record, open_records
+    from rocking.records import load_catalogue, open_record, open_records
     from rocking.structures import load_structures
 
     def records():

@@ -34,6 +34,7 @@ class Changes(TypedDict, total=False):
     time_step: float
     azimuth: float | None
     high_pass_frequency: float | None
+    start_time: str
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -93,9 +93,9 @@ def _beside(record: CatalogueRecord, file: str, mirror: str | Path | None) -> Pa
 
 
 def download(
-    file: str, repository: str, commit: str, path: str, *, sha256: str, cache: str | Path | None = None
+    file: str, repository: str, commit: str, path: str, *, sha256: str = "", cache: str | Path | None = None
 ) -> Path:
-    """Return where the cache keeps `path` of a GitHub repository, downloaded if need be, its sha256 checked.
+    """Return where the cache keeps `path` of a GitHub repository, downloaded if need be, its sha256 checked if given.
 
     Raises RecordError naming `file` when it cannot be had.
     """

@@ -9,7 +9,7 @@ from pathlib import Path
 from shlex import quote
 
 from rocking.errors import CatalogueError, ConfigurationError, RockingError, UnknownFormatError
-from rocking.quantities import GRAVITY
+from rocking.quantities import GRAVITY, counted
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -49,7 +49,6 @@ def _parser() -> argparse.ArgumentParser:
     catalogue = _verb(verbs, "catalogue", _catalogue, "write a catalogue of the accelerograms in a folder")
     catalogue.add_argument("folder", type=Path)
     catalogue.add_argument("--output", type=Path, help="CSV file to write (default: catalogue.csv in it)")
-    catalogue.add_argument("--replace", action="store_true", help="write over a catalogue that exists")
     _declarations(catalogue)
     run = _verb(verbs, "run", _run, "run the study in a folder")
     run.add_argument("folder", type=Path)
@@ -121,11 +120,13 @@ def _catalogue(options: argparse.Namespace) -> None:
     from rocking.study.workspace import write_catalogue
 
     target = options.output or options.folder / "catalogue.csv"
-    declared = {"unit": options.unit, "time_step": options.time_step, "replace": options.replace}
-    listed = write_catalogue(options.folder, target, **declared)
-    print(listing_text(listed), end="")
-    count = sum(1 for found in listed if found.row)
-    print(f"{target}: {count} record{'' if count == 1 else 's'}")
+    written = write_catalogue(options.folder, target, unit=options.unit, time_step=options.time_step)
+    print(listing_text(written.files), end="")
+    for gone in written.gone:
+        print(
+            f"{gone}: its row stays in the catalogue, but its file is not there; remove the row or add the file."
+        )
+    print(f"{target}: {counted(written.records, 'record')}, {written.new} of them new")
 
 
 def _run(options: argparse.Namespace) -> int:

@@ -52,7 +52,7 @@ class ContentHashes:
 
 def files_sha256(records: Iterable[CatalogueRecord], settings: Settings, hashes: ContentHashes) -> str:
     """Return one hash for the files on this machine from which `records` are read, StationXML among them."""
-    files = {p for record in records for p in local_files(record, settings.mirror, settings.vertical)}
+    files = {p for record in records for p in local_files(record, settings.mirror)}
     lines = [f"{path}\0{hashes.of(path)}" for path in sorted(files)]
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()
 

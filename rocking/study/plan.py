@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from rocking.errors import ConfigurationError, RockingError
-from rocking.records.catalogue import CatalogueRecord, load_catalogue
-from rocking.records.hashes import fill_hashes, filled, repeated
+from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
+from rocking.records.fetch import fill_hashes, filled
 from rocking.structures import load_structures
 from rocking.study.config_file import named_files, read_settings
 from rocking.study.inputs import ContentHashes, files_sha256, structures_sha256

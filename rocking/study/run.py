@@ -20,17 +20,9 @@ from rocking.assessment.rows.shared import Identity
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, processed_variants
 from rocking.errors import RockingError
-from rocking.records import Accelerogram
-from rocking.records.catalogue import (
-    CatalogueRecord,
-    as_declared,
-    horizontal_of,
-    open_record,
-    open_vertical,
-    vertical_of,
-)
+from rocking.records import Accelerogram, CatalogueRecord, Station, aligned, open_station
 from rocking.records.processing import process
-from rocking.records.rotation import aligned
+from rocking.records.station import station_of
 from rocking.structures import Structure
 from rocking.study.outcome import record_line
 from rocking.study.parts import written_part
@@ -62,21 +54,17 @@ class Study:
 
         Raises RecordError naming the record, also when the vertical component does not fit the others.
         """
-        mirror = self.settings.mirror
-        vertical = open_vertical(record, mirror=mirror) if self.settings.vertical else None
-        return self._processed(open_record(record, mirror=mirror), vertical)
+        return self._processed(open_station(record, self.settings.mirror))
 
     def opened(self, channels: list[Accelerogram], record: CatalogueRecord) -> Opened:
         """Return what open() returns, from the `channels` of the record's file. Raises RecordError."""
-        vertical = vertical_of(channels, record) if self.settings.vertical else None
-        vertical = None if vertical is None else as_declared(vertical, record)
-        return self._processed(horizontal_of(channels, record), vertical)
+        return self._processed(station_of(channels, record))
 
-    def _processed(self, accelerograms: list[Accelerogram], vertical: Accelerogram | None) -> Opened:
-        done = [self._process(accelerogram) for accelerogram in accelerograms]
-        if vertical is None:
+    def _processed(self, station: Station) -> Opened:
+        done = [self._process(accelerogram) for accelerogram in station.horizontal]
+        if station.vertical is None or not self.settings.vertical:
             return done, None
-        vertical = self._process(vertical)
+        vertical = self._process(station.vertical)
         for accelerogram in done:
             aligned(vertical, accelerogram)
         return done, vertical

@@ -1,10 +1,12 @@
 """A study in a folder of the user's own, apart from this package: start it, and catalogue its records."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 from rocking.errors import ConfigurationError, RecordError
-from rocking.records.folder import ListedFile, list_folder, write_catalogue_rows
+from rocking.records.catalogue import COLUMNS, catalogue_text, read_rows
+from rocking.records.folder import ListedFile, list_folder
 from rocking.study.config_file import commented_yaml
 from rocking.study.settings import Settings
 from rocking.tables import write_whole
@@ -40,27 +42,37 @@ def _starting_files() -> Mapping[str, bytes]:
     }
 
 
-def write_catalogue(
-    folder: Path,
-    target: Path,
-    *,
-    unit: str | None = None,
-    time_step: float | None = None,
-    replace: bool = False,
-) -> list[ListedFile]:
-    """Write a catalogue of the accelerograms in `folder` to `target`; return every file as it was read.
+@dataclass(frozen=True)
+class WrittenCatalogue:
+    """A catalogue as it was written: the files as they were read, its rows, the new ones, ids whose file is gone."""
 
-    unit and time_step [s] are for the files that do not declare them. Raises RecordError, and writes nothing, when
-    `target` exists and `replace` is false, or when no file could be read.
+    files: list[ListedFile]
+    records: int
+    new: int
+    gone: tuple[str, ...]
+
+
+def write_catalogue(
+    folder: Path, target: Path, *, unit: str | None = None, time_step: float | None = None
+) -> WrittenCatalogue:
+    """Write a catalogue of the accelerograms in `folder` to `target`, or add to the one that stands there.
+
+    Its rows stay as they are, to the letter; files that none of them names get rows below them. unit and time_step [s]
+    are for the files that do not declare them. Raises RecordError, and writes nothing, when no file could be read, and
+    CatalogueError when `target` is no catalogue.
     """
-    if target.exists() and not replace:
-        raise RecordError(
-            f"{target} exists already and may hold your own edits; say --replace to write it anew."
-        )
-    listed = list_folder(folder, unit=unit, time_step=time_step)
-    rows = [found.row for found in listed if found.row]
-    if not rows:
+    standing = [row for _, row in read_rows(target)] if target.exists() else []
+    listed, rows = list_folder(folder, unit=unit, time_step=time_step, known=standing)
+    if not rows and not standing:
         reasons = "; ".join(f"{found.file}: {found.unread}" for found in listed) or "it holds no file"
         raise RecordError(f"{folder}: no accelerogram was read ({reasons}).")
-    write_whole(target, write_catalogue_rows(rows).encode())
-    return listed
+    if rows:
+        used = (name for row in rows for name in row)
+        columns = dict.fromkeys([*(standing[0] if standing else COLUMNS), *used])
+        write_whole(target, catalogue_text([*standing, *rows], list(columns)).encode())
+    there = {found.record for found in listed}
+    remote = {
+        row["id"] for row in standing if row.get("source_repository") or row["file"].startswith("obspy:")
+    }
+    gone = tuple(row["id"] for row in standing if row["id"] not in there | remote)
+    return WrittenCatalogue(listed, len(standing) + len(rows), len(rows), gone)

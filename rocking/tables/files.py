@@ -23,9 +23,10 @@ def read_whole(path: Path, largest: int, error: type[RockingError], name: str = 
     name = name or str(path)
     try:
         handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+        if not stat.S_ISREG(os.fstat(handle).st_mode):
+            os.close(handle)
+            raise OSError(errno.EINVAL, "it is no regular file")
         with os.fdopen(handle, "rb") as stream:
-            if not stat.S_ISREG(os.fstat(handle).st_mode):
-                raise OSError(errno.EINVAL, "it is no regular file")
             content = stream.read(largest + 1)
     except (OSError, ValueError) as reason:
         why = getattr(reason, "strerror", None) or reason

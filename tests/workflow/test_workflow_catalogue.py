@@ -11,7 +11,7 @@ import yaml
 
 import rocking
 from rocking.errors import CatalogueError
-from rocking.records.catalogue_record import CatalogueRecord
+from rocking.records.catalogue import CatalogueRecord
 from rocking.structures.structure_list import TYPES
 
 ROOT = Path(rocking.__file__).parents[1]

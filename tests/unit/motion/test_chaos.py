@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from rocking.motion import Members, integrate, integrate_members
+from rocking.records import load_catalogue, open_record
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.catalogue import load_catalogue, open_record
 from rocking.records.processing import UNPROCESSED_DEFAULT, process
 from rocking.structures import Block
 

@@ -16,15 +16,14 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 
+from rocking.described import described_values
 from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import GRAVITY
-from rocking.records import CatalogueRecord, load_catalogue, open_record
+from rocking.records import CatalogueRecord, load_catalogue, open_record, open_station
 from rocking.records import fetch as fetching
-from rocking.records.catalogue import vertical_of
-from rocking.records.catalogue_record import COLUMNS
-from rocking.records.fetch import download, fetch
-from rocking.records.folder import list_folder, listing_text, write_catalogue_rows
-from rocking.records.hashes import fill_hashes, repeated
+from rocking.records.catalogue import COLUMNS, catalogue_text, repeated
+from rocking.records.fetch import download, fill_hashes, path_of
+from rocking.records.folder import list_folder, listing_text
 
 TABLE = "time,NS (gal),EW (gal),UD (gal)\n" + "".join(
     f"{i / 100},{i % 5},{i % 7},{i % 3}\n" for i in range(50)
@@ -35,10 +34,14 @@ SHIPPED = Path(__file__).parents[3] / "records"
 
 def catalogue_from_folder(folder, **declared):
     """Rows of the files that can be used, and (file, reason) of the others."""
-    listed = list_folder(folder, **declared)
-    return [each.row for each in listed if each.row], [
-        (each.file, each.unread) for each in listed if each.unread
-    ]
+    listed, rows = list_folder(folder, **declared)
+    return rows, [(each.file, each.unread) for each in listed if each.unread]
+
+
+def fetch(record, mirror=None, cache=None):
+    """Where the one file of a record lies."""
+    (file,) = record.files
+    return path_of(record, file, mirror, cache)
 
 
 def write(folder: Path, *rows: dict[str, str], columns: tuple[str, ...] = COLUMNS) -> Path:
@@ -80,9 +83,10 @@ def test_components_by_name_and_in_the_order_given(folder: Path) -> None:
 def test_the_vertical_can_be_named(folder: Path) -> None:
     (record,) = load_catalogue(write(folder, row(vertical_component="EW")))
     assert [a.component for a in open_record(record)] == ["NS"]
-    from rocking.records import read
-
-    assert vertical_of(read(folder / "table.csv"), record).component == "EW"
+    assert open_station(record).vertical.component == "EW"
+    (record,) = load_catalogue(write(folder, row(vertical_component="XX")))
+    with pytest.raises(RecordError, match="'XX', but the file holds NS, EW, UD"):
+        open_station(record)
 
 
 def test_all_defects_stand_in_one_message(folder: Path) -> None:
@@ -97,7 +101,7 @@ def test_all_defects_stand_in_one_message(folder: Path) -> None:
     with pytest.raises(CatalogueError) as caught:
         load_catalogue(write(folder, *bad))
     said = str(caught.value)
-    for part in ("'a/b'", "x" * 81, "'con'", "'same' stands 2 times", "'1_0'", "'furlong'", "time_step_s is 0.0",
+    for part in ("'a/b'", "x" * 81, "'con'", "'same' stands 2 times", "'1_0'", "'furlong'", "time_step_s is 0.0 s",
                  "scale_factor is 0", "'nan'", "'ABC'", "'../table.csv'", "'/etc/passwd'", "'c:", "file is missing",
                  "source_repository is 'x'", "source_path is '../y'", "source_commit is 'main'"):  # fmt: skip
         assert part in said
@@ -121,7 +125,7 @@ def test_files_that_are_no_catalogue(tmp_path: Path, text: str | bytes, message:
 
 
 def test_a_missing_catalogue(tmp_path: Path) -> None:
-    with pytest.raises(CatalogueError, match="cannot be read"):
+    with pytest.raises(CatalogueError, match="cannot be opened"):
         load_catalogue(tmp_path / "none.csv")
 
 
@@ -152,7 +156,7 @@ def test_a_file_that_is_nowhere(folder: Path) -> None:
     with pytest.raises(CatalogueError, match=r"one: file 'lost\.csv' is neither"):
         load_catalogue(path, mirror=folder)
     (record,) = load_catalogue(path)
-    with pytest.raises(RecordError, match=r"one: file 'lost\.csv' is not in"):
+    with pytest.raises(RecordError, match=r"file 'lost\.csv' is not in"):
         fetch(record)
 
 
@@ -232,11 +236,11 @@ def test_a_remote_file_that_does_not_come(
     def fail(*_: object, **__: object) -> None:
         raise OSError("no network here")
 
-    monkeypatch.setattr("urllib.request.urlopen", fail)
+    monkeypatch.setattr("urllib.request.OpenerDirector.open", fail)
     monkeypatch.setattr("time.sleep", lambda _: None)
     with pytest.raises(
         RecordError,
-        match=r"one: file 'far\.csv' cannot be fetched from https://raw\.\S+/own/er/0000.*no network here",
+        match=r"file 'far\.csv' cannot be fetched from https://raw\.\S+/own/er/0000.*no network here",
     ):
         fetch(remote(folder), cache=tmp_path / "cache")
 
@@ -294,7 +298,7 @@ def test_a_catalogue_from_a_folder(folder: Path) -> None:
     assert {file for file, _ in unread} == {"notes.md", "broken.AT2"}
     declared = {r["file"]: (r.get("unit", ""), r.get("time_step_s", "")) for r in rows}
     assert declared == {"plain.txt": ("g", "0.02"), "table.csv": ("", ""), "sub/table.csv": ("", "")}
-    (folder / "catalogue.csv").write_text(write_catalogue_rows(rows), encoding="utf-8")
+    (folder / "catalogue.csv").write_text(catalogue_text(rows), encoding="utf-8")
     assert [len(open_record(record)) for record in load_catalogue(folder / "catalogue.csv")] == [1, 2, 2]
     assert catalogue_from_folder(folder, unit="g", time_step=0.02) == (rows, unread)  # not its own catalogue
     with pytest.raises(RecordError, match="no folder"):
@@ -306,7 +310,15 @@ def named(folder: Path, name: str | bytes, text: str = TABLE) -> None:
         stream.write(text.encode("latin-1"))
 
 
-NAMES = ["a:b.txt", " lead.csv", "trail.csv ", b"\xff\xfe.csv", "two\nlines.csv", "cr\rcell.csv"]
+NAMES = [
+    "a:b.txt",
+    " lead.csv",
+    "trail.csv ",
+    b"\xff\xfe.csv",
+    "two\nlines.csv",
+    "cr\rcell.csv",
+    "semi;colon.csv",
+]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -322,7 +334,7 @@ def test_a_file_name_that_a_catalogue_would_refuse_is_named_as_unread(
 
 
 ODD = ["<&>{x}.csv", "=cmd.csv", "@x.csv", "-y.csv", "x..at2", "con.csv", "summary.csv", "...csv", "dots....csv",
-       "Übung #1.csv", "a" * 200 + ".csv", "x.csv.gz.txt", "'quoted\".csv", "semi;colon,comma.csv"]  # fmt: skip
+       "Übung #1.csv", "a" * 200 + ".csv", "x.csv.gz.txt", "'quoted\".csv", "semi_colon,comma.csv"]  # fmt: skip
 
 
 def test_ids_that_a_catalogue_writes_are_ids_that_it_loads(tmp_path: Path) -> None:
@@ -332,7 +344,7 @@ def test_ids_that_a_catalogue_writes_are_ids_that_it_loads(tmp_path: Path) -> No
     named(tmp_path / "sub", "CON.csv")
     rows, unread = catalogue_from_folder(tmp_path)
     assert [name for name, _ in unread] == [] and len(rows) == len([n for n in ODD if n[0] != "."]) + 1
-    (tmp_path / "catalogue.csv").write_text(write_catalogue_rows(rows), encoding="utf-8")
+    (tmp_path / "catalogue.csv").write_text(catalogue_text(rows), encoding="utf-8")
     records = load_catalogue(tmp_path / "catalogue.csv")
     assert all(len(open_record(record)) == 2 for record in records)
     assert not any(row["file"][0] in "=+-@" for row in rows)
@@ -343,7 +355,7 @@ def test_control_characters_of_a_header_stay_in_the_file(tmp_path: Path) -> None
     named(tmp_path, "odd.AT2", f"{head}ACCELERATION IN UNITS OF G\nNPTS= 3, DT= .01 SEC\n .1 .2 .3\n")
     (row,), _ = catalogue_from_folder(tmp_path)
     assert all(cell.isprintable() for cell in row.values()) and row["station"] == "HYPERLINK(1)"
-    (tmp_path / "catalogue.csv").write_text(write_catalogue_rows([row]), encoding="utf-8")
+    (tmp_path / "catalogue.csv").write_text(catalogue_text([row]), encoding="utf-8")
     (record,) = load_catalogue(tmp_path / "catalogue.csv")
     (channel,) = open_record(record)
     assert all(text.isprintable() for text in (channel.component, channel.station, channel.event))
@@ -366,7 +378,7 @@ def test_a_huge_file_is_refused_before_it_is_read(tmp_path: Path) -> None:
     rows, unread = catalogue_from_folder(tmp_path)
     assert rows == [] and all("larger than" in reason for _, reason in unread) and len(unread) == 2
     with pytest.raises(RecordError, match="larger than"):
-        fetch(CatalogueRecord("one", "huge.AT2", "0" * 64, folder=tmp_path))
+        open_record(CatalogueRecord("one", "huge.AT2", "0" * 64, folder=tmp_path))
     with pytest.raises(CatalogueError, match="larger than"):
         load_catalogue(tmp_path / "huge.csv")
 
@@ -379,14 +391,15 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
         folder, "quake-UP.csv", "time,a (g)\n" + "".join(f"{i / 100},{np.sin(i):.3f}\n" for i in range(200))
     )
     named(folder, "tale.txt", "once upon a time\n")
-    listed = {found.file: found for found in list_folder(folder)}
+    listed = {found.file: found for found in list_folder(folder)[0]}
     table = listed["table.csv"].channels
     assert [c.component for c in table] == ["NS", "EW", "UD"] and [c.samples for c in table] == [50] * 3
     assert table[0].peak_acceleration == pytest.approx(0.04) and table[0].time_step == 0.01
     # 0, 1, 2, 3, 4 gal again and again have a mean of 2: by the trapezoidal rule 2 cm/s² for 0.49 s
     assert table[0].peak_velocity == pytest.approx(0.0098, rel=0.03)
-    assert listed["bare.txt"].row and listed["bare.txt"].to_fill == ("unit", "time_step_s")
-    assert listed["bare.txt"].row["note"] == "columns of numbers. Fill in unit and time_step_s."
+    assert listed["bare.txt"].record == "bare" and listed["bare.txt"].to_fill == ("unit", "time_step_s")
+    notes = {row["id"]: row["note"] for row in list_folder(folder)[1]}
+    assert notes["bare"] == "columns of numbers. Fill in unit and time_step_s."
     assert "HHN" in listed["loud.csv"].status and "above 3 g" in listed["loud.csv"].status
     assert not listed["table.csv"].doubts
     named(
@@ -394,12 +407,12 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
         "mixed.csv",
         "time,NS (g),EW (g)\n" + "".join(f"{i / 100},{i % 2},{4 * (i % 2)}\n" for i in range(99)),
     )
-    (mixed,) = (found for found in list_folder(folder) if found.file == "mixed.csv")
+    (mixed,) = (found for found in list_folder(folder)[0] if found.file == "mixed.csv")
     assert mixed.status.startswith("EW: The peak acceleration is 4 g, above 3 g")
     (folder / "mixed.csv").unlink()
     assert "says UP, but a is taken as horizontal" in listed["quake-UP.csv"].status
     assert listed["tale.txt"].status.startswith("not read: tale.txt: no reader recognises")
-    text = listing_text(list_folder(folder))
+    text = listing_text(list_folder(folder)[0])
     assert len(text.splitlines()) == 1 + 3 + 1 + 1 + 1 + 1 and "to fill: unit, time_step_s" in text
     assert "table.csv" in text and "columns of numbers" in text and "0.00408" in text
 
@@ -407,10 +420,10 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
 def test_a_file_under_two_names_is_told_where_it_comes_again(folder: Path) -> None:
     named(folder, "again.csv")
     named(folder, "other.csv", TABLE.replace("1,", "2,", 1))
-    listed = {found.file: found for found in list_folder(folder)}
+    listed = {found.file: found for found in list_folder(folder)[0]}
     assert [name for name, found in listed.items() if found.doubts] == ["table.csv"]
     assert "Its content is that of again.csv" in listed["table.csv"].status
-    assert listed["table.csv"].row and "again.csv" in listed["table.csv"].row["note"]
+    assert ["again.csv" in row["note"] for row in list_folder(folder)[1]] == [False, True]
 
 
 def test_rows_that_are_one_motion_are_told() -> None:
@@ -436,11 +449,11 @@ def test_a_file_without_a_unit_keeps_a_row_to_fill(tmp_path: Path) -> None:
     rows, unread = catalogue_from_folder(tmp_path)
     assert unread == [] and rows[0].get("unit", "") == ""
     path = tmp_path / "catalogue.csv"
-    path.write_text(write_catalogue_rows(rows), encoding="utf-8")
+    path.write_text(catalogue_text(rows), encoding="utf-8")
     (record,) = load_catalogue(path)
     with pytest.raises(RecordError, match="unit is not declared"):
         open_record(record)
-    path.write_text(write_catalogue_rows([{**rows[0], "unit": "m/s2"}]), encoding="utf-8")
+    path.write_text(catalogue_text([{**rows[0], "unit": "m/s2"}]), encoding="utf-8")
     assert len(open_record(load_catalogue(path)[0])) == 1
 
 
@@ -448,12 +461,12 @@ def test_a_row_added_by_hand_needs_no_hash_until_it_is_read(folder: Path) -> Non
     (folder / "up.csv").write_bytes(TABLE.encode())
     path = folder / "mine.csv"
     path.write_text(
-        'id,file,note,vertical_file\nold,table.csv,"a, b",\nnew,table.csv,x,up.csv\nlost,none.csv,,\n'
+        'id,file,note,component\nold,table.csv,"a, b",\nnew,table.csv; up.csv,x,\nlost,none.csv,,\n'
     )
     assert len(open_record(load_catalogue(path)[0])) == 2
     assert fill_hashes(path) == ("old", "new")
     records = {record.id: record for record in load_catalogue(path)}
-    assert records["old"].sha256 == records["new"].sha256 == records["new"].vertical_sha256 == SHA
+    assert records["old"].sha256 == SHA and records["new"].sha256 == f"{SHA};{SHA}"
     assert records["old"].note == "a, b" and records["lost"].sha256 == ""
     before = path.read_bytes()
     assert fill_hashes(path) == () and path.read_bytes() == before
@@ -472,3 +485,9 @@ def test_a_vertical_component_that_is_asked_for_is_warned_of(folder: Path) -> No
 def test_a_file_that_is_fetched_needs_its_hash(folder: Path) -> None:
     with pytest.raises(CatalogueError, match="sha256 is missing; a file that is fetched needs it"):
         remote(folder, sha256="")
+
+
+def test_the_readme_of_the_records_describes_every_column() -> None:
+    text = (SHIPPED / "README.md").read_text(encoding="utf-8")
+    described = [f"| `{each.key}` | {each.meaning} |" for each in described_values(CatalogueRecord).values()]
+    assert [line for line in text.splitlines() if line.startswith("| `")] == described

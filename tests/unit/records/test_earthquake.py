@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 
 from rocking.errors import CatalogueError
-from rocking.records import read
-from rocking.records.catalogue import load_catalogue, open_record
+from rocking.records import load_catalogue, open_record, read
 from rocking.records.formats.header import distance, magnitude
 
 TABLE = b"time,NS\n0.00,0.1\n0.01,0.3\n0.02,0.2\n0.03,0.1\n"

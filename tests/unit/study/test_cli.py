@@ -127,9 +127,9 @@ def test_assess_writes_report_and_tables_like_a_study(record, blocks, tmp_path, 
 
 def test_a_single_file_is_opened_once(record, blocks, tmp_path, monkeypatch):
     opened = []
-    real = Path.open
+    real = os.open
     monkeypatch.setattr(
-        Path, "open", lambda path, *mode, **more: (opened.append(path), real(path, *mode, **more))[1]
+        os, "open", lambda path, *mode, **more: (opened.append(path), real(path, *mode, **more))[1]
     )
     assert main(["assess", str(record), str(blocks), "--unit", "g", "--output", str(tmp_path / "out")]) == 0
     assert opened.count(record) == 1
@@ -151,19 +151,29 @@ def test_spectrum_agrees_with_the_integration_of_one_block(record, tmp_path):
 
 def test_catalogue_lists_what_reads_and_names_what_does_not(study, capsys):
     (study / "records" / "letter.txt").write_text("Dear Sir or Madam\n", encoding="utf-8")
-    arguments = ["catalogue", str(study / "records"), "--unit", "g"]
-    assert main([*arguments, "--replace"]) == 0
+    catalogue = study / "records" / "catalogue.csv"
+    catalogue.unlink()
+    assert main(["catalogue", str(study / "records"), "--unit", "g"]) == 0
     printed = capsys.readouterr().out
-    assert "1 record\n" in printed
-    assert "not read: letter.txt: " in printed
-    assert [row["unit"] for row in rows(study / "records" / "catalogue.csv")] == ["g"]
+    assert "1 record, 1 of them new" in printed and "not read: letter.txt: " in printed
+    assert [row["unit"] for row in rows(catalogue)] == ["g"]
 
 
-def test_a_catalogue_is_not_written_over_unasked(study, capsys):
-    before = (study / "records" / "catalogue.csv").read_bytes()
-    assert main(["catalogue", str(study / "records"), "--unit", "cm/s2"]) == 1
-    assert "--replace" in capsys.readouterr().err
-    assert (study / "records" / "catalogue.csv").read_bytes() == before
+def test_a_catalogue_keeps_what_was_typed_in_and_adds_what_is_new(study, capsys):
+    catalogue = study / "records" / "catalogue.csv"
+    before, (first,) = catalogue.read_bytes(), rows(catalogue)
+    assert main(["catalogue", str(study / "records"), "--unit", "cm/s2"]) == 0
+    assert catalogue.read_bytes() == before
+    name = first["file"]
+    text = "time,NS (g)\n" + "".join(f"{i / 100},{i % 5}\n" for i in range(99))
+    (study / "records" / "more.csv").write_text(text, encoding="utf-8")
+    (study / "records" / name).rename(study / "records" / f".{name}")
+    assert main(["catalogue", str(study / "records")]) == 0
+    printed = capsys.readouterr().out
+    assert "1 of them new" in printed and "its file is not there" in printed
+    after = rows(catalogue)
+    assert [row["file"] for row in after] == [name, "more.csv"]
+    assert after[0] == dict.fromkeys(after[0], "") | first
 
 
 def test_start_writes_the_shipped_settings_and_points_to_its_own_structures(tmp_path):

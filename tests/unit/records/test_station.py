@@ -1,0 +1,136 @@
+"""Stations: components from several files, joined; and the vertical one."""
+
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rocking.errors import CatalogueError, RecordError
+from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
+from rocking.records.folder import list_folder
+
+VALUES = np.sin(np.arange(300) * 0.3)
+
+
+def _written(folder, name, component, values, start=""):
+    """A small DYNA file, whose header names its component and may say when it begins."""
+    stamp = f"20200101_0000{start}" if start else ""
+    text = (
+        f"EVENT_NAME: E\nNETWORK: XX\nSTATION_CODE: S\nDATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS: {stamp}\n"
+        f"SAMPLING_INTERVAL_S: 0.01\nNDATA: {len(values)}\nSTREAM: {component}\nUNITS: m/s^2\n"
+        "DATA_TYPE: ACCELERATION\n"
+    )
+    (folder / name).write_text(text + "".join(f"{v:.8f}\n" for v in values))
+
+
+@pytest.fixture
+def station(tmp_path):
+    _written(tmp_path, "e.asc", "HNE", VALUES, "10.00")
+    _written(tmp_path, "n.asc", "HNN", 2 * VALUES[:290], "10.10")
+    _written(tmp_path, "z.asc", "HNZ", 0.5 * VALUES[:250], "09.95")
+    return tmp_path
+
+
+def _record(folder, file="e.asc;n.asc;z.asc", **cells):
+    return CatalogueRecord("a", file, folder=folder, **cells)
+
+
+def test_the_files_of_a_station_are_one_record_on_their_common_span(station):
+    """From 10.10 s on: 10 samples of the first, 15 of the third are before it, which leaves 235 of the third."""
+    opened = open_station(_record(station, scale_factor=2.0))
+    east, north = opened.horizontal
+    assert (east.component, north.component, opened.vertical.component) == ("HNE", "HNN", "HNZ")
+    # eight digits are printed
+    assert east.acceleration == pytest.approx(2 * VALUES[10:245], abs=2e-8)
+    assert north.acceleration == pytest.approx(4 * VALUES[:235], abs=2e-8)
+    assert opened.vertical.acceleration == pytest.approx(VALUES[15:250], abs=2e-8)
+    assert {c.start_time for c in (east, north, opened.vertical)} == {"2020-01-01T00:00:10.10Z"}
+    assert all("Cut to the span common" in c.processing[-1] for c in (east, north, opened.vertical))
+
+
+def test_files_that_do_not_fit_together_are_refused_in_a_sentence(station):
+    """Unlike names, steps and lengths; between samples; apart in time."""
+    _written(station, "short.asc", "HNN", VALUES[:200])
+    _written(station, "late.asc", "HNN", VALUES, "50.00")
+    _written(station, "between.asc", "HNN", VALUES, "10.005")
+    _written(station, "again.asc", "HNE", -VALUES, "10.00")
+    (station / "half.asc").write_text((station / "n.asc").read_text().replace("S: 0.01", "S: 0.02"))
+    (station / "v.asc").write_text((station / "n.asc").read_text().replace("ACCELERATION", "VELOCITY"))
+    for other, word in {
+        "short": "300 and 200|200 and 300", "late": "no span", "between": "between one another",
+        "again": "component 'HNE' each", "half": "time steps", "v": "must be ACCELERATION",
+    }.items():  # fmt: skip
+        with pytest.raises(RecordError, match=word) as caught:
+            open_station(_record(station, f"e.asc;{other}.asc"))
+        assert str(caught.value).startswith("a: ") and "\n" not in str(caught.value)
+
+
+def test_files_that_name_no_component_are_named_by_the_row(tmp_path):
+    for name, factor in (("u", 0.5), ("a", 1.0), ("b", 2.0)):
+        rows = "".join(f"{i * 0.01:.2f} {factor * v:.8f}\n" for i, v in enumerate(VALUES))
+        (tmp_path / f"{name}.txt").write_text(rows)
+    opened = open_station(_record(tmp_path, "u.txt;a.txt;b.txt", unit="m/s2", component="UP;N30W;N60E"))
+    assert [c.azimuth for c in opened.horizontal] == [330.0, 60.0] and opened.vertical.component == "UP"
+    assert opened.horizontal[1].acceleration == pytest.approx(2 * VALUES, abs=2e-8)
+
+
+def test_a_folder_joins_the_files_of_a_station_and_says_why_not(station):
+    _written(station, "later.asc", "HNE", VALUES, "59.00")
+    text = (station / "e.asc").read_text()
+    (station / "other.asc").write_text(text.replace("STATION_CODE: S", "STATION_CODE: T"))
+    (station / "event.asc").write_text(text.replace("EVENT_NAME: E", "EVENT_NAME: F"))
+    listed, rows = list_folder(station)
+    assert [row["file"] for row in rows] == ["e.asc;n.asc;z.asc", "event.asc", "later.asc", "other.asc"]
+    assert "Joined with 2 more" in listed[0].status
+    _written(station, "again.asc", "HNN", -VALUES, "10.00")
+    files = {file.file: file for file in list_folder(station)[0]}
+    assert "component HNN comes 2 times" in files["e.asc"].status and not files["e.asc"].beside
+
+
+SOURCE = {"source_repository": "a/b", "source_path": "a;b;c", "source_commit": "0" * 40, "sha256": "0" * 64}
+ALL = ";".join(["0" * 64] * 3)
+
+
+@pytest.mark.parametrize("cells", [
+    {"sha256": "0" * 64}, {"file": "../e.asc;n.asc"}, {"sha256": "ABC"}, SOURCE,
+    SOURCE | {"sha256": ALL, "source_path": "a"}, SOURCE | {"sha256": ALL, "source_repository": "../.."},
+])  # fmt: skip
+def test_cells_that_do_not_name_every_file_are_refused(tmp_path, cells):
+    assert _record(tmp_path, **SOURCE | {"sha256": ALL})
+    with pytest.raises(CatalogueError):
+        _record(tmp_path, **cells)
+
+
+JOINED = {
+    "capemend1992_petrolia": 3, "chichi1999_tcu052": 2, "duzce1999_bolu": 2, "formats_esm_dyna": 3, "formats_knet": 6,
+    "formats_mseed_stationxml": 3, "formats_sac": 3, "impvall1979_e04": 2, "impvall1979_e07": 2,
+    "kobe1995_kjma": 3, "kocaeli1999_yarimca": 3, "landers1992_lucerne": 3, "northridge1994_newhall": 3,
+    "northridge1994_rinaldi": 3, "northridge1994_sylmar_olive_view": 3, "parkfield2004_c02": 3,
+}  # fmt: skip
+"""Files by folder, by hand from their names; of other pairs the lengths differ and no start is known."""
+
+
+@pytest.mark.real_records
+def test_the_real_stations_are_joined_and_no_other(real_records):
+    _, rows = list_folder(real_records)
+    joined = [row["file"].split(";") for row in rows if ";" in row["file"]]
+    near = [files for files in joined if "suites" not in files[0]]
+    counts = Counter(str(Path(file).parent) for files in near for file in files)
+    assert {folder: n for folder, n in counts.items() if folder in JOINED} == JOINED
+    assert set(counts) - set(JOINED) <= {"formats_afad", "formats_emod3d"}
+    for files in near:
+        assert len({Path(file).name[:3] for file in files}) == 1 or "example" in files[0], files
+    suites = [[int(Path(file).stem) for file in files] for files in joined if "suites" in files[0]]
+    assert len(suites) >= 20 and all(one % 2 == 1 and other == one + 1 for one, other in suites)
+
+
+def test_it_is_still_after_its_end_and_cut_at_the_end_of_the_other():
+    short, long = Accelerogram(np.ones(5), 0.01), Accelerogram(np.zeros(8), 0.01)
+    assert aligned(short, long).acceleration.tolist() == [1.0] * 5 + [0.0] * 3
+    assert aligned(long, short).acceleration.tolist() == [0.0] * 5
+
+
+def test_another_time_step_is_refused():
+    with pytest.raises(RecordError, match="time_step"):
+        aligned(Accelerogram(np.ones(5), 0.02), Accelerogram(np.zeros(8), 0.01))
