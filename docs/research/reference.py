@@ -30,34 +30,15 @@ STILL_LANDINGS = 3
 """Landings on still ground after which each side has had its largest flight: impacts only take energy away."""
 
 
-def reference_maximum(mechanism: Mechanism, accelerogram: Accelerogram, budget: float = math.inf) -> float:
-    """Return φ_max/φ_cr by DOP853 at 1e-12, restarted at every sample and every impact; inf if it overturns.
-
-    Raises MotionError once it has taken `budget` seconds of processor time.
-    """
-    return _Run(mechanism, accelerogram, "DOP853", REFERENCE_TOLERANCE, budget, restart=True).maximum()
-
-
 def reference_landings(
     mechanism: Mechanism, accelerogram: Accelerogram, budget: float = math.inf
 ) -> tuple[float, np.ndarray]:
-    """Return what `reference_maximum` returns, and (k, 2) time [s] and speed of arrival [rad/s] of every landing."""
-    return _Run(mechanism, accelerogram, "DOP853", REFERENCE_TOLERANCE, budget, restart=True).answer()
+    """Return φ_max/φ_cr by DOP853 at 1e-12, restarted at every sample and every impact; inf if it overturns.
 
-
-def event_maximum(
-    mechanism: Mechanism,
-    accelerogram: Accelerogram,
-    method: Scipy,
-    relative_tolerance: float,
-    budget: float = math.inf,
-) -> float:
-    """Return φ_max/φ_cr as one writes it with `solve_ivp`: the record interpolated, an event at each impact.
-
-    No step is longer than a sample. Overturning is a rotation past the end of the mechanism.
-    Raises MotionError once it has taken `budget` seconds of processor time.
+    And (k, 2) time [s] and speed of arrival [rad/s] of every landing. Raises MotionError once it has taken `budget`
+    seconds of processor time.
     """
-    return event_landings(mechanism, accelerogram, method, relative_tolerance, budget)[0]
+    return _Run(mechanism, accelerogram, "DOP853", REFERENCE_TOLERANCE, budget, restart=True).answer()
 
 
 def event_landings(
@@ -67,7 +48,10 @@ def event_landings(
     relative_tolerance: float,
     budget: float = math.inf,
 ) -> tuple[float, np.ndarray]:
-    """Return what `event_maximum` returns, and (k, 2) time [s] and speed of arrival [rad/s] of every landing."""
+    """Return the same as one writes it with `solve_ivp`: the record interpolated, an event at each impact.
+
+    No step is longer than a sample. Overturning is a rotation past the end of the mechanism.
+    """
     return _Run(mechanism, accelerogram, method, relative_tolerance, budget, restart=False).answer()
 
 

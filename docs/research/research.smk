@@ -19,6 +19,12 @@ TARGETS_OF_RESEARCH = {
         "calibration",
         ["ensemble_trials.csv", "ensemble_accuracy.csv", "ensemble_reliability.svg"],
     ),
+    "trade_fragility": (
+        "Measure the error and the time of every method in a fragility",
+        REAL_RECORDS[1:],
+        "calibration",
+        ["trade_fragility.csv", "trade_fragility.json"],
+    ),
     "validate": (
         "Predict the overturning of two specimens on a shake table",
         [f"{workflow.basedir}/records/shake_table.csv"],

@@ -20,6 +20,11 @@ def main(target, catalogues, mirror, structures, folder, tell):
         from docs.research.ensembles import write_ensemble_accuracy
 
         write_ensemble_accuracy(*records(), load_structures(Path(structures)), folder)
+    elif target == "trade_fragility":
+        from docs.research.fragilities import write_fragilities
+
+        motions = [record for each in records() for _, record in each]
+        write_fragilities(motions, load_structures(Path(structures)), folder, tell)
     elif target == "validate":
         from docs.research.validation import write_validation
 
