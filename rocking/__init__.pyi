@@ -13,12 +13,12 @@ from .errors import RockingError as RockingError
 from .errors import StructureError as StructureError
 from .errors import UnknownFormatError as UnknownFormatError
 from .motion.batch import integrate_batch as integrate_batch
+from .motion.batch import rocking_spectrum as rocking_spectrum
 from .motion.integration import integrate as integrate
 from .motion.members import MemberResponses as MemberResponses
 from .motion.members import Members as Members
 from .motion.members import integrate_members as integrate_members
 from .motion.response import Response as Response
-from .motion.spectrum import rocking_spectrum as rocking_spectrum
 from .pulses import Pulse as Pulse
 from .pulses import PulseAnalysis as PulseAnalysis
 from .pulses import PulseSettings as PulseSettings

@@ -13,9 +13,8 @@ from rocking.assessment.method import Method
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.tiers import Expectation, Tier, expect, unlike
 from rocking.errors import PulseError, RockingError, StructureError
-from rocking.motion.contact_check import UNKNOWN, ModelCheck, check_model
 from rocking.motion.integration import integrate
-from rocking.motion.response import Response
+from rocking.motion.response import UNKNOWN, ModelCheck, Response, check_model
 from rocking.pulses import (
     PULSE_METHODS,
     Pulse,

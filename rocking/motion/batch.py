@@ -1,22 +1,25 @@
-"""Many structures, each at many scales of one record, on all cores."""
+"""Many structures, each at many scales of one record, on all cores; rocking spectra."""
 
 import math
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from typing import TYPE_CHECKING, TypeGuard
 
 import numpy as np
 
 from rocking.errors import MotionError, RockingError
+from rocking.motion import linear_kernel as kernel
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
-from rocking.motion.integration import TOLERANCES, Rocking, reduce
-from rocking.motion.many_blocks import all_solvable, follow_blocks
-from rocking.motion.members import Members, follow_factors, stepped_ratios
-from rocking.motion.table import table_of
-from rocking.quantities import within
+from rocking.motion.integration import LARGEST_GROWTH, TOLERANCES, Rocking, reduce, solvable_exactly
+from rocking.motion.members import Members, follow_factors
+from rocking.quantities import GRAVITY, within
 from rocking.records.accelerogram import Accelerogram
-from rocking.structures.mechanism import Mechanism
+from rocking.structures import EquivalentBlock
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 _SMALLEST_CHUNK = 16
 """Responses below which a job costs more to hand to a thread than it gains."""
@@ -42,8 +45,8 @@ def integrate_batch(
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
     factors, forcing = _factors(scale_factors), forcing_of(record, vertical)
     ratios = np.full((len(structures), factors.size), math.nan)
-    if factors.size == 1 and len(structures) > 1 and all_solvable(structures, forcing):
-        return follow_blocks(structures, forcing.scaled(factors[0]))[:, None]
+    if factors.size == 1 and len(structures) > 1 and _solvable(structures, forcing):
+        return _blocks(structures, forcing.scaled(factors[0]))[:, None]
     workers = workers or os.cpu_count() or 1
 
     def run(job: Sequence[tuple[int, slice]]) -> None:
@@ -61,15 +64,10 @@ def integrate_batch(
     return ratios
 
 
-def _ratios(
-    structure: Rocking, forcing: Forcing, factors: np.ndarray, tolerance: float
-) -> np.ndarray | list[float]:
+def _ratios(structure: Rocking, forcing: Forcing, factors: np.ndarray, tolerance: float) -> np.ndarray:
     """The rotation ratios of one structure at `factors` (n,) of the motion."""
-    reduced, lift = reduce(structure), factors if forcing.vertical else None
-    if isinstance(reduced, Mechanism):
-        up = np.zeros(factors.size) if lift is None else lift
-        return stepped_ratios(table_of(reduced), forcing, factors, up, tolerance)
-    return follow_factors(reduced, forcing, factors, lift, None, tolerance).rotation_ratio
+    lift = factors if forcing.vertical else None
+    return follow_factors(reduce(structure), forcing, factors, lift, None, tolerance).rotation_ratio
 
 
 def _factors(given: Sequence[float] | np.ndarray) -> np.ndarray:
@@ -94,3 +92,99 @@ def _shared_out(structures: int, factors: int, workers: int) -> list[list[tuple[
     ]
     size = max(1, _SMALLEST_CHUNK // min(chunk, factors))
     return [calls[k : k + size] for k in range(0, len(calls), size)]
+
+
+def _solvable(structures: Sequence[object], forcing: Forcing) -> TypeGuard[Sequence[EquivalentBlock]]:
+    """Whether `_blocks` takes them: equivalent blocks that rock to both sides, each with a closed form."""
+    return all(
+        isinstance(each, EquivalentBlock) and not each.one_sided and solvable_exactly(each, forcing)
+        for each in structures
+    )
+
+
+def _blocks(blocks: Sequence[EquivalentBlock], forcing: Forcing) -> np.ndarray:
+    """φ_max/φ_cr, (m,), of every block in one compiled call; inf overturns, 0 does not lift, nan: too many impacts."""
+    both = [(block.sides[0], block.sides[-1]) for block in blocks]
+    status, peaks = np.zeros(len(blocks), dtype=np.int64), np.zeros((len(blocks), 2))
+    kernel.rock_linear_blocks(
+        np.array([[side.frequency_parameter for side in sides] for sides in both]),
+        np.array([[1 / (GRAVITY * side.uplift_multiplier) for side in sides] for sides in both]),
+        np.array([[side.critical_arc for side in sides] for sides in both]),
+        np.array([[side.restitution for side in sides] for sides in both]),
+        forcing.ground.horizontal * forcing.factor,
+        forcing.ground.time_step,
+        status,
+        peaks,
+    )
+    for peak, sides in zip(peaks, both, strict=True):
+        peak[:] = [side.rotation_ratio(x) for side, x in zip(sides, peak.tolist(), strict=True)]
+    ratios = peaks.max(axis=1)
+    ratios[status == kernel.OVERTURNS] = np.inf
+    ratios[status > kernel.OVERTURNS] = np.nan
+    return ratios
+
+
+class RockingSpectrum(np.ndarray):
+    """φ_max/φ_cr, (m, n): an array that knows its axes.
+
+    frequency_parameters: p (m,), rad/s. uplift_multipliers: λ (n,). A part of it keeps the axes of the whole.
+    """
+
+    frequency_parameters: np.ndarray
+    uplift_multipliers: np.ndarray
+
+    def __array_finalize__(self, of: np.ndarray | None) -> None:
+        self.frequency_parameters = getattr(of, "frequency_parameters", np.empty(0))
+        self.uplift_multipliers = getattr(of, "uplift_multipliers", np.empty(0))
+
+    def plot(self, axes: "Axes | None" = None) -> "Axes":
+        """Draw lines of equal ratio over p and λ, on `axes` or on new ones, and return the axes.
+
+        Raises MotionError for fewer than two values on either axis, or for a part of a spectrum.
+        """
+        from rocking import plot  # the drawing stands above everything
+
+        return plot(self, axes)
+
+
+def rocking_spectrum(
+    accelerogram: Accelerogram,
+    frequency_parameters: np.ndarray,
+    uplift_multipliers: np.ndarray,
+    restitution: float,
+    workers: int | None = None,
+) -> RockingSpectrum:
+    """Return φ_max/φ_cr, (m, n), of the equivalent blocks of p [rad/s] (m,) and λ (n,) under one record; inf overturns.
+
+    Exact (linear between samples), on all cores or on `workers` threads. Raises MotionError when p or λ is not
+    positive, or the restitution lies outside [0, 1].
+    """
+    frequencies = _positive("frequency_parameters", frequency_parameters)
+    multipliers = _positive("uplift_multipliers", uplift_multipliers)
+    pushes = 1 / (GRAVITY * multipliers)
+    restitution = within(MotionError, "restitution", restitution, 0, 1)
+    forcing, step = forcing_of(accelerogram), accelerogram.time_step
+    if frequencies.size and frequencies.max() * step > LARGEST_GROWTH:
+        raise MotionError(
+            f"frequency_parameters reach {frequencies.max()!r} rad/s, but at a time step of {step!r} s "
+            f"must stay below {LARGEST_GROWTH / step:g}."
+        )
+    ratios = RockingSpectrum((frequencies.size, pushes.size))
+    ratios.frequency_parameters, ratios.uplift_multipliers = frequencies, multipliers
+    rows = ratios.view(np.ndarray)
+
+    def row(i: int) -> None:
+        # x'' of a block of λ is that of gλ = 1 under the motion over gλ
+        block = EquivalentBlock(float(frequencies[i]), 1.0, GRAVITY, restitution)
+        rows[i] = follow_factors(block, forcing, pushes, None, None, TOLERANCES[0]).rotation_ratio
+
+    with ThreadPoolExecutor(workers or os.cpu_count()) as pool:
+        list(pool.map(row, range(frequencies.size)))
+    return ratios
+
+
+def _positive(field: str, values: np.ndarray) -> np.ndarray:
+    array = np.array(values, dtype=float)
+    if array.ndim != 1 or not np.all(np.isfinite(array)) or not np.all(array > 0):
+        raise MotionError(f"{field} must be a one-dimensional array of finite numbers greater than 0.")
+    return array

@@ -1,18 +1,19 @@
-"""The front door: follow a structure through a ground motion, one case or many."""
+"""The front door: follow a structure through a ground motion, to a tolerance or exactly where a closed form exists."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 from rocking.errors import MotionError
+from rocking.motion import linear_kernel, nonlinear_kernel
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
-from rocking.motion.linear import follow_exactly, solvable_exactly
-from rocking.motion.nonlinear import follow
 from rocking.motion.response import Response
-from rocking.motion.table import linear_table, table_of
-from rocking.quantities import finite, within
+from rocking.motion.side_table import SideTable
+from rocking.motion.table import Table, linear_table, table_of
+from rocking.quantities import GRAVITY, finite, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 from rocking.structures.outcome import Outcome
@@ -25,12 +26,23 @@ class Structure(Protocol):
 
 
 Rocking = Mechanism | EquivalentBlock | Structure
+Start = tuple[float, float, int]
+"""Magnitude of the rotation, its rate (> 0 outward), and the side; side 0 is rest."""
 
 TOLERANCES = (1e-13, 0.1)
 """Smallest and largest relative tolerance."""
-
+STEP_SHARE = 0.03
+"""Share of the tolerance that one step may spend: each flight amplifies the errors of those before it."""
+OUTCOMES = {
+    0: Outcome.NO_UPLIFT,
+    nonlinear_kernel.ROCKS: Outcome.ROCKS,
+    nonlinear_kernel.OVERTURNS: Outcome.OVERTURNS,
+}
 _TIGHT = 1e-12
 _NUDGE = 1e-5
+LARGEST_GROWTH = 50.0
+"""Largest p Δt for which exp(p Δt) leaves the exact update its digits."""
+_NO_LOG = np.empty((0, 3))
 
 
 def integrate(
@@ -57,6 +69,10 @@ def integrate(
     Overturning is a rotation past the mechanism's end, or outward motion that the largest acceleration still to come
     cannot turn back. Rocking ends at an impact that leaves less than 1e-14 of the energy that reaches φ_cr.
     Raises MotionError for a setting or a forcing outside what is allowed, or a motion of more than 5e6 impacts.
+
+    >>> from rocking import Block, Pulse, integrate
+    >>> integrate(Block(semi_diagonal=2.0, slenderness=0.2), Pulse(amplitude=3.0, circular_frequency=6.0)).outcome
+    <Outcome.ROCKS: 'rocks'>
     """
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
     start = _start(structure, initial_rotation, initial_velocity)
@@ -66,11 +82,13 @@ def integrate(
     if not sensitivity:
         return response
     change = within(MotionError, "fragility_change", fragility_change, 0, 0.5)
-    slope = _sensitivity(reduced, forcing, start) if response.outcome is Outcome.ROCKS else math.nan
     return replace(
         response,
-        sensitivity=slope,
-        fragile=_fragile(reduced, forcing, tolerance, start, response.outcome, change),
+        sensitivity=_sensitivity(reduced, forcing, start) if response.outcome is Outcome.ROCKS else math.nan,
+        fragile=any(
+            _follow(reduced, forcing.scaled(factor), tolerance, start).outcome is not response.outcome
+            for factor in (1 - change, 1 + change)
+        ),
     )
 
 
@@ -86,8 +104,48 @@ def reduce(structure: Rocking) -> Mechanism | EquivalentBlock:
     return structure.mechanism()
 
 
-def _start(structure: Rocking, rotation: float, velocity: float) -> tuple[float, float, int]:
-    """Magnitude of the rotation, its rate (> 0 outward), and the side; side 0 is rest."""
+def solvable_exactly(block: EquivalentBlock, forcing: Forcing) -> bool:
+    """Whether the closed form per sample holds: a sampled record, no vertical component, a sane p Δt."""
+    frequency = max(each.frequency_parameter for each in block.sides)
+    return (
+        forcing.ground.circular_frequency == 0
+        and not forcing.vertical
+        and frequency * forcing.ground.time_step <= LARGEST_GROWTH
+    )
+
+
+def blocks_of(block: EquivalentBlock) -> linear_kernel.Blocks:
+    """What the linear kernel takes of a block."""
+    sides = block.sides
+    return linear_kernel.Blocks(
+        frequency=np.array([each.frequency_parameter for each in sides]),
+        push=np.array([1 / (GRAVITY * each.uplift_multiplier) for each in sides]),
+        span=np.array([each.critical_arc for each in sides]),
+        one_sided=block.one_sided,
+    )
+
+
+def samples_of(sides: Sequence[EquivalentBlock], forcing: Forcing) -> linear_kernel.Samples:
+    """What the linear kernel takes of a record, for these sides of a block."""
+    ground, time_step = forcing.ground.horizontal, forcing.ground.time_step
+    takeable = np.empty((len(sides), 2, ground.size))
+    for side, both in zip(sides, takeable, strict=True):
+        for sign, out in zip((1, -1), both, strict=True):
+            linear_kernel.takeback(ground, time_step, side.frequency_parameter, sign, out)
+    return linear_kernel.Samples(ground, time_step, takeable)
+
+
+def failure(status: int, impacts: int) -> MotionError:
+    """Why a run has no answer."""
+    if status == nonlinear_kernel.TOO_MANY_IMPACTS:
+        return MotionError(
+            f"the structure met {impacts} impacts before the motion ended, but at most "
+            f"{nonlinear_kernel.IMPACT_LIMIT} are followed; a restitution below 1 brings it to rest."
+        )
+    return MotionError("the motion left the range of floating-point numbers; check the record's amplitude.")
+
+
+def _start(structure: Rocking, rotation: float, velocity: float) -> Start:
     rotation = finite(MotionError, "initial_rotation", rotation, "rad")
     velocity = finite(MotionError, "initial_velocity", velocity, "rad/s")
     side = int(np.sign(rotation) or np.sign(velocity))
@@ -102,40 +160,124 @@ def _follow(
     reduced: Mechanism | EquivalentBlock,
     forcing: Forcing,
     tolerance: float,
-    start: tuple[float, float, int],
+    start: Start,
     history: bool = False,
 ) -> Response:
     if isinstance(reduced, Mechanism):
-        return follow(table_of(reduced, forcing.vertical), forcing, tolerance, start, history)
+        return _stepped(table_of(reduced, forcing.vertical), forcing, tolerance, start, history)
     if solvable_exactly(reduced, forcing):
-        return follow_exactly(reduced, forcing, start, history)
-    return follow(linear_table(reduced), forcing, tolerance, start, history)
+        return _exact(reduced, forcing, start, history)
+    return _stepped(linear_table(reduced), forcing, tolerance, start, history)
 
 
-def _sensitivity(
-    reduced: Mechanism | EquivalentBlock, forcing: Forcing, start: tuple[float, float, int]
-) -> float:
-    """d ln φ_max / d ln a, by a central difference of two tightly integrated neighbours."""
+def _stepped(table: Table, forcing: Forcing, tolerance: float, start: Start, history: bool) -> Response:
+    """Integrate the table's mechanism through the forcing."""
+    sides = table.kernel_of(forcing)
+    state = nonlinear_kernel.Start(*(_initial_arc(table, start) if start[2] else (0.0, 0.0, 0)))
+    lift = forcing.factor if forcing.vertical else 0.0
+    member = nonlinear_kernel.Member(forcing.factor, lift, table.restitution)
+    phase, peaks = nonlinear_kernel.memory(sides.ties), np.empty((2, 2))
+    arguments = (sides, forcing.ground, member, state, STEP_SHARE * tolerance, False, phase, peaks)
+    run, log = _logged(nonlinear_kernel.rock, arguments, forcing.samples if history else 0)
+    ratios = [_ratio(table.side(1), peaks[0, 0]), _ratio(table.side(-1), peaks[0, 1])]
+    return _concluded(run, ratios, peaks[1], forcing.start_time, tolerance, table if history else None, log)
+
+
+def _exact(block: EquivalentBlock, forcing: Forcing, start: Start, history: bool) -> Response:
+    """Follow the block through a record in closed form: no time-stepping error, only event times are iterated."""
+    sides, state = block.sides, (0.0, 0.0, 0)
+    if start[2]:
+        own = sides[0 if start[2] > 0 else -1]
+        arc, speed, sign = _initial_arc(linear_table(block), start)
+        state = (arc / own.critical_arc, speed / own.velocity_scale, sign)
+    restitution, peaks = (sides[0].restitution, sides[-1].restitution), np.empty((2, 2))
+    samples = samples_of(sides, forcing)
+    begin = linear_kernel.State(*state)
+    arguments = (blocks_of(block), samples, forcing.factor, restitution, begin, False, peaks)
+    run, log = _logged(linear_kernel.rock_linear, arguments, forcing.samples if history else 0)
+    ratios = [sides[k].rotation_ratio(float(peaks[0, k])) for k in (0, -1)]
+    return _concluded(run, ratios, peaks[1], 0.0, 0.0, linear_table(block) if history else None, log)
+
+
+def _initial_arc(table: Table, start: Start) -> Start:
+    """The initial state in the arc; raises MotionError beyond the end of the mechanism."""
+    rotation, velocity, sign = start
+    side = table.side(sign)
+    arc = float(side.arc(np.array(rotation)))
+    if not arc < side.end:
+        raise MotionError(f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.")
+    return arc, velocity / float(side.slope(arc)), sign
+
+
+def _ratio(side: SideTable, arc: float) -> float:
+    return side.rotation_at(float(arc)) / side.critical_rotation if arc > 0 else 0.0
+
+
+def _logged(run: Any, arguments: tuple[Any, ...], expected: int) -> tuple[tuple[Any, ...], np.ndarray]:
+    """Call the compiled `run` with a log that is large enough; `expected` samples, 0 for no log."""
+    log = np.empty((2 * expected + 1000, 3)) if expected else _NO_LOG
+    result = run(*arguments, log)
+    if result[-1] > log.shape[0] > 0:
+        log = np.empty((result[-1], 3))
+        result = run(*arguments, log)
+    return result, log[: result[-1]]
+
+
+def _concluded(
+    run: tuple[Any, ...],
+    ratios: list[float],
+    when: np.ndarray,
+    start_time: float,
+    tolerance: float,
+    table: Table | None,
+    log: np.ndarray,
+) -> Response:
+    """The Response of a finished run, overturned where a ratio is past the end; with a table, its history as well.
+
+    Raises MotionError for a run that has no answer.
+    """
+    status, impacts, uplift, last_side, steps, _ = run
+    if status not in OUTCOMES:
+        raise failure(status, impacts)
+    outcome = OUTCOMES[status] if math.isfinite(max(ratios)) else Outcome.OVERTURNS
+    largest = 0 if ratios[0] >= ratios[1] else 1
+    rocks = outcome is Outcome.ROCKS
+    times, rotation, velocity = (None, None, None) if table is None else _states(table, log)
+    return Response(
+        rotation_ratio=math.inf if outcome is Outcome.OVERTURNS else ratios[largest],
+        outcome=outcome,
+        impacts=impacts,
+        peak_time=start_time + float(when[largest]) if rocks else math.nan,
+        uplift_time=start_time + uplift,
+        peak_side=(1, -1)[largest] if rocks else last_side,
+        steps=steps,
+        tolerance=tolerance,
+        times=None if times is None else times + start_time,
+        rotation=rotation,
+        angular_velocity=velocity,
+    )
+
+
+def _states(table: Table, log: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Times, rotations and angular velocities, signed, of the lines of a log, which holds arcs."""
+    times, arcs, speeds = log.T
+    rotation, velocity = np.empty_like(arcs), np.empty_like(arcs)
+    negative = (arcs < 0) | ((arcs == 0) & (speeds < 0))
+    for sign, rows in ((1, ~negative), (-1, negative)):
+        side = table.side(sign)
+        within_end = np.minimum(np.abs(arcs[rows]), side.end)
+        turned = side.rotation(within_end)
+        rotation[rows] = sign * turned
+        velocity[rows] = speeds[rows] * side.slope(within_end, turned)
+    return times, rotation, velocity
+
+
+def _sensitivity(reduced: Mechanism | EquivalentBlock, forcing: Forcing, start: Start) -> float:
+    """d ln φ_max / d ln a, by a central difference of two tightly integrated neighbours; inf where one overturns."""
     factors = (1 - _NUDGE, 1 + _NUDGE)
     below, above = (
         _follow(reduced, forcing.scaled(factor), _TIGHT, start).rotation_ratio for factor in factors
     )
-    if math.isinf(below) or math.isinf(above):
-        return math.inf
-    if not below > 0 or not above > 0:
+    if not (0 < below < math.inf and 0 < above < math.inf):
         return math.inf
     return math.log(above / below) / math.log(factors[1] / factors[0])
-
-
-def _fragile(
-    reduced: Mechanism | EquivalentBlock,
-    forcing: Forcing,
-    tolerance: float,
-    start: tuple[float, float, int],
-    outcome: Outcome,
-    change: float,
-) -> bool:
-    return any(
-        _follow(reduced, forcing.scaled(factor), tolerance, start).outcome is not outcome
-        for factor in (1 - change, 1 + change)
-    )

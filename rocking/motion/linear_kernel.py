@@ -524,19 +524,6 @@ def rock_linear_members(blocks, samples, factors, restitution, status, peaks, im
 
 
 @njit(**_OPTIONS)
-def spectrum_row(frequency, pushes, restitution, samples, ratios):
-    """Fill ratios (n,) with the peak of the symmetric block of one frequency for each push = 1/(g λ); inf overturns."""
-    p, one, eta, start = np.array([frequency]), np.ones(1), (restitution, restitution), State(0.0, 0.0, 0)
-    none, best, settle = np.empty((0, 3)), np.zeros((2, 2)), pushes.size > 0
-    for j in range(pushes.size):
-        blocks = Blocks(p, pushes[j : j + 1], one, False)
-        status, _, _, _, _, _ = rock_linear(blocks, samples, 1.0, eta, start, settle, best, none)
-        ratios[j] = np.inf if status == OVERTURNS else max(best[0, 0], best[0, 1])
-        if status > OVERTURNS:
-            ratios[j] = np.nan
-
-
-@njit(**_OPTIONS)
 def rock_linear_blocks(frequency, push, span, restitution, ground, time_step, status, peaks):
     """`rock_linear` from rest for every block with two sides, (m, 2) each: fill status (m,) and peaks (m, 2).
 

@@ -1,6 +1,5 @@
 """Many responses of one structure to one ground motion in one compiled call: the members of an ensemble."""
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -10,10 +9,16 @@ import numpy as np
 from rocking.errors import MotionError
 from rocking.motion import linear_kernel, nonlinear_kernel
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
-from rocking.motion.integration import TOLERANCES, Rocking, reduce
-from rocking.motion.linear import blocks_of, samples_of, solvable_exactly
-from rocking.motion.nonlinear import STEP_SHARE, failure
-from rocking.motion.side_table import SideTable
+from rocking.motion.integration import (
+    STEP_SHARE,
+    TOLERANCES,
+    Rocking,
+    blocks_of,
+    failure,
+    reduce,
+    samples_of,
+    solvable_exactly,
+)
 from rocking.motion.table import Table, linear_table, table_of
 from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
@@ -112,16 +117,10 @@ def integrate_members(
     member that cannot be followed is nan, with its reason.
     """
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
-    return follow_members(reduce(structure), forcing_of(motion, vertical), members, tolerance)
-
-
-def follow_members(
-    reduced: Mechanism | EquivalentBlock, forcing: Forcing, members: Members, tolerance: float
-) -> MemberResponses:
-    """`integrate_members` of what is prepared already."""
+    forcing = forcing_of(motion, vertical)
+    lift = np.where(members.vertical, members.scale_factor, 0.0) if forcing.vertical else None
     horizontal = members.scale_factor * members.polarity
-    vertical = np.where(members.vertical, members.scale_factor, 0.0) if forcing.vertical else None
-    return follow_factors(reduced, forcing, horizontal, vertical, members.restitution, tolerance)
+    return follow_factors(reduce(structure), forcing, horizontal, lift, members.restitution, tolerance)
 
 
 def follow_factors(
@@ -132,26 +131,28 @@ def follow_factors(
     restitution: np.ndarray | None,
     tolerance: float,
 ) -> MemberResponses:
-    """The same from the factors (m,) of the horizontal and of the vertical component; None: no vertical component."""
+    """`integrate_members` of what is prepared already.
+
+    horizontal, vertical: factors (m,) of the two components; None: no vertical component. restitution: (m, 2) or None.
+    """
     lift = np.zeros(horizontal.size) if vertical is None else vertical
     if isinstance(reduced, Mechanism):
-        return _stepped(
-            table_of(reduced, forcing.vertical), forcing, horizontal, lift, restitution, tolerance
-        )
-    if vertical is None and solvable_exactly(reduced, forcing):
-        return _exact(reduced, forcing, horizontal, restitution)
+        table = table_of(reduced, forcing.vertical)
+        return _stepped(table, forcing, horizontal, lift, restitution, tolerance)
     still = replace(forcing, vertical=False)
     exact = (lift == 0) & solvable_exactly(reduced, still)
-    if not exact.any():
-        return _stepped(linear_table(reduced), forcing, horizontal, lift, restitution, tolerance)
-    return _merged(
-        exact,
-        lambda rows, eta: _exact(reduced, still, horizontal[rows], eta),
-        lambda rows, eta: _stepped(
-            linear_table(reduced), forcing, horizontal[rows], lift[rows], eta, tolerance
-        ),
-        restitution,
-    )
+    if exact.all():
+        return _exact(reduced, still, horizontal, restitution)
+    stepped = _stepped(linear_table(reduced), forcing, horizontal, lift, restitution, tolerance)
+    rows = np.flatnonzero(exact)
+    if rows.size:
+        eta = None if restitution is None else restitution[rows]
+        solved = _exact(reduced, still, horizontal[rows], eta)
+        stepped.rotation_ratio[rows], stepped.peak_side[rows] = solved.rotation_ratio, solved.peak_side
+        for row in rows.tolist():
+            stepped.reasons.pop(row, None)
+        stepped.reasons.update({int(rows[k]): reason for k, reason in solved.reasons.items()})
+    return stepped
 
 
 def _stepped(
@@ -162,98 +163,27 @@ def _stepped(
     restitution: np.ndarray | None,
     tolerance: float,
 ) -> MemberResponses:
-    status, peaks, impacts = _rocked(table, forcing, horizontal, vertical, restitution, tolerance)
-
-    def read_back(side: SideTable) -> Callable[[np.ndarray], np.ndarray]:
-        return lambda arcs: side.rotation(arcs) / side.critical_rotation
-
-    return _concluded(status, peaks, impacts, [read_back(side) for side in table.sides])
-
-
-def _rocked(
-    table: Table,
-    forcing: Forcing,
-    horizontal: np.ndarray,
-    vertical: np.ndarray,
-    restitution: np.ndarray | None,
-    tolerance: float,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Status, peaks and impacts as the kernel leaves them."""
+    """By the kernel that integrates to a tolerance."""
     status, peaks, impacts = _room(horizontal.size)
+    eta = _restitutions(restitution, table.restitution, horizontal.size)
+    share = STEP_SHARE * tolerance
     nonlinear_kernel.rock_members(
-        table.kernel_of(forcing),
-        forcing.ground,
-        horizontal,
-        vertical,
-        _restitutions(restitution, table.restitution, horizontal.size),
-        STEP_SHARE * tolerance,
-        status,
-        peaks,
-        impacts,
+        table.kernel_of(forcing), forcing.ground, horizontal, vertical, eta, share, status, peaks, impacts
     )
-    return status, peaks, impacts
-
-
-def stepped_ratios(
-    table: Table, forcing: Forcing, horizontal: np.ndarray, vertical: np.ndarray, tolerance: float
-) -> np.ndarray | list[float]:
-    """The rotation ratios alone, (m,), with the restitution of the table; those of few cost next to nothing more."""
-    if horizontal.size > _FEW:
-        return _stepped(table, forcing, horizontal, vertical, None, tolerance).rotation_ratio
-    status, peaks, _ = _rocked(table, forcing, horizontal, vertical, None, tolerance)
-    return [_one_ratio(table, *each) for each in zip(status.tolist(), peaks.tolist(), strict=True)]
-
-
-_FEW = 8
-"""Members that are read back faster one by one than as an array."""
-
-
-def _one_ratio(table: Table, status: int, peaks: Sequence[float]) -> float:
-    """What `_concluded` says of one member, to the last bit."""
-    if status != nonlinear_kernel.ROCKS:
-        return {0: 0.0, nonlinear_kernel.OVERTURNS: math.inf}.get(status, math.nan)
-    if len(table.sides) == 1:
-        return table.sides[0].rotation_at(max(peaks)) / table.sides[0].critical_rotation
-    one, other = table.sides
-    return max(
-        one.rotation_at(peaks[0]) / one.critical_rotation,
-        other.rotation_at(peaks[1]) / other.critical_rotation,
-    )
+    read_back = [lambda arcs, side=side: side.rotation(arcs) / side.critical_rotation for side in table.sides]
+    return _concluded(status, peaks, impacts, read_back)
 
 
 def _exact(
     block: EquivalentBlock, forcing: Forcing, horizontal: np.ndarray, restitution: np.ndarray | None
 ) -> MemberResponses:
+    """By the kernel that is exact."""
     sides = block.sides
     status, peaks, impacts = _room(horizontal.size)
-    own = sides[0].restitution, sides[-1].restitution
-    linear_kernel.rock_linear_members(
-        blocks_of(block),
-        samples_of(sides, forcing),
-        horizontal,
-        _restitutions(restitution, own, horizontal.size),
-        status,
-        peaks,
-        impacts,
-    )
+    eta = _restitutions(restitution, (sides[0].restitution, sides[-1].restitution), horizontal.size)
+    samples = samples_of(sides, forcing)
+    linear_kernel.rock_linear_members(blocks_of(block), samples, horizontal, eta, status, peaks, impacts)
     return _concluded(status, peaks, impacts, [side.rotation_ratios for side in sides])
-
-
-def _merged(
-    mask: np.ndarray,
-    where: Callable[[np.ndarray, np.ndarray | None], MemberResponses],
-    elsewhere: Callable[[np.ndarray, np.ndarray | None], MemberResponses],
-    restitution: np.ndarray | None,
-) -> MemberResponses:
-    """The responses of the members in `mask` by one run, and of the others by another."""
-    ratio, side = np.empty(mask.size), np.empty(mask.size, dtype=np.int64)
-    reasons: dict[int, str] = {}
-    for chosen, run in ((mask, where), (~mask, elsewhere)):
-        rows = np.flatnonzero(chosen)
-        found = run(rows, None if restitution is None else restitution[rows])
-        ratio[rows], side[rows] = found.rotation_ratio, found.peak_side
-        reasons |= {int(rows[k]): reason for k, reason in found.reasons.items()}
-    return MemberResponses(ratio, side, reasons)
 
 
 def _concluded(

@@ -12,8 +12,6 @@ import numpy as np
 
 from rocking.errors import MotionError
 from rocking.motion.nonlinear_kernel import Ties
-from rocking.motion.piecewise import ACCURACY, AIM, DEGREE, ROOM, fitted
-from rocking.motion.tie_tables import tie_law
 from rocking.quantities import GRAVITY
 from rocking.structures.equivalent_block import Arc, Function, RotationMap, arc_of
 from rocking.structures.mechanism import CUTS, EquivalentBlock, Side
@@ -274,3 +272,101 @@ def _hold(gravity: Function, ground: Function, rotation: Function, starts: np.nd
     steps = np.abs(np.diff(balance, axis=1)).max(axis=1)
     lowest = balance.min(axis=1) - steps
     return np.minimum.accumulate(lowest[::-1])[::-1]
+
+
+def tie_law(side: Side, tie: SideTie, arc: Arc, reach: float) -> tuple[float, ...]:
+    """Return the law (9,) of a tie as `Ties` has it; reach: the arc that is near rest."""
+    law, rotations = tie.tie, np.linspace(0.0, arc.last, 129)
+    yields, breaks = (
+        float(arc.at(rotation)) if (rotation := tie.rotation(stretch, arc.last)) < np.inf else np.inf
+        for stretch in (law.yield_stretch, law.rupture_stretch)
+    )
+    stiffest = np.max(tie.stretch_slope(rotations) ** 2 / side.inertia(rotations))
+    return (
+        GRAVITY * law.stiffness,
+        GRAVITY * law.pretension,
+        GRAVITY * law.strength,
+        law.yield_stretch,
+        yields,
+        breaks,
+        GRAVITY * law.stiffness * float(stiffest),
+        float(tie.stretch_slope(np.asarray(0.0))) / side.at("inertia", 0.0),
+        _slope_near_rest(side, tie, arc.rotation(np.linspace(0.0, reach, 65)), reach),
+    )
+
+
+def _slope_near_rest(side: Side, tie: SideTie, rotations: np.ndarray, reach: float) -> float:
+    """Return a bound of |d(T D̃)/dq| over `rotations` (n,) at equal arcs up to `reach`, widened for those between."""
+    rest = side.at("inertia", 0.0)
+    pull = tie.stretch_slope(rotations) / np.sqrt(side.inertia(rotations) * rest)
+    stretch = tie.stretch(rotations)
+    force = tie.tie.pretension + tie.tie.stiffness * stretch[-1]
+    steepest = np.abs(np.diff(stretch)).max() * (rotations.size - 1) / reach
+    bends = np.abs(np.diff(pull)).max() * (rotations.size - 1) / reach
+    return float(1.5 * GRAVITY * (tie.tie.stiffness * steepest * np.abs(pull).max() + force * bends))
+
+
+DEGREE = 7
+ACCURACY = 1e-12
+"""Largest error of a table, relative to the largest magnitude of the quantity."""
+
+ROOM = 0.25
+"""A piece is accurate up to this share of its width beyond its ends; a step goes no further."""
+
+AIM = 2e-14
+"""Error at which no more pieces are made, relative likewise."""
+
+_MOST_PIECES = 4096
+_NODES = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
+_PROBES = np.linspace(-0.99, 0.99, 16)
+
+
+def fitted(
+    functions: Callable[[np.ndarray], np.ndarray],
+    start: float,
+    end: float,
+    largest: np.ndarray,
+    least: np.ndarray | float = 0.0,
+) -> np.ndarray | None:
+    """Polynomials (f, m, 8) of f functions on m equal pieces of [start, end], good to ROOM beyond its ends, or None.
+
+    Pieces are halved, as often at once as the order of the error, DEGREE + 1, says is surely needed, until the error is
+    AIM of the zone's own maximum, or no longer falls because it is the rounding of the functions themselves; it must
+    then be within ACCURACY of `largest` (f,), the maxima over the whole side. Maxima below `least` (f,) count as that.
+    """
+    best, best_error, good, count = None, np.inf, False, 2
+    while count <= _MOST_PIECES:
+        powers, errors, zone = _fit(functions, start, end, count)
+        if not np.all(np.isfinite(errors)):
+            return None
+        error = (errors / np.maximum(zone, least)).max()
+        if error < best_error:
+            best, best_error, good = (
+                powers,
+                error,
+                bool(np.all(errors <= ACCURACY * np.maximum(largest, least))),
+            )
+        elif good:
+            break
+        if best_error <= AIM:
+            break
+        count <<= max(1, int(np.log2(error / AIM) / (DEGREE + 1)))
+    return best if good else None
+
+
+def _fit(
+    functions: Callable[[np.ndarray], np.ndarray], start: float, end: float, count: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Interpolate on `count` pieces; also the largest error between the nodes, and the largest value, (f,) each."""
+    half = (end - start) / count / 2
+    centres = start + (2 * np.arange(count)[:, None] + 1) * half
+    low = np.maximum(start - centres, -(1 + 2 * ROOM) * half) / half
+    high = np.minimum(end - centres, (1 + 2 * ROOM) * half) / half
+    places, probes = ((low + high) / 2 + (high - low) / 2 * each for each in (_NODES, _PROBES))
+    found = functions(centres + half * np.concatenate([places, probes], axis=1))
+    values, between = found[..., : _NODES.size], found[..., _NODES.size :]
+    powers = np.linalg.solve(places[..., None] ** np.arange(DEGREE + 1), np.moveaxis(values, 0, -1))
+    powers = np.moveaxis(powers, -1, 0)
+    fit = np.einsum("fmp,mqp->fmq", powers, probes[..., None] ** np.arange(DEGREE + 1))
+    errors = np.abs(fit - between).max(axis=(1, 2))
+    return powers / half ** np.arange(DEGREE + 1), errors, np.abs(values).max(axis=(1, 2))

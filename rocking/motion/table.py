@@ -1,5 +1,6 @@
 """A Mechanism as the kernel sees it: the tables of its sides, stacked and remembered."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from weakref import WeakKeyDictionary
@@ -7,10 +8,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from rocking.motion.forcing import Forcing
-from rocking.motion.nonlinear_kernel import REST_ENERGY, Sides
-from rocking.motion.piecewise import DEGREE
-from rocking.motion.side_table import SideTable, linear_side, side_table
-from rocking.motion.tie_tables import stacked_ties
+from rocking.motion.nonlinear_kernel import REST_ENERGY, Sides, Ties
+from rocking.motion.side_table import DEGREE, SideTable, linear_side, side_table
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 
 
@@ -73,3 +72,18 @@ def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
     ties = stacked_ties([side.ties for side in sides], most)
     kernel = Sides(pieces=pieces, hold=hold, one_sided=one_sided, ties=ties, **stacked)
     return Table(sides, one_sided, kernel, (sides[0].restitution, sides[-1].restitution))
+
+
+def stacked_ties(sides: Sequence[Ties | None], pieces: int) -> Ties | None:
+    """Return the ties of one side or two with as many pieces each; a tie that one side lacks has no force there."""
+    count = max((each.law.shape[1] for each in sides if each is not None), default=0)
+    if not count:
+        return None
+    pieces_of, law = np.zeros((len(sides) * count, pieces, 24)), np.zeros((len(sides), count, 9))
+    law[:, :, 2:6] = np.inf
+    for k, each in enumerate(sides):
+        if each is not None:
+            own = each.law.shape[1]
+            pieces_of[k * count : k * count + own, : each.pieces.shape[1]] = each.pieces
+            law[k, :own] = each.law[0]
+    return Ties(pieces_of, law)

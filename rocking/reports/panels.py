@@ -17,8 +17,8 @@ from rocking.reports.style import PREDICTED, PULSE, RECORD, UPLIFT, plain_logari
 if TYPE_CHECKING:
     from rocking.assessment.fragility import Fragility
     from rocking.assessment.single import StructureAssessment
+    from rocking.motion.batch import RockingSpectrum
     from rocking.motion.response import Response
-    from rocking.motion.spectrum import RockingSpectrum
     from rocking.pulses import Pulse, PulseAnalysis
     from rocking.records.accelerogram import Accelerogram
     from rocking.records.response_spectrum import ResponseSpectrum

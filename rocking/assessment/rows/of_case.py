@@ -10,8 +10,7 @@ from rocking.assessment.rows import meanings
 from rocking.assessment.rows.of_prediction import PredictionRow, expected_columns
 from rocking.assessment.rows.shared import CaseRow, Identity, rotation
 from rocking.assessment.verdict import Agreement, agreement, ratio, ratio_in_words, within_factor_two
-from rocking.motion.contact_check import UNKNOWN
-from rocking.motion.response import Response
+from rocking.motion.response import UNKNOWN, Response
 from rocking.sine_pulse import Regime
 from rocking.structures.outcome import Outcome
 from rocking.tables import column, row

@@ -11,7 +11,7 @@ from rocking.assessment.rows import meanings
 from rocking.assessment.rows.of_case import ComparisonRow, MaximumRow
 from rocking.assessment.rows.of_ensemble import EnsembleRow
 from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow, TimingRow
-from rocking.motion.spectrum import rocking_spectrum
+from rocking.motion.batch import rocking_spectrum
 from rocking.records import Accelerogram
 from rocking.structures import Structure
 from rocking.tables import Row, column, row

@@ -160,7 +160,7 @@ def spectrum_picture(
     width: float = TEXT_WIDTH,
 ) -> Picture | None:
     """Return the rocking spectrum with the equivalent blocks of `rows` on it; None without rows or where all rest."""
-    from rocking.motion.spectrum import rocking_spectrum
+    from rocking.motion.batch import rocking_spectrum
 
     placed = placed_structures(rows, numbers)
     if not placed:

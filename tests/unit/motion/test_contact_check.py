@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rocking.motion import integrate
-from rocking.motion.contact_check import check_model
+from rocking.motion.response import check_model
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.structures import Block, Frame

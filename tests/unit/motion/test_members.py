@@ -12,7 +12,7 @@ from rocking.motion import Members, integrate, integrate_batch, integrate_member
 from rocking.motion import linear_kernel as linear
 from rocking.motion import nonlinear_kernel as kernel
 from rocking.motion.forcing import forcing_of
-from rocking.motion.linear import blocks_of, samples_of
+from rocking.motion.integration import blocks_of, samples_of
 from rocking.motion.table import table_of
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram

@@ -6,7 +6,7 @@ from motion_cases import noise
 
 from rocking.errors import MotionError
 from rocking.motion import integrate
-from rocking.motion.spectrum import rocking_spectrum
+from rocking.motion.batch import rocking_spectrum
 from rocking.structures import EquivalentBlock
 
 RECORD = noise(3, 800, 0.01, 4.0)

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from rocking.errors import MotionError
 from rocking.motion.nonlinear_kernel import _place
-from rocking.motion.piecewise import ACCURACY
+from rocking.motion.side_table import ACCURACY
 from rocking.motion.table import linear_table, table_of
 from rocking.structures import Arch, EquivalentBlock, Wall
 from rocking.structures.mechanism import Mechanism, Side

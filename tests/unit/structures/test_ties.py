@@ -9,7 +9,7 @@ import pytest
 from tied import Held, TiedBody
 
 from rocking.motion import Members, integrate, integrate_batch, integrate_members
-from rocking.motion.contact_check import check_model
+from rocking.motion.response import check_model
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
