@@ -12,14 +12,14 @@ from rocking.structures.structure_list import TYPES, structure_from_config
 def forms() -> Iterator[tuple[str, str, Form]]:
     """Yield the name of the drawing, the type and the form, of every form of every type."""
     for name, kind in TYPES.items():
-        for place, form in enumerate(kind.forms):
+        for place, form in enumerate(kind.forms()):
             yield f"structure_{name}_{place + 1}", name, form
 
 
 @styled
 def drawing(kind: str, form: Form) -> Figure:
     """Return the structure of the form's examples, at rest, measured, and displaced beside it."""
-    example = {field.key: field.example for field in form.fields if field.required or field.unit}
+    example = {field.key: field.said.example for field in form.fields if field.required or field.unit}
     structure = structure_from_config({"type": kind, **example})
     figure = Figure(figsize=(6.4, 2.9), layout="constrained")
     rest, displaced = figure.subplots(1, 2)

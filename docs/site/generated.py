@@ -207,10 +207,12 @@ def _structure(drawing: str, kind: str, form: Form) -> str:
     rows = (
         (
             f"`{key}`",
-            field.letter,
+            field.said.letter,
             field.meaning,
-            allowed(field.schema),
-            "" if field.usual is None else f"{field.usual[0]:g} to {field.usual[1]:g}{field.suffix}",
+            field.must,
+            ""
+            if field.said.usual is None
+            else f"{field.said.usual[0]:g} to {field.said.usual[1]:g}{field.suffix}",
             "required" if field.required else "",
         )
         for key, field in form.keys.items()

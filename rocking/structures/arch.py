@@ -4,12 +4,11 @@ On piers the hinges may open anywhere in the arch and at the feet of the piers, 
 with the right pier, arch with both.
 """
 
-import dataclasses
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 
@@ -37,62 +36,12 @@ from rocking.structures.bodies import (
     resolved,
 )
 from rocking.structures.drawing import Path, plane, span, swept
-from rocking.structures.fields import (
-    Form,
-    count_field,
-    length_field,
-    number_field,
-    restitution_field,
-)
+from rocking.structures.fields import Value, angle, count, length, restitution_value
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.structure import Structure
 
-_EMBRACE_DEG = (5, 270)
-_SMALLEST_EMBRACE, _LARGEST_EMBRACE = np.radians(_EMBRACE_DEG)
-_MOST_VOUSSOIRS = 1000
-
 UNSAFE_MOMENTUM = "unsafe momentum"
 """The balance of the mirrored mechanism by its name: it loses more speed than the hinges of a real arch do."""
-
-GEOMETRY = (
-    length_field("radius", "Radius of the centreline", 10.0, (0.3, 50), "r"),
-    length_field("thickness", "Radial thickness", 1.5, (0.03, 5), "t"),
-    number_field(
-        "embrace_angle",
-        "Embrace angle",
-        "°",
-        157.5,
-        (60, 240),
-        "β",
-        {"minimum": _EMBRACE_DEG[0], "maximum": _EMBRACE_DEG[1]},
-        required=True,
-    ),
-    count_field(
-        "voussoirs",
-        "How many equal voussoirs; left out when hinges may open anywhere",
-        7,
-        (3, _MOST_VOUSSOIRS),
-        required=False,
-    ),
-    number_field(
-        "fill_depth",
-        "Depth of level fill above the extrados at the crown; left out without fill",
-        "m",
-        0.2,
-        (0, 3),
-        "f",
-        {"minimum": 0, "maximum": 1000},
-    ),
-    number_field(
-        "fill_density_ratio",
-        "Density of the fill over that of the masonry",
-        "",
-        0.8,
-        (0.3, 1.2),
-        bounds={"minimum": 0, "maximum": 10},
-    ),
-)
-"""How a file describes an arch, but for its restitution."""
 
 
 @dataclass(frozen=True)
@@ -109,20 +58,34 @@ class Arch(Structure):
     """
 
     type_name: ClassVar[str] = "arch"
-    forms: ClassVar[tuple[Form, ...]] = (
-        Form(
-            "Circular arch with radial joints; radius of the centreline",
-            (*GEOMETRY, restitution_field(UNSAFE_MOMENTUM)),
-        ),
-    )
+    described_as: ClassVar[dict[str, str]] = {
+        "": "Circular arch with radial joints; radius of the centreline"
+    }
 
-    radius: float
-    thickness: float
-    embrace_angle: float
-    voussoirs: int | None = None
-    restitution: Restitution = None
-    fill_depth: float | None = None
-    fill_density_ratio: float = 0.8
+    radius: Annotated[float, length("Radius of the centreline", 10.0, (0.3, 50), "r")]
+    thickness: Annotated[float, length("Radial thickness", 1.5, (0.03, 5), "t")]
+    embrace_angle: Annotated[float, angle("Embrace angle", 157.5, (60, 240), "β", {"ge": 5, "le": 270})]
+    voussoirs: Annotated[
+        int | None, count("How many equal voussoirs; left out when hinges may open anywhere", 7, 3, 1000)
+    ] = None
+    restitution: Annotated[Restitution, restitution_value(UNSAFE_MOMENTUM)] = None
+    fill_depth: Annotated[
+        float | None,
+        Value(
+            "Depth of level fill above the extrados at the crown; left out without fill",
+            0.2,
+            "m",
+            (0, 3),
+            "f",
+            bounds={"ge": 0, "le": 1000},
+        ),
+    ] = None
+    fill_density_ratio: Annotated[
+        float,
+        Value(
+            "Density of the fill over that of the masonry", 0.8, usual=(0.3, 1.2), bounds={"ge": 0, "le": 10}
+        ),
+    ] = 0.8
 
     def __post_init__(self) -> None:
         if self.restitution == "momentum":
@@ -132,15 +95,9 @@ class Arch(Structure):
                 f"{UNSAFE_MOMENTUM!r} to take it all the same."
             )
         super().__post_init__()
-        embrace = self.embrace_angle
         if self.thickness >= 2 * self.radius:
             raise StructureError(
                 f"thickness is {self.thickness!r} m, but must be less than twice the radius of {self.radius!r} m."
-            )
-        if not _SMALLEST_EMBRACE <= embrace <= _LARGEST_EMBRACE:
-            raise StructureError(
-                f"embrace_angle is {embrace!r} rad ({np.degrees(embrace):.6g}°), but must lie between "
-                "0.08727 rad (5°), flatter than which is no arch, and 4.7124 rad (270°)."
             )
         self.onset  # noqa: B018  an arch that cannot stand or rock is refused at birth
 
@@ -318,29 +275,19 @@ class ArchOnPiers(Arch):
     """
 
     type_name: ClassVar[str] = "arch_on_piers"
-    forms: ClassVar[tuple[Form, ...]] = (
-        Form(
-            "Circular arch on equal monolithic piers, flush with the intrados",
-            (
-                *GEOMETRY,
-                length_field("pier_width", "Width of a pier", 4.0, (0.1, 20), "b"),
-                length_field("pier_height", "Height of a pier up to the springing", 6.0, (0.1, 60), "h"),
-                number_field(
-                    "pier_density_ratio",
-                    "Density of the piers over that of the arch",
-                    "",
-                    1.0,
-                    (0.5, 1.5),
-                    bounds={"exclusiveMinimum": 0},
-                ),
-                restitution_field(),
-            ),
-        ),
-    )
+    described_as: ClassVar[dict[str, str]] = {
+        "": "Circular arch on equal monolithic piers, flush with the intrados"
+    }
 
-    pier_width: float = dataclasses.field(kw_only=True)
-    pier_height: float = dataclasses.field(kw_only=True)
-    pier_density_ratio: float = dataclasses.field(default=1.0, kw_only=True)
+    restitution: Annotated[Restitution, restitution_value()] = None
+    pier_width: Annotated[float, length("Width of a pier", 4.0, (0.1, 20), "b")] = field(kw_only=True)
+    pier_height: Annotated[float, length("Height of a pier up to the springing", 6.0, (0.1, 60), "h")] = (
+        field(kw_only=True)
+    )
+    pier_density_ratio: Annotated[
+        float,
+        Value("Density of the piers over that of the arch", 1.0, usual=(0.5, 1.5), bounds={"gt": 0}),
+    ] = field(default=1.0, kw_only=True)
 
     def _check(self) -> None:
         needed = self.thickness * float(np.sin(self.embrace_angle / 2))

@@ -1,12 +1,10 @@
 """Rigid bodies that rock about a corner: the rectangular block (Housner 1963), and any other (theory: section 2)."""
 
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 
-from rocking.errors import StructureError
-from rocking.quantities import LENGTHS, length
 from rocking.structures.bodies import (
     Bodies,
     Contacts,
@@ -18,7 +16,7 @@ from rocking.structures.bodies import (
     resolve_restitution,
 )
 from rocking.structures.drawing import Path, rectangle, span, swept, turned
-from rocking.structures.fields import ONE_SIDED, Form, length_field, number_field, restitution_field
+from rocking.structures.fields import OneSided, Value, angle, length, restitution_value
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.structure import Structure
 
@@ -42,7 +40,7 @@ def corner_side(slenderness: float, inertia_length: float, end_rotation: float, 
     )
 
 
-_OPTIONS = (restitution_field("momentum", "housner"), ONE_SIDED)
+Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
 
 
 @dataclass(frozen=True)
@@ -57,56 +55,31 @@ class Block(Structure):
     """
 
     type_name: ClassVar[str] = "block"
-    forms: ClassVar[tuple[Form, ...]] = (
-        Form(
-            "Rectangular block by its size",
-            (
-                length_field("breadth", "Breadth", 0.6, (0.02, 20), "b"),
-                length_field("height", "Height", 4.0, (0.1, 100), "h"),
-                *_OPTIONS,
-            ),
-            make="of_size",
-        ),
-        Form(
-            "Rectangular block by half its diagonal and its slenderness",
-            (
-                length_field(
-                    "semi_diagonal", "Half the diagonal", 2.0, (0.05, 50), "R", phrase="semi-diagonal {value}"
-                ),
-                number_field(
-                    "slenderness",
-                    "Angle between the vertical and the diagonal",
-                    "°",
-                    10.0,
-                    (1, 45),
-                    "α",
-                    {"exclusiveMinimum": 0, "exclusiveMaximum": 90},
-                    required=True,
-                ),
-                *_OPTIONS,
-            ),
-        ),
-    )
+    described_as: ClassVar[dict[str, str]] = {
+        "of_size": "Rectangular block by its size",
+        "": "Rectangular block by half its diagonal and its slenderness",
+    }
 
-    semi_diagonal: float
-    slenderness: float
-    restitution: Restitution = None
-    one_sided: bool = False
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not 0 < self.slenderness < np.pi / 2:
-            raise StructureError(
-                f"slenderness is {self.slenderness!r} rad, but must lie between 0 and π/2 = 1.5708 rad "
-                "for a block to stand."
-            )
+    semi_diagonal: Annotated[
+        float, length("Half the diagonal", 2.0, (0.05, 50), "R", "semi-diagonal {value}")
+    ]
+    slenderness: Annotated[
+        float,
+        angle("Angle between the vertical and the diagonal", 10.0, (1, 45), "α", {"gt": 0, "lt": 90}),
+    ]
+    restitution: Balanced = None
+    one_sided: OneSided = False
 
     @classmethod
     def of_size(
-        cls, breadth: float, height: float, restitution: Restitution = None, one_sided: bool = False
+        cls,
+        breadth: Annotated[float, length("Breadth", 0.6, (0.02, 20), "b")],
+        height: Annotated[float, length("Height", 4.0, (0.1, 100), "h")],
+        restitution: Balanced = None,
+        one_sided: OneSided = False,
     ) -> "Block":
         """Return the block of that breadth and height [m]."""
-        breadth, height = length("breadth", breadth), length("height", height)
+        cls.check_values("of_size", breadth=breadth, height=height)
         return cls(np.hypot(breadth, height) / 2, np.arctan2(breadth, height), restitution, one_sided)
 
     @property
@@ -172,34 +145,25 @@ class RigidBody(Structure):
     """
 
     type_name: ClassVar[str] = "rigid_body"
-    forms: ClassVar[tuple[Form, ...]] = (
-        Form(
-            "Any body by its centre of mass and its inertia about it per mass",
-            (
-                length_field("left", "Distance of the left corner", 0.4, (0.01, 20), "l"),
-                length_field("right", "Distance of the right corner", 0.6, (0.01, 20), "r"),
-                length_field("centre_height", "Height of the centre of mass", 2.0, (0.05, 50), "z"),
-                number_field(
-                    "inertia",
-                    "Inertia about the centre of mass per mass",
-                    "m²",
-                    1.5,
-                    (1e-4, 1e3),
-                    bounds={"minimum": LENGTHS[0] ** 2, "maximum": LENGTHS[1] ** 2},
-                    required=True,
-                ),
-                restitution_field("momentum", "housner"),
-                ONE_SIDED,
-            ),
-        ),
-    )
+    described_as: ClassVar[dict[str, str]] = {
+        "": "Any body by its centre of mass and its inertia about it per mass"
+    }
 
-    left: float
-    right: float
-    centre_height: float
-    inertia: float
-    restitution: Restitution = None
-    one_sided: bool = False
+    left: Annotated[float, length("Distance of the left corner", 0.4, (0.01, 20), "l")]
+    right: Annotated[float, length("Distance of the right corner", 0.6, (0.01, 20), "r")]
+    centre_height: Annotated[float, length("Height of the centre of mass", 2.0, (0.05, 50), "z")]
+    inertia: Annotated[
+        float,
+        Value(
+            "Inertia about the centre of mass per mass",
+            1.5,
+            "m²",
+            (1e-4, 1e3),
+            bounds={"ge": 1e-8, "le": 1e10},
+        ),
+    ]
+    restitution: Balanced = None
+    one_sided: OneSided = False
 
     def _build(self) -> Mechanism:
         positive_side = self.side(self.right, self.left)

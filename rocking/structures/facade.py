@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -24,18 +24,17 @@ from rocking.structures.bodies import (
     resolve_restitution,
 )
 from rocking.structures.drawing import Kind, Mark, Path, rectangle, span, turned
-from rocking.structures.fields import ONE_SIDED, Field, Form, flag_field, number_field, restitution_field
+from rocking.structures.fields import Value, restitution_value
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.structure import Structure
 from rocking.structures.tied import (
-    ECCENTRICITY,
-    TOP_SLAB,
-    UNIT_WEIGHT,
+    Eccentricity,
     Tied,
+    TopSlab,
+    UnitWeight,
     check_eccentricity,
     check_inside,
     loaded_side,
-    tie_fields,
 )
 from rocking.structures.ties import Attached, ConstantForce, LoadedForm, PointMotion
 
@@ -123,14 +122,7 @@ class TurningBody:
 
 
 _MOST_STOREYS = 50
-
-
-def _of_storeys(
-    parameter: str, meaning: str, example: list[float], usual: tuple[float, float], letter: str
-) -> Field:
-    """A length of each storey."""
-    bounds = {"exclusiveMinimum": 0, "maximum": 1000}
-    return number_field(parameter, meaning, "m", example, usual, letter, bounds, required=True)
+_SIZES = {"gt": 0, "le": 1000}
 
 
 @dataclass(frozen=True, repr=False)
@@ -151,71 +143,53 @@ class Facade(Tied):
     type_name: ClassVar[str] = "facade"
     crack_name: ClassVar[str] = "crack"
     draws_both_sides: ClassVar[bool] = True
-    forms: ClassVar[tuple[Form, ...]] = (
-        Form(
-            "Façade of one storey or several with floor loads, ties and thrust; forces per metre of façade",
-            (
-                _of_storeys(
-                    "storey_heights", "Height of each storey from the ground up", [3.5, 3.0], (0.5, 30), "h"
-                ),
-                _of_storeys(
-                    "thicknesses", "Thickness of each storey, flush outside", [0.6, 0.5], (0.1, 5), "t"
-                ),
-                UNIT_WEIGHT,
-                number_field(
-                    "floor_loads",
-                    "Load of the floor or roof on top of each storey",
-                    "kN/m",
-                    [12.0, 6.0],
-                    (0, 200),
-                    "N",
-                ),
-                ECCENTRICITY,
-                flag_field(
-                    "loads_held",
-                    "Whether the rest of the building holds the mass of the loads, so that only their weight acts",
-                    "loads held sideways",
-                ),
-                TOP_SLAB,
-                *tie_fields(3.4, 100.0),
-                number_field(
-                    "thrust", "Horizontal thrust of a vault or roof outwards", "kN/m", 2.0, (0, 100), "H"
-                ),
-                number_field("thrust_height", "Height of the thrust above the ground", "m", 6.0, (0, 60)),
-                number_field(
-                    "crack_storey",
-                    "Storey at whose foot it cracks; 1 is the ground floor",
-                    "",
-                    1,
-                    (1, 12),
-                    bounds={"minimum": 1},
-                ),
-                restitution_field("momentum"),
-                number_field(
-                    "inward_restitution",
-                    "Restitution of the impact that ends rocking inwards, where it differs",
-                    "",
-                    0.8,
-                    (0.1, 1),
-                    bounds={"minimum": 0, "maximum": 1},
-                ),
-                ONE_SIDED,
-            ),
-        ),
-    )
+    described_as: ClassVar[dict[str, str]] = {
+        "": "Façade of one storey or several with floor loads, ties and thrust; forces per metre of façade"
+    }
 
-    storey_heights: tuple[float, ...]
-    thicknesses: tuple[float, ...]
-    unit_weight: float
-    floor_loads: tuple[float, ...] = ()
-    eccentricity: float = 0.0
-    loads_held: bool = False
-    top_slab: Literal["hinged", "flat"] = "hinged"
-    thrust: float = 0.0
-    thrust_height: float | None = None
-    crack_storey: int = 1
-    restitution: Restitution = None
-    inward_restitution: float | None = None
+    storey_heights: Annotated[
+        tuple[float, ...],
+        Value("Height of each storey from the ground up", [3.5, 3.0], "m", (0.5, 30), "h", bounds=_SIZES),
+    ]
+    thicknesses: Annotated[
+        tuple[float, ...],
+        Value("Thickness of each storey, flush outside", [0.6, 0.5], "m", (0.1, 5), "t", bounds=_SIZES),
+    ]
+    unit_weight: UnitWeight
+    floor_loads: Annotated[
+        tuple[float, ...],
+        Value("Load of the floor or roof on top of each storey", [12.0, 6.0], "kN/m", (0, 200), "N"),
+    ] = ()
+    eccentricity: Eccentricity = 0.0
+    loads_held: Annotated[
+        bool,
+        Value(
+            "Whether the rest of the building holds the mass of the loads, so that only their weight acts",
+            False,
+            phrase="loads held sideways",
+        ),
+    ] = False
+    top_slab: TopSlab = "hinged"
+    thrust: Annotated[
+        float, Value("Horizontal thrust of a vault or roof outwards", 2.0, "kN/m", (0, 100), "H")
+    ] = 0.0
+    thrust_height: Annotated[
+        float | None, Value("Height of the thrust above the ground", 6.0, "m", (0, 60))
+    ] = None
+    crack_storey: Annotated[
+        int,
+        Value("Storey at whose foot it cracks; 1 is the ground floor", 1, usual=(1, 12), bounds={"ge": 1}),
+    ] = 1
+    restitution: Annotated[Restitution, restitution_value("momentum")] = None
+    inward_restitution: Annotated[
+        float | None,
+        Value(
+            "Restitution of the impact that ends rocking inwards, where it differs",
+            0.8,
+            usual=(0.1, 1),
+            bounds={"ge": 0, "le": 1},
+        ),
+    ] = None
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -1,17 +1,21 @@
-"""What a structure is described by in a file: keys with unit, bounds, meaning and plausible range.
+"""What a structure is described by in a file: the parameters of its constructors, with unit, bounds and meaning.
 
-A structure's file lists its forms; the loader, the JSON schema and the documentation follow from them.
+A class says it in the type of each parameter: `height: Annotated[float, length("Height", 4.0, (0.1, 100), "h")]`. The
+loader, the checks at birth, the JSON schema and the documentation follow from there.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from types import MappingProxyType
-from typing import Any
+from inspect import Parameter, signature
+from types import NoneType
+from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
+from annotated_types import Ge, Gt, Le, Lt, MinLen
 
-from rocking.errors import ConfigurationError, StructureError
-from rocking.quantities import LENGTHS, finite, not_negative, positive, whole, within
+from rocking.described import Described
+from rocking.errors import StructureError
+from rocking.quantities import LENGTHS, finite
 
 _KILO = ("kN", "kN/m", "kN/m²", "kN/m³")
 _INWARD: dict[str, Callable[[Any], Any]] = {
@@ -23,114 +27,125 @@ _OUTWARD: dict[str, Callable[[Any], Any]] = {
     **dict.fromkeys(_KILO, lambda value: value / 1e3),
 }
 """From the unit of the file to SI and back; units that are not here are SI."""
-
-_IN_KEYS = str.maketrans({"/": "_", "²": "2", "³": "3", "°": "deg"})
-"""A unit as the key of a value ends in it."""
+_LIMITS: dict[str, Callable[[Any], Any]] = {"ge": Ge, "gt": Gt, "le": Le, "lt": Lt}
 
 PHRASE = "{name} {value}"
 
 
-@dataclass(frozen=True)
-class Field:
-    """One key of a structure in a file.
+@dataclass(frozen=True, eq=False)
+class Value:
+    """What is said of a parameter beside its type.
 
-    parameter: of the constructor, and the attribute that gives the value back in SI. meaning: for the documentation.
-    example: a value for a structure that stands. unit: of the file, in which the key ends; lengths m, angles °,
-    forces kN. usual: plausible range in that unit; beyond it a remark, not a refusal. letter: in drawings.
-    phrase: how the description says it, of {name} and {value}, which has its unit.
-    schema: the JSON schema of the value. required: whether the form needs it.
+    example: of a structure that stands. unit: of the file; lengths m, angles °, forces kN. usual: plausible range in
+    that unit; beyond it a remark, not a refusal. letter: in drawings. phrase: how the description says it, of {name}
+    and {value}, which has its unit. bounds: any of ge, gt, le, lt. names: of what may stand in place of a number.
     """
 
-    parameter: str
     meaning: str
-    example: object
-    schema: Mapping[str, Any] = field(repr=False)
+    example: object = None
     unit: str = ""
     usual: tuple[float, float] | None = None
     letter: str = ""
     phrase: str = PHRASE
-    required: bool = True
+    bounds: Mapping[str, float] = field(default_factory=lambda: {"ge": 0})
+    names: tuple[str, ...] = ()
+
+
+def length(
+    meaning: str, example: float, usual: tuple[float, float], letter: str = "", phrase: str = PHRASE
+) -> Value:
+    """Return what is said of a length in m."""
+    low, high = LENGTHS
+    return Value(meaning, example, "m", usual, letter, phrase, {"ge": low, "le": high})
+
+
+def angle(
+    meaning: str,
+    example: float,
+    usual: tuple[float, float],
+    letter: str,
+    bounds: Mapping[str, float],
+) -> Value:
+    """Return what is said of an angle, which a file gives in degrees."""
+    return Value(meaning, example, "°", usual, letter, PHRASE, bounds)
+
+
+def count(meaning: str, example: int, low: int, high: int) -> Value:
+    """Return what is said of a whole number."""
+    return Value(meaning, example, usual=(low, high), phrase="{value} {name}", bounds={"ge": low, "le": high})
+
+
+def restitution_value(*balances: str) -> Value:
+    """Return what is said of a restitution: a number, or the name of one of `balances`."""
+    meaning = "Ratio of angular velocities after and before an impact"
+    meaning += ", or the name of a balance" * bool(balances)
+    return Value(meaning, 0.9, usual=(0.1, 1), letter="η", bounds={"ge": 0, "le": 1}, names=balances)
+
+
+RestitutionNumber = Annotated[float, restitution_value()]
+OneSided = Annotated[
+    bool,
+    Value("Rocks away from what it leans on only; needs a restitution number", False, phrase="one-sided"),
+]
+
+
+@dataclass(frozen=True)
+class Field(Described):
+    """One key of a structure in a file: a parameter with what is said of it; see Value."""
+
+    said: Value = field(kw_only=True)
 
     @property
-    def key(self) -> str:
-        """As in the file: the parameter and its unit."""
-        return f"{self.parameter}_{self.unit.translate(_IN_KEYS)}" if self.unit else self.parameter
-
-    def inward(self, value: object) -> object:
-        """Return a value of the file as the constructor takes it: in SI and radians, a list as a tuple."""
-        if self.schema.get("type") == "boolean" and not isinstance(value, bool):
-            raise ConfigurationError(f"{self.key} is {value!r}, but must be true or false.")
-        if self.schema.get("type") != "array":
-            return self._converted(value)
-        if not isinstance(value, list | tuple):
-            raise ConfigurationError(f"{self.key} is {value!r}, but must be a list of numbers.")
-        return tuple(self._converted(each) for each in value)
-
-    def checked(self, value: Any) -> Any:
-        """Return a value in SI as a structure keeps it: floats, and a list as a tuple, within the schema's bounds.
-
-        Raises StructureError naming the parameter. Angles are held against bounds of their own by the structure.
-        """
-        if self.schema.get("type") == "array":
-            if not isinstance(value, tuple | list) or (self.required and not value):
-                raise StructureError(f"{self.parameter} is {value!r}, but must be a list of numbers.")
-            return tuple(self._bounded(each, self.schema["items"]) for each in value)
-        if self.schema.get("type") == "integer":
-            return whole(self.parameter, value, self.schema["minimum"], self.schema["maximum"])
-        if "oneOf" in self.schema:
-            number, named = self.schema["oneOf"]
-            if not isinstance(value, str):
-                return self._bounded(value, number)
-            if value not in named["enum"]:
-                names = ", ".join(named["enum"])
-                raise StructureError(
-                    f"{self.parameter} is {value!r}, but must be a number from 0 to 1 or one of {names}."
-                )
-        if "enum" in self.schema and value not in self.schema["enum"]:
-            raise StructureError(
-                f"{self.parameter} is {value!r}, but must be one of {', '.join(self.schema['enum'])}."
-            )
-        return self._bounded(value, self.schema) if self.schema.get("type") == "number" else value
-
-    def _bounded(self, value: Any, bounds: Mapping[str, Any]) -> float:
-        unit = self.unit.replace("kN", "N")
-        if self.unit == "°":
-            return finite(StructureError, self.parameter, value, "rad")
-        if "exclusiveMinimum" in bounds or bounds.get("minimum", 0) > 0:
-            value = positive(StructureError, self.parameter, value, unit)
-        if "maximum" in bounds:
-            return within(
-                StructureError, self.parameter, value, bounds.get("minimum", 0), bounds["maximum"], unit
-            )
-        if "minimum" in bounds:
-            return not_negative(self.parameter, value, unit)
-        return finite(StructureError, self.parameter, value, unit)
-
-    def _converted(self, value: object) -> object:
-        if self.unit not in _INWARD:
-            return value
-        return float(_INWARD[self.unit](finite(StructureError, self.key, value, self.unit)))  # type: ignore[arg-type]
-
-    def outward(self, value: Any) -> object:
-        """Return an attribute in SI as a file gives it."""
-        if isinstance(value, tuple):
-            return [self.outward(each) for each in value]
-        return float(_OUTWARD[self.unit](value)) if self.unit in _OUTWARD else value
-
-    def said(self, text: str) -> str:
-        """Return the phrase of the description for the value written `text`."""
-        return self.phrase.format(name=self.parameter.replace("_", " "), value=text + self.suffix)
+    def required(self) -> bool:
+        """Whether it must be given."""
+        return self.default is ...
 
     @property
     def suffix(self) -> str:
         """The unit as it follows a number."""
         return self.unit if self.unit in ("", "°") else f" {self.unit}"
 
+    def inward(self, value: object) -> object:
+        """Return a value of the file as the constructor takes it: in SI and radians, a list as a tuple."""
+        if isinstance(value, list | tuple):
+            return tuple(self.inward(each) for each in value)
+        if self.unit not in _INWARD:
+            return value
+        return float(_INWARD[self.unit](finite(StructureError, self.key, value, self.unit)))  # type: ignore[arg-type]
+
+    def outward(self, value: Any) -> Any:
+        """Return an attribute in SI as a file gives it."""
+        if isinstance(value, list | tuple):
+            return [self.outward(each) for each in value]
+        number = isinstance(value, float | int) and not isinstance(value, bool)
+        return float(_OUTWARD[self.unit](value)) if self.unit in _OUTWARD and number else value
+
+    def kept(self, value: Any) -> Any:
+        """Return a value in SI as a structure keeps it; raises StructureError for another than is allowed."""
+        if isinstance(value, list):
+            value = tuple(value)
+        elif isinstance(value, np.generic | np.ndarray) and value.ndim == 0:
+            value = value.item()
+        whole = isinstance(value, float) and value.is_integer() and int in (self.kind, *get_args(self.kind))
+        outside = self.outward(int(value) if whole else value)
+        if self.unit == "°" and isinstance(outside, float):
+            outside = float(f"{outside:.13g}")  # an angle that came from degrees may be off by its last digit
+        try:
+            checked = self.checked(tuple(outside) if isinstance(outside, list) else outside)
+        except ValueError as wrong:
+            raise StructureError(f"{self.name} is {wrong}") from None
+        return checked if self.unit not in _OUTWARD else self._floats(value)
+
+    def _floats(self, value: Any) -> Any:
+        return tuple(map(float, value)) if isinstance(value, tuple) else float(value)
+
+    def phrased(self, text: str) -> str:
+        """Return the phrase of the description for the value written `text`."""
+        return self.said.phrase.format(name=self.name.replace("_", " "), value=text + self.suffix)
+
     def remark(self, kind: str, value: object) -> str:
         """Return the sentence on a value (of the file) beyond the plausible range, or nothing."""
-        if self.usual is None:
-            return ""
-        low, high = self.usual
+        low, high = self.said.usual or (-np.inf, np.inf)
         values = value if isinstance(value, list | tuple) else [value]
         beyond = [each for each in values if isinstance(each, int | float) and not low <= each <= high]
         if not beyond:
@@ -145,16 +160,29 @@ class Field:
 class Form:
     """One way to describe a structure in a file.
 
-    meaning: for the documentation. fields: its keys; those that every structure may have follow. make: name of the
-    class method that takes their parameters as keywords; the class itself when "".
+    meaning: for the documentation. make: name of the class method that takes the parameters as keywords; the class
+    itself when "". fields: its keys.
     """
 
     meaning: str
+    make: str
     fields: tuple[Field, ...]
-    make: str = ""
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "fields", (*self.fields, RESTITUTION_RANGE))
+    @classmethod
+    def of(cls, kind: Any, make: str, meaning: str) -> "Form":
+        """Return the form of a structure's class `kind` that its class method `make` takes, or its constructor."""
+        own = dict(signature(kind).parameters)
+        taken, hints = dict(own), get_type_hints(kind, include_extras=True)
+        if make:
+            taken = dict(signature(getattr(kind, make)).parameters)
+            hints |= get_type_hints(getattr(kind, make), include_extras=True)
+            if any(each.kind is Parameter.VAR_KEYWORD for each in taken.values()):
+                taken |= {name: each for name, each in own.items() if each.default is not Parameter.empty}
+        taken["restitution_range"] = taken.pop("restitution_range", own["restitution_range"])  # said last
+        described = [
+            _field(name, hints[name], taken[name].default) for name in taken if _said(hints.get(name))
+        ]
+        return cls(meaning, make, tuple(described))
 
     @property
     def keys(self) -> dict[str, Field]:
@@ -167,87 +195,31 @@ class Form:
         return tuple(each.key for each in self.fields if each.required)
 
 
-def number_field(
-    parameter: str,
-    meaning: str,
-    unit: str,
-    example: object,
-    usual: tuple[float, float],
-    letter: str = "",
-    bounds: Mapping[str, float] = MappingProxyType({"minimum": 0}),
-    *,
-    required: bool = False,
-    phrase: str = PHRASE,
-) -> Field:
-    """Return the field of a number, or of a list of them where `example` is one; bounds: of the JSON schema."""
-    schema: dict[str, object] = {"type": "number", **bounds}
-    if isinstance(example, list):
-        schema = {"type": "array", "minItems": 1, "items": schema}
-    return Field(parameter, meaning, example, schema, unit, usual, letter, phrase, required)
+def _said(hint: Any) -> Value | None:
+    return next((each for each in getattr(hint, "__metadata__", ()) if isinstance(each, Value)), None)
 
 
-def length_field(
-    parameter: str,
-    meaning: str,
-    example: float,
-    usual: tuple[float, float],
-    letter: str = "",
-    *,
-    required: bool = True,
-    phrase: str = PHRASE,
-) -> Field:
-    """Return the field of a length in m."""
-    bounds = {"minimum": LENGTHS[0], "maximum": LENGTHS[1]}
-    return number_field(
-        parameter, meaning, "m", example, usual, letter, bounds, required=required, phrase=phrase
-    )
+def _field(name: str, hint: Any, default: Any) -> Field:
+    said = _said(hint)
+    assert said is not None
+    required = default is Parameter.empty
+    limits = tuple(_LIMITS[bound](limit) for bound, limit in said.bounds.items())
 
+    def kind_of(hint: Any) -> Any:
+        if hint in (float, int):
+            return Annotated[hint, said, *limits]  # type: ignore[valid-type]
+        if hint is str:
+            return Literal[said.names] if said.names else None
+        if get_origin(hint) is tuple:
+            return Annotated[tuple[kind_of(float), ...], MinLen(int(required))]  # type: ignore[misc]
+        return hint
 
-def count_field(
-    parameter: str, meaning: str, example: int, bounds: tuple[int, int], required: bool = True
-) -> Field:
-    """Return the field of a whole number."""
-    schema = {"type": "integer", "minimum": bounds[0], "maximum": bounds[1]}
-    return Field(
-        parameter, meaning, example, schema, usual=bounds, phrase="{value} {name}", required=required
-    )
-
-
-def choice_field(parameter: str, meaning: str, choices: Iterable[str], phrase: str = PHRASE) -> Field:
-    """Return the optional field of one word out of `choices`, the first of them the default."""
-    allowed = list(choices)
-    return Field(parameter, meaning, allowed[0], {"enum": allowed}, phrase=phrase, required=False)
-
-
-def flag_field(parameter: str, meaning: str, phrase: str) -> Field:
-    """Return the optional field of a yes or no."""
-    return Field(parameter, meaning, False, {"type": "boolean"}, phrase=phrase, required=False)
-
-
-def restitution_field(*balances: str, required: bool = False) -> Field:
-    """Return the field of a restitution: a number, or the name of one of `balances`."""
-    number: dict[str, object] = {"type": "number", "minimum": 0, "maximum": 1}
-    schema = {"oneOf": [number, {"enum": list(balances)}]} if balances else number
-    meaning = "Ratio of angular velocities after and before an impact"
-    meaning += ", or the name of a balance" * bool(balances)
-    return Field("restitution", meaning, 0.9, schema, usual=(0.1, 1), letter="η", required=required)
-
-
-RESTITUTION_RANGE = number_field(
-    "restitution_range",
-    "The restitution is known to plus or minus this much; left out: as the settings of the ensemble say",
-    "",
-    0.1,
-    (0, 0.3),
-    bounds={"minimum": 0, "maximum": 1},
-    phrase="restitution known to ± {value}",
-)
-"""How well the restitution is known, of every structure."""
-
-ONE_SIDED = flag_field(
-    "one_sided", "Rocks away from what it leans on only; needs a restitution number", "one-sided"
-)
-"""Whether a structure leans on something."""
+    options = get_args(hint.__origin__) if NoneType in get_args(hint.__origin__) else (hint.__origin__,)
+    kinds = [kind_of(each) for each in options if each is not NoneType]
+    kind: Any = kinds[0]
+    for each in kinds[1:]:
+        kind = kind if each is None else kind | each
+    return Field(name, kind, said.meaning, said.unit, default=... if required else default, said=said)
 
 
 def article(kind: str) -> str:

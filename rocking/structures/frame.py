@@ -1,7 +1,7 @@
 """The symmetric rocking frame of equal columns under a rigid beam (Makris and Vassiliou 2013; theory: section 3)."""
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 
@@ -17,11 +17,15 @@ from rocking.structures.bodies import (
     resolve_restitution,
 )
 from rocking.structures.drawing import Path, rectangle, span, turned
-from rocking.structures.fields import Form, count_field, length_field, number_field, restitution_field
+from rocking.structures.fields import Value, count, length, restitution_value
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.structure import Structure
 
-_MOST_COLUMNS = 1000
+Columns = Annotated[int, count("How many columns", 4, 2, 1000)]
+BeamMassRatio = Annotated[
+    float, Value("Mass of the beam over that of all columns", 0.3, usual=(0, 20), letter="γ")
+]
+Balanced = Annotated[Restitution, restitution_value("momentum")]
 
 
 @dataclass(frozen=True)
@@ -35,32 +39,14 @@ class Frame(Structure):
     """
 
     type_name: ClassVar[str] = "frame"
-    forms: ClassVar[tuple[Form, ...]] = (
-        Form(
-            "Symmetric frame of equal columns under a rigid beam",
-            (
-                length_field("column_breadth", "Breadth of a column", 1.0, (0.05, 10), "b"),
-                length_field("column_height", "Height of a column", 8.0, (0.5, 60), "h"),
-                count_field("columns", "How many columns", 4, (2, _MOST_COLUMNS)),
-                number_field(
-                    "beam_mass_ratio",
-                    "Mass of the beam over that of all columns",
-                    "",
-                    0.3,
-                    (0, 20),
-                    "γ",
-                    required=True,
-                ),
-                restitution_field("momentum"),
-            ),
-            make="of_columns",
-        ),
-    )
+    described_as: ClassVar[dict[str, str]] = {
+        "of_columns": "Symmetric frame of equal columns under a rigid beam"
+    }
 
     column: Block
-    columns: int
-    beam_mass_ratio: float
-    restitution: Restitution = None
+    columns: Columns
+    beam_mass_ratio: BeamMassRatio
+    restitution: Balanced = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -70,11 +56,11 @@ class Frame(Structure):
     @classmethod
     def of_columns(
         cls,
-        column_breadth: float,
-        column_height: float,
-        columns: int,
-        beam_mass_ratio: float,
-        restitution: Restitution = None,
+        column_breadth: Annotated[float, length("Breadth of a column", 1.0, (0.05, 10), "b")],
+        column_height: Annotated[float, length("Height of a column", 8.0, (0.5, 60), "h")],
+        columns: Columns,
+        beam_mass_ratio: BeamMassRatio,
+        restitution: Balanced = None,
     ) -> "Frame":
         """Return the frame whose columns have that breadth and height [m]."""
         return cls(Block.of_size(column_breadth, column_height), columns, beam_mass_ratio, restitution)

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
@@ -11,14 +11,7 @@ from rocking.errors import StructureError
 from rocking.structures.block import RigidBody
 from rocking.structures.bodies import Bodies, Contacts, MotionState, Restitution, body_about
 from rocking.structures.drawing import Path, span, turned
-from rocking.structures.fields import (
-    ONE_SIDED,
-    Form,
-    choice_field,
-    length_field,
-    number_field,
-    restitution_field,
-)
+from rocking.structures.fields import OneSided, Value, length, restitution_value
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.structure import HIGHEST_SHARE, Structure
 
@@ -38,35 +31,22 @@ class Spire(Structure):
 
     type_name: ClassVar[str] = "spire"
     crack_name: ClassVar[str] = "crack"
-    forms: ClassVar[tuple[Form, ...]] = (
-        Form(
-            "Cone or square pyramid, solid or hollow, that rocks above a horizontal crack",
-            (
-                length_field("width", "Diameter or side at the base", 3.0, (0.2, 20), "b"),
-                length_field("height", "Height of the whole spire", 15.0, (0.5, 100), "h"),
-                length_field(
-                    "wall_thickness",
-                    "Horizontal thickness of the wall of a hollow one",
-                    0.25,
-                    (0.05, 3),
-                    "t",
-                    required=False,
-                ),
-                choice_field("plan", "Shape of a horizontal section", _SPREAD, "{value} plan"),
-                number_field("crack_height", "Height of the crack above the base", "m", 5.0, (0, 95), "z"),
-                restitution_field("momentum", "housner"),
-                ONE_SIDED,
-            ),
-        ),
-    )
+    described_as: ClassVar[dict[str, str]] = {
+        "": "Cone or square pyramid, solid or hollow, that rocks above a horizontal crack"
+    }
 
-    width: float
-    height: float
-    wall_thickness: float | None = None
-    plan: Literal["circular", "square"] = "circular"
-    crack_height: float = 0.0
-    restitution: Restitution = None
-    one_sided: bool = False
+    width: Annotated[float, length("Diameter or side at the base", 3.0, (0.2, 20), "b")]
+    height: Annotated[float, length("Height of the whole spire", 15.0, (0.5, 100), "h")]
+    wall_thickness: Annotated[
+        float | None, length("Horizontal thickness of the wall of a hollow one", 0.25, (0.05, 3), "t")
+    ] = None
+    plan: Annotated[
+        Literal["circular", "square"],
+        Value("Shape of a horizontal section", "circular", phrase="{value} plan"),
+    ] = "circular"
+    crack_height: Annotated[float, Value("Height of the crack above the base", 5.0, "m", (0, 95), "z")] = 0.0
+    restitution: Annotated[Restitution, restitution_value("momentum", "housner")] = None
+    one_sided: OneSided = False
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -3,8 +3,8 @@
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from functools import cache, cached_property
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +13,7 @@ from rocking.errors import StructureError
 from rocking.quantities import within
 from rocking.structures.bodies import Bodies, Contacts, MotionState
 from rocking.structures.drawing import Dimension, Mark, Path
-from rocking.structures.fields import Field, Form
+from rocking.structures.fields import Field, Form, Value
 from rocking.structures.mechanism import Mechanism
 
 if TYPE_CHECKING:
@@ -62,31 +62,54 @@ class Structure(ABC):
 
     restitution_range: its restitution is known to plus or minus this much; None: as the settings say.
 
-    type_name: the `type` in a file. forms: the ways to describe it there, the first one that of a structure made
-    otherwise. crack_name: what its candidates move ("hinge", "crack"); "" without. draws_both_sides: whether its own
-    drawing takes a negative rotation, instead of being mirrored.
+    type_name: the `type` in a file. described_as: what each constructor that a file may use describes, by the name of
+    its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
+    draws_both_sides: whether its own drawing takes a negative rotation, instead of being mirrored.
     """
 
     type_name: ClassVar[str] = ""
-    forms: ClassVar[tuple[Form, ...]] = ()
+    described_as: ClassVar[dict[str, str]] = {}
     crack_name: ClassVar[str] = ""
     draws_both_sides: ClassVar[bool] = False
 
-    restitution_range: float | None = field(default=None, kw_only=True)
+    restitution_range: Annotated[
+        float | None,
+        Value(
+            "The restitution is known to plus or minus this much; left out: as the settings of the ensemble say",
+            0.1,
+            usual=(0, 0.3),
+            phrase="restitution known to ± {value}",
+            bounds={"ge": 0, "le": 1},
+        ),
+    ] = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
-        """Hold each value that is not the default against the field that describes it in a file."""
-        described = {each.parameter: each for form in self.forms for each in form.fields}
+        """Hold each value that is not the default against what its type says of it."""
+        described = {each.name: each for form in self.forms() for each in form.fields}
         for own in fields(self):
             value = getattr(self, own.name)
             if own.name in described and value is not own.default:
-                object.__setattr__(self, own.name, described[own.name].checked(value))
+                object.__setattr__(self, own.name, described[own.name].kept(value))
         restitution = getattr(self, "restitution", None)
         if getattr(self, "one_sided", False) and not isinstance(restitution, float):
             raise StructureError(
                 f"restitution is {restitution!r}, but a one-sided body needs its own number between 0 and 1, as what "
                 "it leans on takes part in the impact; give it."
             )
+
+    @classmethod
+    @cache
+    def forms(cls) -> tuple[Form, ...]:
+        """Return the ways to describe it in a file, the first one that of a structure made otherwise."""
+        return tuple(Form.of(cls, make, meaning) for make, meaning in cls.described_as.items())
+
+    @classmethod
+    def check_values(cls, make: str, **values: object) -> None:
+        """Hold `values` of the class method `make` against what their types say; raises StructureError."""
+        form = next(each for each in cls.forms() if each.make == make)
+        for each in form.fields:
+            if each.name in values:
+                each.kept(values[each.name])
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.description})"
@@ -221,14 +244,14 @@ class Structure(ABC):
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
         drawn, paths = [], self._dimensions()
         for each in self._described():
-            shown = paths.get(each.parameter, ())
+            shown = paths.get(each.name, ())
             texts = self._text(each).split(", ")
             if isinstance(shown, list):
                 for number, (text, path) in enumerate(zip(texts, shown, strict=True), start=1):
-                    letter = each.letter + str(number).translate(_SUBSCRIPTS)
+                    letter = each.said.letter + str(number).translate(_SUBSCRIPTS)
                     drawn.append(Dimension(letter, text + each.suffix, *path))
             elif shown:
-                drawn.append(Dimension(each.letter, texts[0] + each.suffix, *shown))
+                drawn.append(Dimension(each.said.letter, texts[0] + each.suffix, *shown))
         return tuple(drawn)
 
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
@@ -265,14 +288,14 @@ class Structure(ABC):
     def form(self) -> Form:
         """The form it was described in, or the first one."""
         given = self.__dict__.get("_typed", {})
-        return max(self.forms, key=lambda form: len(set(form.required) & given.keys()))
+        return max(self.forms(), key=lambda form: len(set(form.required) & given.keys()))
 
     @property
     def description(self) -> str:
         """What it was described by, in words with units: "breadth 0.6 m, height 6.0 m"."""
         values = self._values
         return ", ".join(
-            each.said(self._text(each)) for each in self._described() if values[each.key] is not False
+            each.phrased(self._text(each)) for each in self._described() if values[each.key] is not False
         )
 
     @property
@@ -311,12 +334,12 @@ class Structure(ABC):
         given = self.__dict__.get("_typed")
         if given is not None:
             return {key: value for key, (value, _) in given.items()}
-        values = [(each, getattr(self, each.parameter)) for each in self.form.fields]
+        values = [(each, getattr(self, each.name)) for each in self.form.fields]
         defaults = {each.name: each.default for each in fields(self)}  # type: ignore[arg-type]
         return {
             each.key: each.outward(value)
             for each, value in values
-            if each.required or (value is not None and value != defaults.get(each.parameter))
+            if each.required or (value is not None and value != defaults.get(each.name))
         }
 
     def _described(self) -> list[Field]:

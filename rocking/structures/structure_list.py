@@ -15,7 +15,7 @@ from typing import Any
 import yaml
 
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
-from rocking.structures.fields import RESTITUTION_RANGE, Field, Form, article
+from rocking.structures.fields import Field, Form, article
 from rocking.structures.structure import Structure, typed_text
 
 _CLASSES = (
@@ -61,9 +61,9 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
     }
     form = _form(kind, given)
     arguments: dict[str, Any] = {
-        form.keys[key].parameter: form.keys[key].inward(value) for key, value in given.items()
+        form.keys[key].name: form.keys[key].inward(value) for key, value in given.items()
     }
-    known = arguments.pop(RESTITUTION_RANGE.parameter, None)
+    known = arguments.pop("restitution_range", None)
     make: Callable[..., Structure] = getattr(TYPES[kind], form.make) if form.make else TYPES[kind]
     structure = make(**arguments)
     if known is not None:
@@ -74,7 +74,7 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
 
 def _form(kind: str, given: Mapping[str, object]) -> Form:
     """The form of `kind` that the keys `given` fill; ConfigurationError names what is unknown, missing or too much."""
-    forms = TYPES[kind].forms
+    forms = TYPES[kind].forms()
     allowed = {key for form in forms for key in form.keys}
     for key in given:
         if key not in allowed:
@@ -110,9 +110,9 @@ _NAME = {
 def structures_schema() -> dict[str, object]:
     """Return the schema (draft 7); a definition for each form of each type."""
     definitions = {
-        kind if len(each.forms) == 1 else f"{kind}_{number}": _definition(kind, form)
+        kind if len(each.forms()) == 1 else f"{kind}_{number}": _definition(kind, form)
         for kind, each in TYPES.items()
-        for number, form in enumerate(each.forms, start=1)
+        for number, form in enumerate(each.forms(), start=1)
     }
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
@@ -147,13 +147,15 @@ def _definition(kind: str, form: Form) -> dict[str, object]:
         "required": ["name", "type", *form.required],
         "properties": {"name": dict(_NAME), "type": {"const": kind}, **properties},
         "examples": [
-            {"name": f"my {kind}", "type": kind, **{each.key: each.example for each in form.fields}}
+            {"name": f"my {kind}", "type": kind, **{each.key: each.said.example for each in form.fields}}
         ],
     }
 
 
 def _property(each: Field) -> dict[str, object]:
-    usual = f"; usually {each.usual[0]:g} to {each.usual[1]:g}" if each.usual and each.unit else ""
+    usual = (
+        f"; usually {each.said.usual[0]:g} to {each.said.usual[1]:g}" if each.said.usual and each.unit else ""
+    )
     unit = f", {each.unit}" if each.unit else ""
     return {**each.schema, "description": f"{each.meaning}{unit}{usual}"}
 

@@ -3,12 +3,13 @@
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Annotated, Literal
 
 import numpy as np
 
 from rocking.errors import StructureError
 from rocking.structures.equivalent_block import Function
-from rocking.structures.fields import Field, choice_field, number_field
+from rocking.structures.fields import OneSided, Value
 from rocking.structures.mechanism import Side
 from rocking.structures.structure import Structure
 from rocking.structures.ties import LoadedForm, Tie
@@ -52,24 +53,19 @@ def critical_rotation(gravity: Function, end_rotation: float, bends: Sequence[fl
     return found
 
 
-UNIT_WEIGHT = number_field(
-    "unit_weight",
-    "Weight of the masonry",
-    "kN/m³",
-    20.0,
-    (8, 30),
-    bounds={"exclusiveMinimum": 0},
-    required=True,
-)
-ECCENTRICITY = number_field(
-    "eccentricity", "Distance of the bearing inwards from the middle of the wall", "m", 0.05, (-1, 1), "e", {}
-)
-TOP_SLAB = choice_field(
-    "top_slab",
-    "Whether the uppermost load rests on a bearing or as a slab that stays flat",
-    ("hinged", "flat"),
-    "{value} top slab",
-)
+UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"gt": 0})]
+Eccentricity = Annotated[
+    float,
+    Value("Distance of the bearing inwards from the middle of the wall", 0.05, "m", (-1, 1), "e", bounds={}),
+]
+TopSlab = Annotated[
+    Literal["hinged", "flat"],
+    Value(
+        "Whether the uppermost load rests on a bearing or as a slab that stays flat",
+        "hinged",
+        phrase="{value} top slab",
+    ),
+]
 
 
 def check_eccentricity(value: float, thickness: float) -> None:
@@ -89,40 +85,6 @@ def check_inside(field: str, value: float, height: float) -> None:
         )
 
 
-def tie_fields(height: float, stiffness: float) -> tuple[Field, ...]:
-    """Return the fields of ties, with examples."""
-    return (
-        number_field("tie_heights", "Heights of the ties above the ground", "m", [height], (0.2, 60), "z"),
-        number_field(
-            "tie_stiffness",
-            "Stiffness of each tie per metre of wall, kN/m per m",
-            "kN/m²",
-            stiffness,
-            (1, 1e5),
-            "k",
-        ),
-        number_field(
-            "tie_pretension", "Force of each tie at rest; needs one_sided", "kN/m", 0.0, (0, 200), "T"
-        ),
-        number_field(
-            "tie_strength",
-            "Force at which each tie yields, or breaks where no plastic elongation is given; elastic without it",
-            "kN/m",
-            40.0,
-            (1, 500),
-            "F",
-            bounds={"exclusiveMinimum": 0},
-        ),
-        number_field(
-            "tie_plastic_elongation",
-            "By how much each tie yields at its strength before it breaks; 0 is brittle",
-            "m",
-            0.05,
-            (0, 0.5),
-        ),
-    )
-
-
 @dataclass(frozen=True, repr=False)
 class Tied(Structure):
     """A structure with a row of equal ties.
@@ -133,12 +95,34 @@ class Tied(Structure):
     one_sided: it leans on cross walls and rocks outwards only; restitution must then be a number.
     """
 
-    tie_heights: tuple[float, ...] = field(default=(), kw_only=True)
-    tie_stiffness: float = field(default=0.0, kw_only=True)
-    tie_pretension: float = field(default=0.0, kw_only=True)
-    tie_strength: float | None = field(default=None, kw_only=True)
-    tie_plastic_elongation: float = field(default=0.0, kw_only=True)
-    one_sided: bool = field(default=False, kw_only=True)
+    tie_heights: Annotated[
+        tuple[float, ...], Value("Heights of the ties above the ground", [1.6], "m", (0.2, 60), "z")
+    ] = field(default=(), kw_only=True)
+    tie_stiffness: Annotated[
+        float,
+        Value("Stiffness of each tie per metre of wall, kN/m per m", 50.0, "kN/m²", (1, 1e5), "k"),
+    ] = field(default=0.0, kw_only=True)
+    tie_pretension: Annotated[
+        float, Value("Force of each tie at rest; needs one_sided", 0.0, "kN/m", (0, 200), "T")
+    ] = field(default=0.0, kw_only=True)
+    tie_strength: Annotated[
+        float | None,
+        Value(
+            "Force at which each tie yields, or breaks where no plastic elongation is given; elastic without it",
+            40.0,
+            "kN/m",
+            (1, 500),
+            "F",
+            bounds={"gt": 0},
+        ),
+    ] = field(default=None, kw_only=True)
+    tie_plastic_elongation: Annotated[
+        float,
+        Value(
+            "By how much each tie yields at its strength before it breaks; 0 is brittle", 0.05, "m", (0, 0.5)
+        ),
+    ] = field(default=0.0, kw_only=True)
+    one_sided: OneSided = field(default=False, kw_only=True)
 
     @abstractmethod
     def tie_stretches(self, rotation: float) -> dict[float, float]:

@@ -7,13 +7,13 @@ from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
-from rocking.quantities import finite, length
+from rocking.quantities import finite
 from rocking.structures.bodies import (
     Bars,
     Bodies,
@@ -30,24 +30,16 @@ from rocking.structures.bodies import (
     resolved,
 )
 from rocking.structures.drawing import Mark, Path, plane, rectangle, span, turned
-from rocking.structures.fields import (
-    ONE_SIDED,
-    Form,
-    flag_field,
-    length_field,
-    number_field,
-    restitution_field,
-)
+from rocking.structures.fields import OneSided, Value, length, restitution_value
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.structure import HIGHEST_SHARE, Structure
 from rocking.structures.tied import (
-    ECCENTRICITY,
-    TOP_SLAB,
-    UNIT_WEIGHT,
+    Eccentricity,
     Tied,
+    TopSlab,
+    UnitWeight,
     check_eccentricity,
     loaded_side,
-    tie_fields,
 )
 from rocking.structures.ties import Attached, ConstantForce, LoadedForm, PointMotion, Tie
 
@@ -154,7 +146,9 @@ class WallLinkage:
 Applied = tuple[int, np.ndarray, np.ndarray]
 """A force on a block (0 lower, 1 upper): where it acts and what it is, (k,) complex each."""
 
-_THICKNESS = length_field("thickness", "Thickness", 0.25, (0.05, 5), "t")
+Height = Annotated[float, length("Height between the supports", 3.2, (0.5, 60), "h")]
+Thickness = Annotated[float, length("Thickness", 0.25, (0.05, 5), "t")]
+Balanced = Annotated[Restitution, restitution_value("momentum")]
 
 
 @dataclass(frozen=True)
@@ -171,47 +165,28 @@ class Wall(Structure):
 
     type_name: ClassVar[str] = "wall"
     crack_name: ClassVar[str] = "hinge"
-    forms: ClassVar[tuple[Form, ...]] = (
-        Form(
-            "Wall by its height and that of its hinge",
-            (
-                length_field("height", "Height between the supports", 3.2, (0.5, 60), "h"),
-                length_field("hinge_height", "Height of the hinge above the base", 1.6, (0.2, 57), "h₁"),
-                _THICKNESS,
-                restitution_field("momentum"),
-                ONE_SIDED,
-            ),
-            make="hinged_at",
-        ),
-        Form(
-            "Wall by the heights below and above its hinge",
-            (
-                length_field("lower_height", "Height below the hinge", 2.0, (0.2, 57), "h₁"),
-                length_field("upper_height", "Height above the hinge", 1.5, (0.1, 57), "h₂"),
-                _THICKNESS,
-                restitution_field("momentum"),
-                ONE_SIDED,
-            ),
-        ),
-    )
+    described_as: ClassVar[dict[str, str]] = {
+        "hinged_at": "Wall by its height and that of its hinge",
+        "": "Wall by the heights below and above its hinge",
+    }
 
-    lower_height: float
-    upper_height: float
-    thickness: float
-    restitution: Restitution = None
-    one_sided: bool = False
+    lower_height: Annotated[float, length("Height below the hinge", 2.0, (0.2, 57), "h₁")]
+    upper_height: Annotated[float, length("Height above the hinge", 1.5, (0.1, 57), "h₂")]
+    thickness: Thickness
+    restitution: Balanced = None
+    one_sided: OneSided = False
 
     @classmethod
     def hinged_at(
         cls,
-        height: float,
-        hinge_height: float,
-        thickness: float,
-        restitution: Restitution = None,
-        one_sided: bool = False,
+        height: Height,
+        hinge_height: Annotated[float, length("Height of the hinge above the base", 1.6, (0.2, 57), "h₁")],
+        thickness: Thickness,
+        restitution: Balanced = None,
+        one_sided: OneSided = False,
     ) -> "Wall":
         """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
-        height = length("height", height)
+        cls.check_values("hinged_at", height=height)
         hinge = finite(StructureError, "hinge_height", hinge_height, "m")
         if not 0 < hinge < height:
             raise StructureError(
@@ -342,39 +317,24 @@ class LoadedWall(Tied):
 
     type_name: ClassVar[str] = "loaded_wall"
     crack_name: ClassVar[str] = "hinge"
-    forms: ClassVar[tuple[Form, ...]] = (
-        Form(
-            "Wall between supports with a load on top and ties; forces per metre of wall",
-            (
-                length_field("height", "Height between the supports", 3.2, (0.5, 60), "h"),
-                length_field("hinge_height", "Height of the hinge above the base", 1.9, (0.2, 57), "h₁"),
-                length_field("thickness", "Thickness", 0.25, (0.05, 5), "t"),
-                UNIT_WEIGHT,
-                number_field("top_load", "Load on top of the wall", "kN/m", 10.0, (0, 500), "N"),
-                ECCENTRICITY,
-                TOP_SLAB,
-                flag_field(
-                    "load_held",
-                    "Whether only the weight of the load acts, not its mass",
-                    "load that does not move",
-                ),
-                *tie_fields(1.6, 50.0),
-                restitution_field("momentum"),
-                ONE_SIDED,
-            ),
-            make="hinged_at",
-        ),
-    )
+    described_as: ClassVar[dict[str, str]] = {
+        "hinged_at": "Wall between supports with a load on top and ties; forces per metre of wall"
+    }
 
     lower_height: float
     upper_height: float
     thickness: float
-    unit_weight: float
-    top_load: float = 0.0
-    eccentricity: float = 0.0
-    top_slab: Literal["hinged", "flat"] = "hinged"
-    load_held: bool = False
-    restitution: Restitution = None
+    unit_weight: UnitWeight
+    top_load: Annotated[float, Value("Load on top of the wall", 10.0, "kN/m", (0, 500), "N")] = 0.0
+    eccentricity: Eccentricity = 0.0
+    top_slab: TopSlab = "hinged"
+    load_held: Annotated[
+        bool,
+        Value(
+            "Whether only the weight of the load acts, not its mass", False, phrase="load that does not move"
+        ),
+    ] = False
+    restitution: Balanced = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -387,10 +347,10 @@ class LoadedWall(Tied):
     @classmethod
     def hinged_at(
         cls,
-        height: float,
-        hinge_height: float,
-        thickness: float,
-        unit_weight: float,
+        height: Height,
+        hinge_height: Annotated[float, length("Height of the hinge above the base", 1.9, (0.2, 57), "h₁")],
+        thickness: Thickness,
+        unit_weight: UnitWeight,
         **options: float | tuple[float, ...] | str | None,
     ) -> "LoadedWall":
         """Return the wall of that total height whose hinge lies at `hinge_height` [m]; options as for the class."""

@@ -29,7 +29,7 @@ FEW = settings(
 REGISTERED = [
     pytest.param(kind, form, id=f"{kind} {number}")
     for kind, each in TYPES.items()
-    for number, form in enumerate(each.forms, start=1)
+    for number, form in enumerate(each.forms(), start=1)
 ]
 
 
@@ -41,7 +41,7 @@ def varied(draw, kind, form):
         if not field.required and draw(st.booleans()):
             continue
         factor = draw(st.floats(0.8, 1.1) if "restitution" in field.key else st.floats(0.8, 1.25))
-        value = field.example
+        value = field.said.example
         if isinstance(value, list):
             value = [factor * each for each in value]
         mapping[field.key] = factor * value if isinstance(value, float) else value
@@ -136,7 +136,7 @@ def test_slopes_are_derivatives_and_the_potential_is_the_height_of_the_masses(st
 @pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")
 def test_energy_of_free_rocking_is_kept_until_the_impact(kind, form):
     """Without forcing, I φ'²/2 + g ∫ G dφ of the integrated flight is the energy it was released with."""
-    structure = structure_from_config({"type": kind, **{each.key: each.example for each in form.fields}})
+    structure = structure_from_config({"type": kind, **{each.key: each.said.example for each in form.fields}})
     side = structure.mechanism().positive
     start = 0.5 * side.critical_rotation
     still = Pulse(1e-9, 20 * np.pi, 0.0)
@@ -178,7 +178,7 @@ def test_a_drawing_is_finite_closed_and_measured(structure):
 @registered
 def test_a_description_says_every_value_with_its_unit_and_comes_back(structure):
     mapping = structure.as_config()
-    assert all(len(form.keys) == len(form.fields) for form in structure.forms)  # no key twice
+    assert all(len(form.keys) == len(form.fields) for form in structure.forms())  # no key twice
     again = structure_from_config(mapping)
     assert again == structure and again.description == structure.description
     for field in structure.form.fields:

@@ -139,7 +139,7 @@ values = st.one_of(st.floats(0.05, 60.0), st.integers(1, 9), nasty)
 def descriptions(draw):
     """A mapping with the keys of one form and values good and bad."""
     kind = draw(st.sampled_from(sorted(TYPES)))
-    form = draw(st.sampled_from(TYPES[kind].forms))
+    form = draw(st.sampled_from(TYPES[kind].forms()))
     return {"type": kind, **{key: draw(values) for key in form.keys if draw(st.integers(0, 9))}}
 
 

@@ -52,7 +52,9 @@ def test_no_drawing_leaves_the_paper_or_meets_its_neighbour():
 
 def example_of(kind):
     example = {
-        field.key: field.example for field in TYPES[kind].forms[0].fields if field.required or field.unit
+        field.key: field.said.example
+        for field in TYPES[kind].forms()[0].fields
+        if field.required or field.unit
     }
     return structure_from_config({"type": kind, **example})
 
