@@ -53,7 +53,7 @@ def trade(
     Every structure is met by every record with every method, one response at a time. tell: is given a line for each
     record, and one for each case that cannot be followed. Times are processor times of this machine, in s.
 
-    >>> pier = rocking.Block.of_size(0.8, 6.0)
+    >>> pier = rocking.Block.of_size(0.8, 6.0, 0.9)
     >>> rows = rocking.trade(rocking.read("records/synthetic_strong_pulse.AT2"), {"pier": pier})
     >>> [str(row.method) for row in rows if row.structure == "pier" and row.wrong_verdicts]
     ['one sine', 'five sines']
