@@ -14,7 +14,7 @@ from rocking.errors import RecordError, UnknownFormatError, about
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
-from rocking.records.instrument import channel_warnings
+from rocking.records.instrument import channel_warnings, site_warnings
 from rocking.records.plausibility import pass_limits
 from rocking.tables import read_whole
 
@@ -177,7 +177,8 @@ def told_apart(records: Sequence[Accelerogram]) -> list[Accelerogram]:
         name = record.component or f"channel {place}"
         if record.component and shared[record.component] > 1:
             name += f" (channel {place})"
-        warnings = (*record.warnings, *channel_warnings(record.component))
+        known = (*record.warnings, *channel_warnings(record.component), *site_warnings(record.station))
+        warnings = tuple(dict.fromkeys(known))
         channels.append(replace(record, component=name, warnings=warnings))
     return channels
 

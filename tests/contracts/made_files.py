@@ -158,6 +158,27 @@ def dyna(stated: float = 1.0) -> str:
     return "".join(f"{key}: {value}\n" for key, value in pairs.items()) + columns(values, 1, ".6f")
 
 
+def dyna_filtered_anew() -> str:
+    """As AFAD gives the earthquakes of 2023: lines AAD_ above, slashes in dates, a peak of before the filter."""
+    above = "AAD_Filtered_TADAS_FILE\nAAD_FILTER_ORDER: 1\nAAD_LOW_CUT_FREQUENCY_HZ: 0.025\n"
+    begin = "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS: 2023/02/06 01:17:07.3320300\n"
+    return above + dyna(1.5).replace("DURATION_S: 0.400", "DURATION_S: ").replace("NDATA", f"{begin}NDATA")
+
+
+def jma() -> str:
+    gal = np.column_stack([100 * TRUE, 50 * TRUE, 10 * TRUE])
+    rows = "".join(",".join(f"{value:.3f}" for value in row) + "\n" for row in gal)
+    return (
+        "SITE CODE= 9CFMADE     ,32.7,130.8, 11,6.5\n LAT.=   32.6\n LON.=  130.7\n SAMPLING RATE= 100Hz\n"
+        " UNIT  = gal(cm/s/s)\nINITIAL TIME = 2016 04 14 21 26 20\n NS,EW,UD\n" + rows
+    )  # fmt: skip
+
+
+def emod3d() -> str:
+    head = f"MADE       090 \n{N}  {STEP:.5e} 0 0" + "  0.00000e+00" * 4
+    return f"{head}\n" + columns(TRUE / 9.80665, 6, "13.5e")
+
+
 def afad(stated: float = 1.0) -> str:
     gal = np.column_stack([100 * TRUE, -50 * TRUE, 10 * TRUE])
     peaks = " ".join(
@@ -364,6 +385,9 @@ MADE: dict[str, tuple[Callable[..., str], float, Options]] = {
     "BHRC": (bhrc, 1e-6, Options()),
     "K-NET/KiK-net": (knet, 2e-6, Options()),
     "DYNA (ESM, ITACA, AFAD)": (dyna, 1e-8, Options()),
+    "DYNA (ESM, ITACA, AFAD): filtered anew": (dyna_filtered_anew, 1e-8, Options()),
+    "JMA CSV": (jma, 5e-6, Options()),
+    "EMOD3D text": (emod3d, 5e-5, Options(unit="g")),
     "AFAD/NSMN text": (afad, 1e-8, Options()),
     "RESORCE": (resorce, 1e-7, Options()),
     "GeoNet V1A/V2A": (geonet, 5e-5, Options()),

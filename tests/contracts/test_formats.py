@@ -1,5 +1,6 @@
 """The formats as promised: one reader reads each real file of the manifest rightly, or refuses it by name."""
 
+import csv
 import re
 from pathlib import Path
 
@@ -9,8 +10,9 @@ import pytest
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import GRAVITY
 from rocking.records import read
-from rocking.records.formats import FORMATS
+from rocking.records.formats import FORMATS, Options
 from rocking.records.processing import displacement, velocity
+from rocking.records.read import read_content, undressed
 from rocking.records.rotation import rotate
 
 pytestmark = pytest.mark.real_records
@@ -73,10 +75,16 @@ def test_every_channel_agrees_with_the_manifest(real_records: Path, manifest: li
     assert channels >= 140
 
 
+def more(real_records: Path) -> list[dict[str, str]]:
+    """The rows of the second list of samples."""
+    with (real_records / "manifest_more.tsv").open(encoding="utf-8") as stream:
+        return list(csv.DictReader(stream, delimiter="\t"))
+
+
 def test_exactly_one_format_recognises_each_file(real_records: Path, manifest: list[dict[str, str]]) -> None:
     matrix = {}
-    for file in sorted({row["file"] for row in manifest}):
-        content = (real_records / file).read_bytes()
+    for file in sorted({row["file"] for row in [*manifest, *more(real_records)]}):
+        content = undressed((real_records / file).read_bytes())
         matrix[file] = [form.name for form in FORMATS if form.recognise(content)]
     assert {file: names for file, names in matrix.items() if len(names) != 1} == {}
     assert {names[0] for names in matrix.values()} == {form.name for form in FORMATS}
@@ -103,6 +111,8 @@ def test_broken_files_are_refused(real_records: Path, name: str, declared_sample
 
 
 WARNED = {
+    "ANLA196.AT2": "in a structure",
+    "RSN77_SFERN_PUL164.AT2": "in a structure",
     "RSN960_LOS270_one_extra.AT2": "holds 2000",
     "ARL360_odd_header.at2": "CR CR LF",
     "RSN10591_ComalTX11-10-20_IU.CCM.BH1.10.AT2": "below 1e-5 g|high-gain seismometer",
@@ -233,3 +243,45 @@ def test_obspy_reads_our_formats_the_same(real_records: Path) -> None:
         for trace, record in zip(stream, records, strict=True):
             assert np.array_equal(trace.data, record.acceleration)
             assert trace.stats.delta == record.time_step
+
+
+def test_formats_of_the_second_list_agree_with_it(real_records: Path) -> None:
+    """AFAD's files of 2023, EMOD3D and JMA; the unit of EMOD3D stands in no file. PGA has four digits."""
+    for row in more(real_records):
+        unit = "g" if "emod3d" in row["file"] else None
+        records = {record.component: record for record in read(real_records / row["file"], unit=unit)}
+        record = records[row["component"]]
+        assert (record.time_step, record.acceleration.size) == (float(row["dt"]), int(row["npts"]))
+        assert record.peak_acceleration / GRAVITY == pytest.approx(float(row["pga_g"]), abs=6e-5)
+        assert not record.warnings
+
+
+DRESSED = {
+    "^Z": lambda text: text + b"\x1a",
+    "NUL": lambda text: text + bytes(700),
+    "BOM": lambda text: b"\xef\xbb\xbf" + text,
+    "CRLF": lambda text: plain_ends(text).replace(b"\n", b"\r\n"),
+    "CR": lambda text: plain_ends(text).replace(b"\n", b"\r"),
+    "blank lines": lambda text: text.rstrip() + b"\n \n\t\n\n",
+}
+
+
+def plain_ends(text: bytes) -> bytes:
+    return text.replace(b"\r\r\n", b"\n").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+
+
+@pytest.mark.parametrize("dress", DRESSED)
+def test_what_programs_put_around_a_text_changes_nothing(
+    real_records: Path, manifest: list[dict[str, str]], dress: str
+) -> None:
+    """25 of 26 texts were refused for a ^Z at their end."""
+    tried = 0
+    for file, rows in time_series(manifest).items():
+        content = (real_records / file).read_bytes()
+        if b"\0" in content[:512] or content.startswith(b"\x1f\x8b") or not file.startswith("formats_"):
+            continue
+        options = Options(**declared(rows[0]))
+        before, after = (read_content(each, "f", options) for each in (content, DRESSED[dress](content)))
+        assert [r.sha256 for r in before] == [r.sha256 for r in after], file
+        tried += 1
+    assert tried > 30

@@ -35,6 +35,13 @@ SAID: dict[str, list[tuple[Any, ...]]] = {
     "BHRC": [("L1", 45.0, "1", "", "", False, None)],
     "K-NET/KiK-net": [("E-W", 90.0, "MADE01", "BO", "2018/01/24 19:51:00 M6.2", False, None)],
     "DYNA (ESM, ITACA, AFAD)": [("HNE", 90.0, "X", "", "MADE", True, 0.1)],
+    "DYNA (ESM, ITACA, AFAD): filtered anew": [("HNE", 90.0, "X", "", "MADE", True, 0.025)],
+    "JMA CSV": [
+        ("NS", 0.0, "9CFMADE", "JMA", "", False, None),
+        ("EW", 90.0, "9CFMADE", "JMA", "", False, None),
+        ("UD", None, "9CFMADE", "JMA", "", False, None),
+    ],
+    "EMOD3D text": [("090", 90.0, "MADE", "", "", None, None)],
     "AFAD/NSMN text": [
         ("N-S", 0.0, "0921", "TK", "", False, None),
         ("E-W", 90.0, "0921", "TK", "", False, None),
@@ -55,7 +62,7 @@ SAID: dict[str, list[tuple[Any, ...]]] = {
     "Kinemetrics EVT": [("X", None, "MADE", "", "2011-09-09", False, None)],
 }
 """By hand from the text of each made file; the two of UNAM that differ in their lines of numbers say the same."""
-VERTICAL = {"U-D", "V", "U"}
+VERTICAL = {"U-D", "V", "U", "UD"}
 
 
 def test_every_format_has_its_header_here() -> None:
@@ -169,6 +176,22 @@ def test_the_third_of_three_channels_of_a_recorder_is_vertical_by_its_place() ->
 def test_the_step_of_knet_follows_its_frequency(sampling: str, duration: str) -> None:
     text = knet().replace("100Hz", sampling).replace("Duration Time(s)  0.4", f"Duration Time(s)  {duration}")
     assert read_text(text)[0].time_step == pytest.approx(float(duration) / 40)
+
+
+@pytest.mark.parametrize(("labels", "components"), [
+    ("/N90E;/V;+", ["N90E", "V"]), ("/N45E;L/V;", ["N45E", "V"]), ("/;N45E/;V", ["N45E", "V"]),
+])  # fmt: skip
+def test_bearing_and_sense_of_a_cicese_channel_are_told_apart(labels: str, components: list[str]) -> None:
+    """The vertical was taken as a horizontal component by the name of its sense, +."""
+    found = read_text(MADE["UNAM/CICESE"][0]().replace("/N45E/V\n", f"{labels}\n"))
+    assert [record.component for record in found] == components
+    assert [record.vertical for record in found] == [False, True]
+
+
+def test_times_of_jma_and_afad_are_utc() -> None:
+    assert {record.start_time for record in read_text(MADE["JMA CSV"][0]())} == {"2016-04-14T12:26:20Z"}
+    (record,) = read_text(MADE["DYNA (ESM, ITACA, AFAD): filtered anew"][0]())
+    assert record.start_time == "2023-02-06T01:17:07.332030Z"
 
 
 def test_names_of_columns_are_components_without_their_unit() -> None:

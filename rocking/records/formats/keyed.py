@@ -1,6 +1,7 @@
-"""Formats whose header is lines of "KEY: value": DYNA and AFAD, RESORCE, CWB."""
+"""Formats whose header is lines of "KEY: value": DYNA and AFAD, RESORCE, CWB, JMA."""
 
 import re
+from datetime import datetime, timedelta
 from itertools import takewhile
 
 import numpy as np
@@ -18,27 +19,34 @@ from rocking.records.formats.header import (
     optional,
     optional_number,
     place_of,
+    required,
     valued,
 )
 from rocking.records.formats.sampling import even_step
-from rocking.records.formats.text import count, fields, in_columns, is_number, lines, numbers, whole
+from rocking.records.formats.text import count, fields, in_columns, is_number, lines, numbers, period, whole
 from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.plausibility import agree_with_header
 
 _DYNA_KEY = re.compile(r"[A-Z][A-Z0-9_/^]*:")
 _DYNA_HEADER, _AFAD_HEADER, _RESORCE_HEADER, _CWB_HEADER = 100, 40, 20, 60
 """Lines of the longest headers."""
-_TIME = re.compile(r"(\d{4})(\d\d)(\d\d)_(\d\d)(\d\d)(\d\d(?:\.\d+)?)")
+_JAPAN = timedelta(hours=9)
+_TIME = re.compile(r"(\d{4})/?(\d\d)/?(\d\d)[_ T](\d\d):?(\d\d):?(\d\d(?:\.\d{1,6})?)\d*")
+_REFILTERED = "AAD_"
+"""What the lines begin with that AFAD puts above a header after filtering the samples anew (Kahramanmaraş 2023)."""
 
 
 def _is_dyna(content: bytes) -> bool:
-    return content.startswith(b"EVENT_NAME:") and b"\nSAMPLING_INTERVAL_S:" in content[:8000]
+    above = takewhile(lambda line: line.startswith(_REFILTERED), lines(content, _DYNA_HEADER))
+    head = content[sum(len(line) + 1 for line in above) :][:8000]
+    return head.startswith(b"EVENT_NAME:") and b"\nSAMPLING_INTERVAL_S:" in head
 
 
 def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
-    length = sum(1 for _ in takewhile(_DYNA_KEY.match, text[:_DYNA_HEADER]))
-    pairs = mapping(text[:length])
+    anew = sum(1 for _ in takewhile(lambda line: line.startswith(_REFILTERED), text))
+    length = anew + sum(1 for _ in takewhile(_DYNA_KEY.match, text[anew : anew + _DYNA_HEADER]))
+    pairs = mapping(text[anew:length]) | mapping([line.removeprefix(_REFILTERED) for line in text[:anew]])
     kind = valued(pairs, "DATA_TYPE")
     if kind.upper() != "ACCELERATION":
         raise RecordError(f"DATA_TYPE is {kind!r}, but must be ACCELERATION; use the ACC file of the record.")
@@ -63,7 +71,8 @@ def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
     )
     if pairs.get("DURATION_S"):
         check_duration("DURATION_S", pairs["DURATION_S"], declared, record.time_step)
-    peak = optional_number(r"^\s*(-?[\d.]+)", pairs.get("PGA_CM/S^2", ""))
+    # The peak that the header states is that of the samples before they were filtered anew.
+    peak = None if anew else optional_number(r"^\s*(-?[\d.]+)", pairs.get("PGA_CM/S^2", ""))
     at = optional_number(r"^\s*(-?[\d.]+)", pairs.get("TIME_PGA_S", ""))
     return [agree_with_header(record, peak, "cm/s2", half_digit=5e-4, at=at)]
 
@@ -176,10 +185,48 @@ def _cwb_step(times: np.ndarray, pairs: dict[str, str]) -> float:
     return step
 
 
+_JMA_HEADER, _JMA_NAMES = 7, "NS,EW,UD"
+
+
+def _is_jma(content: bytes) -> bool:
+    return content.startswith(b"SITE CODE=") and lines(content, _JMA_HEADER)[-1].strip() == _JMA_NAMES
+
+
+def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
+    """Times are Japanese; the header gives no number of samples."""
+    text = lines(content)
+    head = "\n".join(text[:_JMA_HEADER])
+    unit = required("the unit", r"^\s*UNIT\s*=\s*(\w+)", head)[1]
+    rate = required("the sampling rate", r"^\s*SAMPLING RATE\s*=\s*([\d.]+)\s*Hz", head)[1]
+    begin = required("the time of the first sample", r"^\s*INITIAL TIME\s*=\s*([\d ]+)", head)[1].split()
+    rows = text[_JMA_HEADER:]
+    labels = _JMA_NAMES.split(",")
+    if broken := next((row for row in rows if row.strip() and row.count(",") != len(labels) - 1), ""):
+        raise RecordError(f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.")
+    table = in_columns(numbers("\n".join(rows).replace(",", " ")), len(labels))
+    station = optional(r"^SITE CODE=\s*([\x21-\x7e]+)", head)
+    try:
+        start = (datetime(*map(int, begin)) - _JAPAN).isoformat() + "Z"
+    except (TypeError, ValueError, OverflowError):
+        start = ""
+    return [
+        options.accelerogram(
+            unit,
+            values,
+            period("SAMPLING RATE", rate),
+            component=label,
+            station=station,
+            network="JMA",
+            start_time=start,
+        )
+        for label, values in zip(labels, table.T, strict=True)
+    ]
+
+
 DYNA = Format(
     "DYNA (ESM, ITACA, AFAD)",
     "ESM and ITACA (ORFEUS, INGV), AFAD",
-    "EVENT_NAME: at the start and SAMPLING_INTERVAL_S: below",
+    "EVENT_NAME: at the start, or below lines AAD_, and SAMPLING_INTERVAL_S: below",
     _is_dyna,
     _read_dyna,
     plugin="DYNA",
@@ -207,4 +254,11 @@ CWB = Format(
     re.compile(r"#Earthquake Information"),
     _read_cwb,
     plugin="CWB",
+)
+JMA = Format(
+    "JMA CSV",
+    "Japan Meteorological Agency",
+    "SITE CODE= at the start and a seventh line NS,EW,UD",
+    _is_jma,
+    _read_jma,
 )

@@ -63,3 +63,32 @@ TITLED = Format(
     lambda content: _titled(content) is not None,
     _read,
 )
+
+
+_EMOD3D = re.compile(r"\s*(\d+)\s+(\d\.\d+e[-+]\d\d)(\s+-?\d+){2}(\s+-?\d\.\d+e[-+]\d\d){4}\s*", re.I)
+"""Number of samples, step, hours and minutes, and four reals below station and component."""
+
+
+def _is_emod3d(content: bytes) -> bool:
+    head = lines(content, 3)
+    return len(head) == 3 and len(head[0].split()) >= 2 and _EMOD3D.fullmatch(head[1]) is not None
+
+
+def _read_emod3d(content: bytes, options: Options) -> list[Accelerogram]:
+    title, second = lines(content, 3)[:2]
+    refuse_other_quantity(options.file, title)
+    station, component = title.split()[:2]
+    declared, step = second.split()[:2]
+    values, notes = whole(numbers(after_lines(content, 2)), count("number of samples", declared), per_line=6)
+    named = {"station": station, "component": component}
+    seconds = number("time step", step)
+    return [options.accelerogram(None, values, seconds, warnings=notes, processed=None, **named)]
+
+
+EMOD3D = Format(
+    "EMOD3D text",
+    "EMOD3D and ucgmsim, simulated and observed motion",
+    "station and component above samples, step and six more numbers",
+    _is_emod3d,
+    _read_emod3d,
+)

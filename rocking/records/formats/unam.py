@@ -9,7 +9,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import check_duration, check_equal, magnitude, mapping, valued
 from rocking.records.formats.text import count, fields, in_columns, is_number, lines, number, whole
-from rocking.records.instrument import other_quantity
+from rocking.records.instrument import azimuth, is_vertical, other_quantity
 from rocking.records.plausibility import agree_with_header
 
 _HEADER = 160
@@ -86,7 +86,7 @@ def _record(i: int, values, notes, pairs: dict[str, str], options: Options) -> A
         "gal",
         values,
         step,
-        component=_listed(pairs, _ORIENTATION)[i].split(";")[-1].strip(),
+        component=_component(_listed(pairs, _ORIENTATION)[i]),
         station=pairs.get("CLAVE DE LA ESTACION", ""),
         event=pairs.get("FECHA DEL SISMO [GMT]", ""),
         magnitude=magnitude(pairs.get("MAGNITUD(ES)", "")),
@@ -102,6 +102,12 @@ def _record(i: int, values, notes, pairs: dict[str, str], options: Options) -> A
         half_digit=5e-5,
         at=(float(place) - 1) * record.time_step if is_number(place) else None,
     )
+
+
+def _component(label: str) -> str:
+    """Return the direction of a label like "N90E", "N90E;" or "V;+": bearing and sense, of which one may be blank."""
+    parts = [part.strip() for part in label.split(";") if part.strip()]
+    return next((part for part in parts if azimuth(part) is not None or is_vertical(part)), parts[-1])
 
 
 def _listed(pairs: dict[str, str], key: str) -> list[str]:
