@@ -198,7 +198,7 @@ def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
     head = "\n".join(text[:_JMA_HEADER])
     unit = required("the unit", r"^\s*UNIT\s*=\s*(\w+)", head)[1]
     rate = required("the sampling rate", r"^\s*SAMPLING RATE\s*=\s*([\d.]+)\s*Hz", head)[1]
-    begin = required("the time of the first sample", r"^\s*INITIAL TIME\s*=\s*([\d ]+)", head)[1].split()
+    begin = optional(r"^\s*INITIAL TIME\s*=\s*([\d ]+)", head)
     rows = text[_JMA_HEADER:]
     labels = _JMA_NAMES.split(",")
     if broken := next((row for row in rows if row.strip() and row.count(",") != len(labels) - 1), ""):
@@ -206,8 +206,8 @@ def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
     table = in_columns(numbers("\n".join(rows).replace(",", " ")), len(labels))
     station = optional(r"^SITE CODE=\s*([\x21-\x7e]+)", head)
     try:
-        start = (datetime(*map(int, begin)) - _JAPAN).isoformat() + "Z"
-    except (TypeError, ValueError, OverflowError):
+        start = f"{(datetime.strptime(begin, '%Y %m %d %H %M %S') - _JAPAN).isoformat()}Z"
+    except (ValueError, OverflowError):
         start = ""
     return [
         options.accelerogram(
