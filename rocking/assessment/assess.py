@@ -5,14 +5,12 @@ from dataclasses import dataclass
 from functools import partial
 from time import process_time
 
-from rocking.assessment import intensity
 from rocking.assessment.ensemble import Ensemble, GroundMotions, ensemble
-from rocking.assessment.fidelity import Answer, cheapest_answer
-from rocking.assessment.intensity import Shape
+from rocking.assessment.fidelity import Answer, cheapest_answer, estimate_from_velocity
 from rocking.assessment.method import Method
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.tiers import Expectation, Tier, expect, unlike
-from rocking.errors import PulseError, RockingError, StructureError
+from rocking.assessment.tiers import Estimate
+from rocking.errors import PulseError, RockingError
 from rocking.motion.integration import integrate
 from rocking.motion.response import UNKNOWN, ModelCheck, Response, check_model
 from rocking.pulses import (
@@ -60,10 +58,8 @@ class Case:
     check: ModelCheck
     answer: Answer
     ensemble: Ensemble | None = None
-    expectation: Expectation | None = None
-    """What the closed form and the peaks of the record say; None without a pulse, or of an unusual structure."""
-    unexpected: str = ""
-    """Why they say nothing, though there is a pulse."""
+    estimate: Estimate | None = None
+    """Of the share that overturns, from the peak velocity, where no ensemble ran; None of an unusual structure."""
 
 
 @dataclass(frozen=True)
@@ -109,10 +105,10 @@ def assess_structures(
     except PulseError as error:
         failures.append(Failure("pulses", "", str(error)))
     extracted = process_time()
-    cases, shape = [], Shape.of(accelerogram)
+    cases = []
     for name, structure in structures.items():
         try:
-            cases.append(_case(name, structure, candidates, shape, settings, vertical))
+            cases.append(_case(name, structure, candidates, accelerogram, settings, vertical))
         except RockingError as error:
             failures.append(Failure("responses", name, str(error)))
     durations = {"pulses": extracted - started, "responses": process_time() - extracted}
@@ -152,23 +148,21 @@ def _case(
     name: str,
     structure: Structure,
     candidates: Sequence[PulseEvidence],
-    shape: Shape,
+    record: Accelerogram,
     settings: AssessmentSettings,
     vertical: Accelerogram | None,
 ) -> Case:
-    mechanism, record = structure.mechanism(), shape.accelerogram
+    mechanism = structure.mechanism()
     prediction = predict(mechanism, candidates, settings) if candidates else None
     if settings.fidelity == "full":
         answer, responses = _compared(mechanism, record, prediction, settings, vertical)
     else:
-        answer, responses = _cheapest(mechanism, shape, settings, vertical)
+        answer, responses = _cheapest(mechanism, record, settings, vertical)
     on_record = responses.get(Method.MECHANISM_ON_RECORD)
     check = check_model(structure, on_record, record, vertical) if on_record else UNKNOWN
     sure = _ensemble(mechanism, record, answer, settings, vertical)
-    expectation, unexpected = (
-        (None, "") if prediction is None else _expectation(mechanism, prediction.pulse, shape)
-    )
-    return Case(name, mechanism, prediction, responses, check, answer, sure, expectation, unexpected)
+    estimate = estimate_from_velocity(mechanism, record) if sure is None and vertical is None else None
+    return Case(name, mechanism, prediction, responses, check, answer, sure, estimate)
 
 
 def _compared(
@@ -193,12 +187,12 @@ def _compared(
 
 
 def _cheapest(
-    mechanism: Mechanism, shape: Shape, settings: AssessmentSettings, vertical: Accelerogram | None
+    mechanism: Mechanism, record: Accelerogram, settings: AssessmentSettings, vertical: Accelerogram | None
 ) -> tuple[Answer, dict[Method, Response]]:
     """What settles the verdict with the least work, and the response of the mechanism where it took part."""
     answer = cheapest_answer(
         mechanism,
-        shape,
+        record,
         risk=settings.fidelity_risk,
         tolerance=settings.tolerance,
         vertical=vertical,
@@ -226,18 +220,6 @@ def _ensemble(
         tolerance=settings.tolerance,
         verdict_only=settings.fidelity == "auto",
     )
-
-
-def _expectation(mechanism: Mechanism, pulse: Pulse, shape: Shape) -> tuple[Expectation | None, str]:
-    """What may be said, or why nothing may: of a block far from its mechanism the closed form tells nothing."""
-    tier = Tier.CLOSED_FORM_AND_PEAKS
-    try:
-        block, own = mechanism.equivalent_block("rest"), intensity.of_structure(mechanism)
-        if reason := unlike(tier, own):
-            return None, f"no probability: its {reason}"
-        return expect(tier, own | intensity.of_peaks(shape, block) | intensity.of_pulse(pulse, block)), ""
-    except (PulseError, StructureError) as error:
-        return None, f"no probability: {error}"
 
 
 def _uplift_multiplier(block: EquivalentBlock, pulse: Pulse) -> float:

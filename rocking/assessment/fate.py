@@ -4,14 +4,15 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, final
 
+from rocking.assessment.method import Method
 from rocking.assessment.rows import meanings
 from rocking.assessment.rows.shared import CaseRow
 from rocking.assessment.verdict import Verdict
+from rocking.structures.outcome import Outcome
 from rocking.tables import column, row
 
 if TYPE_CHECKING:
-    from rocking.assessment.rows.of_case import ComparisonRow, ResponseRow
-    from rocking.assessment.rows.of_ensemble import EnsembleRow
+    from rocking.assessment.rows.of_case import ComparisonRow, EnsembleRow, MaximumRow
     from rocking.assessment.rows.of_record import FailureRow
 
 BOTH_COMPONENTS = "both"
@@ -66,13 +67,13 @@ def fates(
     cases: Iterable["ComparisonRow"],
     ensembles: Iterable["EnsembleRow"] = (),
     failures: Iterable["FailureRow"] = (),
-    responses: Iterable["ResponseRow"] = (),
+    maxima: Iterable["MaximumRow"] = (),
 ) -> list[Fate]:
     """Return what became of each structure under each record, in the order of `cases`.
 
     The ensemble over all directions decides, or where there is none the one that overturns, then rotates, most; without
     any ensemble the single run of the worst component. A component that gave no result makes the verdict unknown,
-    unless another component overturns or an ensemble over all directions decides. responses: tell the side.
+    unless another component overturns or an ensemble over all directions decides. maxima: tell the side.
     """
     by_pair: dict[tuple[str, str], list[ComparisonRow]] = {}
     for case in cases:
@@ -84,8 +85,8 @@ def fates(
     governing = governing_ensembles(ensembles)
     sides = {
         (each.record, each.component, each.structure): each.peak_side
-        for each in responses
-        if each.method == "mechanism on record"
+        for each in maxima
+        if each.method is Method.MECHANISM_ON_RECORD and not each.processing
     }
     return [
         _fate(of_pair, governing.get(pair), failed.get(pair, ()), sides) for pair, of_pair in by_pair.items()
@@ -105,11 +106,11 @@ def _fate(
     cases: Sequence["ComparisonRow"],
     ensemble: "EnsembleRow | None",
     failures: Sequence["FailureRow"],
-    sides: dict[tuple[str, str, str], int],
+    sides: dict[tuple[str, str, str], int | None],
 ) -> Fate:
-    worst = max(cases, key=lambda case: _or_most(case.found_rotation_ratio))
+    worst = max(cases, key=_badness)
     verdict, why = _decided(worst, ensemble)
-    missing = [case.component for case in cases if math.isnan(case.found_rotation_ratio)]
+    missing = [case.component for case in cases if case.answer_outcome is Outcome.FAILED]
     missing += [failure.component for failure in failures]
     over_all = ensemble is not None and ensemble.component == BOTH_COMPONENTS
     if missing and verdict is not Verdict.OVERTURNS and not over_all:
@@ -124,8 +125,8 @@ def _fate(
         verdict=verdict,
         overturning_members=followed.overturning_members if followed else 0,
         members=followed.members if followed else 0,
-        overturning_share=followed.overturning_probability if followed else single,
-        rotation_ratio=worst.found_rotation_ratio,
+        overturning_share=followed.overturning_share if followed else single,
+        rotation_ratio=worst.integrated_rotation_ratio,
         rotation_ratio_low=followed.rotation_ratio_low if followed else _NONE,
         rotation_ratio_median=followed.rotation_ratio_median if followed else _NONE,
         rotation_ratio_high=followed.rotation_ratio_high if followed else _NONE,
@@ -140,9 +141,9 @@ def _decided(worst: "ComparisonRow", ensemble: "EnsembleRow | None") -> tuple[Ve
     """The verdict of the ensemble, or of the single run without one, and what it rests on."""
     if ensemble is not None:
         return ensemble.verdict, f"{ensemble.overturning_members} of {ensemble.members} members overturn"
-    if math.isnan(worst.found_rotation_ratio):
+    if worst.answer_outcome is Outcome.FAILED:
         return Verdict.UNKNOWN, "no component gave a result"
-    verdict = Verdict.OVERTURNS if math.isinf(worst.found_rotation_ratio) else Verdict.STANDS
+    verdict = Verdict.OVERTURNS if worst.answer_outcome is Outcome.OVERTURNS else Verdict.STANDS
     return verdict, worst.answer_reason or "one run as recorded, without an ensemble"
 
 
@@ -171,7 +172,7 @@ def _failed(failure: "FailureRow") -> Fate:
 
 
 def _weight(each: "EnsembleRow") -> tuple[float, ...]:
-    share = each.overturning_probability, each.rotation_ratio_high
+    share = each.overturning_share, each.rotation_ratio_high
     return (each.component == BOTH_COMPONENTS, *map(_or_least, share))
 
 
@@ -179,6 +180,7 @@ def _or_least(value: float) -> float:
     return -1.0 if math.isnan(value) else value
 
 
-def _or_most(ratio: float) -> tuple[int, float]:
+def _badness(case: "ComparisonRow") -> tuple[int, float]:
     """What is not known may overturn, and so counts for more than any rocking, but less than overturning."""
-    return 2 if math.isinf(ratio) else int(math.isnan(ratio)), ratio
+    kinds = {Outcome.OVERTURNS: 2, Outcome.FAILED: 1}
+    return kinds.get(case.answer_outcome, 0), _or_least(case.integrated_rotation_ratio)

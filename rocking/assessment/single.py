@@ -34,9 +34,9 @@ class StructureAssessment:
         return self.ensemble.verdict
 
     @property
-    def overturning_probability(self) -> float:
+    def overturning_share(self) -> float:
         """Share of the members that overturn."""
-        return self.ensemble.overturning_probability
+        return self.ensemble.overturning_share
 
     @property
     def rotation_ratio(self) -> float:

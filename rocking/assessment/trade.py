@@ -138,7 +138,7 @@ def _rotation(structure: EquivalentBlock | Mechanism, record: Accelerogram, tole
 def _member_in_the_middle(mechanism: Mechanism, record: Accelerogram, settings: AssessmentSettings) -> float:
     """The median of the ensemble; inf where overturning is likelier than not."""
     members = ensemble(mechanism, GroundMotions.of(record), settings.ensemble)
-    return math.inf if members.overturning_probability > 0.5 else members.median
+    return math.inf if members.overturning_share > 0.5 else members.median
 
 
 def _timed(run: Callable[[], T], repeats: int = 0) -> tuple[T, float]:

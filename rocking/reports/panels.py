@@ -256,7 +256,7 @@ def _plot_assessment(assessment: "StructureAssessment", axes: Axes) -> None:
     band = (assessment.rotation_ratio_low, assessment.rotation_ratio_high)
     draw_rotation(axes, times, rotation / mechanism.critical_rotation, band=band)
     axes.plot([], [], color="#E69F00", alpha=0.4, linewidth=5, label=f"{assessment.members} members, 5–95 %")
-    share = f"{100 * assessment.overturning_probability:.0f} %"
+    share = f"{100 * assessment.overturning_share:.0f} %"
     axes.set(xlabel=TIME, ylabel=RATIO, ylim=(-1.15, 1.15))
     axes.set_title(f"{assessment.verdict}: overturns in {share} of the members")
     axes.legend(loc="upper right")

@@ -11,9 +11,9 @@ import numpy as np
 from scipy.signal import detrend
 
 from rocking.assessment.fate import Fate
+from rocking.assessment.fragility.rows import FragilityRow
 from rocking.assessment.rows.of_case import ComparisonRow
 from rocking.assessment.rows.of_folder import RecordTables
-from rocking.assessment.rows.of_fragility import FragilityRow
 from rocking.assessment.verdict import NEGLIGIBLE
 from rocking.errors import RockingError
 from rocking.motion.integration import integrate
@@ -92,7 +92,7 @@ def _record(record: CatalogueRecord, study: Study, tables: RecordTables) -> tupl
             each.component: _motion(each, tables) for each in opened[0] if each.component in used
         }
         for row, case in zip(rows, cases, strict=True):
-            if row.found_rotation_ratio > NEGLIGIBLE:
+            if row.integrated_rotation_ratio > NEGLIGIBLE:
                 case["history"] = _history(row, opened, study)
     return said, cases
 
@@ -104,7 +104,7 @@ def _worse(rows: Sequence[ComparisonRow], structures: Mapping[str, Structure]) -
 
 
 def _demand(row: ComparisonRow) -> float:
-    ratio = row.found_rotation_ratio
+    ratio = row.integrated_rotation_ratio
     return -1.0 if math.isnan(ratio) else ratio
 
 
@@ -113,7 +113,7 @@ def _case(row: ComparisonRow, fate: Fate) -> Content:
         "structure": row.structure,
         "component": row.component,
         "integrated": number(row.integrated_rotation_ratio),
-        "found": number(row.found_rotation_ratio),
+        "found": number(row.integrated_rotation_ratio),
         "predicted": number(row.predicted_rotation_ratio),
         "verdict": str(fate.verdict),
     }

@@ -1,19 +1,13 @@
 """The fragility of every structure of a study under all of its records."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any
 
 from rocking.assessment.fragility import (
-    IncrementalDynamicAnalysis,
-    IntensityMeasure,
-    MultiFidelityAnalysis,
     incremental_dynamic_analysis,
-    multi_fidelity_analysis,
 )
 from rocking.assessment.fragility.hazard import read_hazard
-from rocking.assessment.fragility.intensity import intensity_measure
-from rocking.assessment.rows.of_fragility import (
+from rocking.assessment.fragility.rows import (
     FRAGILITY_TABLES,
     ROTATION_RATIOS,
     FragilityRow,
@@ -25,10 +19,10 @@ from rocking.assessment.rows.of_fragility import (
     ida_rows,
     intensity_measure_rows,
 )
+from rocking.assessment.intensity import IntensityMeasure, intensity_measure
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
-from rocking.structures import Structure
 from rocking.study.run import Study
 from rocking.tables import Row, write_tables
 
@@ -53,36 +47,24 @@ def write_fragility(
     names, accelerograms, unused = _opened(records, study, measure)
     tables: dict[type[Row], list[Row]] = {each: [] for each in FRAGILITY_TABLES.values()}
     for count, (name, structure) in enumerate(study.structures.items(), start=1):
-        found, followed, complete = _analysed(accelerograms, structure, study)
-        tables[IdaRow] += ida_rows(name, names, followed)
+        analysis = incremental_dynamic_analysis(
+            accelerograms,
+            structure,
+            intensity_measure=settings.intensity_measure,
+            ensemble=study.assessment.ensemble if settings.members else None,
+            tolerance=study.assessment.tolerance,
+        )
+        tables[IdaRow] += ida_rows(name, names, analysis)
         for threshold in ROTATION_RATIOS:
-            curve = found.fragility(threshold)
+            curve = analysis.fragility(threshold)
             tables[FragilityRow] += fragility_rows(name, curve)
             tables[FragilitySummaryRow].append(fragility_summary_row(name, curve, hazard))
-        measured = intensity_measure_rows(name, structure.mechanism(), accelerograms, complete)
-        tables[IntensityMeasureRow] += measured
+        tables[IntensityMeasureRow] += intensity_measure_rows(
+            name, structure.mechanism(), accelerograms, analysis
+        )
         tell(f"{count} of {len(study.structures)}: {name}")
     write_tables(tables, folder, "rocking-fragility")
     return unused
-
-
-def _analysed(
-    records: Sequence[Accelerogram], structure: Structure, study: Study
-) -> tuple[
-    IncrementalDynamicAnalysis | MultiFidelityAnalysis, IncrementalDynamicAnalysis, IncrementalDynamicAnalysis
-]:
-    """What the curves come from, what was followed of the mechanism, and what is known of every case."""
-    settings = study.settings.fragility
-    taken: dict[str, Any] = {
-        "intensity_measure": settings.intensity_measure,
-        "ensemble": study.assessment.ensemble if settings.members else None,
-        "tolerance": study.assessment.tolerance,
-    }
-    if settings.mechanism_runs is None:
-        every = incremental_dynamic_analysis(records, structure, **taken)
-        return every, every, every
-    sample = multi_fidelity_analysis(records, structure, settings.mechanism_runs, **taken)
-    return sample, sample.followed, sample.block
 
 
 def _opened(

@@ -9,13 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from rocking.assessment.fate import Fate
-from rocking.assessment.rows.of_case import MaximumRow
 from rocking.assessment.rows.of_folder import PER_RECORD, RecordTables
 from rocking.assessment.rows.of_record import TimingRow
 from rocking.errors import RockingError
 from rocking.tables import Row, head, read_rows, rows_written, write_whole, written_together
 
-IN_PARTS: tuple[type[Row], ...] = (*PER_RECORD, MaximumRow, Fate)
+IN_PARTS: tuple[type[Row], ...] = (*PER_RECORD, Fate)
 """The rows of every table of a job."""
 _JOB = re.compile(r"\d{5}_of_\d{5}")
 

@@ -12,10 +12,9 @@ from rocking.assessment.fate import BOTH_COMPONENTS
 from rocking.assessment.horizontal_motion import horizontal_motions
 from rocking.assessment.method import Method
 from rocking.assessment.processings import processed
-from rocking.assessment.rows.of_ensemble import ensemble_row
+from rocking.assessment.rows.of_case import candidate_rows, ensemble_row, processing_rows
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_record import TimingRow
-from rocking.assessment.rows.of_variation import candidate_rows, processing_rows
 from rocking.assessment.rows.shared import Identity
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, processed_variants
@@ -135,21 +134,13 @@ def _assess_directions(record: CatalogueRecord, opened: Opened, study: Study, ta
     accelerograms, vertical = opened
     settings = study.assessment.ensemble
     identity = Identity(record.id, accelerograms[0], study.settings_sha256)
-    nominal: dict[str, float] = {}
-    for alone in tables.ensemble:
-        nominal[alone.structure] = max(nominal.get(alone.structure, 0.0), alone.nominal_rotation_ratio)
+    names = dict.fromkeys(alone.structure for alone in tables.ensemble)
     try:
         motions = GroundMotions.of_pair(
             accelerograms[0], accelerograms[1], vertical, processing=settings.processing
         )
-        for name, largest in nominal.items():
-            found = ensemble(
-                study.structures[name],
-                motions,
-                settings,
-                nominal=largest,
-                tolerance=study.assessment.tolerance,
-            )
+        for name in names:
+            found = ensemble(study.structures[name], motions, settings, tolerance=study.assessment.tolerance)
             tables.ensemble.append(ensemble_row(identity, name, found, BOTH_COMPONENTS))
     except RockingError as error:
         tables.fail(record.id, BOTH_COMPONENTS, Failure("directions", "", str(error)))
@@ -179,4 +170,4 @@ def _vary(
         known = {name: response for name, response in followed.items() if response is not None}
         variants = processed_variants(structures, processed(record), study.assessment, known, vertical)
         for name, of_structure in variants.items():
-            tables.processing.extend(processing_rows(identity, name, of_structure))
+            tables.maxima.extend(processing_rows(identity, name, of_structure))

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from rocking.assessment.method import Method
 from rocking.assessment.rows.of_case import ComparisonRow
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_study import (
@@ -24,6 +23,7 @@ from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.read import read
 from rocking.structures import load_structures
+from rocking.structures.outcome import Outcome
 from rocking.study.inputs import structures_sha256
 from rocking.study.plan import package_sha256, settings_sha256
 from rocking.study.run import Opened, Study, assess_components
@@ -118,16 +118,15 @@ def _write_report(record: CatalogueRecord, opened: Opened, study: Study, output:
 
 
 def _lines(tables: RecordTables) -> Iterator[str]:
-    outcomes = {row.case: row.outcome for row in tables.responses if row.method is Method.MECHANISM_ON_RECORD}
     for row in tables.comparison:
-        yield _line(row, outcomes.get(row.case) or f"{_settled(row)} ({row.answer_reason})")
+        yield _line(row, f"{_settled(row)} ({row.answer_reason})" if row.spared else str(row.answer_outcome))
     for failure in tables.failures:
         yield f"not assessed: {failure.structure or failure.stage}: {failure.message}"
 
 
 def _settled(row: ComparisonRow) -> str:
     """Of a case whose mechanism was not integrated."""
-    return "overturns" if math.isinf(row.answer_rotation_ratio) else "does not overturn"
+    return "overturns" if row.answer_outcome is Outcome.OVERTURNS else "does not overturn"
 
 
 def _line(row: ComparisonRow, outcome: str) -> str:

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from pathlib import Path
 
+from rocking.assessment.fragility.rows import FragilityRow, FragilitySummaryRow, IdaRow
 from rocking.assessment.rows.of_case import ComparisonRow
-from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow, IdaRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
 from rocking.reports.style import svg
 from rocking.reports.summary.figures import prediction_scatter
@@ -12,7 +12,7 @@ from rocking.reports.summary.report import summary_report
 from rocking.reports.trade import trade_picture
 from rocking.tables import frame, write_whole
 
-_GOVERNING = ("structure", "record", "level", "overturning_probability")
+_GOVERNING = ("structure", "record", "level", "overturning_share")
 _SHOWN = ("record", "pulses", "comparison", "verdicts", "structures", "agreement", "failures")
 
 

@@ -56,12 +56,12 @@ class Ensemble:
         return int(np.isinf(self._known).sum())
 
     @property
-    def overturning_probability(self) -> float:
+    def overturning_share(self) -> float:
         """Share of members that overturn; nan without members."""
         return self.overturning / self.members if self.members else float("nan")
 
     @property
-    def uplift_probability(self) -> float:
+    def uplift_share(self) -> float:
         """Share of members that lift; nan without members."""
         return float((self._known > 0).mean()) if self.members else float("nan")
 
@@ -85,7 +85,7 @@ class Ensemble:
         """What can be said of the structure."""
         if self.members and np.all(self._known <= NEGLIGIBLE):
             return Verdict.STANDS
-        return verdict(self.overturning_probability, self.probability_error, self.settings.risk)
+        return verdict(self.overturning_share, self.probability_error, self.settings.risk)
 
     @property
     def probability_error(self) -> float:

@@ -53,7 +53,7 @@ def ensemble(
 
 
 def _near_a_limit(found: Ensemble) -> bool:
-    opposite = min(found.overturning_probability, 1 - found.overturning_probability)
+    opposite = min(found.overturning_share, 1 - found.overturning_share)
     risk = found.settings.risk
     return found.verdict is Verdict.UNDECIDED and opposite - found.probability_error <= risk
 

@@ -26,11 +26,13 @@ class HazardRow(Row):
 @dataclass(frozen=True)
 class AnnualRate:
     """Annual rate of exceedance, 1/year. low, high: from the ends of the curve's 90 % interval at every level at once,
-    which is wider than 90 % of the rate."""
+    which is wider than 90 % of the rate. left_out: most that the rate may lack, because the curve ends below a
+    probability of 1, or has not fallen to 0 where the hazard curve begins."""
 
     rate: float
     low: float
     high: float
+    left_out: float
 
 
 def read_hazard(path: Path) -> list[HazardRow]:
@@ -67,18 +69,29 @@ def check_hazard(points: Sequence[HazardRow], where: str = "the hazard curve") -
 def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> AnnualRate:
     """Return ∫ P dν over the hazard curve ν, both linear in the logarithm of the level between their points.
 
-    Below its levels the fragility counts as 0, above them as its last value. Raises ConfigurationError.
+    Below its levels the fragility counts as 0, above them as its last value; beyond the last point of the hazard curve
+    all is counted there. Levels below the first point of the hazard curve are left out, as their rates are not given:
+    left_out counts them as often as the hazard curve, continued by its first slope, says. Raises ConfigurationError.
     """
     check_hazard(points)
-    logs = np.log([point.intensity for point in points])
+    levels, probability = np.log(fragility.levels), fragility.probability
+    logs, log_rates = np.log([[point.intensity, point.annual_rate] for point in points]).T
     edges = np.linspace(logs[0], logs[-1], _STEPS + 1)
-    rates = np.exp(np.interp(edges, logs, np.log([point.annual_rate for point in points])))
+    rates = np.exp(np.interp(edges, logs, log_rates))
     occurring = np.append(rates[:-1] - rates[1:], rates[-1])
     middles = np.append((edges[1:] + edges[:-1]) / 2, edges[-1])
-    levels = np.log(fragility.levels)
 
     def total(curve: np.ndarray) -> float:
         return float(np.interp(middles, levels, curve, left=0.0) @ occurring)
 
-    curves = fragility.probability, fragility.probability_low, fragility.probability_high
-    return AnnualRate(*map(total, curves))
+    above = (1 - probability[-1]) * occurring[middles > levels[-1]].sum()
+    slope = (log_rates[0] - log_rates[1]) / (logs[1] - logs[0])
+    lower = np.linspace(min(levels[0], logs[0]), logs[0], _STEPS + 1)
+    continued = np.exp(log_rates[0] + slope * (logs[0] - lower))
+    below = np.interp((lower[1:] + lower[:-1]) / 2, levels, probability, left=0.0) @ -np.diff(continued)
+    return AnnualRate(
+        total(probability),
+        total(fragility.probability_low),
+        total(fragility.probability_high),
+        float(above + below),
+    )

@@ -2,12 +2,9 @@
 
 from dataclasses import dataclass
 
-from rocking.assessment.fragility.intensity import INTENSITY_MEASURES
+from rocking.assessment.intensity import INTENSITY_MEASURES, MEASURES_IN_WORDS
 from rocking.described import check_described, described
 from rocking.errors import ConfigurationError
-
-FEWEST_RUNS = 20
-"""Of a multi-fidelity sample; with fewer the scatter of its corrections says nothing."""
 
 
 @dataclass(frozen=True)
@@ -16,16 +13,11 @@ class FragilitySettings:
 
     intensity_measure: str = described(
         "pgv",
-        "of the levels: pga [g], pgv [m/s], p_pgv (p·PGV/(gλ)), pulse (its amplitude over gλ) or sa1 [g]",
+        f"of the levels: {MEASURES_IN_WORDS}",
         one_of=lambda: tuple(INTENSITY_MEASURES),
     )
     members: bool = described(
         True, "whether each case is an ensemble, with the ranges above, instead of itself"
-    )
-    mechanism_runs: int | None = described(
-        None,
-        "multi-fidelity: runs of each structure's mechanism, drawn where its block is in doubt; null: every case",
-        ge=FEWEST_RUNS,
     )
     hazard: str | None = described(
         None, "CSV of a hazard curve with the columns intensity and annual_rate, ascending, or null"

@@ -1,6 +1,5 @@
 """The tables of one record: filled by an assessment, written, and read again as rows."""
 
-from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import get_args, get_type_hints
@@ -8,18 +7,15 @@ from typing import get_args, get_type_hints
 from rocking.assessment.assess import Assessment, Failure
 from rocking.assessment.fate import Fate, fates
 from rocking.assessment.horizontal_motion import HorizontalMotion
+from rocking.assessment.method import Method
 from rocking.assessment.rows.of_case import (
+    CandidateRow,
     ComparisonRow,
+    EnsembleRow,
     MaximumRow,
-    ResponseRow,
     comparison_row,
-    maximum_row,
-    response_rows,
-)
-from rocking.assessment.rows.of_ensemble import EnsembleRow, ensemble_row
-from rocking.assessment.rows.of_prediction import (
-    PredictionRow,
-    prediction_rows,
+    ensemble_row,
+    maximum_rows,
 )
 from rocking.assessment.rows.of_record import (
     FailureRow,
@@ -28,10 +24,6 @@ from rocking.assessment.rows.of_record import (
     TimingRow,
     pulse_rows,
     record_row,
-)
-from rocking.assessment.rows.of_variation import (
-    CandidateRow,
-    ProcessingRow,
 )
 from rocking.assessment.rows.shared import Identity
 from rocking.assessment.settings import AssessmentSettings
@@ -45,12 +37,10 @@ class RecordTables:
 
     record: list[RecordRow] = field(default_factory=list)
     pulses: list[PulseRow] = field(default_factory=list)
-    predictions: list[PredictionRow] = field(default_factory=list)
-    responses: list[ResponseRow] = field(default_factory=list)
+    maxima: list[MaximumRow] = field(default_factory=list)
     comparison: list[ComparisonRow] = field(default_factory=list)
     ensemble: list[EnsembleRow] = field(default_factory=list)
     candidates: list[CandidateRow] = field(default_factory=list)
-    processing: list[ProcessingRow] = field(default_factory=list)
     failures: list[FailureRow] = field(default_factory=list)
     timings: list[TimingRow] = field(default_factory=list)
 
@@ -67,16 +57,16 @@ class RecordTables:
     @property
     def verdicts(self) -> list[Fate]:
         """What became of each structure, all components considered."""
-        return fates(self.comparison, self.ensemble, self.failures, self.responses)
+        return fates(self.comparison, self.ensemble, self.failures, self.maxima)
 
     @property
-    def maxima(self) -> Iterator[MaximumRow]:
-        """The largest rotations by every method beside one another."""
-        comparison = {row.case: row for row in self.comparison}
-        for predicted in self.predictions:
-            yield maximum_row(predicted, comparison[predicted.case])
-        for integrated in self.responses:
-            yield maximum_row(integrated, comparison[integrated.case])
+    def processing(self) -> list[MaximumRow]:
+        """The maxima under the record processed otherwise."""
+        return [row for row in self.maxima if row.processing]
+
+    def by_method(self, method: Method) -> dict[tuple[str, str], MaximumRow]:
+        """The maxima of one method under the record as it is used, by component and structure."""
+        return {row.case: row for row in self.maxima if row.method is method and not row.processing}
 
     def of_component(self, component: str) -> "RecordTables":
         """Return the rows of one component, without the timings."""
@@ -98,8 +88,7 @@ class RecordTables:
         self.record.append(record_row(identity, licence, vertical, motion, dominant))
         self.pulses.extend(pulse_rows(identity, assessment.analysis, assessment.candidates))
         for case in assessment.cases:
-            self.predictions.extend(prediction_rows(identity, case, settings.acceleration_scale))
-            self.responses.extend(response_rows(identity, case, settings.friction_coefficient))
+            self.maxima.extend(maximum_rows(identity, case, settings.friction_coefficient))
             self.comparison.append(comparison_row(identity, case))
             if case.ensemble is not None:
                 self.ensemble.append(ensemble_row(identity, case.structure, case.ensemble))

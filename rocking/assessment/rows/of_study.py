@@ -8,8 +8,7 @@ import numpy as np
 
 from rocking.assessment.fate import Fate
 from rocking.assessment.rows import meanings
-from rocking.assessment.rows.of_case import ComparisonRow, MaximumRow
-from rocking.assessment.rows.of_ensemble import EnsembleRow
+from rocking.assessment.rows.of_case import ComparisonRow, EnsembleRow, MaximumRow
 from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow, TimingRow
 from rocking.motion.batch import rocking_spectrum
 from rocking.records import Accelerogram

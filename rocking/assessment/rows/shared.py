@@ -5,7 +5,6 @@ from typing import Any
 
 from rocking.assessment.rows import meanings
 from rocking.records import Accelerogram
-from rocking.structures import Mechanism
 from rocking.tables import Row, column, row
 
 
@@ -52,8 +51,3 @@ class Identity:
             "record_sha256": self.accelerogram.source.sha256,
             "settings_sha256": self.settings_sha256,
         }
-
-
-def rotation(mechanism: Mechanism, rotation_ratio: float, side: int) -> float:
-    """Return the rotation in rad that `rotation_ratio` means on `side` (+1 or −1) of `mechanism`."""
-    return rotation_ratio * mechanism.sides[0 if side >= 0 else -1].critical_rotation

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from rocking.assessment.fragility import INTENSITY_MEASURES
+from rocking.assessment.intensity import INTENSITY_MEASURES
 from rocking.reports.paper.letters import elided
 from rocking.reports.style import new_figure, plain_logarithmic, styled
 from rocking.reports.summary.figures import prediction_scatter

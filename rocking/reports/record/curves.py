@@ -6,9 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from rocking.assessment.method import Method
 from rocking.assessment.rows.of_case import ComparisonRow
-from rocking.assessment.rows.of_prediction import PredictionRow
 from rocking.assessment.rows.of_record import PulseRow
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement
 from rocking.motion.response import Response
@@ -155,19 +153,19 @@ def _remark(predicted: float, overturns: bool) -> str:
 
 def spectrum_picture(
     accelerogram: Accelerogram,
-    rows: Sequence[PredictionRow],
+    structures: Mapping[str, Structure],
     numbers: Mapping[str, str],
     width: float = TEXT_WIDTH,
 ) -> Picture | None:
-    """Return the rocking spectrum with the equivalent blocks of `rows` on it; None without rows or where all rest."""
+    """Return the rocking spectrum with the structures on it; None where all rest."""
     from rocking.motion.batch import rocking_spectrum
 
-    placed = placed_structures(rows, numbers)
+    placed = placed_structures(structures, numbers)
     if not placed:
         return None
     frequency_parameters = _around([place[1] for place in placed])
     uplift_multipliers = _around([place[2] for place in placed])
-    restitution = sorted(row.restitution for row in rows)[len(rows) // 2]
+    restitution = sorted(each.mechanism().restitution for each in structures.values())[len(placed) // 2]
     ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, restitution)
     if not ratios.any():
         return None
@@ -177,14 +175,14 @@ def spectrum_picture(
 
 
 def placed_structures(
-    rows: Sequence[PredictionRow], numbers: Mapping[str, str]
+    structures: Mapping[str, Structure], numbers: Mapping[str, str]
 ) -> list[tuple[str, float, float]]:
-    """Number, p and λ of each equivalent block."""
-    return [
-        (numbers[row.structure], row.frequency_parameter_rad_s, row.uplift_multiplier)
-        for row in rows
-        if row.method is Method.CLOSED_FORM
-    ]
+    """Number, p and λ of each structure."""
+    found = []
+    for name, structure in structures.items():
+        mechanism = structure.mechanism()
+        found.append((numbers[name], mechanism.positive.frequency_parameter, mechanism.uplift_multiplier))
+    return found
 
 
 def _around(values: Sequence[float]) -> np.ndarray:

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from importlib.metadata import version
 
 from rocking.assessment.fate import ORDER, Fate
+from rocking.assessment.rows.of_case import CandidateRow
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_record import RecordRow
 from rocking.assessment.rows.of_study import StructureRow
-from rocking.assessment.rows.of_variation import CandidateRow
 from rocking.assessment.verdict import Verdict, rests
 from rocking.reports import printing
 from rocking.reports.printing import NOTHING, Cell, strong, table_of, words

@@ -133,13 +133,13 @@ def _pictures(
         new = {
             "motions": record_curves.motion_picture(accelerogram, pulses, structures, height),
             "sheets": record_sheet.sheet_picture(
-                accelerogram, tables.record[0], pulses, tables.predictions, numbers, sheet_height
+                accelerogram, tables.record[0], pulses, structures, numbers, sheet_height
             ),
             "maps": record_curves.map_picture(accelerogram, pulses, width) if pulses else None,
             "histories": record_curves.history_picture(
                 accelerogram, structures, tables.comparison, numbers, tolerance, vertical
             ),
-            "spectra": record_curves.spectrum_picture(accelerogram, tables.predictions, numbers, width),
+            "spectra": record_curves.spectrum_picture(accelerogram, structures, numbers, width),
         }
         for name, picture in new.items():
             pictures[name] += [picture] if picture else []

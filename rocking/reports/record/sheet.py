@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 
-from rocking.assessment.rows.of_prediction import PredictionRow
 from rocking.assessment.rows.of_record import PulseRow, RecordRow
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
@@ -11,13 +10,14 @@ from rocking.reports.printing import number, with_unit, words
 from rocking.reports.record.curves import Picture, component_picture, placed_structures, ranked_pulses
 from rocking.reports.record.sheet_figures import RecordSheet, record_sheet
 from rocking.reports.record.tables import facts_table
+from rocking.structures import Structure
 
 
 def sheet_picture(
     accelerogram: Accelerogram,
     row: RecordRow,
     pulses: Sequence[PulseRow],
-    predictions: Sequence[PredictionRow],
+    structures: Mapping[str, Structure],
     numbers: Mapping[str, str],
     height: float,
 ) -> Picture:
@@ -32,7 +32,7 @@ def sheet_picture(
             response_spectrum(accelerogram),
             next(iter(ranked_pulses(pulses)), None),
             (row.velocity_pulse_period_s, row.velocity_pulse_centre_time_s) if known else None,
-            placed_structures(predictions, numbers),
+            placed_structures(structures, numbers),
         ),
         height,
     )

@@ -6,12 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from rocking.assessment.method import Method
-from rocking.assessment.rows.of_case import ComparisonRow, ResponseRow
+from rocking.assessment.rows.of_case import CandidateRow, ComparisonRow, MaximumRow
 from rocking.assessment.rows.of_folder import RecordTables
-from rocking.assessment.rows.of_prediction import PredictionRow
 from rocking.assessment.rows.of_record import PulseRow, RecordRow
 from rocking.assessment.rows.of_study import StructureRow
-from rocking.assessment.rows.of_variation import CandidateRow, ProcessingRow
 from rocking.assessment.rows.shared import CaseRow
 from rocking.pulses import Flag
 from rocking.reports import printing
@@ -138,19 +136,49 @@ def method_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, 
         _cases(tables),
         ("No.", "auto", "r", lambda case: numbers[case.row.structure]),
         ("Comp.", "auto", "l", lambda case: words(case.row.component)),
-        ("Eq. 15, printed", "1", "r", lambda case: ratio(case.row.printed_rotation_ratio)),
+        (
+            "Eq. 15, printed",
+            "1",
+            "r",
+            lambda case: case.ratio(Method.PRINTED),
+        ),
         ("Prediction", "1", "r", lambda case: ratio(case.row.predicted_rotation_ratio)),
-        ("Mechanism under the pulse", "1", "r", lambda case: ratio(case.row.pulse_rotation_ratio)),
-        ("Block under the record", "1", "r", lambda case: ratio(case.row.block_rotation_ratio)),
+        (
+            "Mechanism under the pulse",
+            "1",
+            "r",
+            lambda case: case.ratio(Method.MECHANISM_ON_PULSE),
+        ),
+        (
+            "Block under the record",
+            "1",
+            "r",
+            lambda case: case.ratio(Method.BLOCK_ON_RECORD),
+        ),
         (
             "Mechanism under the record",
             "1",
             "r",
             lambda case: strong(ratio(case.row.integrated_rotation_ratio, 6)),
         ),
-        ("Rotation [rad]", "1", "r", lambda case: number(_of(case.response, "rotation_rad"), 5)),
-        ("Peak at [s]", "0.7", "r", lambda case: number(_of(case.response, "peak_time_s"), 4)),
-        ("Im\u00adpacts", "0.6", "r", lambda case: printing.whole(_of(case.response, "impacts"))),
+        (
+            "Rotation [rad]",
+            "1",
+            "r",
+            lambda case: number(_of(case.response, "rotation_rad"), 5),
+        ),
+        (
+            "Peak at [s]",
+            "0.7",
+            "r",
+            lambda case: number(_of(case.response, "peak_time_s"), 4),
+        ),
+        (
+            "Im\u00adpacts",
+            "0.6",
+            "r",
+            lambda case: printing.whole(_of(case.response, "impacts")),
+        ),
     )
 
 
@@ -160,10 +188,30 @@ def trust_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, o
         _cases(tables),
         ("No.", "auto", "r", lambda case: numbers[case.row.structure]),
         ("Comp.", "auto", "l", lambda case: words(case.row.component)),
-        ("Pulse rank", "0.6", "r", lambda case: printing.whole(_of(case.prediction, "pulse_rank"))),
-        ("Amplitude ratio [-]", "1", "r", lambda case: number(_of(case.prediction, "amplitude_ratio"))),
-        ("Frequency ratio [-]", "1", "r", lambda case: number(_of(case.prediction, "frequency_ratio"))),
-        ("Friction needed [-]", "1", "r", lambda case: number(_of(case.response, "friction_needed"))),
+        (
+            "Pulse rank",
+            "0.6",
+            "r",
+            lambda case: printing.whole(_of(case.prediction, "pulse_rank")),
+        ),
+        (
+            "Amplitude ratio [-]",
+            "1",
+            "r",
+            lambda case: number(_of(case.prediction, "amplitude_ratio")),
+        ),
+        (
+            "Frequency ratio [-]",
+            "1",
+            "r",
+            lambda case: number(_of(case.prediction, "frequency_ratio")),
+        ),
+        (
+            "Friction needed [-]",
+            "1",
+            "r",
+            lambda case: number(_of(case.response, "friction_needed")),
+        ),
         ("Contacts", "1.1", "l", lambda case: _contacts(case.response)),
     )
 
@@ -172,7 +220,7 @@ def _of(row: Row | None, column: str) -> Any:
     return None if row is None else getattr(row, column)
 
 
-def _contacts(response: ResponseRow | None) -> Cell:
+def _contacts(response: MaximumRow | None) -> Cell:
     failing = contact_failure(response) if response else ""
     holding = "hold" if response and response.slides is False else printing.NOTHING
     return strong(failing or holding, bool(failing))
@@ -180,17 +228,29 @@ def _contacts(response: ResponseRow | None) -> Cell:
 
 @dataclass(frozen=True)
 class _Case:
-    """One case with its exact closed form and the full integration, where there are any."""
+    """One case with what each method says of it."""
 
     row: ComparisonRow
-    prediction: PredictionRow | None
-    response: ResponseRow | None
+    maxima: dict[Method, MaximumRow]
+
+    @property
+    def prediction(self) -> MaximumRow | None:
+        return self.maxima.get(Method.CLOSED_FORM)
+
+    @property
+    def response(self) -> MaximumRow | None:
+        return self.maxima.get(Method.MECHANISM_ON_RECORD)
+
+    def ratio(self, method: Method) -> str:
+        return ratio(_of(self.maxima.get(method), "rotation_ratio"))
 
 
 def _cases(tables: RecordTables) -> list[_Case]:
-    predictions = {row.case: row for row in tables.predictions if row.method is Method.CLOSED_FORM}
-    responses = {row.case: row for row in tables.responses if row.method is Method.MECHANISM_ON_RECORD}
-    return [_Case(row, predictions.get(row.case), responses.get(row.case)) for row in tables.comparison]
+    by_method = {method: tables.by_method(method) for method in Method}
+    return [
+        _Case(row, {method: rows[row.case] for method, rows in by_method.items() if row.case in rows})
+        for row in tables.comparison
+    ]
 
 
 def candidate_table(rows: Sequence[CandidateRow], numbers: Mapping[str, str]) -> dict[str, object]:
@@ -215,7 +275,7 @@ def candidate_table(rows: Sequence[CandidateRow], numbers: Mapping[str, str]) ->
     )
 
 
-def processing_table(rows: Sequence[ProcessingRow], numbers: Mapping[str, str]) -> dict[str, object]:
+def processing_table(rows: Sequence[MaximumRow], numbers: Mapping[str, str]) -> dict[str, object]:
     """Return the largest rotation ratio of each component and structure under each processing."""
     processings = list(dict.fromkeys(row.processing for row in rows))
     columns = [("No.", "auto", "r"), ("Comp.", "auto", "l"), *((name, "1", "r") for name in processings)]

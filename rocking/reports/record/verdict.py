@@ -1,31 +1,33 @@
 """How the closed form stands to the integration, and the warnings that stand above everything in a report."""
 
+import math
 from collections.abc import Mapping, Sequence
 
 from rocking.assessment.method import Method
-from rocking.assessment.rows.of_case import ComparisonRow, ResponseRow
+from rocking.assessment.rows.of_case import ComparisonRow, MaximumRow
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_record import RecordRow
 from rocking.assessment.verdict import Agreement, rests
 from rocking.reports import printing
 from rocking.reports.printing import ratio, short, strong, table_of, words
+from rocking.structures.outcome import Outcome
 
 
 def verdict_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str, object]:
     """Return how the simple predictions of one component stand to the integration: one row per structure."""
-    worth = {row.case: row.in_words for row in tables.predictions if row.method is Method.CLOSED_FORM}
+    blocks = tables.by_method(Method.BLOCK_ON_RECORD)
     return table_of(
         tables.comparison,
         ("No.", "auto", "r", lambda row: numbers[row.structure]),
         ("Structure", "1", "l", lambda row: short(row.structure)),
         ("Closed form, one pulse", "0.68", "r", lambda row: _ratio(row.predicted_rotation_ratio)),
-        ("Block, whole record", "0.68", "r", lambda row: _ratio(row.block_rotation_ratio)),
+        ("Block, whole record", "0.68", "r", lambda row: _ratio(_of(blocks.get(row.case)))),
         (
             "Mecha\u00adnism, whole record",
             "0.68",
             "r",
             lambda row: strong(
-                _ratio(row.found_rotation_ratio) + (f" ({row.answer_method})" if row.spared else "")
+                _ratio(row.integrated_rotation_ratio) + (f" ({row.answer_method})" if row.spared else "")
             ),
         ),
         (
@@ -34,8 +36,11 @@ def verdict_table(tables: RecordTables, numbers: Mapping[str, str]) -> dict[str,
             "l",
             lambda row: strong(words(row.prediction_in_words), row.agreement is Agreement.TOO_LOW),
         ),
-        ("Structures alike", "2.9", "l", lambda row: words(worth.get(row.case)).replace("φ_cr", "φcr")),
     )
+
+
+def _of(row: MaximumRow | None) -> float:
+    return row.rotation_ratio if row else math.nan
 
 
 def _ratio(value: float) -> str:
@@ -56,11 +61,11 @@ def notices(tables: RecordTables) -> list[dict[str, object]]:
     found = [(True, scale)] if scale else []
     if not rows:
         found.append((True, "No structure could be assessed under this record."))
-    elif all(row.found_rotation_ratio == 0 for row in rows):
+    elif all(row.answer_outcome is Outcome.NO_UPLIFT for row in rows):
         found.append(
             (False, "No structure uplifts: the ground acceleration never reaches an uplift acceleration.")
         )
-    whole = [row for row in tables.responses if row.method is Method.MECHANISM_ON_RECORD]
+    whole = tables.by_method(Method.MECHANISM_ON_RECORD).values()
     said = dict.fromkeys(f"{row.structure} ({failing})" for row in whole if (failing := contact_failure(row)))
     if said:
         found.append(
@@ -92,6 +97,6 @@ def scale_note(rows: Sequence[RecordRow]) -> str:
     return f" Accelerations ×\u00a0{', '.join(factors)}, declared." if factors else ""
 
 
-def contact_failure(response: ResponseRow) -> str:
+def contact_failure(response: MaximumRow) -> str:
     """Return how the contacts of a response fail: "slides", "bounces", both, or nothing."""
     return " and ".join(name for name in ("slides", "bounces") if getattr(response, name))

@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from rocking.assessment.fragility import INTENSITY_MEASURES
-from rocking.assessment.rows.of_fragility import FragilitySummaryRow
+from rocking.assessment.fragility.rows import FragilitySummaryRow
+from rocking.assessment.intensity import INTENSITY_MEASURES
 from rocking.reports import printing
 from rocking.reports.printing import Cell, number, table_of, whole, words
 from rocking.reports.style import svg
@@ -77,7 +77,7 @@ def _table(falls: "DataFrame", ida: "DataFrame") -> dict[str, object]:
 
 
 def _dispersion(row: FragilitySummaryRow) -> str:
-    return number(row.dispersion, 2) if row.lognormal_holds else "not log\u00adnormal"
+    return number(row.dispersion, 2)
 
 
 def _median(row: FragilitySummaryRow) -> str:
@@ -88,7 +88,7 @@ def _median(row: FragilitySummaryRow) -> str:
 
 def governing_records(ida: "DataFrame") -> dict[str, str]:
     """Return for each structure the records that overturn it at the lowest levels, with the level of each."""
-    fallen = ida[ida["overturning_probability"] >= _HALF]
+    fallen = ida[ida["overturning_share"] >= _HALF]
     first = fallen.groupby(["structure", "record"], sort=False, observed=True)["level"].min().reset_index()
     ordered = first.sort_values("level", kind="stable")
     return {

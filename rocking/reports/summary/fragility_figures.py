@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
-from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow
+from rocking.assessment.fragility.rows import FragilityRow, FragilitySummaryRow
 from rocking.reports.paper.letters import elided
 from rocking.reports.style import new_figure, plain_logarithmic, styled, svg
 from rocking.tables import frame, write_whole
@@ -65,7 +65,7 @@ def _draw(panel: Axes, name: str, curves: "DataFrame", summary: "DataFrame") -> 
             panel.plot(levels, curve["lognormal"], "--", color="black", linewidth=0.7)
         panel.plot(levels, curve["probability"], color=colour, linewidth=1.0, label=label)
     falls = summary[summary["rotation_ratio"] == math.inf].iloc[0]
-    law = f"dispersion {falls['dispersion']:.2f}" if falls["lognormal_holds"] else "not lognormal"
+    law = f"dispersion {falls['dispersion']:.2f}"
     median = f"{falls['median']:.2g} ({falls['median_low']:.2g}–{falls['median_high']:.2g})"
     panel.set_title(f"{elided(name, _NAME_WIDTH)}\nmedian {median}, {law}", fontsize=8)
     panel.set_xscale("log")

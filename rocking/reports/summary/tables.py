@@ -80,7 +80,7 @@ def notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> lis
         found.append("No structure could be assessed under any record; the failures below say why.")
     elif (integrated == 0).all():
         found.append("No structure uplifts under any record.")
-    spared = int((integrated.isna() & comparison["answer_rotation_ratio"].notna()).sum())
+    spared = int((integrated.isna() & (comparison["answer_outcome"] != "failed")).sum())
     if spared:
         found.append(
             f"{printing.sentence(printing.counted(spared, 'case'))} answered by a cheaper method than the full "

@@ -104,7 +104,7 @@ def test_the_probability_is_the_share_of_the_range_that_overturns():
     factors = np.linspace(0.8, 1.2, 801)[1::2]
     falls = np.isinf(rocking.integrate_batch([BLOCK], record, factors)[0]).mean()
     assert 0.02 < falls < 0.98
-    assert found.overturning_probability == pytest.approx(falls, abs=2 / 64), (
+    assert found.overturning_share == pytest.approx(falls, abs=2 / 64), (
         "two strata may be cut by the boundary"
     )
 
@@ -261,7 +261,7 @@ def test_ratio_in_words(predicted, integrated, words):
 def test_assess_says_in_one_call_what_its_parts_say():
     record = _record(4.0)
     found = rocking.assess(record, BLOCK)
-    assert found.verdict == "stands" and found.overturning_probability == 0
+    assert found.verdict == "stands" and found.overturning_share == 0
     assert found.rotation_ratio == integrate(BLOCK, record).rotation_ratio
     assert found.rotation_ratio_low <= found.rotation_ratio_median <= found.rotation_ratio_high
     assert found.rotation_ratio_low < found.rotation_ratio < found.rotation_ratio_high

@@ -5,14 +5,18 @@ import math
 import pytest
 
 from rocking.assessment.fate import fates
-from rocking.assessment.rows.of_case import ComparisonRow
-from rocking.assessment.rows.of_ensemble import EnsembleRow
+from rocking.assessment.rows.of_case import ComparisonRow, EnsembleRow
 from rocking.assessment.rows.of_record import FailureRow
 from rocking.assessment.verdict import Verdict
+from rocking.structures.outcome import Outcome
+
+
+def outcome_of(ratio: float) -> Outcome:
+    return Outcome.FAILED if math.isnan(ratio) else Outcome.at(ratio)
 
 
 def case(component: str, ratio: float, **more: object) -> ComparisonRow:
-    ratios = dict.fromkeys(("integrated_rotation_ratio", "answer_rotation_ratio"), ratio)
+    ratios = {"integrated_rotation_ratio": ratio, "answer_outcome": outcome_of(ratio)}
     whose = {"record": "a", "structure": "pier", "component": component, "answer_reason": ""}
     return ComparisonRow(**dict.fromkeys(ComparisonRow.table.column_names) | whose | ratios | more)
 
@@ -25,7 +29,7 @@ def ensemble(component: str, verdict: Verdict, overturning: int, members: int = 
         "verdict": verdict,
         "overturning_members": overturning,
         "members": members,
-        "overturning_probability": overturning / members,
+        "overturning_share": overturning / members,
         "rotation_ratio_high": 0.5,
     }
     return EnsembleRow(**dict.fromkeys(EnsembleRow.table.column_names) | known)

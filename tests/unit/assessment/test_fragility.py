@@ -4,12 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from scipy.optimize import minimize
+from scipy.optimize import isotonic_regression, minimize
 from scipy.stats import norm
 
 import rocking
 from rocking.assessment.ensemble import EnsembleSettings
-from rocking.assessment.fragility import INTENSITY_MEASURES, fit_lognormal, fragility, fragility_of
+from rocking.assessment.fragility import fit_lognormal, fragility, fragility_of
+from rocking.assessment.intensity import INTENSITY_MEASURES
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
@@ -67,15 +68,43 @@ def test_the_intervals_cover_a_known_curve():
     assert np.mean(covered) == pytest.approx(0.9, abs=0.08) and np.mean(medians) >= 0.78
 
 
-def test_a_curve_that_is_no_lognormal_is_called_so():
-    dips = np.where(LEVELS < 0.5, 0.0, np.where(LEVELS < 1.0, 0.9, np.where(LEVELS < 2.0, 0.3, 1.0)))
-    rng = np.random.default_rng(1)
-    exceedance = (rng.random((120, 1)) < dips).astype(float)
-    found = fragility_of(LEVELS, exceedance, [str(k) for k in range(120)])
-    assert not found.lognormal_holds and "not lognormal" in repr(found)
-    assert found.median == pytest.approx(0.5, rel=0.2), "where the empirical curve first reaches one half"
-    assert found.reversals.sum() > 50
-    assert fragility_of(LEVELS, *_made(rng, 60)).lognormal_holds
+def test_a_curve_that_is_no_lognormal_has_the_median_of_the_rising_curve_beside_it():
+    """Half fall at 0.5 and stand again up to 1.5: pooled over the levels of the dip, the curve is one half there."""
+    levels = np.array([0.25, 0.5, 1.0, 2.0, 4.0])
+    share = np.array([0.0, 0.8, 0.3, 0.9, 1.0])
+    exceedance = (np.arange(20)[:, None] < 20 * share).astype(float)
+    found = fragility_of(levels, exceedance, [str(k) for k in range(20)])
+    # isotonic: 0, 0.55, 0.55, 0.9, 1; one half lies at 0.5/0.55 of the octave from 0.25 to 0.5
+    assert found.median == pytest.approx(0.25 * 2 ** (0.5 / 0.55), rel=1e-12)
+    assert (found.reversals > 0).sum() == 10
+
+
+@pytest.mark.parametrize("share", [[0.0, 0.2, 0.45], [0.0, 0.5, 0.5]])
+def test_a_curve_that_does_not_pass_one_half_has_no_upper_end(share):
+    exceedance = (np.arange(20)[:, None] < 20 * np.array(share)).astype(float)
+    found = fragility_of(np.array([1.0, 2.0, 4.0]), exceedance, [str(k) for k in range(20)])
+    assert math.isinf(found.median) and math.isinf(found.interval[1]) and found.interval[0] >= 1.0
+
+
+def test_the_median_is_that_of_the_rising_curve_that_scipy_fits():
+    rng = np.random.default_rng(2)
+    levels = np.geomspace(0.1, 10, 30)
+    for _ in range(20):
+        exceedance = (rng.random((21, 30)) < norm.cdf(np.log(levels) / 0.7)).astype(float)
+        rising = isotonic_regression(exceedance.mean(axis=0)).x
+        first = int(np.flatnonzero(rising > 0.5)[0])
+        expected = np.exp(
+            np.interp(0.5, rising[first - 1 : first + 1], np.log(levels[first - 1 : first + 1]))
+        )
+        found = fragility_of(levels, exceedance, [str(k) for k in range(21)])
+        assert found.median == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_station_weighs_as_one_whatever_its_records():
+    """Ten records of one station that always overturn change the share by one station, not by ten."""
+    exceedance = np.vstack([np.ones((10, 3)), np.zeros((3, 3))])
+    found = fragility_of(np.array([1.0, 2.0, 3.0]), exceedance, ["a"] * 10 + ["b", "c", "d"])
+    assert found.probability.tolist() == [0.25] * 3
 
 
 def test_outcomes_are_those_of_single_responses():
@@ -123,7 +152,7 @@ def test_a_measure_grows_in_proportion_to_the_motion(name):
 
 def test_a_cloud_keeps_the_records_as_they_are():
     records = [record.scaled(factor) for factor, record in zip(np.linspace(2, 12, 6), RECORDS, strict=True)]
-    found = fragility(records, BLOCK, method="cloud")
+    found = fragility(records, BLOCK, method="cloud", intensity_measure="pga")
     assert sorted(found.levels) == pytest.approx(sorted(r.peak_acceleration / 9.80665 for r in records))
     falls = {r.peak_acceleration: math.isinf(integrate(BLOCK, r).rotation_ratio) for r in records}
     assert found.exceedance.sum() == sum(falls.values())
@@ -137,19 +166,8 @@ def test_a_cloud_keeps_the_records_as_they_are():
         ({"levels": [0.5, math.nan]}, "levels must be at least two finite numbers"),
         ({"stations": ["one"] * 6}, "come from 1 station, but a fragility needs at least 2"),
         ({"stations": ["one", "two"]}, "stations names 2, but must name one for each of 6"),
-        ({"intensity_measure": "mmi"}, "intensity_measure is 'mmi', but must be one of pga, pgv"),
+        ({"intensity_measure": "mmi"}, "intensity_measure is 'mmi', but must be one of pgv, pga"),
         ({"method": "cloud", "levels": [0.1, 0.2]}, "a cloud has those of its records"),
-        ({"method": "multi-fidelity"}, "mechanism_runs is None with the method multi-fidelity"),
-        ({"mechanism_runs": 100}, "mechanism_runs is 100 with the method scaling"),
-        (
-            {"method": "multi-fidelity", "mechanism_runs": 19, "levels": LEVELS},
-            "mechanism_runs is 19, but must lie between 20 and the 120 cases there are",
-        ),
-        (
-            {"method": "multi-fidelity", "mechanism_runs": 121, "levels": LEVELS},
-            "mechanism_runs is 121, but must lie between",
-        ),
-        ({"method": "multi-fidelity", "mechanism_runs": 50, "levels": [0.5, 0.3]}, "levels hold 0.3 after"),
     ],
 )
 def test_bad_input_is_one_sentence(changed, sentence):
@@ -160,6 +178,6 @@ def test_bad_input_is_one_sentence(changed, sentence):
 def test_a_record_without_the_measure_is_named():
     still = Accelerogram(np.zeros(400), STEP, station="still")
     with pytest.raises(
-        ConfigurationError, match=r"still has a pga of 0\.0, but must have one greater than 0"
+        ConfigurationError, match=r"still has a pgv of 0\.0, but must have one greater than 0"
     ):
         fragility([*RECORDS, still], BLOCK)

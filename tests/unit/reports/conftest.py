@@ -8,11 +8,10 @@ import pytest
 from rocking.assessment.assess import AssessmentSettings, assess_structures
 from rocking.assessment.fate import Fate
 from rocking.assessment.processings import processed
-from rocking.assessment.rows.of_case import ComparisonRow
+from rocking.assessment.rows.of_case import ComparisonRow, candidate_rows, processing_rows
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow
 from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows, structure_rows
-from rocking.assessment.rows.of_variation import candidate_rows, processing_rows
 from rocking.assessment.rows.shared import Identity
 from rocking.assessment.variations import candidates, processed_variants
 from rocking.pulses import Pulse
@@ -72,7 +71,7 @@ def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[st
             found = candidates(structure, accelerogram, pulse, 7, ASSESSMENT)
             tables.candidates.extend(candidate_rows(identity, name, found))
             variants = processed_variants({name: structure}, records, ASSESSMENT)
-            tables.processing.extend(processing_rows(identity, name, variants[name]))
+            tables.maxima.extend(processing_rows(identity, name, variants[name]))
     return Assessed(record, accelerograms, structures, tables)
 
 

@@ -120,7 +120,7 @@ def test_a_band_on_a_strip_is_that_of_the_ensemble(example):
         ends = [row.rotation_ratio_low, row.rotation_ratio_median, row.rotation_ratio_high]
         assert line[place] == {
             "strip": [min(end, 1.0) for end in ends],
-            "overturns": row.overturning_probability,
+            "overturns": row.overturning_share,
         }
 
 
@@ -130,7 +130,7 @@ def test_what_stands_only_as_it_is_given_is_said_on_page_one(example):
         for row in example.tables.candidates
     ]
     still = [
-        replace(row, integrated_rotation_ratio=0.2, answer_rotation_ratio=0.2)
+        replace(row, integrated_rotation_ratio=0.2, answer_outcome=Outcome.ROCKS)
         for row in example.tables.comparison
     ]
     tables = replace(example.tables, candidates=fallen, comparison=still)
@@ -148,7 +148,7 @@ def test_without_an_ensemble_page_one_says_what_the_single_run_does(example):
     tables = replace(example.tables, ensemble=[])
     data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
     for row in tables.comparison:
-        word = "Overturns" if np.isinf(row.found_rotation_ratio) else "Stands"
+        word = "Overturns" if np.isinf(row.integrated_rotation_ratio) else "Stands"
         assert any(
             line["verdict"].startswith(word) and row.structure in line["names"] for line in data["headlines"]
         )
@@ -241,10 +241,9 @@ def test_a_hundred_structures_are_all_in_the_first_table_and_few_are_drawn(examp
     tables = replace(
         example.tables,
         comparison=[replace(example.tables.comparison[0], structure=name) for name in named],
-        predictions=[replace(example.tables.predictions[0], structure=name) for name in named],
+        maxima=[],
         ensemble=[],
         candidates=[],
-        processing=[],
     )
     structures = {f"block {place}": example.structures["block 4 m"] for place in range(100)}
     data = record_data(example.record, example.accelerograms, structures, tables, SETTINGS)
@@ -263,12 +262,12 @@ def test_a_failure_is_one_page_that_says_why(message):
 def test_a_contact_that_fails_is_said_first(example):
     place, failing = next(
         (place, row)
-        for place, row in enumerate(example.tables.responses)
+        for place, row in enumerate(example.tables.maxima)
         if row.method is Method.MECHANISM_ON_RECORD
     )
-    responses = list(example.tables.responses)
-    responses[place] = replace(failing, slides=True, bounces=True)
-    tables = replace(example.tables, responses=responses)
+    maxima = list(example.tables.maxima)
+    maxima[place] = replace(failing, slides=True, bounces=True)
+    tables = replace(example.tables, maxima=maxima)
     data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
     said = f"{failing.structure} (slides and bounces)"
     assert any(said in notice["text"] and notice["strong"] for notice in data["notices"])
@@ -284,12 +283,12 @@ def test_the_governing_height_is_the_one_that_the_table_marks(example):
 
 
 def test_an_outcome_that_processing_decides_is_said(example):
-    processing = list(example.tables.processing)
-    place = next(place for place, row in enumerate(processing) if row.structure == "arch 20 m")
-    other = Outcome.ROCKS if processing[place].outcome is Outcome.OVERTURNS else Outcome.OVERTURNS
+    maxima = list(example.tables.maxima)
+    place = next(k for k, row in enumerate(maxima) if row.structure == "arch 20 m" and row.processing)
+    other = Outcome.ROCKS if maxima[place].outcome is Outcome.OVERTURNS else Outcome.OVERTURNS
     other_ratio = 0.3 if other is Outcome.ROCKS else np.inf
-    processing[place] = replace(processing[place], outcome=other, rotation_ratio=other_ratio)
-    tables = replace(example.tables, processing=processing)
+    maxima[place] = replace(maxima[place], outcome=other, rotation_ratio=other_ratio)
+    tables = replace(example.tables, maxima=maxima)
     data = record_data(example.record, example.accelerograms, example.structures, tables, SETTINGS)
     said = [text for text in data["remarks"] if "depends on the processing" in text]
     assert "arch 20 m" in said[0]
@@ -309,6 +308,6 @@ def test_a_vertical_component_is_named_and_changes_the_histories(example):
 def test_the_first_lines_hold_few_long_names_and_say_how_many_more(example):
     many = {f"{place} {'W' * 60}": example.tables.comparison[0] for place in range(12)}
     comparison = [replace(row, structure=name) for name, row in many.items()]
-    tables = replace(example.tables, comparison=comparison, ensemble=[], candidates=[], processing=[])
+    tables = replace(example.tables, comparison=comparison, ensemble=[], candidates=[], maxima=[])
     (line,) = headlines(fate_lines(tables, []))
     assert len(line["names"]) < 340 and line["names"].endswith("and eight others")

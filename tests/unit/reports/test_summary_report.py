@@ -6,10 +6,9 @@ import math
 import pandas
 
 from rocking.assessment.fate import BOTH_COMPONENTS, Fate, fates
+from rocking.assessment.fragility.rows import FragilityRow, FragilitySummaryRow
 from rocking.assessment.method import Method
-from rocking.assessment.rows.of_case import ComparisonRow
-from rocking.assessment.rows.of_ensemble import EnsembleRow
-from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow
+from rocking.assessment.rows.of_case import ComparisonRow, EnsembleRow
 from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow
 from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows
 from rocking.assessment.verdict import Agreement, Verdict, agreement, ratio, ratio_in_words, within_factor_two
@@ -17,6 +16,7 @@ from rocking.reports.style import svg
 from rocking.reports.summary.figures import prediction_scatter
 from rocking.reports.summary.report import summary_data, summary_report
 from rocking.sine_pulse import Regime
+from rocking.structures.outcome import Outcome
 from rocking.tables import frame, write_rows
 
 from .conftest import SETTINGS, SUMMARISED, summarised
@@ -24,9 +24,7 @@ from .conftest import SETTINGS, SUMMARISED, summarised
 
 def case(structure: str, predicted: float, integrated: float, record: str = "one") -> ComparisonRow:
     """One row of the comparison table."""
-    unknown = ("printed", "pulse", "block", "answer")
     return ComparisonRow(
-        **{f"{name}_rotation_ratio": math.nan for name in unknown},
         record=record,
         component="EW",
         structure=structure,
@@ -34,11 +32,10 @@ def case(structure: str, predicted: float, integrated: float, record: str = "one
         integrated_rotation_ratio=integrated,
         answer_method=Method.MECHANISM_ON_RECORD,
         answer_reason="",
-        overturning_probability=math.nan,
-        overturning_probability_low=math.nan,
-        overturning_probability_high=math.nan,
-        expected_rotation_ratio_low=math.nan,
-        expected_rotation_ratio_high=math.nan,
+        answer_outcome=Outcome.at(integrated),
+        overturning_estimate=math.nan,
+        overturning_estimate_low=math.nan,
+        overturning_estimate_high=math.nan,
         prediction_over_integration=ratio(predicted, integrated),
         prediction_in_words=ratio_in_words(predicted, integrated),
         within_factor_two=within_factor_two(predicted, integrated),
@@ -126,7 +123,7 @@ def ensemble(
     """One row of the ensemble table, of 64 members."""
     numbers = [each.name for each in EnsembleRow.table.columns if each.holds is float]
     return EnsembleRow(
-        **dict.fromkeys(numbers, 0.4) | {"overturning_probability": overturning / 64, "scale_factor": 1.0},
+        **dict.fromkeys(numbers, 0.4) | {"overturning_share": overturning / 64, "scale_factor": 1.0},
         record=record,
         component=component,
         structure=structure,
@@ -269,7 +266,7 @@ FRAGILITY = {
             }.items()
             for level, share in zip((0.1, 0.2, 0.4), shares, strict=True)
         ],
-        columns=["structure", "record", "level", "overturning_probability"],
+        columns=["structure", "record", "level", "overturning_share"],
     ),
     "fragility": frame(
         FragilityRow,
@@ -298,17 +295,17 @@ FRAGILITY = {
                 rotation_ratio=math.inf,
                 records=4,
                 stations=3,
-                mechanism_runs=None,
                 median=0.2,
                 median_low=0.13,
                 median_high=0.31,
                 dispersion=0.6,
                 misfit=0.1,
-                lognormal_holds=True,
+                lognormal_median=0.2,
                 reversals=1,
                 annual_rate=math.nan,
                 annual_rate_low=math.nan,
                 annual_rate_high=math.nan,
+                annual_rate_left_out=math.nan,
             )
         ],
     ),

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rocking.assessment.rows.of_fragility import (
+from rocking.assessment.fragility.rows import (
     FRAGILITY_TABLES,
     FragilityRow,
     FragilitySummaryRow,
@@ -121,20 +121,6 @@ def test_a_record_that_lacks_the_measure_costs_no_other(tmp_path):
     assert unused.startswith("still: ")
     rows = list(read_rows(FragilitySummaryRow, tmp_path / "out" / "fragility_summary.csv"))
     assert {row.records for row in rows} == {2}
-
-
-def test_few_runs_of_the_mechanism_give_the_same_tables(tmp_path):
-    """Of every case the same; of a sample the curves of all levels, and a row for each case that was followed."""
-    records = _records(tmp_path, 3)
-    write_fragility(records, _study(mechanism_runs=40), tmp_path / "few")
-    rows = list(read_rows(IdaRow, tmp_path / "few" / "ida.csv"))
-    assert len(rows) == 2 * 40 and {row.members for row in rows} == {1}
-    summary = list(read_rows(FragilitySummaryRow, tmp_path / "few" / "fragility_summary.csv"))
-    assert {row.mechanism_runs for row in summary} == {40}
-    curves = list(read_rows(FragilityRow, tmp_path / "few" / "fragility.csv"))
-    assert len(curves) == 2 * 4 * 40 and all(0 <= row.probability <= 1 for row in curves)
-    measures = list(read_rows(IntensityMeasureRow, tmp_path / "few" / "intensity_measures.csv"))
-    assert {row.records for row in measures} == {3}, "of the block, which is followed in every case"
 
 
 def test_a_hazard_curve_gives_annual_rates(tmp_path):

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 from rocking.assessment.fate import fates
-from rocking.assessment.rows.of_case import ComparisonRow
-from rocking.assessment.rows.of_ensemble import EnsembleRow
+from rocking.assessment.rows.of_case import ComparisonRow, EnsembleRow
 from rocking.assessment.rows.of_record import FailureRow
 from rocking.assessment.verdict import Verdict
+from rocking.structures.outcome import Outcome
 from rocking.study.outcome import closing_lines, paths_to_read, record_line
 
 
@@ -18,7 +18,7 @@ def _case(record: str, structure: str, ratio: float) -> ComparisonRow:
         "record": record,
         "structure": structure,
         "integrated_rotation_ratio": ratio,
-        "answer_rotation_ratio": ratio,
+        "answer_outcome": Outcome.FAILED if math.isnan(ratio) else Outcome.at(ratio),
     }
     return ComparisonRow(**dict.fromkeys(ComparisonRow.table.column_names) | known)
 
@@ -32,7 +32,7 @@ def _ensemble(
         "structure": structure,
         "verdict": verdict,
         "overturning_members": overturning,
-        "overturning_probability": overturning / 64,
+        "overturning_share": overturning / 64,
         "members": 64,
         "rotation_ratio_high": 0.5,
     }

@@ -2,30 +2,25 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import compress
 
 import numpy as np
 
-from rocking.assessment.fragility import (
-    INTENSITY_MEASURES,
-    Fragility,
-    IncrementalDynamicAnalysis,
-    IntensityMeasure,
-)
-from rocking.assessment.fragility.curve import CURVES
+from rocking.assessment.fragility.analysis import IncrementalDynamicAnalysis
+from rocking.assessment.fragility.curve import CURVES, Fragility
+from rocking.assessment.fragility.explanation import dependence, efficiency
 from rocking.assessment.fragility.hazard import HazardRow, annual_rate
-from rocking.assessment.fragility.sufficiency import sufficiency
+from rocking.assessment.intensity import INTENSITY_MEASURES, MEASURES_IN_WORDS, IntensityMeasure
 from rocking.assessment.rows import meanings
 from rocking.errors import ConfigurationError
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.records.measures import record_measures
 from rocking.structures import Mechanism
 from rocking.tables import Row, column, row
 
 ROTATION_RATIOS = (0.1, 0.3, 0.5, math.inf)
 """Largest rotations over the critical one whose exceedance has a curve; inf: overturning."""
 _THRESHOLD = "Rotation over critical rotation that is exceeded; INF: overturning"
-_MEASURE = "Intensity measure: pga [g], pgv [m/s], p_pgv [-], pulse [-] or sa1 [g]"
+_MEASURE = f"Intensity measure: {MEASURES_IN_WORDS}"
 
 
 @row("ida", "One row per structure, record and level: incremental dynamic analysis")
@@ -40,7 +35,7 @@ class IdaRow(Row):
     scale_factor: float = column("What the record is multiplied by to reach it")
     members: int = column("Members that were followed")
     rotation_ratio: float = column("Median of their largest rotation over critical rotation; INF overturns")
-    overturning_probability: float = column("Share of them that overturn")
+    overturning_share: float = column("Share of them that overturn")
 
 
 @row(
@@ -53,12 +48,14 @@ class FragilityRow(Row):
     intensity_measure: str = column(_MEASURE)
     rotation_ratio: float = column(_THRESHOLD)
     level: float = column("Level of the intensity measure")
-    probability: float = column("Share of the records that exceed the rotation")
+    probability: float = column("Share of the stations that exceed the rotation")
     probability_low: float = column("Lower end of its 90 % interval, by stations")
     probability_high: float = column("Upper end of its 90 % interval, by stations")
     lognormal: float = column("Lognormal curve fitted by maximum likelihood")
-    lognormal_low: float = column("Lower end of its 90 % interval, by resampling stations")
-    lognormal_high: float = column("Upper end of its 90 % interval, by resampling stations")
+    lognormal_low: float = column("Lower end of its 90 % interval, which is too narrow: it covers 82 to 87 %")
+    lognormal_high: float = column(
+        "Upper end of its 90 % interval, which is too narrow: it covers 82 to 87 %"
+    )
 
 
 @row("fragility_summary", "One row per structure and rotation that is exceeded: what its curve comes down to")
@@ -70,38 +67,45 @@ class FragilitySummaryRow(Row):
     rotation_ratio: float = column(_THRESHOLD)
     records: int = column("Records behind it")
     stations: int = column("Stations behind it")
-    mechanism_runs: int | None = column(
-        "Cases of the multi-fidelity sample that the mechanism was followed in; empty where it was in every case"
+    median: float = column(
+        "Level at which the empirical curve crosses one half, each station with the same weight; INF: it does not"
     )
-    median: float = column("Level that half of the records exceed it at, of the lognormal where it holds")
-    median_low: float = column("Lower end of the 90 % interval of the median")
-    median_high: float = column("Upper end of the 90 % interval of the median")
-    dispersion: float = column("Of the lognormal: standard deviation of the logarithm")
+    median_low: float = column("Lower end of the 90 % interval of the median, by resampling stations")
+    median_high: float = column("Upper end of the 90 % interval of the median; INF: none at the levels tried")
+    lognormal_median: float = column("Median of the lognormal curve, for those who need two parameters")
+    dispersion: float = column("Of the lognormal curve: standard deviation of the logarithm")
     misfit: float = column("Largest distance of the lognormal from the empirical curve")
-    lognormal_holds: bool = column(
-        "Whether chance would take them so far apart; else use the empirical curve"
-    )
     reversals: int = column("Records that, scaled up, let stand again what they had overturned")
     annual_rate: float = column("Of exceedance, with the hazard curve; empty without one", unit="1/year")
     annual_rate_low: float = column("From the lower ends of the curve's interval", unit="1/year")
     annual_rate_high: float = column("From the upper ends of the curve's interval", unit="1/year")
+    annual_rate_left_out: float = column(
+        "Most that the rate may lack, as curve and hazard end before shaking does", unit="1/year"
+    )
 
 
 @row(
     "intensity_measures",
-    "One row per structure and intensity measure: which of them explains overturning most",
+    "One row per structure, intensity measure and other figure of the record: what explains overturning",
 )
 class IntensityMeasureRow(Row):
-    """One measure."""
+    """One measure beside one figure."""
 
     structure: str = column(meanings.STRUCTURE)
     intensity_measure: str = column(_MEASURE)
-    records: int = column("Records that have the measure and overturn it at some level")
     efficiency: float = column(
-        "Standard deviation of the logarithm of the level that first overturns; less is better"
+        "Standard deviation of the logarithm of the level that overturns; less is better"
     )
-    sufficiency: float = column(
-        "p-value, by stations, of a dependence of that level on PGV/PGA; below 0.05 it does not suffice"
+    figure: str = column("Figure of the record that may say more: PGV/PGA, magnitude or ln of the distance")
+    records: int = column("Records that have the measure and the figure")
+    stations: int = column("Their stations")
+    slope: float = column(
+        "Change of the logarithm of the level that overturns, for one standard deviation of the figure"
+    )
+    p_value: float = column("Of no such change; below 0.05 the measure does not suffice")
+    power: float = column(
+        "Share of samples of as many stations that would show a slope of this size; where it is low, a large p-value "
+        "says little"
     )
 
 
@@ -122,7 +126,7 @@ def ida_rows(structure: str, records: Sequence[str], found: IncrementalDynamicAn
                 scale_factor=level / float(intensity),
                 members=ratios.size,
                 rotation_ratio=float(np.sort(ratios)[(ratios.size - 1) // 2]),
-                overturning_probability=float(np.isinf(ratios).mean()),
+                overturning_share=float(np.isinf(ratios).mean()),
             )
 
 
@@ -149,36 +153,65 @@ def fragility_summary_row(
         rotation_ratio=curve.threshold,
         records=len(curve.stations),
         stations=curve.independent,
-        mechanism_runs=curve.mechanism_runs,
         median=curve.median,
         median_low=curve.interval[0],
         median_high=curve.interval[1],
+        lognormal_median=curve.lognormal_median,
         dispersion=curve.dispersion,
         misfit=curve.misfit,
-        lognormal_holds=curve.lognormal_holds,
         reversals=int((curve.reversals > 0).sum()),
         annual_rate=rate.rate if rate else math.nan,
         annual_rate_low=rate.low if rate else math.nan,
         annual_rate_high=rate.high if rate else math.nan,
+        annual_rate_left_out=rate.left_out if rate else math.nan,
     )
 
 
 def intensity_measure_rows(
-    structure: str, mechanism: Mechanism, records: Sequence[Accelerogram], found: IncrementalDynamicAnalysis
+    structure: str,
+    mechanism: Mechanism,
+    records: Sequence[Accelerogram],
+    analysis: IncrementalDynamicAnalysis,
 ) -> Iterator[IntensityMeasureRow]:
-    """Yield how well each measure orders the records, by the scale at which each first overturns the structure."""
-    factors = _first_overturning(found)
-    shapes = np.log([_velocity_over_acceleration(record) for record in records])
+    """Yield how well each measure explains which records overturn the structure at which level."""
+    factors = np.log(analysis.levels) - np.log(analysis.intensities)[:, None]
+    falls = np.isinf(analysis.rotation_ratios).mean(axis=2)
+    stations = np.array(analysis.stations)
     for measure in INTENSITY_MEASURES.values():
-        capacities = np.log([_or_nan(measure, record, mechanism) for record in records] * factors)
-        known = np.isfinite(capacities)
-        yield IntensityMeasureRow(
-            structure=structure,
-            intensity_measure=measure.name,
-            records=int(known.sum()),
-            efficiency=float(capacities[known].std(ddof=1)) if known.sum() > 1 else math.nan,
-            sufficiency=sufficiency(shapes[known], capacities[known], list(compress(found.stations, known))),
-        )
+        logs = np.log([_or_nan(measure, record, mechanism) for record in records])
+        for figure, values in _figures(records).items():
+            kept = np.isfinite(logs) & np.isfinite(values)
+            names = stations[kept].tolist()
+            if len(set(names)) < 2:
+                continue
+            levels, outcomes = logs[kept, None] + factors[kept], falls[kept]
+            beside = dependence(levels, outcomes, values[kept], names)
+            yield IntensityMeasureRow(
+                structure=structure,
+                intensity_measure=measure.name,
+                efficiency=efficiency(levels, outcomes, names),
+                figure=figure,
+                records=int(kept.sum()),
+                stations=len(set(names)),
+                slope=beside.slope,
+                p_value=beside.p_value,
+                power=beside.power,
+            )
+
+
+def _figures(records: Sequence[Accelerogram]) -> dict[str, np.ndarray]:
+    """Figures of each record that the level of overturning may depend on beside its intensity; nan where not known."""
+    velocity, acceleration = (INTENSITY_MEASURES[name] for name in ("pgv", "pga"))
+    shapes = [
+        each.peak_acceleration and velocity.remembered(each) / acceleration.remembered(each)
+        for each in records
+    ]
+    distances = [each.epicentral_distance or math.nan for each in records]
+    return {
+        "PGV/PGA": np.log(np.array(shapes) / GRAVITY),
+        "magnitude": np.array([math.nan if each.magnitude is None else each.magnitude for each in records]),
+        "ln distance": np.log(distances),
+    }
 
 
 def _or_nan(measure: IntensityMeasure, record: Accelerogram, mechanism: Mechanism) -> float:
@@ -186,18 +219,6 @@ def _or_nan(measure: IntensityMeasure, record: Accelerogram, mechanism: Mechanis
         return measure.of(record, mechanism)
     except ConfigurationError:
         return math.nan
-
-
-def _first_overturning(found: IncrementalDynamicAnalysis) -> np.ndarray:
-    """Scale factor at which more than half of the members first overturn, (r,); nan where they never do."""
-    falls = np.isinf(found.rotation_ratios).mean(axis=2) > 0.5
-    first = np.where(falls.any(axis=1), found.levels[falls.argmax(axis=1)], np.nan)
-    return np.asarray(first / found.intensities)
-
-
-def _velocity_over_acceleration(record: Accelerogram) -> float:
-    measures = record_measures(record)
-    return measures.peak_velocity / measures.peak_acceleration
 
 
 FRAGILITY_TABLES: Mapping[str, type[Row]] = {
