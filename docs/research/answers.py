@@ -12,8 +12,8 @@ import numpy as np
 from docs.research import scores
 from docs.research.sites import structures_tried
 from rocking.assessment.ensemble import GroundMotions, ensemble
-from rocking.assessment.fidelity import Answer, Limits, cheapest_answer, find_limits
-from rocking.assessment.intensity import Shape
+from rocking.assessment.fidelity import Answer, cheapest_answer
+from rocking.assessment.intensity import peak_velocity
 from rocking.assessment.method import Method
 from rocking.assessment.tiers import Tier, TierFit
 from rocking.assessment.verdict import Verdict
@@ -69,27 +69,24 @@ def try_answers(records: Iterable[tuple[str, str, Accelerogram]], cases: Fits) -
             tier: cases.fit(tier, cases.sites != site)
             for tier in (Tier.PEAK_VELOCITY, Tier.BLOCK_AT_FIVE_SCALES)
         }
-        limits = [find_limits(mechanism, RISK, fits) for mechanism in mechanisms]
         for factor in FACTORS:
             motion = record.scaled(factor)
-            shape, shape_s = _timed(partial(Shape.of, motion))
-            for mechanism, own in zip(mechanisms, limits, strict=True):
-                yield _trial(site, mechanism, shape, own, fits, shape_s / len(mechanisms))
+            _, velocity_s = _timed(partial(peak_velocity, motion))
+            for mechanism in mechanisms:
+                yield _trial(site, mechanism, motion, fits, velocity_s / len(mechanisms))
 
 
 def _trial(
     site: str,
     mechanism: Mechanism,
-    shape: Shape,
-    limits: Limits,
+    record: Accelerogram,
     fits: Mapping[Tier, TierFit],
-    shape_s: float,
+    velocity_s: float,
 ) -> AnswerTrial:
-    record = shape.accelerogram
     truth, mechanism_s = _timed(lambda: integrate(mechanism, record))
-    alone, alone_s = _timed(lambda: cheapest_answer(mechanism, shape, risk=RISK, limits=limits))
+    alone, alone_s = _timed(lambda: cheapest_answer(mechanism, record, risk=RISK, fits=fits))
     beside, beside_s = _timed(
-        lambda: cheapest_answer(mechanism, shape, risk=RISK, ensemble_follows=True, limits=limits, fits=fits)
+        lambda: cheapest_answer(mechanism, record, risk=RISK, ensemble_follows=True, fits=fits)
     )
     motions = GroundMotions.of(record)
     whole, ensemble_s = _timed(lambda: ensemble(mechanism, motions))
@@ -99,11 +96,11 @@ def _trial(
         alone=alone,
         beside=beside,
         truth=truth.rotation_ratio,
-        share=whole.overturning_probability,
+        share=whole.overturning_share,
         verdict=whole.verdict,
         quick_verdict=quick.verdict,
-        alone_s=alone_s + shape_s,
-        beside_s=beside_s + shape_s,
+        alone_s=alone_s + velocity_s,
+        beside_s=beside_s + velocity_s,
         mechanism_s=mechanism_s,
         ensemble_s=ensemble_s,
         quick_s=quick_s,

@@ -1,9 +1,8 @@
 """The tiers: what a cheap figure says of overturning, fitted to real records and judged by leaving sites out."""
 
 import hashlib
-import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -12,24 +11,22 @@ from docs.research import scores
 from docs.research.answers import answer_scores, try_answers
 from docs.research.scores import Reliability, Score
 from docs.research.sites import independent, structures_tried
-from rocking.assessment import intensity
+from rocking.assessment import intensity, tiers
 from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn
 from rocking.assessment.ensemble.design import lattice
 from rocking.assessment.fidelity import stays_at_rest
-from rocking.assessment.intensity import NUDGES, Shape
+from rocking.assessment.intensity import NUDGES
 from rocking.assessment.tiers import Tier, TierFit
 from rocking.motion.batch import integrate_batch
 from rocking.records import Accelerogram
 from rocking.structures import Structure
-from rocking.tables import write_rows, write_whole
+from rocking.tables import write_rows
 
 TIERS = (Tier.PEAK_VELOCITY, Tier.BLOCK_AT_FIVE_SCALES)
 FACTORS = (0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8)
 """On each record, so that it speaks for weaker and stronger shaking of the same shape."""
 MEMBERS = 64
 """Of the ensemble of a case."""
-CLASSES = 30
-"""Of location, between which the band of the rotation steps."""
 BINS = (0.0, 0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
 
 
@@ -60,7 +57,14 @@ class TierCases:
 
     def fit(self, tier: Tier, kept: np.ndarray | slice = slice(None)) -> TierFit:
         """Return `tier` fitted to the cases `kept`."""
-        return fit_tier(tier, self.terms(tier)[kept], self.ratios[kept], self.sites[kept])
+        frequencies = [case.measures["frequency_parameter"] for case in self.cases]
+        return fit_tier(
+            tier,
+            self.terms(tier)[kept],
+            self.ratios[kept],
+            self.sites[kept],
+            (min(frequencies), max(frequencies)),
+        )
 
     def terms(self, tier: Tier) -> np.ndarray:
         """Return (n, k) of the terms that `tier` takes."""
@@ -75,11 +79,9 @@ def tier_cases(
     blocks = [mechanism.equivalent_block("rest") for mechanism in mechanisms.values()]
     nudged = np.outer(FACTORS, NUDGES)
     for name, site, record in records:
-        shape = Shape.of(record)
         on_block = integrate_batch(blocks, record, nudged.ravel()).reshape(len(blocks), *nudged.shape)
         for k, (structure, mechanism) in enumerate(mechanisms.items()):
-            block = mechanism.equivalent_block("rest")
-            measures = intensity.of_structure(mechanism) | intensity.of_peaks(shape, block)
+            measures = intensity.of_structure(mechanism)
             for i, factor in enumerate(FACTORS):
                 motion = record.scaled(factor)
                 if stays_at_rest(mechanism, motion):
@@ -87,11 +89,14 @@ def tier_cases(
                 motions, points = GroundMotions.of(motion), lattice(MEMBERS, CAUSES)
                 members = drawn(mechanism, motions, points, EnsembleSettings())
                 if not members.failed:
-                    known = intensity.scaled(measures, factor) | intensity.from_nudged(on_block[k, i])
+                    known = measures | intensity.of_velocity(motion, blocks[k])
+                    known |= intensity.from_nudged(on_block[k, i])
                     yield TierCase(name, site, structure, factor, known, members.rotation_ratios)
 
 
-def fit_tier(tier: Tier, terms: np.ndarray, ratios: np.ndarray, sites: np.ndarray) -> TierFit:
+def fit_tier(
+    tier: Tier, terms: np.ndarray, ratios: np.ndarray, sites: np.ndarray, frequencies: tuple[float, float]
+) -> TierFit:
     """Fit one tier to terms (n, k), rotation ratios (n, m) of the members of each case (inf: overturns) and sites (n,).
 
     The share of a case that overturns is what its probability is fitted to, one case weighing as much as another.
@@ -101,33 +106,16 @@ def fit_tier(tier: Tier, terms: np.ndarray, ratios: np.ndarray, sites: np.ndarra
     design = np.column_stack([np.ones(len(terms)), (terms - centre) / spread])
     coefficients, covariance = scores.logistic(design, np.isinf(ratios).mean(axis=1), sites)
     bounds = terms.min(axis=0), terms.max(axis=0)
-    fit = TierFit(tier, centre, spread, *bounds, coefficients, covariance, np.zeros(1), np.zeros((1, 3)))
-    edges, bands = _bands(fit.location(terms), ratios / fit.anchor(terms)[:, None])
-    return replace(fit, edges=edges, bands=bands)
+    return TierFit(tier, centre, spread, *bounds, coefficients, covariance, frequencies)
 
 
-def _bands(location: np.ndarray, ratios: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Classes of about equal numbers by location (n,), and in each the 5, 50 and 95 % quantile of all members (n, m).
-
-    A quantile between two members is the outer one.
-    """
-    edges = np.unique(np.quantile(location, np.arange(CLASSES) / CLASSES, method="lower"))
-    place = np.searchsorted(edges, location, side="right") - 1
-    outer = {0.05: "lower", 0.5: "nearest", 0.95: "higher"}
-    classes = [ratios[place == k] for k in range(edges.size)]
-    bands = [[np.quantile(each, level, method=side) for level, side in outer.items()] for each in classes]
-    return edges, np.array(bands)
-
-
-def left_out(tier: Tier, cases: TierCases) -> tuple[np.ndarray, np.ndarray]:
-    """Return what `tier` says of each case when fitted without its site: log odds (n,) and band of rotation (n, 3)."""
-    odds, rotations, terms = np.empty(len(cases.cases)), np.empty((len(cases.cases), 3)), cases.terms(tier)
+def left_out(tier: Tier, cases: TierCases) -> np.ndarray:
+    """Return the log odds (n,) that `tier` gives each case when fitted without its site."""
+    odds, terms = np.empty(len(cases.cases)), cases.terms(tier)
     for site in np.unique(cases.sites):
         out = cases.sites == site
-        fit = cases.fit(tier, ~out)
-        odds[out], _ = fit.log_odds(terms[out])
-        rotations[out] = fit.rotations(terms[out])
-    return odds, rotations
+        odds[out], _ = cases.fit(tier, ~out).log_odds(terms[out])
+    return odds
 
 
 def tier_scores(
@@ -136,16 +124,14 @@ def tier_scores(
     """Yield the scores and the reliability of each tier on sites left out."""
     overturned, part = np.isinf(cases.ratios).mean(axis=1), "sites left out"
     for tier in TIERS:
-        odds, rotations = left_out(tier, cases)
+        odds = left_out(tier, cases)
         stated = 1 / (1 + np.exp(-odds))
-        inside = ((cases.ratios >= rotations[:, :1]) & (cases.ratios <= rotations[:, 2:])).mean(axis=1)
         measures: dict[str, scores.Measure] = {
             "Brier skill": lambda rows, stated=stated: scores.brier_skill(stated[rows], overturned[rows]),
             "Brier skill of the shares themselves": lambda rows: scores.brier_skill(
                 overturned[rows], overturned[rows]
             ),
             "calibration slope": lambda rows, odds=odds: scores.logit_slope(odds[rows], overturned[rows]),
-            "share inside the 5-95 % band": scores.mean(inside),
         }
         yield (
             scores.scored(tier, part, measures, cases.sites, replicates),
@@ -170,5 +156,4 @@ def write_tiers(
         "cases": len(cases.cases),
         "records_sha256": hashlib.sha256("\n".join(hashes).encode()).hexdigest(),
     }
-    fits = {tier: {k: np.asarray(v).tolist() for k, v in vars(cases.fit(tier)).items()} for tier in TIERS}
-    write_whole(folder / "tiers.json", json.dumps({"about": about, "tiers": fits}, indent=1).encode())
+    tiers.write_tiers(folder / "tiers.json", {tier: cases.fit(tier) for tier in TIERS}, about)

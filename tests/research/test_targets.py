@@ -73,7 +73,6 @@ def test_calibrate_fits_and_judges_every_tier(rows, asked):
         skill, best = scores[tier, "Brier skill"], scores[tier, "Brier skill of the shares themselves"]
         assert 0 < float(skill["value_low"]) <= float(skill["value"]) < float(best["value"]) < 1
         assert skill["sites"] == "4", "three of the near-fault catalogue and one of the other"
-        assert 0.5 < float(scores[tier, "share inside the 5-95 % band"]["value"]) <= 1
     assert ("fidelity: auto", "wrong verdicts among those settled") in scores
     fits = json.loads((asked.results / "calibration" / "tiers.json").read_text())
     assert set(fits["tiers"]) == set(TIERS) and fits["about"]["sites"] == 4
