@@ -39,11 +39,11 @@ def test_every_line_of_the_page_answers_its_question(study):
         warnings.simplefilter("error")
         answers = [eval(line, {"results": rocking.open_results(study.results)}) for line in lines]
     falls = defaultdict(set)
-    for row in cells(study, "ensemble"):
+    for row in cells(study, "verdicts"):
         if row["verdict"] == "overturns":
             falls[row["structure"]].add(row["record"])
     assert falls and answers[0].to_dict() == {name: len(records) for name, records in falls.items()}
-    undecided = [row["record"] for row in cells(study, "ensemble") if row["verdict"] == "undecided"]
+    undecided = [row["record"] for row in cells(study, "verdicts") if row["verdict"] == "undecided"]
     assert list(answers[1]["record"]) == undecided
     assert answers[2].notna().all(axis=None)
     (failure,) = answers[-1].to_dict("records")
