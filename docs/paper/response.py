@@ -8,7 +8,7 @@ from docs.paper.curves import ROTATION, Curve
 from rocking.motion.integration import integrate
 from rocking.pulses import Pulse, extract_pulses
 from rocking.records.accelerogram import Accelerogram
-from rocking.reports.paper.panel import thinned
+from rocking.reports.style import thinned
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures.arch import Arch
 from rocking.structures.mechanism import Mechanism
@@ -16,8 +16,8 @@ from rocking.structures.mechanism import Mechanism
 RADII = {"c": 10.0, "d": 15.0}
 """Centreline radius of each panel's arch, m; β = 157.5°, t/r = 0.15, η = 0.9 as in the paper."""
 _TIME = "time [s]"
-_WIDTH = 64.0
-"""Of a panel, mm: traces are drawn as far as paper shows them."""
+_POINTS = 640
+"""Of a trace: ten on a millimetre, as far as paper shows them."""
 _STYLES = {"Eq. 15 as printed": ":", "paper's block, every regime": "-.", "block exact at rest": "--"}
 """What is predicted, and the line it gets."""
 
@@ -31,7 +31,7 @@ def response_curves(accelerogram: Accelerogram) -> list[Curve]:
     """Return the record with its dominant pulse (b) and the responses with what is predicted (c, d)."""
     pulse = extract_pulses(accelerogram).dominant
     times = np.linspace(pulse.start_time, pulse.end_time, 121)
-    ground = thinned(accelerogram.times, accelerogram.acceleration, _WIDTH)
+    ground = thinned(accelerogram.times, accelerogram.acceleration, _POINTS)
     curves = [
         Curve("b", "record", _TIME, "acceleration [m/s²]", *ground),
         Curve("b", "dominant pulse", _TIME, "acceleration [m/s²]", times, pulse.acceleration(times), "--"),
@@ -50,7 +50,7 @@ def _arch_curves(panel: str, radius: float, accelerogram: Accelerogram, pulse: P
     used = slice(max(int(moving[0]) - 1, 0), int(moving[-1]) + 1)
     times, ratio = response.times[used], response.rotation[used] / mechanism.critical_rotation
     curves = [
-        Curve(panel, f"full integration, r = {radius:g} m", _TIME, ROTATION, *thinned(times, ratio, _WIDTH))
+        Curve(panel, f"full integration, r = {radius:g} m", _TIME, ROTATION, *thinned(times, ratio, _POINTS))
     ]
     span = np.array([times[0], times[-1]])
     for name, level in predicted_levels(mechanism, pulse).items():

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import typst
 
-from rocking.reports.paper.letters import FONT_FOLDER, glyphs
+from rocking.reports.style import FONT_FOLDER, glyphs
 
 _FOLDER = Path(__file__).parent
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
+from matplotlib.transforms import Transform
 
 from rocking.structures import Structure
 from rocking.structures.drawing import Dimension, Mark
@@ -17,6 +18,13 @@ _ARROW = {"arrowstyle": "-|>", "shrinkA": 0, "shrinkB": 0}
 _HEAD = _ARROW | _THIN | {"mutation_scale": 4}
 _LOAD = _ARROW | {"color": "#009E73", "linewidth": 1.0, "mutation_scale": 7}
 _TIE = "#0072B2"
+_AT_REST: dict[str, Any] = {"fill": False, "edgecolor": "0.3", "linewidth": 0.5, "linestyle": "--"}
+_HINGE: dict[str, Any] = {
+    "color": "white",
+    "markeredgecolor": "black",
+    "markersize": 3,
+    "markeredgewidth": 0.6,
+}
 _SIDES = {"load": ("center", "bottom"), "thrust": ("right", "center")}
 _SEEN_ROTATION, _MOST_ROTATION = 0.12, 0.3
 """Rotation that can be seen in a small drawing, and beyond which a structure is hard to recognise, rad."""
@@ -25,28 +33,25 @@ _FALLEN, _FARTHEST = 3.0, 1.5
 
 
 def draw_structure(
-    axes: Axes, structure: Structure, rotation: float = 0.0, look: dict[str, Any] | None = None
+    axes: Axes,
+    structure: Structure,
+    rotation: float = 0.0,
+    *,
+    look: dict[str, Any] | None = None,
+    place: Transform | None = None,
 ) -> None:
     """Draw the parts at a signed `rotation` [rad]; displaced, also at rest (dashed) and with the hinges (circles).
 
-    look: of the filled parts, as matplotlib.patches.Polygon takes it.
+    look: of the filled parts, as matplotlib.patches.Polygon takes it. place: from m to the units of the axes.
     """
-    filled = {"facecolor": "0.85", "edgecolor": "0.3", "linewidth": 0.8} | (look or {})
+    where = axes.transData if place is None else place + axes.transData
+    filled = {"facecolor": "0.85", "edgecolor": "0.3", "linewidth": 0.8, "transform": where} | (look or {})
     for outline in structure.outline(rotation):
         axes.add_patch(Polygon(outline, closed=True, **filled))
     if rotation:
         for outline in structure.outline():
-            axes.add_patch(
-                Polygon(outline, closed=True, fill=False, edgecolor="0.3", linewidth=0.5, linestyle="--")
-            )
-        axes.plot(
-            *structure.hinges(rotation).T,
-            "o",
-            color="white",
-            markeredgecolor="black",
-            markersize=3,
-            markeredgewidth=0.6,
-        )
+            axes.add_patch(Polygon(outline, closed=True, transform=where, **_AT_REST))
+        axes.plot(*structure.hinges(rotation).T, "o", transform=where, **_HINGE)
 
 
 def draw_dimensions(axes: Axes, dimensions: Sequence[Dimension]) -> None:
@@ -107,11 +112,12 @@ def fallen_rotation(structure: Structure, sign: int) -> float:
     A single body is drawn as it lies; one of several bodies on its way down, as far as its mechanism reaches.
     """
     mechanism = structure.mechanism()
-    side = mechanism.sides[-1] if sign < 0 and not mechanism.one_sided else mechanism.sides[0]
+    back = sign < 0 and not mechanism.one_sided
+    side = mechanism.sides[-1 if back else 0]
     farthest = 0.98 * side.end_rotation
     if len(structure.outline()) > 1:
         farthest = min(farthest, _FALLEN * side.critical_rotation)
-    return math.copysign(min(farthest, _FARTHEST), -1 if side is not mechanism.sides[0] else 1)
+    return (-1 if back else 1) * min(farthest, _FARTHEST)
 
 
 def round_length(length: float) -> float:

@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 TIME = "time [s]"
 ACCELERATION = "ground acceleration [m/s²]"
 RATIO = "rotation / critical rotation [-]"
-_LEVELS = (0.05, 0.1, 0.2, 0.5, 1.0)
-"""Rotation ratios that get a line in a rocking spectrum."""
 _POINTS = 400
 _SMALLEST, _FALLEN = 1e-3, 1.6
 """Rotation ratio below which a point is set on the edge of a scatter, and where overturning is set."""
@@ -72,35 +70,47 @@ def draw_rotation(
     ratio: np.ndarray,
     predicted: float = math.nan,
     band: tuple[float, float] | None = None,
+    *,
+    level: float = 0.0,
+    scale: float = 1.0,
     most: int = 4000,
 ) -> None:
-    """Draw rotation over critical rotation (k,) against time, its impacts as ticks at the lower edge.
+    """Draw rotation over critical rotation (k,) against time, its impacts as ticks on the line of rest.
 
-    predicted: the largest of the closed form, drawn on both sides. band: 5 and 95 % of the members' largest.
+    predicted: the largest of the closed form, drawn on both sides. band: 5 and 95 % of the members'
+    largest, a bar at the right. level,
+    scale: where rest stands and what a ratio of 1 measures in the units of the axes, for several in one panel.
     """
-    axes.axhline(0, color="0.8", linewidth=0.5, zorder=0)
-    if band is not None:
-        low, high = (min(value, 1.0) for value in band)
-        for sign in (1, -1):
-            axes.axhspan(sign * low, sign * high, color="#E69F00", alpha=0.25, linewidth=0)
-    axes.plot(*thinned(times, ratio, most), color="black", linewidth=0.8, label="as given")
+    axes.axhline(level, color="0.8", linewidth=0.5, zorder=0)
+    low, high = (min(value, 1.0) * scale for value in band or (0.0, 0.0))
+    for sign in (1, -1):
+        if high > 0:
+            axes.axhspan(
+                level + sign * low, level + sign * high, xmin=0.97, color="#E69F00", alpha=0.6, linewidth=0
+            )
+        if 0 < predicted < math.inf:
+            axes.axhline(level + sign * scale * predicted, color=PREDICTED, linewidth=1.0, linestyle="-.")
+    shown, trace = thinned(times, ratio, most)
+    axes.plot(shown, level + scale * trace, color="black", linewidth=0.8, label="as given")
     impacts = times[1:][ratio[1:] * ratio[:-1] < 0]
-    axes.plot(impacts, np.zeros(impacts.size), "|", color="black", markersize=3, markeredgewidth=0.4)
-    if 0 < predicted < math.inf:
-        for sign in (1, -1):
-            axes.axhline(sign * predicted, color=PREDICTED, linewidth=1.0, linestyle="-.")
+    axes.plot(impacts, np.full(impacts.size, level), "|", color="black", markersize=3, markeredgewidth=0.4)
 
 
 def draw_levels(
-    axes: Axes, across: np.ndarray, up: np.ndarray, ratios: np.ndarray, placed: Sequence[Placed] = ()
+    axes: Axes,
+    across: np.ndarray,
+    up: np.ndarray,
+    ratios: np.ndarray,
+    placed: Sequence[Placed] = (),
+    levels: Sequence[float] = (0.05, 0.1, 0.2, 0.5, 1.0),
 ) -> None:
     """Draw lines of equal rotation ratio (m, n) over p (m,) and λ (n,), hatched where it overturns, with structures."""
     overturns = np.isinf(ratios).T
     if overturns.any():
         axes.contourf(across, up, overturns.astype(float), levels=[0.5, 1.5], colors="0.85", hatches=["///"])
     shown = np.where(overturns, np.nan, ratios.T)
-    if np.nanmax(shown, initial=0) > _LEVELS[0] and np.nanmin(shown, initial=np.inf) < _LEVELS[-1]:
-        lines = axes.contour(across, up, shown, levels=_LEVELS, colors="black", linewidths=0.7)
+    if np.nanmax(shown, initial=0) > levels[0] and np.nanmin(shown, initial=np.inf) < levels[-1]:
+        lines = axes.contour(across, up, shown, levels=levels, colors="black", linewidths=0.7)
         axes.clabel(lines, fmt="%g", fontsize=7)
     _draw_placed(axes, [(number, p, multiplier) for number, p, multiplier in placed])
     axes.set_xlabel("frequency parameter p [rad/s]")
@@ -138,25 +148,22 @@ def _draw_placed(axes: Axes, places: Iterable[Placed]) -> None:
 def draw_energy_map(
     axes: Axes, onsets: np.ndarray, periods: np.ndarray, gains: np.ndarray, pulses: Sequence["Pulse"]
 ) -> None:
-    """Draw energy gains (n, m) [m²/s³] over onset (n,) [s] and period (m,) [s], darker for more, with ranked pulses."""
+    """Draw energy gains (n, m) [m²/s³] over onset (n,) [s] and period (m,) [s], darker for more, with ranked pulses.
+
+    The periods stand in equal steps of their logarithm, which makes the map a picture of (n, m) pixels.
+    """
     share = np.sqrt(gains / max(float(gains.max()), np.finfo(float).tiny))  # the root shows the weaker maxima
-    axes.pcolormesh(
-        onsets, periods, share.T, cmap="Greys", vmin=0, vmax=1.25, shading="nearest", rasterized=True
-    )
+    low, high = np.log10([periods.min(), periods.max()])
+    rising = share.T if periods[0] < periods[-1] else share.T[::-1]
+    look: dict[str, Any] = {"cmap": "Greys", "vmin": 0, "vmax": 1.25, "aspect": "auto", "origin": "lower"}
+    axes.imshow(rising, extent=(onsets[0], onsets[-1], low, high), interpolation="none", **look)
     for rank, pulse in enumerate(pulses, start=1):
-        axes.plot(pulse.start_time, pulse.period, "o", color=PULSE, markersize=3.5, fillstyle="none")
-        axes.annotate(
-            str(rank),
-            (pulse.start_time, pulse.period),
-            xytext=(3, 2),
-            textcoords="offset points",
-            fontsize=7,
-            color=PULSE,
-        )
-    plain_logarithmic(axes, "y")
-    axes.set_ylim(float(periods.min()), float(periods.max()))
-    axes.set_xlabel("onset of the pulse [s]")
-    axes.set_ylabel("period [s]")
+        place = pulse.start_time, math.log10(pulse.period)
+        axes.plot(*place, "o", color=PULSE, markersize=3.5, fillstyle="none")
+        axes.annotate(str(rank), place, (3, 2), textcoords="offset points", fontsize=7, color=PULSE)
+    ticks = [tick for tick in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0) if low <= math.log10(tick) <= high]
+    axes.set_yticks([math.log10(tick) for tick in ticks], [f"{tick:g}" for tick in ticks])
+    axes.set(xlabel="onset of the pulse [s]", ylabel="period [s]")
 
 
 def draw_agreement(axes: Axes, integrated: np.ndarray, predicted: np.ndarray) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.errors import RockingError
 from rocking.records.catalogue import CatalogueRecord
-from rocking.reports.record.report import failure_report, record_data, record_report
+from rocking.reports.record import failure_report, record_report
 from rocking.study.parts import read_part
 from rocking.study.run import Opened, Study
 from rocking.tables import write_whole
@@ -43,4 +43,4 @@ def _report(record: str, opened: Callable[[], Opened], tables: RecordTables, stu
     except RockingError as error:
         return failure_report(record, str(error))
     settings = study.settings.mapping()
-    return record_report(record_data(record, accelerograms, study.structures, tables, settings, vertical))
+    return record_report(record, accelerograms, study.structures, tables, settings, vertical)

@@ -11,7 +11,7 @@ sys.path.append(str(Path(__file__).parents[1] / "unit" / "reports"))
 
 from conftest import Assessed, assessed, shaken
 
-from rocking.reports.record.report import record_data, record_report
+from rocking.reports.record import record_report
 from rocking.structures import Arch, Block, Wall
 
 
@@ -30,7 +30,7 @@ def ten_structures() -> Assessed:
 def another(case: Assessed, place: int) -> bytes:
     """A report of another name and motion: the typesetter remembers what it has set before."""
     moved = [accelerogram.scaled(1 + 1e-3 * place) for accelerogram in case.accelerograms]
-    return record_report(record_data(f"report {place}", moved, *case.arguments[2:]))
+    return record_report(f"report {place}", moved, *case.arguments[2:])
 
 
 def resident() -> float:

@@ -7,8 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from rocking.assessment.intensity import INTENSITY_MEASURES
-from rocking.reports.paper.letters import elided
-from rocking.reports.style import new_figure, plain_logarithmic, styled
+from rocking.reports.style import elided, new_figure, plain_logarithmic, styled
 from rocking.reports.summary.figures import prediction_scatter
 
 CASES = "cases"

@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
 from rocking.assessment.fragility.rows import FragilityRow, FragilitySummaryRow
-from rocking.reports.paper.letters import elided
-from rocking.reports.style import new_figure, plain_logarithmic, styled, svg
+from rocking.reports.style import elided, new_figure, plain_logarithmic, styled, svg
 from rocking.tables import frame, write_whole
 
 if TYPE_CHECKING:

@@ -1,5 +1,6 @@
 """One assessed record for the tests of the reports: synthetic motion, real computation, rows as CSV files hold."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,7 @@ from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow
 from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows, structure_rows
 from rocking.assessment.rows.shared import Identity
 from rocking.assessment.variations import candidates, processed_variants
+from rocking.assessment.verdict import Verdict
 from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.structures import Arch, Block, Wall
@@ -30,6 +32,16 @@ ASSESSMENT = AssessmentSettings()
 SETTINGS = {name: getattr(ASSESSMENT, name) for name in ("tolerance", "acceleration_scale")}
 HOSTILE = ("$x^$", "#panic(1)", "<b>bold</b>", "W" * 80, "Жёлтый Ω 中文")
 """Names that a template or a figure might take for markup, that no column holds, or that not every font has."""
+
+
+def fate(verdict: Verdict, rotation_ratio: float, **more) -> Fate:
+    """What became of a structure, by its verdict and the rotation ratio as given."""
+    blank = dict.fromkeys(Fate.table.column_names, math.nan) | {"record": "one", "component": "EW"}
+    texts = dict.fromkeys(
+        ("structure", "direction", "polarity", "why", "record_sha256", "settings_sha256"), ""
+    )
+    counts = {"overturning_members": 0, "members": 0, "peak_side": 1}
+    return Fate(**blank | texts | counts | {"verdict": verdict, "rotation_ratio": rotation_ratio} | more)
 
 
 @dataclass(frozen=True)

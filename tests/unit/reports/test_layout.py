@@ -11,7 +11,7 @@ import pytest
 
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.reports.document import compile_document
-from rocking.reports.record.report import record_data, record_report
+from rocking.reports.record import record_report
 from rocking.reports.summary.report import summary_report
 
 from .conftest import SETTINGS, SUMMARISED, summarised
@@ -104,8 +104,8 @@ def test_the_report_of_a_record_is_well_laid(example, count):
     }
     structures = dict.fromkeys(names, example.structures["wall 3 m"])
     tables = replace(example.tables, **kept)
-    data = record_data(example.record, example.accelerograms, structures, tables, SETTINGS)
-    assert_well_laid(record_report(data))
+    document = record_report(example.record, example.accelerograms, structures, tables, SETTINGS)
+    assert_well_laid(document)
 
 
 @pytest.mark.parametrize(("count", "records"), list(zip(COUNTS, (1, 13, 3, 13), strict=True)))

@@ -1,0 +1,362 @@
+"""The figures of a record's report: ground, structures in their state, histories, pulses, comparison, measures."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from matplotlib.transforms import Affine2D
+
+from rocking.assessment.fate import Fate
+from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Verdict
+from rocking.pulses import Pulse
+from rocking.quantities import GRAVITY
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.measures import response_spectrum
+from rocking.records.processing import displacement, velocity
+from rocking.reports.drawings import draw_structure, fallen_rotation, round_length
+from rocking.reports.panels import (
+    Placed,
+    draw_energy_map,
+    draw_levels,
+    draw_motion,
+    draw_response_spectra,
+    draw_rotation,
+)
+from rocking.reports.style import (
+    PREDICTED,
+    TEXT_WIDTH,
+    elided,
+    fixed_ticks,
+    new_figure,
+    panel_at,
+    plain_logarithmic,
+    styled,
+    thinned,
+)
+from rocking.structures import Structure
+
+LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
+    Verdict.OVERTURNS: ("▲", "#7a2400", "white", "xxxx"),
+    Verdict.UNDECIDED: ("?", "#f0a030", "black", "///"),
+    Verdict.UNKNOWN: ("–", "white", "black", ""),
+    Verdict.STANDS: ("●", "#dceaf7", "black", ""),
+}
+"""Sign, colour, colour of letters on it, and pattern of each verdict: in print without colour the others tell it."""
+_COLUMNS, _CELL = 5, (34.0, 60.0)
+"""Structures of a row, and width and height of each, mm."""
+_DRAWN = (30.0, 29.0)
+"""Room for the structure itself, mm."""
+_POINTS = 1200
+"""Points of a trace of a report: no printer shows more on the width of a page."""
+_HISTORIES, _HIGHEST_ROW = 160.0, 30.0
+"""Height of all histories together, and of one at most, mm."""
+_STILL = 0.01
+"""Share of the largest rotation below which a history is cut."""
+_HIGHEST = 1.25
+"""Rotation ratio beyond which a history is not drawn."""
+_SMALLEST, _FALLEN = 1e-3, 2.2
+"""Rotation ratios at the left end of the comparison, and where overturning stands."""
+_ZOOM = 1.5
+"""Periods of the pulse that are shown before and after it."""
+_MAP_COLUMNS = 240
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """One component of the ground with its ranked pulses, the dominant one first."""
+
+    accelerogram: Accelerogram
+    pulses: Sequence[Pulse]
+
+    @property
+    def dominant(self) -> Pulse | None:
+        """The pulse that explains most."""
+        return next(iter(self.pulses), None)
+
+    @property
+    def name(self) -> str:
+        """The component, as a figure names it."""
+        return elided(self.accelerogram.component or "component", 14)
+
+
+@dataclass(frozen=True)
+class State:
+    """A structure as page one draws it: cracked where that governs, with what is said below it in lines."""
+
+    label: str
+    structure: Structure
+    fate: Fate
+    lines: Sequence[str]
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """One response: rotation over critical rotation (k,) against time (k,) s, what was predicted, and a remark."""
+
+    label: str
+    times: np.ndarray
+    ratio: np.ndarray
+    predicted: float
+    band: tuple[float, float] | None
+    remark: str
+
+
+@dataclass(frozen=True)
+class Compared:
+    """One case: rotation ratios (inf: overturns, nan: none) of closed form, block and mechanism, and how they agree."""
+
+    label: str
+    ratios: tuple[float, float, float]
+    agreement: Agreement
+    words: str
+
+
+@styled
+def ground_figure(motions: Sequence[Motion], height: float = 19.0) -> Figure:
+    """Draw the acceleration of each component with its dominant pulse, one below the other. height: of each, mm."""
+    figure = new_figure(height * len(motions) + 8)
+    end = max(motion.accelerogram.duration for motion in motions)
+    for place, motion in enumerate(motions):
+        panel = panel_at(figure, 14, 1 + place * height, TEXT_WIDTH - 16, height - 3)
+        _ground(panel, motion, (0.0, end))
+        _label_time(panel, place == len(motions) - 1)
+    return figure
+
+
+def _ground(panel: Axes, motion: Motion, span: tuple[float, float]) -> None:
+    accelerogram = motion.accelerogram
+    draw_motion(panel, accelerogram, motion.dominant, _POINTS)
+    reach = 1.1 * max(
+        accelerogram.peak_acceleration, *(abs(each.amplitude) for each in motion.pulses[:1]), 1e-9
+    )
+    fixed_ticks(panel, "y", -reach, reach, 4)
+    fixed_ticks(panel, "x", *span, 10)
+    peak = f"{motion.name}: PGA {accelerogram.peak_acceleration / GRAVITY:.2g} g"
+    panel.text(0.995, 0.97, peak, transform=panel.transAxes, ha="right", va="top")
+    panel.set_ylabel("[m/s²]")
+
+
+def _label_time(panel: Axes, last: bool) -> None:
+    if last:
+        panel.set_xlabel("time after the first sample [s]")
+    else:
+        panel.tick_params(labelbottom=False)
+
+
+@lru_cache(maxsize=4)
+@styled
+def strip_figure(states: tuple[State, ...]) -> Figure:
+    """Draw each structure in its state, to one scale each: standing, rocking to its largest rotation, or fallen."""
+    rows = math.ceil(len(states) / _COLUMNS)
+    width, height = _CELL
+    figure = new_figure(rows * height, margins=(0, 0, 0, 0))
+    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, TEXT_WIDTH), ylim=(-rows * height, 0))
+    axes.set_axis_off()
+    for place, state in enumerate(states):
+        row, column = divmod(place, _COLUMNS)
+        _draw_state(axes, state, (column + 0.5) * width, -row * height)
+    return figure
+
+
+def _draw_state(axes: Axes, state: State, middle: float, top: float) -> None:
+    sign, colour, ink, hatch = LOOKS[state.fate.verdict]
+    structure, rotation = state.structure, drawn_rotation(state.structure, state.fate)
+    points = np.vstack([*structure.outline(), *structure.outline(rotation)])
+    low, high = points.min(axis=0), points.max(axis=0)
+    scale = float(min(np.array(_DRAWN) / (high - low)))
+    foot = np.array([middle, top - 7 - _DRAWN[1]])
+    origin = np.array([(low[0] + high[0]) / 2, min(low[1], 0.0)])
+    place = Affine2D().translate(*-origin).scale(scale).translate(*foot)
+    look = {"facecolor": colour, "hatch": hatch, "edgecolor": "0.25", "linewidth": 0.6}
+    draw_structure(axes, structure, rotation, look=look, place=place)
+    axes.plot([middle - 15, middle + 15], [foot[1]] * 2, color="0.5", linewidth=0.6, zorder=0)
+    axes.text(middle, top - 1, elided(state.label, 23), ha="center", va="top", fontweight="bold")
+    bar = round_length(0.5 * _DRAWN[0] / scale)
+    axes.plot([middle - bar * scale / 2, middle + bar * scale / 2], [foot[1] - 2.0] * 2, "k", linewidth=1.5)
+    axes.text(middle + bar * scale / 2 + 1, foot[1] - 2.0, f"{bar:g} m", va="center", fontsize=7)
+    said = Rectangle((middle - 16, foot[1] - 8.5), 32, 4.5, facecolor=colour, edgecolor="0.25", linewidth=0.5)
+    axes.add_patch(said)
+    word = f"{sign} {state.fate.verdict}"
+    axes.text(middle, foot[1] - 6.3, word, ha="center", va="center", color=ink, fontweight="bold")
+    for line, text in enumerate(state.lines):
+        axes.text(middle, foot[1] - 9.5 - 3.2 * line, text, ha="center", va="top", fontsize=7)
+
+
+def drawn_rotation(structure: Structure, fate: Fate) -> float:
+    """Return the signed rotation of a structure on page one, rad: fallen, at its largest rotation or at rest."""
+    side = -1 if fate.peak_side == -1 else 1
+    if math.isinf(fate.rotation_ratio) or fate.verdict is Verdict.OVERTURNS:
+        return fallen_rotation(structure, side)
+    if not fate.rotation_ratio > NEGLIGIBLE:
+        return 0.0
+    sides = structure.mechanism().sides
+    return side * fate.rotation_ratio * sides[0 if side > 0 else -1].critical_rotation
+
+
+@styled
+def histories_figure(histories: Sequence[History], motions: Sequence[Motion]) -> Figure:
+    """Draw the rotation of each structure, one below the other, and beneath them the ground, on one time axis.
+
+    Each row has a scale of its own, which stands below its name.
+    """
+    row = min(_HIGHEST_ROW, _HISTORIES / len(histories))
+    below, left, width = 20.0, 38.0, TEXT_WIDTH - 70
+    figure = new_figure(row * len(histories) + below * len(motions) + 9)
+    begin, end = _window(histories)
+    panel = panel_at(figure, left, 1, width, row * len(histories))
+    for place, history in enumerate(histories):
+        reach, level = _reach(history), -float(place)
+        draw_rotation(
+            panel,
+            history.times,
+            np.clip(history.ratio, -reach, reach),
+            history.predicted if history.predicted <= reach else math.inf,
+            history.band and (min(history.band[0], reach), min(history.band[1], reach)),
+            level=level,
+            scale=0.45 / reach,
+            most=_POINTS,
+        )
+        label = f"{elided(history.label, 22)}\n± {reach:.2g}"
+        look: dict[str, Any] = {
+            "transform": panel.get_yaxis_transform(),
+            "va": "center",
+            "fontsize": 7,
+            "linespacing": 1.3,
+        }
+        panel.text(-0.02, level, label, ha="right", **look)
+        panel.text(1.01, level, history.remark, ha="left", **look)
+    panel.set(xlim=(begin, end), ylim=(0.5 - len(histories), 0.5), xticks=[], yticks=[])
+    panel.spines[["left", "bottom"]].set_visible(False)
+    for place, motion in enumerate(motions):
+        top = 2 + row * len(histories) + place * below
+        ground = panel_at(figure, left, top, width, below - 3)
+        _ground(ground, motion, (begin, end))
+        _label_time(ground, place == len(motions) - 1)
+    return figure
+
+
+def _reach(history: History) -> float:
+    """Height of a panel: enough for the response and the prediction, no further than _HIGHEST."""
+    levels = [float(np.abs(history.ratio).max(initial=0)), history.predicted]
+    return min(1.25 * max((level for level in levels if 0 < level < math.inf), default=1.0), _HIGHEST)
+
+
+def _window(histories: Sequence[History]) -> tuple[float, float]:
+    """The span of time in which anything moves."""
+    begins, ends = [], []
+    for history in histories:
+        size = np.abs(history.ratio)
+        moving = np.flatnonzero(size > _STILL * size.max(initial=0))
+        if moving.size:
+            begins.append(float(history.times[moving[0]]))
+            ends.append(float(history.times[moving[-1]]))
+    margin = 0.05 * (max(ends) - min(begins)) + 1e-3
+    return max(0.0, min(begins) - margin), max(ends) + margin
+
+
+@styled
+def pulses_figure(motions: Sequence[Motion]) -> Figure:
+    """Draw of each component the dominant pulse in the record, and the energy of a pulse over onset and period."""
+    height = 36.0
+    figure = new_figure(height * len(motions))
+    for place, motion in enumerate(motions):
+        pulse = motion.dominant
+        if pulse is None:
+            continue
+        top = 3 + place * height
+        near, energy = panel_at(figure, 14, top, 70, 24), panel_at(figure, 100, top, 68, 24)
+        span = pulse.start_time - _ZOOM * pulse.period, pulse.end_time + _ZOOM * pulse.period
+        _ground(near, motion, (max(span[0], 0.0), min(span[1], motion.accelerogram.duration)))
+        _label_time(near, last=True)
+        draw_energy_map(energy, *_energy(motion.accelerogram), motion.pulses)
+    return figure
+
+
+def _energy(accelerogram: Accelerogram) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Onsets, periods and the largest gain of each stretch of onsets: no printer shows more."""
+    from rocking.pulses import energy_map  # which loads the compiled scan
+
+    gains, frequencies = energy_map(accelerogram)
+    stretch = max(1, gains.shape[0] // _MAP_COLUMNS)
+    starts = np.arange(0, gains.shape[0], stretch)
+    return starts * accelerogram.time_step, 1 / frequencies, np.maximum.reduceat(gains, starts, axis=0)
+
+
+@styled
+def comparison_figure(cases: Sequence[Compared]) -> Figure:
+    """Draw closed form, block and mechanism of each case on one line, bold where the closed form is unsafe."""
+    height = 4.3 * len(cases)
+    figure = new_figure(height + 16)
+    panel = panel_at(figure, 46, 6, TEXT_WIDTH - 46 - 40, height)
+    rows = np.arange(len(cases))
+    form, block, whole = np.array([[_placed(each) for each in case.ratios] for case in cases]).T
+    unsafe = np.array([case.agreement is Agreement.TOO_LOW for case in cases])
+    panel.hlines(rows[~unsafe], form[~unsafe], whole[~unsafe], color="0.6", linewidth=0.8)
+    panel.hlines(rows[unsafe], form[unsafe], whole[unsafe], color="#D55E00", linewidth=2.0)
+    panel.plot(form, rows, "D", color=PREDICTED, fillstyle="none", markersize=5, label="closed form, pulse")
+    panel.plot(block, rows, "s", color="0.45", fillstyle="none", markersize=4, label="block, whole record")
+    panel.plot(whole, rows, "o", color="black", markersize=3.5, label="mechanism, whole record")
+    for place, case in enumerate(cases):
+        panel.text(1.02, place, case.words, transform=panel.get_yaxis_transform(), va="center", fontsize=7)
+    panel.set(xscale="log", xlim=(0.7 * _SMALLEST, 1.5 * _FALLEN), ylim=(len(cases) - 0.5, -0.5))
+    panel.set_yticks(rows, [elided(case.label, 30) for case in cases])
+    ticks = [_SMALLEST, 0.01, 0.1, 0.3, 1.0, _FALLEN]
+    panel.set_xticks(ticks, ["rests", "0.01", "0.1", "0.3", "1", "overturns"])
+    panel.set_xticks([], minor=True)
+    panel.axvline(1.0, color="0.5", linewidth=0.5)
+    panel.set_xlabel("largest rotation / critical rotation [-]")
+    figure.legend(loc="upper center", ncols=3)
+    return figure
+
+
+def _placed(ratio: float) -> float:
+    return _FALLEN if math.isinf(ratio) else max(ratio, _SMALLEST)
+
+
+@styled
+def measures_figure(motions: Sequence[Motion], placed: Sequence[Placed]) -> Figure:
+    """Draw response spectra with the structures on them, and velocity and displacement over time."""
+    figure = new_figure(62)
+    spectrum = panel_at(figure, 14, 2, 70, 50)
+    accelerograms = {motion.name: motion.accelerogram for motion in motions}
+    draw_response_spectra(
+        spectrum, {name: response_spectrum(each) for name, each in accelerograms.items()}, placed
+    )
+    spectrum.legend(loc="lower left")
+    for row, (label, integral) in enumerate(
+        (("velocity [m/s]", velocity), ("displacement [m]", displacement))
+    ):
+        panel = panel_at(figure, 103, 2 + 26 * row, 65, 24)
+        traces = {name: integral(each) for name, each in accelerograms.items()}
+        for (name, trace), line in zip(traces.items(), ("-", "--", ":"), strict=False):
+            panel.plot(
+                *thinned(accelerograms[name].times, trace, _POINTS), line, color="black", linewidth=0.6
+            )
+        reach = 1.1 * max(float(np.abs(trace).max()) for trace in traces.values()) or 1.0
+        fixed_ticks(panel, "y", -reach, reach, 4)
+        fixed_ticks(panel, "x", 0.0, max(each.duration for each in accelerograms.values()), 6)
+        panel.set_ylabel(label)
+        _label_time(panel, row == 1)
+    return figure
+
+
+@styled
+def spectra_figure(
+    spectra: Mapping[str, tuple[np.ndarray, np.ndarray, np.ndarray]], placed: Sequence[Placed]
+) -> Figure:
+    """Draw the rocking spectra of the components, (p, λ, rotation ratios) by name, side by side with the structures."""
+    figure = new_figure(58)
+    width = (TEXT_WIDTH - 16) / len(spectra) - 4
+    for place, (name, levels) in enumerate(spectra.items()):
+        panel = panel_at(figure, 15 + place * (width + 16 / len(spectra)), 4, width - 12, 43)
+        draw_levels(panel, *levels, placed, (0.1, 0.5))
+        plain_logarithmic(panel, "x")
+        plain_logarithmic(panel, "y")
+        panel.set_title(name)
+    return figure

@@ -1,1 +1,0 @@
-"""The report of the validation: predictions against shake-table tests."""

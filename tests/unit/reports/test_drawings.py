@@ -1,0 +1,83 @@
+"""Drawings of structures and the figures of a record, read back from what matplotlib was given."""
+
+import math
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from rocking.assessment.verdict import Verdict
+from rocking.reports.drawings import draw_structure, fallen_rotation, round_length, seen_rotation
+from rocking.reports.record_figures import State, drawn_rotation, strip_figure
+from rocking.reports.style import MOST_POINTS, fixed_ticks, svg, thinned
+from rocking.structures import Arch, Block, Wall
+
+from .conftest import fate
+
+STRUCTURES = [Block.of_size(1.0, 4.0), Wall(1.6, 1.4, 0.4), Arch(10, 1.5, 2.75)]
+
+
+@pytest.mark.parametrize(("length", "rounded"), [(1.0, 1.0), (4.9, 2.0), (5.0, 5.0), (0.199, 0.1), (37, 20)])
+def test_scale_bars_are_one_two_or_five(length, rounded):
+    assert round_length(length) == pytest.approx(rounded, rel=1e-12)
+
+
+@pytest.mark.parametrize("structure", STRUCTURES)
+def test_the_drawn_rotations_exist(structure):
+    side = structure.mechanism().positive
+    assert 0 < seen_rotation(structure) < side.end_rotation
+    assert side.critical_rotation < fallen_rotation(structure, 1) < side.end_rotation
+    assert fallen_rotation(structure, -1) < 0
+
+
+def test_a_structure_is_drawn_as_its_outline():
+    axes = Figure().subplots()
+    draw_structure(axes, STRUCTURES[1], 0.1)
+    drawn = [patch.get_xy()[:-1] for patch in axes.patches]
+    for points, outline in zip(drawn, [*STRUCTURES[1].outline(0.1), *STRUCTURES[1].outline()], strict=True):
+        assert np.array_equal(points, outline)
+
+
+def test_page_one_draws_a_structure_as_it_fell_rocked_or_stands():
+    block, critical = STRUCTURES[0], STRUCTURES[0].mechanism().critical_rotation
+    assert drawn_rotation(block, fate(Verdict.STANDS, 0.0)) == 0
+    assert drawn_rotation(block, fate(Verdict.STANDS, 0.4, peak_side=-1)) == pytest.approx(-0.4 * critical)
+    assert drawn_rotation(block, fate(Verdict.OVERTURNS, math.inf)) > critical
+    assert drawn_rotation(block, fate(Verdict.UNDECIDED, math.inf, peak_side=-1)) < -critical
+
+
+def test_a_strip_names_every_structure_its_verdict_and_its_lines():
+    states = tuple(
+        State(f"{place} $x^$", structure, fate(verdict, 0.1), ("said",))
+        for place, (structure, verdict) in enumerate(zip(STRUCTURES, Verdict, strict=False))
+    )
+    drawn = svg(strip_figure(states))
+    assert all(f">{state.label}</text>" in drawn and state.fate.verdict in drawn for state in states)
+    assert drawn.count(">said</text>") == len(states) and drawn == svg(strip_figure(states))
+
+
+def test_a_thinned_trace_keeps_its_peaks_and_few_points():
+    times = np.arange(200_000) * 0.005
+    values = np.random.default_rng(1).normal(size=times.size)
+    kept_times, kept = thinned(times, values)
+    assert kept.size <= MOST_POINTS and (kept.min(), kept.max()) == (values.min(), values.max())
+    assert np.array_equal(np.interp(kept_times, times, values), kept)
+    assert (
+        thinned(times[:100], values[:100])[1] is not None
+        and thinned(times[:100], values[:100])[1].size == 100
+    )
+
+
+@pytest.mark.parametrize(("low", "high"), [(0, 20.3), (-4.7, 4.7), (1e-4, 3e-4), (12.0, 12.6)])
+def test_ticks_are_round_and_inside(low, high):
+    axes = Figure().subplots()
+    fixed_ticks(axes, "x", low, high)
+    places = axes.get_xticks()
+    assert 2 <= len(places) <= 11 and low <= places[0] and places[-1] <= high * (1 + 1e-9)
+    steps = np.diff(places)
+    assert np.allclose(steps, steps[0]) and f"{steps[0]:.0e}"[0] in "125"
+
+
+def test_a_structure_that_rocks_to_one_side_falls_to_it():
+    block = Block.of_size(0.6, 6.0, restitution=0.5, one_sided=True)
+    assert fallen_rotation(block, -1) == fallen_rotation(block, 1) > 0
