@@ -1,12 +1,11 @@
 """Synthetic near-fault accelerograms: one pulse plus filtered noise, seeded, and plainly called synthetic.
 
-`python -m rocking.records.synthetic FOLDER` writes the bundled files, byte for byte the same each time.
+`python -m rocking.records.synthetic FOLDER` writes the shipped file, byte for byte the same each time.
 """
 
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 
@@ -14,15 +13,12 @@ from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, finite, positive
 from rocking.records.accelerogram import Accelerogram
 
-PulseShape = Literal["sine", "mavroeidis"]
-
 
 @dataclass(frozen=True)
 class SyntheticRecord:
     """What a synthetic record is made of.
 
-    pulse_amplitude: peak of the pulse's acceleration, m/s², signed; 0 for none. pulse_period: s. pulse_start: s.
-    pulse_shape: "sine" (one cycle) or "mavroeidis" (Mavroeidis & Papageorgiou 2003 with γ = 2, ν = 0).
+    pulse_amplitude: of one sine cycle, m/s², signed; 0 for none. pulse_period: s. pulse_start: s.
     noise_peak: largest magnitude of the noise, m/s². corner_frequency [Hz] and kappa [s] shape its spectrum.
     duration, time_step: s. Raises RecordError when a value is out of range.
     """
@@ -35,7 +31,6 @@ class SyntheticRecord:
     noise_peak: float
     duration: float
     time_step: float
-    pulse_shape: PulseShape = "sine"
     corner_frequency: float = 0.3
     kappa: float = 0.04
 
@@ -44,8 +39,6 @@ class SyntheticRecord:
             positive(RecordError, field, getattr(self, field))
         for field in ("pulse_amplitude", "pulse_start", "noise_peak"):
             finite(RecordError, field, getattr(self, field))
-        if self.pulse_shape not in ("sine", "mavroeidis"):
-            raise RecordError(f"pulse_shape is {self.pulse_shape!r}, but must be 'sine' or 'mavroeidis'.")
         if not 16 * self.time_step <= self.duration <= 1e6 * self.time_step:
             raise RecordError(
                 f"duration is {self.duration!r} s, but must hold 16 to 1e6 time steps of {self.time_step!r} s."
@@ -67,27 +60,8 @@ def synthetic_record(recipe: SyntheticRecord) -> Accelerogram:
 
 def pulse(recipe: SyntheticRecord, times: np.ndarray) -> np.ndarray:
     """Return the pulse's acceleration at `times` (n,) s, m/s²."""
-    since = times - recipe.pulse_start
-    if recipe.pulse_shape == "sine":
-        phase = 2 * np.pi * since / recipe.pulse_period
-        return recipe.pulse_amplitude * np.where((phase >= 0) & (phase <= 2 * np.pi), np.sin(phase), 0)
-    return recipe.pulse_amplitude * _mavroeidis(since, recipe.pulse_period)
-
-
-def _mavroeidis(since: np.ndarray, period: float, gamma: float = 2.0) -> np.ndarray:
-    """d/dt of ½ (1 + cos(2πf t/γ)) cos(2πf t) on |t| ≤ γ/2f (Mavroeidis & Papageorgiou 2003), scaled to peak 1.
-
-    `since` counts from the start of the pulse, whose length is γ periods.
-    """
-    omega = 2 * np.pi / period
-    t = since - gamma * period / 2
-
-    def slope(t: np.ndarray) -> np.ndarray:
-        carrier, envelope = omega * t, omega * t / gamma
-        return -np.sin(envelope) * np.cos(carrier) / gamma - np.sin(carrier) * (1 + np.cos(envelope))
-
-    peak = np.abs(slope(np.linspace(-gamma * period / 2, gamma * period / 2, 20001))).max()
-    return np.where(np.abs(t) <= gamma * period / 2, slope(t), 0) / peak
+    phase = 2 * np.pi * (times - recipe.pulse_start) / recipe.pulse_period
+    return recipe.pulse_amplitude * np.where((phase >= 0) & (phase <= 2 * np.pi), np.sin(phase), 0)
 
 
 def noise(recipe: SyntheticRecord, samples: int) -> np.ndarray:
@@ -122,15 +96,8 @@ def _window(samples: int, epsilon: float = 0.2, eta: float = 0.05) -> np.ndarray
     return ratio**b * np.exp(b * (1 - ratio))
 
 
-BUNDLED = (
-    SyntheticRecord("synthetic_strong_pulse", 1, 0.55 * GRAVITY, 1.0, 4.0, 0.15 * GRAVITY, 20.0, 0.005),
-    SyntheticRecord(
-        "synthetic_moderate_pulse", 2, -0.35 * GRAVITY, 1.5, 5.0, 0.15 * GRAVITY, 25.0, 0.01, "mavroeidis"
-    ),
-    SyntheticRecord("synthetic_pulse_in_noise", 3, 0.30 * GRAVITY, 0.7, 6.0, 0.30 * GRAVITY, 30.0, 0.01),
-    SyntheticRecord("synthetic_noise_only", 4, 0.0, 1.0, 0.0, 0.40 * GRAVITY, 40.0, 0.01),
-)
-"""The recipes of the accelerograms that come with the project."""
+SHIPPED = SyntheticRecord("synthetic_strong_pulse", 1, 0.55 * GRAVITY, 1.0, 4.0, 0.15 * GRAVITY, 20.0, 0.005)
+"""The recipe of the synthetic accelerogram of the shipped example."""
 
 
 def at2_text(recipe: SyntheticRecord) -> str:
@@ -147,17 +114,10 @@ def at2_text(recipe: SyntheticRecord) -> str:
     return "\n".join((*head, *rows)) + "\n"
 
 
-def write_bundled(folder: Path) -> list[Path]:
-    """Write every bundled accelerogram into `folder` and return the paths."""
-    folder.mkdir(parents=True, exist_ok=True)
-    paths = [folder / f"{recipe.name}.AT2" for recipe in BUNDLED]
-    for path, recipe in zip(paths, BUNDLED, strict=True):
-        path.write_bytes(at2_text(recipe).encode("ascii"))
-    return paths
-
-
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         raise SystemExit("usage: python -m rocking.records.synthetic FOLDER")
-    for written in write_bundled(Path(sys.argv[1])):
-        print(written)
+    written = Path(sys.argv[1]) / f"{SHIPPED.name}.AT2"
+    written.parent.mkdir(parents=True, exist_ok=True)
+    written.write_bytes(at2_text(SHIPPED).encode("ascii"))
+    print(written)

@@ -3,7 +3,6 @@
 import math
 from pathlib import Path
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -12,18 +11,25 @@ from rocking.reports.style import new_figure, styled
 from rocking.structures import Structure, load_structures
 
 ROOT = Path(__file__).parents[2]
-SHOWN = ("arch 15 m", "stone pier", "spire")
+SHOWN = ("arch 10 m", "spire", "storey wall")
+STRONG_PHASE = (46, 62)
+"""Seconds of the record that are drawn."""
 
 
 @styled
 def example_figure(record: Accelerogram, pulse: Pulse, structures: dict[str, Structure]) -> Figure:
-    """Return the record with its dominant pulse above the response of each structure, integrated and predicted."""
+    """Return the record with its dominant pulse, and below the response of each structure, integrated and predicted."""
     figure = new_figure(100, margins=(16, 3, 10, 2))
     grid = figure.add_gridspec(2, len(structures), hspace=0.85, wspace=0.3)
-    _record(figure.add_subplot(grid[0, :]), record, pulse)
+    ground = figure.add_subplot(grid[0, :])
+    ground.plot(record.times, record.acceleration, color="0.35", linewidth=0.6, label=record.station)
+    curve = pulse.acceleration(record.times)
+    ground.plot(record.times, curve, color="#D55E00", linewidth=1.6, label="dominant pulse")
+    ground.set(xlim=STRONG_PHASE, xlabel="time [s]", ylabel="acceleration\n[m/s²]")
+    ground.legend(loc="upper right")
     for place, (name, structure) in enumerate(structures.items()):
         panel = figure.add_subplot(grid[1, place])
-        _response(panel, name, structure, record, pulse)
+        _draw_response(panel, name, structure, record, pulse)
         if place == 0:
             panel.set_ylabel("rotation over\ncritical rotation [-]")
             figure.legend(
@@ -32,46 +38,23 @@ def example_figure(record: Accelerogram, pulse: Pulse, structures: dict[str, Str
     return figure
 
 
-def _record(panel: Axes, record: Accelerogram, pulse: Pulse) -> None:
-    panel.plot(record.times, record.acceleration, color="0.35", linewidth=0.6, label="synthetic record")
-    panel.plot(
-        record.times,
-        pulse.acceleration(record.times),
-        color="#D55E00",
-        linewidth=1.6,
-        label="its dominant pulse",
-    )
-    panel.set_xlim(0, 12)
-    panel.set_xlabel("time [s]")
-    panel.set_ylabel("acceleration\n[m/s²]")
-    panel.legend(loc="upper right")
-
-
-def _response(panel: Axes, name: str, structure: Structure, record: Accelerogram, pulse: Pulse) -> None:
+def _draw_response(panel: Axes, name: str, structure: Structure, record: Accelerogram, pulse: Pulse) -> None:
     mechanism = structure.mechanism()
     response = integrate(mechanism, record, history=True)
-    panel.plot(
-        response.times,
-        response.rotation / mechanism.critical_rotation,
-        color="black",
-        linewidth=0.8,
-        label="integrated, whole record",
-    )
+    shares = response.rotation / mechanism.critical_rotation
+    panel.plot(response.times, shares, color="black", linewidth=0.8, label="integrated under the record")
     predicted = predict_maximum(mechanism.equivalent_block(), pulse).rotation_ratio
-    if math.isfinite(predicted):
-        for side in (predicted, -predicted):
-            label = "predicted from the pulse" if side > 0 else None
-            panel.axhline(side, color="#0072B2", linewidth=1.2, linestyle="-.", label=label)
-    said = f"predicted {predicted:.2f}" if math.isfinite(predicted) else "predicted to fall"
-    panel.set_title(f"{name}\n{said}, integrated {response.rotation_ratio:.2f}")
-    panel.set_xlim(3, 12)
-    panel.set_ylim(-1, 1)
-    panel.set_yticks(np.linspace(-1, 1, 5))
-    panel.set_xlabel("time [s]")
+    for side in (predicted, -predicted):
+        label = "closed form under the pulse" if side > 0 else None
+        panel.axhline(side, color="#0072B2", linewidth=1.2, linestyle="-.", label=label)
+    ratio = response.rotation_ratio
+    outcome = f"largest {ratio:.2f}" if math.isfinite(ratio) else "falls"
+    panel.set_title(f"{name}: {outcome},\nclosed form {predicted:.2f}")
+    panel.set(xlim=STRONG_PHASE, ylim=(-1, 1), yticks=(-1, -0.5, 0, 0.5, 1), xlabel="time [s]")
 
 
 if __name__ == "__main__":
-    (ground,) = read(ROOT / "records" / "synthetic_strong_pulse.AT2")
+    record = read(ROOT / "records" / "20161113_110259_WTMC_20.V2A")[0]
     listed = load_structures(ROOT / "workflow" / "structures.yaml")
-    drawn = example_figure(ground, extract_pulses(ground).dominant, {name: listed[name] for name in SHOWN})
+    drawn = example_figure(record, extract_pulses(record).dominant, {name: listed[name] for name in SHOWN})
     drawn.savefig(Path(__file__).with_suffix(".png"), dpi=150, metadata={"Software": None})

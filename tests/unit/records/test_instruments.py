@@ -12,7 +12,7 @@ from rocking.records import read
 from rocking.records.formats import FORMATS
 from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.obspy_plugin import PLUGINS
-from rocking.records.synthetic import BUNDLED, at2_text, synthetic_record
+from rocking.records.synthetic import SHIPPED, at2_text, synthetic_record
 
 XML = """<?xml version="1.0" encoding="UTF-8"?>
 <FDSNStationXML xmlns="http://www.fdsn.org/xml/station/1" schemaVersion="1.1"><Source>made</Source>
@@ -160,10 +160,10 @@ def test_directions(name: str, degrees: float | None, vertical: bool) -> None:
 def test_obspy_finds_our_plug_ins(tmp_path: Path) -> None:
     obspy = pytest.importorskip("obspy")
     path = tmp_path / "record.at2"
-    path.write_text(at2_text(BUNDLED[0]))
+    path.write_text(at2_text(SHIPPED))
     (found,) = obspy.read(str(path))
     assert found.stats._format == "PEER_AT2" and found.stats.delta == 0.005
-    assert np.abs(found.data - synthetic_record(BUNDLED[0]).acceleration).max() < 1e-6
+    assert np.abs(found.data - synthetic_record(SHIPPED).acceleration).max() < 1e-6
     (again,) = obspy.read(str(path), format="PEER_AT2")
     assert np.array_equal(again.data, found.data)
 

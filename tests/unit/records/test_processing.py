@@ -14,7 +14,7 @@ from rocking.records.processing import (
     variants,
     velocity,
 )
-from rocking.records.synthetic import BUNDLED, synthetic_record
+from rocking.records.synthetic import SHIPPED, synthetic_record
 
 DT = 0.01
 
@@ -80,7 +80,7 @@ def test_filters_pass_without_shift_and_halve_at_the_corner(
 )
 def test_filters_do_what_scipy_does_in_the_time_domain(kind: str, corner: float, order: int) -> None:
     """Both are exact but for rounding, which sections with poles near 1 make 1e-12 of the peak."""
-    wave = synthetic_record(BUNDLED[0])
+    wave = synthetic_record(SHIPPED)
     setting = {"high_pass" if kind == "highpass" else "low_pass": corner}
     got = process(wave, Processing(order=order, taper=0.02, **setting)).acceleration
     tapered, pad = (
@@ -144,7 +144,7 @@ def test_what_would_fold_is_gone_and_what_is_kept_is_whole() -> None:
 
 def test_adaptive_baseline_removes_a_step_of_tilt() -> None:
     """A tilt during shaking shifts the baseline for good: velocity drifts; the adaptive baseline finds it again."""
-    clean = synthetic_record(BUNDLED[0]).acceleration
+    clean = synthetic_record(SHIPPED).acceleration
     n = clean.size
     tilted = clean + np.where(np.arange(n) > n // 3, 0.02, 0.0)
     made = Accelerogram(np.concatenate([np.zeros(400), tilted, np.full(2000, 0.02)]), 0.005)
@@ -168,9 +168,8 @@ def test_velocity_and_displacement_by_trapezoid() -> None:
 
 
 def test_variants_differ_and_all_run() -> None:
-    wave = Accelerogram(
-        np.concatenate([np.zeros(300), synthetic_record(BUNDLED[1]).acceleration]) + 0.01, 0.01
-    )
+    samples = np.concatenate([np.zeros(600), synthetic_record(SHIPPED).acceleration]) + 0.01
+    wave = Accelerogram(samples, SHIPPED.time_step)
     results = {name: process(wave, settings) for name, settings in variants(pre_event=1.0).items()}
     assert {"unchanged", "adaptive baseline", "high-pass 0.1 Hz"} <= set(results) and len(results) == 7
     assert len({result.sha256 for result in results.values()}) == 7

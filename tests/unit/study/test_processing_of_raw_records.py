@@ -8,13 +8,14 @@ import pytest
 
 from rocking.assessment.method import Method
 from rocking.records import CatalogueRecord
-from rocking.records.catalogue import load_catalogue
-from rocking.records.synthetic import BUNDLED, at2_text
+from rocking.records.synthetic import SHIPPED, at2_text
 from rocking.structures import Block
 from rocking.study.run import Study, assess_record
 from rocking.study.settings import Settings
 
 STUDY = Study({})
+RAW = CatalogueRecord("STNA", "obspy:STNA.20020722.044649.evt.gz", scale_factor=50.0)
+"""The Kinemetrics file that obspy installs: counts of a recorder, offset included; weak, therefore multiplied."""
 
 
 def _applied(which):
@@ -23,7 +24,7 @@ def _applied(which):
 
 @pytest.fixture
 def at2(tmp_path):
-    (tmp_path / "a.AT2").write_text(at2_text(BUNDLED[0]))
+    (tmp_path / "a.AT2").write_text(at2_text(SHIPPED))
     sha256 = hashlib.sha256((tmp_path / "a.AT2").read_bytes()).hexdigest()
     return CatalogueRecord("a", "a.AT2", sha256, folder=tmp_path)
 
@@ -50,19 +51,16 @@ def test_a_file_that_cannot_say_is_left_as_it_is(columns):
 
 
 def test_a_raw_file_is_processed_unless_never():
-    # The Kinemetrics example that obspy installs: counts of a recorder, offset included.
-    record = next(r for r in load_catalogue("records/catalogue.csv") if r.id == "STNA_2002_scaled")
-    raw = _applied("never").open(record)[0][0]
-    done = STUDY.open(record)[0][0]
+    raw = _applied("never").open(RAW)[0][0]
+    done = STUDY.open(RAW)[0][0]
     assert len(done.processing) > len(raw.processing)
     assert done.high_pass_frequency == 0.1
 
 
 def test_the_ensemble_of_a_raw_record_varies_its_processing():
-    record = next(r for r in load_catalogue("records/catalogue.csv") if r.id == "STNA_2002_scaled")
     structures = {"block": Block.of_size(0.5, 3.0)}
     study = Study(structures, Settings(candidates=0))
-    tables = assess_record(record, study)
+    tables = assess_record(RAW, study)
     row = tables.ensemble[0]
     assert row.worst_processing in {each.processing for each in tables.processing}
     assert 0 <= row.processing_share <= 1
