@@ -1,6 +1,7 @@
 """Accelerogram: what every reader returns. An acceleration history and where it came from, nothing else."""
 
 import hashlib
+import re
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -9,7 +10,9 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 import numpy as np
 
 from rocking.errors import RecordError, about
-from rocking.quantities import GRAVITY, finite, positive, shown
+from rocking.quantities import GRAVITY, acceleration_factor, finite, positive, shown
+from rocking.records.instrument import azimuth, is_vertical
+from rocking.records.traces import calibrated, joined, orientation
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,6 +28,10 @@ class Source:
     sha256: str = ""
     unit: str = ""
     """Unit of the numbers in the file, as declared or as the format defines it."""
+
+
+_UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
+"""Control characters, marks that turn the direction of writing, halves of characters."""
 
 
 class Changes(TypedDict, total=False):
@@ -77,6 +84,11 @@ class Accelerogram:
 
     def __post_init__(self) -> None:
         with about(self.source.path) if self.source.path else nullcontext():
+            for name in ("component", "station", "event", "network", "location"):
+                if _UNPRINTABLE.search(str(getattr(self, name))):
+                    raise RecordError(
+                        f"{name} is {getattr(self, name)!r}, but must hold printable characters only."
+                    )
             object.__setattr__(self, "acceleration", _samples(self.acceleration))
             object.__setattr__(self, "time_step", positive(RecordError, "time_step", self.time_step, "s"))
             object.__setattr__(self, "scale_factor", finite(RecordError, "scale_factor", self.scale_factor))
@@ -118,6 +130,78 @@ class Accelerogram:
         """Return a copy with new samples and one more processing sentence."""
         return replace(self, acceleration=acceleration, processing=(*self.processing, step), **changes)
 
+    @classmethod
+    def from_obspy(cls, trace_or_stream, inventory=None, unit: str | None = None) -> "list[Accelerogram]":
+        """Return an accelerogram for each channel of an obspy Trace or Stream, in the order of its channels.
+
+        inventory: obspy's, by whose response counts become acceleration; it may be attached to the trace instead. unit:
+        of samples that are acceleration already ("m/s2", "cm/s2", "g", ...). Raises RecordError for a gap, and when
+        neither or both are given.
+
+        >>> from obspy import Trace
+        >>> Accelerogram.from_obspy(Trace(np.sin(np.arange(9.0)), {"channel": "HNE"}), unit="m/s2")[0].azimuth
+        90.0
+        """
+        from obspy import Stream, Trace  # which takes a second to import
+
+        stream = Stream([trace_or_stream] if isinstance(trace_or_stream, Trace) else trace_or_stream).copy()
+        if not stream:
+            raise RecordError("the stream holds no trace; give one with acceleration.")
+        records = []
+        for trace in joined(stream):
+            stats = trace.stats
+            own = dict(stats.get("rocking", {}))
+            by_response = inventory is not None or "response" in stats
+            known = unit or (None if by_response else own.get("unit"))
+            if (known is None) != by_response:
+                state = "both a unit and a response" if by_response else "neither a unit nor a response"
+                raise RecordError(
+                    f"{trace.id} has {state}; give unit= where the samples are acceleration, inventory= for counts."
+                )
+            with about(trace.id):
+                if by_response:
+                    samples, *steps = calibrated(trace, inventory)
+                else:
+                    samples, steps = trace.data * acceleration_factor(str(known)), []
+                component = own.get("component", stats.channel)
+                vertical = own.get("vertical", is_vertical(component))
+                bearing = own.get("azimuth", orientation(trace, inventory))
+                bearing = azimuth(component) if bearing is None else bearing
+                records.append(
+                    cls(
+                        samples,
+                        float(stats.delta),
+                        component=component,
+                        station=stats.station,
+                        network=stats.network,
+                        location=stats.location,
+                        event=own.get("event", ""),
+                        start_time=str(stats.starttime) if stats.starttime.timestamp else "",
+                        processing=(*own.get("processing", ()), *steps),
+                        warnings=tuple(own.get("warnings", ())),
+                        processed=own.get("processed", False if by_response else None),
+                        azimuth=None if vertical else bearing,
+                        vertical=vertical,
+                        source=Source(format="obspy", unit=known or "m/s2"),
+                    )
+                )
+        return records
+
+    def to_obspy(self):
+        """Return an obspy Trace of the acceleration, m/s², from which from_obspy makes this accelerogram again.
+
+        What obspy has no place for stands in `stats.rocking`.
+        """
+        from obspy import Trace, UTCDateTime  # which takes a second to import
+
+        names = ("component", "event", "azimuth", "vertical", "processed", "processing", "warnings")
+        more = {name: getattr(self, name) for name in names}
+        header = {"delta": self.time_step, "rocking": more | {"unit": "m/s2", "format": self.source.format}}
+        header |= {name: getattr(self, name) for name in ("network", "station", "location")}
+        if self.start_time:
+            header["starttime"] = UTCDateTime(self.start_time)
+        return Trace(self.acceleration.copy(), header=header | {"channel": self.component})
+
     def plot(self, axes: "Axes | None" = None) -> "Axes":
         """Draw the acceleration against time, on `axes` or on new ones, and return the axes."""
         from rocking import plot  # the drawing stands above everything
@@ -132,10 +216,15 @@ class Accelerogram:
 
 
 def _samples(values: np.ndarray) -> np.ndarray:
+    if np.ma.is_masked(values):
+        raise RecordError("the samples are masked in places; fill or cut the gap before use.")
     try:
-        samples = np.array(values, dtype=np.float64)
+        given = np.asarray(values)
+        if given.dtype.kind not in "iufO":
+            raise TypeError
+        samples = np.array(given, dtype=np.float64)
     except (TypeError, ValueError):
-        raise RecordError("the samples are not all numbers; give a one-dimensional array.") from None
+        raise RecordError("the samples are not all real numbers; give a one-dimensional array.") from None
     if samples.ndim != 1 or samples.size < 2:
         raise RecordError(f"the samples have shape {samples.shape}, but must be one row of at least 2.")
     bad = np.flatnonzero(~np.isfinite(samples))

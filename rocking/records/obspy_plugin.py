@@ -7,7 +7,6 @@ no unit, and claiming every file of bare numbers would take other programs' file
 from functools import partial
 from pathlib import Path
 
-from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.read import LARGEST_FILE, read_content, undressed, unpacked
 
@@ -35,7 +34,7 @@ def read_format(form: Format, source, **options):
     name = Path(str(source)).name if isinstance(source, str | Path) else "file"
     content = unpacked(_bytes(source, LARGEST_FILE), name)
     declared = Options(unit=options.get("unit"), time_step=options.get("time_step"))
-    return Stream([_trace(record) for record in read_content(content, name, declared, reader=form)])
+    return Stream([record.to_obspy() for record in read_content(content, name, declared, reader=form)])
 
 
 def _bytes(source, limit: int) -> bytes:
@@ -43,21 +42,6 @@ def _bytes(source, limit: int) -> bytes:
         return source.read(limit)
     with Path(source).open("rb") as stream:
         return stream.read(limit)
-
-
-def _trace(record: Accelerogram):
-    from obspy import Trace, UTCDateTime
-
-    header = {
-        "delta": record.time_step,
-        "network": record.network,
-        "station": record.station,
-        "channel": record.component,
-        "rocking": {"format": record.source.format, "event": record.event, "warnings": list(record.warnings)},
-    }
-    if record.start_time:
-        header["starttime"] = UTCDateTime(record.start_time)
-    return Trace(record.acceleration.copy(), header=header)
 
 
 _FORMATS = {form.name: form for form in FORMATS}

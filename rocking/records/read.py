@@ -54,11 +54,7 @@ def read_raw(raw: bytes, path: Path, options: Options) -> list[Accelerogram]:
 
 
 def read_content(
-    content: bytes,
-    name: str,
-    options: Options,
-    source: Source | None = None,
-    reader: Format | None = None,
+    content: bytes, name: str, options: Options, source: Source | None = None, reader: Format | None = None
 ) -> list[Accelerogram]:
     """Return the channels in `content`, as read() does of a file called `name`; `reader` if the format is known.
 

@@ -23,10 +23,7 @@ REFUSED = {"VT2": "velocity", "V3": "spectra", "xml": "StationXML"}
 TRUNCATED = ("HEC000_truncated.AT2", "HEC090_truncated.AT2", "KOBE_NS1_wrong_header.AT2")
 
 
-SERIES_STEP = {
-    "Cosmos12TimeSeriesTest.v1": 0.01,
-    "us1000hyfh_akbmrp_AKBMR--n.1000hyfh.BNZ.--.acc.V2c": 0.005,
-}
+SERIES_STEP = {"Cosmos12TimeSeriesTest.v1": 0.01, "us1000hyfh_akbmrp_AKBMR--n.1000hyfh.BNZ.--.acc.V2c": 0.005}
 """Step of a resampled COSMOS series, s: the manifest lists the recorder's. The same headers state lengths of 70 and
 210 s and peaks at 27.85 and 76.215 s, where 7000 and 42000 samples have them with these steps alone."""
 

@@ -12,6 +12,7 @@ from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.sampling import LARGEST_SERIES
+from rocking.records.traces import first_line, joined
 
 _DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be read|corrupt|mismatch", re.I)
 """What libmseed warns of when the numbers are not those that were written."""
@@ -30,12 +31,12 @@ def stream(content: bytes, form: str, **options):
         try:
             result = obspy.read(io.BytesIO(content), format=form, check_compression=False, **options)
         except Exception as error:
-            raise RecordError(f"damaged {form} file, {_first_line(error)}; fetch it again.") from error
+            raise RecordError(f"damaged {form} file, {first_line(error)}; fetch it again.") from error
     if form == "MSEED" and (damage := [w for w in caught if _DAMAGE.search(str(w.message))]):
-        raise RecordError(f"damaged {form} file, {_first_line(damage[0].message)}; fetch it again.")
+        raise RecordError(f"damaged {form} file, {first_line(damage[0].message)}; fetch it again.")
     if not any(trace.stats.npts for trace in result):
         raise RecordError(f"the {form} file holds no samples.")
-    return result, tuple(sorted({f"obspy: {_first_line(w.message)}." for w in caught}))
+    return result, tuple(sorted({f"obspy: {first_line(w.message)}." for w in caught}))
 
 
 def _check_size(content: bytes, form: str) -> None:
@@ -51,7 +52,7 @@ def _check_size(content: bytes, form: str) -> None:
             notes = get_record_information(io.BytesIO(content))
             heads = obspy.read(io.BytesIO(content), format=form, check_compression=False, headonly=True)
     except Exception as error:
-        raise RecordError(f"damaged {form} file, {_first_line(error)}; fetch it again.") from error
+        raise RecordError(f"damaged {form} file, {first_line(error)}; fetch it again.") from error
     if notes.get("excess_bytes") and not _records_end_well(content):
         raise RecordError(
             f"the last record of {notes['record_length']} bytes is cut after {notes['excess_bytes']}: "
@@ -73,24 +74,6 @@ def _records_end_well(content: bytes) -> bool:
     except Exception:
         return False
     return at == len(content)
-
-
-def joined(result):
-    """Return the stream with the pieces of each channel joined. Raises RecordError at a gap, naming where it is."""
-    try:
-        result = result.merge(method=0)
-    except Exception as error:
-        raise RecordError(f"the pieces of a channel do not join, {_first_line(error)}.") from error
-    for trace in result:
-        if np.ma.is_masked(trace.data):
-            at = int(np.flatnonzero(np.ma.getmaskarray(trace.data))[0]) * trace.stats.delta
-            raise RecordError(f"channel {trace.id} has a gap at {at:g} s; give a record without gaps.")
-        trace.data = np.ma.getdata(trace.data)
-    return result
-
-
-def _first_line(error) -> str:
-    return (str(error).strip().splitlines() or [type(error).__name__])[0].rstrip(".")[:200]
 
 
 _SAC_HEADER = 632

@@ -44,8 +44,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
 def _record(block: list[str], options: Options, notes: tuple[str, ...]) -> Accelerogram:
     head = "\n".join(block[:16])
     declared = count(
-        "Number of points",
-        required("the number of points", r"^Number of points\s+(\S+)", head)[1],
+        "Number of points", required("the number of points", r"^Number of points\s+(\S+)", head)[1]
     )
     factor = number("raw unit", optional(r"readings in units of\s+([\d.]+)\s*mm/s/s", head) or "1")
     required("acceleration in mm/s/s", r"^Acceleration:\s+peak\s+\S+\s+mm/s/s", head)

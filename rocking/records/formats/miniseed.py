@@ -7,13 +7,12 @@ from pathlib import Path
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.binary import joined, stream
+from rocking.records.formats.binary import stream
 from rocking.records.formats.format import Format, Options
+from rocking.records.traces import calibrated, joined, orientation
 
 _FIXED_HEADER = re.compile(rb"[0-9 \0]{6}[DRQM][ \0]")
 _LARGEST_XML = 32 * 2**20
-_CORNERS = (0.02, 0.05, 0.8, 0.95)
-"""Band in which a full response is removed: Hz, Hz, and shares of the Nyquist frequency."""
 
 
 def _recognise(content: bytes) -> bool:
@@ -24,73 +23,24 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     result, noticed = stream(content, "MSEED")
     result = joined(result)
     inventory = _inventory(result[0].stats, options)
-    if inventory is None:
-        options.unit_of(None)
-    return [_record(trace, inventory, options, noticed) for trace in result]
-
-
-def _record(trace, inventory, options: Options, noticed: tuple[str, ...]) -> Accelerogram:
-    stats = trace.stats
-    values, unit, steps = _calibrated(trace, inventory, options)
-    return options.accelerogram(
-        unit,
-        values,
-        float(f"{stats.delta:.9g}"),
-        component=stats.channel,
-        station=stats.station,
-        network=stats.network,
-        location=stats.location,
-        start_time=str(stats.starttime),
-        processing=steps,
-        warnings=noticed,
-        azimuth=_orientation(trace, inventory),
-    )
-
-
-def _calibrated(trace, inventory, options: Options):
-    """Return (values, unit, processing sentences): by declared unit, by sensitivity, or by the full response."""
-    data = trace.data.astype(float)
-    if inventory is None:
-        return data, options.unit_of(None), ()
-    try:
-        response = inventory.get_response(trace.id, trace.stats.starttime)
-        sensitivity = response.instrument_sensitivity
-        measured, gain = sensitivity.input_units.upper(), float(sensitivity.value)
-    except Exception as error:
-        raise RecordError(
-            f"the StationXML holds no response of {trace.id} at {trace.stats.starttime}."
-        ) from error
-    if options.response == "sensitivity" and measured in ("M/S**2", "M/S/S", "M/S^2") and gain:
-        mean = data.mean() / gain
-        step = f"Counts divided by the overall sensitivity {gain:g}, and their mean removed, {mean:.6g} m/s²."
-        return data / gain - mean, "m/s2", (step,)
-    return _deconvolved(trace, inventory)
-
-
-def _deconvolved(trace, inventory):
-    nyquist = trace.stats.sampling_rate / 2
-    band = (_CORNERS[0], _CORNERS[1], _CORNERS[2] * nyquist, _CORNERS[3] * nyquist)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            clean = trace.copy().remove_response(
-                inventory=inventory, output="ACC", pre_filt=band, water_level=None
+    records = []
+    for trace in result:
+        stats = trace.stats
+        done: tuple[str, ...] = ()
+        if inventory is None:
+            values, unit = trace.data.astype(float), options.unit_of(None)
+        else:
+            values, sentence = calibrated(trace, inventory, options.response)
+            unit, done = "m/s2", (sentence,)
+        step = float(f"{stats.delta:.9g}")
+        records.append(
+            options.accelerogram(
+                unit, values, step, warnings=noticed, azimuth=orientation(trace, inventory), processing=done,
+                component=stats.channel, station=stats.station, network=stats.network, location=stats.location,
+                start_time=str(stats.starttime),
             )
-    except Exception as error:
-        raise RecordError(f"the response of {trace.id} cannot be removed, {error}.") from error
-    step = (
-        "Mean removed, 5 % cosine taper, full instrument response removed to acceleration between "
-        + " and ".join(f"{band[i]:g}-{band[i + 1]:g} Hz" for i in (0, 2))
-    )
-    return clean.data, "m/s2", (step + ".",)
-
-
-def _orientation(trace, inventory) -> float | None:
-    try:
-        value = inventory.get_orientation(trace.id, trace.stats.starttime)["azimuth"]
-        return float(value) % 360
-    except Exception:
-        return None
+        )  # fmt: skip
+    return records
 
 
 def _inventory(stats, options: Options):

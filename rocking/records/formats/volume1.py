@@ -18,16 +18,7 @@ from rocking.records.formats.header import (
     required,
 )
 from rocking.records.formats.sampling import check_no_gap, even_step
-from rocking.records.formats.text import (
-    count,
-    fields,
-    filled,
-    in_columns,
-    is_number,
-    lines,
-    number,
-    whole,
-)
+from rocking.records.formats.text import count, fields, filled, in_columns, is_number, lines, number, whole
 from rocking.records.instrument import is_vertical
 from rocking.records.plausibility import agree_with_header
 
@@ -55,9 +46,7 @@ def volume1_block(text: list[str]) -> Block:
     """Return one channel from its lines. Raises RecordError when the header is cut or not in tenths of g."""
     head = "\n".join(text[:_TEXT])
     size = required(
-        "points and length",
-        r"NO\. OF POINTS\s*=\s*(\S+)\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)",
-        head,
+        "points and length", r"NO\. OF POINTS\s*=\s*(\S+)\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)", head
     )
     required("units of G/10", r"^UNITS\b.*\bG/10", head)
     body = text[_HEADER:]
@@ -197,10 +186,5 @@ RENADIC = _volume1(
     "RENADIC",
 )
 BHRC = _volume1(
-    "BHRC",
-    "BHRC, Iran",
-    "first line * VOL1DS FILE:",
-    re.compile(r"\* VOL1DS FILE:"),
-    _bhrc,
-    "BHRC",
+    "BHRC", "BHRC, Iran", "first line * VOL1DS FILE:", re.compile(r"\* VOL1DS FILE:"), _bhrc, "BHRC"
 )

@@ -1,0 +1,73 @@
+"""Traces of obspy: pieces joined, counts turned into acceleration by the response of their instrument."""
+
+import warnings
+
+import numpy as np
+
+from rocking.errors import RecordError
+
+_CORNERS = (0.02, 0.05, 0.8, 0.95)
+"""Band in which a full response is removed: Hz, Hz, and shares of the Nyquist frequency."""
+
+
+def joined(result):
+    """Return the stream with the pieces of each channel joined. Raises RecordError at a gap, naming where it is."""
+    try:
+        result = result.merge(method=0)
+    except Exception as error:
+        raise RecordError(f"the pieces of a channel do not join, {first_line(error)}.") from error
+    for trace in result:
+        if np.ma.is_masked(trace.data):
+            at = int(np.flatnonzero(np.ma.getmaskarray(trace.data))[0]) * trace.stats.delta
+            raise RecordError(f"channel {trace.id} has a gap at {at:g} s; give a record without gaps.")
+        trace.data = np.ma.getdata(trace.data)
+    return result
+
+
+def calibrated(trace, inventory, response: str = "sensitivity") -> tuple[np.ndarray, str]:
+    """Return (acceleration (n,) m/s², the sentence that says how) of a trace of counts.
+
+    inventory: obspy's; None where the trace holds its response itself. response: as read() takes it.
+    Raises RecordError when there is no response, or none that can be removed.
+    """
+    stats = trace.stats
+    try:
+        of = stats.response if inventory is None else inventory.get_response(trace.id, stats.starttime)
+        measured = of.instrument_sensitivity.input_units.upper()
+        gain = float(of.instrument_sensitivity.value)
+    except Exception as error:
+        raise RecordError(f"the StationXML holds no response of {trace.id} at {stats.starttime}.") from error
+    if response == "sensitivity" and measured in ("M/S**2", "M/S/S", "M/S^2") and gain:
+        data = trace.data.astype(float) / gain
+        mean = trace.data.astype(float).mean() / gain
+        step = f"Counts divided by the overall sensitivity {gain:g}, and their mean removed, {mean:.6g} m/s²."
+        return data - mean, step
+    nyquist = stats.sampling_rate / 2
+    band = (_CORNERS[0], _CORNERS[1], _CORNERS[2] * nyquist, _CORNERS[3] * nyquist)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            clean = trace.copy().remove_response(
+                inventory=inventory, output="ACC", pre_filt=band, water_level=None
+            )
+    except Exception as error:
+        raise RecordError(f"the response of {trace.id} cannot be removed, {error}.") from error
+    limits = " and ".join(f"{band[i]:g}-{band[i + 1]:g} Hz" for i in (0, 2))
+    step = (
+        f"Mean removed, 5 % cosine taper, full instrument response removed to acceleration between {limits}."
+    )
+    return clean.data, step
+
+
+def orientation(trace, inventory) -> float | None:
+    """Return the azimuth of a trace, degrees clockwise from north, None where the inventory does not know it."""
+    try:
+        value = inventory.get_orientation(trace.id, trace.stats.starttime)["azimuth"]
+        return float(value) % 360
+    except Exception:  # obspy raises what it likes for what is not there
+        return None
+
+
+def first_line(error) -> str:
+    """Return the first line of what an error says, without the point at its end."""
+    return (str(error).strip().splitlines() or [type(error).__name__])[0].rstrip(".")[:200]
