@@ -6,35 +6,26 @@ from pathlib import Path
 
 def main(target, catalogues, mirror, structures, folder, tell):
     """Write the tables and the report of `target` into `folder`."""
+    from docs.research import ensembles, fragilities, tiers, validation
+    from docs.research.comparison import table
+    from docs.research.comparison.cases import RECORDS
     from rocking.records import load_catalogue, open_record, open_records
     from rocking.structures import load_structures
 
-    def records():
-        return [open_records(load_catalogue(Path(each)), mirror, tell) for each in catalogues]
-
+    listed = [load_catalogue(Path(each)) for each in catalogues if target != "validate"]
+    records = (open_records(each, mirror, tell) for each in listed)
     if target == "calibrate":
-        from docs.research.tiers import write_tiers
-
-        write_tiers((record for each in records() for record in each), folder)
+        tiers.write_tiers((record for each in records for record in each), folder)
     elif target == "calibrate_ensemble":
-        from docs.research.ensembles import write_ensemble_accuracy
-
-        write_ensemble_accuracy(*records(), load_structures(Path(structures)), folder)
+        ensembles.write_ensemble_accuracy(*records, load_structures(Path(structures)), folder)
     elif target == "trade_fragility":
-        from docs.research.fragilities import write_fragilities
-
-        motions = [record for each in records() for _, record in each]
-        write_fragilities(motions, load_structures(Path(structures)), folder, tell)
-    elif target == "validate":
-        from docs.research.validation import write_validation
-
-        write_validation(Path(catalogues[0]), Path(mirror) if mirror else None, folder, tell=tell)
+        motions = [record for each in records for _, record in each]
+        fragilities.write_fragilities(motions, load_structures(Path(structures)), folder, tell)
     elif target == "compare":
-        from docs.research.comparison.cases import RECORDS
-        from docs.research.comparison.table import write_comparison
-
-        listed = load_catalogue(Path(catalogues[0]))[: RECORDS // 3]
-        write_comparison([open_record(record, mirror=mirror)[0] for record in listed], folder, tell)
+        motions = [open_record(each, mirror=mirror)[0] for each in listed[0][: RECORDS // 3]]
+        table.write_comparison(motions, folder, tell)
+    elif target == "validate":
+        validation.write_validation(Path(catalogues[0]), mirror and Path(mirror), folder, tell=tell)
 
 
 if __name__ == "__main__":

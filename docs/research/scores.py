@@ -119,12 +119,8 @@ def interval(measure: Measure, draws: Sequence[np.ndarray]) -> tuple[float, floa
 
 def mean(values: np.ndarray) -> Measure:
     """Return the mean of `values` (n,) as a measure; cases of nan do not count."""
-
-    def measure(rows: np.ndarray) -> float:
-        counted = values[rows][~np.isnan(values[rows])]
-        return float(counted.mean()) if counted.size else math.nan
-
-    return measure
+    counted = ~np.isnan(values)
+    return lambda rows: float(np.nanmean(values[rows])) if counted[rows].any() else math.nan
 
 
 def brier(probability: np.ndarray, shares: np.ndarray) -> float:

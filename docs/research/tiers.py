@@ -17,12 +17,12 @@ from rocking.assessment.ensemble.design import lattice
 from rocking.assessment.fidelity import stays_at_rest
 from rocking.assessment.intensity import NUDGES
 from rocking.assessment.tiers import Tier, TierFit
+from rocking.assessment.tiers import write_tiers as write_fits
 from rocking.motion.batch import integrate_batch
 from rocking.records import Accelerogram
 from rocking.structures import Structure
 from rocking.tables import write_rows
 
-TIERS = (Tier.PEAK_VELOCITY, Tier.BLOCK_AT_FIVE_SCALES)
 FACTORS = (0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8)
 """On each record, so that it speaks for weaker and stronger shaking of the same shape."""
 MEMBERS = 64
@@ -34,7 +34,7 @@ BINS = (0.0, 0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99
 class TierCase:
     """A structure under a record times a factor: what is known of it by measure, and what becomes of it.
 
-    rotation_ratios: of the mechanism, (m,), in the members of the case's ensemble.
+    share: of the members of its ensemble that overturn.
     """
 
     record: str
@@ -42,29 +42,24 @@ class TierCase:
     structure: str
     factor: float
     measures: Mapping[str, float]
-    rotation_ratios: np.ndarray
+    share: float
 
 
 @dataclass(frozen=True, eq=False)
 class TierCases:
-    """All cases as arrays. ratios: (n, m) rotation ratios of the members. sites: (n,)."""
+    """All cases as arrays. shares: (n,) of the members that overturn. sites: (n,). frequencies: range of p, rad/s."""
 
     cases: Sequence[TierCase]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "ratios", np.array([case.rotation_ratios for case in self.cases]))
+        object.__setattr__(self, "shares", np.array([case.share for case in self.cases]))
+        own = [case.measures["frequency_parameter"] for case in self.cases]
+        object.__setattr__(self, "frequencies", (min(own), max(own)))
         object.__setattr__(self, "sites", np.array([case.site for case in self.cases]))
 
     def fit(self, tier: Tier, kept: np.ndarray | slice = slice(None)) -> TierFit:
         """Return `tier` fitted to the cases `kept`."""
-        frequencies = [case.measures["frequency_parameter"] for case in self.cases]
-        return fit_tier(
-            tier,
-            self.terms(tier)[kept],
-            self.ratios[kept],
-            self.sites[kept],
-            (min(frequencies), max(frequencies)),
-        )
+        return fit_tier(tier, self.terms(tier)[kept], self.shares[kept], self.sites[kept], self.frequencies)
 
     def terms(self, tier: Tier) -> np.ndarray:
         """Return (n, k) of the terms that `tier` takes."""
@@ -81,7 +76,8 @@ def tier_cases(
     for name, site, record in records:
         on_block = integrate_batch(blocks, record, nudged.ravel()).reshape(len(blocks), *nudged.shape)
         for k, (structure, mechanism) in enumerate(mechanisms.items()):
-            measures = intensity.of_structure(mechanism)
+            block = mechanism.equivalent_block("rest")
+            own = intensity.of_structure(mechanism)
             for i, factor in enumerate(FACTORS):
                 motion = record.scaled(factor)
                 if stays_at_rest(mechanism, motion):
@@ -89,28 +85,27 @@ def tier_cases(
                 motions, points = GroundMotions.of(motion), lattice(MEMBERS, CAUSES)
                 members = drawn(mechanism, motions, points, EnsembleSettings())
                 if not members.failed:
-                    known = measures | intensity.of_velocity(motion, blocks[k])
-                    known |= intensity.from_nudged(on_block[k, i])
-                    yield TierCase(name, site, structure, factor, known, members.rotation_ratios)
+                    measures = intensity.of_velocity(motion, block) | intensity.from_nudged(on_block[k, i])
+                    yield TierCase(name, site, structure, factor, own | measures, members.overturning_share)
 
 
 def fit_tier(
-    tier: Tier, terms: np.ndarray, ratios: np.ndarray, sites: np.ndarray, frequencies: tuple[float, float]
+    tier: Tier, terms: np.ndarray, shares: np.ndarray, sites: np.ndarray, frequencies: tuple[float, float]
 ) -> TierFit:
-    """Fit one tier to terms (n, k), rotation ratios (n, m) of the members of each case (inf: overturns) and sites (n,).
+    """Fit one tier to terms (n, k), shares (n,) of the members of each case that overturn, and sites (n,).
 
-    The share of a case that overturns is what its probability is fitted to, one case weighing as much as another.
+    One case weighs as much as another. frequencies: least and largest frequency parameter behind the fit, rad/s.
     """
     centre, spread = terms.mean(axis=0), terms.std(axis=0)
     spread = np.where(spread > 0, spread, 1.0)
     design = np.column_stack([np.ones(len(terms)), (terms - centre) / spread])
-    coefficients, covariance = scores.logistic(design, np.isinf(ratios).mean(axis=1), sites)
+    coefficients, covariance = scores.logistic(design, shares, sites)
     bounds = terms.min(axis=0), terms.max(axis=0)
     return TierFit(tier, centre, spread, *bounds, coefficients, covariance, frequencies)
 
 
 def left_out(tier: Tier, cases: TierCases) -> np.ndarray:
-    """Return the log odds (n,) that `tier` gives each case when fitted without its site."""
+    """Return the log odds (n,) that `tier` gives each case when it is fitted without the site of the case."""
     odds, terms = np.empty(len(cases.cases)), cases.terms(tier)
     for site in np.unique(cases.sites):
         out = cases.sites == site
@@ -122,8 +117,8 @@ def tier_scores(
     cases: TierCases, replicates: int = scores.REPLICATES
 ) -> Iterator[tuple[list[Score], list[Reliability]]]:
     """Yield the scores and the reliability of each tier on sites left out."""
-    overturned, part = np.isinf(cases.ratios).mean(axis=1), "sites left out"
-    for tier in TIERS:
+    overturned, part = cases.shares, "sites left out"
+    for tier in Tier:
         odds = left_out(tier, cases)
         stated = 1 / (1 + np.exp(-odds))
         measures: dict[str, scores.Measure] = {
@@ -156,4 +151,4 @@ def write_tiers(
         "cases": len(cases.cases),
         "records_sha256": hashlib.sha256("\n".join(hashes).encode()).hexdigest(),
     }
-    tiers.write_tiers(folder / "tiers.json", {tier: cases.fit(tier) for tier in TIERS}, about)
+    write_fits(folder / "tiers.json", {tier: cases.fit(tier) for tier in Tier}, about)

@@ -9,13 +9,7 @@ from matplotlib.figure import Figure
 from scipy.special import logit
 
 from docs.research import scores
-from docs.research.identification import (
-    PARAMETERS,
-    BlockPrior,
-    Identification,
-    overturning_table,
-    two_sided_block,
-)
+from docs.research.identification import BlockPrior, Identification, overturning_table, two_sided_block
 from docs.research.mixture import fit_mixture
 from docs.research.scores import Reliability, Score
 from docs.research.shake_table import SPECIMENS, Campaign, TableTest
@@ -27,13 +21,14 @@ from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.style import new_figure, picture, styled
 from rocking.sine_pulse import predict_maxima
-from rocking.structures import EquivalentBlock
 from rocking.tables import Row, column, row, write_tables, write_whole
 
 TABLE_PROCESSING = Processing(baseline="linear", low_pass=30.0, time_step=0.01)
 """What the measured motions of the table go through: the sensor's offset, of up to 0.02 g, is a seventh of λ."""
 VELOCITY_PROCESSING = Processing(baseline="linear", high_pass=0.1, low_pass=30.0, time_step=0.01)
 """What they go through before they are integrated to a velocity."""
+NO_PULSE = Pulse(1e-9, 1.0, 0.0)
+"""Overturns nothing: stands for the pulse of a motion that has none."""
 IDENTIFIED = "identified population"
 PRIOR = BlockPrior((0.03, 0.2), (2.5, 9.0), side_ratio=1.6, restitution=(0.6, 0.99), size=4096)
 """What is tried: λ from a third of what one expects of a boulder on its end, p from half to twice the boulder's."""
@@ -75,8 +70,6 @@ class IdentifiedRow(Row):
     low: float = column("5 % quantile of the population")
     median: float = column("Its median")
     high: float = column("95 % quantile of the population")
-    prior_low: float = column("Lowest value that was tried")
-    prior_high: float = column("Highest value that was tried")
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,26 +111,15 @@ def measure(
         speed = velocity(process(table_motion, VELOCITY_PROCESSING))
         peaks.append((motion.peak_acceleration, float(np.abs(speed).max())))
         verdicts.append(overturning_table(blocks, [motion])[0])
-        pulses.append(dominant_pulse(motion))
+        pulses.append(dominant_pulse(motion) or NO_PULSE)
     acceleration, speeds = np.array(peaks).T
-    closed = pulse_verdicts(blocks, pulses)
+    closed = np.isinf(predict_maxima(blocks, pulses)).T
     return Measured(campaign.tests, parameters, acceleration, speeds, np.array(verdicts), closed)
 
 
 def processed(record: Accelerogram) -> Accelerogram:
     """Return a measured motion of the table as the blocks meet it."""
     return process(record, TABLE_PROCESSING)
-
-
-def pulse_verdicts(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse | None]) -> np.ndarray:
-    """Return (n, m) whether each block overturns under each pulse, in closed form; none does without a pulse."""
-    verdicts = np.zeros((len(pulses), len(blocks)), dtype=bool)
-    with_pulse = [k for k, pulse in enumerate(pulses) if pulse is not None]
-    if with_pulse:
-        verdicts[with_pulse] = np.isinf(
-            predict_maxima(blocks, [each for each in pulses if each is not None])
-        ).T
-    return verdicts
 
 
 def left_out(measured: Measured, specimen: int) -> Mapping[str, np.ndarray]:
@@ -199,13 +181,9 @@ def methods(measured: Measured, specimen: int) -> Mapping[str, Fitted]:
 
 def fit_threshold(values: np.ndarray, outcomes: np.ndarray) -> float:
     """Return the value beyond which "overturns" is right most often; the middle of its gap, the lowest of several."""
-    order = np.argsort(values, kind="stable")
-    ranked, ends = values[order], outcomes[order]
-    right = np.concatenate([[0], np.cumsum(~ends)]) + np.concatenate([np.cumsum(ends[::-1])[::-1], [0]])
-    best = int(np.argmax(right))
-    below = ranked[best - 1] if best > 0 else 0.0
-    above = ranked[best] if best < ranked.size else 2 * ranked[-1]
-    return float(np.sqrt(below * above)) if below > 0 else float(above / 2)
+    ranked = np.sort(values)
+    limits = np.r_[ranked[0] / 2, np.sqrt(ranked[1:] * ranked[:-1]), 2 * ranked[-1]]
+    return float(limits[np.argmax([np.sum((values > limit) == outcomes) for limit in limits])])
 
 
 def write_validation(
@@ -227,9 +205,26 @@ def write_validation(
         for method, values in probability.items():
             measures = _measures(values, ours, outcomes)
             tables[Score] += scores.scored(method, part, measures, measured.motions.tolist())
-            tables[PredictionRow] += _prediction_rows(measured, specimen, method, values)
+            tables[PredictionRow] += [
+                PredictionRow(
+                    specimen=specimen,
+                    method=method,
+                    test=test.number,
+                    motion=test.motion,
+                    peak_acceleration_m_s2=float(measured.peak_acceleration[k]),
+                    peak_velocity_m_s=float(measured.peak_velocity[k]),
+                    probability=float(values[k]),
+                    overturned=test.overturned[specimen],
+                )
+                for k, test in enumerate(measured.tests)
+            ]
         tables[Reliability] += scores.reliability(IDENTIFIED, part, ours, outcomes, measured.motions, EDGES)
-        tables[IdentifiedRow] += identified_rows(measured, specimen)
+        mixture = fit_mixture(measured.overturns, outcomes, measured.motions.tolist())
+        for name, (low, median, high) in (
+            Identification(measured.parameters, mixture, processed).ranges().items()
+        ):
+            own = {"specimen": specimen, "parameter": name, "low": low, "median": median, "high": high}
+            tables[IdentifiedRow].append(IdentifiedRow(**own))
     write_tables(tables, folder, "rocking-validation")
     data = report_data(tables[Score], tables[Reliability], tables[IdentifiedRow])
     write_whole(folder / "validation.pdf", compile_document("plain.typ", data))
@@ -256,42 +251,6 @@ def _measures(values: np.ndarray, ours: np.ndarray, outcomes: np.ndarray) -> Map
     }
 
 
-def _prediction_rows(
-    measured: Measured, specimen: int, method: str, probability: np.ndarray
-) -> list[PredictionRow]:
-    return [
-        PredictionRow(
-            specimen=specimen,
-            method=method,
-            test=test.number,
-            motion=test.motion,
-            peak_acceleration_m_s2=float(measured.peak_acceleration[k]),
-            peak_velocity_m_s=float(measured.peak_velocity[k]),
-            probability=float(probability[k]),
-            overturned=test.overturned[specimen],
-        )
-        for k, test in enumerate(measured.tests)
-    ]
-
-
-def identified_rows(measured: Measured, specimen: int) -> list[IdentifiedRow]:
-    """Return the ranges of the parameters over the population that is fitted to all motions."""
-    mixture = fit_mixture(measured.overturns, measured.outcomes(specimen), measured.motions.tolist())
-    ranges = Identification(measured.parameters, mixture, processed).ranges()
-    return [
-        IdentifiedRow(
-            specimen=specimen,
-            parameter=name,
-            low=ranges[name][0],
-            median=ranges[name][1],
-            high=ranges[name][2],
-            prior_low=float(measured.parameters[:, k].min()),
-            prior_high=float(measured.parameters[:, k].max()),
-        )
-        for k, name in enumerate(PARAMETERS)
-    ]
-
-
 def report_data(
     scored: Sequence[Score], classes: Sequence[Reliability], identified: Sequence[IdentifiedRow]
 ) -> dict[str, object]:
@@ -304,7 +263,6 @@ def report_data(
         ("Parameter", "1.6", "l", lambda row: row.parameter),
         ("Median", "0.7", "r", lambda row: number(row.median)),
         ("90 % range", "1.2", "r", lambda row: f"{number(row.low)} to {number(row.high)}"),
-        ("Tried", "1.2", "r", lambda row: f"{number(row.prior_low)} to {number(row.prior_high)}"),
     )
     diagram = picture(reliability_figure(classes), "Share that overturned against the stated probability.")
     return {

@@ -12,7 +12,7 @@ from made_campaign import write_campaign
 
 import rocking
 from docs.research.comparison import table as comparison
-from docs.research.tiers import TIERS
+from rocking.assessment.tiers import Tier
 from rocking.records import Accelerogram
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.tables import read_table
@@ -69,13 +69,13 @@ def rows(asked) -> Callable[[str], list[dict[str, str]]]:
 
 def test_calibrate_fits_and_judges_every_tier(rows, asked):
     scores = {(row["subject"], row["measure"]): row for row in rows("calibration/tier_scores.csv")}
-    for tier in TIERS:
+    for tier in Tier:
         skill, best = scores[tier, "Brier skill"], scores[tier, "Brier skill of the shares themselves"]
         assert 0 < float(skill["value_low"]) <= float(skill["value"]) < float(best["value"]) < 1
         assert skill["sites"] == "4", "three of the near-fault catalogue and one of the other"
     assert ("fidelity: auto", "wrong verdicts among those settled") in scores
     fits = json.loads((asked.results / "calibration" / "tiers.json").read_text())
-    assert set(fits["tiers"]) == set(TIERS) and fits["about"]["sites"] == 4
+    assert set(fits["tiers"]) == set(Tier) and fits["about"]["sites"] == 4
     assert "1 of 1: far_4" in (asked.folder / LOG / "calibrate.log").read_text()
 
 
