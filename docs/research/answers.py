@@ -17,7 +17,7 @@ from rocking.assessment.intensity import peak_velocity
 from rocking.assessment.method import Method
 from rocking.assessment.tiers import Tier, TierFit
 from rocking.assessment.verdict import Verdict
-from rocking.motion.integration import integrate
+from rocking.motion import integrate
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism
 from rocking.structures.outcome import Outcome

@@ -12,7 +12,7 @@ from rocking.assessment.ensemble import EnsembleSettings
 from rocking.assessment.fragility import Fragility, fragility_of, incremental_dynamic_analysis
 from rocking.assessment.rows.of_trade import TradeMethod
 from rocking.errors import PulseError
-from rocking.motion.batch import integrate_batch
+from rocking.motion import integrate_batch
 from rocking.pulses import DEMAND_CANDIDATES, Pulse, extract_pulses
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maxima

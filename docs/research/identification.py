@@ -8,7 +8,7 @@ from scipy.stats import qmc
 
 from docs.research.mixture import Mixture, fit_mixture
 from rocking.errors import ConfigurationError
-from rocking.motion.batch import integrate_batch
+from rocking.motion import integrate_batch
 from rocking.records import Accelerogram
 from rocking.structures import EquivalentBlock
 

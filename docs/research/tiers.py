@@ -18,7 +18,7 @@ from rocking.assessment.fidelity import stays_at_rest
 from rocking.assessment.intensity import NUDGES
 from rocking.assessment.tiers import Tier, TierFit
 from rocking.assessment.tiers import write_tiers as write_fits
-from rocking.motion.batch import integrate_batch
+from rocking.motion import integrate_batch
 from rocking.records import Accelerogram
 from rocking.structures import Structure
 from rocking.tables import write_rows

@@ -15,7 +15,7 @@ from rocking.assessment.rows.of_trade import TradeMethod, TradeRow
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import Agreement, agreement, ratio, rests
 from rocking.errors import PulseError, RockingError
-from rocking.motion.integration import integrate
+from rocking.motion import integrate
 from rocking.pulses import DEMAND_CANDIDATES, Pulse, extract_pulses
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum

@@ -13,7 +13,7 @@ from docs.research.comparison.codes import LMGC90, Answer, inner_codes, landings
 from docs.research.comparison.runs import Run, answer_of, limit_of
 from docs.research.comparison.table import SAMPLED, code_rows, missed, report_data, slow_cases
 from docs.research.reference import event_landings, reference_landings
-from rocking.motion.integration import integrate
+from rocking.motion import integrate
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism
 

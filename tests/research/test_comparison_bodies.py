@@ -74,7 +74,7 @@ def _pushed(multiplier: float) -> float:
         "critical_rotation": arch.mechanism().critical_rotation,
     }
     bodies = rigid_bodies(arch)
-    _, turns, _ = lmgc90._follow(given, bodies, 1e-3)
+    _, turns, _ = lmgc90.follow(given, bodies, 1e-3)
     assert bodies.outside_hinges(turns[-1]) < (0.02 if multiplier > 0.37 else 1)
     return float(np.abs(bodies.rotation(turns)).max()) / given["critical_rotation"]
 

@@ -8,7 +8,7 @@ import pytest
 
 from docs.research.identification import PARAMETERS, BlockPrior, identify, overturning_table, two_sided_block
 from rocking.errors import ConfigurationError
-from rocking.motion.integration import integrate
+from rocking.motion import integrate
 from rocking.records import Accelerogram
 from rocking.records.processing import Processing, process
 

@@ -20,12 +20,15 @@ class RigidBodies:
     polygons: (k, 2) corners of each [m], counterclockwise. driven: those that move with the ground.
     legs: the body whose clockwise turn is φ when it rocks to the right, and that whose counterclockwise turn is φ to
     the left. hinges: for a chain of bodies the joints that open to the right and to the left; else none.
+    guided: those that move with the ground horizontally, do not turn, and are free vertically. depths: of each, m.
     """
 
     polygons: tuple[np.ndarray, ...]
     driven: tuple[int, ...]
-    legs: tuple[int, int]
+    legs: tuple[int, int] = (1, 1)
     hinges: tuple[tuple[int, ...], tuple[int, ...]] = ((), ())
+    guided: tuple[int, ...] = ()
+    depths: tuple[float, ...] = ()
 
     def masses(self) -> tuple[np.ndarray, np.ndarray]:
         """Return mass per density and thickness [m²], none for what is driven, and squared gyration [m²], (n,) each."""

@@ -17,7 +17,7 @@ import numpy as np
 from docs.research.comparison.cases import CodeCase
 from docs.research.reference import event_landings
 from rocking.errors import MotionError
-from rocking.motion.integration import integrate
+from rocking.motion import integrate
 from rocking.motion.response import Response
 
 SLOWEST = 1e-3

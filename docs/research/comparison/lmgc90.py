@@ -32,7 +32,7 @@ def runs(given: dict) -> list[Run]:
 
 
 def _run(given: dict, bodies: RigidBodies, step: float) -> Run:
-    times, turns, centres = _follow(given, bodies, step)
+    times, turns, centres = follow(given, bodies, step)
     rotation, critical = bodies.rotation(turns), given["critical_rotation"]
     largest = int(np.abs(rotation).argmax())
     if np.abs(turns[-1]).max() > FALLEN * critical:
@@ -41,28 +41,31 @@ def _run(given: dict, bodies: RigidBodies, step: float) -> Run:
     return run_of(given, times, rotation, energy, bodies.outside_hinges(turns[largest]))
 
 
-def _follow(given: dict, bodies: RigidBodies, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def follow(given: dict, bodies: RigidBodies, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times (n,), counterclockwise turns (n, bodies) and centres of mass (n, bodies, 2), until the end or a fall."""
     from compas_lmgc90.solver import Solver
 
     solver = Solver(dt=step, theta=0.5, density=2000.0)
-    solver.geometry_from_v_f([_prism(polygon) for polygon in bodies.polygons])
+    depths = bodies.depths or (1.0,) * len(bodies.polygons)
+    solver.geometry_from_v_f(list(map(_prism, bodies.polygons, depths)))
     times, speed = _base(given, step)
-    for body in bodies.driven:
+    for body in (*bodies.driven, *bodies.guided):
         for component in ("Vy", "Vz", "Rx", "Ry", "Rz"):
-            solver.apply_velocity(body, component, 0.0)
+            if component != "Vz" or body in bodies.driven:
+                solver.apply_velocity(body, component, 0.0)
         solver.apply_velocity(body, "Vx", np.array([[*times, times[-1] + 1], [*speed, speed[-1]]]))
     solver.contact_law("IQS_CLB", FRICTION, alert=ALERT)
     solver.preprocess()
     # LMGC90 turns the frame of a body into its principal axes before it starts.
     axes = np.array(solver.init_frame)
+    fallen = FALLEN * given["critical_rotation"]
     turns, centres = [np.zeros(len(bodies.polygons))], [np.array(solver.init_coor)]
     for _ in range(times.size - 1):
         state = solver.lmgc90.compute_one_step()
         turned = np.array(state.body_frames).reshape(-1, 3, 3).transpose(0, 2, 1) @ axes
         turns.append(np.arctan2(turned[:, 2, 0], turned[:, 0, 0]))
         centres.append(np.array(state.bodies))
-        if np.abs(turns[-1]).max() > FALLEN * given["critical_rotation"]:
+        if np.abs(turns[-1]).max() > fallen:
             break
     solver.finalize()
     return times[: len(turns)], np.array(turns), np.array(centres)[:, :, [0, 2]]
@@ -89,10 +92,10 @@ def _base(given: dict, step: float) -> tuple[np.ndarray, np.ndarray]:
     return times, velocity[place] + inside * (acceleration[place] + slope * inside / 2)
 
 
-def _prism(polygon: np.ndarray) -> dict:
-    """The polygon as a body 1 m thick, its faces wound outwards."""
+def _prism(polygon: np.ndarray, depth: float) -> dict:
+    """The polygon as a body of some depth [m], its faces wound outwards."""
     count = len(polygon)
-    corners = [[x, y, z] for y in (-0.5, 0.5) for x, z in polygon.tolist()]
+    corners = [[x, y, z] for y in (-depth / 2, depth / 2) for x, z in polygon.tolist()]
     ends = [list(range(count)), list(range(2 * count - 1, count - 1, -1))]
     sides = [[k, count + k, count + (k + 1) % count, (k + 1) % count] for k in range(count)]
     return {"vertices": corners, "faces": ends + sides}

@@ -25,7 +25,7 @@ from docs.research.comparison.codes import (
 )
 from docs.research.reference import reference_landings
 from rocking.errors import MotionError
-from rocking.motion.integration import integrate
+from rocking.motion import integrate
 from rocking.records import Accelerogram
 from rocking.reports import printing
 from rocking.reports.document import compile_document

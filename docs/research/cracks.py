@@ -1,0 +1,298 @@
+"""Which crack governs: stacks of separate courses in LMGC90 beside one mechanism per joint, under real records.
+
+The rule on trial has no number to tune: a member stands where it stands cracked at any of its joints, and overturns
+where it does cracked at the joint of least λ, the choice of statics; between them it is undecided.
+"""
+
+import json
+import math
+import subprocess
+import sys
+import zlib
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from docs.research import scores
+from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, properties
+from docs.research.sites import independent
+from rocking.assessment.ensemble import GroundMotions, ensemble
+from rocking.assessment.verdict import Verdict
+from rocking.quantities import GRAVITY
+from rocking.records import Accelerogram
+from rocking.structures import LoadedWall, Mechanism, RigidBody
+from rocking.tables import Row, column, row, write_tables
+
+COURSES = (6, 12, 20)
+UPLIFTS = (1.1, 6.0)
+"""Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
+SCALES = 2
+"""Trials of each kind of member under each record."""
+UNIT_WEIGHT = 18e3
+"""Of the masonry, N/m³."""
+STEP = 1e-3
+"""Time step of LMGC90, s."""
+TURN = 0.6
+"""Turn of a course, rad, from which nothing comes back: twice the largest critical rotation of any member."""
+TIMEOUT = 3600.0
+"""Seconds that one run of LMGC90 may take."""
+
+
+@dataclass(frozen=True, eq=False)
+class Member:
+    """A stack of courses. sections: (n + 1, 2) left and right face at each joint, from the base up, m. height: m.
+
+    depths: (n,) of the courses, m. slab: weight of a floor on top over that of the member, which then stands between
+    supports; None: its top is free.
+    """
+
+    kind: str
+    sections: np.ndarray
+    height: float
+    depths: np.ndarray
+    slab: float | None = None
+
+    @property
+    def courses(self) -> int:
+        """Their number."""
+        return len(self.depths)
+
+    @cached_property
+    def polygons(self) -> list[np.ndarray]:
+        """The corners (4, 2) of each course, counterclockwise, m; a course that ends in a point keeps a millimetre."""
+        levels = np.linspace(0, self.height, self.courses + 1)
+        lines = [np.column_stack([faces, [z, z]]) for faces, z in zip(self.sections, levels, strict=True)]
+        return [np.vstack([lower, upper[::-1]]) for lower, upper in pairwise(lines)]
+
+    def mechanisms(self) -> dict[int, Mechanism]:
+        """Return the mechanism of each joint that may open, by the number of courses beneath it."""
+        if self.slab is not None:
+            thickness = float(np.ptp(self.sections[0]))
+            load = self.slab * UNIT_WEIGHT * self.height * thickness
+            return {
+                k: LoadedWall.hinged_at(
+                    self.height,
+                    self.height * k / self.courses,
+                    thickness,
+                    UNIT_WEIGHT,
+                    top_load=load,
+                    top_slab="flat",
+                ).mechanism()
+                for k in range(1, self.courses)
+            }
+        return {k: self._above(k).mechanism() for k in range(self.courses)}
+
+    def _above(self, joint: int) -> RigidBody:
+        """All courses above a joint as one body."""
+        areas, centres, gyrations = (
+            np.array(each) for each in zip(*map(properties, self.polygons[joint:]), strict=True)
+        )
+        masses = areas * self.depths[joint:]
+        centre = complex(masses @ centres / masses.sum())
+        inertia = masses @ (gyrations + np.abs(centres - centre) ** 2) / masses.sum()
+        (left, right), base = self.sections[joint], self.height * joint / self.courses
+        return RigidBody(centre.real - left, right - centre.real, centre.imag - base, float(inertia))
+
+    def bodies(self) -> RigidBodies:
+        """Return the courses on what moves with the ground, and the slab."""
+        (left, right), top = self.sections[0], self.sections[-1]
+        ground = _box(left - 3.0, right + 3.0, -BASE_DEPTH, 0.0)
+        if self.slab is None:
+            return RigidBodies((ground, *self.polygons), (0,), depths=(1.0, *self.depths))
+        thickness = right - left
+        slab = _box(
+            top[0] - thickness, top[1] + thickness, self.height, self.height + self.slab * self.height / 3
+        )
+        return RigidBodies(
+            (ground, *self.polygons, slab), (0,), guided=(self.courses + 1,), depths=(1.0, *self.depths, 1.0)
+        )
+
+
+def members() -> list[Member]:
+    """Return walls between floors, columns, façades with a ledge, gables, pinnacles and spires, each of COURSES."""
+    return [make(courses) for courses in COURSES for make in KINDS.values()]
+
+
+def _wall(slab: float) -> Callable[[int], Member]:
+    kind = "wall with a floor load" if slab > 0.1 else "wall with a slab only"
+    return lambda n: Member(kind, _faces(0.25, 0.25, n), 3.2, np.ones(n), slab)
+
+
+def _ledge(courses: int) -> Member:
+    """Two thicknesses, flush outside: .5 m below half of the height, .35 m above."""
+    faces = np.where(np.arange(courses + 1)[:, None] < courses / 2, [0.0, 0.5], [0.15, 0.5])
+    return Member("façade with a ledge", faces, 6.0, np.ones(courses))
+
+
+def _pinnacle(courses: int) -> Member:
+    """A shaft of .5 m over the lower 40 %, and a wedge on it."""
+    half = 0.25 * np.clip((1 - np.linspace(0, 1, courses + 1)) / 0.6, 2e-3, 1)
+    return Member("pinnacle", np.column_stack([-half, half]), 2.5, 2 * (half[:-1] + half[1:]) / 2)
+
+
+def _gable(courses: int) -> Member:
+    """A triangle seen along its own plane: .3 m thick all the way, its width falls to nothing."""
+    return Member("gable", _faces(0.3, 0.3, courses), 3.0, 6.0 * (1 - (np.arange(courses) + 0.5) / courses))
+
+
+KINDS: Mapping[str, Callable[[int], Member]] = {
+    "slab only": _wall(0.05),
+    "floor load": _wall(0.6),
+    "column": lambda n: Member("column", _faces(0.6, 0.6, n), 4.8, np.ones(n)),
+    "ledge": _ledge,
+    "gable": _gable,
+    "pinnacle": _pinnacle,
+    "spire": lambda n: Member("spire", _faces(3.0, 0.01, n), 15.0, 3.0 * (1 - (np.arange(n) + 0.5) / n)),
+}
+
+
+@row(
+    "cracks", "One row per member, record and scale: the stack of LMGC90 beside the mechanism of every joint"
+)
+class CrackRow(Row):
+    """One trial."""
+
+    kind: str = column("Kind of member")
+    courses: int = column("Number of its courses")
+    record: str = column("Identifier of the record")
+    site: str = column("Event and station")
+    scale_factor: float = column("What the record was multiplied by")
+    falls: bool | None = column("Whether the stack falls; empty: LMGC90 gave no answer")
+    opened: int | None = column("Courses beneath the joint that had opened most at the end")
+    static_joint: int = column("Courses beneath the joint of least uplift multiplier")
+    static_share: float = column("Share of the ensemble that overturns cracked there")
+    largest_share: float = column("Largest share over all joints")
+    verdict: Verdict = column("What the rule says")
+    reason: str = column("Why there is no answer")
+
+
+def write_cracks(
+    records: Iterable[tuple[str, Accelerogram]],
+    folder: Path,
+    tell: Callable[[str], None],
+    most: int | None = None,
+) -> None:
+    """Write cracks.csv and its scores into `folder`. records: their sites took no part in the rule; most: of them."""
+    chosen = {site: (name, record) for name, site, record in reversed(list(independent(records)))}
+    rows: list[CrackRow] = []
+    for site, (name, record) in list(chosen.items())[:most]:
+        rows += crack_rows(name, site, record)
+        tell(f"{name}: {sum(each.falls is not None for each in rows)} of {len(rows)} trials")
+    write_tables(
+        {CrackRow: rows, scores.Score: list(crack_scores(rows))}, folder, "rocking-cracks", "cracks.json"
+    )
+
+
+def crack_rows(name: str, site: str, record: Accelerogram) -> Iterator[CrackRow]:
+    """Yield the trials of one record: every kind of member, SCALES times, the number of its courses drawn."""
+    draw, tried = np.random.default_rng(zlib.crc32(name.encode())), members()
+    for place in range(SCALES * len(KINDS)):
+        member = tried[len(KINDS) * draw.integers(len(COURSES)) + place % len(KINDS)]
+        mechanisms = member.mechanisms()
+        static = min(mechanisms, key=lambda joint: mechanisms[joint].uplift_multiplier)
+        lift = mechanisms[static].uplift_multiplier * GRAVITY * math.exp(draw.uniform(*np.log(UPLIFTS)))
+        factor = float(lift / record.peak_acceleration)
+        motion = record.scaled(factor)
+        verdict, shares = ruled(mechanisms, static, motion)
+        falls, opened, reason = stack(member, motion)
+        yield CrackRow(
+            kind=member.kind,
+            courses=member.courses,
+            record=name,
+            site=site,
+            scale_factor=factor,
+            falls=falls,
+            opened=opened,
+            static_joint=static,
+            static_share=shares[static],
+            largest_share=max(shares.values()),
+            verdict=verdict,
+            reason=reason,
+        )
+
+
+def ruled(
+    mechanisms: Mapping[int, Mechanism], static: int, motion: Accelerogram
+) -> tuple[Verdict, Mapping[int, float]]:
+    """Return what the rule says, and the share of the ensemble that overturns at each joint."""
+    motions = GroundMotions.of(motion)
+    all_of = {joint: ensemble(mechanism, motions) for joint, mechanism in mechanisms.items()}
+    shares = {joint: each.overturning_share for joint, each in all_of.items()}
+    if all(each.verdict is Verdict.STANDS for each in all_of.values()):
+        return Verdict.STANDS, shares
+    return (Verdict.OVERTURNS if all_of[static].verdict is Verdict.OVERTURNS else Verdict.UNDECIDED), shares
+
+
+def stack(member: Member, motion: Accelerogram) -> tuple[bool | None, int | None, str]:
+    """Return whether the stack falls in LMGC90, the joint that opened most, and why there is no answer.
+
+    LMGC90 keeps one model per process and prints as it goes, so that each run has a process of its own.
+    """
+    slowest = min(each.positive.frequency_parameter for each in member.mechanisms().values())
+    given = {
+        "member": [member.kind, member.courses],
+        "acceleration": motion.acceleration.tolist(),
+        "time_step": motion.time_step,
+        "critical_rotation": TURN / 6.0,  # of lmgc90.FALLEN
+        "frequency_parameter": slowest,
+    }
+    try:
+        done = subprocess.run(
+            [sys.executable, "-m", "docs.research.cracks"], cwd=Path(__file__).parents[2], check=False,
+            input=json.dumps(given), capture_output=True, text=True, timeout=TIMEOUT,
+        )  # fmt: skip
+        turns = np.array(json.loads(done.stdout.strip().splitlines()[-1]))
+    except subprocess.TimeoutExpired:
+        return None, None, f"It took more than {TIMEOUT:.0f} s."
+    except (IndexError, ValueError):
+        return None, None, (done.stderr.strip().splitlines() or ["It said nothing."])[-1]
+    return bool(np.abs(turns).max() > TURN), int(np.abs(np.diff(turns)).argmax()), ""
+
+
+def crack_scores(rows: Sequence[CrackRow]) -> Iterator[scores.Score]:
+    """Yield the errors of the rule by kind of member and of all, with intervals by site."""
+    answered = [each for each in rows if each.falls is not None]
+    for kind in ("all", *dict.fromkeys(each.kind for each in answered)):
+        own = [each for each in answered if kind in ("all", each.kind)]
+        falls = np.array([float(bool(each.falls)) for each in own])
+        verdicts = np.array([each.verdict for each in own])
+        at_static = np.array(
+            [float(each.opened == each.static_joint) if each.falls else np.nan for each in own]
+        )
+        measures = {
+            'falls among "stands"': scores.mean(np.where(verdicts == Verdict.STANDS, falls, np.nan)),
+            'survivals among "overturns"': scores.mean(
+                np.where(verdicts == Verdict.OVERTURNS, 1 - falls, np.nan)
+            ),
+            "undecided": scores.mean((verdicts == Verdict.UNDECIDED).astype(float)),
+            "falls at the joint of least λ": scores.mean(at_static),
+        }
+        if own:
+            yield from scores.scored("governing crack", kind, measures, [each.site for each in own])
+
+
+def _faces(base: float, top: float, courses: int) -> np.ndarray:
+    half = np.linspace(base, top, courses + 1) / 2
+    return np.column_stack([-half, half])
+
+
+def _box(left: float, right: float, low: float, high: float) -> np.ndarray:
+    return np.array([[left, low], [right, low], [right, high], [left, high]])
+
+
+def main() -> None:
+    """Follow one member, named on standard input, and print the turns of its courses at the end, the ground first."""
+    from docs.research.comparison.lmgc90 import follow
+
+    given = json.load(sys.stdin)
+    member = next(each for each in members() if [each.kind, each.courses] == given["member"])
+    _, turns, _ = follow(given, member.bodies(), STEP)
+    print("\n" + json.dumps(turns[np.abs(turns).max(axis=1).argmax()][: member.courses + 1].tolist()))
+
+
+if __name__ == "__main__":
+    main()
