@@ -8,6 +8,7 @@ import json
 import math
 import subprocess
 import sys
+import warnings
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -22,6 +23,7 @@ from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, properties
 from docs.research.sites import independent
 from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.verdict import Verdict
+from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import LoadedWall, Mechanism, RigidBody
@@ -70,21 +72,21 @@ class Member:
 
     def mechanisms(self) -> dict[int, Mechanism]:
         """Return the mechanism of each joint that may open, by the number of courses beneath it."""
-        if self.slab is not None:
-            thickness = float(np.ptp(self.sections[0]))
-            load = self.slab * UNIT_WEIGHT * self.height * thickness
-            return {
-                k: LoadedWall.hinged_at(
-                    self.height,
-                    self.height * k / self.courses,
-                    thickness,
-                    UNIT_WEIGHT,
-                    top_load=load,
-                    top_slab="flat",
-                ).mechanism()
-                for k in range(1, self.courses)
-            }
-        return {k: self._above(k).mechanism() for k in range(self.courses)}
+        with (
+            warnings.catch_warnings()
+        ):  # a course wider than high keeps nothing at an impact, which is meant here
+            warnings.simplefilter("ignore", StructureWarning)
+            if self.slab is None:
+                return {joint: self._above(joint).mechanism() for joint in range(self.courses)}
+            return {joint: self._hinged(joint).mechanism() for joint in range(1, self.courses)}
+
+    def _hinged(self, joint: int) -> LoadedWall:
+        """The wall under its slab, hinged at a joint."""
+        thickness, hinge = float(np.ptp(self.sections[0])), self.height * joint / self.courses
+        load = (self.slab or 0.0) * UNIT_WEIGHT * self.height * thickness
+        return LoadedWall.hinged_at(
+            self.height, hinge, thickness, UNIT_WEIGHT, top_load=load, top_slab="flat"
+        )
 
     def _above(self, joint: int) -> RigidBody:
         """All courses above a joint as one body."""

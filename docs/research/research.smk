@@ -25,6 +25,12 @@ TARGETS_OF_RESEARCH = {
         "calibration",
         ["trade_fragility.csv", "trade_fragility.json"],
     ),
+    "govern": (
+        "Try the governing crack on stacks of courses",
+        REAL_RECORDS,
+        "cracks",
+        ["cracks.csv", "scores.csv", "cracks.json"],
+    ),
     "validate": (
         "Predict the overturning of two specimens on a shake table",
         [f"{workflow.basedir}/records/shake_table.csv"],

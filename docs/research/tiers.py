@@ -11,7 +11,7 @@ from docs.research import scores
 from docs.research.answers import answer_scores, try_answers
 from docs.research.scores import Reliability, Score
 from docs.research.sites import independent, structures_tried
-from rocking.assessment import intensity, tiers
+from rocking.assessment import intensity
 from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn
 from rocking.assessment.ensemble.design import lattice
 from rocking.assessment.fidelity import stays_at_rest
