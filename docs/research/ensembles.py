@@ -18,7 +18,7 @@ from docs.research import scores
 from docs.research.scores import Score
 from docs.research.sites import independent, site_of
 from rocking.assessment.ensemble import CAUSES, Ensemble, EnsembleSettings, GroundMotions, drawn, ensemble
-from rocking.assessment.ensemble.design import lattice
+from rocking.assessment.ensemble.members import lattice
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram

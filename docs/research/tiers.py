@@ -13,7 +13,7 @@ from docs.research.scores import Reliability, Score
 from docs.research.sites import independent, structures_tried
 from rocking.assessment import intensity
 from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn
-from rocking.assessment.ensemble.design import lattice
+from rocking.assessment.ensemble.members import lattice
 from rocking.assessment.fidelity import stays_at_rest
 from rocking.assessment.intensity import NUDGES
 from rocking.assessment.tiers import Tier, TierFit

@@ -89,7 +89,7 @@ class Assessment:
 
 def assess_structures(
     accelerogram: Accelerogram,
-    structures: Mapping[str, Structure],
+    structures: Mapping[str, Structure | Mechanism],
     settings: AssessmentSettings | None = None,
     vertical: Accelerogram | None = None,
 ) -> Assessment:
@@ -146,20 +146,22 @@ def predict(
 
 def _case(
     name: str,
-    structure: Structure,
+    structure: Structure | Mechanism,
     candidates: Sequence[PulseEvidence],
     record: Accelerogram,
     settings: AssessmentSettings,
     vertical: Accelerogram | None,
 ) -> Case:
-    mechanism = structure.mechanism()
+    mechanism = structure if isinstance(structure, Mechanism) else structure.mechanism()
     prediction = predict(mechanism, candidates, settings) if candidates else None
     if settings.fidelity == "full":
         answer, responses = _compared(mechanism, record, prediction, settings, vertical)
     else:
         answer, responses = _cheapest(mechanism, record, settings, vertical)
     on_record = responses.get(Method.MECHANISM_ON_RECORD)
-    check = check_model(structure, on_record, record, vertical) if on_record else UNKNOWN
+    check = UNKNOWN
+    if on_record is not None and isinstance(structure, Structure):
+        check = check_model(structure, on_record, record, vertical)
     sure = _ensemble(mechanism, record, answer, settings, vertical)
     estimate = estimate_from_velocity(mechanism, record) if sure is None and vertical is None else None
     return Case(name, mechanism, prediction, responses, check, answer, sure, estimate)

@@ -1,9 +1,10 @@
-"""AssessmentSettings: what a comparison of prediction and integration is made with."""
+"""What an assessment and a fragility are made with."""
 
 from dataclasses import dataclass
 from typing import Literal
 
 from rocking.assessment.ensemble import EnsembleSettings
+from rocking.assessment.intensity import INTENSITY_MEASURES, MEASURES_IN_WORDS
 from rocking.described import check_described, described
 from rocking.errors import ConfigurationError
 from rocking.pulses import PULSE_METHODS, PulseSettings
@@ -46,6 +47,26 @@ class AssessmentSettings:
     )
     fidelity_risk: float = described(
         0.01, "for auto: largest probability of a wrong verdict with which it stops; 0: none", ge=0, le=0.2
+    )
+
+    def __post_init__(self) -> None:
+        check_described(ConfigurationError, self)
+
+
+@dataclass(frozen=True)
+class FragilitySettings:
+    """What fragility is measured with. Raises ConfigurationError when a value is outside what is allowed."""
+
+    intensity_measure: str = described(
+        "pgv",
+        f"of the levels: {MEASURES_IN_WORDS}",
+        one_of=lambda: tuple(INTENSITY_MEASURES),
+    )
+    members: bool = described(
+        True, "whether each case is an ensemble, with the ranges above, instead of itself"
+    )
+    hazard: str | None = described(
+        None, "CSV of a hazard curve with the columns intensity and annual_rate, ascending, or null"
     )
 
     def __post_init__(self) -> None:

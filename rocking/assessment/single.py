@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import NoneType
 from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.assess import Case, assess_structures
@@ -12,7 +13,7 @@ from rocking.assessment.verdict import Verdict, ratio_in_words
 from rocking.errors import ConfigurationError, RockingError
 from rocking.motion.response import Response
 from rocking.records import Accelerogram
-from rocking.structures import Structure
+from rocking.structures import Mechanism, Structure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -91,39 +92,69 @@ class StructureAssessment:
 
 def assess(
     record: Accelerogram | Sequence[Accelerogram],
-    structure: Structure,
+    structure: Structure | Mechanism,
     *,
+    members: int | None = None,
     settings: AssessmentSettings | None = None,
     vertical: Accelerogram | None = None,
 ) -> StructureAssessment:
     """Say whether `structure` survives `record`, and how sure that is.
 
-    record: one accelerogram, or both horizontal components, which then make one ensemble with the direction in which
-    their acceleration peaks. vertical: sample by sample as the record; half of the members feel it.
-    Raises ConfigurationError for no record or more than two, RockingError where it cannot be followed.
+    record: one accelerogram, or both horizontal components, which then make one ensemble over eight directions.
+    members: of the ensemble, by default those of the settings. vertical: sample by sample as the record; half of the
+    members feel it. Raises ConfigurationError for no record or more than two, RockingError where it cannot be followed.
+
+    >>> pulse = rocking.Pulse(amplitude=3.0, circular_frequency=8.0, start_time=0.5)
+    >>> record = rocking.Accelerogram(pulse.acceleration(np.arange(500) * 0.01), 0.01)
+    >>> print(rocking.assess(record, rocking.Block(semi_diagonal=2.0, slenderness=0.2)).verdict)
+    stands
     """
-    records = [record] if isinstance(record, Accelerogram) else list(record)
+    records = _checked_records(record)
+    for name, value, allowed, words in (
+        ("structure", structure, (Structure, Mechanism), "a structure or a mechanism"),
+        ("vertical", vertical, (Accelerogram, NoneType), "an accelerogram"),
+        ("settings", settings, (AssessmentSettings, NoneType), "AssessmentSettings"),
+    ):
+        if not isinstance(value, allowed):
+            raise ConfigurationError(f"{name} is a {type(value).__name__}, but must be {words}.")
+    settings = replace(settings or AssessmentSettings(), fidelity="full")
+    if members is not None:
+        settings = replace(settings, ensemble=replace(settings.ensemble, members=members))
+    if settings.ensemble.members == 0:
+        settings = replace(settings, ensemble=replace(settings.ensemble, members=EnsembleSettings().members))
+    names = [each.component for each in records]
+    if len(set(names)) < len(names) or not all(names):
+        names = [f"component {place}" for place, _ in enumerate(records, start=1)]
+    cases = {}
+    for name, each in zip(names, records, strict=True):
+        assessment = assess_structures(each, {_NAME: structure}, settings, vertical)
+        if not assessment.cases:
+            raise RockingError(assessment.failures[-1].message)
+        cases[name] = assessment.cases[0]
+    return StructureAssessment(cases, _over_all(records, structure, cases, settings, vertical))
+
+
+def _checked_records(record: object) -> list[Accelerogram]:
+    """The horizontal components. Raises ConfigurationError unless they are one or two accelerograms."""
+    records = [record] if isinstance(record, Accelerogram) else record
+    if isinstance(records, str | bytes) or not isinstance(records, Sequence):
+        raise ConfigurationError(
+            f"record is a {type(record).__name__}, but must be an accelerogram, or two horizontal ones; "
+            "rocking.read gives those of a file."
+        )
+    for each in records:
+        if not isinstance(each, Accelerogram):
+            raise ConfigurationError(f"record holds a {type(each).__name__}, but must hold accelerograms.")
     if len(records) not in (1, 2):
         raise ConfigurationError(
             f"record holds {len(records)} accelerograms, but must hold one or two horizontal ones."
         )
-    settings = settings or AssessmentSettings()
-    if settings.fidelity != "full":
-        settings = replace(settings, fidelity="full")
-    if settings.ensemble.members == 0:
-        settings = replace(settings, ensemble=replace(settings.ensemble, members=EnsembleSettings().members))
-    cases = {}
-    for place, each in enumerate(records, start=1):
-        found = assess_structures(each, {_NAME: structure}, settings, vertical)
-        if not found.cases:
-            raise RockingError(found.failures[-1].message)
-        cases[each.component or f"component {place}"] = found.cases[0]
-    return StructureAssessment(cases, _over_all(records, structure, cases, settings, vertical))
+    return list(records)
 
 
 def _over_all(
     records: Sequence[Accelerogram],
-    structure: Structure,
+    structure: Structure | Mechanism,
     cases: Mapping[str, Case],
     settings: AssessmentSettings,
     vertical: Accelerogram | None,

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from rocking.assessment.processings import AS_IT_IS
+from rocking.assessment.ensemble.ground_motions import AS_IT_IS
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
 from rocking.motion.batch import integrate_batch

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from rocking.assessment.rows.of_histories import HistoryRow, history_rows
+from rocking.assessment.rows.of_case import HistoryRow, history_rows
 from rocking.errors import RockingError
 from rocking.records.catalogue import CatalogueRecord
 from rocking.study.run import Study

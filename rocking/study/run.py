@@ -8,10 +8,10 @@ from time import process_time
 
 from rocking.assessment.assess import Assessment, Failure, assess_structures
 from rocking.assessment.ensemble import GroundMotions, ensemble
+from rocking.assessment.ensemble.ground_motions import processed
 from rocking.assessment.fate import BOTH_COMPONENTS
 from rocking.assessment.horizontal_motion import horizontal_motions
 from rocking.assessment.method import Method
-from rocking.assessment.processings import processed
 from rocking.assessment.rows.of_case import candidate_rows, ensemble_row, processing_rows
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_record import TimingRow

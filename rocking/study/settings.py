@@ -7,8 +7,7 @@ writes the JSON schema and the shipped config.yaml from them.
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
-from rocking.assessment.fragility.settings import FragilitySettings
-from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.settings import AssessmentSettings, FragilitySettings
 from rocking.described import check_described, described
 from rocking.errors import ConfigurationError
 from rocking.records.processing import Processing

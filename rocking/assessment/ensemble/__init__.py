@@ -4,9 +4,17 @@ Each cause is uniform in its range and independent of the others. What the cause
 measurement; the ensemble says how sure an answer can be if they are right.
 """
 
-from rocking.assessment.ensemble.distribution import Ensemble
-from rocking.assessment.ensemble.ground_motions import GroundMotions
-from rocking.assessment.ensemble.members import CAUSES, drawn, ensemble
-from rocking.assessment.ensemble.settings import EnsembleSettings
+from rocking.assessment.ensemble.distribution import Ensemble, EnsembleSettings
+from rocking.assessment.ensemble.ground_motions import GroundMotions, processed
+from rocking.assessment.ensemble.members import CAUSES, drawn, ensemble, lattice
 
-__all__ = ["CAUSES", "Ensemble", "EnsembleSettings", "GroundMotions", "drawn", "ensemble"]
+__all__ = [
+    "CAUSES",
+    "Ensemble",
+    "EnsembleSettings",
+    "GroundMotions",
+    "drawn",
+    "ensemble",
+    "lattice",
+    "processed",
+]

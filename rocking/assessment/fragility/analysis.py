@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn
-from rocking.assessment.ensemble.design import lattice
+from rocking.assessment.ensemble.members import lattice
 from rocking.assessment.fragility.curve import Fragility, fragility_of
 from rocking.assessment.intensity import INTENSITY_MEASURES, IntensityMeasure, per_velocity
 from rocking.assessment.intensity import intensity_measure as measure_named

@@ -8,15 +8,15 @@ import pytest
 
 import rocking
 from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn, ensemble
-from rocking.assessment.ensemble.design import SIZES, lattice
-from rocking.assessment.processings import processed
+from rocking.assessment.ensemble.ground_motions import processed
+from rocking.assessment.ensemble.members import SIZES, lattice
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.single import assess
 from rocking.assessment.verdict import Verdict, ratio_in_words, verdict
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
 from rocking.pulses import rotated
-from rocking.records import Accelerogram, rotd
+from rocking.records import Accelerogram
 from rocking.records.accelerogram import Source
 from rocking.records.processing import Processing, process
 from rocking.structures import Block
@@ -161,9 +161,9 @@ def test_the_processing_of_another_record_is_none(record, settings):
 def test_two_raw_components_vary_in_direction_and_processing():
     first, second = _raw(3.0, "first"), _raw(4.0, "second")
     motions = GroundMotions.of_pair(first, second, processing=True)
-    assert len(motions.horizontal) == len(motions.directions) * len(motions.processings) == 3 * 6
-    turned = motions.directions[2]
-    azimuth = np.radians(rotd(first, second).azimuth)
+    assert len(motions.horizontal) == len(motions.directions) * len(motions.processings) == 8 * 6
+    turned = motions.directions[3]
+    azimuth = np.radians(67.5)
     both = [processed(each)["linear baseline"] for each in (first, second)]
     expected = rotated(*both, azimuth).acceleration
     assert np.array_equal(motions.horizontal[turned, "linear baseline"].acceleration, expected)
@@ -211,13 +211,15 @@ def test_where_the_verdict_alone_is_asked_it_ends_early_far_from_overturning_onl
     assert seen == {False, True}
 
 
-def test_two_components_make_one_ensemble_with_the_direction_of_their_peak():
+def test_two_components_make_one_ensemble_over_eight_directions():
+    """Of two that move together, 3 and 4 times the same, the motion along an angle is 3 cos + 4 sin of it."""
     first, second = _record(3.0, "first"), _record(4.0, "second")
     motions = GroundMotions.of_pair(first, second)
-    turned = motions.directions[2]
-    assert motions.horizontal[turned, ""].peak_acceleration == pytest.approx(
-        5 / 4 * second.peak_acceleration, rel=1e-3
-    ), "3, 4, 5; directions a degree apart miss the peak by less than 4e-5"
+    peaks = [motions.horizontal[name, ""].peak_acceleration for name in motions.directions]
+    angles = np.radians(22.5 * np.arange(8))
+    expected = np.abs(3 * np.cos(angles) + 4 * np.sin(angles)) / 3 * first.peak_acceleration
+    assert peaks == pytest.approx(expected, rel=1e-12)
+    assert motions.directions[0] == "first" and motions.directions[4] == "second"
     found = assess([first, second], BLOCK)
     assert set(found.ensemble.causes["direction"]) == set(motions.directions)
     assert found.rotation_ratio == integrate(BLOCK, second).rotation_ratio
@@ -293,3 +295,34 @@ def test_the_slender_block_under_rinaldi_is_undecided(real_records):
         True,
     ]
     assert rocking.assess(record, block).verdict is Verdict.UNDECIDED
+
+
+def test_components_of_the_same_name_are_told_apart_by_position():
+    first, second = _record(3.0, "x"), _record(8.0, "x")
+    found = assess([first, second], BLOCK, members=16)
+    assert list(found.cases) == ["component 1", "component 2"]
+    assert found.rotation_ratio == integrate(BLOCK, second).rotation_ratio
+    assert assess([second, first], BLOCK, members=16).rotation_ratio == found.rotation_ratio
+
+
+def test_a_mechanism_is_assessed_as_its_structure_and_members_are_those_asked_for():
+    record = _record(4.0)
+    one, other = (assess(record, each, members=256) for each in (BLOCK, BLOCK.mechanism()))
+    assert one.members == 256 and np.array_equal(one.ensemble.rotation_ratios, other.ensemble.rotation_ratios)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("x.AT2", BLOCK), "record is a str, but must be an accelerogram"),
+        ((np.zeros(9), BLOCK), "record is a ndarray, but must be"),
+        ((BLOCK, _record(4.0)), "record is a Block, but must be"),
+        (([], BLOCK), "record holds 0 accelerograms"),
+        (([1.0, 2.0], BLOCK), "record holds a float, but must hold accelerograms"),
+        ((_record(4.0), [BLOCK]), "structure is a list, but must be a structure or a mechanism"),
+        ((_record(4.0), BLOCK.mechanism().equivalent_block("rest")), "structure is a EquivalentBlock, but"),
+    ],
+)
+def test_wrong_types_are_one_sentence(arguments, sentence):
+    with pytest.raises(ConfigurationError, match=sentence):
+        assess(*arguments)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import AssessmentSettings
-from rocking.assessment.processings import processed
+from rocking.assessment.ensemble.ground_motions import processed
 from rocking.assessment.variations import candidates, governing, processed_variants
 from rocking.motion import integrate
 from rocking.pulses import Pulse

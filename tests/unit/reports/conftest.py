@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import AssessmentSettings, assess_structures
+from rocking.assessment.ensemble.ground_motions import processed
 from rocking.assessment.fate import Fate
-from rocking.assessment.processings import processed
 from rocking.assessment.rows.of_case import ComparisonRow, candidate_rows, processing_rows
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow

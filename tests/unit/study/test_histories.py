@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking.assessment.rows.of_histories import HistoryRow
+from rocking.assessment.rows.of_case import HistoryRow
 from rocking.records.catalogue import CatalogueRecord
 from rocking.structures import Block
 from rocking.study.histories import write_histories

@@ -10,8 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from jsonschema import Draft7Validator
 
-from rocking.assessment.fragility.settings import FragilitySettings
-from rocking.assessment.settings import AssessmentSettings, PredictingPulse
+from rocking.assessment.settings import AssessmentSettings, FragilitySettings, PredictingPulse
 from rocking.described import described_values, parts_of
 from rocking.errors import ConfigurationError
 from rocking.records.processing import UNPROCESSED_DEFAULT
