@@ -19,7 +19,7 @@ def test_a_run_makes_every_table_of_every_record(finished, tmp_path: Path) -> No
         for table in (each.table for each in PER_RECORD):
             with (folder / table.file_name).open(newline="") as stream:
                 assert {row["record"] for row in csv.DictReader(stream)} <= {f"good_{number}"}
-        assert (folder / "responses.csv").read_text().count("\n") > 2
+        assert (folder / "maxima.csv").read_text().count("\n") > 2
     with (finished.results / "summary" / "maxima.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert {row["record"] for row in rows} == {"good_1", "good_2", "good_3"}
@@ -73,7 +73,7 @@ def test_a_record_more_computes_its_own_job_only(finished, tmp_path: Path) -> No
     done = study.run()
     assert done.returncode == 0, done.stdout
     assert _jobs(done.stdout) == ["assess", "summarise"], done.stdout
-    assert all(rows["responses.csv"] for rows in before.values())
+    assert all(rows["maxima.csv"] for rows in before.values())
     assert {name: study.rows_of(name) for name in before} == before
     assert b"good_4" in study.tables()["summary/maxima.csv"]
 

@@ -366,7 +366,7 @@ def history_rows(
     tolerance: float,
     vertical: Accelerogram | None = None,
 ) -> Iterator[HistoryRow]:
-    """Yield the history of the mechanism of each structure under each component, as responses.csv sums it up.
+    """Yield the history of the mechanism of each structure under each component, as maxima.csv sums it up.
 
     tolerance: of the integration, relative to the critical rotation. vertical: the vertical component, where it acts.
     A structure that cannot be integrated has no rows; failures.csv says why.

@@ -64,6 +64,6 @@ def test_the_ensemble_of_a_raw_record_varies_its_processing():
     row = tables.ensemble[0]
     assert row.worst_processing in {each.processing for each in tables.processing}
     assert 0 <= row.processing_share <= 1
-    known = {each.method: each for each in tables.responses if each.component == row.component}
+    known = tables.by_method(Method.MECHANISM_ON_RECORD)[row.case]
     given = next(each for each in tables.processing if each.processing == "unchanged")
-    assert given.rotation_ratio == known[Method.MECHANISM_ON_RECORD].rotation_ratio
+    assert given.rotation_ratio == known.rotation_ratio
