@@ -91,7 +91,7 @@ class StructureAssessment:
 
 
 def assess(
-    record: Accelerogram | Sequence[Accelerogram],
+    record: Accelerogram | Sequence[Accelerogram] | object,
     structure: Structure | Mechanism,
     *,
     members: int | None = None,
@@ -100,15 +100,20 @@ def assess(
 ) -> StructureAssessment:
     """Say whether `structure` survives `record`, and how sure that is.
 
-    record: one accelerogram, or both horizontal components, which then make one ensemble over eight directions.
-    members: of the ensemble, by default those of the settings. vertical: sample by sample as the record; half of the
-    members feel it. Raises ConfigurationError for no record or more than two, RockingError where it cannot be followed.
+    record: one accelerogram, or both horizontal components, which then make one ensemble over eight directions; or an
+    obspy Stream or Trace, as Accelerogram.from_obspy reads it, whose vertical component acts too. members: of the
+    ensemble, by default those of the settings. vertical: sample by sample as the record; half of the members feel it.
+    Raises ConfigurationError for no record or more than two, RockingError where it cannot be followed.
 
     >>> pulse = rocking.Pulse(amplitude=3.0, circular_frequency=8.0, start_time=0.5)
     >>> record = rocking.Accelerogram(pulse.acceleration(np.arange(500) * 0.01), 0.01)
     >>> print(rocking.assess(record, rocking.Block(semi_diagonal=2.0, slenderness=0.2)).verdict)
     stands
     """
+    if type(record).__module__.startswith("obspy."):
+        channels = Accelerogram.from_obspy(record)
+        record = [each for each in channels if not each.vertical]
+        vertical = vertical or next((each for each in channels if each.vertical), None)
     records = _checked_records(record)
     for name, value, allowed, words in (
         ("structure", structure, (Structure, Mechanism), "a structure or a mechanism"),

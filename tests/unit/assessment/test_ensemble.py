@@ -326,3 +326,14 @@ def test_a_mechanism_is_assessed_as_its_structure_and_members_are_those_asked_fo
 def test_wrong_types_are_one_sentence(arguments, sentence):
     with pytest.raises(ConfigurationError, match=sentence):
         assess(*arguments)
+
+
+def test_a_stream_of_obspy_is_assessed_as_its_components():
+    from obspy import Stream
+
+    first, second = replace(_record(3.0, "HNE")), replace(_record(4.0, "HNN"))
+    stream = Stream([each.to_obspy() for each in (first, second)])
+    ours = assess([first, second], BLOCK, members=16)
+    assert np.array_equal(
+        assess(stream, BLOCK, members=16).ensemble.rotation_ratios, ours.ensemble.rotation_ratios
+    )

@@ -44,12 +44,12 @@ def test_a_table_of_the_jobs_is_gathered(folder: Path) -> None:
 
 def test_what_is_not_there_is_said(folder: Path) -> None:
     results = rocking.open_results(folder)
-    with pytest.raises(AttributeError, match="no table 'verdicts'"):
-        _ = results.verdicts
+    with pytest.raises(AttributeError, match="no table 'sums'"):
+        _ = results.sums
     with pytest.raises(RockingError, match=r"holds no trade\.csv"):
         _ = results.trade
     with pytest.raises(RockingError, match="must be one of"):
-        results.table("verdicts")
+        results.table("sums")
     with pytest.raises(RockingError, match="is no folder"):
         rocking.open_results(folder / "nowhere")
 
