@@ -115,6 +115,51 @@ def pass_limits(record: Accelerogram) -> tuple[str, ...]:
     return (f"The peak acceleration is {peak:.3g} g, below 1e-5 g: noise, or a wrong unit{hint}.",)
 
 
+_ALONE = 3.0, 2.0
+"""A sample alone: this many times the three beside it on each side, and the largest of all others.
+
+Of the strongest real records a peak reaches 2.6 and 1.1, or 1.7 and 1.6 times.
+"""
+_ZEROS = 50
+"""Exact zeros in a row that no recorder writes while the ground shakes; real files hold at most 14."""
+_LONGEST_STEP = 0.1
+"""s; a longer step leaves out what makes a structure rock."""
+
+
+def damage_warnings(record: Accelerogram) -> tuple[str, ...]:
+    """Return warnings on samples that look damaged: one alone far above all others, zeros within strong shaking.
+
+    A time step that is too long for strong motion is told too.
+    """
+    told = []
+    magnitudes = np.abs(record.acceleration)
+    step = record.time_step
+    if step > _LONGEST_STEP:
+        told.append(
+            f"The time step is {step:g} s: strong motion needs one below {_LONGEST_STEP:g} s; check it."
+        )
+    if magnitudes.size < 2 * _ZEROS or not magnitudes.any():
+        return tuple(told)
+    at = int(magnitudes.argmax())
+    peak = float(magnitudes[at])
+    others = np.delete(magnitudes, at)
+    near = others[max(0, at - _NEIGHBOURS) : at + _NEIGHBOURS].max()
+    if peak > _ALONE[0] * near and peak > _ALONE[1] * others.max():
+        told.append(
+            f"The sample at {at * step:g} s is {peak / GRAVITY:.3g} g and stands alone; without it the peak "
+            f"acceleration is {others.max() / GRAVITY:.3g} g: a number is damaged, or the instrument was struck."
+        )
+    spent = np.cumsum(np.square(magnitudes))
+    begin, end = np.searchsorted(spent, np.array([0.05, 0.95]) * spent[-1])
+    moving = np.flatnonzero(magnitudes[begin : end + 1])
+    longest = int(np.diff(moving).max(initial=0)) - 1
+    if longest >= _ZEROS:
+        told.append(
+            f"Within the strong shaking {longest} samples in a row are exactly zero: a gap was filled, perhaps."
+        )
+    return tuple(told)
+
+
 def _explain(ratio: float) -> str:
     off = {factor: min(abs(ratio / factor - 1), abs(ratio * factor - 1)) for factor in _FACTORS}
     nearest = min(off, key=off.__getitem__)

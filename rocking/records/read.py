@@ -15,7 +15,7 @@ from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
 from rocking.records.instrument import channel_warnings, site_warnings
-from rocking.records.plausibility import pass_limits
+from rocking.records.plausibility import damage_warnings, pass_limits
 from rocking.tables import read_whole
 
 LARGEST_FILE = 8 * 2**20
@@ -73,7 +73,7 @@ def read_content(
             replace(
                 record,
                 source=replace(source, unit=record.source.unit),
-                warnings=(*record.warnings, *notes, *pass_limits(record)),
+                warnings=(*record.warnings, *notes, *pass_limits(record), *damage_warnings(record)),
             )
             for record in records
         ]

@@ -231,17 +231,6 @@ def _agrees(rsn: str, pair: list) -> bool:
     return abs(peak / float(row["pgv_sb2014_cm_s"]) - 1) < 0.01
 
 
-def test_obspy_reads_our_formats_the_same(real_records: Path) -> None:
-    import obspy
-
-    for file in ("formats_peer_at2/NIS090.AT2", "formats_smc/0111a.smc", "formats_bhrc/5529-1.V1"):
-        stream, records = obspy.read(str(real_records / file)), read(real_records / file)
-        assert len(stream) == len(records)
-        for trace, record in zip(stream, records, strict=True):
-            assert np.array_equal(trace.data, record.acceleration)
-            assert trace.stats.delta == record.time_step
-
-
 def test_formats_of_the_second_list_agree_with_it(real_records: Path) -> None:
     """AFAD's files of 2023, EMOD3D and JMA; the unit of EMOD3D stands in no file. PGA has four digits."""
     for row in more(real_records):

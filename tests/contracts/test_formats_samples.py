@@ -141,7 +141,8 @@ def test_a_peak_that_contradicts_the_header_is_refused(name: str) -> None:
 @pytest.mark.parametrize(("name", "old", "new", "word"), [
     ("PEER AT2", "ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME SERIES IN UNITS OF CM/S", "velocity"),
     ("PEER AT2", "ACCELERATION TIME SERIES IN UNITS OF G", "DISPLACEMENT TIME SERIES IN UNITS OF CM", "displacement"),
-    ("COSMOS V1/V2", " acceleration pts", " velocity pts", "velocity or displacement only"),
+    ("COSMOS V1/V2", " acceleration pts, approx 1 secs, units=cm/sec2(04)",
+     " velocity pts, approx 1 secs, units=cm/s(05)", "velocity or displacement only"),
     ("USGS SMC", "2 CORRECTED ACCELEROGRAM", "3 VELOCITY", "holds velocity"),
     ("USGS SMC", "2 CORRECTED ACCELEROGRAM", "5 RESPONSE SPECTRUM", "holds response spectrum"),
     ("DYNA (ESM, ITACA, AFAD)", "DATA_TYPE: ACCELERATION", "DATA_TYPE: VELOCITY", "DATA_TYPE is 'VELOCITY'"),

@@ -36,7 +36,13 @@ def stream(content: bytes, form: str, **options):
         raise RecordError(f"damaged {form} file, {first_line(damage[0].message)}; fetch it again.")
     if not any(trace.stats.npts for trace in result):
         raise RecordError(f"the {form} file holds no samples.")
-    return result, tuple(sorted({f"obspy: {first_line(w.message)}." for w in caught}))
+    told = {f"obspy: {first_line(w.message)}." for w in caught}
+    for _, station, _, channel, _, begin, seconds, _ in result.get_gaps():
+        if seconds < 0:
+            told.add(
+                f"Blocks of {station} {channel} overlap by {-seconds:g} s at {begin}: repeated or overwritten."
+            )
+    return result, tuple(sorted(told))
 
 
 def _check_size(content: bytes, form: str) -> None:
@@ -124,9 +130,14 @@ def _sac_record(trace, unit: str, options: Options, warnings: tuple[str, ...]) -
 
 def _check_sac(stats, data: np.ndarray) -> None:
     """Compare the extremes and the end that the header states with the samples, before any mean is removed."""
-    low, high = (float(stats.sac.get(key, _UNDEFINED)) for key in ("depmin", "depmax"))
+    low, high, mean = (float(stats.sac.get(key, _UNDEFINED)) for key in ("depmin", "depmax", "depmen"))
     allowed = 1e-4 * max(abs(low), abs(high))
-    for key, stated, found in (("DEPMIN", low, data.min()), ("DEPMAX", high, data.max())):
+    measured = (
+        ("DEPMIN", low, data.min()),
+        ("DEPMAX", high, data.max()),
+        ("DEPMEN", mean, data.mean(dtype=float)),
+    )
+    for key, stated, found in measured:
         if allowed and stated != _UNDEFINED and not abs(stated - found) <= allowed:
             raise RecordError(
                 f"the header states {key} = {stated:g}, but the samples reach {found:g}; the file is damaged "

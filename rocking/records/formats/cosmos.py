@@ -5,6 +5,7 @@ import re
 import numpy as np
 
 from rocking.errors import RecordError
+from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import (
@@ -33,6 +34,8 @@ _RECORDER_STEP, _STEP, _LENGTH, _PEAK, _PEAK_TIME = 33, 61, 62, 63, 64
 After COSMOS format 1.20. A processed series is often resampled, so that the recorder's step is not its own.
 """
 _UNKNOWN = -999.0
+_CODES = {"02": "g", "2": "g", "04": "cm/s2", "4": "cm/s2"}
+"""Units of acceleration by their code in the format."""
 
 
 def _read(content: bytes, options: Options) -> list[Accelerogram]:
@@ -48,7 +51,16 @@ def _block(block: list[str], options: Options, held: int) -> Accelerogram | None
     if data is None:
         raise RecordError("no line gives points, units and Format of the samples; the file is truncated.")
     if not data["quantity"].lower().startswith("accel"):
+        if data["code"] in _CODES:
+            raise RecordError(
+                f"a channel of {data['quantity']} has units of {_CODES[data['code']]} by its code."
+            )
         return None
+    unit = _CODES.get(data["code"] or "", data["unit"])
+    if acceleration_factor(unit) != acceleration_factor(data["unit"]):
+        raise RecordError(
+            f"the units of a channel are {data['unit']!r}, but their code {data['code']} says {unit}."
+        )
     head = "\n".join(block[:at])
     reals = _reals(block[:at])
     step = float(reals[_STEP]) / 1000 if 0 < reals[_STEP] < 1e4 else float(reals[_RECORDER_STEP])

@@ -202,14 +202,14 @@ def written(form: str, values: np.ndarray, **options) -> bytes:
     return target.getvalue()
 
 
-@pytest.mark.parametrize("word", [1, 2, 6])
+@pytest.mark.parametrize("word", [1, 2, 6, 56])
 def test_sac_is_held_to_its_extremes_and_its_end(counts: np.ndarray, word: int) -> None:
-    """Words 1, 2 and 6 of the header are DEPMIN, DEPMAX and E (SAC manual)."""
+    """Words 1, 2, 6 and 56 of the header are DEPMIN, DEPMAX, E and DEPMEN (SAC manual)."""
     content = bytearray(written("SAC", (counts / 1e4).astype(np.float32)))
     assert read_content(bytes(content), "made", Options(unit="m/s2"))
     (value,) = struct.unpack_from("<f", content, 4 * word)
-    struct.pack_into("<f", content, 4 * word, 1.01 * value)
-    with pytest.raises(RecordError, match=r"DEPMIN|DEPMAX|end at"):
+    struct.pack_into("<f", content, 4 * word, 1.01 * value + (word == 56))
+    with pytest.raises(RecordError, match=r"DEPM|end at"):
         read_content(bytes(content), "made", Options(unit="m/s2"))
 
 
@@ -235,6 +235,25 @@ def test_miniseed_cut_within_a_record_is_refused(counts: np.ndarray, cut: int) -
     assert read_content(content, "made", Options(unit="mm/s2"))[0].acceleration.size == 4000
     with pytest.raises(RecordError, match="last record of 512 bytes is cut"):
         read_content(content[:-cut], "made", Options(unit="mm/s2"))
+
+
+def test_miniseed_blocks_that_come_twice_are_told(counts: np.ndarray) -> None:
+    """The last blocks overwritten by earlier ones: the record is shorter, without a gap."""
+    content = written("MSEED", counts, reclen=512, encoding="STEIM2")
+    assert not read_content(content, "made", Options(unit="mm/s2"))[0].warnings
+    blocks = [content[i : i + 512] for i in range(0, len(content), 512)]
+    (record,) = read_content(b"".join(blocks[:-3] + blocks[:3]), "made", Options(unit="mm/s2"))
+    assert record.acceleration.size < 4000 and any("overlap" in told for told in record.warnings)
+
+
+@pytest.mark.parametrize(("old", "new", "word"), [
+    ("units=cm/sec2(04)", "units=m/s2(04)", "their code 04 says cm/s2"),
+    (" acceleration pts", " velocity pts", "a channel of velocity has units of cm/s2"),
+])  # fmt: skip
+def test_cosmos_units_are_held_to_their_code(old: str, new: str, word: str) -> None:
+    """The peak was a hundred times too high; the channel vanished."""
+    with pytest.raises(RecordError, match=word):
+        read_text(made("COSMOS V1/V2").replace(old, new))
 
 
 def test_miniseed_that_fails_its_own_check_is_refused(counts: np.ndarray) -> None:

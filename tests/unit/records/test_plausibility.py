@@ -6,7 +6,7 @@ import pytest
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram, Source
-from rocking.records.plausibility import agree_with_header, pass_limits
+from rocking.records.plausibility import agree_with_header, damage_warnings, pass_limits
 
 
 def record(peak: float) -> Accelerogram:
@@ -47,3 +47,32 @@ def test_limits() -> None:
     assert "8e-06 g, below 1e-5 g" in told and "multiplied by 980.665" in told
     (told,) = pass_limits(record(0.0))
     assert "noise" in told
+
+
+SHAKING = np.sin(np.arange(400) / 5) * np.hanning(400)
+
+
+def test_a_sample_alone_is_told_with_the_peak_without_it() -> None:
+    """An exponent E-01 read as E+01 made Rinaldi's 0.874 g 2.93 g."""
+    for place in (0, 150, 399):
+        struck = SHAKING.copy()
+        struck[place] = 30.0
+        (told,) = damage_warnings(Accelerogram(struck, 0.01))
+        assert f"at {place * 0.01:g} s is 3.06 g" in told
+        without = np.abs(np.delete(SHAKING, place)).max() / GRAVITY
+        assert f"without it the peak acceleration is {without:.3g} g" in told
+    # a peak of 1.9 times all others is a peak
+    struck[399] = 1.9
+    assert damage_warnings(Accelerogram(struck, 0.01)) == () == damage_warnings(Accelerogram(SHAKING, 0.01))
+
+
+def test_zeros_within_shaking_and_long_steps_are_told() -> None:
+    for zeros, told in ((49, False), (50, True)):
+        gap = SHAKING + 1e-9
+        gap[180 : 180 + zeros] = 0.0
+        assert bool(damage_warnings(Accelerogram(gap, 0.01))) == told
+    still = np.concatenate([np.zeros(300), SHAKING + 1e-9, np.zeros(300)])
+    assert (
+        damage_warnings(Accelerogram(still, 0.1)) == () == damage_warnings(Accelerogram(np.zeros(400), 0.1))
+    )
+    assert "6.01 s" in damage_warnings(Accelerogram(SHAKING, 6.01))[0]
