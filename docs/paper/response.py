@@ -28,10 +28,12 @@ def example_arch(radius: float) -> Arch:
 
 
 def response_curves(accelerogram: Accelerogram) -> list[Curve]:
-    """Return the record with its dominant pulse (b) and the responses with what is predicted (c, d)."""
+    """Return the strong phase with the dominant pulse (b) and the responses with what is predicted (c, d)."""
     pulse = extract_pulses(accelerogram).dominant
     times = np.linspace(pulse.start_time, pulse.end_time, 121)
-    ground = thinned(accelerogram.times, accelerogram.acceleration, _POINTS)
+    strong = np.flatnonzero(np.abs(accelerogram.acceleration) > 0.25 * accelerogram.peak_acceleration)
+    phase = slice(int(strong[0]), int(strong[-1]) + 1)
+    ground = thinned(accelerogram.times[phase], accelerogram.acceleration[phase], _POINTS)
     curves = [
         Curve("b", "record", _TIME, "acceleration [m/s²]", *ground),
         Curve("b", "dominant pulse", _TIME, "acceleration [m/s²]", times, pulse.acceleration(times), "--"),

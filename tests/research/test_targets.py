@@ -132,7 +132,7 @@ def test_validate_predicts_what_the_tests_showed(rows, asked):
 
 def test_paper_redraws_what_it_can(rows, asked):
     (said,) = (asked.folder / LOG / "paper.log").read_text().splitlines()
-    assert said == "Fig. 8 was left out: records/near_fault.csv lists no RSN1063_NORTHR_RRS228."
+    assert said.endswith("records/near_fault.csv lists no RSN1063_NORTHR_RRS228.")
     for figure in ("figure_3", "figure_4", "figure_6", "figure_7", "equation_14", "pulse_spectrum"):
         assert len(rows(f"paper/{figure}.csv")) > 30
         assert "<svg" in (asked.results / "paper" / f"{figure}.svg").read_text()

@@ -12,6 +12,7 @@ from docs.paper import curves as paper_curves
 from docs.paper.equations import drawn_gravity, drawn_ground, drawn_inertia
 from docs.paper.report import EquationRow, equation_rows, equivalence_figures, paper_figures, paper_report
 from docs.paper.response import RADII, example_arch, predicted_levels, response_curves
+from docs.paper.write import SHIPPED, write_paper
 from rocking.motion import integrate
 from rocking.pulses import extract_pulses
 from rocking.records import read
@@ -111,7 +112,7 @@ def test_the_block_exact_at_rest_overturns_more_nearly_when_the_structure_does(t
 
 @pytest.fixture(scope="module")
 def figures():
-    return paper_figures(None)
+    return paper_figures(read(SHIPPED)[0], "The record of the paper is missing. ")
 
 
 def test_every_figure_is_a_table_of_its_curves(figures):
@@ -124,14 +125,16 @@ def test_every_figure_is_a_table_of_its_curves(figures):
             assert drawn == len(figure.rows)
 
 
-def test_curves_are_told_apart_without_colour(figures):
-    for figure in figures:
-        for panel in figure.figure.axes:
-            styles = [str(line._dash_pattern) + line.get_linestyle() for line in panel.lines]
-            assert len(set(styles)) == len(styles)
+@pytest.mark.slow
+def test_without_its_record_figure_8_says_so_and_shows_the_shipped_one(tmp_path):
+    message = write_paper(SHIPPED.with_name("catalogue.csv"), None, tmp_path)
+    assert message.startswith("Fig. 8 is drawn for the shipped record") and "lists no RSN1063" in message
+    assert (tmp_path / "figure_8.csv").stat().st_size > 1000
+    assert (tmp_path / "paper.pdf").read_bytes().startswith(b"%PDF")
 
 
-def test_the_document_is_the_same_twice(figures, equations):
+def test_the_document_is_the_same_twice_and_names_what_is_missing(figures, equations):
+    assert "The record of the paper is missing." in figures[-1].caption
     assert paper_report(figures, equations) == paper_report(figures, equations)
     assert {type(row) for row in equations} == {EquationRow}
 
