@@ -183,7 +183,7 @@ def _pulse_spectrum() -> PaperFigure:
 def _figure_8(record: Accelerogram, instead: str) -> PaperFigure:
     caption = (
         f"Fig. 8. {instead}Arches of 157.5° with a thickness of 0.15 r under the record: (a) the arch of r = 10 m "
-        "at rest (dashed) and displaced, with its thrust line at onset; (b) its dominant pulse; (c, d) full integration "
+        "at rest (dashed) and displaced, with its thrust line at onset; (b) its dominant pulse; (c, d) the integration "
         "for r = 10 m and 15 m beside the predicted maximum. A prediction that overturns has no line. "
         "The paper's block keeps the true uplift acceleration (a_sc,alt); ours is exact at rest."
     )

@@ -17,7 +17,7 @@ SHIPPED = Path(__file__).parents[2] / "records" / "20161113_110259_WTMC_20.V2A"
 def write_paper(catalogue: Path, mirror: str | None, folder: Path) -> str:
     """Write the paper's figures (SVG and CSV), the table of its equations and paper.pdf into `folder`.
 
-    Fig. 8 needs the Rinaldi record, which may not be shipped: where neither `mirror` holds it nor the network, its panels
+    Fig. 8 needs the Rinaldi record, which may not be shipped: where neither `mirror` nor the network has it, its panels
     are drawn for the shipped record, and its caption says why. Returns a sentence that says so, or that all
     figures were drawn.
     """

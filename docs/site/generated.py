@@ -108,31 +108,23 @@ def regimes(_: Path) -> str:
     return table(("regime", "meaning"), ((regime.value, regime.sentence) for regime in Regime))
 
 
-WINGS = {
-    "records": "Records",
-    "structures": "Structures",
-    "pulses": "Pulses",
-    "sine_pulse": "Closed form under one sine pulse",
-    "motion": "Integration",
-    "assessment": "Assessment",
-    "study": "Studies",
-    "errors": "Errors",
+TOPICS = {
+    "records": ("records",),
+    "structures": ("structures",),
+    "pulses": ("pulses", "sine_pulse"),
+    "motion": ("motion",),
+    "assessment": ("assessment",),
+    "studies": ("study", "reports", "errors"),
 }
-"""Part of the package: heading under which its public names stand."""
+"""Page of the Python names: the parts of the package from which they come."""
 
 
-def api(_: Path) -> str:
-    """Every public name, by the part of the package it comes from, for mkdocstrings to describe."""
-    names: dict[str, list[str]] = {wing: [] for wing in WINGS}
-    for name in rocking.__all__:
-        module = getattr(rocking, name).__module__
-        names[module.split(".")[1]].append(f"{module}.{name}")
-    sections = (
-        [f"## {heading}", *(f"::: {path}" for path in names[wing])]
-        for wing, heading in WINGS.items()
-        if names[wing]
+def api(topic: str) -> str:
+    """The public names of a topic, for mkdocstrings to describe."""
+    modules = ((getattr(rocking, name).__module__, name) for name in rocking.__all__)
+    return "\n\n".join(
+        f"::: {module}.{name}" for module, name in modules if module.split(".")[1] in TOPICS[topic]
     )
-    return "\n\n".join("\n\n".join(section) for section in sections)
 
 
 GENERATED: Mapping[str, Callable[[Path], str]] = {
@@ -147,9 +139,8 @@ GENERATED: Mapping[str, Callable[[Path], str]] = {
         pulse_methods,
         blocks,
         regimes,
-        api,
     )
-}
+} | {f"api_{topic}": lambda _, topic=topic: api(topic) for topic in TOPICS}
 """What may stand behind `generated:` in a page."""
 
 

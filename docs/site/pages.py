@@ -82,7 +82,8 @@ def illustrated(text: str, page: str) -> tuple[str, dict[str, str]]:
 
     home = Path.cwd()
     with tempfile.TemporaryDirectory() as folder, matplotlib.rc_context(_RC):
-        os.chdir(folder)  # as a reader who tries the examples in a folder of their own
+        (Path(folder) / "records").symlink_to(ROOT / "records")
+        os.chdir(folder)  # as a reader who tries the examples in a folder with the shipped records
         try:
             return _EXAMPLE.sub(made, text), figures
         finally:

@@ -120,7 +120,7 @@ def test_every_figure_is_a_table_of_its_curves(figures):
     for figure in figures:
         lines = list(csv_lines(figure.row_class, figure.rows))
         assert len(lines) == len(figure.rows) + 1 > 30
-        if figure.name != "pulse_spectrum":
+        if figure.name not in ("pulse_spectrum", "figure_8"):  # which draw more than curves
             drawn = sum(len(line.get_xdata()) for panel in figure.figure.axes for line in panel.lines)
             assert drawn == len(figure.rows)
 

@@ -11,6 +11,7 @@ from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
 
+import numpy as np
 import pytest
 import yaml
 
@@ -81,10 +82,61 @@ class Links(HTMLParser):
 @pytest.mark.parametrize("path", [p for p in PAGES if python_blocks(written(p))], ids=lambda path: path.stem)
 def test_the_examples_of_a_page_run(path, tmp_path):
     """In a process of their own, one after the other, warnings as errors."""
+    (tmp_path / "records").symlink_to(ROOT / "records")
     script = tmp_path / "example.py"
     script.write_text("\n".join(python_blocks(written(path))), encoding="utf-8")
     ignored = "ignore:SelectableGroups dict interface:DeprecationWarning"
     succeeds(sys.executable, "-W", "error", "-W", ignored, str(script), folder=tmp_path)
+
+
+def test_the_page_on_fdsn_reaches_a_verdict(monkeypatch, capsys):
+    """With a stored answer in the place of the service: counts, and the sensitivity that makes them m/s²."""
+    (code, _) = re.findall(r"^```py\n(.*?)^```$", written(FOLDER / "fdsn.md"), re.M | re.S)
+    stream, inventory, acceleration = stored_answer()
+
+    class Client:
+        def __init__(self, name):
+            self.name = name
+
+        def get_waveforms(self, starttime, endtime, **channel):
+            return stream
+
+        def get_stations(self, level, **channel):
+            return inventory
+
+    monkeypatch.setattr("obspy.clients.fdsn.Client", Client)
+    names = {}
+    exec(compile(code, "fdsn.md", "exec"), names)
+    for record in names["records"]:
+        assert np.allclose(record.acceleration, acceleration, atol=1 / COUNTS_PER_M_S2)
+    assert "overturns in " in capsys.readouterr().out
+
+
+COUNTS_PER_M_S2 = 2.0e5
+
+
+def stored_answer():
+    """A stream of two horizontal channels in counts, its inventory, and the acceleration that it holds, m/s²."""
+    from obspy import Stream, Trace, UTCDateTime
+    from obspy.core.inventory import Channel, Inventory, Network, Response, Station
+    from obspy.core.inventory.response import InstrumentSensitivity
+
+    start, place = (
+        UTCDateTime("2019-07-06T03:19:40"),
+        {"latitude": 35.8, "longitude": -117.6, "elevation": 735},
+    )
+    times = np.arange(0, 20, 0.01)
+    acceleration = 3.0 * np.sin(2 * np.pi * times) * (times > 5) * (times < 6)
+    said = InstrumentSensitivity(COUNTS_PER_M_S2, 1.0, input_units="M/S**2", output_units="COUNTS")
+    channels, traces = [], []
+    for code, azimuth in (("HNE", 90.0), ("HNN", 0.0)):
+        response = Response(instrument_sensitivity=said)
+        at = {"depth": 0.0, "azimuth": azimuth, "dip": 0.0, "sample_rate": 100.0, "start_date": start - 1e6}
+        channels.append(Channel(code, "", **place, **at, response=response))
+        header = {"network": "CI", "station": "CLC", "channel": code, "delta": 0.01, "starttime": start}
+        traces.append(Trace(np.round(acceleration * COUNTS_PER_M_S2).astype(np.int32), header))
+    station = Station("CLC", **place, channels=channels)
+    return Stream(traces), Inventory(networks=[Network("CI", stations=[station])]), acceleration
 
 
 @pytest.mark.slow
@@ -161,10 +213,10 @@ def test_the_site_leaves_nothing_of_the_code_out(site):
 def test_a_drawing_shows_the_letter_of_every_size(name, kind, form):
     """Every length and angle that the form requires; those of several floors are numbered."""
     texts = {text.get_text().strip() for text in drawing(kind, form).axes[0].texts} - {""}
-    for field in form.fields:
-        if field.required and field.letter and field.unit in ("m", "°"):
-            shown = (text.rstrip("₀₁₂₃₄₅₆₇₈₉") in (field.letter, field.letter[0]) for text in texts)
-            assert any(shown), field.key
+    for field in form.keys.values():
+        letter = field.said.letter
+        if field.required and letter and field.unit in ("m", "°"):
+            assert any(text.rstrip("₀₁₂₃₄₅₆₇₈₉") in (letter, letter[0]) for text in texts), field.meaning
 
 
 @pytest.mark.slow
