@@ -130,7 +130,7 @@ def _catalogue(options: argparse.Namespace) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from rocking.study.launch import run
+    from rocking.study.run import run
 
     return run(options.folder, options.snakemake)
 
@@ -200,7 +200,7 @@ def _spectrum(options: argparse.Namespace) -> None:
 
 def _accelerograms(options: argparse.Namespace):
     """The horizontal components of the file, processed as a study would."""
-    from rocking.study.run import Study
+    from rocking.study.job import Study
 
     own = _own_file(options)
     return Study({}).opened(own.channels, own.record)[0]

@@ -3,9 +3,7 @@
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from rocking.assessment.fragility import (
-    incremental_dynamic_analysis,
-)
+from rocking.assessment.fragility import incremental_dynamic_analysis
 from rocking.assessment.fragility.hazard import read_hazard
 from rocking.assessment.fragility.rows import (
     FRAGILITY_TABLES,
@@ -23,7 +21,7 @@ from rocking.assessment.intensity import IntensityMeasure, intensity_measure
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
-from rocking.study.run import Study
+from rocking.study.job import Study
 from rocking.tables import Row, write_tables
 
 

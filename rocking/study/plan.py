@@ -4,20 +4,26 @@ import hashlib
 import json
 import math
 import os
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+import time
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
-from rocking.records.fetch import fill_hashes, filled
-from rocking.structures import load_structures
-from rocking.study.config_file import named_files, read_settings
-from rocking.study.inputs import ContentHashes, files_sha256, structures_sha256
-from rocking.study.settings import Settings
+from rocking.records.fetch import fill_hashes, filled, local_files
+from rocking.structures import Structure, load_structures
+from rocking.study.settings import Settings, named_files, read_settings
+from rocking.tables import write_whole
 
 Found = TypeVar("Found")
+
+_HASHES = Path(".snakemake") / "rocking_hashes.json"
+"""Beside what snakemake remembers of a study; it may be removed at any time."""
+_SETTLED = 2.0
+"""s; a file that changed more recently may change again without its times telling, so its hash is not kept."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +37,7 @@ class Plan:
     """Names the settings that change a number, the structure list and the package, in every row."""
     structures_sha256: str
     package_sha256: str
-    hashes: ContentHashes
+    hashes: "ContentHashes"
 
     @property
     def doubts(self) -> tuple[str, ...]:
@@ -42,30 +48,18 @@ class Plan:
         """Write the hashes that the catalogue leaves blank: the files are checked against them from now on."""
         fill_hashes(self.settings.catalogue, self.settings.mirror)
 
-    def job(self, name: str) -> tuple[CatalogueRecord, ...]:
-        """The records of one job."""
-        return tuple(self.records[identifier] for identifier in self.jobs[name])
-
-    def records_sha256(self, name: str | None = None) -> str:
-        """Return one hash for the catalogue rows of one job, or of all."""
-        return records_sha256(self.records.values() if name is None else self.job(name))
-
-    def files_sha256(self, *names: str) -> str:
-        """Return one hash for their contents."""
-        records = (record for name in names for record in self.job(name))
-        return files_sha256(records, self.settings, self.hashes)
-
-
-_HASHES = Path(".snakemake") / "rocking_hashes.json"
-"""Beside what snakemake remembers of a study; it may be removed at any time."""
-
-_CHANGE_NO_NUMBER = (
-    "reports/",
-    *("study/cli.", "study/config_file.", "study/explore.", "study/inputs.", "study/launch.", "study/locks."),
-    *("study/outcome.", "study/progress.", "study/record_reports.", "study/single_record."),
-    *("study/summary_report.", "study/workspace."),
-)
-"""Source whose edit leaves every number of a table as it is."""
+    def params(self, *jobs: str) -> dict[str, Any]:
+        """Return what the results of `jobs`, or of all, depend on: snakemake remembers and compares it."""
+        names = [name for job in jobs for name in self.jobs[job]] if jobs else list(self.records)
+        records = [self.records[name] for name in names]
+        return {
+            "records": names,
+            "records_sha256": records_sha256(records),
+            "files_sha256": files_sha256(records, self.settings, self.hashes),
+            "structures_sha256": self.structures_sha256,
+            "settings_sha256": self.settings_sha256,
+            "package_sha256": self.package_sha256,
+        }
 
 
 def make_plan(config: Mapping[str, Any]) -> Plan:
@@ -75,14 +69,13 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     """
     defects: list[str] = []
     settings = _collect(defects, lambda: read_settings(config)) or named_files(config)
-    structures = Path(settings.structures)
     listed = _collect(defects, lambda: load_catalogue(settings.catalogue)) or ()
     records = [filled(record, settings.mirror) for record in listed]
-    _collect(defects, lambda: load_structures(structures))
+    structures = _collect(defects, lambda: load_structures(settings.structures))
     _collect(defects, lambda: check_writable(Path(settings.results)))
-    if defects:
+    if defects or structures is None:
         raise ConfigurationError("\n".join(defects))
-    package, described = package_sha256(leave_out=_CHANGE_NO_NUMBER), structures_sha256(structures)
+    package, described = package_sha256(), structures_sha256(structures)
     return Plan(
         settings=settings,
         records={record.id: record for record in records},
@@ -107,56 +100,83 @@ def check_writable(results: Path) -> None:
 
 def settings_sha256(settings: Settings, structures: str, package: str) -> str:
     """Return one hash for the settings that change a number, and those of the structure list and the package."""
-    text = "\0".join((json.dumps(settings.numbers(), sort_keys=True), structures, package))
-    return hashlib.sha256(text.encode()).hexdigest()
+    return _sha256(json.dumps(settings.numbers(), sort_keys=True), structures, package)
 
 
-def package_sha256(leave_out: Sequence[str] = ()) -> str:
-    """Return one hash for the source of this package, without what lies below the names in `leave_out`."""
-    root = Path(__file__).parents[1]
-    digest = hashlib.sha256()
-    for path in sorted(root.rglob("*")):
-        name = path.relative_to(root).as_posix()
-        if path.suffix in _SOURCE and not name.startswith(tuple(leave_out)):
-            digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
-    return digest.hexdigest()
-
-
-_SOURCE = {".py", ".csv", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
+def structures_sha256(structures: Mapping[str, Structure]) -> str:
+    """Return one hash for what a structure list says, whatever its comments and its layout."""
+    return _sha256(json.dumps({name: each.as_config() for name, each in structures.items()}, default=str))
 
 
 def records_sha256(records: Iterable[CatalogueRecord]) -> str:
     """Return one hash for catalogue rows, in their order."""
-    return hashlib.sha256("\n".join(map(repr, records)).encode()).hexdigest()
+    return _sha256(*map(repr, records))
 
 
-def planned_records(
-    catalogue: Path, identifiers: Collection[str] | None, sha256: str
-) -> tuple[CatalogueRecord, ...]:
-    """Return the rows of `catalogue`, those of `identifiers` or all, which must be those that were planned.
+def files_sha256(records: Iterable[CatalogueRecord], settings: Settings, hashes: "ContentHashes") -> str:
+    """Return one hash for the files on this machine from which `records` are read, StationXML among them."""
+    files = {p for record in records for p in local_files(record, settings.mirror)}
+    return _sha256(*(f"{path}\0{hashes.of(path)}" for path in sorted(files)))
 
-    Raises ConfigurationError when the catalogue was edited since.
+
+def package_sha256() -> str:
+    """Return one hash for the source of this package."""
+    root = Path(__file__).parents[1]
+    digest = hashlib.sha256()
+    for path in sorted(root.rglob("*")):
+        if path.suffix in _SOURCE:
+            digest.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+_SOURCE = {".py", ".csv", ".json", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
+
+
+class ContentHashes:
+    """The sha256 of files. store: a file that keeps them from run to run, for as long as a file's size and times stay.
+
+    The time of the last change (ctime), which no program can set, stands among them.
     """
-    rows = load_catalogue(catalogue)
-    records = tuple(row for row in rows if identifiers is None or row.id in identifiers)
-    if records_sha256(records) != sha256:
-        raise ConfigurationError(
-            f"{catalogue}: the catalogue changed while the study ran; start the study again."
-        )
-    return records
+
+    def __init__(self, store: Path | None = None) -> None:
+        self._store = store
+        self._known = _stored(store) if store else {}
+        self._kept: dict[str, list[object]] = {}
+
+    def of(self, path: Path) -> str:
+        """Return the sha256 of the file at `path`, "" where it cannot be read."""
+        try:
+            status = path.stat()
+            marks = [status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino]
+            known = self._known.get(str(path))
+            if known and known[:-1] == marks:
+                found = str(known[-1])
+            else:
+                with path.open("rb") as stream:
+                    found = hashlib.file_digest(stream, "sha256").hexdigest()
+        except OSError:
+            return ""
+        if time.time() - status.st_ctime > _SETTLED:
+            self._kept[str(path)] = [*marks, found]
+        return found
+
+    def save(self) -> None:
+        """Keep what is known of the files that were asked for, if the folder of the store is there."""
+        if self._store and self._store.parent.is_dir() and self._kept != self._known:
+            write_whole(self._store, json.dumps(self._kept).encode())
 
 
 def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, tuple[str, ...]]:
     """Share out records to jobs by a hash of their identifier, so that adding one record changes one job.
 
-    size: about how many records a job takes; None chooses about the square root of their number, but more rather than
-    start more than eight jobs, and at most 200, so that neither starting a job nor losing one costs much: a start costs
-    as much as twenty records. The number of jobs is a power of two; only where it doubles, every job changes.
+    size: about how many records a job takes; None chooses eight, but more rather than start more than eight jobs, and
+    at most 200, so that neither starting a job nor losing one costs much: a start costs as much as twenty records
+    without reports. The number of jobs is a power of two; only where it doubles, every job changes.
     Returns the identifiers of each job that has any, in their order, by the name of the job.
     """
     identifiers = tuple(identifiers)
     number = len(identifiers)
-    wanted = number / size if size else max(min(number**0.5, _FEW_JOBS), number / _MANY_RECORDS)
+    wanted = number / size if size else max(min(number / _FEW, _FEW), number / _MANY)
     count = 1 << max(0, (math.ceil(wanted) - 1).bit_length())
     shared: dict[str, list[str]] = {}
     for identifier in identifiers:
@@ -165,7 +185,21 @@ def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, 
     return {name: tuple(shared[name]) for name in sorted(shared)}
 
 
-_FEW_JOBS, _MANY_RECORDS = 8, 200
+_FEW, _MANY = 8, 200
+
+
+def _sha256(*texts: str) -> str:
+    return hashlib.sha256("\n".join(texts).encode()).hexdigest()
+
+
+def _stored(store: Path) -> dict[str, list[object]]:
+    with suppress(OSError, ValueError):
+        found = json.loads(store.read_text(encoding="utf-8"))
+        if isinstance(found, dict) and all(
+            isinstance(marks, list) and len(marks) == 5 for marks in found.values()
+        ):
+            return found
+    return {}
 
 
 def _collect(defects: list[str], load: Callable[[], Found]) -> Found | None:

@@ -1,173 +1,317 @@
-"""A study: many records against one list of structures."""
+"""rocking run: snakemake in a process of its own, its log in a file, and on the terminal what one wants to know."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+import contextlib
+import ctypes
+import fcntl
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from time import process_time
+from threading import Thread
+from typing import BinaryIO
 
-from rocking.assessment.assess import Assessment, Failure, assess_structures
-from rocking.assessment.ensemble import GroundMotions, ensemble
-from rocking.assessment.ensemble.ground_motions import processed
-from rocking.assessment.fate import BOTH_COMPONENTS
-from rocking.assessment.horizontal_motion import horizontal_motions
-from rocking.assessment.method import Method
-from rocking.assessment.rows.of_case import candidate_rows, ensemble_row, processing_rows
-from rocking.assessment.rows.of_folder import RecordTables
-from rocking.assessment.rows.of_record import TimingRow
-from rocking.assessment.rows.shared import Identity
-from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.variations import candidates, processed_variants
-from rocking.errors import RockingError
-from rocking.records import Accelerogram, CatalogueRecord, Station, aligned, open_station
-from rocking.records.processing import process
-from rocking.records.station import station_of
-from rocking.structures import Structure
-from rocking.study.outcome import record_line
-from rocking.study.parts import written_part
-from rocking.study.settings import Settings
+import yaml
 
-Opened = tuple[list[Accelerogram], Accelerogram | None]
-"""The horizontal components of a record, and its vertical one where that acts too."""
+from rocking.assessment.fate import Fate
+from rocking.assessment.rows.of_record import FailureRow
+from rocking.errors import ConfigurationError, RockingError
+from rocking.quantities import counted
+from rocking.study.outcome import closing_lines, paths_to_read
+from rocking.study.plan import Plan, make_plan
+from rocking.study.progress import PIPE, Progress, fitting
+from rocking.study.settings import named_files
+from rocking.study.workspace import workflow_folder
+from rocking.tables import read_rows, read_table
+
+_CORES = re.compile(r"(--cores|--jobs)(=.*)?|-[cj]\d*|-[cj]all")
+_ANSWERS = re.compile(
+    r"(-[nhvlSDt]|--(dry-?run|help|version|list|list-rules|list-changes|lint|dag|rulegraph|filegraph|d3dag|summary|"
+    r"detailed-summary|report|unlock|touch|archive|delete-all-output|print-compilation))(=.*)?"
+)
+"""Options with which snakemake answers a question instead of running the study: its answer is shown as it is."""
+_POLL = 0.2
+"""s between two looks at processes that end by themselves."""
 
 
-@dataclass(frozen=True)
-class Study:
-    """What every record of a study is put through: structures by name, and settings.
+def run(folder: Path, options: Sequence[str]) -> int:
+    """Run the workflow on the study in `folder`, with further options for snakemake, and return the exit status.
 
-    settings_sha256: names the settings, the structure list and the package in every row.
+    The status is 0, or 1 when a record or a job failed. Raises ConfigurationError, before snakemake starts, when the
+    folder holds no study or the study has defects.
     """
-
-    structures: Mapping[str, Structure]
-    settings: Settings = field(default_factory=Settings)
-    settings_sha256: str = ""
-
-    @cached_property
-    def assessment(self) -> AssessmentSettings:
-        """What a record is compared with: in full where a report is made, which shows every method."""
-        chosen = self.settings
-        return replace(chosen, fidelity="full") if self.settings.reports else chosen
-
-    def open(self, record: CatalogueRecord) -> Opened:
-        """Return the components of `record`, processed as the settings say.
-
-        Raises RecordError naming the record, also when the vertical component does not fit the others.
-        """
-        return self._processed(open_station(record, self.settings.mirror))
-
-    def opened(self, channels: list[Accelerogram], record: CatalogueRecord) -> Opened:
-        """Return what open() returns, from the `channels` of the record's file. Raises RecordError."""
-        return self._processed(station_of(channels, record))
-
-    def _processed(self, station: Station) -> Opened:
-        done = [self._process(accelerogram) for accelerogram in station.horizontal]
-        if station.vertical is None or not self.settings.vertical:
-            return done, None
-        vertical = self._process(station.vertical)
-        for accelerogram in done:
-            aligned(vertical, accelerogram)
-        return done, vertical
-
-    def _process(self, accelerogram: Accelerogram) -> Accelerogram:
-        which = self.settings.processing.apply
-        wanted = which == "always" or (which == "raw" and accelerogram.processed is False)
-        return process(accelerogram, self.settings.processing) if wanted else accelerogram
+    plan = _planned(folder)
+    command = _command(folder, options)
+    if any(_ANSWERS.fullmatch(option) for option in options):
+        return subprocess.run(command, check=False, env=_environment()).returncode
+    target = next((option for option in options[:1] if not option.startswith("-")), None)
+    return _alone(folder, plan, command, target)
 
 
-def assess_records(records: Iterable[CatalogueRecord], study: Study, folder: Path, log: Path) -> None:
-    """Write the tables of `records`, one record after another, into `folder`, and a line for each into `log`."""
-    with log.open("w", encoding="utf-8") as stream, written_part(folder) as add:
-        for record in records:
-            found = assess_record(record, study)
-            add(found)
-            line = record_line(found.verdicts, found.failures)
-            print(f"{record.id}: {line}", file=stream, flush=True)
-
-
-def assess_record(record: CatalogueRecord, study: Study) -> RecordTables:
-    """Return the tables of `record`; what fails becomes a row of its failures."""
-    started = process_time()
-    tables = RecordTables()
-    try:
-        opened = study.open(record)
-    except RockingError as error:
-        tables.fail(record.id, "", Failure("read", "", str(error)))
-        opened = [], None
-    return assess_components(record, opened, study, tables, process_time() - started)
-
-
-def assess_components(
-    record: CatalogueRecord,
-    opened: Opened,
-    study: Study,
-    tables: RecordTables | None = None,
-    read_duration: float = 0.0,
-) -> RecordTables:
-    """Return the tables of the components that were `opened`. tables: what is known already."""
-    tables = tables or RecordTables()
-    durations = {"read": read_duration}
-    accelerograms, vertical = opened
-    started = process_time()
-    motions = horizontal_motions(accelerograms)
-    if accelerograms:
-        durations["velocity pulse"] = process_time() - started
-    for accelerogram, motion in zip(accelerograms, motions, strict=True):
-        beside = None if vertical is None else aligned(vertical, accelerogram)
-        assessment = assess_structures(accelerogram, study.structures, study.assessment, beside)
-        identity = Identity(record.id, accelerogram, study.settings_sha256)
-        tables.add(identity, assessment, study.assessment, record.licence, beside, motion)
-        varied = process_time()
-        _vary(identity, assessment, study, tables, beside)
-        spent = {"variations": process_time() - varied, **assessment.durations}
-        durations |= {stage: durations.get(stage, 0.0) + duration for stage, duration in spent.items()}
-    if len(accelerograms) == 2 and study.assessment.ensemble.members and study.assessment.fidelity == "full":
-        started = process_time()
-        _assess_directions(record, opened, study, tables)
-        durations["directions"] = process_time() - started
-    for stage, duration in durations.items():
-        tables.timings.append(TimingRow(record=record.id, stage=stage, duration_s=duration))
-    return tables
-
-
-def _assess_directions(record: CatalogueRecord, opened: Opened, study: Study, tables: RecordTables) -> None:
-    """Append the ensembles over directions, where the record has two horizontal components."""
-    accelerograms, vertical = opened
-    settings = study.assessment.ensemble
-    identity = Identity(record.id, accelerograms[0], study.settings_sha256)
-    names = dict.fromkeys(alone.structure for alone in tables.ensemble)
-    try:
-        motions = GroundMotions.of_pair(
-            accelerograms[0], accelerograms[1], vertical, processing=settings.processing
+def _planned(folder: Path) -> Plan:
+    config = folder / "config.yaml"
+    if not config.is_file():
+        raise ConfigurationError(
+            f"{folder} holds no config.yaml; start a study there first: rocking start {folder}"
         )
-        for name in names:
-            found = ensemble(study.structures[name], motions, settings, tolerance=study.assessment.tolerance)
-            tables.ensemble.append(ensemble_row(identity, name, found, BOTH_COMPONENTS))
-    except RockingError as error:
-        tables.fail(record.id, BOTH_COMPONENTS, Failure("directions", "", str(error)))
+    settings = _read(config)
+    catalogue = folder / named_files(settings).catalogue
+    if not catalogue.is_file():
+        raise ConfigurationError(
+            f"{catalogue}: there is no catalogue yet; put records beside it, then: rocking catalogue {catalogue.parent}"
+        )
+    with contextlib.chdir(folder):
+        return make_plan(settings)
 
 
-def _vary(
-    identity: Identity,
-    assessment: Assessment,
-    study: Study,
-    tables: RecordTables,
-    vertical: Accelerogram | None,
-) -> None:
-    """Append the rows of candidates and processing, for every structure that gave a result."""
-    record, cases = identity.accelerogram, {case.structure: case for case in assessment.cases}
-    for name, case in cases.items():
-        pulse = case.prediction.pulse if case.prediction else None
-        try:
-            found = candidates(
-                study.structures[name], record, pulse, study.settings.candidates, study.assessment
+def _read(config: Path) -> dict[str, object]:
+    try:
+        settings = yaml.safe_load(config.read_text(encoding="utf-8")) or {}
+        if not isinstance(settings, dict):
+            raise TypeError(f"it holds a {type(settings).__name__}")
+    except (yaml.YAMLError, UnicodeDecodeError, TypeError) as error:
+        reason = " ".join(str(error).split())
+        raise ConfigurationError(
+            f"{config}: this is no YAML mapping of settings ({reason}); mend it."
+        ) from None
+    return settings
+
+
+def _command(folder: Path, options: Sequence[str]) -> list[str]:
+    home = workflow_folder()
+    cores = [] if any(_CORES.fullmatch(option) for option in options) else ["--cores", "all"]
+    return [
+        *(sys.executable, "-P", "-m", "snakemake", "--snakefile", str(home / "Snakefile")),
+        *("--workflow-profile", str(home / "workflow" / "profiles" / "default")),
+        *("--directory", str(folder), "--configfile", str(folder.resolve() / "config.yaml")),
+        *("--logger", "rocking"),
+        *cores,
+        *options,
+    ]
+
+
+def _alone(folder: Path, plan: Plan, command: Sequence[str], target: str | None) -> int:
+    with _only_run(folder) as held:
+        if is_locked(folder):
+            if not _is_stale(folder):
+                raise RockingError(
+                    f"{folder}: snakemake locked this study, and may still work in it; "
+                    f"if it does not, take the lock away: {_again(folder)} -- --unlock"
+                )
+            print("A run that was killed left its lock, which is taken away.", flush=True)
+            subprocess.run([*command, "--unlock"], check=True, capture_output=True, env=_environment())
+        return _watched(folder, plan, command, target, held)
+
+
+def _watched(folder: Path, plan: Plan, command: Sequence[str], target: str | None, held: int) -> int:
+    results = folder / plan.settings.results
+    log = results / "summary" / "logs" / "run.log"
+    log.parent.mkdir(parents=True, exist_ok=True)
+    print(
+        *plan.doubts,
+        f"{counted(len(plan.records), 'record')}; log of the scheduler: {log}",
+        "Numbers: members of the ensemble that overturn, or the largest rotation over the critical rotation.",
+        sep="\n",
+        flush=True,
+    )
+    progress = Progress(
+        {f"assess_{job}": len(records) for job, records in plan.jobs.items()}, max(map(len, plan.records))
+    )
+    with tempfile.TemporaryDirectory() as own, log.open("w", encoding="utf-8") as stream:
+        pipe = Path(own) / "progress"
+        os.mkfifo(pipe)
+        with pipe.open("r+b", buffering=0) as told:  # written too: else it would end whenever nobody writes
+            process = subprocess.Popen(
+                command,
+                stdout=stream,
+                stderr=subprocess.STDOUT,
+                env=_environment() | {PIPE: str(pipe)},
+                pass_fds=[held],
+                start_new_session=True,
+                preexec_fn=_ends_with(os.getpid()),
             )
-            tables.candidates.extend(candidate_rows(identity, name, found))
-        except RockingError as error:
-            tables.fail(identity.record, record.component, Failure("variations", name, str(error)))
-    if study.settings.processing_variants:
-        structures = {name: study.structures[name] for name in cases}
-        followed = {name: case.responses.get(Method.MECHANISM_ON_RECORD) for name, case in cases.items()}
-        known = {name: response for name, response in followed.items() if response is not None}
-        variants = processed_variants(structures, processed(record), study.assessment, known, vertical)
-        for name, of_structure in variants.items():
-            tables.maxima.extend(processing_rows(identity, name, of_structure))
+            _mark(folder, process.pid)
+            with _stoppable(process) as stopped:
+                _follow(process, told, progress)
+    progress.close()
+    _unmark(folder)
+    if stopped:
+        print(f"Stopped; what was finished stays. To go on: {_again(folder)}")
+        return 128 + stopped[0]
+    if process.returncode:
+        print(f"Not finished: {_reason(progress.errors, log)}\nMend that, then go on: {_again(folder)}")
+        return 1
+    if target is not None:
+        print(f"Finished: {target}; what it wrote lies in {results}")
+        return 0
+    summary = results / "summary"
+    failures = read_table(FailureRow, summary)
+    lines = closing_lines(read_rows(Fate, summary / Fate.table.file_name), failures)
+    print(*map(fitting, lines), *paths_to_read(results), sep="\n", flush=True)
+    return int(bool(failures))
+
+
+@contextlib.contextmanager
+def _stoppable(process: subprocess.Popen[bytes]) -> Iterator[list[int]]:
+    """Yield the signals by which the user or the system asks to stop, of which scheduler and jobs are told once.
+
+    They stand in a process group of their own: the scheduler has to end in order first.
+    """
+    asked: list[int] = []
+
+    def tell(number: int, _: object) -> None:
+        if not asked:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGINT)
+        asked.append(number)
+
+    known = {number: signal.signal(number, tell) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+    try:
+        yield asked
+    finally:
+        for number, handler in known.items():
+            signal.signal(number, handler)
+
+
+def _follow(process: subprocess.Popen[bytes], told: BinaryIO, progress: Progress) -> None:
+    """Show what is sent until the process ends."""
+    waiter = Thread(target=lambda: (process.wait(), told.write(b"\n")))
+    waiter.start()
+    rest = b""
+    while True:
+        *lines, rest = (rest + told.read(65536)).split(b"\n")
+        for line in filter(None, lines):
+            progress(json.loads(line))
+        if b"" in lines:
+            break
+    waiter.join()
+
+
+def _environment() -> dict[str, str]:
+    """That of the scheduler and its jobs: Python imports nothing from the folder it happens to stand in."""
+    plugins = [str(workflow_folder() / "workflow" / "logger"), os.environ.get("PYTHONPATH", "")]
+    return os.environ | {"PYTHONSAFEPATH": "1", "PYTHONPATH": os.pathsep.join(filter(None, plugins))}
+
+
+def _again(folder: Path) -> str:
+    return f"rocking run {folder}"
+
+
+def _reason(errors: Sequence[str], log: Path) -> str:
+    """The sentences of this package in the errors and the log of a run that broke off, else what snakemake said."""
+    text = log.read_text(encoding="utf-8", errors="replace")
+    said = [" ".join(match[1].split()) for match in _SAID.finditer(text)]
+    last = errors[-1].strip().splitlines() if errors else text.strip().splitlines()[-1:]
+    return "; ".join(dict.fromkeys(said)) or " ".join(last) or "snakemake gave no reason"
+
+
+_SAID = re.compile(r"^[ \w.]*Error(?:: | in file .*\n)(.+)", re.MULTILINE)
+"""In a traceback, and as snakemake tells what a Snakefile raised."""
+
+
+@contextlib.contextmanager
+def _only_run(folder: Path) -> Iterator[int]:
+    """Hold the study in `folder` for one run, and yield the file number that its scheduler must inherit.
+
+    The system lets go of it when the last process that holds it is gone, however it ended. Raises RockingError when
+    another run works here.
+    """
+    path = _mark_of(folder)
+    path.parent.mkdir(exist_ok=True)
+    with path.open("a", encoding="utf-8") as stream:
+        try:
+            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise RockingError(
+                f"{folder}: another run works in this study{_owner(folder)}; wait for its end or stop it."
+            ) from None
+        yield stream.fileno()
+
+
+def is_locked(folder: Path) -> bool:
+    """Whether snakemake locked the study in `folder`."""
+    return any((folder / ".snakemake" / "locks").glob("*"))
+
+
+def _is_stale(folder: Path) -> bool:
+    """Whether that lock was left by a run of ours that was killed on this machine; to be called within only_run.
+
+    Waits for jobs that outlived their scheduler: they would write beside those of the next one.
+    """
+    if _marked(folder).get("host") != socket.gethostname() or any(_working(folder, _is_scheduler)):
+        return False
+    while any(_working(folder, _is_job)):
+        time.sleep(_POLL)
+    return True
+
+
+def _ends_with(parent: int) -> Callable[[], None]:
+    """Return what a process calls at birth to be asked to end when `parent`, which starts it, dies of whatever cause.
+
+    Linux tells it by a signal; elsewhere it does not learn of it, and works to its end.
+    """
+    tell = getattr(ctypes.CDLL(None), "prctl", None) if sys.platform == "linux" else None
+
+    def ask() -> None:
+        if tell is not None:
+            tell(_PR_SET_PDEATHSIG, signal.SIGTERM)
+            if os.getppid() != parent:  # it died before
+                os.kill(os.getpid(), signal.SIGTERM)
+
+    return ask
+
+
+_PR_SET_PDEATHSIG = 1
+
+
+def _mark(folder: Path, scheduler: int) -> None:
+    """Leave a mark that the lock which snakemake takes from now on is that of our process `scheduler`."""
+    known = {"host": socket.gethostname(), "process": scheduler}
+    _mark_of(folder).write_text(json.dumps(known), encoding="utf-8")
+
+
+def _unmark(folder: Path) -> None:
+    """Take the mark away, unless a lock is still there: then its owner was killed, and the next run may say so."""
+    if not is_locked(folder):
+        _mark_of(folder).write_text("", encoding="utf-8")
+
+
+def _mark_of(folder: Path) -> Path:
+    return folder / ".snakemake" / "rocking_run.lock"
+
+
+def _marked(folder: Path) -> dict[str, object]:
+    with contextlib.suppress(OSError, ValueError):
+        found = json.loads(_mark_of(folder).read_text(encoding="utf-8"))
+        return found if isinstance(found, dict) else {}
+    return {}
+
+
+def _owner(folder: Path) -> str:
+    found = _marked(folder)
+    return f" (process {found['process']} on {found['host']})" if found else ""
+
+
+def _is_scheduler(part: str) -> bool:
+    return part.endswith(("/snakemake", "snakemake/__main__.py")) or part == "snakemake"
+
+
+def _is_job(part: str) -> bool:
+    return "/.snakemake/scripts/" in part
+
+
+def _working(folder: Path, wanted: Callable[[str], bool]) -> Iterator[int]:
+    """The processes on this machine that stand in `folder` and have a wanted part in their command line."""
+    import psutil  # comes with snakemake
+
+    place = str(folder.resolve())
+    for process in psutil.process_iter():
+        with contextlib.suppress(psutil.Error):
+            if process.cwd() == place and any(map(wanted, process.cmdline())):
+                yield process.pid

@@ -24,9 +24,8 @@ from rocking.records.catalogue import CatalogueRecord
 from rocking.records.read import read
 from rocking.structures import load_structures
 from rocking.structures.outcome import Outcome
-from rocking.study.inputs import structures_sha256
-from rocking.study.plan import package_sha256, settings_sha256
-from rocking.study.run import Opened, Study, assess_components
+from rocking.study.job import Study, assess_components, write_report
+from rocking.study.plan import package_sha256, settings_sha256, structures_sha256
 from rocking.study.settings import Settings
 from rocking.tables import write_rows, write_tables
 
@@ -82,14 +81,18 @@ def assess_file(
     record does not hold what is asked of it.
     """
     listed = load_structures(structures)
-    sha256 = settings_sha256(settings, structures_sha256(structures), package_sha256())
+    sha256 = settings_sha256(settings, structures_sha256(listed), package_sha256())
     study = _narrowed(Study(listed, settings, sha256), name, structures)
     opened = study.opened(own.channels, own.record)
-    tables = assess_components(own.record, opened, study)
+    assessed = assess_components(own.record, opened, study)
     if output is not None:
-        tables.write(output / own.record.id)
-        _write_report(own.record, opened, study, output)
-    return list(_lines(tables))
+        write_report(assessed, study, output / own.record.id)
+        described = {
+            StructureRow: structure_rows(study.structures),
+            CapacityRow: capacity_rows(study.structures),
+        }
+        write_tables(described, output / "summary")
+    return list(_lines(assessed.tables))
 
 
 def write_spectrum(accelerograms: Sequence[Accelerogram], restitution: float, target: Path) -> None:
@@ -105,16 +108,6 @@ def _narrowed(study: Study, name: str | None, structures: Path) -> Study:
         names = ", ".join(study.structures)
         raise ConfigurationError(f"structure is {name!r}, but must be one of those in {structures}: {names}.")
     return replace(study, structures={name: study.structures[name]})
-
-
-def _write_report(record: CatalogueRecord, opened: Opened, study: Study, output: Path) -> None:
-    # Matplotlib and typst take a second to import: only for those who ask for a report.
-    from rocking.study.record_reports import write_report
-
-    folder = output / record.id
-    write_report(record.id, lambda: opened, RecordTables.read(folder), study, folder)
-    described = {StructureRow: structure_rows(study.structures), CapacityRow: capacity_rows(study.structures)}
-    write_tables(described, output / "summary")
 
 
 def _lines(tables: RecordTables) -> Iterator[str]:

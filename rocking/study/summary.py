@@ -1,11 +1,12 @@
-"""The tables of a whole study, gathered from those of its jobs."""
+"""What stands over all records of a study: its tables, report, figure and page, from the parts of its jobs."""
 
 import json
 import platform
-from collections.abc import Iterable, Mapping, Sequence
-from importlib.metadata import version
+from collections.abc import Mapping, Sequence
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from rocking.assessment.fragility.rows import FragilityRow, FragilitySummaryRow, IdaRow
 from rocking.assessment.rows.of_case import ComparisonRow
 from rocking.assessment.rows.of_study import (
     AGREEMENT_COLUMNS,
@@ -18,10 +19,35 @@ from rocking.assessment.rows.of_study import (
     structure_rows,
 )
 from rocking.structures import Structure
-from rocking.study.parts import IN_PARTS, gathered, part
+from rocking.study.job import Study
+from rocking.study.results import IN_PARTS, gathered, page_contents, part, remove_other_parts
 from rocking.tables import data_package, frame, write_tables, write_whole
 
 _GATHERED = [each for each in SUMMARY_TABLES if each in IN_PARTS]
+_GOVERNING = ("structure", "record", "level", "overturning_share")
+_SHOWN = ("record", "pulses", "comparison", "verdicts", "structures", "agreement", "failures")
+
+
+def summarise(
+    study: Study, records: Mapping[str, str], jobs: Sequence[str], hashes: Mapping[str, str]
+) -> None:
+    """Write everything that stands over all records into the folder of the results.
+
+    records: sha256 by identifier, in the order in which their rows are to stand. hashes: of settings and package.
+    """
+    results = Path(study.settings.results)
+    target, parts = results / "summary", [part(results, job) for job in jobs]
+    write_summary(parts, list(records), study.structures, target)
+    _describe(jobs, results)
+    _write_provenance(study, records, hashes, target)
+    if study.settings.reports:
+        from rocking.reports.explore.content import study_page  # matplotlib takes half a second to import
+
+        fragility = results / "fragility"
+        _report(target, study, fragility)
+        page = study_page(page_contents(parts, records), study.structures, fragility / "fragility.csv")
+        write_whole(target / "study.html", page)
+    remove_other_parts(results, jobs)
 
 
 def write_summary(
@@ -33,16 +59,13 @@ def write_summary(
     """
     for each in _GATHERED:
         write_whole(target / each.table.file_name, gathered(each, parts, records))
-    of_structures = {
-        StructureRow: structure_rows,
-        CapacityRow: capacity_rows,
-    }
+    of_structures = {StructureRow: structure_rows, CapacityRow: capacity_rows}
     write_tables({each: rows(structures) for each, rows in of_structures.items()}, target)  # type: ignore[operator]
     cases = frame(ComparisonRow, target / ComparisonRow.table.file_name, AGREEMENT_COLUMNS)
     write_tables({AgreementRow: agreement_rows(cases)}, target)
 
 
-def write_description(jobs: Iterable[str], results: Path) -> None:
+def _describe(jobs: Sequence[str], results: Path) -> None:
     """Describe every column: datapackage.json beside the summary tables, and one in `results` for those of the jobs.
 
     Two, because a data package may not name files outside its own folder.
@@ -55,16 +78,40 @@ def write_description(jobs: Iterable[str], results: Path) -> None:
     write_whole(results / "datapackage.json", data_package("rocking-study", parts))
 
 
-def write_provenance(
-    settings: Mapping[str, object], records: Mapping[str, str], hashes: Mapping[str, str], target: Path
+def _write_provenance(
+    study: Study, records: Mapping[str, str], hashes: Mapping[str, str], target: Path
 ) -> None:
     """Write provenance.json: versions, the hash of every record, the settings and the hash of the code."""
-    packages = ("rocking", "obspy", "numpy", "scipy", "pandas", "matplotlib", "numba", "snakemake", "typst")
+    versions = {"python": platform.python_version()}
+    for name in ("rocking", "obspy", "numpy", "scipy", "pandas", "matplotlib", "numba", "snakemake", "typst"):
+        try:
+            versions[name] = version(name)
+        except PackageNotFoundError:
+            continue
     content = {
-        "versions": {"python": platform.python_version()} | {name: version(name) for name in packages},
-        "settings": dict(settings),
+        "versions": versions,
+        "settings": study.settings.mapping(),
         "hashes": dict(hashes),
         "records": dict(records),
     }
     text = json.dumps(content, indent=1, sort_keys=True, default=str)
     write_whole(target / "provenance.json", (text + "\n").encode())
+
+
+def _report(folder: Path, study: Study, fragility: Path) -> None:
+    """Write summary.pdf and its figure beside the summary tables in `folder`, with fragility and trade if measured."""
+    from rocking.reports.style import svg  # matplotlib takes half a second to import
+    from rocking.reports.summary.figures import prediction_scatter
+    from rocking.reports.summary.report import summary_report
+    from rocking.reports.trade import trade_picture
+
+    shown = {each.table.name: each for each in SUMMARY_TABLES if each.table.name in _SHOWN}
+    tables = {name: frame(each, folder / each.table.file_name) for name, each in shown.items()}
+    if (fragility / FragilityRow.table.file_name).exists():
+        for each in (FragilityRow, FragilitySummaryRow):
+            tables[each.table.name] = frame(each, fragility / each.table.file_name)
+        tables["ida"] = frame(IdaRow, fragility / IdaRow.table.file_name, _GOVERNING)
+    trade = trade_picture(folder) if study.settings.trade.in_summary else []
+    write_whole(folder / "summary.pdf", summary_report(tables, study.settings.mapping(), trade))
+    scatter = svg(prediction_scatter(tables["comparison"])).encode()
+    write_whole(folder / "prediction_against_integration.svg", scatter)

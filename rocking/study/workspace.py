@@ -7,8 +7,7 @@ from pathlib import Path
 from rocking.errors import ConfigurationError, RecordError
 from rocking.records.catalogue import COLUMNS, catalogue_text, read_rows
 from rocking.records.folder import ListedFile, list_folder
-from rocking.study.config_file import commented_yaml
-from rocking.study.settings import Settings
+from rocking.study.settings import Settings, commented_yaml
 from rocking.tables import write_whole
 
 

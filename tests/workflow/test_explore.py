@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 
 from rocking.motion.integration import integrate
+from rocking.reports.explore.content import study_page
 from rocking.reports.explore.packed import BINS, drawings, extremes, packed
 from rocking.structures import load_structures
-from rocking.study.config_file import read_settings
-from rocking.study.explore import write_explore
-from rocking.study.run import Study, assess_records
+from rocking.study.job import Study, run_job
+from rocking.study.results import page_contents
+from rocking.study.settings import read_settings
 from tests.workflow.write_study import write_study
 
 PATIENCE = 100
@@ -54,12 +55,13 @@ def study(tmp_path_factory) -> tuple[Path, Study, list]:
     records = load_catalogue(folder / "records" / "catalogue.csv")
     results = folder / "results"
     results.mkdir()
-    assess_records(records, study, results / "part", folder / "log")
+    run_job(records, study, results / "part", results)
     (results / "fragility").mkdir()
     (results / "fragility" / "fragility.csv").write_text(FRAGILITY, encoding="utf-8")
     (results / "summary").mkdir()
     page = results / "summary" / "study.html"
-    write_explore(records, study, [results / "part"], results, page, lambda line: None)
+    contents = page_contents([results / "part"], [record.id for record in records])
+    page.write_bytes(study_page(contents, study.structures, results / "fragility" / "fragility.csv"))
     return page, study, list(records)
 
 

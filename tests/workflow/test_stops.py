@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from rocking.study.locks import is_locked
+from rocking.study.run import is_locked
 
 KILLS = int(os.environ.get("ROCKING_KILLS", "1"))
 """How many runs are killed; ROCKING_KILLS=20 takes some minutes."""

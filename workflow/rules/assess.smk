@@ -1,4 +1,4 @@
-"""Read each record, extract its pulse, predict and integrate every structure, and compare."""
+"""Read each record, assess every structure under it, and report on it: each of these once, in one job."""
 
 # A rule for each job, where wildcards cannot stand: which records a job takes, and so its files, is planned.
 for JOB, RECORDS in PLAN.jobs.items():
@@ -9,17 +9,23 @@ for JOB, RECORDS in PLAN.jobs.items():
         input:
             compiled=COMPILED,
         output:
-            tables_of(JOB),
+            part_of(JOB),
+            [
+                report(
+                    path,
+                    caption="../report/record.rst",
+                    category="Records",
+                    labels={"record": Path(path).parent.name, "document": Path(path).stem},
+                )
+                for path in own_of(JOB)
+            ],
         log:
             f"{SUMMARY}/logs/assess_{JOB}.log",
         benchmark:
             f"{SUMMARY}/benchmarks/assess_{JOB}.tsv"
         params:
-            records=RECORDS,
-            records_sha256=PLAN.records_sha256(JOB),
-            files_sha256=PLAN.files_sha256(JOB),
-            structures_sha256=PLAN.structures_sha256,
-            settings_sha256=PLAN.settings_sha256,
+            **PLAN.params(JOB),
+            reports=SETTINGS.reports,
         message:
             f"Assess {len(RECORDS)} records (job {JOB})"
         script:

@@ -1,6 +1,6 @@
 """Measure the fragility of every structure under all records of the study."""
 
-from rocking.assessment.rows.of_fragility import FRAGILITY_TABLES
+from rocking.assessment.fragility.rows import FRAGILITY_TABLES
 
 
 rule fragility:
@@ -14,12 +14,8 @@ rule fragility:
     benchmark:
         f"{SUMMARY}/benchmarks/fragility.tsv"
     params:
-        settings_sha256=PLAN.settings_sha256,
+        **PLAN.params(),
         fragility=SETTINGS.mapping()["fragility"],
-        records_sha256=[PLAN.records_sha256(job) for job in PLAN.jobs],
-        files_sha256=PLAN.files_sha256(*PLAN.jobs),
-        structures_sha256=PLAN.structures_sha256,
-        package_sha256=PACKAGE,
     message:
         "Scale the records until the structures overturn"
     script:

@@ -4,31 +4,38 @@ from pathlib import Path  # for the rules
 
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
 from rocking.study.outcome import check_any_read
-from rocking.study.parts import IN_PARTS, part
-from rocking.study.plan import make_plan, package_sha256
+from rocking.study.plan import make_plan
+from rocking.study.results import IN_PARTS, PAGE, part
 
 # What the user writes (catalogue, records, StationXML, structures) is watched by its content, in params, not as input:
 # snakemake goes by dates, and behind a file that is dated in the future it removes what a job wrote.
 PLAN = make_plan(config)
 SETTINGS = PLAN.settings
-PACKAGE = package_sha256()
+PACKAGE = PLAN.package_sha256
 RESULTS = SETTINGS.results
 SUMMARY = f"{RESULTS}/summary"
-SUMMARIES = [each.table.name for each in SUMMARY_TABLES]
 FRAGILITY = f"{RESULTS}/fragility/fragility.csv"
 
 
-def tables_of(*jobs):
-    """The tables of jobs, each of which holds the rows of all its records."""
-    return [f"{part(Path(RESULTS), job)}/{each.table.file_name}" for job in jobs for each in IN_PARTS]
+def part_of(job):
+    """The files of a job over all its records."""
+    return [
+        f"{part(Path(RESULTS), job)}/{name}" for name in (*(each.table.file_name for each in IN_PARTS), PAGE)
+    ]
 
 
-TARGETS = [f"{SUMMARY}/{table}.csv" for table in SUMMARIES]
+def own_of(job):
+    """The files of each record of a job, where the settings ask for them."""
+    names = ["report.pdf"] * SETTINGS.reports + ["histories.csv"] * SETTINGS.histories
+    return [f"{RESULTS}/{record}/{name}" for record in PLAN.jobs[job] for name in names]
+
+
+TARGETS = [f"{SUMMARY}/{each.table.file_name}" for each in SUMMARY_TABLES]
 TARGETS += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json"]
+TARGETS += [path for job in PLAN.jobs for path in own_of(job)]
 if SETTINGS.reports:
-    TARGETS += [f"{RESULTS}/{record}/report.pdf" for record in PLAN.records] + [f"{SUMMARY}/summary.pdf"]
-    TARGETS += [f"{SUMMARY}/prediction_against_integration.svg", f"{SUMMARY}/study.html"]
-if SETTINGS.histories:
-    TARGETS += [f"{RESULTS}/{record}/histories.csv" for record in PLAN.records]
+    TARGETS += [
+        f"{SUMMARY}/{name}" for name in ("summary.pdf", "prediction_against_integration.svg", "study.html")
+    ]
 if SETTINGS.fragility.in_every_run:
     TARGETS += [f"{RESULTS}/fragility/fragility.pdf"]

@@ -1,9 +1,17 @@
-"""Gather the tables of all jobs and describe where they came from."""
+"""Gather the tables of all jobs, report on all records, and describe where the numbers came from."""
+
+DOCUMENTS = {
+    "summary.pdf": ("summary", "report on all records"),
+    "prediction_against_integration.svg": ("scatter", "prediction against integration"),
+    "study.html": ("explore", "page to explore the study"),
+}
 
 
 rule summarise:
     input:
-        tables=tables_of(*PLAN.jobs),
+        parts=[path for job in PLAN.jobs for path in part_of(job)],
+        trade=f"{SUMMARY}/trade.csv" if SETTINGS.trade.in_summary else [],
+        fragility=FRAGILITY if SETTINGS.fragility.in_every_run else [],
     output:
         [
             report(
@@ -14,6 +22,15 @@ rule summarise:
             )
             for table in (each.table for each in SUMMARY_TABLES)
         ],
+        [
+            report(
+                f"{SUMMARY}/{name}",
+                caption=f"../report/{caption}.rst",
+                category="Study",
+                labels={"document": label},
+            )
+            for name, (caption, label) in (DOCUMENTS.items() if SETTINGS.reports else ())
+        ],
         f"{SUMMARY}/provenance.json",
         f"{SUMMARY}/datapackage.json",
         f"{RESULTS}/datapackage.json",
@@ -22,12 +39,11 @@ rule summarise:
     benchmark:
         f"{SUMMARY}/benchmarks/summarise.tsv"
     params:
+        **PLAN.params(),
         jobs=list(PLAN.jobs),
-        records_sha256=PLAN.records_sha256(),
         settings=SETTINGS.mapping(),
-        settings_sha256=PLAN.settings_sha256,
-        structures_sha256=PLAN.structures_sha256,
-        package_sha256=PLAN.package_sha256,
+        # Where the target fragility is run by hand, its curves come into the report with the next run.
+        fragility_sha256="" if SETTINGS.fragility.in_every_run else PLAN.hashes.of(Path(FRAGILITY)),
     message:
         "Summarise all records"
     script:

@@ -12,11 +12,7 @@ rule trade:
     benchmark:
         f"{SUMMARY}/benchmarks/trade.tsv"
     params:
-        settings_sha256=PLAN.settings_sha256,
-        records_sha256=[PLAN.records_sha256(job) for job in PLAN.jobs],
-        files_sha256=PLAN.files_sha256(*PLAN.jobs),
-        structures_sha256=PLAN.structures_sha256,
-        package_sha256=PACKAGE,
+        **PLAN.params(),
     message:
         "Measure the error and the time of every method"
     script:

@@ -20,13 +20,9 @@ from rocking.assessment.verdict import (
     ratio_in_words,
     within_factor_two,
 )
-from rocking.errors import RockingError
-from rocking.motion import integrate
 from rocking.motion.response import UNKNOWN, Response
-from rocking.records import Accelerogram
-from rocking.records.rotation import aligned
 from rocking.sine_pulse import Regime
-from rocking.structures import Mechanism, Structure
+from rocking.structures import Mechanism
 from rocking.structures.outcome import Outcome
 from rocking.tables import Row, column, row
 
@@ -359,35 +355,21 @@ class HistoryRow(Row):
     angular_velocity_rad_s: float = column("Its derivative, after the impact where there is one")
 
 
-def history_rows(
-    record: str,
-    accelerograms: Sequence[Accelerogram],
-    structures: Mapping[str, Structure],
-    tolerance: float,
-    vertical: Accelerogram | None = None,
-) -> Iterator[HistoryRow]:
-    """Yield the history of the mechanism of each structure under each component, as maxima.csv sums it up.
+def history_rows(record: str, responses: Mapping[tuple[str, str], Response]) -> Iterator[HistoryRow]:
+    """Yield the history of each response by component and structure, as maxima.csv sums it up.
 
-    tolerance: of the integration, relative to the critical rotation. vertical: the vertical component, where it acts.
-    A structure that cannot be integrated has no rows; failures.csv says why.
+    A response without a history has no rows.
     """
-    for accelerogram in accelerograms:
-        beside = None if vertical is None else aligned(vertical, accelerogram)
-        for name, structure in structures.items():
-            try:
-                mechanism = structure.mechanism()
-                response = integrate(mechanism, accelerogram, tolerance, history=True, vertical=beside)
-            except RockingError:
-                continue
-            if response.times is None or response.rotation is None or response.angular_velocity is None:
-                continue
-            steps = (response.times, response.rotation, response.angular_velocity)
-            for time, rotation, velocity in zip(*(each.tolist() for each in steps), strict=True):
-                yield HistoryRow(
-                    record=record,
-                    component=accelerogram.component,
-                    structure=name,
-                    time_s=time,
-                    rotation_rad=rotation,
-                    angular_velocity_rad_s=velocity,
-                )
+    for (component, structure), response in responses.items():
+        if response.times is None or response.rotation is None or response.angular_velocity is None:
+            continue
+        steps = (response.times, response.rotation, response.angular_velocity)
+        for time, rotation, velocity in zip(*(each.tolist() for each in steps), strict=True):
+            yield HistoryRow(
+                record=record,
+                component=component,
+                structure=structure,
+                time_s=time,
+                rotation_rad=rotation,
+                angular_velocity_rad_s=velocity,
+            )

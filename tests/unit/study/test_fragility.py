@@ -19,7 +19,7 @@ from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.reports.summary.fragility_figures import write_fragility_figure
 from rocking.structures import Block
 from rocking.study.fragility import write_fragility
-from rocking.study.run import Study
+from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
 from rocking.tables import read_rows
 

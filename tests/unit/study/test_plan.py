@@ -1,8 +1,11 @@
 """The plan of a study: what is refused, how records are shared out, what makes a job run again."""
 
 import hashlib
+import os
 import shutil
+import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import yaml
@@ -10,8 +13,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rocking.errors import ConfigurationError
+from rocking.records import CatalogueRecord
 from rocking.study import plan
-from rocking.study.plan import make_plan, planned_records, share_out
+from rocking.study.job import planned
+from rocking.study.plan import ContentHashes, files_sha256, make_plan, share_out
+from rocking.study.settings import Settings
 
 ROOT = Path(__file__).parents[3]
 SHA256 = "0" * 64
@@ -63,22 +69,9 @@ def test_an_id_that_is_no_safe_file_name_is_refused(tmp_path: Path, identifier: 
     assert repr(identifier)[1:-1] in message and "safe file name" in message
 
 
-@pytest.mark.parametrize("file", ["../up.AT2", "/etc/passwd", "a/../../b", "C:\\a"])
-def test_a_file_outside_the_catalogue_folder_is_refused(tmp_path: Path, file: str) -> None:
-    assert "relative path without '..'" in _refusal(_write(tmp_path, f"a,{file},{SHA256}\n"))
-
-
 def test_duplicate_ids_are_refused_whatever_their_case(tmp_path: Path) -> None:
     message = _refusal(_write(tmp_path, f"Rinaldi,a.AT2,{SHA256}\nrinaldi,b.AT2,{SHA256}\n"))
     assert "'rinaldi' stands 2 times" in message
-
-
-def test_a_catalogue_without_rows_is_refused(tmp_path: Path) -> None:
-    assert "no rows" in _refusal(_write(tmp_path, ""))
-
-
-def test_a_hash_that_is_none_is_refused(tmp_path: Path) -> None:
-    assert "sha256 is 'abc'" in _refusal(_write(tmp_path, "a,a.AT2,abc\n"))
 
 
 def test_a_blank_hash_is_filled_in_and_checked_from_then_on(tmp_path: Path) -> None:
@@ -89,8 +82,7 @@ def test_a_blank_hash_is_filled_in_and_checked_from_then_on(tmp_path: Path) -> N
     assert Path(str(settings["catalogue"])).read_bytes() == before, "a plan alone writes nothing"
     assert first.records["a"].sha256 == hashlib.sha256(b"one").hexdigest() and first.records["b"].sha256 == ""
     first.begin()
-    (job,) = first.jobs
-    planned_records(Path(str(settings["catalogue"])), first.jobs[job], first.records_sha256(job))
+    planned(settings, SimpleNamespace(**first.params()))
     (tmp_path / "a.AT2").write_bytes(b"two")
     assert make_plan(settings).records["a"].sha256 == first.records["a"].sha256
 
@@ -127,18 +119,18 @@ def test_structures_are_read_as_data_only(tmp_path: Path) -> None:
     assert not (tmp_path / "made").exists()
 
 
-def test_a_catalogue_edited_after_planning_stops_the_job(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("name", "old", "new"), [("catalogue", SHA256, "1" * 64), ("structures", "height_m: 6", "height_m: 7")]
+)
+def test_what_was_edited_after_planning_stops_the_job(tmp_path: Path, name: str, old: str, new: str) -> None:
     settings = _write(tmp_path, f"a,a.AT2,{SHA256}\nb,b.AT2,{SHA256}\n", records_per_job=10)
     made = make_plan(settings)
-    (job,) = made.jobs
-    catalogue = Path(str(settings["catalogue"]))
-    assert planned_records(catalogue, made.jobs[job], made.records_sha256(job)) == made.job(job)
-    assert planned_records(catalogue, None, made.records_sha256()) == tuple(made.records.values())
-    catalogue.write_text(catalogue.read_text().replace(SHA256, "1" * 64, 1))
+    params, path = SimpleNamespace(**made.params(*made.jobs)), Path(str(settings[name]))
+    path.write_text("\n# a comment\n" * (name == "structures") + path.read_text())
+    assert {record.id for record in planned(settings, params)[1]} == {"a", "b"}
+    path.write_text(path.read_text().replace(old, new, 1))
     with pytest.raises(ConfigurationError, match="changed while the study ran"):
-        planned_records(catalogue, made.jobs[job], made.records_sha256(job))
-    with pytest.raises(ConfigurationError, match="changed while the study ran"):
-        planned_records(catalogue, None, made.records_sha256())
+        planned(settings, params)
 
 
 def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_path: Path) -> None:
@@ -159,13 +151,12 @@ def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_pat
 def test_the_hash_of_the_package_follows_its_source(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shutil.copytree(ROOT / "rocking", tmp_path / "rocking", ignore=shutil.ignore_patterns("__pycache__"))
     monkeypatch.setattr(plan, "__file__", str(tmp_path / "rocking" / "study" / "plan.py"))
-    whole, without = plan.package_sha256(), plan.package_sha256(leave_out=("reports",))
-    with (tmp_path / "rocking" / "reports" / "record" / "record.typ").open("a") as stream:
-        stream.write("// edited\n")
-    assert plan.package_sha256() != whole
-    assert plan.package_sha256(leave_out=("reports",)) == without
+    whole = plan.package_sha256()
+    with (tmp_path / "rocking" / "study" / "plan.py").open("a") as stream:
+        stream.write("# edited\n")
+    edited = plan.package_sha256()
     (tmp_path / "rocking" / "quantities.py").rename(tmp_path / "rocking" / "measures.py")
-    assert plan.package_sha256(leave_out=("reports",)) != without
+    assert len({whole, edited, plan.package_sha256()}) == 3
 
 
 @given(
@@ -192,3 +183,85 @@ def test_jobs_are_few_and_their_number_never_falls() -> None:
     assert counts[3:6] == [8, 8, 16], "sixty records start as many as most machines have cores"
     largest = max(map(len, share_out([f"record_{i}" for i in range(20000)]).values()))
     assert largest < 230, "twenty thousand lose less than a minute with a job"
+
+
+COUNTS = b"000001D " + bytes(504)
+"""What a miniSEED file begins with."""
+
+
+def _record(folder: Path, content: bytes = b"samples", **cells: object) -> CatalogueRecord:
+    (folder / "a.dat").write_bytes(content)
+    return CatalogueRecord(**{"id": "a", "file": "a.dat", "sha256": "0" * 64} | cells, folder=folder)
+
+
+def _hash(record: CatalogueRecord, hashes: ContentHashes | None = None, **settings: object) -> str:
+    return files_sha256([record], Settings(**settings), hashes or ContentHashes())
+
+
+@pytest.mark.parametrize("when", [1e9, time.time() + 3e8], ids=["long ago", "in ten years"])
+def test_a_new_date_changes_no_hash_and_a_new_content_with_the_old_date_does(
+    tmp_path: Path, when: float
+) -> None:
+    record = _record(tmp_path)
+    before, file = _hash(record), tmp_path / "a.dat"
+    os.utime(file, (when, when))
+    assert _hash(record) == before
+    file.write_bytes(b"Samples")
+    os.utime(file, (when, when))
+    assert _hash(record) != before
+
+
+@pytest.mark.parametrize(
+    ("cells", "content", "file", "counts"),
+    [
+        ({"inventory": "x.xml"}, COUNTS, "x.xml", True),
+        ({}, COUNTS, "x.xml", True),
+        ({}, b"\x1f\x8b packed", "x.xml", True),
+        ({"unit": "m/s2"}, COUNTS, "x.xml", False),
+        ({}, b"text", "x.xml", False),
+        ({"file": "a.dat;v.dat", "sha256": ""}, b"text", "v.dat", True),
+    ],
+    ids=["named StationXML", "StationXML beside", "packed", "declared unit", "no miniSEED", "second file"],
+)
+def test_every_file_that_is_read_counts_and_no_other(
+    tmp_path: Path, cells: dict[str, str], content: bytes, file: str, counts: bool
+) -> None:
+    record = _record(tmp_path, content, **cells)
+    (tmp_path / file).write_text("sensitivity 1000")
+    before = _hash(record)
+    (tmp_path / file).write_text("sensitivity 2000")
+    assert (_hash(record) != before) == counts
+
+
+def test_a_file_in_the_mirror_counts_before_the_one_beside_the_catalogue(tmp_path: Path) -> None:
+    mirror, beside = tmp_path / "mirror", tmp_path / "beside"
+    mirror.mkdir()
+    beside.mkdir()
+    record = _record(beside)
+    without = _hash(record, mirror=str(mirror))
+    (mirror / "a.dat").write_bytes(b"samples of the mirror")
+    assert _hash(record, mirror=str(mirror)) != without
+
+
+def test_a_file_that_stayed_is_not_read_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(plan, "_SETTLED", -1.0)
+    record, store = _record(tmp_path), tmp_path / "hashes.json"
+    hashes = ContentHashes(store)
+    first = _hash(record, hashes)
+    hashes.save()
+    with monkeypatch.context() as patched:
+        patched.setattr(plan.hashlib, "file_digest", lambda *_: pytest.fail("it is read again"))
+        assert _hash(record, ContentHashes(store)) == first
+    status = (tmp_path / "a.dat").stat()
+    (tmp_path / "a.dat").write_bytes(b"Samples")
+    os.utime(tmp_path / "a.dat", ns=(status.st_atime_ns, status.st_mtime_ns))
+    assert _hash(record, ContentHashes(store)) == _hash(record) != first
+    store.write_text('{"damaged": 1}')
+    assert _hash(record, ContentHashes(store)) == _hash(record)
+
+
+def test_the_hash_of_a_file_that_changed_a_moment_ago_is_not_kept(tmp_path: Path) -> None:
+    hashes = ContentHashes(tmp_path / "hashes.json")
+    _hash(_record(tmp_path), hashes)
+    hashes.save()
+    assert not (tmp_path / "hashes.json").exists()

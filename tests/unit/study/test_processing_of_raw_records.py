@@ -6,11 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rocking.assessment.method import Method
 from rocking.records import CatalogueRecord
 from rocking.records.synthetic import SHIPPED, at2_text
-from rocking.structures import Block
-from rocking.study.run import Study, assess_record
+from rocking.study.job import Study
 from rocking.study.settings import Settings
 
 STUDY = Study({})
@@ -55,15 +53,3 @@ def test_a_raw_file_is_processed_unless_never():
     done = STUDY.open(RAW)[0][0]
     assert len(done.processing) > len(raw.processing)
     assert done.high_pass_frequency == 0.1
-
-
-def test_the_ensemble_of_a_raw_record_varies_its_processing():
-    structures = {"block": Block.of_size(0.5, 3.0)}
-    study = Study(structures, Settings(candidates=0))
-    tables = assess_record(RAW, study)
-    row = tables.ensemble[0]
-    assert row.worst_processing in {each.processing for each in tables.processing}
-    assert 0 <= row.processing_share <= 1
-    known = tables.by_method(Method.MECHANISM_ON_RECORD)[row.case]
-    given = next(each for each in tables.processing if each.processing == "unchanged")
-    assert given.rotation_ratio == known.rotation_ratio

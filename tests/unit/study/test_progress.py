@@ -1,66 +1,50 @@
-"""What is read from logs while they grow, and what is said of it."""
+"""What jobs and scheduler send, and what a person is told of it."""
 
+import json
 import os
 from pathlib import Path
 
-from rocking.study.progress import NewLines, Progress, finished_rule, line_writer, planned_jobs
+import pytest
 
-SCHEDULER = """Building DAG of jobs...
-Job stats:
-job                      count
----------------------  -------
-compile                      1
-assess_00000_of_00002        1
-all                          1
-total                        3
-
-Select jobs to execute...
-[Sat Nov 21 18:22:58 2026]
-Finished jobid: 2 (Rule: assess_00000_of_00002)
-"""
+from rocking.study.progress import PIPE, Progress, line_writer
 
 
-def test_lines_are_told_once_and_only_when_they_are_whole(tmp_path: Path) -> None:
-    log = tmp_path / "assess_a.log"
-    log.write_text("of an older run\n")
-    os.utime(log, (1, 1))
-    lines = NewLines(tmp_path, "*.log")
-    assert list(lines) == []
-    with log.open("w") as stream:
-        print("first", file=stream)
-        stream.write("half of the sec")
-        stream.flush()
-        assert list(lines) == [("assess_a", "first")]
-        print("ond", file=stream, flush=True)
-        assert list(lines) == [("assess_a", "half of the second")]
-    assert list(lines) == []
-
-
-def test_the_plan_of_snakemake_is_read_from_its_log() -> None:
-    assert planned_jobs(SCHEDULER) == {"compile": 1, "assess_00000_of_00002": 1, "all": 1}
-    assert planned_jobs(SCHEDULER.partition("total")[0]) == {}, "the table is not whole yet"
-    assert [rule for line in SCHEDULER.splitlines() if (rule := finished_rule(line))] == [
-        "assess_00000_of_00002"
-    ]
-
-
-def test_elsewhere_than_on_a_terminal_there_are_plain_lines(capsys) -> None:
-    progress = Progress({"assess_a": 2, "report_a": 2}, width=6)
-    progress.plan({"assess_a": 1, "report_a": 1, "trade": 1})
-    progress.told("assess_a", "one: rests: pier")
-    progress.told("report_a", "one: report written")
-    progress.told("trade", "1 of 12: one, pier: 14 runs")
-    progress.told("trade", "something else")
-    progress.finished("trade")
+def test_elsewhere_than_on_a_terminal_there_are_plain_lines(capsys: pytest.CaptureFixture[str]) -> None:
+    progress = Progress({"assess_a": 2}, width=6)
+    for told in (
+        {"planned": {"assess_a": 1, "summarise": 1}},
+        {"begun": "compile"},
+        {"job": "assess_a", "line": "one: rests: pier"},
+        {"job": "trade", "line": "1 of 12: one, pier: 14 runs"},
+        {"finished": "trade"},
+        {"error": "it broke"},
+    ):
+        progress(told)
     progress.close()
-    assert capsys.readouterr().out == "one     rests: pier\ntrade: 1 of 12: one, pier: 14 runs\n"
+    compiling, *lines = capsys.readouterr().out.splitlines()
+    assert "compiled" in compiling and lines == ["one     rests: pier", "trade: 1 of 12: one, pier: 14 runs"]
+    assert progress.errors == ["it broke"]
 
 
-def test_a_line_stands_in_the_log_when_it_is_written(tmp_path: Path) -> None:
-    log = tmp_path / "log"
-    log.write_text("of an older run\n")
-    add = line_writer(log)
-    for said in ("1 of 2: first", "2 of 2: second"):
-        add(said)
-        assert log.read_text().splitlines()[-1] == said
-    assert len(log.read_text().splitlines()) == 2
+def test_on_a_terminal_it_says_how_far_it_has_come(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    progress = Progress({"assess_a": 40}, width=3)
+    progress({"planned": {"assess_a": 1}})
+    progress._began -= 600  # ten minutes for the first record
+    progress({"job": "assess_a", "line": "one: stands: pier"})
+    assert capsys.readouterr().out.endswith("1 of 40 records, about 390 min left")
+
+
+def test_a_line_stands_in_the_log_and_comes_through_the_pipe(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    monkeypatch.setenv(PIPE, str(tmp_path / "pipe"))
+    (tmp_path / "job.log").write_text("of an older run\n")
+    with (tmp_path / "pipe").open("r+b", buffering=0) as pipe:
+        line_writer(tmp_path / "job.log")("first")
+        assert json.loads(pipe.read(1000)) == {"job": "job", "line": "first"}
+    line_writer(tmp_path / "job.log")("first")  # nobody reads any more, and nobody waits for it
+    assert (tmp_path / "job.log").read_text() == "first\n"

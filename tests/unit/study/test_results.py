@@ -10,7 +10,7 @@ from rocking.assessment.rows.of_record import TimingRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES, StructureRow
 from rocking.errors import RockingError
 from rocking.study.cli import main
-from rocking.study.parts import part
+from rocking.study.results import part
 from rocking.tables import read_rows, write_rows
 
 

@@ -14,8 +14,14 @@ from rocking.assessment.settings import AssessmentSettings, FragilitySettings, P
 from rocking.described import described_values, parts_of
 from rocking.errors import ConfigurationError
 from rocking.records.processing import UNPROCESSED_DEFAULT
-from rocking.study.config_file import commented_yaml, json_schema, read_settings, write_settings
-from rocking.study.settings import EXAMPLE, Settings
+from rocking.study.settings import (
+    EXAMPLE,
+    Settings,
+    commented_yaml,
+    json_schema,
+    read_settings,
+    write_settings,
+)
 
 ROOT = Path(__file__).parents[3]
 SCHEMA = Draft7Validator(json_schema())
@@ -67,7 +73,7 @@ def test_the_shipped_files_are_those_that_the_tree_writes(tmp_path: Path) -> Non
     for name in ("config.yaml", "schemas/config.schema.yaml"):
         shipped = (ROOT / "workflow" / name).read_text(encoding="utf-8")
         assert (tmp_path / name).read_text(encoding="utf-8") == shipped, (
-            "python -m rocking.study.config_file workflow"
+            "python -m rocking.study.settings workflow"
         )
 
 

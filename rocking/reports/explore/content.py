@@ -1,9 +1,8 @@
-"""The page to explore a study, from its tables, its records and its structures."""
+"""What the page to explore shows of one record, and the page of all of them."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -15,19 +14,14 @@ from rocking.assessment.fragility.rows import FragilityRow
 from rocking.assessment.rows.of_case import ComparisonRow
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.verdict import NEGLIGIBLE
-from rocking.errors import RockingError
-from rocking.motion.integration import integrate
+from rocking.motion.response import Response
 from rocking.records import Accelerogram, displacement
-from rocking.records.catalogue import CatalogueRecord
-from rocking.records.rotation import aligned
 from rocking.reports.explore.figures import fragility_curves, scatter
 from rocking.reports.explore.packed import drawings, extremes, number, packed
 from rocking.reports.explore.page import explore_page
 from rocking.reports.style import svg
-from rocking.structures import Structure
-from rocking.study.parts import read_part
-from rocking.study.run import Opened, Study
-from rocking.tables import frame, write_whole
+from rocking.structures import Mechanism, Structure
+from rocking.tables import frame
 
 Content = dict[str, Any]
 
@@ -39,62 +33,50 @@ _FALLEN = 3.0
 """Rotation ratio beyond which a fall is not followed."""
 
 
-def write_explore(
-    records: Sequence[CatalogueRecord],
-    study: Study,
-    parts: Iterable[Path],
-    results: Path,
-    target: Path,
-    tell: Callable[[str], object],
-) -> None:
-    """Write the page of a study in `results`, with its tables in `parts`, to `target`.
+def record_content(
+    record: str,
+    accelerograms: Sequence[Accelerogram],
+    structures: Mapping[str, Structure],
+    tables: RecordTables,
+    responses: Mapping[tuple[str, str], Response],
+) -> Content:
+    """Return what the page says of one record, and of each structure under its worse component, for JSON.
 
-    tell: takes a line for each record.
+    responses: by component and structure, with their histories.
     """
-    by_identifier = {record.id: record for record in records}
-    known: dict[str, tuple[Content, list[Content]]] = {}
-    for identifier, tables in chain.from_iterable(map(read_part, parts)):
-        known[identifier] = _record(by_identifier[identifier], study, tables)
-        tell(f"{identifier}: {len(known[identifier][1])} cases on the page")
-    shown: list[Content] = []
-    cases: list[Content] = []
-    for said, found in (known[record.id] for record in records):
-        cases += [{"record": len(shown), **each} for each in found]
-        shown.append(said)
-    structures = [
-        {"name": name, "size": structure.size, "type": structure.type_name, "drawings": drawings(structure)}
-        for name, structure in study.structures.items()
-    ]
-    places = {name: place for place, name in enumerate(study.structures)}
-    for case in cases:
-        case["structure"] = places[case["structure"]]
-    figures = {"scatter": _scatter(cases), "fragility": _fragility(results / "fragility" / "fragility.csv")}
-    write_whole(target, explore_page(shown, structures, cases, figures))
-
-
-def _record(record: CatalogueRecord, study: Study, tables: RecordTables) -> tuple[Content, list[Content]]:
-    """What the page says of one record, and of each structure under its worse component."""
-    rows = _worse(tables.comparison, study.structures)
-    said: Content = {
-        "id": record.id,
-        "failure": " ".join(failure.message for failure in tables.failures),
-        "motions": {},
-    }
+    rows = _worse(tables.comparison, structures)
     verdicts = {fate.structure: fate for fate in tables.verdicts}
-    cases = [_case(row, verdicts[row.structure]) for row in rows]
-    if rows:
-        try:
-            opened = study.open(record)
-        except RockingError as error:
-            return said | {"failure": str(error)}, cases
-        used = {row.component for row in rows}
-        said["motions"] = {
-            each.component: _motion(each, tables) for each in opened[0] if each.component in used
-        }
-        for row, case in zip(rows, cases, strict=True):
-            if row.integrated_rotation_ratio > NEGLIGIBLE:
-                case["history"] = _history(row, opened, study)
-    return said, cases
+    used = {row.component for row in rows}
+    cases = []
+    for row in rows:
+        case = _case(row, verdicts[row.structure])
+        response = responses.get((row.component, row.structure))
+        if row.integrated_rotation_ratio > NEGLIGIBLE and response is not None:
+            case["history"] = _history(response, structures[row.structure].mechanism())
+        cases.append(case)
+    return {
+        "id": record,
+        "failure": " ".join(failure.message for failure in tables.failures),
+        "motions": {
+            each.component: _motion(each, tables) for each in accelerograms if each.component in used
+        },
+        "cases": cases,
+    }
+
+
+def study_page(contents: Sequence[Content], structures: Mapping[str, Structure], fragility: Path) -> bytes:
+    """Return the page of a study. contents: of its records. fragility: its table of curves, where it was measured."""
+    places = {name: place for place, name in enumerate(structures)}
+    shown, cases = [], []
+    for place, content in enumerate(contents):
+        shown.append({name: value for name, value in content.items() if name != "cases"})
+        for case in content["cases"]:
+            cases.append({"record": place, **case, "structure": places[case["structure"]]})
+    drawn = [
+        {"name": name, "size": structure.size, "type": structure.type_name, "drawings": drawings(structure)}
+        for name, structure in structures.items()
+    ]
+    return explore_page(shown, drawn, cases, {"scatter": _scatter(cases), "fragility": _fragility(fragility)})
 
 
 def _worse(rows: Sequence[ComparisonRow], structures: Mapping[str, Structure]) -> list[ComparisonRow]:
@@ -145,16 +127,8 @@ def _motion(accelerogram: Accelerogram, tables: RecordTables) -> Content:
     return said
 
 
-def _history(row: ComparisonRow, opened: Opened, study: Study) -> Content | None:
+def _history(response: Response, mechanism: Mechanism) -> Content | None:
     """Rotation over critical rotation while it moves; None where there is none."""
-    accelerograms, vertical = opened
-    record = next(each for each in accelerograms if each.component == row.component)
-    mechanism = study.structures[row.structure].mechanism()
-    beside = None if vertical is None else aligned(vertical, record)
-    try:
-        response = integrate(mechanism, record, study.assessment.tolerance, history=True, vertical=beside)
-    except RockingError:  # the tables say why
-        return None
     if response.times is None or response.rotation is None or response.times.size < 2:
         return None
     critical = np.where(

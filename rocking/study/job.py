@@ -1,0 +1,247 @@
+"""A job: its records, each read, processed, assessed and reported once, with what stays in memory in between."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from time import process_time
+from typing import Any
+
+from rocking.assessment.assess import Assessment, Failure, assess_structures
+from rocking.assessment.ensemble import GroundMotions, ensemble, processed
+from rocking.assessment.fate import BOTH_COMPONENTS
+from rocking.assessment.horizontal_motion import horizontal_motions
+from rocking.assessment.method import Method
+from rocking.assessment.rows.of_case import (
+    HistoryRow,
+    candidate_rows,
+    ensemble_row,
+    history_rows,
+    processing_rows,
+)
+from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.rows.of_record import TimingRow
+from rocking.assessment.rows.shared import Identity
+from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.variations import candidates, processed_variants
+from rocking.errors import ConfigurationError, RockingError
+from rocking.motion.response import Response
+from rocking.records import Accelerogram, CatalogueRecord, Station, aligned, load_catalogue, open_station
+from rocking.records.processing import process
+from rocking.records.station import station_of
+from rocking.structures import Structure, load_structures
+from rocking.study.outcome import record_line
+from rocking.study.plan import records_sha256, structures_sha256
+from rocking.study.results import written_part
+from rocking.study.settings import Settings, read_settings
+from rocking.tables import write_rows, write_whole
+
+Opened = tuple[list[Accelerogram], Accelerogram | None]
+"""The horizontal components of a record, and its vertical one where that acts too."""
+
+
+@dataclass(frozen=True)
+class Study:
+    """What every record of a study is put through: structures by name, and settings.
+
+    settings_sha256: names the settings, the structure list and the package in every row.
+    """
+
+    structures: Mapping[str, Structure]
+    settings: Settings = field(default_factory=Settings)
+    settings_sha256: str = ""
+
+    @cached_property
+    def assessment(self) -> AssessmentSettings:
+        """What a record is compared with: in full where a report or histories are made, which show every case."""
+        whole = self.settings.reports or self.settings.histories
+        return replace(self.settings, fidelity="full") if whole else self.settings
+
+    def open(self, record: CatalogueRecord) -> Opened:
+        """Return the components of `record`, processed as the settings say.
+
+        Raises RecordError naming the record, also when the vertical component does not fit the others.
+        """
+        return self._processed(open_station(record, self.settings.mirror))
+
+    def opened(self, channels: list[Accelerogram], record: CatalogueRecord) -> Opened:
+        """Return what open() returns, from the `channels` of the record's file. Raises RecordError."""
+        return self._processed(station_of(channels, record))
+
+    def _processed(self, station: Station) -> Opened:
+        done = [self._process(accelerogram) for accelerogram in station.horizontal]
+        if station.vertical is None or not self.settings.vertical:
+            return done, None
+        vertical = self._process(station.vertical)
+        for accelerogram in done:
+            aligned(vertical, accelerogram)
+        return done, vertical
+
+    def _process(self, accelerogram: Accelerogram) -> Accelerogram:
+        which = self.settings.processing.apply
+        wanted = which == "always" or (which == "raw" and accelerogram.processed is False)
+        return process(accelerogram, self.settings.processing) if wanted else accelerogram
+
+
+def planned(config: Mapping[str, Any], params: Any) -> tuple[Study, list[CatalogueRecord]]:
+    """Return the study and the records of a job, from its `config` and what `Plan.params` planned for it.
+
+    Raises ConfigurationError when the structure list or the catalogue says something else than it did then.
+    """
+    settings = read_settings(config)
+    structures = load_structures(settings.structures)
+    if structures_sha256(structures) != params.structures_sha256:
+        raise ConfigurationError(
+            f"{settings.structures}: the structures changed while the study ran; start the study again."
+        )
+    rows = {row.id: row for row in load_catalogue(settings.catalogue)}
+    records = [rows[name] for name in params.records if name in rows]
+    if records_sha256(records) != params.records_sha256:
+        raise ConfigurationError(
+            f"{settings.catalogue}: the catalogue changed while the study ran; start the study again."
+        )
+    return Study(structures, settings, params.settings_sha256), records
+
+
+@dataclass(frozen=True)
+class Assessed:
+    """One record in memory: its components as they acted, every row, and the responses by component and structure."""
+
+    record: CatalogueRecord
+    accelerograms: list[Accelerogram]
+    vertical: Accelerogram | None
+    tables: RecordTables
+    responses: dict[tuple[str, str], Response] = field(default_factory=dict)
+
+
+def run_job(
+    records: Iterable[CatalogueRecord],
+    study: Study,
+    part: Path,
+    results: Path,
+    tell: Callable[[str], object] = lambda _: None,
+) -> None:
+    """Assess `records`, one after another: their tables and what the page to explore shows of them go into `part`.
+
+    Where the settings ask for it, the report, the tables that it names and the histories of each go into its folder
+    below `results`. tell: takes a line for each record.
+    """
+    with written_part(part) as add:
+        for record in records:
+            assessed = assess_record(record, study)
+            tables, folder = assessed.tables, results / record.id
+            if study.settings.reports:
+                write_report(assessed, study, folder)
+            if study.settings.histories:
+                rows = history_rows(record.id, assessed.responses)
+                write_rows(HistoryRow, rows, folder / HistoryRow.table.file_name)
+            add(tables, _page_content(assessed, study) if study.settings.reports else None)
+            tell(f"{record.id}: {record_line(tables.verdicts, tables.failures)}")
+
+
+def write_report(assessed: Assessed, study: Study, folder: Path) -> None:
+    """Write report.pdf of one record into `folder`, beside the tables that it names."""
+    from rocking.reports.record import failure_report, record_report  # matplotlib takes a second to import
+
+    tables, record = assessed.tables, assessed.record.id
+    tables.write(folder)
+    if not tables.comparison:
+        report = failure_report(record, " ".join(failure.message for failure in tables.failures))
+    else:
+        told = (study.structures, tables, study.settings.mapping(), assessed.vertical, assessed.responses)
+        report = record_report(record, assessed.accelerograms, *told)
+    write_whole(folder / "report.pdf", report)
+
+
+def _page_content(assessed: Assessed, study: Study) -> dict[str, object]:
+    from rocking.reports.explore.content import record_content  # where a report is made anyway
+
+    return record_content(
+        assessed.record.id, assessed.accelerograms, study.structures, assessed.tables, assessed.responses
+    )
+
+
+def assess_record(record: CatalogueRecord, study: Study) -> Assessed:
+    """Read and assess `record`; what fails becomes a row of its failures."""
+    started = process_time()
+    try:
+        opened = study.open(record)
+    except RockingError as error:
+        tables = RecordTables()
+        tables.fail(record.id, "", Failure("read", "", str(error)))
+        tables.timings.append(TimingRow(record=record.id, stage="read", duration_s=process_time() - started))
+        return Assessed(record, [], None, tables)
+    return assess_components(record, opened, study, process_time() - started)
+
+
+def assess_components(
+    record: CatalogueRecord, opened: Opened, study: Study, read_duration: float = 0.0
+) -> Assessed:
+    """Assess the components of `record` that were `opened`. read_duration: CPU time that this took, s."""
+    assessed = Assessed(record, *opened, RecordTables())
+    tables, durations = assessed.tables, {"read": read_duration}
+    started = process_time()
+    motions = horizontal_motions(assessed.accelerograms)
+    if assessed.accelerograms:
+        durations["velocity pulse"] = process_time() - started
+    for accelerogram, motion in zip(assessed.accelerograms, motions, strict=True):
+        beside = None if assessed.vertical is None else aligned(assessed.vertical, accelerogram)
+        assessment = assess_structures(accelerogram, study.structures, study.assessment, beside)
+        identity = Identity(record.id, accelerogram, study.settings_sha256)
+        tables.add(identity, assessment, study.assessment, record.licence, beside, motion)
+        for case in assessment.cases:
+            if response := case.responses.get(Method.MECHANISM_ON_RECORD):
+                assessed.responses[accelerogram.component, case.structure] = response
+        varied = process_time()
+        _vary(identity, assessment, study, tables, beside)
+        spent = {"variations": process_time() - varied, **assessment.durations}
+        durations |= {stage: durations.get(stage, 0.0) + duration for stage, duration in spent.items()}
+    settings = study.assessment
+    if len(assessed.accelerograms) == 2 and settings.ensemble.members and settings.fidelity == "full":
+        started = process_time()
+        _assess_directions(assessed, study)
+        durations["directions"] = process_time() - started
+    for stage, duration in durations.items():
+        tables.timings.append(TimingRow(record=record.id, stage=stage, duration_s=duration))
+    return assessed
+
+
+def _assess_directions(assessed: Assessed, study: Study) -> None:
+    """Append the ensembles over directions of a record that has two horizontal components."""
+    (first, second), tables, settings = assessed.accelerograms, assessed.tables, study.assessment.ensemble
+    identity = Identity(assessed.record.id, first, study.settings_sha256)
+    names = dict.fromkeys(alone.structure for alone in tables.ensemble)
+    try:
+        motions = GroundMotions.of_pair(first, second, assessed.vertical, processing=settings.processing)
+        for name in names:
+            found = ensemble(study.structures[name], motions, settings, tolerance=study.assessment.tolerance)
+            tables.ensemble.append(ensemble_row(identity, name, found, BOTH_COMPONENTS))
+    except RockingError as error:
+        tables.fail(identity.record, BOTH_COMPONENTS, Failure("directions", "", str(error)))
+
+
+def _vary(
+    identity: Identity,
+    assessment: Assessment,
+    study: Study,
+    tables: RecordTables,
+    vertical: Accelerogram | None,
+) -> None:
+    """Append the rows of candidates and processing, for every structure that gave a result."""
+    record, cases = identity.accelerogram, {case.structure: case for case in assessment.cases}
+    for name, case in cases.items():
+        pulse = case.prediction.pulse if case.prediction else None
+        try:
+            found = candidates(
+                study.structures[name], record, pulse, study.settings.candidates, study.assessment
+            )
+            tables.candidates.extend(candidate_rows(identity, name, found))
+        except RockingError as error:
+            tables.fail(identity.record, record.component, Failure("variations", name, str(error)))
+    if study.settings.processing_variants:
+        structures = {name: study.structures[name] for name in cases}
+        followed = {name: case.responses.get(Method.MECHANISM_ON_RECORD) for name, case in cases.items()}
+        known = {name: response for name, response in followed.items() if response is not None}
+        variants = processed_variants(structures, processed(record), study.assessment, known, vertical)
+        for name, of_structure in variants.items():
+            tables.maxima.extend(processing_rows(identity, name, of_structure))
