@@ -121,13 +121,14 @@ class Ring:
     def bars(self, edges: np.ndarray) -> Bars:
         """The annular sectors between successive sections `edges` (k + 1,), each with the fill on it."""
         masses = np.diff(edges)
-        centroids = -self.centroid_radius * np.diff(np.exp(-1j * edges)) / masses
+        # a pier that turns about its springing has no part of the ring: 0/0
+        centroids = -self.centroid_radius * np.diff(np.exp(-1j * edges)) / np.where(masses > 0, masses, 1.0)
         about_centre = masses * (1 + self.thickness**2 / 4)
         if self.fill is not None:
             weight, x, y = (np.diff(values) for values in self.fill.loads(self.thickness, edges)[0])
             moments = masses * centroids + x + 1j * y
             masses = masses + weight
-            centroids = moments / masses
+            centroids = moments / np.where(masses > 0, masses, 1.0)
             about_centre = about_centre + weight * (1 + self.thickness / 2) ** 2
         return Bars(masses, centroids, about_centre - masses * np.abs(centroids) ** 2)
 
