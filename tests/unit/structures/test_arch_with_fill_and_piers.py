@@ -8,9 +8,6 @@ import pytest
 from multibody import Bar, Multibody, Pin
 from scipy.integrate import solve_ivp
 
-from rocking.errors import StructureError
-from rocking.motion import integrate
-from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.structures import Arch
 from rocking.structures.arch import ArchOnPiers
@@ -187,21 +184,6 @@ def test_without_fill_and_on_stout_piers_an_arch_is_an_arch():
     assert others[1].governing == "arch alone"
 
 
-def test_the_mechanism_that_governs_is_the_weakest():
-    assert ONE.governing == "arch with one pier"
-    assert BOTH.governing == "arch with both piers"
-    for arch in (ONE, UNDER_FILL):  # of BOTH the arch alone has no mechanism
-        fixed = {each.name: getattr(arch, each.name) for each in dataclasses.fields(Arch) if each.init}
-        alone = Arch(**fixed).mechanism().uplift_multiplier
-        assert arch.mechanism().uplift_multiplier < alone
-
-
-def test_a_pier_alone_is_a_block():
-    """An arch of next to no weight on a pier: the right pier falls outwards at b/h."""
-    arch = ArchOnPiers(2.0, 0.4, np.radians(170), 9, pier_width=2.0, pier_height=12.0, pier_density_ratio=1e4)
-    assert arch.mechanism().uplift_multiplier == pytest.approx(2.0 / 12.0, rel=1e-3)
-
-
 @pytest.mark.parametrize("arch", [UNDER_FILL, dataclasses.replace(ONE, voussoirs=None)])
 def test_thrust_line_runs_from_foot_to_foot_inside_arch_and_piers(arch):
     line = arch.thrust_line(2001)
@@ -214,41 +196,3 @@ def test_thrust_line_runs_from_foot_to_foot_inside_arch_and_piers(arch):
         assert line[end, 1] == pytest.approx(low)
     for hinge in arch.hinges(0.0):
         assert np.linalg.norm(line - hinge, axis=1).min() < 1e-2
-
-
-def test_an_arch_on_piers_rocks_under_a_pulse():
-    """And the wider pier is the safer."""
-    pulse = Pulse(3.0, 2 * np.pi / 0.8, 0.0)
-    ratios = [
-        integrate(
-            ArchOnPiers(5.0, 0.8, np.radians(150), pier_width=width, pier_height=4.0), pulse
-        ).rotation_ratio
-        for width in (1.9, 2.4, 3.0)
-    ]
-    assert ratios == sorted(ratios, reverse=True)
-
-
-@pytest.mark.parametrize(
-    "make, message",
-    [
-        (
-            lambda: Arch(5.0, 0.9, 2.7, fill_depth=-0.1),
-            "fill_depth is",
-        ),
-        (
-            lambda: ArchOnPiers(5.0, 0.8, 2.7, pier_width=0.5, pier_height=4.0),
-            r"pier_width is 0.5 m, but must be at least 0.78\d* m to carry the springing",
-        ),
-        (
-            lambda: ArchOnPiers(10.0, 1.5, 2.7, pier_width=2.0, pier_height=12.0),
-            "pier_width is 2.0 m, but on piers of that width .* does not stand; make the piers wider or lower",
-        ),
-        (
-            lambda: ArchOnPiers(5.0, 0.8, 2.7, restitution="momentum", pier_width=2.0, pier_height=4.0),
-            "restitution is 'momentum', but .* on the unsafe side; give a number",
-        ),
-    ],
-)
-def test_bad_input_is_refused_in_one_sentence(make, message):
-    with pytest.raises(StructureError, match=message):
-        make()

@@ -11,12 +11,9 @@ import yaml
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.structures import (
     Arch,
-    ArchOnPiers,
     Block,
     Facade,
     Frame,
-    LoadedWall,
-    RigidBody,
     Spire,
     Wall,
     load_structures,
@@ -27,101 +24,27 @@ from rocking.structures.structure_list import TYPES, structures_schema, structur
 WORKFLOW = Path(__file__).parents[3] / "workflow"
 SCHEMA = yaml.safe_load((WORKFLOW / "schemas" / "structures.schema.yaml").read_text(encoding="utf-8"))
 
-CASES = [
-    ({"type": "block", "breadth_m": 1, "height_m": 4}, Block.of_size(1, 4)),
-    ({"type": "block", "semi_diagonal_m": 2, "slenderness_deg": 15}, Block(2, np.radians(15))),
-    ({"type": "wall", "height_m": 3, "hinge_height_m": 2, "thickness_m": 0.3}, Wall(2, 1, 0.3)),
-    ({"type": "wall", "lower_height_m": 2, "upper_height_m": 1, "thickness_m": 0.3}, Wall(2, 1, 0.3)),
-    (
-        {
-            "type": "arch",
-            "name": "a",
-            "radius_m": 10,
-            "thickness_m": 1.5,
-            "embrace_angle_deg": 157.5,
-            "voussoirs": 7,
-        },
-        Arch(10, 1.5, np.radians(157.5), 7),
-    ),
-    (
-        {"type": "frame", "column_breadth_m": 1, "column_height_m": 6, "columns": 3, "beam_mass_ratio": 0.4},
-        Frame(Block.of_size(1, 6), 3, 0.4),
-    ),
-    (
-        {
-            "type": "spire",
-            "width_m": 3,
-            "height_m": 12,
-            "plan": "square",
-            "wall_thickness_m": 0.3,
-            "restitution": 0.8,
-        },
-        Spire(3, 12, 0.3, "square", restitution=0.8),
-    ),
-    (
-        {"type": "rigid_body", "left_m": 0.4, "right_m": 0.6, "centre_height_m": 2, "inertia_m2": 1.5},
-        RigidBody(0.4, 0.6, 2, 1.5),
-    ),
-    (
-        {
-            "type": "facade",
-            "storey_heights_m": [3.5, 3],
-            "thicknesses_m": [0.6, 0.5],
-            "unit_weight_kN_m3": 20,
-            "floor_loads_kN_m": [12, 6],
-            "tie_heights_m": [3.4],
-            "tie_stiffness_kN_m2": 100,
-        },
-        Facade((3.5, 3), (0.6, 0.5), 20e3, (12e3, 6e3), tie_heights=(3.4,), tie_stiffness=1e5),
-    ),
-    (
-        {
-            "type": "arch_on_piers",
-            "radius_m": 5,
-            "thickness_m": 0.8,
-            "embrace_angle_deg": 150,
-            "fill_depth_m": 0.3,
-            "pier_width_m": 2.6,
-            "pier_height_m": 4,
-        },
-        ArchOnPiers(5, 0.8, np.radians(150), fill_depth=0.3, pier_width=2.6, pier_height=4),
-    ),
-    (
-        {
-            "type": "loaded_wall",
-            "height_m": 3,
-            "hinge_height_m": 2,
-            "thickness_m": 0.3,
-            "unit_weight_kN_m3": 18,
-            "top_load_kN_m": 10,
-            "load_held": True,
-        },
-        LoadedWall(2, 1, 0.3, 18e3, 10e3, load_held=True),
-    ),
-]
 
-
-@pytest.mark.parametrize("mapping, structure", CASES, ids=lambda value: getattr(value, "type", ""))
-def test_every_form_makes_its_structure(mapping, structure):
-    assert structure_from_config(mapping) == structure
-
-
-def test_every_form_is_tested():
-    tried = {frozenset(form.required) for each in TYPES.values() for form in each.forms()}
-    given = [set(mapping) for mapping, _ in CASES]
-    assert all(any(keys <= mapping for mapping in given) for keys in tried)
+def test_degrees_and_kilonewtons_stay_at_the_door():
+    block = {"type": "block", "semi_diagonal_m": 2, "slenderness_deg": 15}
+    assert structure_from_config(block) == Block(2, np.radians(15))
+    facade = {
+        "type": "facade",
+        "storey_heights_m": [3.5, 3],
+        "thicknesses_m": [0.6, 0.5],
+        "unit_weight_kN_m3": 20,
+        "floor_loads_kN_m": [12, 6],
+        "tie_heights_m": [3.4],
+        "tie_stiffness_kN_m2": 100,
+    }
+    made = Facade((3.5, 3), (0.6, 0.5), 20e3, (12e3, 6e3), tie_heights=(3.4,), tie_stiffness=1e5)
+    assert structure_from_config(facade) == made
 
 
 def test_the_schema_of_the_workflow_is_the_fields_own():
     written = (WORKFLOW / "schemas" / "structures.schema.yaml").read_text(encoding="utf-8")
     assert written == structures_schema_file(), "run `make schema`"
     assert structures_schema() == SCHEMA
-
-
-def test_the_examples_of_the_schema_pass_it():
-    for entry in SCHEMA["definitions"].values():
-        jsonschema.validate(entry["examples"], SCHEMA)
-        structure_from_config(entry["examples"][0])
 
 
 def test_shipped_structures_stand_and_pass_the_schema():
@@ -155,13 +78,6 @@ def test_shipped_structures_stand_and_pass_the_schema():
 def test_a_bad_mapping_is_refused_in_one_sentence(mapping, message):
     with pytest.raises((ConfigurationError, StructureError), match=message):
         structure_from_config(mapping)
-
-
-def test_an_angle_that_is_no_number_is_refused():
-    with pytest.raises(StructureError, match="embrace_angle_deg is 'wide', but must be a number"):
-        structure_from_config(
-            {"type": "arch", "radius_m": 1, "thickness_m": 0.2, "embrace_angle_deg": "wide"}
-        )
 
 
 def test_all_defects_of_a_list_stand_in_one_message(tmp_path):
@@ -243,11 +159,6 @@ def test_what_is_not_usual_is_a_warning_and_not_a_refusal(tmp_path):
         caught[0].message
     )
     assert len(caught) == 3
-
-
-def test_a_missing_file_is_refused(tmp_path):
-    with pytest.raises(ConfigurationError, match="cannot be read"):
-        load_structures(tmp_path / "none.yaml")
 
 
 @pytest.mark.parametrize("kind", TYPES)

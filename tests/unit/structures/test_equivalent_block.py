@@ -1,15 +1,13 @@
 """The block that is exact at rest: its identities, its map, its defects, and what it says of the mechanism."""
 
 import math
-import pickle
 
 import numpy as np
 import pytest
 from scipy.constants import g
 from scipy.integrate import quad
 
-from rocking.errors import StructureError
-from rocking.motion import integrate, integrate_batch
+from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.sine_pulse import predict_maximum
@@ -76,25 +74,6 @@ def test_the_map_is_the_integral_of_the_root_of_the_inertia(name):
         )
 
 
-@pytest.mark.parametrize("name", STRUCTURES)
-def test_exact_as_it_lifts(name):
-    """The uplift multiplier, the acceleration that pulls it back at rest, and the unstable equilibrium."""
-    side, block = STRUCTURES[name].mechanism().positive, STRUCTURES[name].mechanism().equivalent_block()
-    assert block.uplift_multiplier == pytest.approx(side.uplift_multiplier, rel=1e-14)
-    angular = g * side.at("gravity", 0.0) / side.at("inertia", 0.0)
-    assert block.frequency_parameter * block.velocity_scale == pytest.approx(angular, rel=1e-13)
-    assert block.rotation_ratio(1.0) == pytest.approx(1.0, rel=1e-14)
-
-
-def test_beyond_the_end_of_the_mechanism_it_has_overturned():
-    block = ARCH.mechanism().equivalent_block()
-    end = block.rotation_map.end / block.critical_arc
-    side = ARCH.mechanism().positive
-    assert block.rotation_ratio(end * (1 - 1e-12)) <= side.end_rotation / side.critical_rotation
-    assert block.rotation_ratio(end * (1 + 1e-12)) == math.inf
-    assert np.isinf(block.rotation_ratios(np.array([end * 1.001]))).all()
-
-
 def test_defects_of_the_table():
     """The table of the theory, section 9, to its printed digits."""
     expected = {
@@ -134,62 +113,3 @@ def test_small_rocking_on_two_unlike_sides_is_that_of_the_mechanism():
         errors.append(np.abs(ours / theirs - 1).max())
     assert errors[0] < 0.02
     assert np.array(errors[1:]) / errors[:-1] == pytest.approx([0.5, 0.5], abs=0.1)
-
-
-def test_history_and_maximum_agree():
-    """The largest rotation of the history is φ_max of the structure, on either side, in closed form and stepped."""
-    mechanism = TWO_SIDES
-    block = mechanism.equivalent_block()
-    samples = (
-        1.25 * g * max(side.uplift_multiplier for side in mechanism.sides) * np.sin(np.arange(400) * 0.3)
-    )
-    record, still = Accelerogram(samples, 0.01), Accelerogram(np.zeros(400), 0.01)
-    for vertical in (None, still):
-        response = integrate(block, record, 1e-11, history=True, vertical=vertical)
-        assert response.outcome == "rocks"
-        ratios = [
-            abs(response.rotation).max(initial=0, where=np.sign(response.rotation) == sign)
-            / side.critical_rotation
-            for sign, side in ((1, mechanism.positive), (-1, mechanism.negative))
-        ]
-        assert max(ratios) == pytest.approx(response.rotation_ratio, rel=1e-9)
-        assert response.peak_side == (1, -1)[int(np.argmax(ratios))]
-    exact, stepped = (integrate(block, record, 1e-12, vertical=v) for v in (None, still))
-    assert stepped.rotation_ratio == pytest.approx(exact.rotation_ratio, rel=1e-9)
-    assert integrate_batch([block], record)[0, 0] == pytest.approx(exact.rotation_ratio, rel=1e-12)
-
-
-def test_velocity_of_the_history_is_the_slope_of_the_rotation():
-    response = integrate(
-        ARCH.mechanism().equivalent_block(),
-        Accelerogram(np.zeros(400), 0.002),
-        history=True,
-        initial_rotation=0.05,
-    )
-    first = np.flatnonzero(response.rotation <= 0)[0]
-    times, rotation = response.times[: first - 1], response.rotation[: first - 1]
-    slope = np.gradient(rotation, times, edge_order=2)
-    assert response.angular_velocity[: first - 1][1:-1] == pytest.approx(slope[1:-1], rel=1e-3, abs=1e-5)
-
-
-def test_one_side_only():
-    structure = Block(1.5, 0.2, restitution=0.5, one_sided=True)
-    block = structure.mechanism().equivalent_block()
-    assert block.one_sided
-    pulse = Pulse(3.0, 8.0)
-    assert predict_maximum(block, pulse).peak_side == 1
-    assert predict_maximum(block, pulse).rotation_ratio == pytest.approx(
-        integrate(structure, pulse).rotation_ratio, rel=0.02
-    )
-
-
-def test_other_forms_and_words():
-    mechanism = ARCH.mechanism()
-    assert mechanism.equivalent_block("uplift").rotation_map is None
-    assert mechanism.equivalent_block() == mechanism.equivalent_block("rest")
-    with pytest.raises(
-        StructureError, match="scale is 'rests', but must be one of rest, linearised, uplift, mean"
-    ):
-        mechanism.equivalent_block("rests")
-    copy = pickle.loads(pickle.dumps(mechanism.equivalent_block()))
-    assert copy.rotation_ratio(0.5) == mechanism.equivalent_block().rotation_ratio(0.5)

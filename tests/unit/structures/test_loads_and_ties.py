@@ -1,7 +1,6 @@
 """Façades and walls with loads, thrusts and ties: an oracle in positions and energy, limits, energy, refusals."""
 
 import dataclasses
-import itertools
 
 import numpy as np
 import pytest
@@ -9,9 +8,7 @@ from lagrangian import Lagrangian, turned
 from mpmath import findroot, mp, mpf
 
 from rocking.errors import StructureError
-from rocking.motion import integrate
 from rocking.quantities import GRAVITY
-from rocking.records import Accelerogram
 from rocking.structures import Block, Facade, Frame, LoadedWall, Wall
 
 FACADE = Facade(
@@ -182,68 +179,6 @@ def test_under_a_flat_slab_a_facade_is_a_column_of_a_frame():
             assert getattr(side, name) == pytest.approx(getattr(frame.positive, name), rel=1e-12)
 
 
-def test_a_stiffer_tie_lets_through_less_and_in_the_limit_nothing():
-    """λ does not feel the stiffness; the largest rotation falls to nothing, at last as 1/√k."""
-    times = np.arange(1200) * 0.01
-    record = Accelerogram(3.0 * np.sin(2 * np.pi * times / 1.2) * np.exp(-((times - 5) ** 2) / 8), 0.01)
-    found = []
-    for stiffness in (1e4, 1e6, 1e8, 1e10, 1e12):
-        tied = Facade(
-            (6.0,), (0.6,), 20e3, tie_heights=(5.0,), tie_stiffness=stiffness, one_sided=True, restitution=0.5
-        )
-        assert tied.mechanism().uplift_multiplier == pytest.approx(0.1, rel=1e-12)
-        found.append(integrate(tied, record).rotation_ratio * tied.mechanism().critical_rotation)
-    assert all(later < 0.5 * earlier for earlier, later in itertools.pairwise(found))
-    assert found[-1] < 1e-4
-    tightened = Facade(
-        (6.0,), (0.6,), 20e3, tie_heights=(5.0,), tie_pretension=1e5, one_sided=True, restitution=0.5
-    )
-    assert integrate(tightened, record).rotation_ratio == 0
-
-
-@pytest.mark.parametrize("case", ["façade", "wall", "façade, tightened"])
-def test_energy_with_the_work_of_ties_is_kept_over_a_hundred_cycles(case):
-    """η = 1 and still ground: kinetic energy, weight, loads and ties together, at every state of 100 cycles."""
-    structure = dataclasses.replace(CASES[case][0], restitution=1.0)
-    mechanism = structure.mechanism()
-    start = 0.3 * min(side.critical_rotation for side in mechanism.sides)
-    found = integrate(
-        structure, Accelerogram(np.full(30000, 1e-12), 0.01), 1e-12, history=True, initial_rotation=start
-    )
-    assert found.impacts >= 100
-    nodes, weights = np.polynomial.legendre.leggauss(60)
-
-    def energy(side, phi, speed):
-        work = phi / 2 * (side.gravity(phi[:, None] / 2 * (nodes + 1)) @ weights)
-        return side.inertia(phi) * speed**2 / 2 + GRAVITY * work
-
-    reference = energy(mechanism.positive, np.array([start]), np.array([0.0]))[0]
-    out = np.flatnonzero(found.rotation > 0)[::25]
-    kept = energy(mechanism.positive, found.rotation[out], found.angular_velocity[out])
-    np.testing.assert_allclose(kept, reference, rtol=1e-9)
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_the_toe_carries_what_moves_and_what_hangs_on_it(case):
-    """Vertical force at rest: all weights; horizontal force in static balance: ties less thrust."""
-    structure, _ = CASES[case]
-    found = structure.contact_forces(0.0, 0.0, 0.0)
-    moving = structure.bodies(0.0).masses.sum()
-    if isinstance(structure, Facade):
-        masonry = structure.unit_weight * sum(
-            h * t for h, t in zip(structure.storey_heights[1:], structure.thicknesses[1:], strict=True)
-        )
-        loads = sum(structure.floor_loads[1:])
-        scale = GRAVITY / (masonry + (0.0 if structure.loads_held else loads))
-        assert moving == pytest.approx(GRAVITY / scale)
-        tied = structure.tie_pretension  # one tie is above the crack
-        assert found.tangential[0, 0] == pytest.approx(scale * (tied - structure.thrust), rel=1e-12)
-        assert found.normal[0, 0] == pytest.approx(scale * (masonry + loads), rel=1e-12)
-    else:
-        expected = GRAVITY * (1 + structure.top_load / structure.weight)
-        assert found.normal[0, 0] == pytest.approx(expected, rel=1e-12)
-
-
 @pytest.mark.parametrize(
     "change, message",
     [
@@ -285,21 +220,6 @@ def test_bad_input_is_refused_in_one_sentence(change, message):
     with pytest.raises(StructureError, match=message) as caught:
         dataclasses.replace(FACADE, **change)
     assert str(caught.value).endswith(".") and "\n" not in str(caught.value)
-
-
-def test_a_facade_cracks_where_it_is_weakest():
-    """Each storey's foot is a candidate; under a thrust near the top the upper storey alone is the weakest."""
-    facade = dataclasses.replace(FACADE, tie_heights=(), tie_stiffness=0.0, thrust_height=None)
-    found = facade.candidates(facade.candidate_positions(5))
-    assert list(found) == [0.0, 3.5, 6.5]
-    multipliers = [each.mechanism().uplift_multiplier for each in found.values()]
-    weakest = int(np.argmin(multipliers))
-    expected = {
-        crack: dataclasses.replace(facade, crack_storey=crack).mechanism().uplift_multiplier
-        for crack in (1, 2, 3)
-    }
-    assert multipliers == list(expected.values())
-    assert multipliers[weakest] == min(multipliers)
 
 
 def second_derivative(path, step=4e-3):

@@ -99,17 +99,3 @@ def test_hinge_thrusts_are_the_constraint_forces(case):
             size = np.hypot(*forces[2 * hinge : 2 * hinge + 2]) / mass
             found = np.hypot(contacts.normal[hinge, 0], contacts.tangential[hinge, 0])
             assert found == pytest.approx(size, rel=1e-9)
-
-
-def test_thrusts_of_an_arch_at_rest_at_onset_are_those_of_the_limit_analysis():
-    arch = Arch(2.0, 0.36, np.radians(170))
-    onset, sections = arch.onset, arch.onset.hinges - arch.embrace_angle / 2
-    contacts = arch.contact_forces(0.0, 0.0, 0.0, -onset.multiplier * GRAVITY)
-    _, vertical_force, horizontal = onset.reaction
-    across = horizontal + onset.multiplier * onset.hinges
-    up = vertical_force - onset.hinges
-    scale = GRAVITY / arch.embrace_angle
-    normal = scale * (across * np.cos(sections) - up * np.sin(sections))
-    tangential = scale * (across * np.sin(sections) + up * np.cos(sections))
-    np.testing.assert_allclose(contacts.normal[:, 0], normal, rtol=1e-9)
-    np.testing.assert_allclose(contacts.tangential[:, 0], tangential, rtol=1e-9, atol=1e-9)

@@ -4,36 +4,10 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from rocking.errors import StructureError, StructureWarning
-from rocking.quantities import GRAVITY
+from rocking.errors import StructureError
 from rocking.structures.block import Block, RigidBody
 from rocking.structures.frame import Frame
 from rocking.structures.spire import Spire
-
-
-def test_a_rigid_body_of_a_blocks_shape_is_the_block():
-    block = Block(2.0, 0.2)
-    half, up = block.breadth / 2, block.height / 2
-    body = RigidBody(half, half, up, 2.0**2 / 3).mechanism()
-    side, expected = body.positive, block.mechanism().positive
-    assert body.symmetric
-    assert side.frequency_parameter == pytest.approx(expected.frequency_parameter, rel=1e-14)
-    assert side.critical_rotation == pytest.approx(0.2, rel=1e-14)
-    assert body.restitution == pytest.approx(block.mechanism().restitution, rel=1e-13)
-
-
-def test_an_off_centre_body_has_two_different_sides():
-    body = RigidBody(0.3, 0.5, 2.0, 1.4)
-    mechanism = body.mechanism()
-    right, left = mechanism.sides
-    assert (right.critical_rotation, left.critical_rotation) == pytest.approx(
-        (np.arctan(0.25), np.arctan(0.15))
-    )
-    for side, corner in ((right, 0.5), (left, 0.3)):
-        squared = GRAVITY * np.hypot(corner, 2.0) / (1.4 + corner**2 + 4.0)
-        assert side.frequency_parameter == pytest.approx(np.sqrt(squared), rel=1e-14)
-    assert mechanism.uplift_multiplier == pytest.approx(0.15)
-    assert mechanism.equivalent_block().other_side.critical_rotation == left.critical_rotation
 
 
 def test_momentum_balance_of_an_off_centre_body_keeps_angular_momentum_about_the_new_corner():
@@ -45,19 +19,6 @@ def test_momentum_balance_of_an_off_centre_body_keeps_angular_momentum_about_the
         )  # spin + height × v_x − v_y × distance, about the other corner
         after = (1.4 + 2.0**2 + new**2) * side.restitution
         assert after == pytest.approx(before, rel=1e-14)
-
-
-def test_one_sided_is_a_property_of_single_bodies_with_its_own_restitution():
-    for body in (
-        Block(2.0, 0.2, 0.4, one_sided=True),
-        RigidBody(0.3, 0.5, 2.0, 1.4, 0.4, one_sided=True),
-        Spire(3.0, 12.0, restitution=0.4, one_sided=True),
-    ):
-        mechanism = body.mechanism()
-        assert mechanism.one_sided
-        assert len(mechanism.sides) == 1
-        assert mechanism.restitution == 0.4
-        assert mechanism.equivalent_block().one_sided
 
 
 @pytest.mark.parametrize("plan", ["circular", "square"])
@@ -106,25 +67,6 @@ def test_spire_mass_properties_by_quadrature(plan, wall, crack):
     assert body.centre_height == pytest.approx(centre, rel=1e-9)
     assert body.inertia == pytest.approx(inertia, rel=1e-9)
     assert body.left == body.right == pytest.approx(width / 2 * (1 - crack / height), rel=1e-15)
-
-
-def test_a_solid_spire_is_similar_above_every_crack():
-    base, cracked = Spire(3.0, 12.0).mechanism(), Spire(3.0, 12.0, crack_height=9.0).mechanism()
-    assert cracked.uplift_multiplier == pytest.approx(base.uplift_multiplier, rel=1e-14)
-    ratio = cracked.positive.frequency_parameter / base.positive.frequency_parameter
-    assert ratio == pytest.approx(2.0, rel=1e-14)
-
-
-def test_a_frame_without_a_beam_is_its_column():
-    column = Block(3.0, 0.15)
-    frame, alone = Frame(column, 4, 0.0).mechanism(), column.mechanism()
-    assert frame.positive.frequency_parameter == pytest.approx(alone.positive.frequency_parameter, rel=1e-15)
-    assert frame.restitution == pytest.approx(alone.restitution, rel=1e-14)
-
-
-def test_a_squat_frame_has_no_physical_momentum_balance():
-    with pytest.warns(StructureWarning, match="not physical"):
-        assert Frame(Block(1.0, 0.8), 2, 5.0).mechanism().restitution == 0.0
 
 
 @pytest.mark.parametrize(
