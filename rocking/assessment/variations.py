@@ -114,7 +114,8 @@ def _moved(structure: Structure, count: int) -> dict[float, Structure]:
     if not structure.crack_name:
         return {}
     fixed = replace(structure, restitution=structure.mechanism().restitution)  # type: ignore[type-var,call-arg]
-    return dict(fixed.candidates(fixed.candidate_positions(count)))
+    found = sorted(fixed.candidates(count), key=lambda each: each.position)
+    return {each.position: each.structure for each in found if np.isfinite(each.position)}
 
 
 def _predicted(structure: Structure, pulse: Pulse | None, settings: AssessmentSettings) -> float:

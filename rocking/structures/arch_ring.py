@@ -122,7 +122,8 @@ class Ring:
         """The annular sectors between successive sections `edges` (k + 1,), each with the fill on it."""
         masses = np.diff(edges)
         # a pier that turns about its springing has no part of the ring: 0/0
-        centroids = -self.centroid_radius * np.diff(np.exp(-1j * edges)) / np.where(masses > 0, masses, 1.0)
+        turns = np.diff(np.exp(-1j * edges))
+        centroids: np.ndarray = -self.centroid_radius * turns / np.where(masses > 0, masses, 1.0)
         about_centre = masses * (1 + self.thickness**2 / 4)
         if self.fill is not None:
             weight, x, y = (np.diff(values) for values in self.fill.loads(self.thickness, edges)[0])

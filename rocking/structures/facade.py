@@ -4,7 +4,7 @@ x = 0 is the outer face, x < 0 the building; the positive side rocks outwards ab
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar
@@ -26,7 +26,7 @@ from rocking.structures.bodies import (
 from rocking.structures.drawing import Kind, Mark, Path, rectangle, span, turned
 from rocking.structures.fields import Value, restitution_value
 from rocking.structures.mechanism import Mechanism, Side
-from rocking.structures.structure import Structure
+from rocking.structures.structure import Crack
 from rocking.structures.tied import (
     Eccentricity,
     Tied,
@@ -308,14 +308,10 @@ class Facade(Tied):
     def tie_stretches(self, rotation: float) -> dict[float, float]:
         return {z: (z - self.crack_height) * float(np.sin(max(rotation, 0.0))) for z in self._tied}
 
-    def candidate_positions(self, count: int) -> np.ndarray:
+    def _cracks(self, count: int) -> Iterable[Crack]:
         """The foot of every storey."""
-        return self.levels[:-1]
-
-    def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
-        """Return this façade cracked at the foot of the storeys at `positions` [m], by height."""
-        storeys = {float(z): int(np.argmin(np.abs(self.levels[:-1] - z))) + 1 for z in positions}
-        return {height: replace(self, crack_storey=storey) for height, storey in storeys.items()}
+        for storey, (description, height) in enumerate(self._crack_heights(self.levels[:-1], 0.0), start=1):
+            yield description, height, {"crack_storey": storey}
 
     def _outline(self, rotation: float) -> list[np.ndarray]:
         still = self.crack_storey - 1

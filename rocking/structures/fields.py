@@ -161,28 +161,35 @@ class Form:
     """One way to describe a structure in a file.
 
     meaning: for the documentation. make: name of the class method that takes the parameters as keywords; the class
-    itself when "". fields: its keys.
+    itself when "". fields: its keys. late: names of values that the class method does not take; they are set after.
     """
 
     meaning: str
     make: str
     fields: tuple[Field, ...]
+    late: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, kind: Any, make: str, meaning: str) -> "Form":
         """Return the form of a structure's class `kind` that its class method `make` takes, or its constructor."""
         own = dict(signature(kind).parameters)
+        late: tuple[str, ...] = ()
         taken, hints = dict(own), get_type_hints(kind, include_extras=True)
         if make:
             taken = dict(signature(getattr(kind, make)).parameters)
             hints |= get_type_hints(getattr(kind, make), include_extras=True)
-            if any(each.kind is Parameter.VAR_KEYWORD for each in taken.values()):
-                taken |= {name: each for name, each in own.items() if each.default is not Parameter.empty}
-        taken["restitution_range"] = taken.pop("restitution_range", own["restitution_range"])  # said last
+            options = any(each.kind is Parameter.VAR_KEYWORD for each in taken.values())
+            own = {
+                n: each for n, each in own.items() if n not in taken and each.default is not Parameter.empty
+            }
+            more = {n: each for n, each in own.items() if options or each.kind is Parameter.KEYWORD_ONLY}
+            taken |= more
+            late = () if options else tuple(more)
+        taken["restitution_range"] = taken.pop("restitution_range")  # said last
         described = [
             _field(name, hints[name], taken[name].default) for name in taken if _said(hints.get(name))
         ]
-        return cls(meaning, make, tuple(described))
+        return cls(meaning, make, tuple(described), late)
 
     @property
     def keys(self) -> dict[str, Field]:

@@ -1,7 +1,7 @@
 """The masonry spire, a cone or pyramid, that cracks at some height and rocks above the crack (theory: section 2)."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, ClassVar, Literal
 
@@ -13,14 +13,14 @@ from rocking.structures.bodies import Bodies, Contacts, MotionState, Restitution
 from rocking.structures.drawing import Path, span, turned
 from rocking.structures.fields import OneSided, Value, length, restitution_value
 from rocking.structures.mechanism import Mechanism
-from rocking.structures.structure import HIGHEST_SHARE, Structure
+from rocking.structures.structure import HIGHEST_SHARE, Crack, Crackable
 
 _SPREAD = {"circular": 3 / 20, "square": 1 / 5}
 """Mean square of one horizontal coordinate over a solid cone or pyramid, in squares of its half width."""
 
 
 @dataclass(frozen=True)
-class Spire(Structure):
+class Spire(Crackable):
     """A cone (plan "circular") or a square pyramid ("square") that rocks about the edge of a horizontal crack.
 
     width: at the base, diameter or side, m. height: of the whole spire, m. wall_thickness: horizontal thickness of a
@@ -106,13 +106,11 @@ class Spire(Structure):
     def contacts(self, state: MotionState) -> Contacts:
         return self.body.contacts(state)
 
-    def candidate_positions(self, count: int) -> np.ndarray:
-        """Crack heights from the base to a share of the height."""
-        return self.height * np.linspace(0, HIGHEST_SHARE, count)
-
-    def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
-        """Return this spire with its crack at each of `positions` [m], by height."""
-        return {float(height): replace(self, crack_height=height) for height in positions}
+    def _cracks(self, count: int) -> Iterable[Crack]:
+        """From the base to a share of the height."""
+        positions = self.height * np.linspace(0, HIGHEST_SHARE, count)
+        for description, height in self._crack_heights(positions, self.crack_height):
+            yield description, height, {"crack_height": height}
 
     def _outline(self, rotation: float) -> list[np.ndarray]:
         half, crack = self.half_width, self.crack_height

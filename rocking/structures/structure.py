@@ -2,9 +2,10 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -167,9 +168,11 @@ class Structure(ABC):
         once, twice = moved[-2:, control]
         control_speed = float(2 * once - twice / 2) / _STEP
 
+        # a mass that something else holds sideways, as that of a load that only rises, has no part
         masses = self.bodies(0.0).masses
         at_rest = self.bodies(np.array([-_STEP, _STEP])).centres.real
         across = (at_rest[:, 1] - at_rest[:, 0]) / (2 * _STEP)
+        masses = np.where(across == 0, 0.0, masses)
         first = masses @ across
         second = masses @ across**2
         x, y = places[0, control]
@@ -276,13 +279,17 @@ class Structure(ABC):
         """
         return np.zeros(np.shape(rotation))
 
-    def candidate_positions(self, count: int) -> np.ndarray:
-        """Return `count` positions [m] over which `candidates` may be spread; (0,) when nothing can be moved."""
-        return np.empty(0)
+    def candidates(self, count: int = 11) -> "tuple[Candidate, ...]":
+        """Return the mechanisms that may form, `count` or one more; first the one that statics chooses, of least λ.
 
-    def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
-        """Return this structure with what is moved at each of `positions` [m], by position."""
-        return {}
+        One, the structure as given, where the crack is known or there is none.
+        """
+        return (Candidate("as given", np.nan, self),)
+
+    @cached_property
+    def static_multiplier(self) -> float:
+        """The least λ of its candidates: the ground acceleration in g at which static limit analysis lets it fall."""
+        return self.candidates()[0].structure.mechanism().uplift_multiplier
 
     @property
     def form(self) -> Form:
@@ -381,6 +388,68 @@ class Structure(ABC):
     def _dimensions(self) -> Mapping[str, Path | list[Path]]:
         """The dimension of each parameter that a drawing can show, or of each value of a list."""
         return {}
+
+
+Crack = tuple[str, float, dict[str, Any]]
+"""Description, height above the base [m] (nan where none tells it) and the values of the structure cracked there."""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One mechanism that may form: a `structure` whose crack is known, at `position` [m] above the base.
+
+    description: in words, "hinge at 2.56 m". position: nan where a height does not tell it, as of an arch's hinges.
+    """
+
+    description: str
+    position: float
+    structure: Structure
+
+    @property
+    def multiplier(self) -> float:
+        """λ of its mechanism."""
+        return self.structure.mechanism().uplift_multiplier
+
+
+@dataclass(frozen=True, repr=False)
+class Crackable(Structure):
+    """A structure that may open somewhere else than where it is described.
+
+    crack: "known" where it exists (a joint, a survey); "unknown", the default: statics chooses, and others may form.
+    """
+
+    crack: Annotated[
+        Literal["unknown", "known"],
+        Value("Whether the crack or the hinges exist where they are given", "known", phrase="{name} {value}"),
+    ] = field(default="unknown", kw_only=True)
+
+    @abstractmethod
+    def _cracks(self, count: int) -> Iterable[Crack]:
+        """Where it may open, `count` places, and where it opens as given."""
+
+    def candidates(self, count: int = 11) -> tuple[Candidate, ...]:
+        """Those of an unknown crack keep the restitution of the structure: their own balance may be unphysical.
+
+        A crack at which what holds the structure leaves no mechanism is left out.
+        """
+        if self.crack == "known":
+            return super().candidates(count)
+        fixed: Any = replace(self, crack="known", restitution=self.mechanism().restitution)  # type: ignore[call-arg]
+        found = []
+        for description, position, changes in self._cracks(count):
+            with suppress(StructureError):
+                found.append(Candidate(description, position, replace(fixed, **changes)))
+        # of equal multipliers, as all along a solid spire, the lowest crack
+        return tuple(sorted(found, key=lambda each: float(f"{each.multiplier:.9g}")))
+
+    def cracked_by_statics(self) -> Self:
+        """Return this structure cracked where statics chooses, with its restitution; the crack stays unknown."""
+        return replace(self.candidates()[0].structure, crack=self.crack)  # type: ignore[call-arg,return-value]
+
+    def _crack_heights(self, positions: Iterable[float], given: float) -> list[tuple[str, float]]:
+        """Description and height [m] of cracks at `positions` and where one is `given`, from the ground up."""
+        heights = sorted({*map(float, positions), float(given)})
+        return [(f"{self.crack_name} at {height:.4g} m", height) for height in heights]
 
 
 def typed_text(value: object, number: str = "{}") -> str:

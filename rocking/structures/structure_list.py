@@ -63,11 +63,11 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
     arguments: dict[str, Any] = {
         form.keys[key].name: form.keys[key].inward(value) for key, value in given.items()
     }
-    known = arguments.pop("restitution_range", None)
+    late = {name: arguments.pop(name) for name in form.late if name in arguments}
     make: Callable[..., Structure] = getattr(TYPES[kind], form.make) if form.make else TYPES[kind]
     structure = make(**arguments)
-    if known is not None:
-        structure = replace(structure, restitution_range=known)
+    if late:
+        structure = replace(structure, **late)
     structure.typed(given, {key: typed_text(value) for key, value in given.items()} | dict(texts or {}))
     return structure
 

@@ -11,7 +11,7 @@ from rocking.errors import StructureError
 from rocking.structures.equivalent_block import Function
 from rocking.structures.fields import OneSided, Value
 from rocking.structures.mechanism import Side
-from rocking.structures.structure import Structure
+from rocking.structures.structure import Crackable
 from rocking.structures.ties import LoadedForm, Tie
 
 
@@ -86,7 +86,7 @@ def check_inside(field: str, value: float, height: float) -> None:
 
 
 @dataclass(frozen=True, repr=False)
-class Tied(Structure):
+class Tied(Crackable):
     """A structure with a row of equal ties.
 
     tie_heights: of ties above the ground, m; tie_stiffness: of each, N/m per m; tie_pretension, N/m; tie_strength,

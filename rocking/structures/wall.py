@@ -4,8 +4,7 @@ x is measured from the middle of the wall, outwards (to the right) positive; the
 """
 
 from collections.abc import Iterable
-from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, ClassVar
 
@@ -32,7 +31,7 @@ from rocking.structures.bodies import (
 from rocking.structures.drawing import Mark, Path, plane, rectangle, span, turned
 from rocking.structures.fields import OneSided, Value, length, restitution_value
 from rocking.structures.mechanism import Mechanism, Side
-from rocking.structures.structure import HIGHEST_SHARE, Structure
+from rocking.structures.structure import HIGHEST_SHARE, Crack, Crackable, Structure
 from rocking.structures.tied import (
     Eccentricity,
     Tied,
@@ -147,12 +146,16 @@ Applied = tuple[int, np.ndarray, np.ndarray]
 """A force on a block (0 lower, 1 upper): where it acts and what it is, (k,) complex each."""
 
 Height = Annotated[float, length("Height between the supports", 3.2, (0.5, 60), "h")]
+HingeHeight = Annotated[
+    float | None,
+    length("Height of the hinge above the base; left out: where statics puts it", 1.6, (0.2, 57), "h₁"),
+]
 Thickness = Annotated[float, length("Thickness", 0.25, (0.05, 5), "t")]
 Balanced = Annotated[Restitution, restitution_value("momentum")]
 
 
 @dataclass(frozen=True)
-class Wall(Structure):
+class Wall(Crackable):
     """A wall cracked into two blocks; base and top follow the ground, the top support slides vertically.
 
     lower_height, upper_height: h₁ below and h₂ above the hinge, m. thickness: 2b, m. The rotation φ is the
@@ -166,7 +169,7 @@ class Wall(Structure):
     type_name: ClassVar[str] = "wall"
     crack_name: ClassVar[str] = "hinge"
     described_as: ClassVar[dict[str, str]] = {
-        "hinged_at": "Wall by its height and that of its hinge",
+        "of_size": "Wall by its height, and that of its hinge where it is known",
         "": "Wall by the heights below and above its hinge",
     }
 
@@ -177,16 +180,33 @@ class Wall(Structure):
     one_sided: OneSided = False
 
     @classmethod
-    def hinged_at(
+    def of_size(
         cls,
         height: Height,
-        hinge_height: Annotated[float, length("Height of the hinge above the base", 1.6, (0.2, 57), "h₁")],
         thickness: Thickness,
+        hinge_height: HingeHeight = None,
         restitution: Balanced = None,
         one_sided: OneSided = False,
     ) -> "Wall":
+        """Return the wall of that height and thickness [m], hinged where statics puts the hinge or as it is given.
+
+        Restitution by momentum is then that of the wall hinged at mid-height: next to a support it is not physical.
+        """
+        given = height / 2 if hinge_height is None else hinge_height
+        wall = cls.hinged_at(height, given, thickness, restitution, one_sided)
+        return wall if hinge_height is not None else wall.cracked_by_statics()
+
+    @classmethod
+    def hinged_at(
+        cls,
+        height: float,
+        hinge_height: float,
+        thickness: float,
+        restitution: Restitution = None,
+        one_sided: bool = False,
+    ) -> "Wall":
         """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
-        cls.check_values("hinged_at", height=height)
+        cls.check_values("of_size", height=height)
         hinge = finite(StructureError, "hinge_height", hinge_height, "m")
         if not 0 < hinge < height:
             raise StructureError(
@@ -258,15 +278,11 @@ class Wall(Structure):
             ("base", "hinge"), np.stack([at_hinge - forces[0], at_hinge]), np.stack([1j + 0 * joint, joint])
         )
 
-    def candidate_positions(self, count: int) -> np.ndarray:
-        """Hinge heights that stay a share of the height away from base and top."""
-        return self.height * np.linspace(1 - HIGHEST_SHARE, HIGHEST_SHARE, count)
-
-    def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
-        """Return this wall hinged at each of `positions` [m] above the base instead, by height."""
-        heights, given = map(float, positions), (self.thickness, self.restitution, self.one_sided)
-        walls = {z: Wall.hinged_at(self.height, z, *given) for z in heights}
-        return {z: replace(wall, restitution_range=self.restitution_range) for z, wall in walls.items()}
+    def _cracks(self, count: int) -> Iterable[Crack]:
+        """Hinges that stay a share of the height away from base and top."""
+        positions = self.height * np.linspace(1 - HIGHEST_SHARE, HIGHEST_SHARE, count)
+        for description, height in self._crack_heights(positions, self.lower_height):
+            yield description, height, {"lower_height": height, "upper_height": self.height - height}
 
     def _outline(self, rotation: float) -> list[np.ndarray]:
         half, psi = self.thickness / 2, self.linkage.motion(rotation).angles[1]
@@ -318,7 +334,7 @@ class LoadedWall(Tied):
     type_name: ClassVar[str] = "loaded_wall"
     crack_name: ClassVar[str] = "hinge"
     described_as: ClassVar[dict[str, str]] = {
-        "hinged_at": "Wall between supports with a load on top and ties; forces per metre of wall"
+        "of_size": "Wall between supports with a load on top and ties; forces per metre of wall"
     }
 
     lower_height: float
@@ -345,12 +361,26 @@ class LoadedWall(Tied):
         self.mechanism()  # one that its load pushes over is refused at birth
 
     @classmethod
-    def hinged_at(
+    def of_size(
         cls,
         height: Height,
-        hinge_height: Annotated[float, length("Height of the hinge above the base", 1.9, (0.2, 57), "h₁")],
         thickness: Thickness,
         unit_weight: UnitWeight,
+        hinge_height: HingeHeight = None,
+        **options: float | tuple[float, ...] | str | None,
+    ) -> "LoadedWall":
+        """Return the wall of that height and thickness [m], hinged as `Wall.of_size`; options as for the class."""
+        given = height / 2 if hinge_height is None else hinge_height
+        wall = cls.hinged_at(height, given, thickness, unit_weight, **options)
+        return wall if hinge_height is not None else wall.cracked_by_statics()
+
+    @classmethod
+    def hinged_at(
+        cls,
+        height: float,
+        hinge_height: float,
+        thickness: float,
+        unit_weight: float,
         **options: float | tuple[float, ...] | str | None,
     ) -> "LoadedWall":
         """Return the wall of that total height whose hinge lies at `hinge_height` [m]; options as for the class."""
@@ -477,19 +507,8 @@ class LoadedWall(Tied):
             if isinstance(each.force, Tie) and isinstance(each.path, OnBlock)
         }
 
-    def candidate_positions(self, count: int) -> np.ndarray:
-        return self.wall.candidate_positions(count)
-
-    def candidates(self, positions: Iterable[float]) -> "dict[float, Structure]":
-        """Return this wall hinged at each of `positions` [m] above the base instead, by height.
-
-        A height at which its ties let it find no unstable equilibrium is left out.
-        """
-        found: dict[float, Structure] = {}
-        for z in map(float, positions):
-            with suppress(StructureError):
-                found[z] = replace(self, lower_height=z, upper_height=self.height - z)
-        return found
+    def _cracks(self, count: int) -> Iterable[Crack]:
+        return self.wall._cracks(count)
 
     def _outline(self, rotation: float) -> list[np.ndarray]:
         return self.wall._outline(rotation)

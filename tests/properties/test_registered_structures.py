@@ -227,12 +227,22 @@ def test_contacts_are_finite_or_refused_in_words(structure):
 
 
 @registered
-def test_candidates_stand_and_are_of_the_same_kind(structure):
+def test_candidates_stand_and_the_weakest_comes_first(structure):
+    """Of the same kind, each with its own crack, and the one that was given among them."""
     fixed = dataclasses.replace(structure, restitution=0.9, restitution_range=0.03)
-    positions = fixed.candidate_positions(5)
-    assert (len(positions) > 0) == bool(structure.crack_name)
-    for position, other in fixed.candidates(positions).items():
-        assert type(other) is type(structure)
-        assert other.mechanism().uplift_multiplier > 0
-        assert other.restitution_range == 0.03
-        assert getattr(other, f"{structure.crack_name}_height") == pytest.approx(position)
+    found = fixed.candidates(5)
+    multipliers = [each.structure.mechanism().uplift_multiplier for each in found]
+    assert fixed.static_multiplier == fixed.candidates()[0].multiplier
+    assert (np.diff(multipliers) > -1e-8 * multipliers[-1]).all()
+    assert multipliers[0] > 0
+    given = fixed.mechanism().uplift_multiplier
+    assert min(abs(each - given) for each in multipliers) < 1e-9 * given
+    if not structure.crack_name or structure.crack == "known":
+        assert len(found) == 1
+        return
+    for each in found:
+        assert type(each.structure) is type(structure) and each.structure.crack == "known"
+        assert (each.structure.restitution_range, each.structure.mechanism().restitution) == (0.03, 0.9)
+        if np.isfinite(each.position):
+            own = getattr(each.structure, f"{structure.crack_name}_height")
+            assert own == pytest.approx(each.position, abs=1e-12)

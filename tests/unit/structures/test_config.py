@@ -67,7 +67,7 @@ def test_shipped_structures_stand_and_pass_the_schema():
             {"type": "arch", "radius": 1, "thickness_m": 0.2},
             r"radius is not a key of an arch \(did you mean radius_m\?",
         ),
-        ({"type": "wall", "height_m": 3, "thickness_m": 0.3}, "a wall needs hinge_height_m; give it"),
+        ({"type": "wall", "height_m": 3, "hinge_height_m": 1}, "a wall needs thickness_m; give it"),
         (
             {"type": "block", "breadth_m": 1, "height_m": 4, "slenderness_deg": 3},
             "slenderness_deg beside breadth_m",
