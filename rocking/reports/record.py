@@ -240,7 +240,7 @@ def _state(told: _Told, fate: Fate) -> figures.State:
     height = told.governing.get(fate.structure)
     crack = ""
     if height is not None:
-        structure = structure.candidates([height.position_m])[height.position_m]
+        structure = structure.cracked_at(height.position_m)
         crack = f"{told.crack(fate.structure)} at {number(height.position_m, 2)} m"
     multiplier = told.structures[fate.structure].mechanism().uplift_multiplier
     peak = max((row.peak_acceleration_m_s2 for row in told.tables.record), default=math.nan) / GRAVITY

@@ -4,7 +4,7 @@ x = 0 is the outer face, x < 0 the building; the positive side rocks outwards ab
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar
@@ -26,7 +26,6 @@ from rocking.structures.bodies import (
 from rocking.structures.drawing import Kind, Mark, Path, rectangle, span, turned
 from rocking.structures.fields import Value, restitution_value
 from rocking.structures.mechanism import Mechanism, Side
-from rocking.structures.structure import Crack
 from rocking.structures.tied import (
     Eccentricity,
     Tied,
@@ -308,10 +307,13 @@ class Facade(Tied):
     def tie_stretches(self, rotation: float) -> dict[float, float]:
         return {z: (z - self.crack_height) * float(np.sin(max(rotation, 0.0))) for z in self._tied}
 
-    def _cracks(self, count: int) -> Iterable[Crack]:
+    def _crack_heights(self, count: int) -> np.ndarray:
         """The foot of every storey."""
-        for storey, (description, height) in enumerate(self._crack_heights(self.levels[:-1], 0.0), start=1):
-            yield description, height, {"crack_storey": storey}
+        return self.levels[:-1]
+
+    def cracked_at(self, height: float) -> "Facade":
+        """Return this façade cracked at the foot of the storey nearest to `height` [m]."""
+        return replace(self, crack_storey=int(np.argmin(np.abs(self.levels[:-1] - height))) + 1)
 
     def _outline(self, rotation: float) -> list[np.ndarray]:
         still = self.crack_storey - 1

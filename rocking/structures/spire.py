@@ -1,7 +1,6 @@
 """The masonry spire, a cone or pyramid, that cracks at some height and rocks above the crack (theory: section 2)."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Annotated, ClassVar, Literal
 
@@ -13,7 +12,7 @@ from rocking.structures.bodies import Bodies, Contacts, MotionState, Restitution
 from rocking.structures.drawing import Path, span, turned
 from rocking.structures.fields import OneSided, Value, length, restitution_value
 from rocking.structures.mechanism import Mechanism
-from rocking.structures.structure import HIGHEST_SHARE, Crack, Crackable
+from rocking.structures.structure import HIGHEST_SHARE, Crackable
 
 _SPREAD = {"circular": 3 / 20, "square": 1 / 5}
 """Mean square of one horizontal coordinate over a solid cone or pyramid, in squares of its half width."""
@@ -106,11 +105,12 @@ class Spire(Crackable):
     def contacts(self, state: MotionState) -> Contacts:
         return self.body.contacts(state)
 
-    def _cracks(self, count: int) -> Iterable[Crack]:
+    def _crack_heights(self, count: int) -> np.ndarray:
         """From the base to a share of the height."""
-        positions = self.height * np.linspace(0, HIGHEST_SHARE, count)
-        for description, height in self._crack_heights(positions, self.crack_height):
-            yield description, height, {"crack_height": height}
+        return self.height * np.linspace(0, HIGHEST_SHARE, count)
+
+    def cracked_at(self, height: float) -> "Spire":
+        return replace(self, crack_height=height)
 
     def _outline(self, rotation: float) -> list[np.ndarray]:
         half, crack = self.half_width, self.crack_height

@@ -1,7 +1,7 @@
 """Every structure: mechanism, bodies, drawing, contacts, candidates, capacity, and how a file describes it."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property
@@ -286,6 +286,10 @@ class Structure(ABC):
         """
         return (Candidate("as given", np.nan, self),)
 
+    def cracked_at(self, height: float) -> "Structure":
+        """Return this structure with its crack or hinge at `height` [m] above the base, if it can have one there."""
+        return self
+
     @cached_property
     def static_multiplier(self) -> float:
         """The least λ of its candidates: the ground acceleration in g at which static limit analysis lets it fall."""
@@ -390,10 +394,6 @@ class Structure(ABC):
         return {}
 
 
-Crack = tuple[str, float, dict[str, Any]]
-"""Description, height above the base [m] (nan where none tells it) and the values of the structure cracked there."""
-
-
 @dataclass(frozen=True)
 class Candidate:
     """One mechanism that may form: a `structure` whose crack is known, at `position` [m] above the base.
@@ -423,9 +423,9 @@ class Crackable(Structure):
         Value("Whether the crack or the hinges exist where they are given", "known", phrase="{name} {value}"),
     ] = field(default="unknown", kw_only=True)
 
-    @abstractmethod
-    def _cracks(self, count: int) -> Iterable[Crack]:
-        """Where it may open, `count` places, and where it opens as given."""
+    def _crack_heights(self, count: int) -> np.ndarray:
+        """About `count` heights above the base [m] at which it may open."""
+        return np.empty(0)
 
     def candidates(self, count: int = 11) -> tuple[Candidate, ...]:
         """Those of an unknown crack keep the restitution of the structure: their own balance may be unphysical.
@@ -436,20 +436,17 @@ class Crackable(Structure):
             return super().candidates(count)
         fixed: Any = replace(self, crack="known", restitution=self.mechanism().restitution)  # type: ignore[call-arg]
         found = []
-        for description, position, changes in self._cracks(count):
+        given = getattr(self, f"{self.crack_name}_height")
+        for height in sorted({*map(float, self._crack_heights(count)), float(given)}):
             with suppress(StructureError):
-                found.append(Candidate(description, position, replace(fixed, **changes)))
+                description = f"{self.crack_name} at {height:.4g} m"
+                found.append(Candidate(description, height, fixed.cracked_at(height)))
         # of equal multipliers, as all along a solid spire, the lowest crack
         return tuple(sorted(found, key=lambda each: float(f"{each.multiplier:.9g}")))
 
     def cracked_by_statics(self) -> Self:
         """Return this structure cracked where statics chooses, with its restitution; the crack stays unknown."""
         return replace(self.candidates()[0].structure, crack=self.crack)  # type: ignore[call-arg,return-value]
-
-    def _crack_heights(self, positions: Iterable[float], given: float) -> list[tuple[str, float]]:
-        """Description and height [m] of cracks at `positions` and where one is `given`, from the ground up."""
-        heights = sorted({*map(float, positions), float(given)})
-        return [(f"{self.crack_name} at {height:.4g} m", height) for height in heights]
 
 
 def typed_text(value: object, number: str = "{}") -> str:

@@ -4,7 +4,7 @@ x is measured from the middle of the wall, outwards (to the right) positive; the
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Annotated, ClassVar
 
@@ -31,7 +31,7 @@ from rocking.structures.bodies import (
 from rocking.structures.drawing import Mark, Path, plane, rectangle, span, turned
 from rocking.structures.fields import OneSided, Value, length, restitution_value
 from rocking.structures.mechanism import Mechanism, Side
-from rocking.structures.structure import HIGHEST_SHARE, Crack, Crackable, Structure
+from rocking.structures.structure import HIGHEST_SHARE, Crackable, Structure
 from rocking.structures.tied import (
     Eccentricity,
     Tied,
@@ -278,11 +278,12 @@ class Wall(Crackable):
             ("base", "hinge"), np.stack([at_hinge - forces[0], at_hinge]), np.stack([1j + 0 * joint, joint])
         )
 
-    def _cracks(self, count: int) -> Iterable[Crack]:
+    def _crack_heights(self, count: int) -> np.ndarray:
         """Hinges that stay a share of the height away from base and top."""
-        positions = self.height * np.linspace(1 - HIGHEST_SHARE, HIGHEST_SHARE, count)
-        for description, height in self._crack_heights(positions, self.lower_height):
-            yield description, height, {"lower_height": height, "upper_height": self.height - height}
+        return self.height * np.linspace(1 - HIGHEST_SHARE, HIGHEST_SHARE, count)
+
+    def cracked_at(self, height: float) -> "Wall":
+        return replace(self, lower_height=height, upper_height=self.height - height)
 
     def _outline(self, rotation: float) -> list[np.ndarray]:
         half, psi = self.thickness / 2, self.linkage.motion(rotation).angles[1]
@@ -507,8 +508,11 @@ class LoadedWall(Tied):
             if isinstance(each.force, Tie) and isinstance(each.path, OnBlock)
         }
 
-    def _cracks(self, count: int) -> Iterable[Crack]:
-        return self.wall._cracks(count)
+    def _crack_heights(self, count: int) -> np.ndarray:
+        return self.wall._crack_heights(count)
+
+    def cracked_at(self, height: float) -> "LoadedWall":
+        return replace(self, lower_height=height, upper_height=self.height - height)
 
     def _outline(self, rotation: float) -> list[np.ndarray]:
         return self.wall._outline(rotation)
