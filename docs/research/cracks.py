@@ -6,7 +6,6 @@ where it does cracked at the joint of least λ, the choice of statics; between t
 
 import json
 import math
-import subprocess
 import sys
 import warnings
 import zlib
@@ -20,6 +19,7 @@ import numpy as np
 
 from docs.research import scores
 from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, properties
+from docs.research.comparison.codes import ask
 from docs.research.sites import independent
 from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.verdict import Verdict
@@ -230,10 +230,7 @@ def ruled(
 
 
 def stack(member: Member, motion: Accelerogram) -> tuple[bool | None, int | None, str]:
-    """Return whether the stack falls in LMGC90, the joint that opened most, and why there is no answer.
-
-    LMGC90 keeps one model per process and prints as it goes, so that each run has a process of its own.
-    """
+    """Return whether the stack falls in LMGC90, the joint that opened most, and why there is no answer."""
     slowest = min(each.positive.frequency_parameter for each in member.mechanisms().values())
     given = {
         "member": [member.kind, member.courses],
@@ -242,16 +239,10 @@ def stack(member: Member, motion: Accelerogram) -> tuple[bool | None, int | None
         "critical_rotation": TURN / 6.0,  # of lmgc90.FALLEN
         "frequency_parameter": slowest,
     }
-    try:
-        done = subprocess.run(
-            [sys.executable, "-m", "docs.research.cracks"], cwd=Path(__file__).parents[2], check=False,
-            input=json.dumps(given), capture_output=True, text=True, timeout=TIMEOUT,
-        )  # fmt: skip
-        turns = np.array(json.loads(done.stdout.strip().splitlines()[-1]))
-    except subprocess.TimeoutExpired:
-        return None, None, f"It took more than {TIMEOUT:.0f} s."
-    except (IndexError, ValueError):
-        return None, None, (done.stderr.strip().splitlines() or ["It said nothing."])[-1]
+    found, reason = ask("docs.research.cracks", given, TIMEOUT)
+    if found is None:
+        return None, None, reason
+    turns = np.array(found)
     return bool(np.abs(turns).max() > TURN), int(np.abs(np.diff(turns)).argmax()), ""
 
 

@@ -11,9 +11,10 @@ import numpy as np
 from rocking.assessment.ensemble import EnsembleSettings
 from rocking.assessment.fragility import Fragility, fragility_of, incremental_dynamic_analysis
 from rocking.assessment.rows.of_trade import TradeMethod
-from rocking.errors import PulseError
+from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.trade import best_sines
 from rocking.motion import integrate_batch
-from rocking.pulses import DEMAND_CANDIDATES, Pulse, extract_pulses
+from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maxima
 from rocking.structures import EquivalentBlock, Structure
@@ -49,7 +50,7 @@ def write_fragilities(
     tell: Callable[[str], None],
 ) -> None:
     """Write trade_fragility.csv and its description into `folder`; tell: is given a line for each structure."""
-    sines, searched = _timed(lambda: [_sines(record) for record in records])
+    sines, searched = _timed(lambda: [best_sines(record, AssessmentSettings()) for record in records])
     rows: list[TradeFragilityRow] = []
     for name, structure in structures.items():
         rows += fragility_rows(name, structure, records, sines, searched)
@@ -96,14 +97,6 @@ def fragility_rows(
             cpu_s=cpu_s,
             preparation_s=searched_s if method in (TradeMethod.ONE_SINE, TradeMethod.SINES) else 0.0,
         )
-
-
-def _sines(record: Accelerogram) -> list[Pulse]:
-    """The best-ranked sines of a record; none where it has none."""
-    try:
-        return [each.pulse for each in extract_pulses(record).ranked[:DEMAND_CANDIDATES]]
-    except PulseError:
-        return []
 
 
 def _by_sines(block: EquivalentBlock, sines: Sequence[Sequence[Pulse]], factors: np.ndarray) -> np.ndarray:

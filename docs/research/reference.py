@@ -6,7 +6,6 @@ Written from the equation of motion (theory: section 1, "One standard form"); it
 import math
 from collections.abc import Callable, Iterator
 from time import process_time
-from typing import Literal
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -16,8 +15,6 @@ from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism
 from rocking.structures.mechanism import Side
-
-Scipy = Literal["RK45", "DOP853"]
 
 REFERENCE_TOLERANCE = 1e-12
 STEPS_PER_SAMPLE = 2
@@ -44,7 +41,7 @@ def reference_landings(
 def event_landings(
     mechanism: Mechanism,
     accelerogram: Accelerogram,
-    method: Scipy,
+    method: str,
     relative_tolerance: float,
     budget: float = math.inf,
 ) -> tuple[float, np.ndarray]:
@@ -62,7 +59,7 @@ class _Run:
         self,
         mechanism: Mechanism,
         accelerogram: Accelerogram,
-        method: Scipy,
+        method: str,
         tolerance: float,
         budget: float,
         restart: bool,
@@ -83,11 +80,11 @@ class _Run:
         self.landings: list[tuple[float, float]] = []
 
     def answer(self) -> tuple[float, np.ndarray]:
-        """The largest rotation ratio, and time and speed of every landing (k, 2)."""
-        return self.maximum(), np.array(self.landings, dtype=float).reshape(-1, 2)
+        """Follow the motion; return its largest rotation ratio, and time and speed of every landing (k, 2)."""
+        ratio = self._follow()
+        return ratio, np.array(self.landings, dtype=float).reshape(-1, 2)
 
-    def maximum(self) -> float:
-        """Follow the motion and return its largest rotation ratio."""
+    def _follow(self) -> float:
         now, side, state = 0.0, 0, (0.0, 0.0)
         for until in self._stops():
             while now < until:

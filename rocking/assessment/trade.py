@@ -1,12 +1,11 @@
 """What accuracy costs on a user's own records and structures: method by error by processor time."""
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from statistics import median
 from time import process_time
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -29,8 +28,7 @@ REPEATS = 3
 T = TypeVar("T")
 
 
-@dataclass(frozen=True)
-class _Answer:
+class _Answer(NamedTuple):
     """The rotation ratio that one method gives in one case, that of the reference, and the processor times, s."""
 
     method: TradeMethod
@@ -62,83 +60,71 @@ def trade(
     mechanisms = {name: structure.mechanism() for name, structure in structures.items()}
     answers: list[_Answer] = []
     for number, record in enumerate(records, start=1):
-        sines, searched = _timed(partial(_sines, record, chosen))
+        sines, searched_s = _timed(partial(best_sines, record, chosen))
         for name, mechanism in mechanisms.items():
-            block = mechanism.equivalent_block("rest")
-            prediction = {TradeMethod.ONE_SINE: sines[:1], TradeMethod.SINES: sines}
-            runs = {
-                **{method: partial(_worst, block, some) for method, some in prediction.items() if sines},
-                TradeMethod.BLOCK: partial(_rotation, block, record),
-                **{
-                    method: partial(_rotation, mechanism, record, each) for method, each in TOLERANCES.items()
-                },
-                TradeMethod.ENSEMBLE: partial(_member_in_the_middle, mechanism, record, chosen),
-            }
             try:
-                reference = _rotation(mechanism, record, REFERENCE_TOLERANCE)
-                for method, run in runs.items():
-                    found, cpu_s = _timed(run, 0 if method is TradeMethod.ENSEMBLE else REPEATS)
-                    record_s = searched if method in prediction else 0.0
-                    answers.append(_Answer(method, name, found, reference, cpu_s, record_s))
+                reference = integrate(mechanism, record, REFERENCE_TOLERANCE).rotation_ratio
+                for method, run in _runs(mechanism, record, sines, chosen).items():
+                    rotation_ratio, cpu_s = _timed(run, 0 if method is TradeMethod.ENSEMBLE else REPEATS)
+                    record_s = searched_s if method in (TradeMethod.ONE_SINE, TradeMethod.SINES) else 0.0
+                    answers.append(_Answer(method, name, rotation_ratio, reference, cpu_s, record_s))
             except RockingError as error:
                 tell(f"record {number}, {name}: {error}")
         tell(f"record {number}: {len(mechanisms)} structures")
-    return list(_rows(answers))
+    return [
+        _row(method, structure, own)
+        for structure in ("", *mechanisms)
+        for method in TradeMethod
+        if (own := [each for each in answers if each.method is method and structure in ("", each.structure)])
+    ]
 
 
-def _rows(answers: Sequence[_Answer]) -> Iterator[TradeRow]:
-    """Yield the rows that the answers come down to, those over all structures first."""
-    for structure in ("", *dict.fromkeys(answer.structure for answer in answers)):
-        own = [answer for answer in answers if structure in ("", answer.structure)]
-        usual = [answer.cpu_s for answer in own if answer.method is TradeMethod.MECHANISM]
-        for method in TradeMethod:
-            of_method = [answer for answer in own if answer.method is method]
-            if of_method:
-                yield _row(structure, method, of_method, _median(usual))
+def _runs(
+    mechanism: Mechanism, record: Accelerogram, sines: Sequence[Pulse], settings: AssessmentSettings
+) -> dict[TradeMethod, Callable[[], float]]:
+    """What each method computes of one case; no closed form for a record without pulses."""
+    block = mechanism.equivalent_block("rest")
+
+    def worst(some: Sequence[Pulse]) -> Callable[[], float]:
+        return lambda: max(predict_maximum(block, pulse).rotation_ratio for pulse in some)
+
+    def rotation(structure: EquivalentBlock | Mechanism, tolerance: float) -> Callable[[], float]:
+        return lambda: integrate(structure, record, tolerance).rotation_ratio
+
+    def middle() -> float:
+        members = ensemble(mechanism, GroundMotions.of(record), settings.ensemble)
+        return math.inf if members.overturning_share > 0.5 else members.median
+
+    closed = {TradeMethod.ONE_SINE: worst(sines[:1]), TradeMethod.SINES: worst(sines)} if sines else {}
+    followed = {method: rotation(mechanism, tolerance) for method, tolerance in TOLERANCES.items()}
+    return closed | {TradeMethod.BLOCK: rotation(block, 1e-6)} | followed | {TradeMethod.ENSEMBLE: middle}
 
 
-def _row(structure: str, method: TradeMethod, answers: Sequence[_Answer], usual_s: float) -> TradeRow:
-    """usual_s: processor time of a response of the mechanism at the default tolerance, s."""
+def _row(method: TradeMethod, structure: str, answers: Sequence[_Answer]) -> TradeRow:
     moving = [each for each in answers if not (rests(each.rotation_ratio) and rests(each.reference))]
     verdicts = [agreement(each.rotation_ratio, each.reference) for each in moving]
     errors = [abs(ratio(each.rotation_ratio, each.reference) - 1) for each in moving]
-    known = [error for error in errors if not math.isnan(error)]
-    cpu_s, record_s = _median([each.cpu_s for each in answers]), _median([each.record_s for each in answers])
+    rocking = [error for error in errors if not math.isnan(error)]
     return TradeRow(
         method=method,
         structure=structure,
         cases=len(moving),
-        error=_median(known),
-        error_high=float(np.quantile(known, 0.95)) if known else math.nan,
+        error=median(rocking) if rocking else math.nan,
+        error_high=float(np.quantile(rocking, 0.95)) if rocking else math.nan,
         wrong_verdicts=sum(each is not Agreement.SAME for each in verdicts),
         unsafe_verdicts=sum(each is Agreement.TOO_LOW for each in verdicts),
-        cpu_s=cpu_s,
-        preparation_record_s=record_s,
-        pays_from=math.floor(record_s / (usual_s - cpu_s)) + 1.0 if cpu_s < usual_s else math.inf,
+        cpu_s=median(each.cpu_s for each in answers),
+        preparation_record_s=median(each.record_s for each in answers),
     )
 
 
-def _sines(record: Accelerogram, settings: AssessmentSettings) -> tuple[Pulse, ...]:
-    """The best-ranked sines of a record; none where it has none."""
+def best_sines(record: Accelerogram, settings: AssessmentSettings) -> tuple[Pulse, ...]:
+    """Return the best-ranked sines of a record; none where it has none."""
     try:
         ranked = extract_pulses(record, settings=settings.pulse).ranked
     except PulseError:
         return ()
     return tuple(each.pulse for each in ranked[:DEMAND_CANDIDATES])
-
-
-def _worst(block: EquivalentBlock, sines: Sequence[Pulse]) -> float:
-    return max(predict_maximum(block, pulse).rotation_ratio for pulse in sines)
-
-
-def _rotation(structure: EquivalentBlock | Mechanism, record: Accelerogram, tolerance: float = 1e-6) -> float:
-    return integrate(structure, record, tolerance).rotation_ratio
-
-
-def _member_in_the_middle(mechanism: Mechanism, record: Accelerogram, settings: AssessmentSettings) -> float:
-    """The median of the ensemble; inf where overturning is likelier than not."""
-    members = ensemble(mechanism, GroundMotions.of(record), settings.ensemble)
-    return math.inf if members.overturning_share > 0.5 else members.median
 
 
 def _timed(run: Callable[[], T], repeats: int = 0) -> tuple[T, float]:
@@ -149,7 +135,3 @@ def _timed(run: Callable[[], T], repeats: int = 0) -> tuple[T, float]:
         found = run()
         spent.append(process_time() - started)
     return found, median(spent[1:] or spent)
-
-
-def _median(values: Sequence[float]) -> float:
-    return median(values) if values else math.nan

@@ -30,13 +30,11 @@ def write_trade_report(folder: Path, pdf: Path, image: Path) -> None:
         ("unsafe", "0.6", "r", lambda row: printing.whole(row.unsafe_verdicts)),
         ("A response (ms)", "0.8", "r", lambda row: printing.number(1e3 * row.cpu_s, 2)),
         ("A record (ms)", "0.7", "r", lambda row: printing.number(1e3 * row.preparation_record_s, 2)),
-        ("Pays from", "0.6", "r", lambda row: printing.number(row.pays_from)),
     )
     caption = (
         "Cases: those in which the method or the reference, the mechanism at a tolerance of 1e-12, does not rest. "
         "Errors: of the largest rotation where both rock. Unsafe: verdicts that say less than the reference. A record: "
-        "the search for its pulses. Pays from: structures per record from which it costs less than the mechanism at "
-        "1e-6, that search counted. The ensemble answers for all alike cases; its error is that of its median."
+        "the search for its pulses. The ensemble answers for all alike cases; its error is that of its median."
     )
     parts = [*trade_picture(folder), {**table, "caption": caption}]
     subtitle = "Processor times of the machine that measured, on the records and structures of the study."

@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -110,19 +111,24 @@ def _outer(module: str) -> Code:
             "acceleration": case.motion.acceleration.tolist(),
             "time_step": case.motion.time_step,
         }
-        try:
-            done = subprocess.run(
-                [sys.executable, "-m", module], cwd=Path(__file__).parents[3],
-                input=json.dumps(given), capture_output=True, text=True, timeout=TIMEOUT, check=False,
-            )  # fmt: skip
-            found = json.loads(done.stdout.strip().splitlines()[-1])
-        except subprocess.TimeoutExpired:
-            return Answer(math.nan, TIMEOUT, reason=f"It took more than {TIMEOUT:.0f} s.")
-        except (IndexError, ValueError):
-            return Answer(
-                math.nan, math.nan, reason=(done.stderr.strip().splitlines() or ["It said nothing."])[-1]
-            )
+        found, reason = ask(module, given)
+        if found is None:
+            return Answer(math.nan, math.nan, reason=reason)
         found["landings"] = np.array(found["landings"]) if found["reason"] == "" else None
         return Answer(**found)
 
     return run
+
+
+def ask(module: str, given: Mapping[str, object], timeout: float = TIMEOUT) -> tuple[Any, str]:
+    """Return what a driver answers to a case, in a process of its own; or None, and why there is no answer."""
+    try:
+        done = subprocess.run(
+            [sys.executable, "-m", module], cwd=Path(__file__).parents[3],
+            input=json.dumps(given), capture_output=True, text=True, timeout=timeout, check=False,
+        )  # fmt: skip
+        return json.loads(done.stdout.strip().splitlines()[-1]), ""
+    except subprocess.TimeoutExpired:
+        return None, f"It took more than {timeout:.0f} s."
+    except (IndexError, ValueError):
+        return None, (done.stderr.strip().splitlines() or ["It said nothing."])[-1]

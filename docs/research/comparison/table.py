@@ -186,7 +186,6 @@ def report_data(rows: Sequence[CodeRow]) -> dict[str, object]:
     groups: dict[tuple[str, str], list[CodeRow]] = {}
     for each in sorted(rows, key=lambda row: row.structure):
         groups.setdefault((each.structure, each.code), []).append(each)
-    outer = [row for row in rows if row.code in SAMPLED]
     losses = [own for own in groups.values() if own[0].code in SAMPLED]
     shown = picture(work_figure(rows), "Median error against median processor time of every code.")
     return {
@@ -200,7 +199,10 @@ def report_data(rows: Sequence[CodeRow]) -> dict[str, object]:
             },
             {**_work(groups.values()), "caption": _WORK},
             {"heading": "The other codes", "text": _OTHERS},
-            {**_losses(losses), "caption": "What the other codes lose and give: median (least to largest)."},
+            {
+                **_losses(losses),
+                "caption": "What the other codes lose and give: median (least to largest); each case stands in codes.csv.",
+            },
             {
                 **_case_by_case(outer),
                 "caption": "Case by case. Same η: ours with the restitution of that code.",
@@ -269,24 +271,6 @@ def _losses(groups: Iterable[Sequence[CodeRow]]) -> dict[str, Any]:
         ("φ over the reference's", "1.5", "r", over("reference_rotation_ratio")),
         ("φ over ours, same η", "1.5", "r", over("same_restitution_rotation_ratio")),
         ("Reference within bar", "0.7", "r", within_bar),
-    )
-
-
-def _case_by_case(rows: Sequence[CodeRow]) -> dict[str, Any]:
-    def with_bar(value: float, bar: float) -> str:
-        return printing.ratio(value) + ("" if math.isnan(bar) else f" ± {number(bar, 2)}")
-
-    return printing.table_of(
-        rows,
-        ("Case", "1.2", "l", lambda row: row.case),
-        ("Code", "1.2", "l", lambda row: row.code.split(" (")[0]),
-        ("Reference", "0.8", "r", lambda row: printing.ratio(row.reference_rotation_ratio)),
-        ("φ ± bar", "1.1", "r", lambda row: with_bar(row.rotation_ratio, row.rotation_ratio_error)),
-        ("η ± bar", "1.1", "r", lambda row: with_bar(row.restitution, row.restitution_error)),
-        ("Same η", "0.8", "r", lambda row: printing.ratio(row.same_restitution_rotation_ratio)),
-        ("Outside hinges", "0.7", "r", lambda row: number(row.outside_hinges, 2)),
-        ("Time (s)", "0.6", "r", lambda row: number(row.duration_s, 2)),
-        ("Note", "1.4", "l", lambda row: printing.words(row.reason)),
     )
 
 

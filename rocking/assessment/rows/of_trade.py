@@ -33,6 +33,3 @@ class TradeRow(Row):
     unsafe_verdicts: int = column("Those in which the method says less than the reference")
     cpu_s: float = column("Processor time of one response, median, with all preparations at hand")
     preparation_record_s: float = column("Processor time once for each record, median: search for its pulses")
-    pays_from: float = column(
-        "Structures per record from which it costs less than the mechanism at 1e-6, pulses counted; INF: never"
-    )

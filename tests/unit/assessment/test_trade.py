@@ -1,7 +1,5 @@
 """The trade of error for time: what each row says is what the methods themselves say."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -41,10 +39,9 @@ def test_errors_are_those_of_the_methods(rows, records):
     assert rows[TradeMethod.MECHANISM, "block"].wrong_verdicts == 0
 
 
-def test_times_and_what_pays_go_together(rows):
+def test_times_are_told_and_the_search_for_pulses_apart(rows):
     usual = rows[TradeMethod.MECHANISM, ""].cpu_s
     for (method, _), row in rows.items():
         assert row.cpu_s > 0
         assert (row.preparation_record_s > 0) == (method in (TradeMethod.ONE_SINE, TradeMethod.SINES))
-    ensemble = rows[TradeMethod.ENSEMBLE, ""]
-    assert ensemble.cpu_s > usual and math.isinf(ensemble.pays_from)
+    assert rows[TradeMethod.ENSEMBLE, ""].cpu_s > usual
