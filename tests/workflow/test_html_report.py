@@ -87,39 +87,12 @@ def test_the_page_to_explore_is_what_is_seen_first(page, browser):
         browser.switch_to.default_content()
 
 
-def test_the_description_says_what_was_studied_and_leads_back(page, browser):
-    (text,) = opened(page, browser, entry("Workflow"), "//div[h1[contains(., 'Rocking of structures')]]")
-    assert "structures.yaml" in text.text and "records/catalogue.csv" in text.text
-    assert "comes from an ensemble" in text.text
-    page("//a[@id='explore']")[0].click()
-    assert page("//iframe")
-
-
 @pytest.mark.parametrize("category", CATEGORIES)
 def test_every_result_stands_in_its_category(page, category):
     page(entry(category))[0].click()
     for label in CATEGORIES[category]:
         assert page(f"//tr/td[1][normalize-space()='{label}']")
     assert len(page("//tr/td[1]")) == len(CATEGORIES[category])
-
-
-def test_the_figure_is_drawn(page, browser):
-    from selenium.webdriver.support.ui import WebDriverWait
-
-    path = "//img[contains(@src, 'prediction_against')]"
-    (image,) = opened(page, browser, entry("Study"), button("prediction against integration", 1), path)
-    WebDriverWait(browser, PATIENCE).until(
-        lambda at: at.execute_script("return arguments[0].complete && arguments[0].naturalWidth > 100", image)
-    )
-
-
-@pytest.mark.parametrize(
-    ("category", "label"), [("Study", "report on all records"), ("Records", "synthetic_strong_pulse")]
-)
-def test_the_reports_are_shown(page, browser, category, label):
-    path = "//iframe[starts-with(@src, 'data:application/pdf')]"
-    (frame,) = opened(page, browser, entry(category), button(label, 1), path)
-    assert frame.size["height"] > 300
 
 
 def test_a_table_in_the_page_is_the_file(page, browser, study):
@@ -129,25 +102,6 @@ def test_a_table_in_the_page_is_the_file(page, browser, study):
     content = base64.b64decode(unquote(link.partition("base64,")[2]))
     assert content == (study / "results" / "summary" / "comparison.csv").read_bytes()
     assert [row["structure"] for row in csv.DictReader(content.decode().splitlines())] == ["pier"]
-
-
-@pytest.mark.parametrize(
-    ("category", "label", "begins"),
-    [
-        (
-            "Study",
-            "prediction against integration",
-            "Largest rotation over critical rotation: the closed form",
-        ),
-        ("Study", "report on all records", "Report on all records: what an expert would say"),
-        ("Records", "synthetic_strong_pulse", "Report of one record: what was read"),
-        ("Tables", "maxima.csv", "Columns end in their unit."),
-    ],
-)
-def test_a_result_has_its_caption(page, browser, category, label, begins):
-    path = f"//p[starts-with(normalize-space(), '{begins}')]"
-    (caption,) = opened(page, browser, entry(category), button(label, 2), path)
-    assert caption.is_displayed()
 
 
 def test_the_browser_had_nothing_to_complain_about(page, browser):
