@@ -12,7 +12,7 @@ import numpy as np
 from rocking.errors import MotionError, RockingError
 from rocking.motion import linear_kernel as kernel
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
-from rocking.motion.integration import LARGEST_GROWTH, TOLERANCES, Rocking, reduce, solvable_exactly
+from rocking.motion.integration import LARGEST_GROWTH, NO_LOG, TOLERANCES, Rocking, reduce, solvable_exactly
 from rocking.motion.members import Members, follow_factors
 from rocking.quantities import GRAVITY, within
 from rocking.records.accelerogram import Accelerogram
@@ -113,6 +113,9 @@ def _blocks(blocks: Sequence[EquivalentBlock], forcing: Forcing) -> np.ndarray:
         np.array([[side.restitution for side in sides] for sides in both]),
         forcing.ground.horizontal * forcing.factor,
         forcing.ground.time_step,
+        np.empty((2, 2, forcing.samples)),
+        np.zeros((2, 2)),
+        NO_LOG,
         status,
         peaks,
     )

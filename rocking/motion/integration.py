@@ -42,7 +42,7 @@ _TIGHT = 1e-12
 _NUDGE = 1e-5
 LARGEST_GROWTH = 50.0
 """Largest p Δt for which exp(p Δt) leaves the exact update its digits."""
-_NO_LOG = np.empty((0, 3))
+NO_LOG = np.empty((0, 3))
 
 
 def integrate(
@@ -215,7 +215,7 @@ def _ratio(side: SideTable, arc: float) -> float:
 
 def _logged(run: Any, arguments: tuple[Any, ...], expected: int) -> tuple[tuple[Any, ...], np.ndarray]:
     """Call the compiled `run` with a log that is large enough; `expected` samples, 0 for no log."""
-    log = np.empty((2 * expected + 1000, 3)) if expected else _NO_LOG
+    log = np.empty((2 * expected + 1000, 3)) if expected else NO_LOG
     result = run(*arguments, log)
     if result[-1] > log.shape[0] > 0:
         log = np.empty((result[-1], 3))

@@ -95,11 +95,21 @@ class Sample(NamedTuple):
 
 
 # Contraction to fused multiply-adds changes roundings only; infinities and NaN keep their meaning. Without numba's
-# counting of references what is compiled may not allocate an array.
-_OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
-_UNCOUNTED: dict[str, Any] = {**_OPTIONS, "_nrt": False}
-compiled = njit(**_UNCOUNTED)
-part = njit(forceinline=True, **_UNCOUNTED)
+# counting of references nothing may allocate an array: scratch arrays are handed in, filled element by element, for an
+# array expression compiles hundreds of functions of its own. Only what Python calls gets a wrapper for it: the
+# wrappers would take a third of the time of compiling.
+_OPTIONS: dict[str, Any] = {
+    "cache": True,
+    "nogil": True,
+    "error_model": "numpy",
+    "fastmath": {"contract"},
+    "_nrt": False,
+    "no_cfunc_wrapper": True,
+}
+_INNER: dict[str, Any] = {**_OPTIONS, "no_cpython_wrapper": True}
+entry = njit(**_OPTIONS)
+compiled = njit(**_INNER)
+part = njit(forceinline=True, **_INNER)
 """Of what is called from one place: inlined there, so that nothing is handed over by way of memory."""
 
 
@@ -236,7 +246,7 @@ def _sample_events(x, w, drive, ramp, span):
     return -1.0, peak, at
 
 
-@compiled
+@entry
 def takeback(ground, time_step, frequency, side, out):
     """Fill out (n,) with what the rest of the record can take from the unstable coordinate x − 1 + x'/p.
 
@@ -373,7 +383,8 @@ def _glide(ground, bound, time_step, p, scale, limit, full, motion, span, log, l
 def _begin(blocks, start, best, log):
     """The motion that starts so, and what has happened until then."""
     x, w, side = start
-    best[0], best[1] = 0.0, np.nan
+    best[0, 0] = best[0, 1] = 0.0
+    best[1, 0] = best[1, 1] = np.nan
     status, uplift, k = 0, np.nan, 0 if side > 0 else blocks.frequency.size - 1
     if side != 0:
         status, uplift, slot = ROCKS, 0.0, 0 if side > 0 else 1
@@ -469,7 +480,7 @@ def _concluded(blocks, count, time_step, restitution, motion, tally, best, log):
     return status, impacts, uplift, side, steps, logged
 
 
-@compiled
+@entry
 def rock_linear(blocks, samples, factor, restitution, start, settle, best, log):
     """Follow an equivalent block through a record and on, exactly: per sample in closed form, events by iteration.
 
@@ -506,33 +517,35 @@ def rock_linear(blocks, samples, factor, restitution, start, settle, best, log):
     return _concluded(blocks, ground.size - 1, time_step, restitution, motion, tally, best, log)
 
 
-@njit(**_OPTIONS)
-def rock_linear_members(blocks, samples, factors, restitution, status, peaks, impacts):
+@entry
+def rock_linear_members(blocks, samples, factors, restitution, best, log, status, peaks, impacts):
     """`rock_linear` for every member (m,): fill status, peaks (m, 2), the largest x of each side, and impacts.
 
-    factors: (m,) of ü_g. restitution: (m, 2), of the positive and of the negative side. Chains of impacts that provably
-    die out are not followed, nor counted.
+    factors: (m,) of ü_g. restitution: (m, 2), of the positive and of the negative side. best, log: scratch, (2, 2) and
+    no rows. Chains of impacts that provably die out are not followed, nor counted.
     """
-    none, best, start = np.empty((0, 3)), np.zeros((2, 2)), State(0.0, 0.0, 0)
+    start = State(0.0, 0.0, 0)
     settle = factors.size > 0  # for a literal True `rock_linear` would be compiled once more
     for m in range(factors.size):
         eta = restitution[m, 0], restitution[m, 1]
         status[m], impacts[m], _, _, _, _ = rock_linear(
-            blocks, samples, factors[m], eta, start, settle, best, none
+            blocks, samples, factors[m], eta, start, settle, best, log
         )
-        peaks[m] = best[0]
+        peaks[m, 0], peaks[m, 1] = best[0, 0], best[0, 1]
 
 
-@njit(**_OPTIONS)
-def rock_linear_blocks(frequency, push, span, restitution, ground, time_step, status, peaks):
+@entry
+def rock_linear_blocks(
+    frequency, push, span, restitution, ground, time_step, takeable, best, log, status, peaks
+):
     """`rock_linear` from rest for every block with two sides, (m, 2) each: fill status (m,) and peaks (m, 2).
 
-    Blocks that the record does not lift cost nothing.
+    takeable, best, log: scratch, (2, 2, n), (2, 2) and no rows. Blocks that the record does not lift cost nothing.
     """
-    none, best, start = np.empty((0, 3)), np.zeros((2, 2)), State(0.0, 0.0, 0)
-    takeable, settle, sides = np.empty((2, 2, ground.size)), status.size > 0, (1, -1)
+    start, settle, sides = State(0.0, 0.0, 0), status.size > 0, (1, -1)
     for m in range(status.size):
-        status[m], peaks[m] = 0, 0.0
+        status[m] = 0
+        peaks[m, 0] = peaks[m, 1] = 0.0
         first = 0
         while first < ground.size and -ground[first] * push[m, 0] <= 1 and ground[first] * push[m, 1] <= 1:
             first += 1
@@ -545,5 +558,5 @@ def rock_linear_blocks(frequency, push, span, restitution, ground, time_step, st
         blocks = Blocks(frequency[m], push[m], span[m], False)
         samples = Samples(moving, time_step, takeable)
         eta = restitution[m, 0], restitution[m, 1]
-        status[m], _, _, _, _, _ = rock_linear(blocks, samples, 1.0, eta, start, settle, best, none)
-        peaks[m] = best[0]
+        status[m], _, _, _, _, _ = rock_linear(blocks, samples, 1.0, eta, start, settle, best, log)
+        peaks[m, 0], peaks[m, 1] = best[0, 0], best[0, 1]

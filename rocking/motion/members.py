@@ -10,6 +10,7 @@ from rocking.errors import MotionError
 from rocking.motion import linear_kernel, nonlinear_kernel
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.integration import (
+    NO_LOG,
     STEP_SHARE,
     TOLERANCES,
     Rocking,
@@ -165,10 +166,20 @@ def _stepped(
 ) -> MemberResponses:
     """By the kernel that integrates to a tolerance."""
     status, peaks, impacts = _room(horizontal.size)
-    eta = _restitutions(restitution, table.restitution, horizontal.size)
-    share = STEP_SHARE * tolerance
+    sides = table.kernel_of(forcing)
     nonlinear_kernel.rock_members(
-        table.kernel_of(forcing), forcing.ground, horizontal, vertical, eta, share, status, peaks, impacts
+        sides,
+        forcing.ground,
+        horizontal,
+        vertical,
+        _restitutions(restitution, table.restitution, horizontal.size),
+        STEP_SHARE * tolerance,
+        nonlinear_kernel.memory(sides.ties),
+        np.zeros((2, 2)),
+        NO_LOG,
+        status,
+        peaks,
+        impacts,
     )
     read_back = [lambda arcs, side=side: side.rotation(arcs) / side.critical_rotation for side in table.sides]
     return _concluded(status, peaks, impacts, read_back)
@@ -182,7 +193,9 @@ def _exact(
     status, peaks, impacts = _room(horizontal.size)
     eta = _restitutions(restitution, (sides[0].restitution, sides[-1].restitution), horizontal.size)
     samples = samples_of(sides, forcing)
-    linear_kernel.rock_linear_members(blocks_of(block), samples, horizontal, eta, status, peaks, impacts)
+    linear_kernel.rock_linear_members(
+        blocks_of(block), samples, horizontal, eta, np.zeros((2, 2)), NO_LOG, status, peaks, impacts
+    )
     return _concluded(status, peaks, impacts, [side.rotation_ratios for side in sides])
 
 

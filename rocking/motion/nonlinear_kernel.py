@@ -17,7 +17,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
-from numba.extending import register_jitable
 
 ROCKS, OVERTURNS, TOO_MANY_IMPACTS, NOT_FINITE = 1, 2, 3, 4
 """How a run ends; 0 is no uplift."""
@@ -158,11 +157,21 @@ class Step(NamedTuple):
 
 
 # Contraction to fused multiply-adds changes roundings only; infinities and NaN keep their meaning. Without numba's
-# counting of references, which took a fifth of the time, what is compiled may not allocate an array.
-_OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
-_UNCOUNTED: dict[str, Any] = {**_OPTIONS, "_nrt": False}
-compiled = njit(**_UNCOUNTED)
-part = njit(forceinline=True, **_UNCOUNTED)
+# counting of references, which took a fifth of the time, nothing may allocate an array: scratch arrays are handed in,
+# filled element by element, for an array expression compiles hundreds of functions of its own. Only what Python calls
+# gets a wrapper for it: the wrappers would take a third of the time of compiling.
+_OPTIONS: dict[str, Any] = {
+    "cache": True,
+    "nogil": True,
+    "error_model": "numpy",
+    "fastmath": {"contract"},
+    "_nrt": False,
+    "no_cfunc_wrapper": True,
+}
+_INNER: dict[str, Any] = {**_OPTIONS, "no_cpython_wrapper": True}
+entry = njit(**_OPTIONS)
+compiled = njit(**_INNER)
+part = njit(forceinline=True, **_INNER)
 """Of what is called from one place: inlined there, so that nothing is handed over by way of memory."""
 
 
@@ -321,12 +330,9 @@ FIRST, EACH = 8, 6
 it is broken, its plastic elongation, the arc below which that leaves it slack, and the largest arc they go with."""
 
 
-@register_jitable
-def memory(ties):
+def memory(ties: Ties | None) -> np.ndarray:
     """Return room for the phase of n ties, (2, 8 + 6 n), a row for each side of rocking."""
-    if ties is None:
-        return np.empty((2, FIRST))
-    return np.empty((2, FIRST + EACH * ties.law.shape[1]))
+    return np.empty((2, FIRST + (0 if ties is None else EACH * ties.law.shape[1])))
 
 
 STIFFNESS, PRETENSION, STRENGTH, YIELD_STRETCH, YIELD_ARC, RUPTURE_ARC, SQUARE, AT_REST, BEND = range(9)
@@ -338,8 +344,9 @@ def _forget(ties, phase):
     """Begin the memory of the ties, a row for the positive and one for the negative side."""
     if ties is None:
         return
-    phase[:] = 0.0
     for slot in range(2):
+        for place in range(phase.shape[1]):
+            phase[slot, place] = 0.0
         for n in range(ties.law.shape[1]):
             law, at = ties.law[min(slot, ties.law.shape[0] - 1), n], FIRST + EACH * n
             phase[slot, at + 4] = -np.inf
@@ -902,7 +909,8 @@ def _passed(tally, steps, logged):
 @part
 def _begin(sides, phase, start, best, log):
     """The motion that starts so, and what has happened until then."""
-    best[0], best[1] = 0.0, np.nan
+    best[0, 0] = best[0, 1] = 0.0
+    best[1, 0] = best[1, 1] = np.nan
     status, uplift, side = 0, np.nan, start.side
     if side != 0:
         status, uplift, slot = ROCKS, 0.0, 0 if side > 0 else 1
@@ -1017,7 +1025,7 @@ def _strike(sides, phase, ground, member, k, motion, tally, step, settle, best, 
     )
 
 
-@compiled
+@entry
 def rock(sides, ground, member, start, tolerance, settle, phase, best, log):
     """Follow a mechanism through a ground motion and on until no larger peak can come.
 
@@ -1054,19 +1062,23 @@ def rock(sides, ground, member, start, tolerance, settle, phase, best, log):
     return tally.status, tally.impacts, tally.uplift, motion.side, tally.steps, tally.logged
 
 
-@njit(**_OPTIONS)
-def rock_members(sides, ground, horizontal, vertical, restitution, tolerance, status, peaks, impacts):
+@entry
+def rock_members(
+    sides, ground, horizontal, vertical, restitution, tolerance, phase, best, log, status, peaks, impacts
+):
     """`rock` for every member (m,): fill status, peaks (m, 2), the largest arc of each side, and impacts.
 
     horizontal, vertical: (m,) factors of ü_g and ü_v. restitution: (m, 2), of the positive and of the negative side.
-    Chains of impacts that provably die out are not followed, nor counted.
+    phase, best, log: scratch as `rock` takes it, the log without rows. Chains of impacts that provably die out are not
+    followed, nor counted.
     """
-    settle = horizontal.size > 0  # for a literal True `rock` would be compiled once more
-    none, best, start = np.empty((0, 3)), np.zeros((2, 2)), Start(0.0, 0.0, 0)
-    phase = memory(sides.ties)
+    settle, start = (
+        horizontal.size > 0,
+        Start(0.0, 0.0, 0),
+    )  # for a literal True `rock` would be compiled once more
     for m in range(horizontal.size):
         member = Member(horizontal[m], vertical[m], (restitution[m, 0], restitution[m, 1]))
         status[m], impacts[m], _, _, _, _ = rock(
-            sides, ground, member, start, tolerance, settle, phase, best, none
+            sides, ground, member, start, tolerance, settle, phase, best, log
         )
-        peaks[m] = best[0]
+        peaks[m, 0], peaks[m, 1] = best[0, 0], best[0, 1]

@@ -5,7 +5,8 @@ only: what allocates and prepares is numpy, for compiling array expressions take
 """
 
 import math
-from typing import NamedTuple
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit, types
@@ -26,6 +27,11 @@ LEAST_CLIMB = 1e-9
 """Gain of score for which a climb goes on; smaller ones are rounding at a kink."""
 HIGHEST_DAMPING = 1e10
 """Damping at which a climb ends: its step is then below the rounding of the score, at a kink as elsewhere."""
+
+_OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+entry = partial(njit, **_OPTIONS)
+compiled = partial(njit, **{**_OPTIONS, "no_cpython_wrapper": True})
+"""Of what Python does not call: a wrapper for it takes long to compile."""
 
 _VECTOR, _MATRIX, _CUBE = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 _COUNTS, _MASK = types.int64[::1], types.uint8[::1]
@@ -67,7 +73,7 @@ def _prepared(samples: np.ndarray, time_step: float, angles: np.ndarray, first: 
     return _Scan(padded, counts, last_onsets, turning, time_step / norms, sums)
 
 
-@njit(types.void(_MATRIX, types.int64, _COUNTS, _MATRIX, _CUBE), cache=True)
+@entry(types.void(_MATRIX, types.int64, _COUNTS, _MATRIX, _CUBE))
 def _start(padded, first, counts, turning, sums):
     """Fill sums with S_j at onset `first`."""
     for c in range(padded.shape[0]):
@@ -78,7 +84,7 @@ def _start(padded, first, counts, turning, sums):
             sums[c, 0, i], sums[c, 1, i] = re, im
 
 
-@njit(types.void(_MATRIX, types.int64, types.int64, types.int64, *_SCAN), cache=True)
+@entry(types.void(_MATRIX, types.int64, types.int64, types.int64, *_SCAN))
 def _fill_rows(rows, begin, end, first, padded, counts, last_onsets, turning, weights, sums):
     """Fill rows[begin:end] with the gains at onsets from `first` and carry the sums past them."""
     m = counts.size
@@ -128,7 +134,7 @@ def energy_gains(samples: np.ndarray, time_step: float, angles: np.ndarray) -> n
     return gains
 
 
-@njit(types.boolean(_MATRIX, types.int64, types.int64), cache=True)
+@compiled(types.boolean(_MATRIX, types.int64, types.int64))
 def _is_maximum(rows, b, i):
     """Whether rows[b, i] tops its eight neighbours; of equal ones the first counts."""
     gain, m = rows[b, i], rows.shape[1]
@@ -140,7 +146,7 @@ def _is_maximum(rows, b, i):
     return True
 
 
-@njit(types.void(_MATRIX, types.int64, types.float64, _MASK), cache=True)
+@compiled(types.void(_MATRIX, types.int64, types.float64, _MASK))
 def _mark(rows, b, floor, mask):
     """Mark the gains of rows[b] above `floor` that top those of the onsets before and after."""
     for i in range(rows.shape[1]):
@@ -148,9 +154,8 @@ def _mark(rows, b, floor, mask):
         mask[i] = (gain > floor) & (gain > rows[b - 1, i]) & (gain >= rows[b + 1, i])
 
 
-@njit(
+@compiled(
     types.int64(_MATRIX, types.int64, types.int64, _MASK, types.int64[:, ::1], _VECTOR, types.int64),
-    cache=True,
 )
 def _collected(rows, b, onset, mask, places, found, k):
     """Append the maxima among the marked gains of rows[b] to the first k of places and found; return how many."""
@@ -165,12 +170,11 @@ def _collected(rows, b, onset, mask, places, found, k):
     return k
 
 
-@njit(
+@entry(
     types.Tuple((types.int64, types.int64, types.int64, types.float64))(
         *(_MATRIX, _MASK, types.int64, types.int64, types.int64, types.int64, types.int64),
         *(types.float64, types.float64, types.int64[:, ::1], _VECTOR, *_SCAN),
     ),
-    cache=True,
 )
 def _searched(
     held, mask, start, filled, end, first, last, largest, share, places, found,
@@ -221,7 +225,7 @@ def local_maxima(
     return np.concatenate([places for places, _ in found]), np.concatenate([gains for _, gains in found])
 
 
-@njit(types.float64(_SAMPLES, types.int64, types.float64), cache=True)
+@entry(types.float64(_SAMPLES, types.int64, types.float64))
 def envelope_phase(samples, onset, angle):
     """Return atan2(Re S, Im S) where |S|, S = Σ a e^{iω(t − t_j)} over one cycle, is largest near `onset`.
 
@@ -246,7 +250,7 @@ def envelope_phase(samples, onset, angle):
     return phase
 
 
-@njit(types.Tuple((_WHOLE, _WHOLE, _REAL))(_WHOLE, _WHOLE, _REAL, _REAL), cache=True)
+@compiled(types.Tuple((_WHOLE, _WHOLE, _REAL))(_WHOLE, _WHOLE, _REAL, _REAL))
 def _cycle(count, origin, angle, shift):
     """Return (first sample, end, phase θ there) of the cycle θ = angle (k − origin) − shift in [0, 2π]."""
     begin = max(origin + math.ceil(shift / angle), 0)
@@ -254,7 +258,7 @@ def _cycle(count, origin, angle, shift):
     return begin, end, angle * (begin - origin) - shift
 
 
-@njit(_REAL(_SAMPLES, _WHOLE, _REAL, _REAL), cache=True)
+@compiled(_REAL(_SAMPLES, _WHOLE, _REAL, _REAL))
 def _score(samples, origin, angle, shift):
     """ln(⟨a, s⟩²/⟨s, s⟩) over the cycle, the logarithm of the energy gain per time step."""
     begin, end, theta = _cycle(samples.size, origin, angle, shift)
@@ -277,7 +281,7 @@ def _score(samples, origin, angle, shift):
     return 2 * math.log(abs(p)) - math.log(q) if p != 0.0 and q != 0.0 else -np.inf
 
 
-@njit(_SUMS(_SAMPLES, _WHOLE, _REAL, _REAL), cache=True)
+@compiled(_SUMS(_SAMPLES, _WHOLE, _REAL, _REAL))
 def _moments(samples, origin, angle, shift):
     """Return sums over the cycle, with φ = θ + shift, that its score and the score's derivatives are made of.
 
@@ -304,7 +308,7 @@ def _moments(samples, origin, angle, shift):
     return m0, m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11
 
 
-@njit(types.Tuple((types.boolean, _REAL, _REAL))(_SUMS, _REAL), cache=True)
+@compiled(types.Tuple((types.boolean, _REAL, _REAL))(_SUMS, _REAL))
 def _newton_step(sums, damping):
     """Return (solvable, step in ln ω, step in ω t₀) of the damped Newton iteration on the score."""
     p, q = sums[0], sums[5]
@@ -328,7 +332,7 @@ def _newton_step(sums, damping):
     )
 
 
-@njit(_PAIR(_REAL, _REAL, _WHOLE, _WHOLE, _PAIR), cache=True)
+@compiled(_PAIR(_REAL, _REAL, _WHOLE, _WHOLE, _PAIR))
 def _allowed(u, v, origin, count, limits):
     """Clip (ln ω, ω t₀) to the limits of ln ω, to a quarter cycle about the scanned onset and to the record."""
     u = min(max(u, limits[0]), limits[1])
@@ -337,7 +341,7 @@ def _allowed(u, v, origin, count, limits):
     return u, max(min(v, highest), -omega * origin, -math.pi / 2)
 
 
-@njit(types.UniTuple(_REAL, 3)(_SAMPLES, _WHOLE, _REAL, _REAL, _PAIR), cache=True)
+@compiled(types.UniTuple(_REAL, 3)(_SAMPLES, _WHOLE, _REAL, _REAL, _PAIR))
 def _climbed(samples, origin, u, v, limits):
     """Return (u, v, score) at the end of damped Newton steps from (u, v)."""
     score, damping = _score(samples, origin, math.exp(u), v), 1e-3
@@ -363,7 +367,7 @@ def _climbed(samples, origin, u, v, limits):
     return u, v, score
 
 
-@njit(types.UniTuple(_REAL, 4)(_SAMPLES, _WHOLE, _REAL, _REAL, _REAL, _REAL), cache=True)
+@entry(types.UniTuple(_REAL, 4)(_SAMPLES, _WHOLE, _REAL, _REAL, _REAL, _REAL))
 def refine(samples, onset, angle, lowest, highest, reach):
     """Climb to the maximum of the energy gain near one scanned maximum, by damped Newton in (ln ω, ω t₀).
 

@@ -16,7 +16,7 @@ in one file, and so do the tuples that they take.
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from numba import njit
 
@@ -42,7 +42,10 @@ _EQUAL = 1 + 1e-12
 # Of floats, because numba compiles what is called with an integer constant once for each.
 _POSITION, _VELOCITY, _MINUS_VELOCITY, _MONOTONY, _MINUS_MONOTONY = 0.0, 1.0, 2.0, 3.0, 4.0
 
-compiled = njit(cache=True, nogil=True, error_model="numpy")
+_OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+entry = njit(**_OPTIONS)
+compiled = njit(**{**_OPTIONS, "no_cpython_wrapper": True})
+"""Of what Python does not call: a wrapper for it takes long to compile."""
 
 
 class Side(NamedTuple):
@@ -386,7 +389,7 @@ def _ended(first, second, peaks, margin):
     return (one, other), -math.inf if unproved else margin
 
 
-@compiled
+@entry
 def course(first, second):
     """Follow the block from rest at the pulse's start to its last relevant flight.
 
@@ -426,7 +429,7 @@ def course(first, second):
     return Course(peaks, at, contacts, impacts, margin, False)
 
 
-@compiled
+@entry
 def courses(positive, negative, signs, frequencies, amplitudes, peaks, margins):
     """`course` of every block (m,) under every pulse (n,): fill peaks (m, n, 2), positive side first, and margins.
 
@@ -442,7 +445,7 @@ def courses(positive, negative, signs, frequencies, amplitudes, peaks, margins):
             peaks[i, j, first], peaks[i, j, 1 - first] = found.peaks
             margins[i, j] = found.margin
             if found.unresolved:
-                peaks[i, j] = math.nan
+                peaks[i, j, 0] = peaks[i, j, 1] = math.nan
 
 
 @compiled
@@ -451,7 +454,7 @@ def _side_of(row, frequency, amplitude):
     return Side(frequency / row[0], amplitude / row[1], row[2], row[3], row[4], row[5] != 0)
 
 
-@compiled
+@entry
 def thresholds(positive, negative, sign, frequencies, amplitudes):
     """Fill amplitudes (m, n) with the smallest one at which each block (m,) overturns under a sine of each frequency.
 
