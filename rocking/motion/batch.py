@@ -12,7 +12,15 @@ import numpy as np
 from rocking.errors import MotionError, RockingError
 from rocking.motion import linear_kernel as kernel
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
-from rocking.motion.integration import LARGEST_GROWTH, NO_LOG, TOLERANCES, Rocking, reduce, solvable_exactly
+from rocking.motion.integration import (
+    LARGEST_GROWTH,
+    NO_LOG,
+    TOLERANCES,
+    Rocking,
+    reduce,
+    samples_of,
+    solvable_exactly,
+)
 from rocking.motion.members import Members, follow_factors
 from rocking.quantities import GRAVITY, within
 from rocking.records.accelerogram import Accelerogram
@@ -177,9 +185,21 @@ def rocking_spectrum(
     rows = ratios.view(np.ndarray)
 
     def row(i: int) -> None:
-        # x'' of a block of λ is that of gλ = 1 under the motion over gλ
         block = EquivalentBlock(float(frequencies[i]), 1.0, GRAVITY, restitution)
-        rows[i] = follow_factors(block, forcing, pushes, None, None, TOLERANCES[0]).rotation_ratio
+        samples, status = samples_of(block.sides, forcing), np.zeros(pushes.size, dtype=np.int64)
+        kernel.spectrum_row(
+            frequencies[i : i + 1],
+            pushes,
+            np.ones(1),
+            restitution,
+            samples,
+            np.zeros((2, 2)),
+            NO_LOG,
+            status,
+            rows[i],
+        )
+        rows[i, status == kernel.OVERTURNS] = np.inf
+        rows[i, status > kernel.OVERTURNS] = np.nan
 
     with ThreadPoolExecutor(workers or os.cpu_count()) as pool:
         list(pool.map(row, range(frequencies.size)))

@@ -535,6 +535,16 @@ def rock_linear_members(blocks, samples, factors, restitution, best, log, status
 
 
 @entry
+def spectrum_row(frequency, pushes, unit, restitution, samples, best, log, status, peaks):
+    """`rock_linear_members` of the symmetric blocks of one frequency (1,) and of each push = 1/(gλ), (n,); unit: (1,) 1."""
+    start, settle, eta = State(0.0, 0.0, 0), pushes.size > 0, (restitution, restitution)
+    for j in range(pushes.size):
+        blocks = Blocks(frequency, pushes[j : j + 1], unit, False)
+        status[j], _, _, _, _, _ = rock_linear(blocks, samples, 1.0, eta, start, settle, best, log)
+        peaks[j] = max(best[0, 0], best[0, 1])
+
+
+@entry
 def rock_linear_blocks(
     frequency, push, span, restitution, ground, time_step, takeable, best, log, status, peaks
 ):
