@@ -536,7 +536,7 @@ def rock_linear_members(blocks, samples, factors, restitution, best, log, status
 
 @entry
 def spectrum_row(frequency, pushes, unit, restitution, samples, best, log, status, peaks):
-    """`rock_linear_members` of the symmetric blocks of one frequency (1,) and of each push = 1/(gλ), (n,); unit: (1,) 1."""
+    """Fill status and peaks (n,) of symmetric blocks, one frequency (1,) and every push = 1/(gλ). unit: (1,), 1."""
     start, settle, eta = State(0.0, 0.0, 0), pushes.size > 0, (restitution, restitution)
     for j in range(pushes.size):
         blocks = Blocks(frequency, pushes[j : j + 1], unit, False)

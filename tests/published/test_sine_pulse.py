@@ -8,10 +8,13 @@ import pytest
 from scipy.constants import g
 
 from rocking.pulses.pulse import Pulse
-from rocking.sine_pulse import Maximum, Regime, predict_maximum, printed_maximum
-from rocking.sine_pulse.kernel import flight, state
+from rocking.sine_pulse import Maximum, Regime, kernel, predict_maximum, printed_maximum
 from rocking.structures.mechanism import EquivalentBlock
 from rocking.structures.outcome import Outcome
+from tests.parts import callable_parts
+
+PARTS = callable_parts(kernel)
+flight, state = PARTS.flight, PARTS.state
 
 BLOCK = EquivalentBlock(2.0, 0.2, 0.8, 0.9)
 

@@ -7,13 +7,15 @@ from motion_cases import MECHANISMS, noise, random_case
 from oracle import Oracle
 from scipy.constants import g
 
-from rocking.motion import integrate
-from rocking.motion import nonlinear_kernel as kernel
+from rocking.motion import integrate, nonlinear_kernel
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Block
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.outcome import Outcome
+from tests.parts import callable_parts
+
+kernel = callable_parts(nonlinear_kernel)
 
 
 def lifting(mechanism, times):

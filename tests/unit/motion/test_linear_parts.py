@@ -9,9 +9,11 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
-from rocking.motion import linear_kernel as kernel
+from rocking.motion import linear_kernel
 from rocking.motion.linear_kernel import Blocks
+from tests.parts import callable_parts
 
+kernel = callable_parts(linear_kernel)
 ROUNDING = 4e-15
 
 

@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from rocking.motion import nonlinear_kernel as kernel
+from rocking.motion import nonlinear_kernel
 from rocking.motion.nonlinear_kernel import Ground, Member, Sides
+from tests.parts import callable_parts
 
+kernel = callable_parts(nonlinear_kernel)
 RNG = np.random.default_rng(5)
 PIECES = RNG.normal(size=(2, 3, 16))
 

@@ -7,11 +7,14 @@ from scipy.constants import g
 from scipy.integrate import quad
 
 from rocking.errors import MotionError
-from rocking.motion.nonlinear_kernel import _place
+from rocking.motion import nonlinear_kernel
 from rocking.motion.side_table import ACCURACY
 from rocking.motion.table import linear_table, table_of
 from rocking.structures import Arch, EquivalentBlock, Wall
 from rocking.structures.mechanism import Mechanism, Side
+from tests.parts import callable_parts
+
+_place = callable_parts(nonlinear_kernel)._place
 
 EXTREMES = {
     "arch just above its minimum thickness": Arch(

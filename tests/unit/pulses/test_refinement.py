@@ -7,7 +7,12 @@ import numpy as np
 import pytest
 from scipy import optimize
 
-from rocking.pulses.scan import PROBES, _climbed, _moments, _newton_step, _score, refine
+from rocking.pulses import scan
+from rocking.pulses.scan import PROBES, refine
+from tests.parts import callable_parts
+
+PARTS = callable_parts(scan)
+_climbed, _moments, _newton_step, _score = PARTS._climbed, PARTS._moments, PARTS._newton_step, PARTS._score
 
 STEP = 0.02
 

@@ -6,7 +6,11 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from rocking.sine_pulse.kernel import LONGEST_TIME, flight, hop, land
+from rocking.sine_pulse import kernel
+from tests.parts import callable_parts
+
+PARTS = callable_parts(kernel)
+LONGEST_TIME, flight, hop, land = PARTS.LONGEST_TIME, PARTS.flight, PARTS.hop, PARTS.land
 
 DIPS = [
     (2.033704303603342, -6.683606473145201, 1.3536943479767614, 3.197877471384934),

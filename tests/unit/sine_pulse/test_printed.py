@@ -9,9 +9,12 @@ from scipy.constants import g
 
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
-from rocking.sine_pulse import printed_maximum, pulse_end_energy
-from rocking.sine_pulse.kernel import LONGEST_TIME, flight, land
+from rocking.sine_pulse import kernel, printed_maximum, pulse_end_energy
 from rocking.structures.mechanism import EquivalentBlock
+from tests.parts import callable_parts
+
+PARTS = callable_parts(kernel)
+LONGEST_TIME, flight, land = PARTS.LONGEST_TIME, PARTS.flight, PARTS.land
 
 LARGEST_DOUBLE = mp.mpf(2) ** 1024
 

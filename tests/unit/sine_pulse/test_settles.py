@@ -5,7 +5,11 @@ import math
 import pytest
 from scipy.optimize import brentq
 
-from rocking.sine_pulse.kernel import Side, _settles
+from rocking.sine_pulse import kernel
+from rocking.sine_pulse.kernel import Side
+from tests.parts import callable_parts
+
+_settles = callable_parts(kernel)._settles
 
 
 def side(

@@ -1,0 +1,76 @@
+"""What is compiled when the package is first used on a machine: everything an assessment needs, in two processes."""
+
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+from rocking.errors import RockingError
+from rocking.motion import Members, integrate, integrate_batch, integrate_members
+from rocking.motion.batch import rocking_spectrum
+from rocking.pulses import Pulse, extract_pulses
+from rocking.records.accelerogram import Accelerogram
+from rocking.sine_pulse import overturning_amplitudes, predict_maxima, predict_maximum
+from rocking.structures import Block
+
+USUAL = 20.0
+"""Seconds that compiling takes on two cores of 2024."""
+_PATIENCE = 3.0
+"""Seconds after which something is said: what is compiled already is loaded in less."""
+_EVERY = 5.0
+
+
+def compile_all(say: Callable[[str], None] = print) -> None:
+    """Compile the search for pulses, the closed form and the integration, where that is not done already.
+
+    say: is told what is done, and every few seconds how long it has taken. Raises RockingError when it fails.
+    """
+    started = time.monotonic()
+    command = "from rocking.assessment import compilation; compilation.{}()"
+    running = [
+        subprocess.Popen(
+            [sys.executable, "-c", command.format(part.__name__)], stderr=subprocess.PIPE, text=True
+        )
+        for part in (compile_mechanisms, compile_blocks)
+    ]
+    next_word = _PATIENCE
+    while any(each.poll() is None for each in running):
+        spent = time.monotonic() - started
+        if spent >= next_word:
+            next_word = spent + _EVERY
+            say(f"Compiling for this machine, once: {spent:.0f} s (about {USUAL:.0f} s on two idle cores)")
+        time.sleep(0.1)
+    for each in running:
+        _, errors = each.communicate()
+        if each.returncode:
+            raise RockingError(
+                f"the numerical parts could not be compiled: {errors.strip().splitlines()[-1:]}"
+            )
+    if next_word > _PATIENCE:
+        say(f"Compiled in {time.monotonic() - started:.0f} s; it is kept for every later run.")
+
+
+def compile_mechanisms() -> None:
+    """Compile the search for pulses and the integration of mechanisms."""
+    record, block = _record(), Block(2.0, 0.2)
+    integrate(block, record)
+    integrate_members(block, record, Members([1.0]))
+    extract_pulses(record)
+
+
+def compile_blocks() -> None:
+    """Compile what is exact of equivalent blocks: under a record and under a sine pulse."""
+    record, block, pulse = _record(), Block(2.0, 0.2).mechanism().equivalent_block(), Pulse(3.0, 6.0)
+    integrate(block, record)
+    integrate_members(block, record, Members([1.0]))
+    integrate_batch([block, block], record)
+    rocking_spectrum(record, np.array([2.0]), np.array([0.2]), 0.9)
+    predict_maximum(block, pulse)
+    predict_maxima([block], [pulse])
+    overturning_amplitudes([block], [6.0])
+
+
+def _record() -> Accelerogram:
+    return Accelerogram(5 * np.sin(np.arange(1000) * 0.06), 0.01)
