@@ -159,13 +159,8 @@ def _sac_step(stats) -> float:
     return float(f"{stats.delta:.6g}")
 
 
-SAC = Format(
-    "SAC",
-    "SAC (IRIS, and many networks)",
-    "SAC header of version 6 or 7 whose number of samples fits the size of the file",
-    _is_sac,
-    _read_sac,
-)
+SAC = Format("SAC", "SAC (IRIS, and many networks)",
+    "SAC header of version 6 or 7 whose number of samples fits the size of the file", _is_sac, _read_sac)  # fmt: skip
 
 
 _OBSPY_G = 9.81
@@ -226,10 +221,5 @@ def _evt_record(trace, index: int, options: Options, warnings: tuple[str, ...]) 
     )
 
 
-EVT = Format(
-    "Kinemetrics EVT",
-    "Kinemetrics recorders",
-    "KMI mark at the start of the file",
-    lambda content: content[:1] == b"K" and content[:32].count(b"KMI") == 1,
-    _read_evt,
-)
+EVT = Format("Kinemetrics EVT", "Kinemetrics recorders", "KMI mark at the start of the file",
+    lambda content: content[:1] == b"K" and content[:32].count(b"KMI") == 1, _read_evt)  # fmt: skip

@@ -223,10 +223,5 @@ def _counts(rows: list[str]) -> bool:
     return len(rows) > 2 and len(steps) == 1 and steps.pop() > 0
 
 
-COLUMNS = Format(
-    "columns of numbers",
-    "spreadsheets, OpenSees and scripts",
-    "lines that hold numbers only, below at most one row of names",
-    _recognise,
-    _read,
-)
+COLUMNS = Format("columns of numbers", "spreadsheets, OpenSees and scripts",
+    "lines that hold numbers only, below at most one row of names", _recognise, _read)  # fmt: skip

@@ -120,11 +120,5 @@ def _component(head: str) -> str:
     return code if direction.lower() in ("", "other") and code else direction
 
 
-COSMOS = Format(
-    "COSMOS V1/V2",
-    "COSMOS, CESMD and USGS, USA",
-    "first line like Corrected acceleration (Format v01.20",
-    _FIRST,
-    _read,
-    plugin="COSMOS_V1V2",
-)
+COSMOS = Format("COSMOS V1/V2", "COSMOS, CESMD and USGS, USA",
+    "first line like Corrected acceleration (Format v01.20", _FIRST, _read, "COSMOS_V1V2")  # fmt: skip

@@ -154,18 +154,8 @@ def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
     raise RecordError("this is a Volume 3 file of spectra, not a time history; use the V1 or V2 file.")
 
 
-CSMIP = Format(
-    "CSMIP V1/V2",
-    "California Geological Survey (CSMIP, CDMG)",
-    "first line like Uncorrected Accelerogram Data Processed, or Corrected accelerogram Chan",
-    _recognise,
-    _read,
-    plugin="CSMIP_V1V2",
-)
-SPECTRA = Format(
-    "CSMIP V3 spectra",
-    "California Geological Survey (CSMIP, CDMG)",
-    "first line that names response or Fourier spectra",
-    _VOLUME_3,
-    _refuse,
-)
+CSMIP = Format("CSMIP V1/V2", "California Geological Survey (CSMIP, CDMG)",
+    "first line like Uncorrected Accelerogram Data Processed, or Corrected accelerogram Chan", _recognise,
+    _read, "CSMIP_V1V2")  # fmt: skip
+SPECTRA = Format("CSMIP V3 spectra", "California Geological Survey (CSMIP, CDMG)",
+    "first line that names response or Fourier spectra", _VOLUME_3, _refuse)  # fmt: skip

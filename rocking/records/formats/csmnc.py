@@ -46,11 +46,5 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     return [agree_with_header(record, peak, "cm/s2", half_digit=5e-4, at=at)]
 
 
-CSMNC = Format(
-    "CSMNC",
-    "China Strong Motion Networks Centre",
-    "lines OBSERVING POINT: and NO. OF POINTS: in the first 16",
-    _recognise,
-    _read,
-    plugin="CSMNC",
-)
+CSMNC = Format("CSMNC", "China Strong Motion Networks Centre",
+    "lines OBSERVING POINT: and NO. OF POINTS: in the first 16", _recognise, _read, "CSMNC")  # fmt: skip

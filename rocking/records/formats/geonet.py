@@ -87,11 +87,5 @@ def _samples(rows: list[str], declared: int) -> np.ndarray:
     )
 
 
-GEONET = Format(
-    "GeoNet V1A/V2A",
-    "GeoNet (GNS Science), New Zealand",
-    "first line Corrected or Uncorrected accelerogram above a Site line",
-    _recognise,
-    _read,
-    plugin="GEONET",
-)
+GEONET = Format("GeoNet V1A/V2A", "GeoNet (GNS Science), New Zealand",
+    "first line Corrected or Uncorrected accelerogram above a Site line", _recognise, _read, "GEONET")  # fmt: skip

@@ -223,42 +223,15 @@ def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
     ]
 
 
-DYNA = Format(
-    "DYNA (ESM, ITACA, AFAD)",
-    "ESM and ITACA (ORFEUS, INGV), AFAD",
-    "EVENT_NAME: at the start, or below lines AAD_, and SAMPLING_INTERVAL_S: below",
-    _is_dyna,
-    _read_dyna,
-    plugin="DYNA",
-)
-AFAD = Format(
-    "AFAD/NSMN text",
-    "AFAD, Turkey",
-    "first line STRONG GROUND MOTION RECORDS OF TURKIYE",
-    re.compile(r"STRONG GROUND MOTION RECORDS OF T", re.I),
-    _read_afad,
-    plugin="AFAD",
-)
-RESORCE = Format(
-    "RESORCE",
-    "RESORCE and SHARE, Europe",
-    "Event Date & Time at the start and a line that names the time series",
-    _is_resorce,
-    _read_resorce,
-    plugin="RESORCE",
-)
-CWB = Format(
-    "CWB",
-    "Central Weather Bureau, Taiwan",
-    "first line #Earthquake Information",
-    re.compile(r"#Earthquake Information"),
-    _read_cwb,
-    plugin="CWB",
-)
-JMA = Format(
-    "JMA CSV",
-    "Japan Meteorological Agency",
-    "SITE CODE= at the start and a seventh line NS,EW,UD",
-    _is_jma,
-    _read_jma,
-)
+DYNA = Format("DYNA (ESM, ITACA, AFAD)", "ESM and ITACA (ORFEUS, INGV), AFAD",
+    "EVENT_NAME: at the start, or below lines AAD_, and SAMPLING_INTERVAL_S: below", _is_dyna, _read_dyna,
+    "DYNA")  # fmt: skip
+AFAD = Format("AFAD/NSMN text", "AFAD, Turkey", "first line STRONG GROUND MOTION RECORDS OF TURKIYE",
+    re.compile(r"STRONG GROUND MOTION RECORDS OF T", re.I), _read_afad, "AFAD")  # fmt: skip
+RESORCE = Format("RESORCE", "RESORCE and SHARE, Europe",
+    "Event Date & Time at the start and a line that names the time series", _is_resorce, _read_resorce,
+    "RESORCE")  # fmt: skip
+CWB = Format("CWB", "Central Weather Bureau, Taiwan", "first line #Earthquake Information",
+    re.compile(r"#Earthquake Information"), _read_cwb, "CWB")  # fmt: skip
+JMA = Format("JMA CSV", "Japan Meteorological Agency",
+    "SITE CODE= at the start and a seventh line NS,EW,UD", _is_jma, _read_jma)  # fmt: skip

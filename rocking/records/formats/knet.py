@@ -82,10 +82,5 @@ def _start(text: str) -> str:
         return ""
 
 
-KNET = Format(
-    "K-NET/KiK-net",
-    "NIED, Japan",
-    "header that starts with Origin Time, Lat., Long., Depth. (km)",
-    _recognise,
-    _read,
-)
+KNET = Format("K-NET/KiK-net", "NIED, Japan",
+    "header that starts with Origin Time, Lat., Long., Depth. (km)", _recognise, _read)  # fmt: skip

@@ -96,11 +96,6 @@ def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
     )
 
 
-MINISEED = Format(
-    "miniSEED",
-    "FDSN data centres",
-    "miniSEED fixed header (six digits, then D, R, Q or M)",
-    _recognise,
-    _read,
-)
+MINISEED = Format("miniSEED", "FDSN data centres", "miniSEED fixed header (six digits, then D, R, Q or M)",
+    _recognise, _read)  # fmt: skip
 STATIONXML = Format("StationXML", "FDSN data centres", "FDSNStationXML element", _is_inventory, _refuse)

@@ -103,18 +103,9 @@ def _high_pass(text: str) -> float | None:
     return float(corner) or None if corner.count(".") <= 1 and corner != "." else None
 
 
-PEER_AT2 = Format(
-    "PEER AT2",
-    "PEER (NGA databases), USA",
+PEER_AT2 = Format("PEER AT2", "PEER (NGA databases), USA",
     "line with NPTS and DT in the first 8 lines of an acceleration file",
-    lambda content: _kind(content) == "acceleration",
-    _read,
-    plugin="PEER_AT2",
-)
-PEER_OTHER = Format(
-    "PEER VT2 or DT2",
-    "PEER (NGA databases), USA",
+    lambda content: _kind(content) == "acceleration", _read, "PEER_AT2")  # fmt: skip
+PEER_OTHER = Format("PEER VT2 or DT2", "PEER (NGA databases), USA",
     "NPTS and DT below VELOCITY or DISPLACEMENT TIME SERIES",
-    lambda content: _kind(content) in ("velocity", "displacement"),
-    _refuse,
-)
+    lambda content: _kind(content) in ("velocity", "displacement"), _refuse)  # fmt: skip

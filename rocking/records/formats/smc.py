@@ -83,11 +83,6 @@ def _whole(value: float) -> int:
     return int(value)
 
 
-SMC = Format(
-    "USGS SMC",
-    "U.S. Geological Survey",
-    "first line like 2 CORRECTED ACCELEROGRAM above ten text lines and integers",
-    _recognise,
-    _read,
-    plugin="USGS_SMC",
-)
+SMC = Format("USGS SMC", "U.S. Geological Survey",
+    "first line like 2 CORRECTED ACCELEROGRAM above ten text lines and integers", _recognise, _read,
+    "USGS_SMC")  # fmt: skip

@@ -56,13 +56,9 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     return [options.accelerogram(unit, values, step, event=event, warnings=notes, processed=None)]
 
 
-TITLED = Format(
-    "titled column",
-    "programs of analysis, files like KOBE.000",
+TITLED = Format("titled column", "programs of analysis, files like KOBE.000",
     "title, then a line with number of samples and step, then numbers",
-    lambda content: _titled(content) is not None,
-    _read,
-)
+    lambda content: _titled(content) is not None, _read)  # fmt: skip
 
 
 _EMOD3D = re.compile(r"\s*(\d+)\s+(\d\.\d+e[-+]\d\d)(\s+-?\d+){2}(\s+-?\d\.\d+e[-+]\d\d){4}\s*", re.I)
@@ -85,10 +81,5 @@ def _read_emod3d(content: bytes, options: Options) -> list[Accelerogram]:
     return [options.accelerogram(None, values, seconds, warnings=notes, processed=None, **named)]
 
 
-EMOD3D = Format(
-    "EMOD3D text",
-    "EMOD3D and ucgmsim, simulated and observed motion",
-    "station and component above samples, step and six more numbers",
-    _is_emod3d,
-    _read_emod3d,
-)
+EMOD3D = Format("EMOD3D text", "EMOD3D and ucgmsim, simulated and observed motion",
+    "station and component above samples, step and six more numbers", _is_emod3d, _read_emod3d)  # fmt: skip

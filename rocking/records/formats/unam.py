@@ -123,11 +123,5 @@ def _at(pairs: dict[str, str], key: str, channel: int) -> str:
     return _listed(pairs, key)[channel]
 
 
-UNAM = Format(
-    "UNAM/CICESE",
-    "Instituto de Ingeniería UNAM and CICESE, Mexico",
-    "line ARCHIVO ESTANDAR DE ACELERACION in the first 12",
-    _recognise,
-    _read,
-    plugin="UNAM",
-)
+UNAM = Format("UNAM/CICESE", "Instituto de Ingeniería UNAM and CICESE, Mexico",
+    "line ARCHIVO ESTANDAR DE ACELERACION in the first 12", _recognise, _read, "UNAM")  # fmt: skip

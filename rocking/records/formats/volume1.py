@@ -168,23 +168,12 @@ def _volume1(
     return Format(name, origin, sought, recognise, read_all, plugin)
 
 
-USC = _volume1(
-    "USC Volume 1",
-    "University of Southern California",
+USC = _volume1("USC Volume 1", "University of Southern California",
     "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I",
-    re.compile(r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", re.I),
-    _usc,
-    "USC_V1",
-)
-RENADIC = _volume1(
-    "RENADIC",
-    "RENADIC (Universidad de Chile)",
+    re.compile(r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", re.I), _usc, "USC_V1")  # fmt: skip
+RENADIC = _volume1("RENADIC", "RENADIC (Universidad de Chile)",
     "first line UNCORRECTED ACCELEROGRAM DATA PROCESSED with RENADIC below",
-    re.compile(r"UNCORRECTED ACCELEROGRAM DATA\s+PROCESSED"),
-    _renadic,
-    "RENADIC",
-    "RENADIC",
-)
+    re.compile(r"UNCORRECTED ACCELEROGRAM DATA\s+PROCESSED"), _renadic, "RENADIC", "RENADIC")  # fmt: skip
 BHRC = _volume1(
     "BHRC", "BHRC, Iran", "first line * VOL1DS FILE:", re.compile(r"\* VOL1DS FILE:"), _bhrc, "BHRC"
 )
