@@ -12,7 +12,7 @@ import numpy as np
 from rocking.errors import RecordError, about
 from rocking.quantities import GRAVITY, acceleration_factor, finite, positive, shown
 from rocking.records.instrument import azimuth, is_vertical
-from rocking.records.traces import calibrated, joined, orientation
+from rocking.records.traces import calibrated, joined, site
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,6 +32,18 @@ class Source:
 
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
 """Control characters, marks that turn the direction of writing, halves of characters."""
+
+
+_FACTS = (
+    "magnitude",
+    "magnitude_type",
+    "event_time",
+    "latitude",
+    "longitude",
+    "elevation",
+    "epicentral_distance",
+)
+"""What a file may say of earthquake and station beside their names."""
 
 
 class Changes(TypedDict, total=False):
@@ -77,6 +89,15 @@ class Accelerogram:
     borehole: bool = False
     magnitude: float | None = None
     """Of the earthquake, on the scale that the file or the catalogue prefers; None where neither knows it."""
+    magnitude_type: str = ""
+    """Scale of the magnitude: Mw, Ms, ML, mb or M; empty where the file does not say it."""
+    event_time: str = ""
+    """Origin time or date of the earthquake, as the file prints it."""
+    latitude: float | None = None
+    longitude: float | None = None
+    """Of the station, degrees north and east; None where the file does not give them."""
+    elevation: float | None = None
+    """Of the station, m above the sea."""
     epicentral_distance: float | None = None
     """m; None where neither the file nor the catalogue gives it."""
     processed: bool | None = False
@@ -165,8 +186,11 @@ class Accelerogram:
                     samples, steps = trace.data * acceleration_factor(str(known)), []
                 component = own.get("component", stats.channel)
                 vertical = own.get("vertical", is_vertical(component))
-                bearing = own.get("azimuth", orientation(trace, inventory))
-                bearing = azimuth(component) if bearing is None else bearing
+                facts = {name: own[name] for name in ("azimuth", *_FACTS) if name in own} | site(
+                    trace, inventory
+                )
+                if vertical or facts.get("azimuth") is None:
+                    facts["azimuth"] = None if vertical else azimuth(component)
                 records.append(
                     cls(
                         samples,
@@ -180,9 +204,9 @@ class Accelerogram:
                         processing=(*own.get("processing", ()), *steps),
                         warnings=tuple(own.get("warnings", ())),
                         processed=own.get("processed", False if by_response else None),
-                        azimuth=None if vertical else bearing,
                         vertical=vertical,
                         source=Source(format="obspy", unit=known or "m/s2"),
+                        **facts,
                     )
                 )
         return records
@@ -194,7 +218,7 @@ class Accelerogram:
         """
         from obspy import Trace, UTCDateTime  # which takes a second to import
 
-        names = ("component", "event", "azimuth", "vertical", "processed", "processing", "warnings")
+        names = ("component", "event", "azimuth", "vertical", "processed", "processing", "warnings", *_FACTS)
         more = {name: getattr(self, name) for name in names}
         header = {"delta": self.time_step, "rocking": more | {"unit": "m/s2", "format": self.source.format}}
         header |= {name: getattr(self, name) for name in ("network", "station", "location")}

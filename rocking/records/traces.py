@@ -1,6 +1,7 @@
 """Traces of obspy: pieces joined, counts turned into acceleration by the response of their instrument."""
 
 import warnings
+from contextlib import suppress
 
 import numpy as np
 
@@ -59,13 +60,15 @@ def calibrated(trace, inventory, response: str = "sensitivity") -> tuple[np.ndar
     return clean.data, step
 
 
-def orientation(trace, inventory) -> float | None:
-    """Return the azimuth of a trace, degrees clockwise from north, None where the inventory does not know it."""
-    try:
-        value = inventory.get_orientation(trace.id, trace.stats.starttime)["azimuth"]
-        return float(value) % 360
-    except Exception:  # obspy raises what it likes for what is not there
-        return None
+def site(trace, inventory) -> dict[str, float]:
+    """Return azimuth, latitude, longitude [degrees] and elevation [m] of a trace, as far as the inventory has them."""
+    facts = {}
+    with suppress(Exception):  # obspy raises what it likes for what is not there
+        facts["azimuth"] = float(inventory.get_orientation(trace.id, trace.stats.starttime)["azimuth"]) % 360
+    with suppress(Exception):
+        place = inventory.get_coordinates(trace.id, trace.stats.starttime)
+        facts |= {name: float(place[name]) for name in ("latitude", "longitude", "elevation")}
+    return facts
 
 
 def first_line(error) -> str:

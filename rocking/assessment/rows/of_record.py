@@ -24,7 +24,12 @@ class RecordRow(ComponentRow):
     epicentral_distance_m: float | None = column(
         "Distance to the epicentre, where file or catalogue give it", default=None
     )
+    magnitude_type: str = column("Scale of the magnitude, where the file says it", default="")
+    event_time: str = column("Time or date of the earthquake, as the file prints it", default="")
     station: str = column("Recording station")
+    station_latitude_deg: float | None = column("Latitude of the station, north", default=None)
+    station_longitude_deg: float | None = column("Longitude of the station, east", default=None)
+    station_elevation_m: float | None = column("Elevation of the station above the sea", default=None)
     start_time: str = column(
         "Time of the first sample, as the file states it; empty where it does not", default=""
     )
@@ -158,6 +163,11 @@ def record_row(
         significant_duration_s=measures.significant_duration,
         magnitude=accelerogram.magnitude,
         epicentral_distance_m=accelerogram.epicentral_distance,
+        magnitude_type=accelerogram.magnitude_type,
+        event_time=accelerogram.event_time,
+        station_latitude_deg=accelerogram.latitude,
+        station_longitude_deg=accelerogram.longitude,
+        station_elevation_m=accelerogram.elevation,
         **_motion_columns(motion or horizontal_motions([accelerogram])[0], dominant),
         high_pass_frequency_hz=accelerogram.high_pass_frequency,
         processing=accelerogram.processing,

@@ -83,6 +83,7 @@ def _records_end_well(content: bytes) -> bool:
 
 
 _SAC_HEADER = 632
+_SAC_PLACE = {"latitude": "stla", "longitude": "stlo", "elevation": "stel"}
 _UNDEFINED = -12345.0
 _VERSION, _SAMPLES = 304, 316
 """Bytes at which the header's version and number of samples stand (SAC manual, words 76 and 79)."""
@@ -125,6 +126,11 @@ def _sac_record(trace, unit: str, options: Options, warnings: tuple[str, ...]) -
         start_time=str(stats.starttime),
         processing=(offset,),
         azimuth=azimuth % 360 if -360 <= azimuth <= 360 else None,
+        **{
+            name: float(stats.sac[key])
+            for name, key in _SAC_PLACE.items()
+            if stats.sac.get(key, -12345) != -12345
+        },
     )
 
 

@@ -12,6 +12,7 @@ from rocking.records.formats.header import (
     check_duration,
     check_equal,
     check_nothing_left,
+    coordinates,
     corner,
     missing_channels,
     optional,
@@ -130,7 +131,7 @@ def _named(head: str, channels: int) -> dict:
     direction = optional(r"^Chan\s*\d+:\s*(\S+(?: Deg)?)", head)
     title = next((row.strip() for row in head.split("\n") if re.search(r"\bEARTHQUAKE\b", row)), "")
     place = optional(r"\bLocation:\s*(.*?)\s*$", head)
-    return {
+    return coordinates(optional(r"^Station No\.\s*\S+\s+(.*)", head)) | {
         "component": re.sub(r"\s+deg$", "", direction, flags=re.I),
         "station": optional(r"^Station No\.\s*(\S+)", head),
         "event": optional(r"^(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)", head) or title[:60],

@@ -3,7 +3,14 @@
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
-from rocking.records.formats.header import check_duration, magnitude, optional, optional_number, required
+from rocking.records.formats.header import (
+    check_duration,
+    coordinates,
+    optional,
+    optional_number,
+    required,
+    typed_magnitude,
+)
 from rocking.records.formats.text import count, fields, lines, number, whole
 from rocking.records.plausibility import agree_with_header
 
@@ -35,7 +42,9 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         warnings=notes,
         station=optional(r"^STATION:\s*(\S+)", head),
         event=text[2].strip()[:60],
-        magnitude=magnitude(optional(r"^MAGNITUDE\s+([\d.]+)", head)),
+        **typed_magnitude(optional(r"^MAGNITUDE\s+([\d.]+.*)", head)),
+        event_time=optional(r"^\d+ +(\d{4}-\d\d-\d\d [\d:]+ \w+)", head),
+        **coordinates(optional(r"^STATION:\s*\S+\s+(.*)", head)),
         processed=optional(r"^((?:UN)?CORRECTED) ", head).upper() == "CORRECTED",
     )
     if duration := optional(r"\bDURATION:\s*([\d.]+)", head):

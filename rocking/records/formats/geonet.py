@@ -10,12 +10,13 @@ from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import (
     blocks,
     check_duration,
+    coordinates,
     corner,
     distance,
-    magnitude,
     optional,
     optional_number,
     required,
+    typed_magnitude,
 )
 from rocking.records.formats.text import count, filled, lines, number
 from rocking.records.plausibility import agree_with_header
@@ -62,7 +63,9 @@ def _record(block: list[str], options: Options, notes: tuple[str, ...]) -> Accel
         station=optional(r"^Site\s+(\S+)", head),
         event=optional(r"^(\d{4} \w+ \d+)\s", head),
         network="NZ",
-        magnitude=magnitude(optional(r"^Epicentre\b.*\bM[A-Za-z]\s+([\d.]+)", head)),
+        **typed_magnitude(optional(r"^Epicentre\b.*\b(M[A-Za-z]\s+[\d.]+)", head)),
+        event_time=optional(r"^(\d{4} \w+ \d+\s+[\d:]+)", head),
+        **coordinates(optional(r"^Site\s+\S+\s+(.*)", head)),
         epicentral_distance=distance(optional(r"^Epicentre\b.*\bDist\s+([\d.]+)\s*km", head)),
         processed=block[0].lower().startswith("corrected"),
         high_pass_frequency=corner(optional_number(r"transition bands are\s+([\d.]+)", head)),

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable
 from itertools import pairwise
+from typing import Any
 
 from rocking.errors import RecordError
 from rocking.records.formats.text import lines, number
@@ -75,6 +76,42 @@ def magnitude(*texts: str) -> float | None:
     """Return the first number of the first text that holds a magnitude; 0 and below stand for none."""
     found = (optional_number(r"(-?\d+(?:\.\d+)?)", text) for text in texts)
     return next((value for value in found if value is not None and 0 < value <= 10), None)
+
+
+_SCALES = "Mw", "Ms", "M", "ML", "mb"
+"""Of magnitude, the preferred one first."""
+_TYPED = re.compile(
+    r"\b(M[wslb]?)(?![a-z])\W{0,3}(\d\d?(?:\.\d+)?)|(\d\d?(?:\.\d+)?)\s*\(?(M[wslb]?)\b", re.I
+)
+
+
+def typed_magnitude(text: str) -> dict[str, Any]:
+    """Return magnitude and magnitude_type of a text like "6.5 Mw", "4.0(Ms)" or "/mb=6.1/Mw=7.1", by preference."""
+    scales = {scale.lower(): scale for scale in _SCALES}
+    given = {scales[(m[1] or m[4]).lower()]: magnitude(m[2] or m[3]) for m in _TYPED.finditer(text)}
+    scale = next((scale for scale in _SCALES if given.get(scale)), "")
+    return {"magnitude": given[scale] if scale else magnitude(text), "magnitude_type": scale}
+
+
+_ANGLE = r"(\d{1,3}(?:\.\d+)?)(?:[ °]+(\d\d?)[ ']+(\d\d?))?[ °\"]*(?:LAT\. *|LONG?\. *)?"
+_COORDINATES = re.compile(rf"{_ANGLE}([NS])\b[\s,:-]*{_ANGLE}([EW])\b", re.I)
+
+
+def coordinates(text: str, elevation: str = "") -> dict[str, float | None]:
+    """Return latitude and longitude, degrees, of a text like "40.941N, 123.633W" or "42 37 10S 173 03 13E".
+
+    elevation: the text of the height above the sea, m. What is not there, or is 0, 0, is left out.
+    """
+    place: dict[str, float | None] = {}
+    if found := _COORDINATES.search(text):
+        north, east = (
+            (float(d) + float(m or 0) / 60 + float(s or 0) / 3600) * (-1 if side.upper() in "SW" else 1)
+            for d, m, s, side in (found.groups()[:4], found.groups()[4:])
+        )
+        if abs(north) <= 90 and abs(east) <= 180 and (north, east) != (0, 0):
+            place = {"latitude": north, "longitude": east}
+    height = optional_number(r"(-?\d+(?:\.\d+)?)", elevation)
+    return place if height is None or not -500 < height < 9000 else place | {"elevation": height}
 
 
 def distance(kilometres: str) -> float | None:

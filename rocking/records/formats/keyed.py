@@ -11,15 +11,16 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import (
     check_duration,
+    coordinates,
     corner,
     distance,
-    magnitude,
     mapping,
     numeric,
     optional,
     optional_number,
     place_of,
     required,
+    typed_magnitude,
     valued,
 )
 from rocking.records.formats.sampling import even_step
@@ -64,7 +65,12 @@ def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
         warnings=notes,
         event=f"{pairs.get('EVENT_NAME', '')} {pairs.get('EVENT_DATE_YYYYMMDD', '')}".strip(),
         start_time="{}-{}-{}T{}:{}:{}Z".format(*start.groups()) if start else "",
-        magnitude=magnitude(pairs.get("MAGNITUDE_W", ""), pairs.get("MAGNITUDE_L", "")),
+        **typed_magnitude(f"Mw={pairs.get('MAGNITUDE_W', '')} ML={pairs.get('MAGNITUDE_L', '')}"),
+        event_time=f"{pairs.get('EVENT_DATE_YYYYMMDD', '')} {pairs.get('EVENT_TIME_HHMMSS', '')}".strip(),
+        **coordinates(
+            f"{pairs.get('STATION_LATITUDE_DEGREE')}N {pairs.get('STATION_LONGITUDE_DEGREE')}E",
+            pairs.get("STATION_ELEVATION_M", ""),
+        ),
         epicentral_distance=distance(pairs.get("EPICENTRAL_DISTANCE_KM", "")),
         processed=high_pass is not None,
         high_pass_frequency=high_pass,
@@ -104,7 +110,9 @@ def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
             station=pairs.get("STATION ID", ""),
             event=pairs.get("EARTHQUAKE DATE", ""),
             network="TK",
-            magnitude=magnitude(pairs.get("EARTHQUAKE MAGNITUDE", "")),
+            **typed_magnitude(pairs.get("EARTHQUAKE MAGNITUDE", "")),
+            event_time=pairs.get("EARTHQUAKE DATE", ""),
+            **coordinates(pairs.get("STATION COORDINATES", ""), pairs.get("STATION ALTITUDE (M)", "")),
             processed="RAW" not in peaks,
         )
         stated = optional_number(rf"\({re.escape(component)}\)\s*(-?[\d.]+)", pairs.get(peaks, ""))
@@ -167,7 +175,11 @@ def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
             station=pairs.get("STATIONCODE", ""),
             event=pairs.get("ORIGIN TIME(GMT+08)", ""),
             network="TW",
-            magnitude=magnitude(*(value for key, value in pairs.items() if key.startswith("MAGNITUDE"))),
+            **typed_magnitude(
+                " ".join(f"{key[9:]}={text}" for key, text in pairs.items() if key[:9] == "MAGNITUDE")
+            ),
+            event_time=pairs.get("ORIGIN TIME(GMT+08)", ""),
+            **coordinates(f"{pairs.get('STATIONLATITUDE(N)')}N {pairs.get('STATIONLONGITUDE(E)')}E"),
         )
         ends = re.split(r"[~\s:]+", optional(rf"({re.escape(component)}:.*)", extremes))[1:]
         peak = max((abs(float(text)) for text in ends if is_number(text)), default=None)

@@ -7,7 +7,7 @@ from rocking.errors import RecordError
 from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, without_offset
-from rocking.records.formats.header import check_duration, magnitude
+from rocking.records.formats.header import check_duration, coordinates, magnitude
 from rocking.records.formats.text import after_lines, lines, number, numbers, period
 from rocking.records.plausibility import agree_with_header
 
@@ -45,6 +45,8 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         event=f"{fields['Origin Time']} M{fields['Mag.']}",
         start_time=_start(fields["Record Time"]),
         magnitude=magnitude(fields["Mag."]),
+        event_time=fields["Origin Time"],
+        **coordinates(f"{fields['Station Lat.']}N {fields['Station Long.']}E", fields["Station Height(m)"]),
         processing=(offset,),
         network="BO",
         borehole=direction in _BOREHOLE,

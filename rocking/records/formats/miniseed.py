@@ -9,7 +9,7 @@ from rocking.errors import RecordError, UndeclaredError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.binary import stream
 from rocking.records.formats.format import Format, Options
-from rocking.records.traces import calibrated, joined, orientation
+from rocking.records.traces import calibrated, joined, site
 
 _FIXED_HEADER = re.compile(rb"[0-9 \0]{6}[DRQM][ \0]")
 _LARGEST_XML = 32 * 2**20
@@ -35,7 +35,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         step = float(f"{stats.delta:.9g}")
         records.append(
             options.accelerogram(
-                unit, values, step, warnings=noticed, azimuth=orientation(trace, inventory), processing=done,
+                unit, values, step, warnings=noticed, **site(trace, inventory), processing=done,
                 component=stats.channel, station=stats.station, network=stats.network, location=stats.location,
                 start_time=str(stats.starttime),
             )

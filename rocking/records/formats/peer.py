@@ -5,6 +5,7 @@ import re
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
+from rocking.records.formats.header import optional
 from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
 from rocking.records.plausibility import agree_with_header
 
@@ -75,6 +76,9 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         component=_component(head),
         station=_field(head, -2),
         event=_field(head, 0),
+        event_time=optional(
+            r"(\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?)", head[1] if len(head) > 1 else ""
+        ),
         warnings=(*warnings, *([_MATCHED] if re.search(r"\bmatched\b", head[0], re.I) else [])),
         processed=True,
         high_pass_frequency=_high_pass(text),

@@ -7,7 +7,7 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
-from rocking.records.formats.header import check_duration, check_equal, magnitude, mapping, valued
+from rocking.records.formats.header import check_duration, check_equal, mapping, typed_magnitude, valued
 from rocking.records.formats.text import count, fields, in_columns, is_number, lines, number, whole
 from rocking.records.instrument import azimuth, is_vertical, other_quantity
 from rocking.records.plausibility import agree_with_header
@@ -89,7 +89,8 @@ def _record(i: int, values, notes, pairs: dict[str, str], options: Options) -> A
         component=_component(_listed(pairs, _ORIENTATION)[i]),
         station=pairs.get("CLAVE DE LA ESTACION", ""),
         event=pairs.get("FECHA DEL SISMO [GMT]", ""),
-        magnitude=magnitude(pairs.get("MAGNITUD(ES)", "")),
+        **typed_magnitude(pairs.get("MAGNITUD(ES)", "")),
+        event_time=f"{pairs.get('FECHA DEL SISMO [GMT]', '')} {pairs.get('HORA EPICENTRO (GMT)', '')}".strip(),
         warnings=notes,
     )
     if duration := _at(pairs, "DURACION DEL REGISTRO", i):

@@ -11,11 +11,12 @@ from rocking.records.formats.format import Format, Options, starts, without_offs
 from rocking.records.formats.header import (
     blocks,
     check_nothing_left,
-    magnitude,
+    coordinates,
     missing_channels,
     optional,
     optional_number,
     required,
+    typed_magnitude,
 )
 from rocking.records.formats.sampling import check_no_gap, even_step
 from rocking.records.formats.text import count, fields, filled, in_columns, is_number, lines, number, whole
@@ -119,10 +120,6 @@ def _renadic(block: Block, options: Options, held: int) -> Accelerogram:
     return agree_with_header(record, peak, "g", half_digit=5e-4)
 
 
-_SCALES = ("Mw", "Ms", "M", "ML", "mb")
-"""Of magnitude, the preferred one first."""
-
-
 def _bhrc(block: Block, options: Options, _: int) -> Accelerogram:
     values, offset = without_offset(
         filled(block.rows, block.declared, per_line=10, width=13), options.unit_of("g/10")
@@ -135,7 +132,6 @@ def _bhrc(block: Block, options: Options, _: int) -> Accelerogram:
         )
     component = optional(r"^COMP\s+(\S+)", block.head)
     letter = component[:1].upper()
-    scales = (optional(rf"^Epicenter\b.*\b{scale} ?(\d[\d.]*)", block.head) for scale in _SCALES)
     return options.accelerogram(
         "g/10",
         values,
@@ -143,7 +139,11 @@ def _bhrc(block: Block, options: Options, _: int) -> Accelerogram:
         component=component,
         station=optional(r"FILE:\s*(\w+)", block.head),
         event=optional(r"^Origin Time\s*:\s*(\S+\s+\S+)", block.head),
-        magnitude=magnitude(*scales),
+        **typed_magnitude(optional(r"^(Epicenter\b.*)", block.head)),
+        event_time=optional(r"^Origin Time\s*:\s*(\S+\s+\S+)", block.head),
+        **coordinates(
+            optional(r"\bStation\s+(.*?)\s+Altitude", block.head), optional(r"\bAltitude\s+(\S+)", block.head)
+        ),
         processing=(offset,),
         warnings=notes,
         vertical=is_vertical(letter),

@@ -7,26 +7,30 @@ import pytest
 
 from rocking.errors import CatalogueError
 from rocking.records import load_catalogue, open_record, read
-from rocking.records.formats.header import distance, magnitude
+from rocking.records.formats.header import distance, magnitude, typed_magnitude
 
 TABLE = b"time,NS\n0.00,0.1\n0.01,0.3\n0.02,0.2\n0.03,0.1\n"
 SHA = hashlib.sha256(TABLE).hexdigest()
 SAID = {
-    "formats_esm_dyna/HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC": (
-        4.6,
-        88.1,
-    ),  # M_W empty, M_L and distance printed
-    "formats_afad/20101114230825_3104_ap_RawAcc_E.asc": (5.1, 45.79),
-    "formats_afad/20170720223109_0921.txt": (6.5, None),
-    "formats_geonet/20161113_110259_WTMC_20.V2A": (7.82, 9.0),
-    "formats_smc/0111a.smc": (7.1, 89.0),
-    "formats_bhrc/5529-1.V1": (6.1, None),  # the scales without a number stand before M_w
-    "formats_cwb/1-EAS.dat": (6.0, None),
-    "formats_csmnc/ua0001.dat": (4.0, None),
-    "formats_knet/AOM0011801241951.EW": (6.2, None),
-    "formats_unam/ACAC1709.191": (7.1, None),
-    "northridge1994_rinaldi/RSN1063_NORTHR_RRS228.AT2": (None, None),
-}
+    "formats_esm_dyna/HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC":
+        (4.6, "ML", 88.1, "20190728 160908", (37.6349, 22.7293, 34.0)),  # M_W is empty
+    "formats_afad/20101114230825_3104_ap_RawAcc_E.asc":
+        (5.1, "ML", 45.79, "2010/11/14 23:08:25.75", (36.69293, 36.48852, 260.0)),
+    "formats_afad/20170720223109_0921.txt": (6.5, "Mw", None, "2017/07/20 22:31:09 (GMT)", (37.8747, 27.59223, 66.0)),
+    "formats_geonet/20161113_110259_WTMC_20.V2A":
+        (7.82, "Mw", 9.0, "2016 November 13 11:02:56", (-42.6194444, 173.0536111, None)),
+    "formats_smc/0111a.smc": (7.1, "", 89.0, "", (None, None, None)),
+    "formats_bhrc/5529-1.V1": (6.1, "Mw", None, "2012/08/11 12:23:16", (37.498, 44.999, 1417.0)),
+    "formats_cwb/1-EAS.dat": (6.0, "ML", None, "2018/02/06-23:50:42", (22.381, 120.857, None)),
+    "formats_csmnc/ua0001.dat": (4.0, "Ms", None, "2012-01-03 15:39:57 BTM", (39.7, 77.599, None)),
+    "formats_knet/AOM0011801241951.EW": (6.2, "", None, "2018/01/24 19:51:00", (41.5267, 140.9244, 39.0)),
+    "formats_unam/ACAC1709.191": (7.1, "M", None, "2017/09/19 18:14:40", (None, None, None)),
+    "formats_csmip/CE89146.V2": (None, "", None, "", (40.941, -123.633, None)),
+    "formats_mseed_stationxml/CI.CLC..HNE.mseed": (None, "", None, "", (35.81574, -117.59751, 775.0)),
+    "northridge1994_rinaldi/RSN1063_NORTHR_RRS228.AT2": (None, "", None, "1/17/1994", (None, None, None)),
+    "suites/fema_p695_far_field/01.AT2": (None, "", None, "1/17/94, 12:31", (None, None, None)),
+}  # fmt: skip
+"""By hand from the headers: magnitude, scale, distance [km], time of the earthquake, place of the station."""
 
 
 @pytest.mark.real_records
@@ -34,7 +38,26 @@ SAID = {
 def test_what_a_header_says(real_records, file):
     found = read(real_records / file)[0]
     kilometres = None if found.epicentral_distance is None else found.epicentral_distance / 1000
-    assert (found.magnitude, kilometres) == pytest.approx(SAID[file])
+    magnitude, scale, distance, when, place = SAID[file]
+    assert (found.magnitude, kilometres) == pytest.approx((magnitude, distance))
+    assert (found.magnitude_type, found.event_time) == (scale, when)
+    assert (found.latitude, found.longitude, found.elevation) == pytest.approx(place)
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("/mb=6.1/Mw=7.1", (7.1, "Mw")),
+        ("mb 6.1 Ms 6.9 ML 6.4", (6.9, "Ms")),
+        ("5.2 (Ml)", (5.2, "ML")),
+        ("mb      Ms      Mw6.1   M        ML", (6.1, "Mw")),
+        ("6.2", (6.2, "")),
+        ("Mw= ML=4.6", (4.6, "ML")),
+        ("0", (None, "")),
+    ],
+)
+def test_a_moment_magnitude_comes_before_one_of_body_waves(text, found):
+    assert tuple(typed_magnitude(text).values()) == found
 
 
 @pytest.mark.parametrize(
