@@ -174,8 +174,7 @@ def draw_agreement(axes: Axes, integrated: np.ndarray, predicted: np.ndarray) ->
     span = np.array([_SMALLEST, 1.0])
     for factor, line in ((1.0, "-"), (0.5, "--"), (2.0, "--")):
         axes.plot(span, factor * span, line, color="black", linewidth=0.6)
-    shown = np.isfinite(integrated + 0 * predicted) | np.isinf(integrated)
-    shown &= ~np.isnan(predicted) & (np.fmax(integrated, predicted) > 0)
+    shown = ~np.isnan(integrated) & ~np.isnan(predicted) & (np.fmax(integrated, predicted) > 0)
     places = np.clip(np.stack([integrated, predicted])[:, shown], 0.7 * _SMALLEST, None)
     places[np.isinf(places)] = _FALLEN
     axes.plot(

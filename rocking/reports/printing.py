@@ -6,7 +6,7 @@ from itertools import accumulate
 from typing import TypeVar
 
 Cell = str | dict[str, object]
-"""A text; or a text that is strong, with another below it; or a strip (layout.typ)."""
+"""A text; or a text that is strong, with another below it (layout.typ)."""
 T = TypeVar("T")
 
 NOTHING = "–"
@@ -125,16 +125,6 @@ def _fitting(names: Sequence[str]) -> str:
 def of(part: float, whole: float) -> str:
     """Return "n of m" on one line, NOTHING where there are none."""
     return f"{int(part)}\u00a0of\u00a0{int(whole)}" if whole > 0 else NOTHING
-
-
-def strip(places: Sequence[float], overturns: float) -> Cell:
-    """Return the band of rotation ratios, ends and middle, on a line from rest to the critical rotation.
-
-    overturns: the share beyond the line's end.
-    """
-    if math.isnan(places[0]):
-        return NOTHING
-    return {"strip": [min(float(place), 1.0) for place in places], "overturns": float(overturns)}
 
 
 def short(name: str, most: int = 44) -> str:

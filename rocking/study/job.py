@@ -154,7 +154,7 @@ def write_report(assessed: Assessed, study: Study, folder: Path) -> None:
 
 
 def _page_content(assessed: Assessed, study: Study) -> dict[str, object]:
-    from rocking.reports.explore.content import record_content  # where a report is made anyway
+    from rocking.reports.explore import record_content  # where a report is made anyway
 
     return record_content(
         assessed.record.id, assessed.accelerograms, study.structures, assessed.tables, assessed.responses

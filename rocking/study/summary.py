@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from rocking.assessment.fragility.rows import FragilityRow, FragilitySummaryRow, IdaRow
-from rocking.assessment.rows.of_case import ComparisonRow
+from rocking.assessment.fragility.rows import FragilitySummaryRow, IdaRow
+from rocking.assessment.rows.of_case import ComparisonRow, MaximumRow
 from rocking.assessment.rows.of_study import (
     AGREEMENT_COLUMNS,
     SUMMARY_TABLES,
@@ -25,7 +25,8 @@ from rocking.tables import data_package, frame, write_tables, write_whole
 
 _GATHERED = [each for each in SUMMARY_TABLES if each in IN_PARTS]
 _GOVERNING = ("structure", "record", "level", "overturning_share")
-_SHOWN = ("record", "pulses", "comparison", "verdicts", "structures", "agreement", "failures")
+_SHOWN = ("record", "pulses", "comparison", "verdicts", "structures", "agreement", "failures", "timings")
+_OF_METHODS = ("record", "component", "structure", "method", "processing", "rotation_ratio")
 
 
 def summarise(
@@ -41,11 +42,11 @@ def summarise(
     _describe(jobs, results)
     _write_provenance(study, records, hashes, target)
     if study.settings.reports:
-        from rocking.reports.explore.content import study_page  # matplotlib takes half a second to import
+        from rocking.reports.explore import explore_page  # where matplotlib is imported anyway
 
-        fragility = results / "fragility"
-        _report(target, study, fragility)
-        page = study_page(page_contents(parts, records), study.structures, fragility / "fragility.csv")
+        _report(target, study, results / "fragility")
+        title = str(study.settings.mapping().get("study") or "")
+        page = explore_page(page_contents(parts, records), study.structures, title)
         write_whole(target / "study.html", page)
     remove_other_parts(results, jobs)
 
@@ -101,15 +102,15 @@ def _write_provenance(
 def _report(folder: Path, study: Study, fragility: Path) -> None:
     """Write summary.pdf and its figure beside the summary tables in `folder`, with fragility and trade if measured."""
     from rocking.reports.style import svg  # matplotlib takes half a second to import
-    from rocking.reports.summary.figures import prediction_scatter
-    from rocking.reports.summary.report import summary_report
+    from rocking.reports.summary import prediction_scatter, summary_report
     from rocking.reports.trade import trade_picture
 
     shown = {each.table.name: each for each in SUMMARY_TABLES if each.table.name in _SHOWN}
     tables = {name: frame(each, folder / each.table.file_name) for name, each in shown.items()}
-    if (fragility / FragilityRow.table.file_name).exists():
-        for each in (FragilityRow, FragilitySummaryRow):
-            tables[each.table.name] = frame(each, fragility / each.table.file_name)
+    tables["maxima"] = frame(MaximumRow, folder / MaximumRow.table.file_name, _OF_METHODS)
+    if (fragility / FragilitySummaryRow.table.file_name).exists():
+        path = fragility / FragilitySummaryRow.table.file_name
+        tables["fragility_summary"] = frame(FragilitySummaryRow, path)
         tables["ida"] = frame(IdaRow, fragility / IdaRow.table.file_name, _GOVERNING)
     trade = trade_picture(folder) if study.settings.trade.in_summary else []
     write_whole(folder / "summary.pdf", summary_report(tables, study.settings.mapping(), trade))

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from rocking.reports.summary.fragility_figures import write_fragility_figure
+from rocking.reports.fragility import write_fragility_report
 from rocking.study.fragility import write_fragility
 from rocking.study.job import planned
 from rocking.study.progress import line_writer
@@ -12,5 +12,5 @@ if __name__ == "__main__":
     study, records = planned(snakemake.config, snakemake.params)
     folder = Path(output.pdf).parent
     unused = write_fragility(records, study, folder, tell)
-    write_fragility_figure(folder, Path(output.pdf), Path(output.svg))
+    write_fragility_report(folder, Path(output.pdf), Path(output.svg))
     tell("\n".join(unused) or "All records were used.")

@@ -12,7 +12,7 @@ import pytest
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.reports.document import compile_document
 from rocking.reports.record import record_report
-from rocking.reports.summary.report import summary_report
+from rocking.reports.summary import summary_report
 
 from .conftest import SETTINGS, SUMMARISED, summarised
 

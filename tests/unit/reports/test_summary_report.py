@@ -4,17 +4,19 @@ import json
 import math
 
 import pandas
+import pytest
 
 from rocking.assessment.fate import BOTH_COMPONENTS, Fate, fates
 from rocking.assessment.fragility.rows import FragilityRow, FragilitySummaryRow
+from rocking.assessment.intensity import INTENSITY_MEASURES
 from rocking.assessment.method import Method
-from rocking.assessment.rows.of_case import ComparisonRow, EnsembleRow
-from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow
+from rocking.assessment.rows.of_case import ComparisonRow, EnsembleRow, MaximumRow
+from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow, TimingRow
 from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows
 from rocking.assessment.verdict import Agreement, Verdict, agreement, ratio, ratio_in_words, within_factor_two
+from rocking.reports.fragility import fragility_data, fragility_figure
 from rocking.reports.style import svg
-from rocking.reports.summary.figures import prediction_scatter
-from rocking.reports.summary.report import summary_data, summary_report
+from rocking.reports.summary import prediction_scatter, summary_data, summary_report
 from rocking.sine_pulse import Regime
 from rocking.structures.outcome import Outcome
 from rocking.tables import frame, write_rows
@@ -113,7 +115,7 @@ def test_the_sentences_say_the_counts():
     assert "in 1 of 2 cases" in sentences[0]
     assert (
         "Of 2 overturnings" in sentences[1]
-        and "finds 1 and misses 1; it overturns one case that stays up" in sentences[1]
+        and "has 1 and misses 1; it overturns one case that stays up" in sentences[1]
     )
 
 
@@ -152,28 +154,44 @@ def test_the_summary_begins_with_the_structures_and_their_worst_record():
         {"verdict": "Undecided at worst", "names": "pier"},
         {"verdict": "Stands under every record that could be assessed", "names": "arch"},
     ]
-    rows = {row[1]["text"]: row[2:] for row in data["structures"]["rows"]}
-    assert rows["wall"][:5] == ["1", "1", "0", "two", "63\u00a0of\u00a064"]
-    assert rows["pier"][3:5] == ["one", "20\u00a0of\u00a064"] and rows["pier"][5]["overturns"] == 20 / 64
+    rows = {row[0]["text"]: row[1:] for row in data["structures"]["rows"]}
+    assert rows["wall"][:5] == ["1", "1", "0", "two", "63 of 64"]
+    assert rows["pier"][3:] == ["one", "20 of 64", "overturns", "0.40 – 0.40"]
 
 
-def test_the_matrix_holds_the_shares_with_the_worst_record_first():
+def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first():
     found = [ensemble("two", "wall", 63, Verdict.OVERTURNS), ensemble("three", "wall", 0, Verdict.STANDS)]
-    shown = summary_data(summary_tables(CASES, ensemble=found), SETTINGS)["matrix"]
-    assert shown["heads"] == ["1", "2", "3"], "pier, arch, wall"
+    shown = summary_data(summary_tables(CASES, ensemble=found), SETTINGS)["map"]
+    assert shown["heads"] == ["pier", "wall", "arch"]
     assert [row["record"] for row in shown["rows"]] == ["one", "two", "three"]
     assert [[cell["text"] for cell in row["cells"]] for row in shown["rows"]] == [
-        ["1", "–", "–"],
-        ["–", "0", "0.98"],
-        ["–", "–", "0"],
+        ["▲", "–", "–"],
+        ["–", "▲ 98", "● 0.80"],
+        ["–", "● 0", "–"],
     ]
 
 
-def test_a_large_matrix_is_cut_and_says_so():
+def test_a_large_map_is_cut_and_says_so():
     cases = [case(f"s{k}", 0.1, 0.2, f"r{j}") for j in range(50) for k in range(25)]
-    shown = summary_data(summary_tables(cases), SETTINGS)["matrix"]
-    assert len(shown["rows"]) == 40 and len(shown["heads"]) == 20
-    assert shown["note"] == " Not shown, but in verdicts.csv: ten records and five structures."
+    shown = summary_data(summary_tables(cases), SETTINGS)["map"]
+    assert len(shown["rows"]) == 30 and len(shown["heads"]) == 20
+    assert shown["note"] == " Not shown, but in verdicts.csv: 20 records and five structures."
+
+
+def test_each_method_is_held_against_the_integration_with_what_it_took(example):
+    tables = summarised(example.tables, example.structures) | {
+        "maxima": frame(MaximumRow, example.tables.maxima)
+    }
+    spent = [("closed form", 0.002), ("read", 1.0)]
+    timings = [TimingRow(record="one", stage=stage, duration_s=duration) for stage, duration in spent]
+    table = summary_data(tables | {"timings": frame(TimingRow, timings)}, SETTINGS)["methods"]
+    rows = {row[0]: row[1:] for row in table["rows"]}
+    assert rows["Mechanism, record"][0] == "5" and rows["Mechanism, record"][1] == "5\u00a0of\u00a05"
+    assert rows["Closed form"][-1] == "400 µs" and rows["Block, record"][-1] == "–"
+    missed = [row for row in example.tables.comparison if row.agreement is Agreement.TOO_LOW]
+    unsafe = rows["Closed form"][2]
+    assert (unsafe["text"] if isinstance(unsafe, dict) else unsafe) == str(len(missed))
+    assert summary_data(summarised(example.tables, example.structures), SETTINGS)["methods"]["rows"] == []
 
 
 def test_unsafe_cases_are_listed():
@@ -219,9 +237,9 @@ def test_long_lists_are_cut_and_say_how_much_was_left_out():
     records = [scaled(f"r{place}") for place in range(250)]
     data = summary_data(summary_tables([*unsafe, *fallen], record=records), SETTINGS)
     names = [row[0] for row in data["unsafe"]["rows"]]
-    assert names[0] == "fallen" and len(names) == 40
+    assert names[0] == "fallen" and len(names) == 20
     assert data["unsafe"]["rows"][1][4] == {"text": "0.101", "strong": True}, "the worst first"
-    assert data["unsafe-note"] == " Another 61 cases in comparison.csv."
+    assert data["unsafe-note"] == " Another 81 cases in comparison.csv."
     assert (
         len(data["records"]["rows"]) == 200
         and data["records-note"] == " Another 50 components in record.csv."
@@ -315,27 +333,40 @@ FRAGILITY = {
 def test_fragility_stands_in_the_summary_with_the_records_that_govern_it(example):
     tables = summarised(example.tables, example.structures) | FRAGILITY
     shown = summary_data(tables, SETTINGS)["fragility"]
-    (row,) = shown["table"]["rows"]
+    (row,) = shown[0]["rows"]
     # d overturns it at 0.1 in all members, b at 0.2 in most of them, a at 0.4, and c nowhere
     assert row[4] == "d (0.10), b (0.20), a (0.40)"
-    assert row[:2] == ["pier", "0.20 (0.13–0.31) m/s"] and row[3] == "3"
-    assert "Annual rate" not in " ".join(shown["table"]["heads"])
-    assert len(shown["figures"]) == 1
+    assert row[:2] == ["pier", "pgv 0.20 (0.13–0.31) m/s"] and row[3] == "3"
+    assert "Annual rate" not in " ".join(shown[0]["heads"])
     assert summary_report(tables, SETTINGS) == summary_report(tables, SETTINGS)
 
 
-def test_many_fragility_curves_go_on_over_pages(example):
-    names = [f"pier {place}" for place in range(45)]
-    many = {
-        name: pandas.concat([table.assign(structure=each) for each in names], ignore_index=True)
-        for name, table in FRAGILITY.items()
-    }
-    shown = summary_data(summarised(example.tables, example.structures) | many, SETTINGS)["fragility"]
-    assert len(shown["figures"]) == 5 and "five structures" in shown["note"]
-    assert len(shown["table"]["rows"]) == 45
+def test_the_document_of_the_fragility_names_records_stations_units_and_what_governs():
+    summary, ida = FRAGILITY["fragility_summary"], FRAGILITY["ida"]
+    data = fragility_data(FRAGILITY["fragility"], summary, ida)
+    assert data["subtitle"] == "4 records of 3 stations; 1 structure."
+    text, table, figure = data["parts"]
+    assert "With 3 stations the curves are rough" in text["text"]
+    assert table["rows"][0][1] == "pgv 0.20 (0.13–0.31) m/s" and "pgv [m/s]" in figure["svg"]
+
+
+@pytest.mark.parametrize("measure", INTENSITY_MEASURES)
+def test_every_intensity_measure_is_drawn_with_its_unit(measure):
+    curves, summary = (
+        FRAGILITY[name].assign(intensity_measure=measure) for name in ("fragility", "fragility_summary")
+    )
+    assert f">{measure} [" in svg(fragility_figure(curves, summary))
+
+
+def test_many_fragility_curves_go_on_over_pages():
+    names = [f"pier {place}" for place in range(20)]
+    many = (
+        pandas.concat([table.assign(structure=each) for each in names], ignore_index=True)
+        for table in (FRAGILITY["fragility"], FRAGILITY["fragility_summary"], FRAGILITY["ida"])
+    )
+    data = fragility_data(*many)
+    assert len(data["parts"]) == 5 and len(data["parts"][1]["rows"]) == 20
 
 
 def test_without_fragility_the_summary_is_silent_about_it(example):
-    assert summary_data(summarised(example.tables, example.structures), SETTINGS)["fragility"] == {
-        "figures": []
-    }
+    assert summary_data(summarised(example.tables, example.structures), SETTINGS)["fragility"] == []

@@ -16,7 +16,7 @@ from rocking.assessment.fragility.rows import (
 from rocking.errors import ConfigurationError
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
-from rocking.reports.summary.fragility_figures import write_fragility_figure
+from rocking.reports.fragility import write_fragility_report
 from rocking.structures import Block
 from rocking.study.fragility import write_fragility
 from rocking.study.job import Study
@@ -85,7 +85,7 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
         )
         for row in rows[name]
     )
-    write_fragility_figure(tmp_path / "out", tmp_path / "curves.pdf", tmp_path / "curves.svg")
+    write_fragility_report(tmp_path / "out", tmp_path / "curves.pdf", tmp_path / "curves.svg")
     assert (tmp_path / "curves.pdf").read_bytes().startswith(b"%PDF")
 
 

@@ -1,11 +1,9 @@
 "use strict";
 (() => {
   const content = JSON.parse(document.getElementById("content").textContent);
-  const { records, structures, cases } = content;
+  const { records, structures, reports } = content;
   const at = (id) => document.getElementById(id);
   const SIGNS = { overturns: "▲", undecided: "?", stands: "●", unknown: "–" };
-  const byPlace = new Map(cases.map((each) => [`${each.record},${each.structure}`, each]));
-  const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
 
   // Numbers ---------------------------------------------------------------------------------------------
   function unpacked(packed) {
@@ -17,7 +15,6 @@
     return packed.values;
   }
   const ratio = (value) => (value === null ? "not known" : value === "inf" ? "overturns" : Number(value.toPrecision(3)).toString());
-  const percent = (share) => `${Math.round(100 * share)} %`;
 
   // Value of a trace of equal stretches of [begin, end] at a time; 0 outside
   function valueAt(values, [begin, end], time) {
@@ -34,47 +31,79 @@
     made.append(...children);
     return made;
   }
+  const caseOf = (record, structure) => record.cases[structure.name];
+  const share = (each) => (each && each.share !== null ? Number(each.share) : 0);
+  const peak = (value) => (value === null ? "–" : Number(value.toPrecision(2)).toString());
 
-  function described(each) {
-    const lines = [
-      `${structures[each.structure].name} under ${records[each.record].id}, component ${each.component || "–"}`,
-      `${each.verdict}; integration: ${ratio(each.integrated)}, closed form: ${ratio(each.predicted)}`,
-    ];
-    if (each.probability !== undefined && each.probability !== null)
-      lines.push(`${percent(each.probability)} of ${each.members} members overturn`);
-    return lines.join("\n");
+  function described(record, structure) {
+    const each = caseOf(record, structure);
+    if (!each) return `${structure.name} under ${record.id}: no result. ${record.failure}`;
+    return [
+      `${structure.name} under ${record.id}, component ${each.component || "–"}`,
+      `${each.verdict}: ${each.why}`,
+      `as given ${ratio(each.ratio)}, closed form ${ratio(each.predicted)}`,
+    ].join("\n");
   }
 
   function cellOf(record, structure) {
-    const each = byPlace.get(`${record},${structure}`);
+    const each = caseOf(record, structure);
     const verdict = each ? each.verdict : "unknown";
-    const button = element("button", { type: "button", className: `cell ${verdict}`, tabIndex: -1 });
-    button.dataset.record = record;
-    button.dataset.structure = structure;
-    button.dataset.verdict = verdict;
-    const known = each && each.probability !== undefined && each.probability !== null;
-    const shown = known ? Math.round(100 * each.probability) : each && typeof each.found === "number" ? ratio(each.found) : "";
-    button.textContent = `${SIGNS[verdict] || ""} ${shown}`.trim();
+    const shown = each && each.members ? Math.round(100 * share(each)) : each && typeof each.ratio === "number" ? ratio(each.ratio) : "";
+    const button = element("button", { type: "button", className: `cell ${verdict}`, tabIndex: -1, title: described(record, structure) });
+    Object.assign(button.dataset, { record: records.indexOf(record), structure: structures.indexOf(structure), verdict });
+    button.textContent = `${SIGNS[verdict]} ${shown}`.trim();
     button.setAttribute("aria-pressed", "false");
-    button.title = each ? described(each) : `${structures[structure].name} under ${records[record].id}: no result. ${records[record].failure}`;
     button.setAttribute("aria-label", button.title);
     return button;
   }
 
-  function fill() {
-    const heads = structures.map((each, k) => {
-      const head = element("th", { scope: "col", title: `${each.type}: ${each.size}` }, each.name);
-      head.dataset.structure = k;
-      return head;
+  // How the rows may be ordered; the worst, the largest, or the first name stands on top
+  const worse = (a, b) => {
+    const place = a.findIndex((value, k) => value !== b[k]);
+    return place < 0 ? 0 : b[place] - a[place];
+  };
+  const severity = (record) => structures.reduce((sum, each) => sum + share(caseOf(record, each)), 0);
+  const NONE = [-9, -9, -9];
+  const ORDERS = {
+    record: (a, b) => a.id.localeCompare(b.id, undefined, { numeric: true }),
+    severity: (a, b) => severity(b) - severity(a),
+    pga: (a, b) => b.pga - a.pga,
+    pgv: (a, b) => b.pgv - a.pgv,
+  };
+
+  function order(by) {
+    const compare = ORDERS[by] || ((a, b) => worse((caseOf(a, structures[by]) || { severity: NONE }).severity, (caseOf(b, structures[by]) || { severity: NONE }).severity));
+    const body = at("matrix").querySelector("tbody");
+    const rows = [...body.rows];
+    rows.sort((a, b) => compare(records[a.dataset.record], records[b.dataset.record]));
+    body.append(...rows);
+    at("matrix").querySelectorAll("thead th").forEach((head) => {
+      if (head.dataset.by === String(by)) head.setAttribute("aria-sort", by === "record" ? "ascending" : "descending");
+      else head.removeAttribute("aria-sort");
     });
+  }
+
+  function fill() {
+    const heading = (by, text, title) => {
+      const head = element("th", { scope: "col", title }, element("button", { type: "button" }, text));
+      head.dataset.by = by;
+      return head;
+    };
+    const heads = [
+      heading("record", "Record", "order by name"), heading("pga", "PGA [g]", "order by peak acceleration"),
+      heading("pgv", "PGV [m/s]", "order by peak velocity"), ...structures.map((each, s) => heading(s, each.name, `${each.type}: ${each.size}`)),
+    ];
     const body = element("tbody");
     records.forEach((record, r) => {
-      const row = element("tr", {}, element("th", { scope: "row" }, record.id));
-      structures.forEach((_, s) => row.append(element("td", {}, cellOf(r, s))));
+      const peaks = [record.pga, record.pgv].map((value) => element("td", { className: "peak" }, peak(value)));
+      const row = element("tr", {}, element("th", { scope: "row" }, record.id), ...peaks);
+      row.dataset.record = r;
+      structures.forEach((each) => row.append(element("td", {}, cellOf(record, each))));
       body.append(row);
     });
-    at("matrix").append(element("thead", {}, element("tr", {}, element("td", {}, ""), ...heads)), body);
-    const first = at("matrix").querySelector("button");
+    at("matrix").append(element("thead", {}, element("tr", {}, ...heads)), body);
+    order("severity");
+    const first = at("matrix").querySelector("tbody button");
     if (first) first.tabIndex = 0;
   }
 
@@ -82,22 +111,22 @@
     const text = at("text").value.trim().toLowerCase();
     const verdict = at("verdict").value;
     const named = structures.map((each) => each.name.toLowerCase().includes(text));
-    const someNamed = text !== "" && named.includes(true);
     let count = 0;
     const used = new Set();
     const rows = [...at("matrix").querySelectorAll("tbody tr")];
-    rows.forEach((row, r) => {
-      const isNamed = records[r].id.toLowerCase().includes(text);
+    rows.forEach((row) => {
+      const isNamed = records[row.dataset.record].id.toLowerCase().includes(text);
       let any = false;
       row.querySelectorAll("button").forEach((button, s) => {
-        const kept = (text === "" || isNamed || (someNamed && named[s])) && (!verdict || button.dataset.verdict === verdict);
+        const kept = (text === "" || isNamed || named[s]) && (!verdict || button.dataset.verdict === verdict);
         button.style.visibility = kept ? "" : "hidden";
         if (kept) { any = true; count += 1; used.add(s); }
       });
       row.hidden = !any;
     });
-    at("matrix").querySelectorAll("thead th").forEach((head, s) => { head.hidden = !used.has(s); });
-    rows.forEach((row) => row.querySelectorAll("td").forEach((cell, s) => { cell.hidden = !used.has(s); }));
+    const columns = [...at("matrix").querySelectorAll("thead th")].slice(3);
+    columns.forEach((head, s) => { head.hidden = !used.has(s); });
+    rows.forEach((row) => [...row.cells].slice(3).forEach((cell, s) => { cell.hidden = !used.has(s); }));
     at("shown").textContent = `${count} of ${records.length * structures.length} cells`;
     const open = visible();
     if (open.length && !open.some((each) => each.tabIndex === 0)) roam(open[0], false);
@@ -106,19 +135,20 @@
   const visible = () => [...at("matrix").querySelectorAll("tbody button")].filter((each) => each.offsetParent && each.style.visibility !== "hidden");
 
   function roam(button, focus = true) {
-    at("matrix").querySelectorAll("button[tabindex='0']").forEach((each) => { each.tabIndex = -1; });
+    at("matrix").querySelectorAll("tbody button[tabindex='0']").forEach((each) => { each.tabIndex = -1; });
     button.tabIndex = 0;
     if (focus) button.focus();
   }
 
   function onArrow(event) {
     const step = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] }[event.key];
-    const from = event.target.closest("button");
+    const from = event.target.closest("tbody button");
     if (!step || !from) return;
     event.preventDefault();
     const [down, right] = step;
-    const [r, s] = [Number(from.dataset.record), Number(from.dataset.structure)];
-    const ahead = visible().map((each) => [each, Number(each.dataset.record) - r, Number(each.dataset.structure) - s]);
+    const place = (button) => [button.closest("tr").rowIndex, Number(button.dataset.structure)];
+    const [r, s] = place(from);
+    const ahead = visible().map((each) => [each, place(each)[0] - r, place(each)[1] - s]);
     const along = ahead.filter(([, dr, ds]) => (down ? ds === 0 && dr * down > 0 : dr === 0 && ds * right > 0));
     along.sort((a, b) => Math.abs(a[1]) + Math.abs(a[2]) - Math.abs(b[1]) - Math.abs(b[2]));
     if (along.length) roam(along[0][0]);
@@ -127,7 +157,7 @@
   // Histories -------------------------------------------------------------------------------------------
   const SVG = "http://www.w3.org/2000/svg";
   const [LEFT, RIGHT] = [72, 610];
-  const PANELS = [{ top: 12, bottom: 190 }, { top: 232, bottom: 415 }];
+  const PANELS = [{ top: 8, bottom: 120 }, { top: 146, bottom: 258 }];
 
   function drawn(name, attributes, text = "", parent = at("histories")) {
     const made = document.createElementNS(SVG, name);
@@ -193,7 +223,7 @@
       drawn("line", { x1: LEFT, x2: RIGHT, y1: axes.y(level), y2: axes.y(level), stroke: "#0072b2", "stroke-dasharray": "8 3 2 3" });
     const said = predicted > 0 ? "dash-dot: largest by the closed form" : "closed form: " + (each.predicted === "inf" ? "overturns" : each.predicted === null ? "not known" : "no uplift");
     drawn("text", { x: RIGHT - 8, y: PANELS[1].top + 16, "text-anchor": "end" }, said);
-    drawn("text", { x: (LEFT + RIGHT) / 2, y: 452, "text-anchor": "middle" }, "time after the first sample [s]");
+    drawn("text", { x: (LEFT + RIGHT) / 2, y: 292, "text-anchor": "middle" }, "time after the first sample [s]");
     const cursor = drawn("line", { y1: PANELS[0].top, y2: PANELS[1].bottom, stroke: "#009e73", "stroke-width": 1.5, id: "cursor" });
     return (time) => { cursor.setAttribute("x1", axes.x(time)); cursor.setAttribute("x2", axes.x(time)); };
   }
@@ -206,6 +236,7 @@
     const take = (count) => flat.subarray(2 * from, 2 * (from += count));
     drawings.frames = drawings.rotations.map((rotation, k) => ({
       rotation, parts: drawings.parts[k].map(take), hinges: take(drawings.hinges[k]),
+      marks: drawings.marks[k].map((kind) => ({ kind, ends: take(2) })),
     }));
     return drawings.frames;
   }
@@ -224,7 +255,8 @@
     const [a, b] = [side[above - 1], side[above]];
     if (a.parts.length !== b.parts.length) return a;
     const share = (size - Math.abs(a.rotation)) / (Math.abs(b.rotation) - Math.abs(a.rotation));
-    return { parts: a.parts.map((part, k) => mixed(part, b.parts[k], share)), hinges: mixed(a.hinges, b.hinges, share) };
+    const marks = a.marks.length === b.marks.length ? a.marks.map(({ kind, ends }, k) => ({ kind, ends: mixed(ends, b.marks[k].ends, share) })) : a.marks;
+    return { parts: a.parts.map((part, k) => mixed(part, b.parts[k], share)), hinges: mixed(a.hinges, b.hinges, share), marks };
   }
 
   // Metres in the drawing, whose groups turn y upwards and move with the ground
@@ -234,7 +266,7 @@
     const travel = moves ? largest(moves) : 0;
     const near = frames.filter((each) => Math.abs(each.rotation) <= reach || Math.abs(each.rotation) < 1e-3);
     const [left, right, low, high] = [0, 1].flatMap((axis) => {
-      const values = near.flatMap((each) => each.parts.flatMap((points) => [...points.filter((_, k) => k % 2 === axis)]));
+      const values = near.flatMap((each) => [...each.parts, ...each.marks.map((mark) => mark.ends)].flatMap((points) => [...points.filter((_, k) => k % 2 === axis)]));
       return [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))];
     });
     const margin = 0.06 * Math.max(right - left, high - low);
@@ -251,6 +283,10 @@
       drawn("line", { ...ground, y1: foot, y2: foot }, "", group);
       drawn("line", { ...ground, y1: foot - margin / 4, y2: foot - margin / 4, "stroke-width": margin / 2, "stroke-dasharray": margin / 5, class: "ground" }, "", group);
       for (const points of pose.parts) drawn("polygon", { points: points.join(" ") }, "", group);
+      for (const { kind, ends: [x1, y1, x2, y2] } of pose.marks) {
+        drawn("line", { x1, y1, x2, y2, class: kind }, "", group);
+        drawn("circle", { cx: x2, cy: y2, r: margin / 6, class: kind }, "", group);
+      }
       for (let k = 0; k < pose.hinges.length; k += 2)
         drawn("circle", { cx: pose.hinges[k], cy: pose.hinges[k + 1], r: margin / 5 }, "", group);
     };
@@ -261,42 +297,36 @@
   let playing = 0;
 
   function facts(each) {
-    const said = [`Verdict: ${each.verdict}.`];
-    if (each.probability !== undefined && each.probability !== null)
-    {
-      const band = each.low === "inf" ? "" : `; rotation ratio from ${ratio(each.low)} to ${ratio(each.high)} (5 % to 95 %)`;
-      said.push(`${percent(each.probability)} of ${each.members} members of the ensemble overturn${band}.`);
-    }
-    said.push(`Largest rotation over critical rotation, as given: ${ratio(each.integrated)} by integration, ${ratio(each.predicted)} by the closed form.`);
-    if (!each.history) said.push("It does not lift enough to be drawn, or its record could not be read again.");
-    return said.join(" ");
+    const said = [`${each.verdict}: ${each.why}.`];
+    const band = each.members && each.high !== "inf" ? ` (5 to 95 % of the members: ${ratio(each.low)} to ${ratio(each.high)})` : "";
+    said.push(`Largest rotation over critical rotation: ${ratio(each.ratio)} as given${band}, ${ratio(each.predicted)} by the closed form.`);
+    if (!each.history) said.push("It does not lift enough to be drawn, or its motion was not kept.");
+    return `${said.join(" ")} `;
   }
 
-  function choose(record, structure) {
+  function choose(r, s) {
     stop();
+    const [record, structure] = [records[r], structures[s]];
     at("matrix").querySelectorAll("[aria-pressed='true']").forEach((each) => each.setAttribute("aria-pressed", "false"));
-    const button = at("matrix").querySelector(`button[data-record="${record}"][data-structure="${structure}"]`);
-    button.setAttribute("aria-pressed", "true");
-    const each = byPlace.get(`${record},${structure}`);
+    at("matrix").querySelector(`button[data-record="${r}"][data-structure="${s}"]`).setAttribute("aria-pressed", "true");
+    history.replaceState(null, "", `#${encodeURIComponent(record.id)}/${encodeURIComponent(structure.name)}`);
+    const each = caseOf(record, structure);
     at("case").hidden = false;
-    at("title").textContent = `${structures[structure].name} (${structures[structure].size}) under ${records[record].id}${each && each.component ? ", component " + each.component : ""}`;
-    document.querySelectorAll("#cases use").forEach((point, k) => point.classList.toggle("chosen", each !== undefined && each.point === k));
-    document.querySelectorAll("#case .pair").forEach((pair) => { pair.hidden = !each; });
-    if (!each) {
-      at("facts").textContent = `No result. ${records[record].failure}`;
-      return;
-    }
-    at("facts").textContent = facts(each);
-    const motion = records[record].motions[each.component];
+    at("title").textContent = `${structure.name} (${structure.size}) under ${record.id}${each && each.component ? ", component " + each.component : ""}`;
+    at("moves").hidden = !each;
+    at("facts").textContent = each ? facts(each) : `No result. ${record.failure} `;
+    if (reports) at("facts").append(element("a", { href: `../${encodeURIComponent(record.id)}/report.pdf` }, "report.pdf"));
+    if (!each) return;
+    const motion = record.motions[each.component];
     const span = each.history ? each.history.span : [0, motion ? motion.duration : 1];
     const point = histories(each, motion, span);
     const values = each.history ? unpacked(each.history.ratio) : null;
     const rotationOf = (time) => {
-      const found = values ? valueAt(values, span, time) : 0;
-      return found === 0 ? 0 : found * each.history.critical[found < 0 ? 1 : 0];
+      const value = values ? valueAt(values, span, time) : 0;
+      return value === 0 ? 0 : value * each.history.critical[value < 0 ? 1 : 0];
     };
     const most = values ? largest(values) * Math.max(...each.history.critical) : 0;
-    const draw = () => paintWith(structures[structure], motion, Math.max(most * Number(at("magnify").value), 0.02));
+    const draw = () => paintWith(structure, motion, Math.max(most * Number(at("magnify").value), 0.02));
     let paint = draw();
     at("magnify").onchange = () => { paint = draw(); show(); };
     show = () => {
@@ -308,6 +338,16 @@
     show.length_s = span[1] - span[0];
     at("scrub").value = 0;
     show();
+  }
+
+  // The cell that the address names, "#record/structure"; false where it names none
+  function follow() {
+    const [record, structure] = location.hash.slice(1).split("/").map(decodeURIComponent);
+    const r = records.findIndex((each) => each.id === record);
+    const s = structures.findIndex((each) => each.name === structure);
+    if (r < 0 || s < 0) return false;
+    choose(r, s);
+    return true;
   }
 
   function stop() {
@@ -333,38 +373,27 @@
     playing = requestAnimationFrame(step);
   }
 
-  // Points of the figure ---------------------------------------------------------------------------------
-  function watchPoints() {
-    const ofPoint = new Map(cases.map((each) => [each.point, each]));
-    document.querySelectorAll("#cases use").forEach((point, k) => {
-      const each = ofPoint.get(k);
-      if (!each) return;
-      drawn("title", {}, described(each), point);
-      point.addEventListener("click", () => {
-        choose(each.record, each.structure);
-        at("case").scrollIntoView({ block: "start", behavior: still ? "auto" : "smooth" });
-      });
-    });
-  }
-
   fill();
   filter();
-  watchPoints();
-  if (!at("agreement").querySelector("svg")) at("agreement").hidden = true;
-  if (!at("fragility").querySelector("svg")) at("fragility").hidden = true;
   at("text").addEventListener("input", filter);
   at("verdict").addEventListener("change", filter);
   at("filters").addEventListener("submit", (event) => event.preventDefault());
   at("matrix").addEventListener("keydown", onArrow);
   at("matrix").addEventListener("click", (event) => {
-    const button = event.target.closest("button");
+    const head = event.target.closest("thead th");
+    if (head) { order(head.dataset.by); return; }
+    const button = event.target.closest("tbody button");
     if (!button) return;
     roam(button);
     choose(Number(button.dataset.record), Number(button.dataset.structure));
   });
   at("play").addEventListener("click", play);
   at("scrub").addEventListener("input", () => { stop(); show(); });
-  const moving = cases.filter((each) => each.history);
-  const first = moving.find((each) => each.verdict === "overturns") || moving[0];
-  if (first) choose(first.record, first.structure);
+  addEventListener("hashchange", follow);
+  if (!follow()) {
+    const cells = visible();
+    const moving = cells.filter((each) => (caseOf(records[each.dataset.record], structures[each.dataset.structure]) || {}).history);
+    const first = moving.find((each) => each.dataset.verdict === "overturns") || moving[0] || cells[0];
+    if (first) { roam(first, false); choose(Number(first.dataset.record), Number(first.dataset.structure)); }
+  }
 })();

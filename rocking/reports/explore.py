@@ -1,0 +1,230 @@
+"""The page to explore a study: one HTML file that loads nothing. A record's content is made once and may be kept."""
+
+import base64
+import json
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.signal import detrend
+
+from rocking.assessment.fate import Fate
+from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.verdict import NEGLIGIBLE
+from rocking.motion.response import Response
+from rocking.quantities import GRAVITY, counted
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.processing import displacement
+from rocking.structures import Mechanism, Structure
+
+Content = dict[str, Any]
+"""What JSON can hold."""
+
+BINS = 600
+"""Points of a trace on the page."""
+FRAMES = 24
+"""Drawings of a structure for each side; between two of them the page interpolates."""
+_HERE = Path(__file__).parent
+_MOST, _FARTHEST = 32767, 1.2
+_BEYOND = 3.0
+"""Times the critical rotation up to which a fall is followed and drawn, but no further than _FARTHEST [rad]."""
+_STILL = 0.01
+"""Share of the largest rotation below which a history is cut."""
+_BEFORE, _AFTER = 0.5, 1.0
+"""s of rest that are kept before and after it."""
+
+
+def record_content(
+    record: str,
+    accelerograms: Sequence[Accelerogram],
+    structures: Mapping[str, Structure],
+    tables: RecordTables,
+    responses: Mapping[tuple[str, str], Response],
+) -> Content:
+    """Return what the page says of one record, and of each structure under the component that turns it farthest.
+
+    accelerograms: the components that could be opened. responses: of the mechanism under the record with histories, by
+    component and structure; a case without one is shown without its motion.
+    """
+    worst = {name: _worst(name, tables) for name in dict.fromkeys(row.structure for row in tables.comparison)}
+    fates = {fate.structure: fate for fate in tables.verdicts}
+    components = {row.component for row in worst.values()}
+    return {
+        "id": record,
+        "failure": " ".join(failure.message for failure in tables.failures),
+        "pga": _number(
+            max((row.peak_acceleration_m_s2 / GRAVITY for row in tables.record), default=math.nan)
+        ),
+        "pgv": _number(max((row.peak_velocity_m_s for row in tables.record), default=math.nan)),
+        "motions": {
+            each.component: _motion(each, tables) for each in accelerograms if each.component in components
+        },
+        "cases": {
+            name: _case(fate, worst.get(name), structures[name].mechanism(), responses)
+            for name, fate in fates.items()
+            if name in structures
+        },
+    }
+
+
+def explore_page(
+    records: Iterable[Content], structures: Mapping[str, Structure], title: str = "", reports: bool = True
+) -> bytes:
+    """Return the page as UTF-8 HTML that loads nothing.
+
+    records: their `record_content`, in the order of the catalogue. title: of the study. reports: whether a report.pdf
+    stands in the folder of each record, beside that of the page.
+    """
+    shown = list(records)
+    drawn = [
+        {"name": name, "size": structure.size, "type": structure.type_name, "drawings": drawings(structure)}
+        for name, structure in structures.items()
+    ]
+    content = json.dumps(
+        {"records": shown, "structures": drawn, "reports": reports}, allow_nan=False, separators=(",", ":")
+    )
+    pieces = {
+        "title": escape(title or "Rocking of structures under recorded earthquakes"),
+        "count": f"{counted(len(shown), 'record')}, {counted(len(drawn), 'structure')}",
+        "style": (_HERE / "explore.css").read_text(encoding="utf-8"),
+        "script": (_HERE / "explore.js").read_text(encoding="utf-8"),
+        # no text of a user can end the element that holds it
+        "content": content.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029"),
+    }
+    head, *rest = (_HERE / "explore.html").read_text(encoding="utf-8").split("{{")
+    filled = [head]
+    for part in rest:
+        name, _, text = part.partition("}}")
+        filled += [pieces[name.strip()], text]
+    return "".join(filled).encode()
+
+
+def _worst(structure: str, tables: RecordTables) -> Any:
+    """The row of the component that turns a structure farthest."""
+    rows = [row for row in tables.comparison if row.structure == structure]
+    return max(rows, key=lambda row: np.nan_to_num(row.integrated_rotation_ratio, nan=-1.0))
+
+
+def _case(
+    fate: Fate, row: Any, mechanism: Mechanism, responses: Mapping[tuple[str, str], Response]
+) -> Content:
+    case: Content = {
+        "verdict": str(fate.verdict),
+        "why": fate.leaning or fate.why,
+        "members": fate.members,
+        "share": _number(fate.overturning_share),
+        "ratio": _number(fate.rotation_ratio),
+        "low": _number(fate.rotation_ratio_low),
+        "high": _number(fate.rotation_ratio_high),
+        "severity": [_number(min(each, 1e9)) for each in fate.severity],
+        "component": row.component if row else "",
+        "predicted": _number(row.predicted_rotation_ratio if row else math.nan),
+    }
+    response = responses.get(row.case) if row else None
+    if response is not None and response.rotation_ratio > NEGLIGIBLE:
+        case["history"] = _history(response, mechanism)
+    return case
+
+
+def _motion(accelerogram: Accelerogram, tables: RecordTables) -> Content:
+    """Acceleration [m/s²] and its pulse, and the displacement [m] that moves the drawing, over the whole record."""
+    times, duration = accelerogram.times, accelerogram.duration
+    kept = partial(extremes, times, begin=0.0, end=duration)
+    said: Content = {
+        "duration": duration,
+        "acceleration": packed(kept(accelerogram.acceleration)),
+        "displacement": packed(kept(detrend(displacement(accelerogram)))),
+    }
+    ranked = [row for row in tables.pulses if row.component == accelerogram.component and row.ranked]
+    if ranked:
+        pulse = min(ranked, key=lambda row: row.rank).pulse
+        inside = np.linspace(pulse.start_time, pulse.end_time, 61)
+        said["pulse"] = {
+            "span": [_number(pulse.start_time), _number(pulse.end_time)],
+            "acceleration": packed(pulse.acceleration(inside)),
+        }
+    return said
+
+
+def _history(response: Response, mechanism: Mechanism) -> Content | None:
+    """Rotation over critical rotation while it moves; None where there is none."""
+    if response.times is None or response.rotation is None or response.times.size < 2:
+        return None
+    first, last = mechanism.sides[0].critical_rotation, mechanism.sides[-1].critical_rotation
+    times = response.times
+    ratio = np.clip(response.rotation / np.where(response.rotation < 0, last, first), -_BEYOND, _BEYOND)
+    moving = np.flatnonzero(np.abs(ratio) > _STILL * np.abs(ratio).max())
+    begin = max(float(times[0]), float(times[moving[0]]) - _BEFORE)
+    end = min(float(times[-1]), float(times[moving[-1]]) + _AFTER)
+    return {
+        "span": [_number(begin), _number(end)],
+        "ratio": packed(extremes(times, ratio, begin, end)),
+        "critical": [_number(first), _number(last)],
+    }
+
+
+def drawings(structure: Structure) -> Content:
+    """Return outline, hinges, loads and ties of `structure` at FRAMES rotations of each side that it has.
+
+    rotations: rad, signed. parts: points of each part, by frame. hinges: their number, by frame. marks: kind of each
+    load, thrust or tie, two points each, by frame. points: x and y [m] of all of them in this order, frame by frame.
+    """
+    mechanism = structure.mechanism()
+    sides = [(1, mechanism.sides[0])] + ([] if mechanism.one_sided else [(-1, mechanism.sides[-1])])
+    rotations = [
+        sign * float(share) * min(0.98 * side.end_rotation, _BEYOND * side.critical_rotation, _FARTHEST)
+        for sign, side in sides
+        for share in np.linspace(1e-6, 1.0, FRAMES)
+    ]
+    frames = [(structure.outline(each), structure.hinges(each), structure.marks(each)) for each in rotations]
+    points = [
+        np.asarray(part).reshape(-1, 2)
+        for outline, hinges, marks in frames
+        for part in (*outline, hinges, *(mark.line for mark in marks))
+    ]
+    return {
+        "rotations": rotations,
+        "parts": [[len(part) for part in outline] for outline, _, _ in frames],
+        "hinges": [len(hinges) for _, hinges, _ in frames],
+        "marks": [[mark.kind for mark in marks] for _, _, marks in frames],
+        "points": packed(np.vstack(points)),
+    }
+
+
+def packed(values: ArrayLike) -> Content:
+    """Return `values`, any shape, flattened into a scale and base64 of little-endian 16-bit integers.
+
+    This loses 1/32767 of the largest.
+    """
+    flat = np.asarray(values, dtype=float).ravel()
+    scale = float(np.abs(flat).max(initial=0.0)) / _MOST or 1.0
+    whole = np.round(flat / scale).astype("<i2")
+    return {"scale": scale, "data": base64.b64encode(whole.tobytes()).decode()}
+
+
+def extremes(times: np.ndarray, values: np.ndarray, begin: float, end: float) -> np.ndarray:
+    """Return the value farthest from zero in each of BINS equal stretches of [begin, end] s, (BINS,): peaks stay.
+
+    A stretch without a sample takes the value interpolated at its middle.
+    """
+    edges = np.linspace(begin, end, BINS + 1)
+    shown = np.interp((edges[:-1] + edges[1:]) / 2, times, values)
+    inside = (times >= begin) & (times <= end)
+    place = np.minimum(np.searchsorted(edges, times[inside], side="right") - 1, BINS - 1)
+    chosen = values[inside]
+    order = np.argsort(np.abs(chosen), kind="stable")
+    full = np.full(BINS, np.nan)
+    full[place[order]] = chosen[order]  # the last one written, the farthest, stays
+    return np.where(np.isnan(full), shown, full)
+
+
+def _number(value: float) -> float | str | None:
+    """Return `value` as JSON can hold it: null for nan, "inf" for infinity, else six digits."""
+    if math.isnan(value):
+        return None
+    return "inf" if math.isinf(value) else float(f"{value:.6g}")

@@ -1,1 +1,0 @@
-"""The page to explore a study: one HTML file without a network."""

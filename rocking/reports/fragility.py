@@ -1,0 +1,158 @@
+"""The document of a study's fragility: curves with intervals, their medians, and which records govern them."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rocking.assessment.fragility.rows import FragilityRow, FragilitySummaryRow, IdaRow
+from rocking.assessment.intensity import INTENSITY_MEASURES
+from rocking.quantities import counted
+from rocking.reports.document import compile_document
+from rocking.reports.panels import draw_probability
+from rocking.reports.printing import Cell, number, table_of, whole, words
+from rocking.reports.style import elided, new_figure, picture, styled, svg
+from rocking.tables import frame, rows_of, write_whole
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+ON_A_PAGE = 8
+"""Structures whose curves stand on one page."""
+FEW_STATIONS = 20
+"""Below so many stations the interval of the median covers less than it says."""
+_COLUMNS, _HEIGHT = 2, 52.0
+"""Panels of a row, and its height, mm."""
+_GOVERNING, _HALF = 3, 0.5
+"""Records that are named for each structure; share of the members from which on a record overturns it."""
+_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
+_READ = ("structure", "record", "station", "level", "overturning_share")
+
+
+def write_fragility_report(folder: Path, pdf: Path, image: Path) -> None:
+    """Set the tables of fragility in `folder` as the files `pdf` and `image` (SVG)."""
+    curves, summary = (
+        frame(each, folder / each.table.file_name) for each in (FragilityRow, FragilitySummaryRow)
+    )
+    write_whole(image, svg(fragility_figure(curves, summary)).encode())
+    ida = frame(IdaRow, folder / IdaRow.table.file_name, _READ)
+    write_whole(pdf, compile_document("plain.typ", fragility_data(curves, summary, ida)))
+
+
+def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") -> dict[str, object]:
+    """Return what the template is given. The tables are fragility, fragility_summary and ida."""
+    falls = summary[summary["rotation_ratio"] == math.inf]
+    stations = int(summary["stations"].max()) if len(summary) else 0
+    said = (
+        "Each record of the study is scaled up until the structure overturns; a level counts by its stations."
+    )
+    if stations < FEW_STATIONS:
+        said += f" With {counted(stations, 'station')} the curves are rough and their intervals too narrow: take more."
+    caption = (
+        "Level that half of the stations overturn each structure at, with its 90 % interval by stations; dispersion of "
+        "the lognormal curve; records under which it overturns first, with the level of each: they govern the lower "
+        "end of its curve; and how many records, scaled up, let it stand again."
+    )
+    records = ida["record"].nunique()
+    return {
+        "title": "Fragility",
+        "subtitle": f"{counted(records, 'record')} of {counted(stations, 'station')}; "
+        f"{counted(len(falls), 'structure')}.",
+        "parts": [
+            {"text": said},
+            {**fragility_table(falls, ida), "caption": caption},
+            *_figures(curves, summary),
+        ],
+    }
+
+
+def fragility_table(falls: "DataFrame", ida: "DataFrame") -> dict[str, object]:
+    """Return one row per structure: its median and what overturns it first."""
+    governing = governing_records(ida)
+    columns: list[tuple[str, str, str, Callable[[FragilitySummaryRow], Cell]]] = [
+        ("Structure", "1.3", "l", lambda row: row.structure),
+        ("Median and its 90 % interval", "1.3", "l", _median),
+        ("Disper\u00adsion [-]", "0.6", "r", lambda row: number(row.dispersion, 2)),
+        ("Sta\u00adtions", "auto", "r", lambda row: whole(row.stations)),
+        (
+            "First to overturn it, and at what level",
+            "2.2",
+            "l",
+            lambda row: words(governing.get(row.structure)),
+        ),
+        ("Stand again, scaled up", "0.6", "r", lambda row: whole(row.reversals)),
+    ]
+    if falls["annual_rate"].notna().any():
+        columns.append(("Annual rate [1/year]", "0.7", "r", lambda row: number(row.annual_rate, 2)))
+    return table_of(rows_of(FragilitySummaryRow, falls), *columns)
+
+
+def _median(row: FragilitySummaryRow) -> str:
+    """The median with interval, name and unit of its intensity measure."""
+    interval = f"{number(row.median_low, 2)}–{number(row.median_high, 2)}"
+    return f"{row.intensity_measure} {number(row.median, 2)} ({interval}) {_unit(row.intensity_measure)}"
+
+
+def _unit(measure: str) -> str:
+    return INTENSITY_MEASURES[measure].unit or "-"
+
+
+def governing_records(ida: "DataFrame") -> dict[str, str]:
+    """Return for each structure the records that overturn it at the lowest levels, with the level of each."""
+    fallen = ida[ida["overturning_share"] >= _HALF]
+    first = fallen.groupby(["structure", "record"], sort=False, observed=True)["level"].min().reset_index()
+    named: dict[str, list[str]] = {}
+    for _, row in first.sort_values("level", kind="stable").iterrows():
+        named.setdefault(str(row["structure"]), []).append(f"{row['record']} ({number(row['level'], 2)})")
+    return {structure: ", ".join(records[:_GOVERNING]) for structure, records in named.items()}
+
+
+def _figures(curves: "DataFrame", summary: "DataFrame") -> Iterator[Mapping[str, str]]:
+    names = list(dict.fromkeys(curves["structure"]))
+    for first in range(0, len(names), ON_A_PAGE):
+        shown = names[first : first + ON_A_PAGE]
+        parts = (table[table["structure"].isin(shown)] for table in (curves, summary))
+        caption = (
+            "Share of the stations that exceed a rotation (overturns, or a share of the critical rotation φcr), its "
+            "90 % interval by stations for overturning (shaded) and the lognormal curve (dashed)."
+        )
+        alt = f"Fragility curves of {counted(len(shown), 'structure')} with 90 % intervals."
+        yield picture(fragility_figure(*parts), alt) | {"caption": caption}
+
+
+@styled
+def fragility_figure(curves: "DataFrame", summary: "DataFrame") -> Figure:
+    """Draw the curves of each structure from the tables fragility and fragility_summary."""
+    names = list(dict.fromkeys(curves["structure"]))
+    rows = math.ceil(len(names) / _COLUMNS)
+    figure = new_figure(_HEIGHT * rows + 20, margins=(16, 3, 12, 11))
+    spaced = {"hspace": 0.45, "wspace": 0.08}
+    panels = figure.subplots(rows, _COLUMNS, squeeze=False, sharey=True, gridspec_kw=spaced)
+    for panel in panels.flat[len(names) :]:
+        panel.set_axis_off()
+    for name, panel in zip(names, panels.flat, strict=False):
+        _draw(panel, name, curves[curves["structure"] == name], summary[summary["structure"] == name])
+    for panel in panels[:, 0]:
+        panel.set_ylabel("probability [-]")
+    return figure
+
+
+def _draw(panel: Axes, name: str, curves: "DataFrame", summary: "DataFrame") -> None:
+    falls = next(rows_of(FragilitySummaryRow, summary[summary["rotation_ratio"] == math.inf]))
+    for place, (threshold, curve) in enumerate(curves.groupby("rotation_ratio")):
+        overturns = math.isinf(float(threshold))  # type: ignore[arg-type]
+        draw_probability(
+            panel,
+            curve["level"].to_numpy(),
+            curve["probability"].to_numpy(),
+            (curve["probability_low"], curve["probability_high"]) if overturns else None,
+            curve["lognormal"].to_numpy() if overturns else None,
+            "overturns" if overturns else f"φ > {threshold:g} φcr",
+            "black" if overturns else _COLOURS[place % len(_COLOURS)],
+        )
+    panel.set_title(f"{elided(name, 60)}\nmedian {_median(falls)}", fontsize=8)
+    panel.set_xlabel(f"{falls.intensity_measure} [{_unit(falls.intensity_measure)}]")
+    panel.legend(loc="upper left", fontsize=7)

@@ -1,1 +1,0 @@
-"""The PDF of a whole study."""
