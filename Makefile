@@ -66,8 +66,8 @@ documentation: $(TOOLS)
 	$(BIN)/snakemake --workflow-profile workflow/profiles/default documentation
 
 lock:
-	$(COMPILE) pyproject.toml --extra build -o requirements.lock
-	$(COMPILE) pyproject.toml --extra build --extra docs --extra test -c requirements.lock -o development.lock
+	$(COMPILE) pyproject.toml --extra build --extra workflow -o requirements.lock
+	$(COMPILE) pyproject.toml --extra build --extra workflow --extra docs --extra test -c requirements.lock -o development.lock
 	printf '%s\n' $(EXECUTOR) $(EXECUTOR)-jobstep | $(COMPILE) - --no-deps -o $(SLURM)
 
 clean:
