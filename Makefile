@@ -17,7 +17,7 @@ SLURM := workflow/profiles/slurm/requirements.lock
 all: run
 
 run: setup
-	$(BIN)/snakemake --workflow-profile workflow/profiles/default
+	$(BIN)/rocking run
 
 setup: $(STAMP)
 

@@ -17,6 +17,7 @@ import yaml
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.structures.fields import Field, Form, article
 from rocking.structures.structure import Structure, typed_text
+from rocking.tables.yaml_file import read_yaml
 
 _CLASSES = (
     "rocking.structures.block.Block",
@@ -160,12 +161,6 @@ def _property(each: Field) -> dict[str, object]:
     return {**each.schema, "description": f"{each.meaning}{unit}{usual}"}
 
 
-LARGEST_FILE = 1_000_000
-"""Bytes; a thousand structures take about a tenth of it."""
-_DEEPEST = 8
-"""Levels of nesting; a list of mappings has three."""
-
-
 def load_structures(path: str | Path) -> dict[str, Structure]:
     """Return the structures listed in a YAML file, by name, in its order.
 
@@ -197,23 +192,7 @@ def load_structures(path: str | Path) -> dict[str, Structure]:
 
 def _entries(path: Path) -> list[tuple[object, dict[str, str]]]:
     """Each entry of the list, with the values of its keys as they were typed."""
-    try:
-        with path.open("rb") as stream:
-            content = stream.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise ConfigurationError(f"{path}: the structure list cannot be read ({error.strerror}).") from None
-    if len(content) > LARGEST_FILE:
-        raise ConfigurationError(
-            f"{path}: the structure list is larger than {LARGEST_FILE} bytes; split it into several."
-        )
-    try:
-        loader = _StrictLoader(content.decode())
-        node = loader.get_single_node()
-        entries = None if node is None else loader.construct_document(node)
-    except (yaml.YAMLError, ValueError) as error:
-        raise ConfigurationError(
-            f"{path}: the structure list is not valid YAML ({' '.join(str(error).split())})."
-        ) from None
+    entries, node = read_yaml(path, ConfigurationError, "structure list")
     if not isinstance(entries, list) or not entries:
         raise ConfigurationError(
             f"{path}: the file holds {type(entries).__name__}, but must hold a list of structures."
@@ -231,33 +210,3 @@ def _texts(node: yaml.Node) -> dict[str, str]:
                 each.value for each in value.value if isinstance(each, yaml.ScalarNode)
             )
     return texts
-
-
-class _StrictLoader(yaml.SafeLoader):
-    """The safe loader without aliases, deep nesting and keys given twice, each of which a list never needs."""
-
-    depth = 0
-
-    def compose_node(self, parent: yaml.Node | None, index: object) -> yaml.Node | None:
-        event = self.peek_event()
-        if getattr(event, "anchor", None) is not None:
-            raise _refused(
-                "an anchor or an alias is not read here; write every structure out", event.start_mark
-            )
-        self.depth += 1
-        if self.depth > _DEEPEST:
-            raise _refused("it is nested too deeply for a list of structures", event.start_mark)
-        node = super().compose_node(parent, index)
-        self.depth -= 1
-        return node
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[object, object]:
-        keys = [self.construct_object(key, deep=True) for key, _ in node.value]
-        for key in keys:
-            if keys.count(key) > 1:
-                raise _refused(f"key {key!r} is given twice", node.start_mark)
-        return super().construct_mapping(node, deep)
-
-
-def _refused(reason: str, mark: yaml.Mark) -> yaml.MarkedYAMLError:
-    return yaml.constructor.ConstructorError(None, None, reason, mark)

@@ -10,6 +10,7 @@ from shlex import quote
 
 from rocking.errors import CatalogueError, ConfigurationError, RockingError, UnknownFormatError
 from rocking.quantities import GRAVITY, counted
+from rocking.study.doors import close_doors
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -21,6 +22,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         with warnings.catch_warnings():
             warnings.showwarning = _say
+            close_doors()
             return options.run(options) or 0
     except RockingError as error:
         print(f"rocking: {error}", file=sys.stderr)
@@ -51,7 +53,7 @@ def _parser() -> argparse.ArgumentParser:
     catalogue.add_argument("--output", type=Path, help="CSV file to write (default: catalogue.csv in it)")
     _declarations(catalogue)
     run = _verb(verbs, "run", _run, "run the study in a folder")
-    run.add_argument("folder", type=Path)
+    run.add_argument("folder", type=Path, nargs="?", default=Path(), help="of the study (default: this one)")
     run.add_argument(
         "snakemake", nargs="*", help="a target such as trade; what follows -- goes to snakemake: -- --dry-run"
     )

@@ -1,5 +1,8 @@
 """A job: its records, each read, processed, assessed and reported once, with what stays in memory in between."""
 
+import contextlib
+import fcntl
+import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -31,7 +34,7 @@ from rocking.records.processing import process
 from rocking.records.station import station_of
 from rocking.structures import Structure, load_structures
 from rocking.study.outcome import record_line
-from rocking.study.plan import records_sha256, structures_sha256
+from rocking.study.plan import JOBS, records_sha256, structures_sha256
 from rocking.study.results import written_part
 from rocking.study.settings import Settings, read_settings
 from rocking.tables import write_rows, write_whole
@@ -86,8 +89,11 @@ class Study:
 def planned(config: Mapping[str, Any], params: Any) -> tuple[Study, list[CatalogueRecord]]:
     """Return the study and the records of a job, from its `config` and what `Plan.params` planned for it.
 
-    Raises ConfigurationError when the structure list or the catalogue says something else than it did then.
+    The next run waits for the end of this process, should its scheduler be killed. Raises ConfigurationError when the
+    structure list or the catalogue says something else than it did then.
     """
+    with contextlib.suppress(OSError):
+        fcntl.flock(os.open(JOBS, os.O_RDWR | os.O_CREAT), fcntl.LOCK_SH)  # never closed: held to the end
     settings = read_settings(config)
     structures = load_structures(settings.structures)
     if structures_sha256(structures) != params.structures_sha256:

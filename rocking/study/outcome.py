@@ -59,11 +59,14 @@ def check_any_read(summary: str | Path, records: Collection[str]) -> None:
         )
 
 
-def paths_to_read(results: Path) -> Iterator[str]:
-    """Yield a line for each of the files that come next for a reader."""
+def paths_to_read(results: Path, verdicts: Iterable[Fate]) -> Iterator[str]:
+    """Yield a line for each of the files that come next for a reader, the report of the worst record among them."""
     summary = results / "summary"
     yield from (f"Page to explore: {page}" for page in sorted(summary.glob("*.html")))
     yield f"Summary: {report if (report := summary / 'summary.pdf').is_file() else summary}"
+    worst = max(verdicts, key=lambda fate: fate.severity, default=None)
+    if worst and (report := results / worst.record / "report.pdf").is_file():
+        yield f"Report of the worst record: {report}"
 
 
 def _table(under: dict[str, list[Fate]], records: int) -> Iterator[str]:

@@ -4,6 +4,7 @@ import hashlib
 import json
 import math
 import os
+import stat
 import time
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
@@ -14,14 +15,18 @@ from typing import Any, TypeVar
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
 from rocking.records.fetch import fill_hashes, filled, local_files
+from rocking.records.read import LARGEST_FILE
 from rocking.structures import Structure, load_structures
 from rocking.study.settings import Settings, named_files, read_settings
 from rocking.tables import write_whole
+from rocking.tables.yaml_file import read_yaml
 
 Found = TypeVar("Found")
 
 _HASHES = Path(".snakemake") / "rocking_hashes.json"
 """Beside what snakemake remembers of a study; it may be removed at any time."""
+JOBS = Path(".snakemake") / "rocking_jobs.lock"
+"""Held by every job of a study while it works, in the folder of the study."""
 _SETTLED = 2.0
 """s; a file that changed more recently may change again without its times telling, so its hash is not kept."""
 
@@ -87,6 +92,16 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     )
 
 
+def check_config_file(path: Path) -> dict[str, Any]:
+    """Return what a config.yaml says. Raises ConfigurationError, also where snakemake would be silent or hang."""
+    said, _ = read_yaml(path, ConfigurationError, "file of settings")
+    if not isinstance(said or {}, dict):
+        raise ConfigurationError(
+            f"{path}: the file holds {type(said).__name__}, but must hold settings; mend it."
+        )
+    return said or {}
+
+
 def check_writable(results: Path) -> None:
     """Raise ConfigurationError when no folder can be made, or nothing be written, at `results`."""
     there = next(path for path in (results.absolute(), *results.absolute().parents) if path.exists())
@@ -144,9 +159,11 @@ class ContentHashes:
         self._kept: dict[str, list[object]] = {}
 
     def of(self, path: Path) -> str:
-        """Return the sha256 of the file at `path`, "" where it cannot be read."""
+        """Return the sha256 of the file at `path`, "" for what no reader takes: another kind of file, or too large."""
         try:
             status = path.stat()
+            if not stat.S_ISREG(status.st_mode) or status.st_size > LARGEST_FILE:
+                return ""
             marks = [status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino]
             known = self._known.get(str(path))
             if known and known[:-1] == marks:

@@ -11,24 +11,23 @@ import socket
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Callable, Iterator, Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from threading import Thread
 from typing import BinaryIO
-
-import yaml
 
 from rocking.assessment.fate import Fate
 from rocking.assessment.rows.of_record import FailureRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted
+from rocking.study.doors import close_doors
 from rocking.study.outcome import closing_lines, paths_to_read
-from rocking.study.plan import Plan, make_plan
+from rocking.study.plan import JOBS, Plan, check_config_file, make_plan
 from rocking.study.progress import PIPE, Progress, fitting
 from rocking.study.settings import named_files
 from rocking.study.workspace import workflow_folder
-from rocking.tables import read_rows, read_table
+from rocking.tables import read_table
 
 _CORES = re.compile(r"(--cores|--jobs)(=.*)?|-[cj]\d*|-[cj]all")
 _ANSWERS = re.compile(
@@ -36,8 +35,6 @@ _ANSWERS = re.compile(
     r"detailed-summary|report|unlock|touch|archive|delete-all-output|print-compilation))(=.*)?"
 )
 """Options with which snakemake answers a question instead of running the study: its answer is shown as it is."""
-_POLL = 0.2
-"""s between two looks at processes that end by themselves."""
 
 
 def run(folder: Path, options: Sequence[str]) -> int:
@@ -46,21 +43,32 @@ def run(folder: Path, options: Sequence[str]) -> int:
     The status is 0, or 1 when a record or a job failed. Raises ConfigurationError, before snakemake starts, when the
     folder holds no study or the study has defects.
     """
-    plan = _planned(folder)
-    command = _command(folder, options)
+    config = _config(folder)
+    plan = _planned(folder, config)
+    command = _command(folder, config, options)
     if any(_ANSWERS.fullmatch(option) for option in options):
         return subprocess.run(command, check=False, env=_environment()).returncode
     target = next((option for option in options[:1] if not option.startswith("-")), None)
     return _alone(folder, plan, command, target)
 
 
-def _planned(folder: Path) -> Plan:
-    config = folder / "config.yaml"
-    if not config.is_file():
-        raise ConfigurationError(
-            f"{folder} holds no config.yaml; start a study there first: rocking start {folder}"
+def _config(folder: Path) -> Path:
+    """The settings of the study in `folder`; in the clone those of the shipped example."""
+    own, shipped = folder / "config.yaml", folder / "workflow" / "config.yaml"
+    if config := next((path for path in (own, shipped) if os.path.lexists(path)), None):
+        return config
+    raise ConfigurationError(
+        f"{folder} holds no config.yaml; start a study there first: rocking start {folder}"
+    )
+
+
+def _planned(folder: Path, config: Path) -> Plan:
+    close_doors(folder)
+    if find_spec("snakemake") is None:
+        raise RockingError(
+            "a study runs with snakemake, which is not installed: pip install rocking[workflow]"
         )
-    settings = _read(config)
+    settings = check_config_file(config)
     catalogue = folder / named_files(settings).catalogue
     if not catalogue.is_file():
         raise ConfigurationError(
@@ -70,26 +78,13 @@ def _planned(folder: Path) -> Plan:
         return make_plan(settings)
 
 
-def _read(config: Path) -> dict[str, object]:
-    try:
-        settings = yaml.safe_load(config.read_text(encoding="utf-8")) or {}
-        if not isinstance(settings, dict):
-            raise TypeError(f"it holds a {type(settings).__name__}")
-    except (yaml.YAMLError, UnicodeDecodeError, TypeError) as error:
-        reason = " ".join(str(error).split())
-        raise ConfigurationError(
-            f"{config}: this is no YAML mapping of settings ({reason}); mend it."
-        ) from None
-    return settings
-
-
-def _command(folder: Path, options: Sequence[str]) -> list[str]:
+def _command(folder: Path, config: Path, options: Sequence[str]) -> list[str]:
     home = workflow_folder()
     cores = [] if any(_CORES.fullmatch(option) for option in options) else ["--cores", "all"]
     return [
         *(sys.executable, "-P", "-m", "snakemake", "--snakefile", str(home / "Snakefile")),
         *("--workflow-profile", str(home / "workflow" / "profiles" / "default")),
-        *("--directory", str(folder), "--configfile", str(folder.resolve() / "config.yaml")),
+        *("--directory", str(folder), "--configfile", str(config.resolve())),
         *("--logger", "rocking"),
         *cores,
         *options,
@@ -151,9 +146,9 @@ def _watched(folder: Path, plan: Plan, command: Sequence[str], target: str | Non
         print(f"Finished: {target}; what it wrote lies in {results}")
         return 0
     summary = results / "summary"
-    failures = read_table(FailureRow, summary)
-    lines = closing_lines(read_rows(Fate, summary / Fate.table.file_name), failures)
-    print(*map(fitting, lines), *paths_to_read(results), sep="\n", flush=True)
+    failures, verdicts = read_table(FailureRow, summary), read_table(Fate, summary)
+    lines = (*closing_lines(verdicts, failures), *paths_to_read(results, verdicts))
+    print(*map(fitting, lines), sep="\n", flush=True)
     return int(bool(failures))
 
 
@@ -194,9 +189,9 @@ def _follow(process: subprocess.Popen[bytes], told: BinaryIO, progress: Progress
 
 
 def _environment() -> dict[str, str]:
-    """That of the scheduler and its jobs: Python imports nothing from the folder it happens to stand in."""
+    """That of the scheduler and its jobs, with the plug-in by which they tell what they do."""
     plugins = [str(workflow_folder() / "workflow" / "logger"), os.environ.get("PYTHONPATH", "")]
-    return os.environ | {"PYTHONSAFEPATH": "1", "PYTHONPATH": os.pathsep.join(filter(None, plugins))}
+    return os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, plugins))}
 
 
 def _again(folder: Path) -> str:
@@ -240,14 +235,14 @@ def is_locked(folder: Path) -> bool:
 
 
 def _is_stale(folder: Path) -> bool:
-    """Whether that lock was left by a run of ours that was killed on this machine; to be called within only_run.
+    """Whether that lock was left by a run of ours that was killed on this machine; to be called within _only_run.
 
     Waits for jobs that outlived their scheduler: they would write beside those of the next one.
     """
-    if _marked(folder).get("host") != socket.gethostname() or any(_working(folder, _is_scheduler)):
+    if _marked(folder).get("host") != socket.gethostname():
         return False
-    while any(_working(folder, _is_job)):
-        time.sleep(_POLL)
+    with (folder / JOBS).open("a", encoding="utf-8") as jobs:
+        fcntl.flock(jobs, fcntl.LOCK_EX)
     return True
 
 
@@ -296,22 +291,3 @@ def _marked(folder: Path) -> dict[str, object]:
 def _owner(folder: Path) -> str:
     found = _marked(folder)
     return f" (process {found['process']} on {found['host']})" if found else ""
-
-
-def _is_scheduler(part: str) -> bool:
-    return part.endswith(("/snakemake", "snakemake/__main__.py")) or part == "snakemake"
-
-
-def _is_job(part: str) -> bool:
-    return "/.snakemake/scripts/" in part
-
-
-def _working(folder: Path, wanted: Callable[[str], bool]) -> Iterator[int]:
-    """The processes on this machine that stand in `folder` and have a wanted part in their command line."""
-    import psutil  # comes with snakemake
-
-    place = str(folder.resolve())
-    for process in psutil.process_iter():
-        with contextlib.suppress(psutil.Error):
-            if process.cwd() == place and any(map(wanted, process.cmdline())):
-                yield process.pid

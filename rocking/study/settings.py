@@ -4,7 +4,6 @@ Each says its type, unit, bounds and meaning where it is declared. config.yaml i
 written, with its JSON schema, from these. After a change: python -m rocking.study.settings workflow
 """
 
-import re
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
@@ -25,6 +24,7 @@ from rocking.described import (
 from rocking.errors import ConfigurationError
 from rocking.records.processing import Processing
 from rocking.tables import write_whole
+from rocking.tables.yaml_file import said_by
 
 
 @dataclass(frozen=True)
@@ -112,10 +112,11 @@ LAYOUT = {
 def read_settings(config: Mapping[str, Any]) -> Settings:
     """Return the settings in `config`, the mapping of a config.yaml; one that is left out gets its default.
 
-    Raises ConfigurationError with every defect, one a line: the setting, its value, and what is allowed.
+    A text says what it would in the file: so values come from snakemake --config. Raises ConfigurationError with every
+    defect, one a line: the setting, its value, and what is allowed.
     """
     defects: list[str] = []
-    made = read_described(Settings(), config, defects, "setting ", _as_said)
+    made = read_described(Settings(), config, defects, "setting ", said_by)
     if defects:
         raise ConfigurationError("\n".join(defects))
     return made
@@ -127,16 +128,6 @@ def named_files(config: Mapping[str, Any]) -> Settings:
     return Settings(
         **{name: config[name] for name in names if isinstance(config.get(name), str) and config[name]}
     )
-
-
-def _as_said(text: str) -> object:
-    """What a text says. snakemake --config hands on "true" and inner numbers as text, and for YAML 1.1 1e-6 is one."""
-    if re.fullmatch(r"[+-]?\d+[eE][+-]?\d+", text):
-        return float(text)
-    try:
-        return yaml.safe_load(text) if text.strip() else text  # nothing is no null
-    except yaml.YAMLError:
-        return text
 
 
 def json_schema(section: Any = None) -> dict[str, Any]:

@@ -2,13 +2,19 @@
 
 from pathlib import Path  # for the rules
 
+from rocking.study.doors import close_doors
+
+close_doors()  # before the imports that open them
+
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
 from rocking.study.outcome import check_any_read
-from rocking.study.plan import make_plan
+from rocking.study.plan import check_config_file, make_plan
 from rocking.study.results import IN_PARTS, PAGE, part
 
 # What the user writes (catalogue, records, StationXML, structures) is watched by its content, in params, not as input:
 # snakemake goes by dates, and behind a file that is dated in the future it removes what a job wrote.
+for FILE in workflow.overwrite_configfiles:
+    check_config_file(Path(FILE))
 PLAN = make_plan(config)
 SETTINGS = PLAN.settings
 PACKAGE = PLAN.package_sha256

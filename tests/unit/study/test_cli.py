@@ -219,7 +219,7 @@ def _bad_inputs():
     yield "no folder", ["catalogue", "absent"], "this is no folder"
     yield "no study", ["run", "nothing"], "config.yaml"
     yield "no catalogue", ["run", "started"], "there is no catalogue yet"
-    yield "settings that are no mapping", ["run", "broken"], "no YAML mapping"
+    yield "settings that are no mapping", ["run", "broken"], "must hold settings"
 
 
 @pytest.mark.parametrize(

@@ -109,10 +109,10 @@ def test_of_many_structures_those_that_overturn_most_are_listed() -> None:
 def test_the_paths_are_those_that_exist(tmp_path: Path) -> None:
     summary = tmp_path / "summary"
     summary.mkdir()
-    assert list(paths_to_read(tmp_path)) == [f"Summary: {summary}"]
+    assert list(paths_to_read(tmp_path, [])) == [f"Summary: {summary}"]
     for name in ("summary.pdf", "explore.html"):
         (summary / name).touch()
-    assert list(paths_to_read(tmp_path)) == [
+    assert list(paths_to_read(tmp_path, [])) == [
         f"Page to explore: {summary / 'explore.html'}",
         f"Summary: {summary / 'summary.pdf'}",
     ]

@@ -1,0 +1,86 @@
+"""YAML as data only, by the rules of YAML 1.2: what looks like a number to some and a text to others is a text."""
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from rocking.errors import RockingError
+from rocking.tables.files import read_whole
+
+LARGEST_YAML = 1_000_000
+"""Bytes; a thousand structures take about a tenth of it."""
+_DEEPEST = 8
+"""Levels of nesting; a list of mappings has three."""
+
+
+def read_yaml(path: Path, error: type[RockingError], what: str) -> tuple[Any, Any]:
+    """Return what the YAML file at `path` holds, and its node, None for an empty file. what: "structure list".
+
+    1:30 and 011 are texts, and so are yes and no; 1e-6 is a number. Raises `error` for what no such file needs: another
+    kind of file, more than LARGEST_YAML bytes, anchors and aliases, deep nesting, a key given twice, tags.
+    """
+    content = read_whole(path, LARGEST_YAML, error)
+    try:
+        loader = _StrictLoader(content.decode("utf-8-sig"))
+        node = loader.get_single_node()
+        return (None if node is None else loader.construct_document(node)), node
+    except (yaml.YAMLError, ValueError) as defect:
+        raise error(f"{path}: the {what} is not valid YAML ({' '.join(str(defect).split())}).") from None
+
+
+def said_by(text: str) -> Any:
+    """Return the value that a scalar in YAML says, the text itself where it is none."""
+    try:
+        return _StrictLoader(text).get_single_data() if text.strip() else text
+    except (yaml.YAMLError, ValueError):
+        return text
+
+
+class _StrictLoader(yaml.SafeLoader):
+    """The safe loader without aliases, deep nesting, keys given twice and the traps of YAML 1.1."""
+
+    depth = 0
+    yaml_implicit_resolvers: dict[str, Sequence[tuple[str, re.Pattern[str]]]] = {}  # noqa: RUF012 as its root has it
+
+    def compose_node(self, parent: yaml.Node | None, index: object) -> yaml.Node | None:
+        event = self.peek_event()
+        if getattr(event, "anchor", None) is not None:
+            raise _refused("an anchor or an alias is not read here; write every value out", event.start_mark)
+        self.depth += 1
+        if self.depth > _DEEPEST:
+            raise _refused("it is nested too deeply", event.start_mark)
+        node = super().compose_node(parent, index)
+        self.depth -= 1
+        return node
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[object, object]:
+        keys: set[str] = set()
+        for key, _ in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                raise _refused("a key must be a text", key.start_mark)
+            if key.value in keys:
+                raise _refused(f"key {key.value!r} is given twice", node.start_mark)
+            keys.add(key.value)
+        return super().construct_mapping(node, deep)
+
+
+_NUMBER = r"[-+]?(0|[1-9][0-9]*)"
+for _tag, _pattern, _first in (
+    ("null", r"~|null|Null|NULL|", ["~", "n", "N", ""]),
+    ("bool", r"true|True|TRUE|false|False|FALSE", list("tTfF")),
+    ("int", _NUMBER, list("-+0123456789")),
+    (
+        "float",
+        rf"{_NUMBER}(\.[0-9]*)?([eE][-+]?[0-9]+)?|[-+]?\.[0-9]+([eE][-+]?[0-9]+)?",
+        list("-+.0123456789"),
+    ),
+    ("float", r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)", list("-+.")),
+):
+    _StrictLoader.add_implicit_resolver(f"tag:yaml.org,2002:{_tag}", re.compile(rf"^(?:{_pattern})$"), _first)
+
+
+def _refused(reason: str, mark: yaml.Mark) -> yaml.MarkedYAMLError:
+    return yaml.constructor.ConstructorError(None, None, reason, mark)
