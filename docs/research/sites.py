@@ -15,7 +15,7 @@ MOST_COMPONENTS = 2
 
 
 def structures_tried() -> dict[str, Structure]:
-    """Return blocks, walls and arches of p from 0.86 to 4.1 rad/s, from no defect to a forcing that grows by 30 %."""
+    """Return blocks, walls and arches of p from 0.86 to 4.07 rad/s, from no defect to a forcing that grows by 30 %."""
     blocks = [(1.0, 0.2), (2.0, 0.12), (2.0, 0.4), (5.0, 0.15), (10.0, 0.1)]
     walls = [(1.5, 1.5, 0.4), (2.0, 1.0, 0.3)]
     arches = [(157.5, 0.15), (140.0, 0.15), (150.0, 0.10), (120.0, 0.15)]
