@@ -1,15 +1,16 @@
 """One record against one list of structures: predictions, integrations, and the two side by side."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from time import process_time
 
-from rocking.assessment.ensemble import Ensemble, GroundMotions, ensemble
+from rocking.assessment.ensemble import Ensemble, GroundMotions
 from rocking.assessment.fidelity import Answer, cheapest_answer, estimate_from_velocity
 from rocking.assessment.method import Method
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.tiers import Estimate
+from rocking.assessment.variations import cracks, ensemble_over_cracks
 from rocking.errors import PulseError, RockingError
 from rocking.motion.integration import integrate
 from rocking.motion.response import UNKNOWN, ModelCheck, Response, check_model
@@ -92,8 +93,12 @@ def assess_structures(
     structures: Mapping[str, Structure | Mechanism],
     settings: AssessmentSettings | None = None,
     vertical: Accelerogram | None = None,
+    alone: bool = False,
 ) -> Assessment:
-    """Predict and integrate every structure under `accelerogram`; one that fails costs no other."""
+    """Predict and integrate every structure under `accelerogram`; one that fails costs no other.
+
+    alone: whether the record has no other component, so that its ensemble decides and covers other cracks too.
+    """
     settings = settings or AssessmentSettings()
     started = process_time()
     failures: list[Failure] = []
@@ -108,7 +113,7 @@ def assess_structures(
     cases = []
     for name, structure in structures.items():
         try:
-            cases.append(_case(name, structure, candidates, accelerogram, settings, vertical))
+            cases.append(_case(name, structure, candidates, accelerogram, settings, vertical, alone))
         except RockingError as error:
             failures.append(Failure("responses", name, str(error)))
     durations = {"pulses": extracted - started, "responses": process_time() - extracted}
@@ -151,18 +156,29 @@ def _case(
     record: Accelerogram,
     settings: AssessmentSettings,
     vertical: Accelerogram | None,
+    alone: bool,
 ) -> Case:
     mechanism = structure if isinstance(structure, Mechanism) else structure.mechanism()
     prediction = predict(mechanism, candidates, settings) if candidates else None
     if settings.fidelity == "full":
         answer, responses = _compared(mechanism, record, prediction, settings, vertical)
     else:
-        answer, responses = _cheapest(mechanism, record, settings, vertical)
+        answer, responses = _cheapest(structure, mechanism, record, settings, vertical)
     on_record = responses.get(Method.MECHANISM_ON_RECORD)
     check = UNKNOWN
     if on_record is not None and isinstance(structure, Structure):
         check = check_model(structure, on_record, record, vertical)
-    sure = _ensemble(mechanism, record, answer, settings, vertical)
+    sure = None
+    if settings.ensemble.members and answer.method is Method.MECHANISM_ON_RECORD:
+        # Of two components the ensemble over their directions decides, so that theirs need not try every crack.
+        covered = structure if alone or settings.fidelity == "auto" else cracks(structure)[0][1]
+        sure = ensemble_over_cracks(
+            covered,
+            GroundMotions.of(record, vertical, processing=settings.ensemble.processing),
+            settings,
+            nominal=answer.rotation_ratio,
+            verdict_only=settings.fidelity == "auto",
+        )
     estimate = estimate_from_velocity(mechanism, record) if sure is None and vertical is None else None
     return Case(name, mechanism, prediction, responses, check, answer, sure, estimate)
 
@@ -189,39 +205,36 @@ def _compared(
 
 
 def _cheapest(
-    mechanism: Mechanism, record: Accelerogram, settings: AssessmentSettings, vertical: Accelerogram | None
+    structure: Structure | Mechanism,
+    mechanism: Mechanism,
+    record: Accelerogram,
+    settings: AssessmentSettings,
+    vertical: Accelerogram | None,
 ) -> tuple[Answer, dict[Method, Response]]:
-    """What settles the verdict with the least work, and the response of the mechanism where it took part."""
+    """What settles the verdict with the least work, and the response of the mechanism where it took part.
+
+    Where other cracks may form, nothing cheaper than the mechanism settles it unless all of them rest, or stand by
+    their peak velocities.
+    """
+    risk, first = settings.fidelity_risk, mechanism
+    if len(may_form := cracks(structure)) > 1:
+        first = may_form[0][1]
+        estimates = (estimate_from_velocity(each, record) for _, each in may_form)
+        if not all(each is not None and each.high <= risk for each in estimates):
+            risk = 0.0
     answer = cheapest_answer(
-        mechanism,
+        first,
         record,
-        risk=settings.fidelity_risk,
+        risk=risk,
         tolerance=settings.tolerance,
         vertical=vertical,
         history=True,
         ensemble_follows=settings.ensemble.members > 0,
     )
+    if answer.method is Method.MECHANISM_ON_RECORD and first is not mechanism:
+        whole = integrate(mechanism, record, settings.tolerance, history=True, vertical=vertical)
+        answer = replace(answer, rotation_ratio=whole.rotation_ratio, outcome=whole.outcome, response=whole)
     return answer, {} if answer.response is None else {Method.MECHANISM_ON_RECORD: answer.response}
-
-
-def _ensemble(
-    mechanism: Mechanism,
-    record: Accelerogram,
-    answer: Answer,
-    settings: AssessmentSettings,
-    vertical: Accelerogram | None,
-) -> Ensemble | None:
-    """The ensemble of a case, unless none is asked for or something cheaper settled it."""
-    if not settings.ensemble.members or answer.method is not Method.MECHANISM_ON_RECORD:
-        return None
-    return ensemble(
-        mechanism,
-        GroundMotions.of(record, vertical, processing=settings.ensemble.processing),
-        settings.ensemble,
-        nominal=answer.rotation_ratio,
-        tolerance=settings.tolerance,
-        verdict_only=settings.fidelity == "auto",
-    )
 
 
 def _uplift_multiplier(block: EquivalentBlock, pulse: Pulse) -> float:

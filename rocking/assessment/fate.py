@@ -12,7 +12,7 @@ from rocking.structures.outcome import Outcome
 from rocking.tables import column, row
 
 if TYPE_CHECKING:
-    from rocking.assessment.rows.of_case import ComparisonRow, EnsembleRow, MaximumRow
+    from rocking.assessment.rows.of_case import CandidateRow, ComparisonRow, EnsembleRow, MaximumRow
     from rocking.assessment.rows.of_record import FailureRow
 
 BOTH_COMPONENTS = "both"
@@ -33,6 +33,10 @@ class Fate(CaseRow):
     overturning_members: int = column("Members of the governing ensemble that overturn")
     members: int = column("Members that were followed; 0 without an ensemble")
     overturning_share: float = column("Share of the members that overturn; of a single run 0 or 1")
+    crack: str = column(meanings.CRACK)
+    elsewhere_crack: str = column(meanings.ELSEWHERE)
+    elsewhere_overturning_members: int | None = column("Members that overturn where it cracks there")
+    elsewhere_members: int | None = column("Members that were followed there; 0: of a single run")
     rotation_ratio: float = column(
         "Largest rotation over critical rotation of the run as recorded, worst component; INF if it overturns"
     )
@@ -56,11 +60,20 @@ class Fate(CaseRow):
 
     @property
     def leaning(self) -> str:
-        """What an undecided case leans to, with the count: "leans to stands, overturns in 12 of 64"; "" else."""
+        """What an undecided case leans to, with the counts; "" of another.
+
+        "leans to stands, overturns in 0 of 64, with the crack at 3 m in 12 of 64".
+        """
         if self.verdict is not Verdict.UNDECIDED:
             return ""
         leans_to = Verdict.OVERTURNS if self.overturning_share >= 0.5 else Verdict.STANDS
-        return f"leans to {leans_to}, overturns in {self.count}"
+        told = f"leans to {leans_to}" + (f", overturns in {self.count}" if self.members else "")
+        if not self.elsewhere_crack:
+            return told
+        there = f"with the {self.elsewhere_crack}"
+        if not self.elsewhere_members:
+            return f"{told}, overturns {there}"
+        return f"{told}, {there} in {self.elsewhere_overturning_members} of {self.elsewhere_members}"
 
 
 def fates(
@@ -68,12 +81,14 @@ def fates(
     ensembles: Iterable["EnsembleRow"] = (),
     failures: Iterable["FailureRow"] = (),
     maxima: Iterable["MaximumRow"] = (),
+    candidates: Iterable["CandidateRow"] = (),
 ) -> list[Fate]:
     """Return what became of each structure under each record, in the order of `cases`.
 
     The ensemble over all directions decides, or where there is none the one that overturns, then rotates, most; without
     any ensemble the single run of the worst component. A component that gave no result makes the verdict unknown,
-    unless another component overturns or an ensemble over all directions decides. maxima: tell the side.
+    unless another component overturns or an ensemble over all directions decides. maxima: tell the side. candidates:
+    other cracks, of which without an ensemble one that overturns leaves undecided what stands as given.
     """
     by_pair: dict[tuple[str, str], list[ComparisonRow]] = {}
     for case in cases:
@@ -88,8 +103,13 @@ def fates(
         for each in maxima
         if each.method is Method.MECHANISM_ON_RECORD and not each.processing
     }
+    fallen: dict[tuple[str, str], CandidateRow] = {}
+    for each in candidates:
+        if math.isinf(each.integrated_rotation_ratio):
+            fallen.setdefault((each.record, each.structure), each)
     return [
-        _fate(of_pair, governing.get(pair), failed.get(pair, ()), sides) for pair, of_pair in by_pair.items()
+        _fate(of_pair, governing.get(pair), failed.get(pair, ()), sides, fallen.get(pair))
+        for pair, of_pair in by_pair.items()
     ] + [_failed(found[0]) for pair, found in failed.items() if pair not in by_pair]
 
 
@@ -107,6 +127,7 @@ def _fate(
     ensemble: "EnsembleRow | None",
     failures: Sequence["FailureRow"],
     sides: dict[tuple[str, str, str], int | None],
+    fallen: "CandidateRow | None",
 ) -> Fate:
     worst = max(cases, key=_badness)
     verdict, why = _decided(worst, ensemble)
@@ -116,6 +137,10 @@ def _fate(
     if missing and verdict is not Verdict.OVERTURNS and not over_all:
         names = ", ".join(name or "not named" for name in missing)
         verdict, why = Verdict.UNKNOWN, f"the component {names} gave no result"
+    elsewhere_crack, elsewhere = (ensemble.elsewhere_crack, ensemble) if ensemble else ("", None)
+    if ensemble is None and fallen is not None and verdict is Verdict.STANDS:
+        verdict, elsewhere_crack = Verdict.UNDECIDED, fallen.description
+        why = f"one run as recorded stands, and with the {elsewhere_crack} it overturns"
     followed = ensemble if ensemble is not None and ensemble.members else None
     direction = worst.component if len(cases) > 1 else ""
     single = _NONE if verdict is Verdict.UNKNOWN else float(verdict is Verdict.OVERTURNS)
@@ -126,6 +151,10 @@ def _fate(
         overturning_members=followed.overturning_members if followed else 0,
         members=followed.members if followed else 0,
         overturning_share=followed.overturning_share if followed else single,
+        crack=ensemble.crack if ensemble else "",
+        elsewhere_crack=elsewhere_crack,
+        elsewhere_overturning_members=elsewhere.elsewhere_overturning_members if elsewhere else None,
+        elsewhere_members=elsewhere.elsewhere_members if elsewhere else None,
         rotation_ratio=worst.integrated_rotation_ratio,
         rotation_ratio_low=followed.rotation_ratio_low if followed else _NONE,
         rotation_ratio_median=followed.rotation_ratio_median if followed else _NONE,
@@ -160,6 +189,10 @@ def _failed(failure: "FailureRow") -> Fate:
         overturning_members=0,
         members=0,
         overturning_share=_NONE,
+        crack="",
+        elsewhere_crack="",
+        elsewhere_overturning_members=None,
+        elsewhere_members=None,
         rotation_ratio=_NONE,
         rotation_ratio_low=_NONE,
         rotation_ratio_median=_NONE,

@@ -6,9 +6,10 @@ from types import NoneType
 from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.assess import Case, assess_structures
-from rocking.assessment.ensemble import Ensemble, EnsembleSettings, GroundMotions, ensemble
+from rocking.assessment.ensemble import Ensemble, EnsembleSettings, GroundMotions
 from rocking.assessment.method import Method
 from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.variations import cracks, ensemble_over_cracks
 from rocking.assessment.verdict import Verdict, ratio_in_words
 from rocking.errors import ConfigurationError, RockingError
 from rocking.motion.response import Response
@@ -22,17 +23,41 @@ if TYPE_CHECKING:
 _NAME = "structure"
 
 
+@dataclass(frozen=True)
+class Governing:
+    """The mechanism that governs: what opens, the share of members that overturn, and their median rotation ratio."""
+
+    description: str
+    overturning_share: float
+    rotation_ratio: float
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class StructureAssessment:
-    """What came of one structure. cases: by component. ensemble: over all that is not known, directions included."""
+    """What came of one structure. cases: by component. ensemble: over all that is not known, directions included.
+
+    static_multiplier: least λ of the cracks that may form, the acceleration in g at which statics lets it fall.
+    """
 
     cases: Mapping[str, Case]
     ensemble: Ensemble
+    static_multiplier: float
 
     @property
     def verdict(self) -> Verdict:
         """Stands, overturns or undecided, from the ensemble."""
         return self.ensemble.verdict
+
+    @property
+    def governing(self) -> Governing:
+        """The mechanism of statics, or the one that does not stand though that does; "" where there is one only."""
+        worst = self.ensemble.elsewhere or self.ensemble
+        return Governing(worst.crack, worst.overturning_share, worst.median)
+
+    @property
+    def falls_to(self) -> int:
+        """Side to which it falls as given, 1 or -1 as `Response.peak_side` counts them; 0 where it does not."""
+        return self.response.peak_side if self.rotation_ratio == float("inf") else 0
 
     @property
     def overturning_share(self) -> float:
@@ -74,8 +99,13 @@ class StructureAssessment:
         return (
             f"<{self.verdict}: overturns in {self.ensemble.overturning} of {self.members} members; as given "
             f"{_shown(self.rotation_ratio)}, 5–95 % {_shown(self.rotation_ratio_low)} to "
-            f"{_shown(self.rotation_ratio_high)} of the critical rotation>"
+            f"{_shown(self.rotation_ratio_high)} of the critical rotation{self._elsewhere}>"
         )
+
+    @property
+    def _elsewhere(self) -> str:
+        other = self.ensemble.elsewhere
+        return "" if other is None else f"; with the {other.crack} in {other.overturning} of {other.members}"
 
     def frame(self) -> "DataFrame":
         """One row per method and component: its rotation ratio, and how that stands to the integration, in words."""
@@ -132,11 +162,12 @@ def assess(
         names = [f"component {place}" for place, _ in enumerate(records, start=1)]
     cases = {}
     for name, each in zip(names, records, strict=True):
-        assessment = assess_structures(each, {_NAME: structure}, settings, vertical)
+        assessment = assess_structures(each, {_NAME: structure}, settings, vertical, alone=len(records) == 1)
         if not assessment.cases:
             raise RockingError(assessment.failures[-1].message)
         cases[name] = assessment.cases[0]
-    return StructureAssessment(cases, _over_all(records, structure, cases, settings, vertical))
+    over_all = _over_all(records, structure, cases, settings, vertical)
+    return StructureAssessment(cases, over_all, cracks(structure)[0][1].uplift_multiplier)
 
 
 def _checked_records(record: object) -> list[Accelerogram]:
@@ -167,12 +198,11 @@ def _over_all(
     alone = [case.ensemble for case in cases.values() if case.ensemble is not None]
     if len(records) == 1:
         return alone[0]
-    return ensemble(
+    return ensemble_over_cracks(
         structure,
         GroundMotions.of_pair(records[0], records[1], vertical, processing=settings.ensemble.processing),
-        settings.ensemble,
+        settings,
         nominal=max(each.nominal for each in alone),
-        tolerance=settings.tolerance,
     )
 
 

@@ -4,12 +4,14 @@ import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
+from rocking.assessment.ensemble import Ensemble, GroundMotions, ensemble
 from rocking.assessment.ensemble.ground_motions import AS_IT_IS
 from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.verdict import Verdict
 from rocking.errors import RockingError
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import integrate
@@ -17,17 +19,59 @@ from rocking.motion.response import Response
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum
-from rocking.structures import Structure
+from rocking.structures import Mechanism, Structure
 from rocking.structures.outcome import Outcome
+from rocking.structures.structure import Candidate
 
 
 @dataclass(frozen=True)
-class Candidate:
-    """A structure cracked at `position` [m] instead: rotation ratio under the pulse (nan: none) and the record."""
+class CrackResponse:
+    """A crack that may form, in words and by its height [m]: rotation ratios under pulse (nan: none) and record."""
 
+    description: str
     position: float
     predicted: float
     integrated: float
+
+
+def ensemble_over_cracks(
+    structure: Structure | Mechanism,
+    motions: GroundMotions,
+    settings: AssessmentSettings,
+    *,
+    nominal: float = math.nan,
+    verdict_only: bool = False,
+) -> Ensemble:
+    """Return the ensemble of the mechanism that statics chooses, of least λ, with what other cracks may change.
+
+    Where it stands, every other mechanism that may form is followed, the worst under the strongest motion first, until
+    one does not stand: that one is `elsewhere`. One that stays far from overturning in the first members ends early.
+    nominal, verdict_only: as `ensemble` takes them. Raises MotionError as `integrate` does.
+    """
+    follow = partial(ensemble, motions=motions, settings=settings.ensemble, tolerance=settings.tolerance)
+    (description, mechanism), *others = cracks(structure)
+    headline = follow(mechanism, nominal=nominal, verdict_only=verdict_only)
+    if not others:
+        return headline
+    headline = replace(headline, crack=description)
+    if headline.verdict is not Verdict.STANDS:
+        return headline
+    strongest = max(motions.horizontal.values(), key=lambda motion: motion.peak_acceleration)
+    mechanisms = [each for _, each in others]
+    ratios = integrate_batch(mechanisms, strongest, tolerance=settings.tolerance, workers=1)[:, 0]
+    for place in np.argsort(-np.nan_to_num(ratios, nan=math.inf), kind="stable"):
+        other = follow(mechanisms[place], verdict_only=True)
+        if other.verdict is not Verdict.STANDS:
+            return replace(headline, elsewhere=replace(other, crack=others[place][0]))
+    return headline
+
+
+@lru_cache(maxsize=256)
+def cracks(structure: Structure | Mechanism) -> tuple[tuple[str, Mechanism], ...]:
+    """Return the mechanisms that may form, each with what opens in words; the one that statics chooses first."""
+    if isinstance(structure, Mechanism):
+        return (("", structure),)
+    return tuple((each.description, each.structure.mechanism()) for each in structure.candidates())
 
 
 @dataclass(frozen=True)
@@ -46,19 +90,20 @@ def candidates(
     pulse: Pulse | None,
     count: int,
     settings: AssessmentSettings,
-) -> list[Candidate]:
+) -> list[CrackResponse]:
     """Return `count` candidates of a structure over what it may crack at (its `moved`); [] where nothing is.
 
     Raises RockingError where one of them cannot be followed.
     """
-    moved = _moved(structure, count)
-    integrated = _rotation_ratios(list(moved.values()), accelerogram, settings)
-    for other, ratio in zip(moved.values(), integrated, strict=True):
+    others = _moved(structure, count)
+    structures = [each.structure for each in others]
+    integrated = _rotation_ratios(structures, accelerogram, settings)
+    for other, ratio in zip(structures, integrated, strict=True):
         if math.isnan(ratio):
             integrate(other, accelerogram, settings.tolerance)  # raises the reason
     return [
-        Candidate(position, _predicted(other, pulse, settings), ratio)
-        for (position, other), ratio in zip(moved.items(), integrated, strict=True)
+        CrackResponse(each.description, each.position, _predicted(each.structure, pulse, settings), ratio)
+        for each, ratio in zip(others, integrated, strict=True)
     ]
 
 
@@ -109,13 +154,10 @@ def _rotation_ratios(
 
 
 @lru_cache(maxsize=64)
-def _moved(structure: Structure, count: int) -> dict[float, Structure]:
-    """All candidates take the restitution of the structure: their own momentum balance may be unphysical."""
-    if not structure.crack_name:
-        return {}
-    fixed = replace(structure, restitution=structure.mechanism().restitution)  # type: ignore[type-var,call-arg]
-    found = sorted(fixed.candidates(count), key=lambda each: each.position)
-    return {each.position: each.structure for each in found if np.isfinite(each.position)}
+def _moved(structure: Structure, count: int) -> tuple[Candidate, ...]:
+    """The cracks that may form, the lowest first; none where there is one mechanism or `count` is 0."""
+    others = structure.candidates(count) if count else ()
+    return tuple(sorted(others, key=lambda each: each.position)) if len(others) > 1 else ()
 
 
 def _predicted(structure: Structure, pulse: Pulse | None, settings: AssessmentSettings) -> float:

@@ -11,7 +11,7 @@ from time import process_time
 from typing import Any
 
 from rocking.assessment.assess import Assessment, Failure, assess_structures
-from rocking.assessment.ensemble import GroundMotions, ensemble, processed
+from rocking.assessment.ensemble import GroundMotions, processed
 from rocking.assessment.fate import BOTH_COMPONENTS
 from rocking.assessment.horizontal_motion import horizontal_motions
 from rocking.assessment.method import Method
@@ -26,7 +26,7 @@ from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_record import TimingRow
 from rocking.assessment.rows.shared import Identity
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.variations import candidates, processed_variants
+from rocking.assessment.variations import candidates, ensemble_over_cracks, processed_variants
 from rocking.errors import ConfigurationError, RockingError
 from rocking.motion.response import Response
 from rocking.records import Accelerogram, CatalogueRecord, Station, aligned, load_catalogue, open_station
@@ -192,7 +192,8 @@ def assess_components(
         durations["velocity pulse"] = process_time() - started
     for accelerogram, motion in zip(assessed.accelerograms, motions, strict=True):
         beside = None if assessed.vertical is None else aligned(assessed.vertical, accelerogram)
-        assessment = assess_structures(accelerogram, study.structures, study.assessment, beside)
+        alone = len(assessed.accelerograms) == 1
+        assessment = assess_structures(accelerogram, study.structures, study.assessment, beside, alone)
         identity = Identity(record.id, accelerogram, study.settings_sha256)
         tables.add(identity, assessment, study.assessment, record.licence, beside, motion)
         for case in assessment.cases:
@@ -220,7 +221,7 @@ def _assess_directions(assessed: Assessed, study: Study) -> None:
     try:
         motions = GroundMotions.of_pair(first, second, assessed.vertical, processing=settings.processing)
         for name in names:
-            found = ensemble(study.structures[name], motions, settings, tolerance=study.assessment.tolerance)
+            found = ensemble_over_cracks(study.structures[name], motions, study.assessment)
             tables.ensemble.append(ensemble_row(identity, name, found, BOTH_COMPONENTS))
     except RockingError as error:
         tables.fail(identity.record, BOTH_COMPONENTS, Failure("directions", "", str(error)))

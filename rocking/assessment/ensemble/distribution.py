@@ -76,6 +76,10 @@ class Ensemble:
     nominal: float
     settings: EnsembleSettings
     reasons: Mapping[int, str] = field(default_factory=dict)
+    crack: str = ""
+    """What opens, as statics chooses it, where the structure does not say where it is cracked."""
+    elsewhere: "Ensemble | None" = None
+    """That of another crack that may form and does not stand, where this one stands."""
 
     def __repr__(self) -> str:
         return (
@@ -125,7 +129,13 @@ class Ensemble:
 
     @property
     def verdict(self) -> Verdict:
-        """What can be said of the structure."""
+        """What can be said of the structure: undecided, too, where it stands only as statics lets it crack."""
+        alone = self._verdict
+        return Verdict.UNDECIDED if alone is Verdict.STANDS and self.elsewhere is not None else alone
+
+    @property
+    def _verdict(self) -> Verdict:
+        """That of this mechanism alone."""
         if self.members and np.all(self._known <= NEGLIGIBLE):
             return Verdict.STANDS
         return verdict(self.overturning_share, self.probability_error, self.settings.risk)

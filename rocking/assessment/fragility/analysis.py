@@ -3,7 +3,7 @@
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -13,12 +13,13 @@ from rocking.assessment.ensemble.members import lattice
 from rocking.assessment.fragility.curve import Fragility, fragility_of
 from rocking.assessment.intensity import INTENSITY_MEASURES, IntensityMeasure, per_velocity
 from rocking.assessment.intensity import intensity_measure as measure_named
+from rocking.assessment.variations import cracks
 from rocking.errors import ConfigurationError
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import Rocking, reduce
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.structures import EquivalentBlock, Mechanism
+from rocking.structures import EquivalentBlock, Mechanism, Structure
 
 LEVELS, COARSE, MOST_SPREAD = 40, 20, 30
 """Levels in all; those spread evenly over the range of the curve, at first and where it reaches farther. The others are
@@ -76,6 +77,7 @@ def incremental_dynamic_analysis(
     stations: Sequence[str] | None = None,
     method: Literal["scaling", "cloud"] = "scaling",
     ensemble: EnsembleSettings | None = None,
+    over_cracks: bool = False,
     tolerance: float = 1e-6,
 ) -> IncrementalDynamicAnalysis:
     """Follow `structure` through `records` at levels of an intensity measure.
@@ -84,14 +86,22 @@ def incremental_dynamic_analysis(
     as recorded, and the levels are then those of the records. levels: ascending, in the unit of the measure; by default
     40 that lie where the probability of overturning moves. stations: what counts as one independent record, by default
     event and station. ensemble: what is not known of a case, which then has MEMBERS members instead of itself.
+    over_cracks: whether each member counts with the worst of the cracks that may form, instead of with the one that
+    statics chooses.
     Raises ConfigurationError for fewer than two stations, levels out of order, a measure that a record lacks, or a
     record that cannot be followed.
     """
     if method == "cloud" and levels is not None:
         raise ConfigurationError("levels are given, but a cloud has those of its records; leave them out.")
-    mechanism, measure, intensities, names = _measured(records, structure, intensity_measure, stations)
+    (mechanism, *others), measure, intensities, names = _measured(
+        records, structure, intensity_measure, stations
+    )
     cases = _Cases(records, mechanism, intensities, ensemble, tolerance)
     chosen, ratios = cases.cloud() if method == "cloud" else cases.at(levels)
+    for other in others if over_cracks else ():
+        cracked = replace(cases, mechanism=other)
+        more = cracked.cloud()[1] if method == "cloud" else cracked.at_levels(chosen)
+        ratios = np.maximum(ratios, more)
     return IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, names)
 
 
@@ -105,12 +115,19 @@ def fragility(
     threshold: float = np.inf,
     method: Literal["scaling", "cloud"] = "scaling",
     ensemble: EnsembleSettings | None = None,
+    over_cracks: bool = False,
     tolerance: float = 1e-6,
 ) -> Fragility:
-    """Return the fragility of `structure` under `records`.
+    """Return the fragility of `structure` under `records`: of the mechanism that statics chooses where cracks may form.
 
     threshold: rotation ratio that is exceeded; inf: overturning. What else it takes, and the errors that it raises, are
     those of `incremental_dynamic_analysis`.
+
+    >>> pulses = [rocking.Pulse(1.0, frequency, 0.5) for frequency in (4.0, 6.0, 9.0)]
+    >>> times = np.arange(400) * 0.01
+    >>> records = [rocking.Accelerogram(pulse.acceleration(times), 0.01) for pulse in pulses]
+    >>> rocking.fragility(records, rocking.Block(2.0, 0.2), levels=[0.2, 0.4, 0.8, 1.6]).probability.tolist()
+    [0.0, 0.0, 0.0, 1.0]
     """
     found = incremental_dynamic_analysis(
         records,
@@ -120,6 +137,7 @@ def fragility(
         stations=stations,
         method=method,
         ensemble=ensemble,
+        over_cracks=over_cracks,
         tolerance=tolerance,
     )
     return found.fragility(threshold)
@@ -130,16 +148,19 @@ def _measured(
     structure: Rocking,
     intensity_measure: str,
     stations: Sequence[str] | None,
-) -> tuple[Mechanism, IntensityMeasure, np.ndarray, tuple[str, ...]]:
-    """Return the mechanism, the measure of that name, that of each record (r,), and the stations (r,).
+) -> tuple[list[Mechanism], IntensityMeasure, np.ndarray, tuple[str, ...]]:
+    """Return the mechanisms that may form, that of statics first, the measure of that name, that of each record (r,),
+    and the stations (r,).
 
     Raises ConfigurationError as `incremental_dynamic_analysis` does.
     """
-    mechanism = reduce(structure)
-    if isinstance(mechanism, EquivalentBlock):
+    reduced = reduce(structure)
+    if isinstance(reduced, EquivalentBlock):
         raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
     measure, names = measure_named(intensity_measure), _checked_stations(records, stations)
-    return mechanism, measure, np.array([measure.of(record, mechanism) for record in records]), names
+    may_form = cracks(structure) if isinstance(structure, Structure) else (("", reduced),)
+    mechanisms = [mechanism for _, mechanism in may_form]
+    return mechanisms, measure, np.array([measure.of(record, mechanisms[0]) for record in records]), names
 
 
 def _checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> tuple[str, ...]:

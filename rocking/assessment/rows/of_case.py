@@ -11,7 +11,7 @@ from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.method import Method
 from rocking.assessment.rows import meanings
 from rocking.assessment.rows.shared import CaseRow, Identity
-from rocking.assessment.variations import Candidate, Variant, governing
+from rocking.assessment.variations import CrackResponse, Variant, governing
 from rocking.assessment.verdict import (
     Agreement,
     Verdict,
@@ -135,6 +135,12 @@ class EnsembleRow(CaseRow):
     overturning_members: int = column("Members that overturn")
     members: int = column("Members that were followed")
     failed_members: int = column("Members that could not be followed")
+    crack: str = column(meanings.CRACK, default="")
+    elsewhere_crack: str = column(meanings.ELSEWHERE, default="")
+    elsewhere_overturning_members: int | None = column(
+        "Members that overturn where it cracks there", default=None
+    )
+    elsewhere_members: int | None = column("Members that were followed there", default=None)
     uplift_share: float = column("Share of the members that lift")
     rotation_ratio_low: float = column("5 % quantile of largest rotation over critical rotation")
     rotation_ratio_median: float = column("Median of largest rotation over critical rotation")
@@ -163,13 +169,16 @@ class EnsembleRow(CaseRow):
 
 @row(
     "candidates",
-    "One row per height at which a wall may be hinged or a spire cracked: the governing height is marked",
+    "One row per crack that may form, as a hinge of a wall at another height: the governing one is marked",
 )
 @final
 class CandidateRow(CaseRow):
-    """One height at which a structure may crack."""
+    """One crack that may form."""
 
-    position_m: float = column("Height of the hinge or of the crack above the base")
+    description: str = column("What opens, and where")
+    position_m: float = column(
+        "Height of the hinge or of the crack above the base; empty where none tells it"
+    )
     predicted_rotation_ratio: float = column("Exact maximum of its equivalent block under the dominant pulse")
     integrated_rotation_ratio: float = column("Its mechanism under the whole record")
     governs_pulse: bool = column("Whether it rotates most under the pulse; the lowest of those that overturn")
@@ -292,6 +301,7 @@ def ensemble_row(identity: Identity, structure: str, ensemble: Ensemble, compone
         f"{name}_share": ensemble.shares.get(name, float("nan"))
         for name in ("amplitude", "restitution", "polarity", "direction", "processing", "vertical")
     }
+    elsewhere = ensemble.elsewhere
     return EnsembleRow(
         **shown,
         structure=structure,
@@ -300,6 +310,10 @@ def ensemble_row(identity: Identity, structure: str, ensemble: Ensemble, compone
         overturning_members=ensemble.overturning,
         members=ensemble.members,
         failed_members=ensemble.failed,
+        crack=ensemble.crack,
+        elsewhere_crack=elsewhere.crack if elsewhere else "",
+        elsewhere_overturning_members=elsewhere.overturning if elsewhere else None,
+        elsewhere_members=elsewhere.members if elsewhere else None,
         uplift_share=ensemble.uplift_share,
         rotation_ratio_low=ensemble.low,
         rotation_ratio_median=ensemble.median,
@@ -323,15 +337,16 @@ def _worst(ensemble: Ensemble, cause: str) -> str:
 
 
 def candidate_rows(
-    identity: Identity, structure: str, candidates: Sequence[Candidate]
+    identity: Identity, structure: str, candidates: Sequence[CrackResponse]
 ) -> Iterator[CandidateRow]:
-    """Yield the row of each height at which one structure may crack."""
+    """Yield the row of each crack that may form in one structure."""
     on_pulse = governing([candidate.predicted for candidate in candidates])
     on_record = governing([candidate.integrated for candidate in candidates])
     for place, candidate in enumerate(candidates):
         yield CandidateRow(
             **identity.columns,
             structure=structure,
+            description=candidate.description,
             position_m=candidate.position,
             predicted_rotation_ratio=candidate.predicted,
             integrated_rotation_ratio=candidate.integrated,

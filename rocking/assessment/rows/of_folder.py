@@ -57,7 +57,7 @@ class RecordTables:
     @property
     def verdicts(self) -> list[Fate]:
         """What became of each structure, all components considered."""
-        return fates(self.comparison, self.ensemble, self.failures, self.maxima)
+        return fates(self.comparison, self.ensemble, self.failures, self.maxima, self.candidates)
 
     @property
     def processing(self) -> list[MaximumRow]:

@@ -33,6 +33,9 @@ class StructureRow(Row):
     frequency_parameter_rad_s: float = column(meanings.FREQUENCY_PARAMETER, equation="Eq. 11")
     critical_rotation_rad: float = column("Critical rotation")
     uplift_multiplier: float = column("Uplift acceleration in g", equation="Eq. 7")
+    static_multiplier: float = column(
+        "Least of those of the cracks that may form: static limit analysis lets it fall at this acceleration in g"
+    )
     acceleration_scale_linearised: float = column("a_sc", equation="Eq. 11")
     acceleration_scale_uplift: float = column("a_sc,alt", equation="Eq. 13")
     linearised_over_true_uplift: float = column(
@@ -117,6 +120,7 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
             frequency_parameter_rad_s=side.frequency_parameter,
             critical_rotation_rad=side.critical_rotation,
             uplift_multiplier=mechanism.uplift_multiplier,
+            static_multiplier=structure.static_multiplier,
             acceleration_scale_linearised=linearised,
             acceleration_scale_uplift=side.scaled_acceleration("uplift"),
             linearised_over_true_uplift=side.critical_rotation / linearised / side.uplift_multiplier,

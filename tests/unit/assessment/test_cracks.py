@@ -1,0 +1,78 @@
+"""Cracks that may form: every one is followed where the mechanism of statics stands, and one that falls is named."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+import rocking
+from rocking.assessment.assess import assess_structures
+from rocking.assessment.ensemble import GroundMotions, ensemble
+from rocking.assessment.fragility import fragility
+from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.variations import cracks
+from rocking.assessment.verdict import Verdict
+from rocking.records import Accelerogram
+from rocking.structures import Spire, Wall
+
+STEP, TIMES = 0.01, np.arange(0, 4, 0.01)
+SPIRE = Spire(width=3.0, height=15.0, wall_thickness=0.3)
+WALL = Wall.hinged_at(6.0, 3.0, 0.4)
+
+
+def record(amplitude: float, period: float = 0.9) -> Accelerogram:
+    wave = np.sin(2 * np.pi * TIMES / period) * np.exp(-(((TIMES - 1.5) / 0.8) ** 2))
+    return Accelerogram(amplitude * wave / np.abs(wave).max(), STEP)
+
+
+@pytest.mark.parametrize(
+    ("structure", "expected"), [(WALL, {Verdict.STANDS, Verdict.OVERTURNS}), (SPIRE, {Verdict.UNDECIDED})]
+)
+def test_stands_means_that_every_crack_stands_and_a_crack_that_does_not_is_named(structure, expected):
+    """The oracle follows every crack in full."""
+    multiplier = structure.static_multiplier
+    seen = set()
+    for severity in (1.5, 2.5, 3.5, 5.0, 8.0, 14.0):
+        motion = record(severity * multiplier * 9.80665)
+        found = rocking.assess(motion, structure)
+        follow = partial(ensemble, motions=GroundMotions.of(motion))
+        verdicts = {description: follow(mechanism).verdict for description, mechanism in cracks(structure)}
+        of_statics = verdicts[cracks(structure)[0][0]]
+        if of_statics is not Verdict.STANDS:
+            assert found.verdict is of_statics
+        elif set(verdicts.values()) == {Verdict.STANDS}:
+            assert found.verdict is Verdict.STANDS and found.ensemble.elsewhere is None
+        else:
+            assert found.verdict is Verdict.UNDECIDED
+            assert verdicts[found.governing.description] is not Verdict.STANDS
+            assert found.governing.description in repr(found)
+        seen.add(found.verdict)
+    assert expected <= seen
+
+
+def test_a_known_crack_has_no_other():
+    known = replace(WALL, crack="known")
+    found = rocking.assess(record(3.0), known)
+    assert len(cracks(known)) == 1 and found.ensemble.crack == "" and found.ensemble.elsewhere is None
+    assert found.static_multiplier == known.mechanism().uplift_multiplier
+
+
+def test_auto_rests_only_where_every_crack_does():
+    """As typed the wall rests; the hinge that statics chooses lifts."""
+    given = WALL.mechanism().uplift_multiplier
+    assert WALL.static_multiplier < 0.999 * given
+    motion = record(0.5 * (given + WALL.static_multiplier) * 9.80665)
+    (case,) = assess_structures(motion, {"wall": WALL}, AssessmentSettings(fidelity="auto"), alone=True).cases
+    assert case.answer.reason != "the ground never reaches the uplift acceleration"
+
+
+def test_the_governed_fragility_is_never_below_that_of_statics():
+    records = [record(1.0, period) for period in (0.5, 0.8, 1.2)]
+    levels = np.geomspace(0.2, 3.0, 8)
+    stations = list("abc")
+    plain, governed = (
+        fragility(records, SPIRE, levels=levels, stations=stations, over_cracks=over)
+        for over in (False, True)
+    )
+    assert np.all(governed.probability >= plain.probability) and governed.median <= plain.median
