@@ -49,8 +49,17 @@ def integrate_batch(
     largest rotation; an EquivalentBlock without vertical motion is exact. workers: threads, all cores if None. The
     result does not depend on them.
     Raises MotionError for a setting that is wrong for every case.
+
+    >>> from rocking import Block, Pulse, integrate_batch
+    >>> blocks = [Block(semi_diagonal=size, slenderness=0.2) for size in (0.5, 2.0)]
+    >>> integrate_batch(blocks, Pulse(amplitude=3.0, circular_frequency=6.0), [0.5, 1.0, 2.0]).shape
+    (2, 3)
     """
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
+    if not isinstance(structures, Sequence) or isinstance(structures, str):
+        raise MotionError(
+            f"structures is a {type(structures).__name__}, but must be a list of structures; integrate follows one."
+        )
     factors, forcing = _factors(scale_factors), forcing_of(record, vertical)
     ratios = np.full((len(structures), factors.size), math.nan)
     if factors.size == 1 and len(structures) > 1 and _solvable(structures, forcing):
@@ -160,8 +169,8 @@ class RockingSpectrum(np.ndarray):
 
 def rocking_spectrum(
     accelerogram: Accelerogram,
-    frequency_parameters: np.ndarray,
-    uplift_multipliers: np.ndarray,
+    frequency_parameters: Sequence[float] | np.ndarray,
+    uplift_multipliers: Sequence[float] | np.ndarray,
     restitution: float,
     workers: int | None = None,
 ) -> RockingSpectrum:
@@ -169,12 +178,22 @@ def rocking_spectrum(
 
     Exact (linear between samples), on all cores or on `workers` threads. Raises MotionError when p or λ is not
     positive, or the restitution lies outside [0, 1].
+
+    >>> from rocking import read, rocking_spectrum
+    >>> record = read("records/synthetic_strong_pulse.AT2")[0]
+    >>> rocking_spectrum(record, [1.0, 2.0, 3.0], [0.1, 0.3], 0.9).shape
+    (3, 2)
     """
+    forcing = forcing_of(accelerogram)
+    if not isinstance(accelerogram, Accelerogram):
+        raise MotionError(
+            "accelerogram is a Pulse, but must be an Accelerogram; pulse_spectrum takes a pulse."
+        )
     frequencies = _positive("frequency_parameters", frequency_parameters)
     multipliers = _positive("uplift_multipliers", uplift_multipliers)
     pushes = 1 / (GRAVITY * multipliers)
     restitution = within(MotionError, "restitution", restitution, 0, 1)
-    forcing, step = forcing_of(accelerogram), accelerogram.time_step
+    step = accelerogram.time_step
     if frequencies.size and frequencies.max() * step > LARGEST_GROWTH:
         raise MotionError(
             f"frequency_parameters reach {frequencies.max()!r} rad/s, but at a time step of {step!r} s "
@@ -206,7 +225,7 @@ def rocking_spectrum(
     return ratios
 
 
-def _positive(field: str, values: np.ndarray) -> np.ndarray:
+def _positive(field: str, values: Sequence[float] | np.ndarray) -> np.ndarray:
     array = np.array(values, dtype=float)
     if array.ndim != 1 or not np.all(np.isfinite(array)) or not np.all(array > 0):
         raise MotionError(f"{field} must be a one-dimensional array of finite numbers greater than 0.")

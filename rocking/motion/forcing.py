@@ -34,6 +34,11 @@ class Forcing:
         return self.ground.horizontal.size
 
     @property
+    def weightless(self) -> bool:
+        """Whether g + ü_v falls below zero."""
+        return self.vertical and self.ground.gravity + self.factor * float(self.ground.lightest[0]) < 0
+
+    @property
     def excitation(self) -> float:
         """The largest |ü_g|/(g + ü_v), whatever the phase of the two; inf where gravity may vanish."""
         least = self.ground.gravity + self.factor * self.ground.lightest[0]

@@ -36,6 +36,10 @@ class Members:
     reversed. vertical: whether the vertical component acts. restitution: η, (m,) or one per side (m, 2), positive side
     first; None takes the structure's own. Kept as arrays (m,) and (m, 2).
     Raises MotionError for a value out of range, or for arguments that do not fit each other.
+
+    >>> from rocking import Members
+    >>> Members(scale_factor=[0.9, 1.0, 1.1], restitution=0.85).count
+    3
     """
 
     scale_factor: np.ndarray
@@ -86,6 +90,11 @@ class MemberResponses(NamedTuple):
 
     rotation_ratio: largest φ/φ_cr over the sides; inf overturns, 0 without uplift, nan failed. peak_side: +1 or −1, the
     side of the largest rotation; 0 without uplift, and unknown where it overturns. reasons: by member that failed.
+
+    >>> from rocking import Block, Members, Pulse, integrate_members
+    >>> block, pulse = Block(semi_diagonal=2.0, slenderness=0.2), Pulse(amplitude=3.0, circular_frequency=9.0)
+    >>> integrate_members(block, pulse, Members(scale_factor=[0.5, 1.0])).lifted.tolist()
+    [False, True]
     """
 
     rotation_ratio: np.ndarray
@@ -116,7 +125,16 @@ def integrate_members(
     Each result is that of `integrate` with the scaled motion, within `tolerance`; an EquivalentBlock without vertical
     motion is solved exactly. Raises MotionError as `integrate` does for a setting that is wrong for every member; a
     member that cannot be followed is nan, with its reason.
+
+    >>> from rocking import Block, Members, Pulse, integrate_members
+    >>> block, pulse = Block(semi_diagonal=2.0, slenderness=0.2), Pulse(amplitude=3.0, circular_frequency=9.0)
+    >>> integrate_members(block, pulse, Members(scale_factor=[0.5, 1.0, 9.0])).overturns.tolist()
+    [False, False, True]
     """
+    if not isinstance(members, Members):
+        raise MotionError(
+            f"members is a {type(members).__name__}, but must be Members, as Members([0.9, 1.0, 1.1])."
+        )
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
     forcing = forcing_of(motion, vertical)
     lift = np.where(members.vertical, members.scale_factor, 0.0) if forcing.vertical else None

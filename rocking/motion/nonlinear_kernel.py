@@ -916,6 +916,8 @@ def _begin(sides, phase, start, best, log):
         status, uplift, slot = ROCKS, 0.0, 0 if side > 0 else 1
         best[0, slot], best[1, slot] = start.arc, 0.0
         _enter(sides.ties, sides.grid, phase, side, _row(sides, side), start.arc, 1.0)
+        if start.speed < 0:  # it came that far and turned: what yielded there lets go elastically
+            _enter(sides.ties, sides.grid, phase, side, _row(sides, side), start.arc, -1.0)
     logged = _write(log, 0, 0.0, side * start.arc, side * start.speed)
     motion = Motion(0, 0.0, start.arc, start.speed, side, start.arc, abs(start.speed))
     return motion, Tally(status, 0, uplift, 0, 0, logged)

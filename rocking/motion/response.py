@@ -30,10 +30,19 @@ class Response:
     peak_time: s from the first sample to the largest rotation (nan if overturned or never lifted).
     peak_side: +1 or −1, the side of the largest rotation or of the overturning; 0 without uplift.
     sensitivity: d ln φ_max / d ln a, the percent by which the largest rotation changes when the ground
-    motion is scaled by one percent (nan unless it rocks, or if it was not asked for).
-    fragile: whether ± `fragility_change` of the ground motion flips the verdict; None if not asked for.
-    steps: integration steps taken. tolerance: the one asked for; 0.0 for the exact linear response.
+    motion is scaled by one percent (nan unless it rocks, or if it was not asked for). Of a chaotic response, which
+    `fragile` tells, it is the slope between two neighbours and no measure of what may come.
+    fragile: whether ± `fragility_change` of the ground motion flips the verdict, or the run is not reproducible: a
+    second one, at a tolerance of 1e-9 and with the motion scaled by 1 + 1e-9, differs by more than 1e-5. The number
+    is then one of many. None if not asked for.
+    warning: one sentence where the vertical motion takes away all of gravity, else "".
+    steps: integration steps taken. tolerance: the one asked for, kept where the response is well conditioned; of
+    those that rock 2.5 to 3 % miss 1e-6, all after hundreds of impacts. 0.0 for the exact linear response.
     With history: times (k,) s, rotation (k,) rad signed, angular_velocity (k,) rad/s signed.
+
+    >>> from rocking import Block, Pulse, integrate
+    >>> integrate(Block(semi_diagonal=2.0, slenderness=0.2), Pulse(amplitude=3.0, circular_frequency=9.0))
+    Response(rocks to 0.3188 φ_cr, largest at 1.018 s, 1 impact)
     """
 
     rotation_ratio: float
@@ -47,6 +56,7 @@ class Response:
     steps: int = 0
     tolerance: float = 0.0
     reason: str = ""
+    warning: str = ""
     times: np.ndarray | None = None
     rotation: np.ndarray | None = None
     angular_velocity: np.ndarray | None = None
@@ -124,18 +134,30 @@ _NO_MOTION = unknown("nothing rocks below the critical rotation")
 def check_model(
     structure: Structure, response: Response, accelerogram: Accelerogram, vertical: Accelerogram | None = None
 ) -> ModelCheck:
-    """Return what the contacts of `structure` need along `response`, which must hold its history."""
+    """Return what the contacts of `structure` need along `response`, which must hold its history.
+
+    Where it lifts and lands, φ = 0, they are asked as well: on the side to which it goes on.
+
+    >>> from rocking import Block, integrate, read
+    >>> from rocking.motion.response import check_model
+    >>> record = read("records/synthetic_strong_pulse.AT2")[0]
+    >>> block = Block(semi_diagonal=2.0, slenderness=0.2)
+    >>> check_model(block, integrate(block, record, history=True), record).bounces
+    False
+    """
     times, rotation, velocity = response.times, response.rotation, response.angular_velocity
     if times is None or rotation is None or velocity is None:
         return _NO_HISTORY
-    rocks = (rotation != 0) & (np.abs(rotation) <= structure.mechanism().critical_rotation)
+    critical = structure.mechanism().critical_rotation
+    turned = _lifted(rotation, 1e-12 * critical)
+    rocks = (turned != 0) & (np.abs(turned) <= critical)
     if not rocks.any():
         return _NO_MOTION
     ground = _at(accelerogram, times[rocks])
     lift = 0.0 if vertical is None else _at(vertical, times[rocks])
     try:
-        so_far = largest_so_far(rotation)[rocks]
-        contacts = structure.contact_history(rotation[rocks], velocity[rocks], ground, lift, so_far)
+        so_far = largest_so_far(turned)[rocks]
+        contacts = structure.contact_history(turned[rocks], velocity[rocks], ground, lift, so_far)
     except UnknownContacts as why:
         return unknown(str(why))
     largest = min(float(rotation.max()), structure.mechanism().positive.end_rotation)
@@ -144,6 +166,18 @@ def check_model(
         bool(contacts.opens.any()),
         ties=structure.tie_events(largest),
     )
+
+
+def _lifted(rotation: np.ndarray, least: float) -> np.ndarray:
+    """`rotation`, where it is 0 before it rocks on: `least` to the side to which it does."""
+    rocking = np.flatnonzero(rotation)
+    following = np.searchsorted(rocking, np.arange(rotation.size))
+    goes_on = following < rocking.size
+    lifted = rotation.copy()
+    lifted[goes_on] = np.where(
+        rotation[goes_on] == 0, np.copysign(least, rotation[rocking[following[goes_on]]]), rotation[goes_on]
+    )
+    return lifted
 
 
 def _at(accelerogram: Accelerogram, times: np.ndarray) -> np.ndarray:

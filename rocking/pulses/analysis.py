@@ -23,6 +23,10 @@ class PulseSettings:
     """What is searched in a record, and how much of it is reported.
 
     Frequencies in Hz are those of the band of 1/T. Raises PulseError when a value is outside what is allowed.
+
+    >>> from rocking import PulseSettings
+    >>> PulseSettings(lowest_frequency=0.3).highest_frequency
+    5.0
     """
 
     lowest_frequency: float = described(0.15, "lowest frequency of the pulses sought", "Hz", gt=0)
@@ -104,6 +108,11 @@ class PulseAnalysis:
     residual: (n,) m/s², the record less the dominant pulse.
     flags: reasons to doubt the dominant pulse.
     Raises PulseError without a pulse.
+
+    >>> from rocking import extract_pulses, read
+    >>> analysis = extract_pulses(read("records/synthetic_strong_pulse.AT2")[0])
+    >>> round(analysis.dominant.period, 2), round(analysis.explained_energy, 2), len(analysis.alternatives)
+    (1.03, 0.9, 3)
     """
 
     accelerogram: Accelerogram

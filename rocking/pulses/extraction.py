@@ -57,7 +57,7 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
     >>> from rocking import Accelerogram, Pulse, extract_pulses
     >>> motion = Pulse(amplitude=3.0, circular_frequency=5.0, start_time=4.0).acceleration(np.arange(0, 20, 0.01))
     >>> extract_pulses(Accelerogram(motion, time_step=0.01)).dominant
-    Pulse(3 m/s² = 0.306 g, period 1.26 s, start 4 s)
+    Pulse(3 m/s² = 0.3059 g, period 1.257 s, start 4 s)
     """
     settings = settings or PulseSettings()
     samples, name = accelerogram.acceleration, accelerogram.source.path or "The accelerogram"

@@ -18,6 +18,10 @@ class Pulse:
 
     amplitude: m/s², signed. circular_frequency: rad/s, > 0. start_time: s.
     Raises PulseError when a value is not finite or the frequency not positive.
+
+    >>> from rocking import Pulse
+    >>> Pulse(amplitude=3.0, circular_frequency=5.0).acceleration(np.array([0.0, 0.3, 9.0])).round(2)
+    array([0.  , 2.99, 0.  ])
     """
 
     amplitude: float

@@ -26,7 +26,12 @@ _EQUAL = 1 + 1e-12
 
 
 class Regime(StrEnum):
-    """How the block reaches its largest rotation."""
+    """How the block reaches its largest rotation.
+
+    >>> from rocking import Regime
+    >>> Regime.BEFORE_FIRST_IMPACT.sentence
+    'The largest rotation comes before the first impact, so Eq. 15 does not hold.'
+    """
 
     NO_UPLIFT = "no uplift"
     PRINTED_EXACT = "Eq. 15 exact"
@@ -69,6 +74,11 @@ class Maximum:
     overturning; 0 without uplift. Of rotations that are equal to within 1e-12 the first counts.
     overturning_margin: smallest 1 − x − x' (x = φ/φ_cr, time p t) at the start of a flight after the pulse; 1 when it
     rests by then, negative when it overturns, −inf when it does so beyond recall during the pulse. 0 is the border.
+
+    >>> from rocking import EquivalentBlock, Pulse, predict_maximum
+    >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
+    >>> predict_maximum(block, Pulse(amplitude=4.0, circular_frequency=12.0)).impacts
+    1
     """
 
     rotation_ratio: float
@@ -92,8 +102,8 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
 
     >>> from rocking import Block, Pulse, predict_maximum
     >>> block = Block(semi_diagonal=2.0, slenderness=0.2).mechanism().equivalent_block()
-    >>> predict_maximum(block, Pulse(amplitude=3.0, circular_frequency=6.0)).regime
-    <Regime.PRINTED_EXACT: 'Eq. 15 exact'>
+    >>> predict_maximum(block, Pulse(amplitude=3.0, circular_frequency=9.0)).regime
+    <Regime.CONTACT_DURING_PULSE: 'contact during the pulse'>
     """
     first, second = sides_under(equivalent_block, pulse)
     blocks = equivalent_block.sides[0], equivalent_block.sides[-1]
@@ -194,6 +204,11 @@ def predict_maxima(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -
 
     inf where it overturns, 0 where it does not lift, nan where `predict_maximum` says it is unresolved.
     Raises PulseError for a pulse and a block that differ beyond measure.
+
+    >>> from rocking import EquivalentBlock, Pulse, predict_maxima
+    >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
+    >>> predict_maxima([block], [Pulse(1.0, 9.0), Pulse(9.0, 3.0)]).tolist()
+    [[0.0, inf]]
     """
     peaks, _ = _followed(blocks, pulses)
     ratios = np.empty(peaks.shape[:2])
@@ -205,7 +220,13 @@ def predict_maxima(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -
 
 
 def overturning_margins(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -> np.ndarray:
-    """Return `Maximum.overturning_margin`, (m, n), of every block under every pulse: negative where it overturns."""
+    """Return `Maximum.overturning_margin`, (m, n), of every block under every pulse: negative where it overturns.
+
+    >>> from rocking import EquivalentBlock, Pulse, overturning_margins
+    >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
+    >>> (overturning_margins([block], [Pulse(3.0, 9.0), Pulse(9.0, 3.0)]) < 0).tolist()
+    [[False, True]]
+    """
     return _followed(blocks, pulses)[1]
 
 
@@ -218,6 +239,11 @@ def overturning_amplitudes(
     inf where a thousand times the uplift acceleration does not overturn the block. Sought upwards from the uplift
     acceleration in steps of 2 %, then halved to 1e-9: a range of overturning narrower than that can be missed, and
     above it the block may stand again. Raises PulseError.
+
+    >>> from rocking import EquivalentBlock, overturning_amplitudes
+    >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
+    >>> overturning_amplitudes([block], [5.0, 10.0]).round(3).tolist()
+    [[2.548, 5.92]]
     """
     frequencies = np.asarray(circular_frequencies, dtype=float)
     if frequencies.ndim != 1 or not np.all((frequencies > 0) & np.isfinite(frequencies)):

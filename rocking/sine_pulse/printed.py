@@ -21,6 +21,12 @@ def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     `Regime.PRINTED_EXACT`; `predict_maximum` is not. For a block with two different sides it takes
     the side that the pulse lifts first, as if the other were the same; for a one-sided block its only side, as if the
     pulse's first half lifted it.
+
+    >>> from rocking import EquivalentBlock, Pulse, predict_maximum, printed_maximum
+    >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
+    >>> pulse = Pulse(amplitude=4.0, circular_frequency=12.0)
+    >>> round(printed_maximum(block, pulse), 3), round(predict_maximum(block, pulse).rotation_ratio, 3)
+    (0.329, 0.323)
     """
     first, second = sides_under(equivalent_block, pulse)
     side = first if first.exists else second
