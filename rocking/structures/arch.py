@@ -5,7 +5,8 @@ with the right pier, arch with both.
 """
 
 import warnings
-from dataclasses import dataclass, field
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Annotated, ClassVar
@@ -21,6 +22,8 @@ from rocking.structures.arch_mechanism import (
     maximum_thickness,
     minimum_thickness,
     mirror_balance,
+    onset_at,
+    other_hinges,
     static_onset,
     thrust_line,
 )
@@ -38,19 +41,20 @@ from rocking.structures.bodies import (
 from rocking.structures.drawing import Path, plane, span, swept
 from rocking.structures.fields import Value, angle, count, length, restitution_value
 from rocking.structures.mechanism import Mechanism, Side
-from rocking.structures.structure import Structure
+from rocking.structures.structure import Candidate, Crackable
 
 UNSAFE_MOMENTUM = "unsafe momentum"
 """The balance of the mirrored mechanism by its name: it loses more speed than the hinges of a real arch do."""
 
 
 @dataclass(frozen=True)
-class Arch(Structure):
+class Arch(Crackable):
     """A circular arch of radial joints, its bars exact annular sectors; φ is the rotation of the bar AB.
 
     radius: r of the centreline, m. thickness: t, m. embrace_angle: β, rad. voussoirs: how many equal ones,
     hinges at their joints only; None when a hinge may open anywhere. fill_depth: of level fill that lies on the
     extrados and moves with it, above the crown, m; None without. fill_density_ratio: its density over the masonry's.
+    hinge_angles: of A, B, C and D from the left springing, rad; None where statics puts them.
     restitution: η in [0, 1], 0.9 by default as in the paper, or "unsafe momentum": the mirrored mechanism's
     balance. That balance assumes an impulse line inside the ring, which it leaves in every practical case; a
     StructureWarning says so, and "momentum" alone is refused. Raises StructureError when it cannot stand, or has no
@@ -58,6 +62,7 @@ class Arch(Structure):
     """
 
     type_name: ClassVar[str] = "arch"
+    crack_name: ClassVar[str] = "hinges"
     described_as: ClassVar[dict[str, str]] = {
         "": "Circular arch with radial joints; radius of the centreline"
     }
@@ -86,6 +91,7 @@ class Arch(Structure):
             "Density of the fill over that of the masonry", 0.8, usual=(0.3, 1.2), bounds={"ge": 0, "le": 10}
         ),
     ] = 0.8
+    hinge_angles: tuple[float, ...] | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         if self.restitution == "momentum":
@@ -115,6 +121,43 @@ class Arch(Structure):
     @cached_property
     def onset(self) -> Onset:
         """The uplift multiplier λ and the hinges A, B, C, D (angles from the left springing, rad)."""
+        static = self._static_onset()
+        if self.hinge_angles is None:
+            return static
+        try:
+            return onset_at(self.ring, np.array(self.hinge_angles))
+        except (NoMechanism, TooThin, ValueError):
+            given = ", ".join(f"{each:.6g}" for each in np.degrees(self.hinge_angles))
+            raise StructureError(
+                f"hinge_angles is {given}°, but must be four angles of a mechanism that turns about the intrados "
+                "at the first and the third and about the extrados at the others; leave it out for those of statics."
+            ) from None
+
+    def candidates(self, count: int = 11) -> tuple[Candidate, ...]:
+        """The mechanism of statics, that of the hinges as given, and the weakest with other hinges.
+
+        To the other side the mirror image of each rocks.
+        """
+        if self.crack == "known":
+            return super().candidates(count)
+        static = self._static_onset()
+        hinges = [static.hinges, *other_hinges(self.ring, static, count - 1)]
+        if self.hinge_angles is not None:
+            hinges.append(np.array(self.hinge_angles))
+        found = []
+        for angles in hinges:
+            description = "hinges at " + ", ".join(map(self._hinge_text, angles))
+            restitution = self.mechanism().restitution
+            with suppress(StructureError):
+                other = replace(self, hinge_angles=tuple(angles), crack="known", restitution=restitution)
+                other.mechanism()
+                found.append(Candidate(description, np.nan, other))
+        return tuple(sorted(found, key=lambda each: each.multiplier))
+
+    def _hinge_text(self, angle: float) -> str:
+        return f"{np.degrees(angle):.4g}°"
+
+    def _static_onset(self) -> Onset:
         try:
             return static_onset(self.ring)
         except TooThin:
@@ -309,8 +352,7 @@ class ArchOnPiers(Arch):
             self.pier_density_ratio,
         )
 
-    @cached_property
-    def onset(self) -> Onset:
+    def _static_onset(self) -> Onset:
         """λ of the mechanism that governs and its hinges (angles from the left springing; a foot is beyond it)."""
         self._check()
         try:
@@ -328,6 +370,11 @@ class ArchOnPiers(Arch):
             f"pier_width is {self.pier_width!r} m, but on piers of that width and {self.pier_height!r} m height an "
             f"arch of radius {self.radius!r} m and thickness {self.thickness!r} m"
         )
+
+    def _hinge_text(self, angle: float) -> str:
+        if 0 <= angle <= self.embrace_angle * (1 + 1e-9):
+            return super()._hinge_text(angle)
+        return "the left foot" if angle < 0 else "the right foot"
 
     @property
     def governing(self) -> str:

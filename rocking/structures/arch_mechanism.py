@@ -118,13 +118,14 @@ class Linkage:
     def straightening(self) -> float:
         """The rotation [rad] at which A, B and C come into line: the linkage snaps through and CD turns back.
 
-        The triangle A-C-D then has the sides |AB| + |BC|, |CD| and |AD|.
+        The triangle A-C-D then has the sides |AB| + |BC|, |CD| and |AD|; nan where no such triangle closes.
         """
         base = self.hinges[3] - self.hinges[0]
         first, second, third = np.abs(self._at_rest)
         side = first + second
         cosine = (abs(base) ** 2 + side**2 - third**2) / (2 * abs(base) * side)
-        return float(np.angle(self._at_rest[0] / base) - np.arccos(cosine))
+        with np.errstate(invalid="ignore"):
+            return float(np.angle(self._at_rest[0] / base) - np.arccos(cosine))
 
 
 def _sum(weights: np.ndarray, terms: np.ndarray) -> np.ndarray:
@@ -160,6 +161,8 @@ _DOWN = np.array([0.0, 0.0, 0.0, -1.0])
 _ROUNDS = 100
 _CLEARANCE = 1e-12
 """A gap (of order t/r) that is zero to rounding."""
+_SOUGHT = 25
+"""Sections at most between which the hinges of other mechanisms are sought: 15 thousand mechanisms."""
 _APART = 1e-6
 """Nearer than this [rad] two hinges are one section, on which the ring would slide."""
 
@@ -211,6 +214,50 @@ def static_onset(ring: Ring) -> Onset:
     if not unknowns[3] > 0:
         raise TooThin
     return Onset(float(unknowns[3]), hinges + ring.embrace_angle / 2, unknowns[:3])
+
+
+def onset_at(ring: Ring, hinges: np.ndarray) -> Onset:
+    """Return the onset of the mechanism with A, B, C, D at `hinges` (4,), angles from the left springing [rad].
+
+    Raises NoMechanism where a hinge lies outside the ring or would have to close, TooThin where nothing has to push.
+    """
+    sections = hinges - ring.embrace_angle / 2
+    outside = sections.shape != (4,) or np.abs(ring.kept(sections) - sections).max() > _CLEARANCE
+    if outside or np.any(np.diff(hinges) < _APART):
+        raise NoMechanism
+    rows = ring.gaps(sections, PATTERN)
+    if _multipliers(rows, np.arange(4)).min() < 0:
+        raise NoMechanism
+    unknowns = _touching_line(rows)
+    if not unknowns[3] > 0:
+        raise TooThin
+    return Onset(float(unknowns[3]), hinges, unknowns[:3])
+
+
+def other_hinges(ring: Ring, onset: Onset, count: int) -> list[np.ndarray]:
+    """Return the hinges of up to `count` mechanisms besides that of a static `onset`, of the least multiplier first.
+
+    Hinges open at voussoir joints, or in a continuous ring at sections of which there are _SOUGHT; of two mechanisms
+    some hinge is at least one of these apart. λ is the dual of the linear programme: by virtual work.
+    """
+    static, sections = onset.hinges - ring.embrace_angle / 2, ring.sections()
+    coarse = sections[:: -(-sections.size // _SOUGHT)]
+    sections = np.unique(np.concatenate([coarse, sections[-1:], static]))
+    spacing = 0.99 * np.diff(coarse).max()
+    places = np.array(list(combinations(range(sections.size), 4)))
+    at_each = [ring.gaps(sections, np.full(sections.shape, contact)) for contact in PATTERN]
+    rows = np.stack([each[places[:, k]] for k, each in enumerate(at_each)], axis=1)
+    regular = np.abs(np.linalg.det(rows[..., :4])) > _CLEARANCE
+    rows, hinges = rows[regular], sections[places[regular]]
+
+    turns = np.linalg.solve(rows[..., :4].transpose(0, 2, 1), _DOWN[None, :, None])[..., 0]
+    multipliers = (turns * rows[..., 4]).sum(axis=1)
+    moves = (turns > 0).all(axis=1) & (multipliers > onset.multiplier)
+    taken = [static]
+    for found in hinges[moves][np.argsort(multipliers[moves])]:
+        if len(taken) <= count and all(np.abs(found - each).max() >= spacing for each in taken):
+            taken.append(found)
+    return [each + ring.embrace_angle / 2 for each in taken[1:]]
 
 
 def _first_basis(rows: np.ndarray) -> np.ndarray:

@@ -196,3 +196,19 @@ def test_thrust_line_runs_from_foot_to_foot_inside_arch_and_piers(arch):
         assert line[end, 1] == pytest.approx(low)
     for hinge in arch.hinges(0.0):
         assert np.linalg.norm(line - hinge, axis=1).min() < 1e-2
+
+
+@pytest.mark.parametrize("arch", [FILLED, ONE, UNDER_FILL], ids=["fill", "one pier", "piers under fill"])
+def test_other_mechanisms_have_the_multiplier_of_virtual_work(arch):
+    """Of masses from quadrature, with fill and with piers that turn or stand still."""
+    found = arch.candidates(6)
+    assert len(found) >= 4
+    for each in found:
+        assert each.multiplier == pytest.approx(multiplier(arch, places_of(each.structure)), rel=1e-9)
+
+
+def test_a_pier_may_turn_about_its_springing_alone():
+    """Hinge C at the springing leaves no ring to the pier; λ and φ_cr of another's derivation."""
+    arch = ArchOnPiers(5.0, 0.8, np.radians(90), pier_width=1.5, pier_height=4.0)
+    assert arch.mechanism().uplift_multiplier == pytest.approx(0.0484, abs=5e-5)
+    assert arch.mechanism().uplift_multiplier == pytest.approx(multiplier(arch, places_of(arch)), rel=1e-9)

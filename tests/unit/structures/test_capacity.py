@@ -42,3 +42,8 @@ def test_participating_mass_of_a_facade_by_hand():
     assert curve.participating_mass_ratio == pytest.approx(first**2 / (weights.sum() * second), rel=1e-8)
     expected = curve.displacement[1:] * second / (6.5 * first)
     np.testing.assert_allclose(curve.effective_displacement[1:], expected, rtol=1e-6)
+
+
+def test_a_load_that_only_rises_takes_no_part_sideways():
+    wall = LoadedWall.hinged_at(3.2, 1.9, 0.25, 20e3, top_load=30e3, top_slab="flat")
+    assert wall.capacity_curve().participating_mass_ratio == pytest.approx(1.0, rel=1e-9)
