@@ -160,7 +160,7 @@ class Accelerogram:
         neither or both are given.
 
         >>> from obspy import Trace
-        >>> Accelerogram.from_obspy(Trace(np.sin(np.arange(9.0)), {"channel": "HNE"}), unit="m/s2")[0].azimuth
+        >>> rocking.Accelerogram.from_obspy(Trace(np.sin(np.arange(9.0)), {"channel": "HNE"}), unit="m/s2")[0].azimuth
         90.0
         """
         from obspy import Stream, Trace  # which takes a second to import

@@ -6,14 +6,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, fields
 from datetime import datetime
+from itertools import islice
 from pathlib import Path
 
-from rocking.errors import RecordError, UndeclaredError
+from rocking.errors import CatalogueError, RecordError, UndeclaredError
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.catalogue import is_safe_id, stays_inside
+from rocking.records.catalogue import is_safe_id, read_rows, stays_inside
 from rocking.records.processing import process, velocity
-from rocking.records.read import is_unnamed, plain, printable, read
+from rocking.records.read import bytes_of, is_unnamed, plain, printable, read, recognise, undressed, unpacked
 
 Row = dict[str, str]
 
@@ -382,3 +383,27 @@ def _measures(channel: ListedChannel, to_fill: tuple[str, ...]) -> tuple[str, ..
     peak = "" if channel.peak_acceleration is None else f"{channel.peak_acceleration / GRAVITY:.3g}"
     speed = "" if channel.peak_velocity is None else f"{channel.peak_velocity:.3g}"
     return channel.component, channel.format, step, str(channel.samples), peak, speed
+
+
+_LOOKED_AT = 200
+"""Files beside a catalogue that are opened, at most, to see whether they are records."""
+
+
+def unlisted(catalogue: Path) -> tuple[str, ...]:
+    """Return a sentence when records lie beside `catalogue` that neither it nor another catalogue there names."""
+    folder = catalogue.parent
+    named: set[Path] = set()
+    for path in folder.glob("*.csv"):
+        with suppress(CatalogueError):
+            names = (name.strip() for _, row in read_rows(path) for name in row["file"].split(";"))
+            named |= {folder / name for name in names}
+    others = (path for path in sorted(folder.rglob("*")) if path.is_file() and path not in named)
+    records = []
+    for path in islice((path for path in others if not _passed_over(path)), _LOOKED_AT):
+        with suppress(RecordError):
+            form = recognise(undressed(unpacked(bytes_of(path), path.name)))
+            records += [path.relative_to(folder).as_posix()] if form.name != "StationXML" else []
+    if not records:
+        return ()
+    files = f"{printable(records[0])} is" if len(records) == 1 else f"{len(records)} files are"
+    return (f"{files} not in the catalogue; rocking catalogue {folder} adds what is new.",)

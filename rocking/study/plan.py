@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
 from rocking.records.fetch import fill_hashes, filled, local_files
+from rocking.records.folder import unlisted
 from rocking.records.read import LARGEST_FILE
 from rocking.structures import Structure, load_structures
 from rocking.study.settings import Settings, named_files, read_settings
@@ -47,7 +48,7 @@ class Plan:
     @property
     def doubts(self) -> tuple[str, ...]:
         """What to tell the user before the run, one sentence each."""
-        return repeated(self.records.values())
+        return (*repeated(self.records.values()), *unlisted(Path(self.settings.catalogue)))
 
     def begin(self) -> None:
         """Write the hashes that the catalogue leaves blank: the files are checked against them from now on."""

@@ -8,7 +8,7 @@ import pytest
 
 from rocking.errors import CatalogueError, RecordError
 from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
-from rocking.records.folder import list_folder
+from rocking.records.folder import list_folder, unlisted
 
 VALUES = np.sin(np.arange(300) * 0.3)
 
@@ -86,6 +86,18 @@ def test_a_folder_joins_the_files_of_a_station_and_says_why_not(station):
     _written(station, "again.asc", "HNN", -VALUES, "10.00")
     files = {file.file: file for file in list_folder(station)[0]}
     assert "component HNN comes 2 times" in files["e.asc"].status and not files["e.asc"].beside
+
+
+def test_records_beside_the_catalogue_that_it_does_not_name_are_told(station):
+    (station / "notes.txt").write_text("Dear Sir or Madam\n")
+    (station / "catalogue.csv").write_text("id,file\na,e.asc;n.asc\n")
+    assert unlisted(station / "catalogue.csv")[0].startswith(
+        "z.asc is not in the catalogue; rocking catalogue"
+    )
+    _written(station, "more.asc", "HNE", VALUES)
+    assert unlisted(station / "catalogue.csv")[0].startswith("2 files are")
+    (station / "other.csv").write_text("id,file\nb,z.asc\nc,more.asc\n")
+    assert unlisted(station / "catalogue.csv") == ()
 
 
 SOURCE = {"source_repository": "a/b", "source_path": "a;b;c", "source_commit": "0" * 40, "sha256": "0" * 64}
