@@ -22,7 +22,6 @@ from rocking.tables import Row, column, row, write_tables
 
 TIGHT = 1e-9
 """Tolerance of the reference."""
-MEASURE = "pgv"
 
 T = TypeVar("T")
 
@@ -66,7 +65,7 @@ def fragility_rows(
     searched_s: float,
 ) -> Iterator[TradeFragilityRow]:
     """Yield the rows of one structure. sines: of each record, best first; their search took searched_s."""
-    analysis = partial(incremental_dynamic_analysis, records, structure, intensity_measure=MEASURE)
+    analysis = partial(incremental_dynamic_analysis, records, structure, intensity_measure="pgv")
     reference = analysis(tolerance=TIGHT)
     levels, exact = reference.levels, reference.fragility()
     factors = levels / reference.intensities[:, None]

@@ -81,8 +81,7 @@ class _Run:
 
     def answer(self) -> tuple[float, np.ndarray]:
         """Follow the motion; return its largest rotation ratio, and time and speed of every landing (k, 2)."""
-        ratio = self._follow()
-        return ratio, np.array(self.landings, dtype=float).reshape(-1, 2)
+        return self._follow(), np.array(self.landings, dtype=float).reshape(-1, 2)
 
     def _follow(self) -> float:
         now, side, state = 0.0, 0, (0.0, 0.0)

@@ -76,7 +76,6 @@ def tier_cases(
     for name, site, record in records:
         on_block = integrate_batch(blocks, record, nudged.ravel()).reshape(len(blocks), *nudged.shape)
         for k, (structure, mechanism) in enumerate(mechanisms.items()):
-            block = mechanism.equivalent_block("rest")
             own = intensity.of_structure(mechanism)
             for i, factor in enumerate(FACTORS):
                 motion = record.scaled(factor)
@@ -85,7 +84,9 @@ def tier_cases(
                 motions, points = GroundMotions.of(motion), lattice(MEMBERS, CAUSES)
                 members = drawn(mechanism, motions, points, EnsembleSettings())
                 if not members.failed:
-                    measures = intensity.of_velocity(motion, block) | intensity.from_nudged(on_block[k, i])
+                    measures = intensity.of_velocity(motion, blocks[k]) | intensity.from_nudged(
+                        on_block[k, i]
+                    )
                     yield TierCase(name, site, structure, factor, own | measures, members.overturning_share)
 
 

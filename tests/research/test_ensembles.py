@@ -12,12 +12,10 @@ from docs.research.ensembles import (
     EnsembleTrial,
     ensemble_accuracy,
     try_ensembles,
-    write_ensemble_accuracy,
 )
 from rocking.assessment.verdict import Verdict
 from rocking.records import Accelerogram
 from rocking.structures import Block
-from rocking.tables import read_rows
 
 TIMES = np.arange(0, 6, 0.01)
 RECORDS = [
@@ -73,14 +71,6 @@ def test_each_measure_counts_what_it_names():
     assert found["share of verdicts beyond their risk by more than 0.03 (0 is asked)"] == 1
     assert found["share of cases decided"] == pytest.approx(1 / 3)
     assert found["Brier score"] == pytest.approx((0.25 + 0.25 + 0.09 * 0.91 + 0.09**2) / 3)
-
-
-def test_halves_are_kept_apart_and_the_tables_can_be_read(tmp_path):
-    halves = {row.part for row in ensemble_accuracy([TRIAL, replace(TRIAL, half=LEFT_OUT)], replicates=5)}
-    assert halves == {CHOSEN, LEFT_OUT}
-    write_ensemble_accuracy(RECORDS[:1], [], STRUCTURES, tmp_path)
-    (*trials,) = read_rows(EnsembleTrial, tmp_path / "ensemble_trials.csv")
-    assert [trial.structure for trial in trials] == ["slender", "stout", "slender"]
 
 
 def test_a_site_counts_once_and_what_came_later_is_left_out():

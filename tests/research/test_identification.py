@@ -1,7 +1,6 @@
 """Identification: known structures are found again, and predictions hold on tests that took no part."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,7 +9,7 @@ from docs.research.identification import PARAMETERS, BlockPrior, identify, overt
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
-from rocking.records.processing import Processing, process
+from rocking.records.processing import Processing
 
 STEP = 0.02
 LINEAR = Processing(baseline="linear")
@@ -76,39 +75,12 @@ def test_probabilities_keep_clear_of_certainty(found):
     assert 1e-5 < found.overturning_probabilities([still])[0] < 0.05
 
 
-def test_the_same_processing_goes_before_fit_and_prediction():
-    """An offset of the sensor is taken out of both, or of neither."""
-    records = [motion(seed, peak) for seed in range(4) for peak in (1.0, 2.5, 5.0)]
-    outcomes = [math.isinf(integrate(two_sided_block(*TRUTH), each).rotation_ratio) for each in records]
-    shifted = [Accelerogram(each.acceleration + 0.15, STEP) for each in records]
-    plain = [
-        Accelerogram(a - np.polyval(np.polyfit(np.arange(a.size), a, 1), np.arange(a.size)), STEP)
-        for a in (each.acceleration for each in records)
-    ]
-    prior = replace(PRIOR, size=64)
-    with_offset = identify(shifted, outcomes, prior, processed=lambda record: process(record, LINEAR))
-    without = identify(plain, outcomes, prior)
-    assert np.array_equal(
-        with_offset.overturning_probabilities(shifted), without.overturning_probabilities(plain)
-    )
-
-
 def test_the_table_says_what_integrate_says():
     blocks = [two_sided_block(*row) for row in PRIOR.parameters()[:16].tolist()]
     records = [motion(3, 2.0), motion(4, 4.0)]
     table = overturning_table(blocks, records)
     expected = [[math.isinf(integrate(block, each).rotation_ratio) for block in blocks] for each in records]
     assert table.tolist() == expected
-
-
-def test_the_prior_fills_its_box():
-    values = BlockPrior((0.1, 0.1), (3.0, 6.0), 2.0, (0.8, 0.9), size=512).parameters()
-    assert np.allclose(values[:, 0] * values[:, 1], 0.01)
-    ratio = values[:, 0] / values[:, 1]
-    assert 0.5 <= ratio.min() < 0.51
-    assert 1.96 < ratio.max() <= 2.0
-    assert np.exp(np.log(values[:, 2]).mean()) == pytest.approx(math.sqrt(18), rel=1e-2)
-    assert values[:, 3].mean() == pytest.approx(0.85, abs=1e-3)
 
 
 def test_sequences_of_unlike_length_are_refused():

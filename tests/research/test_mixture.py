@@ -36,15 +36,6 @@ def test_many_steps_reach_the_largest_likelihood():
     assert loss(np.log(np.maximum(weights, 1e-30))) == pytest.approx(best, abs=1e-3)
 
 
-def test_candidates_that_never_differ_share_their_weight():
-    draw = np.random.default_rng(5)
-    table = draw.random((50, 3)) < 0.5
-    doubled = np.column_stack([table, table[:, 0]])
-    found = fit_mixture(doubled, table[:, 0], [str(k % 10) for k in range(50)])
-    assert found.weights[0] == found.weights[3]
-    assert found.weights.sum() == pytest.approx(1, abs=1e-5)
-
-
 def test_scattered_outcomes_ask_for_fewer_steps_than_clear_ones():
     """Outcomes that are chance leave the weights near the prior's: whatever is learnt fails on motions left out."""
     draw = np.random.default_rng(6)
@@ -80,17 +71,3 @@ def test_probabilities_that_are_too_careful_are_sharpened_and_bold_ones_blunted(
         said = np.where(happened, 1 / (1 + np.exp(-odds)), 1 / (1 + np.exp(odds)))
         assert mixture._sharpened(said)[0] == pytest.approx(factor, abs=0.07)  # three standard errors
     assert mixture._sharpened(np.full(9, 0.99))[0] == pytest.approx(mixture.SHARPNESS[1], abs=1e-3)
-
-
-def test_fits_side_by_side_are_those_of_each_alone():
-    draw = np.random.default_rng(9)
-    patterns, _, prior = mixture._patterns(draw.random((40, 12)) < 0.5)
-    kept = (draw.random((40, 3)) < 0.8).astype(np.float32)
-    kept[:, 2] = 0
-    share = np.array([0.02, 0.1, 0.05])
-    (together,) = mixture._weights(patterns, prior, kept, share, (30,))
-    for k in range(2):
-        rows = patterns[kept[:, k] == 1]
-        (alone,) = mixture._weights(rows, prior, np.ones((len(rows), 1), np.float32), share[[k]], (30,))
-        assert together[:, k] == pytest.approx(alone[:, 0], abs=1e-5)
-    assert together[:, 2] == pytest.approx(prior, abs=1e-6)

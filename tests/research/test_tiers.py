@@ -104,18 +104,6 @@ def test_a_case_holds_what_the_mechanism_does(cases):
         assert case.share == np.isinf(whole).mean()
 
 
-def test_a_share_weighs_as_that_much_of_a_case():
-    """Three fifths of a case that overturned are the same as three cases of five, each its own group of one."""
-    rng = np.random.default_rng(8)
-    x = rng.normal(size=200)
-    shares = rng.integers(0, 6, size=200) / 5
-    design = np.column_stack([np.ones(200), x])
-    fallen = (np.arange(5) < np.round(5 * shares)[:, None]).ravel()
-    whole = logistic(np.repeat(design, 5, axis=0), fallen, np.repeat(np.arange(200), 5))
-    for found, expected in zip(logistic(design, shares, np.arange(200)), whole, strict=True):
-        assert found == pytest.approx(expected, rel=1e-8)
-
-
 def test_a_site_left_out_took_no_part(cases):
     """What is said of a site does not change when all of its own outcomes do."""
     site = cases.cases[0].site

@@ -18,7 +18,6 @@ from docs.research.validation import (
     PRIOR,
     Measured,
     PredictionRow,
-    fit_threshold,
     left_out,
     measure,
     write_validation,
@@ -63,13 +62,6 @@ def test_a_test_is_read_as_it_was_measured(made):
     assert test.published == {1: {"dem_a": True}, 2: {}}
     assert np.array_equal(motion.acceleration, made_motion(1, 0.2).astype(float) * GRAVITY)
     assert motion.time_step == 0.005
-
-
-@pytest.mark.parametrize("place", ["", "shake_table"])
-def test_the_folder_is_found_inside_or_beside_the_mirror(made, tmp_path, place):
-    (tmp_path / "records").mkdir()
-    (tmp_path / "shake_table").symlink_to(made[1])
-    assert len(Campaign.open(made[0], tmp_path if place else tmp_path / "records").tests) == 32
 
 
 def test_what_is_no_campaign_is_refused(made, tmp_path):
@@ -135,14 +127,6 @@ def test_reliability_counts_every_case_once():
     classes = list(scores.reliability("a", "b", probability, outcomes, sites, edges, 200))
     assert sum(each.cases for each in classes) == 200
     assert all(each.observed_low <= each.observed <= each.observed_high for each in classes)
-
-
-def test_the_threshold_gets_most_right():
-    values, outcomes = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), np.array([0, 0, 1, 0, 1, 1], bool)
-    best = max(((values > t) == outcomes).sum() for t in np.arange(0, 7, 0.5))
-    assert ((values > fit_threshold(values, outcomes)) == outcomes).sum() == best
-    assert not (values > fit_threshold(values, np.zeros(6, bool))).any()
-    assert (values > fit_threshold(values, np.ones(6, bool))).all()
 
 
 def test_no_prediction_sees_the_outcomes_of_its_motion(measured):

@@ -58,11 +58,7 @@ Code = Callable[[CodeCase], Answer]
 def inner_codes() -> Mapping[str, Code]:
     """Return this package and scipy, which take every case."""
     ours = {f"rocking, tolerance {tolerance:.0e}": _ours(tolerance) for tolerance in (1e-3, 1e-6, 1e-9)}
-    return {
-        **ours,
-        "scipy RK45, 1e-6": _scipy("RK45"),
-        "scipy DOP853, 1e-6": _scipy("DOP853"),
-    }
+    return ours | {f"scipy {method}, 1e-6": _scipy(method) for method in ("RK45", "DOP853")}
 
 
 def outer_codes() -> Mapping[str, Code]:
