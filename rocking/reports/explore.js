@@ -209,7 +209,7 @@
       const acceleration = unpacked(motion.acceleration);
       const pulse = motion.pulse && unpacked(motion.pulse.acceleration);
       const reach = 1.1 * Math.max(largest(acceleration), pulse ? largest(pulse) : 0) || 1;
-      const axes = panel(PANELS[0], span, reach, "acceleration [m/s²]");
+      const axes = panel(PANELS[0], span, reach, "accel. [m/s²]");
       trace(acceleration, [0, motion.duration], span, axes, { stroke: "#444", "stroke-width": 0.8 });
       if (pulse) trace(pulse, motion.pulse.span, span, axes, { stroke: "#d55e00", "stroke-width": 2 });
       drawn("text", { x: RIGHT - 8, y: PANELS[0].top + 16, "text-anchor": "end" }, "grey: record; orange: dominant pulse");
@@ -217,7 +217,7 @@
     const values = each.history ? unpacked(each.history.ratio) : new Float64Array(2);
     const predicted = typeof each.predicted === "number" ? each.predicted : 0;
     const reach = Math.min(3.1, 1.15 * Math.max(largest(values), predicted) || 1);
-    const axes = panel(PANELS[1], span, reach, "rotation / critical rotation [-]");
+    const axes = panel(PANELS[1], span, reach, "rotation ratio [-]");
     if (each.history) trace(values, each.history.span, span, axes, { stroke: "#000", "stroke-width": 1.1, id: "rotation" });
     for (const level of predicted > 0 ? [predicted, -predicted] : [])
       drawn("line", { x1: LEFT, x2: RIGHT, y1: axes.y(level), y2: axes.y(level), stroke: "#0072b2", "stroke-dasharray": "8 3 2 3" });
