@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from matplotlib.figure import Figure
 
+from rocking.reports.drawings import seen_rotation
 from rocking.reports.style import styled
 from rocking.structures.fields import Form
 from rocking.structures.structure_list import TYPES, structure_from_config
@@ -24,9 +25,7 @@ def drawing(kind: str, form: Form) -> Figure:
     figure = Figure(figsize=(6.4, 2.9), layout="constrained")
     rest, displaced = figure.subplots(1, 2)
     structure.plot(axes=rest, dimensions=True)
-    side = structure.mechanism().positive
-    seen = min(max(0.6 * side.critical_rotation, 0.12), 0.3)
-    structure.plot(min(seen, 0.8 * side.end_rotation), axes=displaced)
+    structure.plot(seen_rotation(structure), axes=displaced)
     for axes in (rest, displaced):
         axes.axis("off")
     return figure

@@ -55,13 +55,20 @@ def plot(thing: object, axes: Axes | None = None, **options: Any) -> Axes:
 # What a report and a method draw alike ---------------------------------------------------------------------
 
 
-def draw_motion(axes: Axes, record: "Accelerogram", pulse: "Pulse | None" = None, most: int = 4000) -> None:
-    """Draw the acceleration against time, with its pulse. most: points of the trace."""
-    times, samples = thinned(record.times, record.acceleration, most)
+def draw_motion(
+    axes: Axes,
+    record: "Accelerogram",
+    pulse: "Pulse | None" = None,
+    span: tuple[float, float] = (0.0, math.inf),
+    most: int = 4000,
+) -> None:
+    """Draw the acceleration against time within `span` [s], with its pulse. most: points of the trace."""
+    inside = (record.times >= span[0]) & (record.times <= span[1])
+    times, samples = thinned(record.times[inside], record.acceleration[inside], most)
     axes.plot(times, samples, color=RECORD, linewidth=0.6, label="record")
     if pulse is not None:
-        inside = np.linspace(pulse.start_time, pulse.end_time, 121)
-        axes.plot(inside, pulse.acceleration(inside), color=PULSE, linewidth=1.5, label="dominant pulse")
+        cycle = np.linspace(pulse.start_time, pulse.end_time, 121)
+        axes.plot(cycle, pulse.acceleration(cycle), color=PULSE, linewidth=1.5, label="dominant pulse")
 
 
 def draw_rotation(

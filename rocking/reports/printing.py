@@ -77,11 +77,6 @@ def words(text: str | Sequence[str] | None) -> str:
     return whole_text.strip() or NOTHING
 
 
-def yes_or_no(value: bool | None) -> str:
-    """Return YES or no, or a dash where it is not known."""
-    return NOTHING if value is None else "YES" if value else "no"
-
-
 def ratio(value: float | None, digits: int = 3) -> str:
     """Return a rotation ratio: a number, "overturns" for inf, "no uplift" for zero, a dash for nan or None."""
     if value is not None and math.isinf(value):

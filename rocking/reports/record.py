@@ -31,7 +31,7 @@ from rocking.reports.printing import Cell, number, ratio, short, strong, table, 
 from rocking.reports.style import picture
 from rocking.structures import Structure
 
-MOST_DRAWN = 15
+MOST_DRAWN = 10
 """Structures of page one, the worst first; the tables hold all."""
 MOST_HISTORIES = 10
 MOST_PULSES = 3
@@ -226,7 +226,6 @@ def _page_one(told: _Told) -> dict[str, object]:
         "headlines": headlines(told.fates),
         "sentences": [*_remarks(told), *_warnings(told)],
         "notices": _notices(told),
-        "origin": _origin(told.tables.record),
     }
 
 
@@ -244,20 +243,16 @@ def _state(told: _Told, fate: Fate) -> figures.State:
         crack = f"{told.crack(fate.structure)} at {number(height.position_m, 2)} m"
     multiplier = told.structures[fate.structure].mechanism().uplift_multiplier
     peak = max((row.peak_acceleration_m_s2 for row in told.tables.record), default=math.nan) / GRAVITY
-    count = f"{fate.count} overturn" if fate.members else "one run"
-    turned = "" if fate.verdict is Verdict.OVERTURNS else _turned(fate)
-    static = f"static {number(multiplier, 2)} g, PGA {number(peak / multiplier, 2)} ×"
-    lines = [line for line in (count, turned, static, crack) if line]
-    return figures.State(f"{told.numbers[fate.structure]} {fate.structure}", structure, fate, tuple(lines))
-
-
-def _turned(fate: Fate) -> str:
-    """The largest rotation as given with the band of the members, in words where there is nothing to see."""
-    band = ""
-    if fate.members and not rests(fate.rotation_ratio_high):
+    lines = [
+        f"{fate.count} overturn" if fate.members else "one run",
+        f"as given {_printed(fate.rotation_ratio, fate)}",
+    ]
+    if fate.members and not rests(fate.rotation_ratio_high) and fate.rotation_ratio_low < math.inf:
         low, high = (_printed(each, fate) for each in (fate.rotation_ratio_low, fate.rotation_ratio_high))
-        band = f" ({low}–{high})" if low != high else ""
-    return f"rotation {_printed(fate.rotation_ratio, fate)}{band}"
+        lines.append(f"5–95 %: {low} to {'falling' if high == 'overturns' else high}")
+    lines.append(f"static {number(multiplier, 2)} g, PGA {number(peak / multiplier, 2)} ×")
+    lines += [crack] if crack else []
+    return figures.State(f"{told.numbers[fate.structure]} {fate.structure}", structure, fate, tuple(lines))
 
 
 def _printed(value: float, fate: Fate) -> str:
@@ -386,7 +381,7 @@ def _key_numbers(told: _Told) -> list[str]:
 def _origin(rows: Sequence[RecordRow]) -> str:
     """Say which version made the report of which file of which time. The time of the run is left out."""
     files = dict.fromkeys(
-        f"{words(row.file)}, SHA-256 {row.record_sha256[:16]}…" for row in rows if row.record_sha256
+        f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in rows if row.record_sha256
     )
     times = dict.fromkeys(row.start_time for row in rows if row.start_time)
     settings = dict.fromkeys(row.settings_sha256[:16] for row in rows if row.settings_sha256)
@@ -574,7 +569,6 @@ def _appendix(told: _Told) -> dict[str, object]:
     measured = (
         [picture(figures.measures_figure(told.motions, told.placed), _MEASURES)] if told.motions else []
     )
-    hashes = dict.fromkeys(f"SHA-256 {row.record_sha256}" for row in record if row.record_sha256)
     return {
         "measures": measured,
         "spectra": _spectra(told),
@@ -589,7 +583,7 @@ def _appendix(told: _Told) -> dict[str, object]:
         "friction": _friction(told.settings),
         "vertical": _vertical(record),
         "arch": any("arch" in row.type for row in told.structure_rows),
-        "hashes": "; ".join(hashes) or "the hash of the file was not taken.",
+        "origin": _origin(record),
     }
 
 

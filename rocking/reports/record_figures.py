@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Verdict
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.measures import response_spectrum
+from rocking.records.measures import record_measures, response_spectrum
 from rocking.records.processing import displacement, velocity
 from rocking.reports.drawings import draw_structure, fallen_rotation, round_length
 from rocking.reports.panels import (
@@ -50,7 +50,7 @@ LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
 """Sign, colour, colour of letters on it, and pattern of each verdict: in print without colour the others tell it."""
 _COLUMNS, _CELL = 5, (34.0, 60.0)
 """Structures of a row, and width and height of each, mm."""
-_DRAWN = (30.0, 29.0)
+_DRAWN = (30.0, 27.0)
 """Room for the structure itself, mm."""
 _POINTS = 1200
 """Points of a trace of a report: no printer shows more on the width of a page."""
@@ -65,6 +65,8 @@ _SMALLEST, _FALLEN = 1e-3, 2.2
 _ZOOM = 1.5
 """Periods of the pulse that are shown before and after it."""
 _MAP_COLUMNS = 240
+_MARGIN = 0.15
+"""Share of the strong shaking that is shown before and after it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,6 +80,17 @@ class Motion:
     def dominant(self) -> Pulse | None:
         """The pulse that explains most."""
         return next(iter(self.pulses), None)
+
+    @cached_property
+    def span(self) -> tuple[float, float]:
+        """The time of 5 to 95 % of the Arias intensity with a margin, and of the dominant pulse, s."""
+        begin, end = record_measures(self.accelerogram).significant_times
+        for pulse in self.pulses[:1]:
+            begin, end = min(begin, pulse.start_time), max(end, pulse.end_time)
+        if not end > begin:  # nothing shakes
+            return 0.0, self.accelerogram.duration
+        margin = _MARGIN * (end - begin)
+        return max(0.0, begin - margin), min(self.accelerogram.duration, end + margin)
 
     @property
     def name(self) -> str:
@@ -117,21 +130,26 @@ class Compared:
     words: str
 
 
+def shared_span(motions: Sequence[Motion]) -> tuple[float, float]:
+    """Return the time in which any of the components shakes strongly, s."""
+    return min(motion.span[0] for motion in motions), max(motion.span[1] for motion in motions)
+
+
 @styled
 def ground_figure(motions: Sequence[Motion], height: float = 19.0) -> Figure:
     """Draw the acceleration of each component with its dominant pulse, one below the other. height: of each, mm."""
     figure = new_figure(height * len(motions) + 8)
-    end = max(motion.accelerogram.duration for motion in motions)
+    span = shared_span(motions)
     for place, motion in enumerate(motions):
         panel = panel_at(figure, 14, 1 + place * height, TEXT_WIDTH - 16, height - 3)
-        _ground(panel, motion, (0.0, end))
+        _ground(panel, motion, span)
         _label_time(panel, place == len(motions) - 1)
     return figure
 
 
 def _ground(panel: Axes, motion: Motion, span: tuple[float, float]) -> None:
     accelerogram = motion.accelerogram
-    draw_motion(panel, accelerogram, motion.dominant, _POINTS)
+    draw_motion(panel, accelerogram, motion.dominant, span, _POINTS)
     reach = 1.1 * max(
         accelerogram.peak_acceleration, *(abs(each.amplitude) for each in motion.pulses[:1]), 1e-9
     )
@@ -206,7 +224,7 @@ def histories_figure(histories: Sequence[History], motions: Sequence[Motion]) ->
     Each row has a scale of its own, which stands below its name.
     """
     row = min(_HIGHEST_ROW, _HISTORIES / len(histories))
-    below, left, width = 20.0, 38.0, TEXT_WIDTH - 70
+    below, left, width = 20.0, 38.0, TEXT_WIDTH - 77
     figure = new_figure(row * len(histories) + below * len(motions) + 9)
     begin, end = _window(histories)
     panel = panel_at(figure, left, 1, width, row * len(histories))
@@ -275,6 +293,7 @@ def pulses_figure(motions: Sequence[Motion]) -> Figure:
         _ground(near, motion, (max(span[0], 0.0), min(span[1], motion.accelerogram.duration)))
         _label_time(near, last=True)
         draw_energy_map(energy, *_energy(motion.accelerogram), motion.pulses)
+        fixed_ticks(energy, "x", *motion.span, 6)
     return figure
 
 
@@ -340,7 +359,7 @@ def measures_figure(motions: Sequence[Motion], placed: Sequence[Placed]) -> Figu
             )
         reach = 1.1 * max(float(np.abs(trace).max()) for trace in traces.values()) or 1.0
         fixed_ticks(panel, "y", -reach, reach, 4)
-        fixed_ticks(panel, "x", 0.0, max(each.duration for each in accelerograms.values()), 6)
+        fixed_ticks(panel, "x", *shared_span(motions), 6)
         panel.set_ylabel(label)
         _label_time(panel, row == 1)
     return figure

@@ -35,6 +35,8 @@ MOST_MAPPED, MOST_STRUCTURES = 30, 20
 MOST_LISTED = 20
 """Rows of the list of unsafe cases and of that of failures; the CSV tables hold all."""
 MOST_RECORDS = 200
+_HEAD = 20
+"""Letters of a name above a column of the map; the table of the structures holds it whole."""
 ABOUT = ("study", "client", "author", "date")
 
 
@@ -173,7 +175,7 @@ def severity_map(fates: Sequence[Fate], records: "DataFrame") -> dict[str, objec
     left = [(len(weight) - len(rows), "record"), (len(columns) - len(shown), "structure")]
     rest = " and ".join(printing.counted(many, noun) for many, noun in left if many)
     return {
-        "heads": shown,
+        "heads": [printing.short(name, _HEAD) for name in shown],
         "rows": [
             {
                 "record": name,

@@ -105,7 +105,11 @@ def test_the_report_of_a_record_is_well_laid(example, count):
     structures = dict.fromkeys(names, example.structures["wall 3 m"])
     tables = replace(example.tables, **kept)
     document = record_report(example.record, example.accelerograms, structures, tables, SETTINGS)
-    assert_well_laid(document)
+    words = [word[4] for page in assert_well_laid(document) for word in page]
+    tables_named = [
+        after for word, after in itertools.pairwise(words) if word == "Table" and after.endswith(".")
+    ]
+    assert set(tables_named) == {f"{number}." for number in range(1, 7)}, "each table has a number of its own"
 
 
 @pytest.mark.parametrize(("count", "records"), list(zip(COUNTS, (1, 13, 3, 13), strict=True)))
