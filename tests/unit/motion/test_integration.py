@@ -13,7 +13,7 @@ from rocking.errors import MotionError, StructureError
 from rocking.motion import integrate, integrate_batch
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
-from rocking.structures import Block, EquivalentBlock
+from rocking.structures import Block, EquivalentBlock, Facade
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.outcome import Outcome
 
@@ -231,3 +231,32 @@ def test_compiled_and_interpreted_agree():
         assert outcome == verdict == "rocks"
         assert float(value) > 0
         assert float(again) == pytest.approx(float(value), rel=1e-9)
+
+
+TIED = Facade(
+    (3.2, 2.8), (0.6, 0.5), 20e3, (10e3, 5e3), 0.05, tie_heights=(3.1, 5.8), tie_stiffness=3e5, tie_strength=6e3,
+    tie_plastic_elongation=0.03, restitution=0.85,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("velocity", [-1e-3, -0.05, -0.3])
+def test_a_tie_that_has_yielded_gives_back_no_more_than_its_elastic_energy(velocity):
+    """A start inwards on the yielding tie lands alike, be the still ground sampled or a sine of next to nothing."""
+    side = TIED.mechanism().positive
+    stretched = max(tie.rotation(tie.tie.yield_stretch, side.end_rotation) for tie in side.ties) * 1.05
+    arrivals = []
+    for still in (Accelerogram(np.zeros(5000), 0.0005), Pulse(1e-9, 6.0)):
+        told = integrate(
+            TIED, still, 1e-11, history=True, initial_rotation=stretched, initial_velocity=velocity
+        )
+        arrivals.append(
+            told.angular_velocity[np.flatnonzero((told.rotation == 0) & (told.angular_velocity != 0))[0]]
+        )
+    assert arrivals[0] == pytest.approx(arrivals[1], rel=1e-8)
+
+
+def test_where_gravity_is_taken_away_the_response_says_that_bodies_would_fly():
+    for share, says in ((0.9, False), (1.1, True)):
+        lift = Accelerogram(np.where(np.arange(300) == 150, -share * g, 0.0), 0.01)
+        assert bool(integrate(BLOCK, RECORD, vertical=lift).warning) is says
+        assert bool(integrate(BLOCK.mechanism().equivalent_block(), RECORD, vertical=lift).warning) is says
