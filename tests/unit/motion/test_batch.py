@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from motion_cases import MECHANISMS
 
 from rocking.motion import integrate, integrate_batch
 from rocking.records import Accelerogram
@@ -53,15 +52,3 @@ def test_a_block_on_one_side_goes_another_way_to_the_same_end():
     found = integrate_batch([leaning, BLOCKS[0]], RECORD)[0, 0]
     assert not math.isnan(found)
     assert found == pytest.approx(integrate(leaning, RECORD).rotation_ratio, rel=1e-12)
-
-
-@pytest.mark.parametrize("workers", [1, 3])
-def test_few_factors_give_what_many_give_to_the_last_bit(workers):
-    structures, factors = list(MECHANISMS.values()), np.geomspace(0.2, 4, 40)
-    many = integrate_batch(structures, RECORD, factors, workers=workers)
-    assert np.isinf(many).any() and (many == 0).any() and ((many > 0) & (many < 1)).any()
-    for start in (0, 17, 33):
-        few = integrate_batch(structures, RECORD, factors[start : start + 3], workers=workers)
-        assert np.array_equal(few, many[:, start : start + 3])
-    one = integrate_batch(structures, RECORD, factors[20], workers=workers)
-    assert np.array_equal(one[:, 0], many[:, 20])

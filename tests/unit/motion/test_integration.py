@@ -1,19 +1,15 @@
 """The front door: what it accepts, what it says, what it refuses."""
 
-import os
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 from motion_cases import MECHANISMS, noise
 from scipy.constants import g
 
-from rocking.errors import MotionError, StructureError
+from rocking.errors import MotionError
 from rocking.motion import integrate, integrate_batch
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
-from rocking.structures import Block, EquivalentBlock, Facade
+from rocking.structures import Block, Facade
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.outcome import Outcome
 
@@ -31,12 +27,6 @@ def test_tolerance_outside_its_bounds_is_refused(tolerance):
         integrate(BLOCK, RECORD, tolerance)
     with pytest.raises(MotionError, match=r"tolerance is .* but must"):
         integrate_batch([BLOCK], RECORD, tolerance=tolerance)
-
-
-@pytest.mark.parametrize("restitution", [-0.1, 1.1, np.nan])
-def test_restitution_outside_its_bounds_is_refused(restitution):
-    with pytest.raises(StructureError, match="restitution"):
-        EquivalentBlock(2.0, 0.2, 1.0, restitution)
 
 
 def test_vertical_of_another_length_or_step_is_refused():
@@ -192,45 +182,6 @@ def test_fragile_verdicts_are_marked():
         assert response.fragile is fragile
     assert integrate(BLOCK, scaled(low * 0.98), sensitivity=True, fragility_change=0.03).fragile is True
     assert integrate(BLOCK, scaled(low)).fragile is None
-
-
-_INTERPRETED = """
-import numpy as np
-from rocking.motion import integrate, integrate_batch
-from rocking.motion import nonlinear_kernel as kernel
-from rocking.structures import Block
-from rocking.pulses.pulse import Pulse
-from rocking.records.accelerogram import Accelerogram
-samples = np.convolve(np.random.default_rng(1).normal(size=150), np.hanning(12), "same")
-record = Accelerogram(3.5 * samples / np.abs(samples).max(), 0.01)
-mechanism = Block(1.0, 0.25, restitution=0.85).mechanism()
-for structure in (mechanism, mechanism.equivalent_block()):
-    for motion in (record, Pulse(2.9, 8.0)):
-        response = integrate(structure, motion, 1e-9)
-        print(repr(float(response.rotation_ratio)), response.outcome)
-print(type(kernel.rock).__name__)
-"""
-
-
-def test_compiled_and_interpreted_agree():
-    """The same source run by Python: only the contraction of multiply-adds differs, a rounding per operation."""
-
-    def run(**environment):
-        command = [sys.executable, "-c", _INTERPRETED]
-        out = subprocess.run(
-            command, env=os.environ | environment, capture_output=True, text=True, check=True
-        ).stdout
-        *rows, kind = out.splitlines()
-        return [row.split(maxsplit=1) for row in rows], kind
-
-    compiled, kind = run(NUMBA_DISABLE_JIT="0")
-    interpreted, other = run(NUMBA_DISABLE_JIT="1")
-    assert (kind, other) == ("CPUDispatcher", "function")
-    assert len(compiled) == 4
-    for (value, outcome), (again, verdict) in zip(compiled, interpreted, strict=True):
-        assert outcome == verdict == "rocks"
-        assert float(value) > 0
-        assert float(again) == pytest.approx(float(value), rel=1e-9)
 
 
 TIED = Facade(

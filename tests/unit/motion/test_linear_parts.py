@@ -1,11 +1,8 @@
 """The parts of the compiled exact response, each against arbitrary precision, a matrix exponential or a fine grid."""
 
-import math
-
 import mpmath
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
@@ -102,29 +99,6 @@ def test_what_a_record_can_take_back(side: float) -> None:
             assert true * (1 - 1e-5) - 1e-9 <= out[i] <= true * (1 + 1e-5) + spare
 
 
-BLOCKS = Blocks(np.array([2.0, 3.0]), np.array([0.5, 0.4]), np.array([0.2, 0.15]), False)
-
-
-@pytest.mark.parametrize("one_sided", [False, True])
-def test_the_first_uplift_is_the_first_crossing(one_sided: bool) -> None:
-    """The positive side lifts where −0.5 ü_g > 1, the negative where 0.4 ü_g > 1."""
-    blocks, rng, lifted = BLOCKS._replace(one_sided=one_sided), np.random.default_rng(3), []
-    for _ in range(200):
-        ground, factor = rng.normal(size=6) * 2, float(rng.choice([-1.0, 0.7, 1.3]))
-        start, offset = int(rng.integers(4)), float(rng.choice([0.0, 0.03]))
-        i, tau, side = kernel._uplift(blocks, ground, factor, 0.1, start, offset)
-        times = np.linspace(start * 0.1 + offset, 0.5, 40_001)
-        push = factor * np.interp(times, np.arange(6) * 0.1, ground)
-        positive, negative = -0.5 * push - 1, 0.4 * push - 1
-        first = np.flatnonzero((positive if one_sided else np.maximum(positive, negative)) > 0)
-        assert (side == 0) == (first.size == 0)
-        if side:
-            assert i * 0.1 + tau == pytest.approx(times[first[0]], abs=2e-5)
-            assert side == (1 if one_sided or positive[first[0]] >= negative[first[0]] else -1)
-        lifted.append(side)
-    assert lifted.count(1) > 30 and lifted.count(0) > 20 and (one_sided or lifted.count(-1) > 30)
-
-
 MIRRORED = Blocks(np.array([2.0]), np.array([0.5]), np.array([0.2]), False)
 
 
@@ -156,59 +130,3 @@ def test_a_chain_that_could_grow_higher_than_the_peaks_is_followed() -> None:
     share = speed**2 / 1.1 / 0.2
     assert dies(speed, best=1.001 * share) and not dies(speed, best=0.999 * share)
     assert not dies(1e-9, samples=(0.0, 1.88)) and dies(1e-9, samples=(1.87, 1.87))
-
-
-@pytest.mark.parametrize(("x", "w", "side"), [(0.3, 0.4, 1), (0.5, -0.2, -1), (0.0, 0.9, 1), (0.2, 0.9, -1)])
-def test_free_rocking_follows_the_equation_of_motion(x: float, w: float, side: int) -> None:
-    """Flights by time integration of φ'' = p² (φ − φ_cr), with the velocity ratio of the side that lands."""
-    best, log, restitution = np.zeros((2, 2)), np.zeros((40, 3)), (0.9, 0.7)
-    k = 0 if side > 0 else 1
-    status, impacts, _, logged = kernel._free(x, w, side, k, 1.5, BLOCKS, restitution, best, 0, log, 0)
-    if x + w >= 1:
-        assert status == kernel.OVERTURNS
-        return
-    time, peaks, landings, state, now = (
-        1.5,
-        {},
-        0,
-        [x * BLOCKS.span[k], w * BLOCKS.span[k] * BLOCKS.frequency[k]],
-        k,
-    )
-    for _ in range(3):
-        p, span = BLOCKS.frequency[now], BLOCKS.span[now]
-
-        def turns(_, s):
-            return s[1]
-
-        def lands(_, s):
-            return s[0]
-
-        lands.terminal, lands.direction, turns.direction = True, -1, -1
-        found = solve_ivp(
-            lambda t, s, p=p, span=span: [s[1], p * p * (s[0] - span)],
-            (0, 50), state, "DOP853", events=(turns, lands), rtol=1e-12, atol=1e-14,
-        )  # fmt: skip
-        if found.t_events[0].size and now not in peaks:
-            peaks[now] = found.y_events[0][0][0] / span, time + found.t_events[0][0]
-        if len(peaks) == 2:
-            break
-        time += found.t_events[1][0]
-        state = [0.0, -found.y_events[1][0][1] * restitution[now]]
-        now, landings = 1 - now, landings + 1
-    assert status == kernel.ROCKS and impacts == landings
-    for place, (peak, at) in peaks.items():
-        assert best[0, place] == pytest.approx(peak, rel=1e-9)
-        assert best[1, place] == pytest.approx(at, rel=1e-8)
-    assert logged == len(peaks) + landings
-    assert (np.diff(log[:logged, 0]) > 0).all()
-    turned = log[:logged][log[:logged, 2] == 0]
-    assert np.abs(turned[:, 1]) == pytest.approx([best[0, 0 if r > 0 else 1] * BLOCKS.span[0 if r > 0 else 1]
-                                                  for r in turned[:, 1]], rel=1e-12)  # fmt: skip
-
-
-def test_a_root_is_found_to_rounding() -> None:
-    """x = cosh y − 1.5 sinh y has its zero at atanh(2/3); its velocity at atanh(1.5⁻¹) mirrored."""
-    found = kernel._exact_root(1.0, -1.5, 0.0, 0.0, 0.0, 2.0, 1.0, math.cosh(2) - 1.5 * math.sinh(2), False)
-    assert found == pytest.approx(math.atanh(2 / 3), rel=1e-14)
-    turn = kernel._exact_root(1.5, -1.0, 0.0, 0.0, 0.0, 2.0, -1.0, 1.5 * math.sinh(2) - math.cosh(2), True)
-    assert turn == pytest.approx(math.atanh(2 / 3), rel=1e-14)

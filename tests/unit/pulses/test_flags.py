@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rocking.pulses import Flag, Pulse, extract_pulses
-from rocking.pulses.extraction import adjoins, oscillates
+from rocking.pulses.extraction import oscillates
 from rocking.records.accelerogram import Accelerogram
 
 STEP = 0.01
@@ -98,13 +98,6 @@ def test_a_filled_gap_is_told_and_padding_is_not():
     padded[:500] = padded[2000:] = 0.0
     assert Flag.GAP in flags(holed)
     assert Flag.GAP not in flags(padded)
-
-
-def test_pulse_and_rival_order_does_not_matter_to_adjoining():
-    first, second = Pulse(1, 2 * np.pi, 3.0), Pulse(-1, 2 * np.pi / 1.1, 4.05)
-    assert adjoins(first, second) and adjoins(second, first)
-    assert not adjoins(first, Pulse(1, 2 * np.pi / 1.4, 4.0))
-    assert not adjoins(first, Pulse(1, 2 * np.pi, 4.4))
 
 
 @pytest.mark.parametrize(

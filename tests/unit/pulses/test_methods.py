@@ -1,16 +1,12 @@
 """The pulse methods: what each offers, what is chosen of it, and that the setting knows them all."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-import yaml
 
 from rocking.errors import PulseError
 from rocking.pulses import PULSE_METHODS, Pulse, extract_pulses, predicting_pulse
 from rocking.records.accelerogram import Accelerogram
 
-SCHEMA = Path(__file__).parents[3] / "workflow" / "schemas" / "config.schema.yaml"
 TIMES = np.arange(3000) * 0.01
 SHORT, LONG = Pulse(3, 2 * np.pi / 0.6, 5), Pulse(1, 2 * np.pi / 3, 15)
 ANALYSIS = extract_pulses(Accelerogram(SHORT.acceleration(TIMES) + LONG.acceleration(TIMES), 0.01))
@@ -54,8 +50,3 @@ def test_a_record_without_room_for_a_velocity_pulse_is_refused():
 def test_nothing_to_choose_from_is_refused():
     with pytest.raises(PulseError, match="no pulse to predict with"):
         predicting_pulse((), lambda pulse: 0.0)
-
-
-def test_the_setting_allows_the_methods_of_the_registry():
-    settings = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))["properties"]["pulse"]["properties"]
-    assert settings["choice"]["enum"] == list(PULSE_METHODS)

@@ -12,7 +12,7 @@ from rocking.pulses.scan import PROBES, refine
 from tests.parts import callable_parts
 
 PARTS = callable_parts(scan)
-_climbed, _moments, _newton_step, _score = PARTS._climbed, PARTS._moments, PARTS._newton_step, PARTS._score
+_climbed = PARTS._climbed
 
 STEP = 0.02
 
@@ -45,35 +45,6 @@ def test_refinement_reaches_the_maximum_of_a_general_optimiser(seed):
     # the landscape has a kink at every sample; what the climb may miss is less than a thousandth of the gain
     assert gain >= -found.fun * (1 - 1e-3)
     assert gain == pytest.approx(plain_gain(samples, angle / turn, start * STEP), rel=1e-9)
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_the_step_is_newtons(seed):
-    # away from kinks the undamped step equals −H⁻¹∇ of the score by central differences
-    samples, u, v = noisy_pulse(seed), math.log(2 * math.pi * STEP / 1.7), 0.0137
-    solvable, step_u, step_v = _newton_step(_moments(samples, 101, math.exp(u), v), 0.0)
-    assert solvable
-
-    def score(x):
-        return _score(samples, 101, math.exp(u + x[0]), v + x[1])
-
-    h = 1e-5  # far inside the 0.07 rad between the kinks; second differences then carry about 1e-16/h² = 1e-6
-    axes = np.eye(2) * h
-    slope = np.array([score(axis) - score(-axis) for axis in axes]) / (2 * h)
-    curve = np.array(
-        [[score(a + b) - score(a - b) - score(b - a) + score(-a - b) for b in axes] for a in axes]
-    ) / (4 * h * h)
-    assert np.linalg.solve(curve, -slope) == pytest.approx([step_u, step_v], rel=1e-3, abs=1e-6)
-
-
-def test_a_climb_never_loses(seed=3):
-    samples, rng = noisy_pulse(seed), np.random.default_rng(1)
-    for _ in range(50):
-        u, v = math.log(2 * math.pi * STEP / rng.uniform(1.0, 2.5)), rng.uniform(-0.5, 0.5)
-        limits = (u - 0.1, u + 0.1)
-        new_u, new_v, score = _climbed(samples, 101, u, v, limits)
-        assert score >= _score(samples, 101, math.exp(u), v)
-        assert score == pytest.approx(_score(samples, 101, math.exp(new_u), new_v), rel=1e-12)
 
 
 def test_refinement_stays_within_its_limits():
