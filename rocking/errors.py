@@ -8,7 +8,14 @@ from contextlib import contextmanager
 
 
 class RockingError(Exception):
-    """Root of every error this package raises on purpose."""
+    """Root of every error this package raises on purpose.
+
+    >>> try:
+    ...     rocking.Block.of_size(breadth=-1, height=3)
+    ... except rocking.RockingError as error:
+    ...     print(error)
+    breadth is -1 m, but must be a number from 0.0001 to 100000.
+    """
 
 
 class RecordError(RockingError):

@@ -37,6 +37,11 @@ class StructureAssessment:
     """What came of one structure. cases: by component. ensemble: over all that is not known, directions included.
 
     static_multiplier: least λ of the cracks that may form, the acceleration in g at which statics lets it fall.
+
+    >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
+    >>> assessment = rocking.assess(record, rocking.Block(2.0, 0.2))
+    >>> print(assessment.verdict)
+    overturns
     """
 
     cases: Mapping[str, Case]

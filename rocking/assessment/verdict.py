@@ -18,7 +18,11 @@ CLOSE = 0.1
 
 
 class Verdict(StrEnum):
-    """What can be said of a structure under a ground motion, all considered that is not known."""
+    """What can be said of a structure under a ground motion, all considered that is not known.
+
+    >>> [str(verdict) for verdict in rocking.Verdict]
+    ['stands', 'overturns', 'undecided', 'unknown']
+    """
 
     STANDS = "stands"
     OVERTURNS = "overturns"

@@ -40,6 +40,9 @@ def read(
     response: "sensitivity" divides counts by the overall sensitivity; "full" removes the whole instrument response.
     Raises UnknownFormatError when no reader recognises the file, UndeclaredError when a unit or a time step is declared
     nowhere, RecordError for every other defect.
+
+    >>> [record.component for record in rocking.read("records/20161113_110259_WTMC_20.V2A")]
+    ['N28W', 'S62W', 'Up']
     """
     path = Path(path)
     options = Options(unit, time_step, Path(inventory) if inventory else None, path.parent, response)

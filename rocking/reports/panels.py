@@ -42,6 +42,9 @@ def plot(thing: object, axes: Axes | None = None, **options: Any) -> Axes:
     """Draw anything of this package that has a method plot, in the caller's own style, on `axes` or on new ones.
 
     Returns the axes, so that title, limits and labels can still be changed. options: those of its method plot.
+
+    >>> rocking.plot(rocking.Block(2.0, 0.2)).get_xlabel()
+    '[m]'
     """
     draw = next(_PLOTS[kind.__name__] for kind in type(thing).__mro__ if kind.__name__ in _PLOTS)
     if axes is None:

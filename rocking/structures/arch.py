@@ -59,6 +59,9 @@ class Arch(Crackable):
     balance. That balance assumes an impulse line inside the ring, which it leaves in every practical case; a
     StructureWarning says so, and "momentum" alone is refused. Raises StructureError when it cannot stand, or has no
     four-hinge mechanism; the message names the bound.
+
+    >>> rocking.Arch(radius=10.0, thickness=1.5, embrace_angle=2.75).mechanism()
+    Mechanism(λ = 0.3528, φ_cr = 0.09068 rad, p = 1.779 rad/s, η = 0.9)
     """
 
     type_name: ClassVar[str] = "arch"
@@ -315,6 +318,9 @@ class ArchOnPiers(Arch):
     over the arch's. restitution: η in [0, 1], 0.9 by default. A pier that cracks obliquely or comes apart in leaves is
     weaker than this monolithic one; the wedge between its level head and an inclined springing is left out.
     Raises StructureError when it cannot stand.
+
+    >>> rocking.ArchOnPiers(5.0, 0.8, np.pi, pier_width=1.5, pier_height=4.0).mechanism()
+    Mechanism(λ = 0.0537, φ_cr = 0.02456 rad, p = 2.04 rad/s, η = 0.9)
     """
 
     type_name: ClassVar[str] = "arch_on_piers"

@@ -52,6 +52,9 @@ class Block(Structure):
     one-sided block leans on something that no balance of the block alone describes, so it needs a number.
     one_sided: it rocks away from what it leans on only, and is thrown back at every impact.
     Raises StructureError when it cannot stand.
+
+    >>> rocking.Block(semi_diagonal=2.0, slenderness=0.2).mechanism()
+    Mechanism(λ = 0.2027, φ_cr = 0.2 rad, p = 1.918 rad/s, η = 0.9408)
     """
 
     type_name: ClassVar[str] = "block"
@@ -142,6 +145,10 @@ class RigidBody(Structure):
     one_sided: it rocks about the right corner only, and is thrown back at every impact.
     Its outline is not known, so each side is followed until the centre of mass is level with the corner.
     Raises StructureError when it cannot stand.
+
+    >>> body = rocking.RigidBody(left=0.4, right=0.6, centre_height=1.5, inertia=1.0)
+    >>> body.mechanism().negative
+    Side(λ = 0.2667, φ_cr = 0.2606 rad, p = 2.113 rad/s, η = 0.8338)
     """
 
     type_name: ClassVar[str] = "rigid_body"

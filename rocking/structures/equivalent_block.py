@@ -198,6 +198,10 @@ class EquivalentBlock:
     mirror each other. one_sided: rocks to the positive side only and is thrown back at φ = 0. rotation_map: the
     rotation as a function of the arc, where x is the arc over that of φ_cr (theory: section 9); None where x = φ/φ_cr.
     Whatever follows the block reads its answer back through the map, as φ/φ_cr of the structure.
+
+    >>> block = rocking.Block(2.0, 0.2).mechanism().equivalent_block()
+    >>> round(block.frequency_parameter, 3)
+    1.911
     """
 
     frequency_parameter: float

@@ -137,6 +137,9 @@ class Facade(Tied):
     is the ground floor. restitution: η in [0, 1] or "momentum" (the default), for both sides; inward_restitution: of
     the inward side instead. Ties and one_sided: as `Tied`.
     Raises StructureError when it cannot stand.
+
+    >>> rocking.Facade((3.5, 3.0), (0.6, 0.5), unit_weight=20e3, restitution=0.8).mechanism().positive
+    Side(λ = 0.08993, φ_cr = 0.08969 rad, p = 1.521 rad/s, η = 0.8)
     """
 
     type_name: ClassVar[str] = "facade"

@@ -36,6 +36,10 @@ class Frame(Structure):
     together. restitution: η in [0, 1], or "momentum" (the default), (1 − 1.5 sin²α + 3γ cos 2α)/(1 + 3γ); it needs
     columns so slender that the balance is positive. The column's own restitution plays no part.
     The rotation ends when the columns lie. Raises StructureError when it cannot stand.
+
+    >>> column = rocking.Block.of_size(breadth=1.1, height=8.0)
+    >>> rocking.Frame(column, columns=4, beam_mass_ratio=0.3).mechanism()
+    Mechanism(λ = 0.1375, φ_cr = 0.1366 rad, p = 1.239 rad/s, η = 0.9678)
     """
 
     type_name: ClassVar[str] = "frame"

@@ -58,6 +58,9 @@ class Side:
     critical_rotation: φ_cr, where G vanishes, rad. end_rotation: where the geometry of the mechanism ends, rad,
     > φ_cr. restitution: η of the impact that ends rocking on this side, in [0, 1].
     Raises StructureError when G(0) ≤ 0, B ≤ 0 or I ≤ 0 where it matters, or a rotation is out of order.
+
+    >>> round(rocking.Block(2.0, 0.2).mechanism().positive.uplift_multiplier, 4)
+    0.2027
     """
 
     inertia: Function
@@ -233,6 +236,10 @@ class Mechanism:
     one_sided: the structure leans on something (a façade against side walls) and rocks to the positive side only;
     an impact then throws it back to the same side.
     restitution_range: η is known to plus or minus this much on every side; None: nothing is said of it.
+
+    >>> wall = rocking.Wall(1.6, 1.6, 0.25).mechanism()
+    >>> rocking.Mechanism(wall.positive, wall.positive, one_sided=False).symmetric
+    False
     """
 
     positive: Side

@@ -5,7 +5,11 @@ from enum import StrEnum
 
 
 class Outcome(StrEnum):
-    """Outcome of a prediction or an integration."""
+    """Outcome of a prediction or an integration.
+
+    >>> rocking.integrate(rocking.Block(2.0, 0.2), rocking.Pulse(3.0, 8.0)).outcome
+    <Outcome.ROCKS: 'rocks'>
+    """
 
     NO_UPLIFT = "no uplift"
     ROCKS = "rocks"

@@ -26,6 +26,9 @@ class Spire(Crackable):
     hollow one, m, the inner surface parallel to the outer; None when it is solid. crack_height: above the base, m.
     restitution, one_sided: as for a RigidBody.
     Raises StructureError when it cannot stand, or the crack lies outside it.
+
+    >>> rocking.Spire(width=3.0, height=15.0, wall_thickness=0.25, crack_height=5.0).mechanism()
+    Mechanism(λ = 0.3383, φ_cr = 0.3262 rad, p = 1.458 rad/s, η = 0.861)
     """
 
     type_name: ClassVar[str] = "spire"

@@ -164,6 +164,9 @@ class Wall(Crackable):
     reaches 0 at sin²α = 2/9; squatter walls get 0 and a StructureWarning. one_sided: it leans on cross walls and bends
     outwards only, thrown back at every impact; it needs a number.
     Raises StructureError when it cannot stand.
+
+    >>> rocking.Wall(lower_height=1.6, upper_height=1.6, thickness=0.25).mechanism()
+    Mechanism(λ = 0.3125, φ_cr = 0.155 rad, p = 4.262 rad/s, η = 0.8332)
     """
 
     type_name: ClassVar[str] = "wall"
@@ -330,6 +333,9 @@ class LoadedWall(Tied):
     on the edge in contact. load_held: only its weight acts; otherwise its mass moves up and down with the top.
     restitution: η in [0, 1] or "momentum" (the default). Ties and one_sided: as `Tied`.
     Raises StructureError when it cannot stand.
+
+    >>> rocking.LoadedWall(1.6, 1.6, 0.25, unit_weight=20e3, top_load=10e3).mechanism()
+    Mechanism(λ = 0.6055, φ_cr = 0.1337 rad, p = 6.372 rad/s, η = 0.6759)
     """
 
     type_name: ClassVar[str] = "loaded_wall"

@@ -185,7 +185,14 @@ class Results:
 
 
 def open_results(folder: Path | str) -> Results:
-    """Return the tables of the results of a study in `folder`. Raises RockingError where there is no such folder."""
+    """Return the tables of the results of a study in `folder`. Raises RockingError where there is no such folder.
+
+    >>> try:
+    ...     rocking.open_results("nowhere")
+    ... except rocking.RockingError as error:
+    ...     print(error)
+    nowhere is no folder; name the folder of a study's results.
+    """
     path = Path(folder)
     if not path.is_dir():
         raise RockingError(f"{path} is no folder; name the folder of a study's results.")

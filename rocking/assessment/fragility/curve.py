@@ -33,6 +33,11 @@ class Fragility:
     lognormal curve, by maximum likelihood. lognormal, lognormal_low, lognormal_high: (k,) that curve and its 90 %
     interval, which is too narrow: on real stations it covers 82 to 87 %, as fragilities are not lognormal.
     misfit: largest distance of the lognormal from the empirical curve.
+
+    >>> records = rocking.read("records/20161113_110259_WTMC_20.V2A")[:2]
+    >>> curve = rocking.fragility(records, rocking.Block(2.0, 0.2), stations=["a", "b"], levels=[0.2, 0.6, 1.0])
+    >>> (curve.measure, curve.levels.tolist(), curve.probability.tolist())
+    ('pgv', [0.2, 0.6, 1.0], [0.0, 0.0, 1.0])
     """
 
     measure: str
