@@ -20,6 +20,8 @@ Row = dict[str, str]
 
 _STAND_IN = "mm/s2"
 """Unit in which a file that declares none is looked at, small enough for counts: for its step and number of samples."""
+_STAND_IN_STEP = 0.01
+"""s; the same for the time step."""
 _UPWARDS = re.compile(r"(?:^|[-_. ])(UP|UD|DN|DWN|DOWN|VER|VERT|VERTICAL)(?=[-_. ]|$)", re.I)
 _FORMULA = "=+-@"
 _ENDING = re.compile(r"\.(at2|txt|csv|asc|dat|acc|gz)$", re.I)
@@ -276,7 +278,7 @@ def _read(
 ) -> tuple[list[Accelerogram], Row, tuple[str, ...]]:
     """Return (channels, cells that had to be declared, cells to fill), declaring no more than the file leaves out."""
     given = {"unit": unit, "time_step": time_step}
-    stand_ins: dict = {"unit": unit or _STAND_IN, "time_step": time_step or 1.0}
+    stand_ins: dict = {"unit": unit or _STAND_IN, "time_step": time_step or _STAND_IN_STEP}
     for missing in ((), ("unit",), ("time_step",), ("unit", "time_step")):
         try:
             channels = read(path, **{name: stand_ins[name] for name in missing})

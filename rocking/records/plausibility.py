@@ -53,10 +53,14 @@ def agree_with_header(
     found, stated = float(magnitudes.max()), abs(peak) * acceleration_factor(unit)
     allowed = max(0.01 * stated, half_digit * acceleration_factor(unit))
     if abs(found - stated) > allowed:
+        ratio = found / stated
+        nearest = min(_FACTORS, key=lambda factor: min(abs(ratio / factor - 1), abs(ratio * factor - 1)))
+        is_near = min(abs(ratio / nearest - 1), abs(ratio * nearest - 1)) < _NEAR
+        factor = f"{nearest:g} ({_FACTORS[nearest]})" if is_near else f"{ratio:.4g} that no unit explains"
         raise RecordError(
             f"peak acceleration of {record.component or 'the samples'} is "
             f"{found:.6g} m/s², but the file's header states {stated:.6g} m/s²"
-            f"{_explain(found / stated)}; the two must agree within 1 %."
+            f", a factor {factor}; the two must agree within 1 %."
         )
     if abs(found - stated) > max(_ROUNDING * stated, half_digit * acceleration_factor(unit)):
         sentence = (
@@ -158,14 +162,6 @@ def damage_warnings(record: Accelerogram) -> tuple[str, ...]:
             f"Within the strong shaking {longest} samples in a row are exactly zero: a gap was filled, perhaps."
         )
     return tuple(told)
-
-
-def _explain(ratio: float) -> str:
-    off = {factor: min(abs(ratio / factor - 1), abs(ratio * factor - 1)) for factor in _FACTORS}
-    nearest = min(off, key=off.__getitem__)
-    if off[nearest] < _NEAR:
-        return f", a factor {nearest:g} ({_FACTORS[nearest]})"
-    return f", a factor {ratio:.4g} that no unit explains"
 
 
 def _candidates(peak: float, divide: bool) -> str:

@@ -127,7 +127,10 @@ def _filtered(record: Accelerogram, processing: Processing) -> Accelerogram:
         values = values * _cosine_taper(values.size, processing.taper)
         told.append(f"Cosine taper over {processing.taper:.3g} of the record at each end.")
     corners = {"highpass": processing.high_pass, "lowpass": processing.low_pass}
-    pad, held = _padding(record, processing), 0
+    lowest = processing.high_pass or processing.low_pass
+    padded = processing.padding and lowest is not None
+    pad = _room(processing.order, lowest or 1.0, record.duration, record.time_step) if padded else 0
+    held = 0
     if pad:
         values = np.pad(values, pad)
         told.append(f"{pad} zeros before and after{'' if processing.keep_padding else ' while filtering'}.")
@@ -145,14 +148,6 @@ def _filtered(record: Accelerogram, processing: Processing) -> Accelerogram:
         return record
     highest = max(processing.high_pass or 0, record.high_pass_frequency or 0) or None
     return record.processed_by(values, " ".join(told), high_pass_frequency=highest)
-
-
-def _padding(record: Accelerogram, processing: Processing) -> int:
-    """Return the zeros to put on each side, by the lowest corner."""
-    corner = processing.high_pass or processing.low_pass
-    if not processing.padding or corner is None:
-        return 0
-    return _room(processing.order, corner, record.duration, record.time_step)
 
 
 def _room(order: int, corner: float, duration: float, time_step: float) -> int:

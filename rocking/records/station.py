@@ -18,6 +18,7 @@ from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.plausibility import scaled
 from rocking.records.read import bytes_of, is_unnamed, read_raw
 
+_SIDEWAYS = "Component {} is vertical, but the catalogue takes it as horizontal."
 _OFF_GRID = 0.1
 """Share of a time step by which the samples of two files may lie between one another."""
 
@@ -160,7 +161,10 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
         vertical = of[record.vertical_component] if record.vertical_component else next(upwards, None)
         chosen = [of[name] for name in record.components]
         if chosen and len(record.files) == 1:
-            horizontal = list(map(_asked_for, chosen))
+            horizontal = [  # it will shake sideways
+                replace(c, warnings=(*c.warnings, _SIDEWAYS.format(c.component))) if c.vertical else c
+                for c in chosen
+            ]
         else:
             sideways = chosen or [channel for channel in channels if not channel.borehole]
             horizontal = [channel for channel in sideways if channel is not vertical and not channel.vertical]
@@ -170,14 +174,6 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
             )
         declared = tuple(_as_declared(channel, record) for channel in horizontal)
         return Station(declared, None if vertical is None else _as_declared(vertical, record))
-
-
-def _asked_for(channel: Accelerogram) -> Accelerogram:
-    """Return a channel that the catalogue names, with a warning when it is vertical: it will shake sideways."""
-    if not channel.vertical:
-        return channel
-    sentence = f"Component {channel.component} is vertical, but the catalogue takes it as horizontal."
-    return replace(channel, warnings=(*channel.warnings, sentence))
 
 
 def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
