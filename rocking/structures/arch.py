@@ -188,7 +188,7 @@ class Arch(Crackable):
     def linkage(self) -> Linkage:
         """The four-bar linkage on the side of positive rotation, with a centreline radius of 1."""
         sections = self._hinge_sections
-        return Linkage(self.ring.contact_points(sections, PATTERN), self.ring.bars(sections))
+        return Linkage(self.ring.contact_points(sections, PATTERN), self.ring.bars(sections), self.radius)
 
     @property
     def _hinge_sections(self) -> np.ndarray:
@@ -202,24 +202,14 @@ class Arch(Crackable):
         """
         from scipy.optimize import brentq  # slow to import, and needed by arches only
 
-        linkage, radius = self.linkage, self.radius
+        linkage = self.linkage
         end = linkage.last_rotation()
         if not linkage.gravity(end) < 0:
             raise StructureError(
                 f"{self._sentence} finds no unstable equilibrium before its hinges come into line."
             )
-        return Mechanism(
-            Side(
-                inertia=lambda rotation: radius * linkage.inertia(rotation),
-                inertia_slope=lambda rotation: radius * linkage.inertia_slope(rotation),
-                gravity=linkage.gravity,
-                gravity_slope=linkage.gravity_slope,
-                ground=linkage.ground,
-                critical_rotation=float(brentq(linkage.gravity, 0.0, end, xtol=1e-16, rtol=1e-15)),
-                end_rotation=end,
-                restitution=self._resolve_restitution(),
-            )
-        )
+        critical = float(brentq(linkage.gravity, 0.0, end, xtol=1e-16, rtol=1e-15))
+        return Mechanism(Side.of(linkage, critical, end, self._resolve_restitution()))
 
     def _resolve_restitution(self) -> float:
         if self.restitution == UNSAFE_MOMENTUM:

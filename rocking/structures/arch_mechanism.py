@@ -14,19 +14,19 @@ from functools import cached_property
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Fill, Ring
-from rocking.structures.bodies import Bars, Motion, cross, keeps_last, momentum_balance
+from rocking.structures.bodies import Bars, LinkedBars, Motion, cross, keeps_last, momentum_balance
 
 
 @dataclass(frozen=True, eq=False)
-class Linkage:
-    """hinges: A, B, C, D at rest, (4,) complex m. bars: what they carry."""
+class Linkage(LinkedBars):
+    """hinges: A, B, C, D at rest, (4,) complex. bars: what they carry. unit: of both, m."""
 
     hinges: np.ndarray
     bars: Bars
+    unit: float = 1.0
 
     @keeps_last
     def motion(self, rotation: np.ndarray) -> Motion:
@@ -79,31 +79,6 @@ class Linkage:
         diagonal = self.hinges[3] - self.hinges[1]
         return float(np.sign(cross(diagonal, self._at_rest[1])))
 
-    def inertia(self, rotation: ArrayLike) -> np.ndarray:
-        """I = Σ m|r'|² + I_c ω², shape of `rotation`."""
-        motion = self.motion(rotation)
-        return _sum(self.bars.masses, np.abs(motion.velocities) ** 2) + _sum(
-            self.bars.inertias, motion.spins**2
-        )
-
-    def inertia_slope(self, rotation: ArrayLike) -> np.ndarray:
-        """dI/dφ = 2 Σ m r'·r'' + I_c ω ω'."""
-        motion = self.motion(rotation)
-        turning = _sum(self.bars.inertias, motion.spins * motion.spin_slopes)
-        return 2 * (_sum(self.bars.masses, (motion.velocities.conj() * motion.accelerations).real) + turning)
-
-    def gravity(self, rotation: ArrayLike) -> np.ndarray:
-        """G = Σ m y'."""
-        return _sum(self.bars.masses, self.motion(rotation).velocities.imag)
-
-    def gravity_slope(self, rotation: ArrayLike) -> np.ndarray:
-        """dG/dφ = Σ m y''."""
-        return _sum(self.bars.masses, self.motion(rotation).accelerations.imag)
-
-    def ground(self, rotation: ArrayLike) -> np.ndarray:
-        """B = Σ m x'."""
-        return _sum(self.bars.masses, self.motion(rotation).velocities.real)
-
     def last_rotation(self) -> float:
         """The rotation [rad] up to which the motion is followed: A, B and C in line, or just before the bars lock."""
         end = self.straightening()
@@ -126,10 +101,6 @@ class Linkage:
         cosine = (abs(base) ** 2 + side**2 - third**2) / (2 * abs(base) * side)
         with np.errstate(invalid="ignore"):
             return float(np.angle(self._at_rest[0] / base) - np.arccos(cosine))
-
-
-def _sum(weights: np.ndarray, terms: np.ndarray) -> np.ndarray:
-    return np.tensordot(weights, terms, axes=1)
 
 
 def mirror_balance(ring: Ring, linkage: Linkage, hinges: np.ndarray) -> float:

@@ -101,6 +101,49 @@ def carried(
     )
 
 
+class LinkedBars:
+    """`bars` that move as one mechanism, lengths in `unit` [m]: I, I', G, G' and B over their masses and that unit.
+
+    A subclass gives the motion.
+    """
+
+    bars: Bars
+    unit: float = 1.0
+
+    def motion(self, rotation: ArrayLike) -> Motion:
+        """Return the bars at `rotation` ≥ 0 [rad], any shape."""
+        raise NotImplementedError
+
+    def inertia(self, rotation: ArrayLike) -> np.ndarray:
+        """I = Σ m|r'|² + I_c ω², shape of `rotation`."""
+        motion = self.motion(rotation)
+        moving = _sum(self.bars.masses, np.abs(motion.velocities) ** 2)
+        return self.unit * (moving + _sum(self.bars.inertias, motion.spins**2))
+
+    def inertia_slope(self, rotation: ArrayLike) -> np.ndarray:
+        """dI/dφ = 2 Σ m r'·r'' + I_c ω ω'."""
+        motion = self.motion(rotation)
+        turning = _sum(self.bars.inertias, motion.spins * motion.spin_slopes)
+        moving = _sum(self.bars.masses, (motion.velocities.conj() * motion.accelerations).real)
+        return self.unit * (2 * (moving + turning))
+
+    def gravity(self, rotation: ArrayLike) -> np.ndarray:
+        """G = Σ m y'."""
+        return _sum(self.bars.masses, self.motion(rotation).velocities.imag)
+
+    def gravity_slope(self, rotation: ArrayLike) -> np.ndarray:
+        """dG/dφ = Σ m y''."""
+        return _sum(self.bars.masses, self.motion(rotation).accelerations.imag)
+
+    def ground(self, rotation: ArrayLike) -> np.ndarray:
+        """B = Σ m x'."""
+        return _sum(self.bars.masses, self.motion(rotation).velocities.real)
+
+
+def _sum(weights: np.ndarray, terms: np.ndarray) -> np.ndarray:
+    return np.tensordot(weights, terms, axes=1)
+
+
 Restitution = float | str | None
 """η in [0, 1], the name of a balance, or None for the structure's default."""
 

@@ -17,12 +17,14 @@ from rocking.structures.bodies import (
     Bars,
     Bodies,
     Contacts,
+    LinkedBars,
     Motion,
     MotionState,
     Restitution,
     carried,
     cross,
     dalembert,
+    keeps_last,
     momentum_balance,
     on_side,
     resolve_restitution,
@@ -47,23 +49,20 @@ _LINKAGE_MARGIN = 0.9
 infinite, and by 0.9 the hinge has moved so far past the upright position that the wall has fallen."""
 
 
-class WallLinkage:
-    """I, I', G, G', B of the two blocks, divided by the wall's mass and R₁ (so that G and B are numbers)."""
+class WallLinkage(LinkedBars):
+    """The two blocks of a wall, per mass of the wall."""
 
     def __init__(self, lower_height: float, upper_height: float, thickness: float) -> None:
-        self.lower_diagonal = np.hypot(lower_height, thickness) / 2
-        self.upper_diagonal = np.hypot(upper_height, thickness) / 2
         self.slenderness = float(np.arctan2(thickness, lower_height))
-        height = lower_height + upper_height
-        self.lower_mass = lower_height / height / self.lower_diagonal
-        self.upper_mass = upper_height / height / self.lower_diagonal
-        self._half_thickness, self._lower_half, self._upper_half = (
-            thickness / 2,
-            lower_height / 2,
-            upper_height / 2,
-        )
         self._upper_slenderness = np.arctan2(thickness, upper_height)
-        reach = min(1.0, self.upper_diagonal / self.lower_diagonal)
+        self._half_thickness = thickness / 2
+        self._lower_half = lower_height / 2
+        self._upper_half = upper_height / 2
+        heights = np.array([lower_height, upper_height])
+        diagonals = np.hypot(heights, thickness) / 2
+        masses = heights / heights.sum()
+        self.bars = Bars(masses, self.motion(0.0).centroids, masses * diagonals**2 / 3)
+        reach = min(1.0, diagonals[1] / diagonals[0])
         lying = np.pi / 2
         self.end_rotation = float(min(lying, self.slenderness + np.arcsin(_LINKAGE_MARGIN * reach)))
 
@@ -78,14 +77,8 @@ class WallLinkage:
         ratio = up / upper_up
         return across, up, ratio, across * (1 - ratio**2) / upper_up
 
-    @property
-    def bars(self) -> Bars:
-        """The lower and the upper block at rest, per mass of the wall."""
-        masses = np.array([self.lower_mass, self.upper_mass]) * self.lower_diagonal
-        diagonals = np.array([self.lower_diagonal, self.upper_diagonal])
-        return Bars(masses, self.motion(0.0).centroids, masses * diagonals**2 / 3)
-
-    def motion(self, rotation: ArrayLike) -> Motion:
+    @keeps_last
+    def motion(self, rotation: np.ndarray) -> Motion:
         """Return the blocks at `rotation` ≥ 0, any shape; hinges at the base, between the blocks and at the top.
 
         The lower block turns clockwise about its right bottom corner, the upper one back about the left edge.
@@ -104,42 +97,6 @@ class WallLinkage:
             velocities=np.stack([-1j * lower, -2j * lower + 1j * ratio * upper]),
             accelerations=np.stack([-lower, -2 * lower + (1j * curvature - ratio**2) * upper]),
         )
-
-    def inertia(self, rotation: ArrayLike) -> np.ndarray:
-        """4/3 m₁R₁² + 1/3 m₂R₂²ψ'² + m₂[C² + S²(2 + ψ')²]."""
-        across, up, ratio, _ = self._position(rotation)
-        spin = 4 / 3 * self.lower_mass * self.lower_diagonal**2
-        return spin + self.upper_mass * (
-            self.upper_diagonal**2 * ratio**2 / 3 + up**2 + (across * (2 + ratio)) ** 2
-        )
-
-    def inertia_slope(self, rotation: ArrayLike) -> np.ndarray:
-        """dI/dφ, with S' = −C, C' = S."""
-        across, up, ratio, curvature = self._position(rotation)
-        lift = 2 + ratio
-        return (
-            2
-            * self.upper_mass
-            * (
-                self.upper_diagonal**2 * ratio * curvature / 3
-                + up * across
-                + across * lift * (across * curvature - up * lift)
-            )
-        )
-
-    def gravity(self, rotation: ArrayLike) -> np.ndarray:
-        """S (m₁ + 2m₂ + m₂ψ')."""
-        across, _, ratio, _ = self._position(rotation)
-        return across * (self.lower_mass + self.upper_mass * (2 + ratio))
-
-    def gravity_slope(self, rotation: ArrayLike) -> np.ndarray:
-        """dG/dφ."""
-        across, up, ratio, curvature = self._position(rotation)
-        return self.upper_mass * across * curvature - up * (self.lower_mass + self.upper_mass * (2 + ratio))
-
-    def ground(self, rotation: ArrayLike) -> np.ndarray:
-        """(m₁ + m₂) C."""
-        return (self.lower_mass + self.upper_mass) * self._position(rotation)[1]
 
 
 Applied = tuple[int, np.ndarray, np.ndarray]
@@ -421,8 +378,8 @@ class LoadedWall(Tied):
         return complex(self.eccentricity if mirrored else -self.eccentricity, self.height)
 
     def attached(self, mirrored: bool = False) -> tuple[Attached, ...]:
-        """Return what hangs on the wall on one side, in units of its weight times R₁."""
-        linkage, unit = self.wall.linkage, self.weight * self.wall.linkage.lower_diagonal
+        """Return what hangs on the wall on one side, in units of its weight."""
+        linkage, unit = self.wall.linkage, self.weight
         found = []
         if self.top_load:
             path, load = OnBlock(linkage, 1, self._bearing(mirrored)), self.top_load / unit
@@ -437,14 +394,8 @@ class LoadedWall(Tied):
         return tuple(found)
 
     def _form(self, mirrored: bool) -> LoadedForm:
-        linkage = self.wall.linkage
-        bare = (
-            linkage.inertia,
-            linkage.inertia_slope,
-            linkage.gravity,
-            linkage.gravity_slope,
-            linkage.ground,
-        )
+        form = self.wall.linkage
+        bare = form.inertia, form.inertia_slope, form.gravity, form.gravity_slope, form.ground
         return LoadedForm(bare, self.attached(mirrored), 1.0)
 
     def _side(self, mirrored: bool) -> Side:
@@ -490,8 +441,7 @@ class LoadedWall(Tied):
         )
 
     def held_work(self, rotation: float | np.ndarray) -> np.ndarray:
-        work = self._form(mirrored=False).held_work(np.asarray(rotation, dtype=float))
-        return work * self.wall.linkage.lower_diagonal
+        return self._form(mirrored=False).held_work(np.asarray(rotation, dtype=float))
 
     def contacts(self, state: MotionState) -> Contacts:
         sides = [
@@ -501,11 +451,10 @@ class LoadedWall(Tied):
 
     def _applied(self, state: MotionState, mirrored: bool) -> Iterable[Applied]:
         """What hangs on the wall as forces on its blocks, per mass of the wall."""
-        factor = self.wall.linkage.lower_diagonal
         for each in self.attached(mirrored):
             assert isinstance(each.path, OnBlock)
             point, force = each.acting(state)
-            yield each.path.block, point, force * factor
+            yield each.path.block, point, force
 
     def tie_stretches(self, rotation: float) -> dict[float, float]:
         return {

@@ -198,10 +198,10 @@ def test_energy_and_the_loop_of_the_tie_are_kept_over_a_hundred_cycles(structure
 
 
 def structure_unit(structure):
-    """N/m (times m) in the unit of G: the façade's is its static moment over g, the wall's its weight times R₁."""
+    """N/m (times m) in the unit of G: the façade's is its static moment over g, the wall's its weight."""
     if isinstance(structure, Facade):
         return structure.outward.form.divisor
-    return structure.weight * structure.wall.linkage.lower_diagonal
+    return structure.weight
 
 
 def loop(tie, u):
