@@ -10,7 +10,8 @@ motion on this side; the angular velocity of the next flight is `restitution` ti
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol
+from operator import methodcaller
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -257,6 +258,11 @@ class Mechanism:
         if self.negative is not None:
             return f"Mechanism(positive side: {self.positive.described}; negative side: {self.negative.described})"
         return f"Mechanism({self.positive.described}{', one-sided' if self.one_sided else ''})"
+
+    def __reduce__(self) -> Any:
+        """A mechanism of a structure is built again from it in another process: its functions cannot be pickled."""
+        structure = self.__dict__.get("structure")
+        return super().__reduce__() if structure is None else (methodcaller("mechanism"), (structure,))
 
     @property
     def tied(self) -> bool:

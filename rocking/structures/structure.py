@@ -335,9 +335,10 @@ class Structure(ABC):
 
     @cached_property
     def _mechanism(self) -> Mechanism:
-        built = self._build()
-        known = self.restitution_range
-        return built if known is None else replace(built, restitution_range=known)
+        built, known = self._build(), self.restitution_range
+        built = replace(built, restitution_range=built.restitution_range if known is None else known)
+        object.__setattr__(built, "structure", self)  # what it is built again from after pickling
+        return built
 
     @property
     def _values(self) -> dict[str, object]:

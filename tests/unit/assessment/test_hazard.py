@@ -29,6 +29,19 @@ def test_the_rate_is_that_of_the_closed_form():
     assert found.low < found.rate < found.high
 
 
+def test_what_curve_and_hazard_leave_out_is_said():
+    """One half of a rate that occurs at and above the level where a curve ends at one half; all below the hazard."""
+    half = (np.arange(200)[:, None] < 100 * (np.array([1.0, 2.0]) > 1.5)).astype(float)
+    curve = fragility_of(np.array([1.0, 2.0]), half, [str(k) for k in range(200)])
+    points = _points([0.5, 8.0], [0.16, 0.01])  # rate 0.08/x
+    found = annual_rate(curve, points)
+    # above 2.0 there occurs 0.04 a year, of which the curve counts a half; the steps of the integral are 0.7 %
+    assert found.left_out == pytest.approx(0.02, rel=0.02)
+    falling = fragility_of(np.array([0.1, 0.2]), np.ones((4, 2)), list("abcd"))
+    # between 0.1 and 0.5, which the hazard curve does not reach, there occurs 0.8 − 0.16
+    assert annual_rate(falling, points).left_out == pytest.approx(0.64, rel=0.02)
+
+
 @pytest.mark.parametrize(
     ("levels", "rates", "sentence"),
     [
