@@ -6,7 +6,7 @@ import math
 import os
 import stat
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -48,7 +48,14 @@ class Plan:
     @property
     def doubts(self) -> tuple[str, ...]:
         """What to tell the user before the run, one sentence each."""
-        return (*repeated(self.records.values()), *unlisted(Path(self.settings.catalogue)))
+        new = unlisted(Path(self.settings.catalogue))
+        return (*repeated(self.records.values()), *new, *self._left())
+
+    def _left(self) -> Iterator[str]:
+        """Folders of results whose record left the catalogue."""
+        for report in sorted(Path(self.settings.results).glob("*/report.pdf")):
+            if (folder := report.parent).name not in {*self.records, "summary", "fragility"}:
+                yield f"{folder} is of a record that is not in the catalogue any more; remove it if you do not need it."
 
     def begin(self) -> None:
         """Write the hashes that the catalogue leaves blank: the files are checked against them from now on."""

@@ -105,11 +105,13 @@ def _alone(folder: Path, plan: Plan, command: Sequence[str], target: str | None)
 
 
 def _watched(folder: Path, plan: Plan, command: Sequence[str], target: str | None, held: int) -> int:
+    with contextlib.chdir(folder):
+        doubts = plan.doubts
     results = folder / plan.settings.results
     log = results / "summary" / "logs" / "run.log"
     log.parent.mkdir(parents=True, exist_ok=True)
     print(
-        *plan.doubts,
+        *doubts,
         f"{counted(len(plan.records), 'record')}; log of the scheduler: {log}",
         "Numbers: members of the ensemble that overturn, or the largest rotation over the critical rotation.",
         sep="\n",
