@@ -68,19 +68,6 @@ LENGTHS = (1e-4, 1e5)
 """Lengths that are allowed, from a tenth of a millimetre to a hundred kilometres, m."""
 
 
-def length(field: str, value: float) -> float:
-    """Return `value` as a length in m, or raise StructureError naming `field` and the bounds."""
-    return within(StructureError, field, positive(StructureError, field, value, "m"), *LENGTHS, "m")
-
-
-def not_negative(field: str, value: float, unit: str) -> float:
-    """Return a finite number of 0 or more, or raise StructureError naming `field`."""
-    number = finite(StructureError, field, value, unit)
-    if number < 0:
-        raise StructureError(f"{field} is {value!r}{_in(unit)}, but must be 0 or more.")
-    return number
-
-
 def whole(field: str, value: float, low: float, high: float) -> int:
     """Return a whole number from `low` to `high`, or raise StructureError naming `field`."""
     number = finite(StructureError, field, value)

@@ -14,8 +14,7 @@ from rocking.assessment.rows.of_record import TimingRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
 from rocking.assessment.rows.of_trade import TradeRow
 from rocking.errors import RockingError
-from rocking.tables import Row, frame, head, rows_written, write_whole, written_together
-from rocking.tables.files import whole
+from rocking.tables import Row, frame, head, rows_written, whole, write_whole, written_together
 
 if TYPE_CHECKING:
     from pandas import DataFrame

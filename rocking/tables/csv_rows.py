@@ -1,17 +1,17 @@
-"""Rows as CSV: written row by row, read back as typed objects."""
+"""Rows as CSV: written row by row with their description, and read back as typed objects."""
 
 import csv
 import io
-from collections.abc import Callable, Iterable, Iterator
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
 from typing import Any
 
 from rocking.errors import RockingError
-from rocking.tables.cells import cell, value_of
-from rocking.tables.files import whole
-from rocking.tables.row import R, Row, Table
+from rocking.tables.files import whole, write_whole
+from rocking.tables.row import Column, R, Row, Table, cell, value_of
 
 
 def write_rows(row_class: type[R], rows: Iterable[R], path: Path) -> None:
@@ -97,3 +97,45 @@ def check_columns(table: Table, names: Iterable[str], path: Path) -> None:
         raise RockingError(
             f"{path}, line 1: the columns are not those of {table.name} ({', '.join(wrong[:6])}); make the table again."
         )
+
+
+def write_tables(
+    tables: Mapping[type[Row], Iterable[Row]],
+    folder: Path,
+    package: str = "",
+    description: str = "datapackage.json",
+) -> None:
+    """Write rows by their class into `folder`; with the name of a `package` also the file that describes the tables."""
+    for kind, rows in tables.items():
+        write_rows(kind, rows, folder / kind.table.file_name)
+    if package:
+        described = {kind.table.name: (kind.table, kind.table.file_name) for kind in tables}
+        write_whole(folder / description, data_package(package, described))
+
+
+def read_table(row_class: type[R], folder: Path) -> list[R]:
+    """Return the rows of a table that lies in `folder`. Raises RockingError as `read_rows` does."""
+    return list(read_rows(row_class, folder / row_class.table.file_name))
+
+
+def data_package(name: str, resources: Mapping[str, tuple[Table, str | list[str]]]) -> bytes:
+    """Return a Frictionless datapackage.json: for each resource its table and the file, or files, that hold it."""
+    described = [_resource(resource, table, path) for resource, (table, path) in resources.items()]
+    content = {"profile": "tabular-data-package", "name": name, "resources": described}
+    return (json.dumps(content, indent=1) + "\n").encode()
+
+
+def _resource(name: str, table: Table, path: str | list[str]) -> dict[str, object]:
+    return {
+        "name": name,
+        "path": path,
+        "profile": "tabular-data-resource",
+        "description": table.description,
+        "schema": {"fields": [_field(each) for each in table.columns], "missingValues": ["", "nan"]},
+    }
+
+
+def _field(described: Column) -> dict[str, str]:
+    known = {"name": described.name, "type": described.type, "description": described.description}
+    more = {"unit": described.unit, "equation": described.equation}
+    return known | {key: value for key, value in more.items() if value}

@@ -7,9 +7,8 @@ from enum import Enum, StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.tables.cells import unguarded
 from rocking.tables.csv_rows import check_columns, read_rows, readable
-from rocking.tables.row import Column, R, Row
+from rocking.tables.row import Column, R, Row, unguarded
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -1,7 +1,10 @@
-"""What a row is: a frozen dataclass whose fields carry type, unit, meaning and equation of their columns."""
+"""What a row is: a frozen dataclass whose fields carry type, unit, meaning and equation; and the text of each cell."""
 
+import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
+from enum import Enum, StrEnum
 from types import NoneType
 from typing import Any, ClassVar, TypeVar, dataclass_transform, get_args, get_type_hints
 
@@ -97,3 +100,58 @@ def _column(name: str, hint: Any, known: Mapping[str, Any]) -> Column:
     return Column(
         name, _TYPES.get(holds, "string"), known["meaning"], known["equation"], unit, holds, optional
     )
+
+
+_FORMULA = re.compile(r"'*[=+\-@\t\r]")
+_CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\\]")
+_ESCAPED = re.compile(r"\\(?:(\\)|u([0-9a-f]{4}))")
+
+
+def cell(value: object) -> str:
+    """Return the text that stands for `value` in a CSV file."""
+    if isinstance(value, float):
+        return "" if value != value else repr(float(value)).replace("inf", "INF")
+    if isinstance(value, Enum):
+        return str(value.value)
+    if isinstance(value, str):
+        return _guarded(value)
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, tuple | list):
+        return _guarded("; ".join(str(item) for item in value))
+    return str(value)
+
+
+def _guarded(text: str) -> str:
+    if text.isalnum():
+        return text
+    text = "'" + text if _FORMULA.match(text) else text
+    return _CONTROL.sub(lambda found: "\\\\" if found[0] == "\\" else f"\\u{ord(found[0]):04x}", text)
+
+
+def unguarded(text: str) -> str:
+    if "\\" in text:
+        text = _ESCAPED.sub(lambda found: found[1] or chr(int(found[2], 16)), text)
+    return text[1:] if text[:1] == "'" and _FORMULA.match(text) else text
+
+
+def value_of(described: Column, text: str) -> Any:
+    """The value of a cell. Raises ValueError with the column and what is allowed."""
+    holds = described.holds
+    if text == "" and (described.optional or holds is float):
+        return None if described.optional else math.nan
+    if holds is str:
+        return unguarded(text)
+    if holds is tuple:
+        return tuple(unguarded(text).split("; ")) if text else ()
+    try:
+        return {"true": True, "false": False}[text] if holds is bool else holds(text)
+    except (ValueError, KeyError):
+        allowed = (
+            ", ".join(holds)
+            if issubclass(holds, StrEnum)
+            else {bool: "true or false", int: "a whole number"}.get(holds, "a number")
+        )
+        raise ValueError(f"column {described.name}: {text!r} must be {allowed}") from None
