@@ -41,11 +41,11 @@ from .structures import Facade as Facade
 from .structures import Frame as Frame
 from .structures import LoadedWall as LoadedWall
 from .structures import Mechanism as Mechanism
+from .structures import Outcome as Outcome
 from .structures import RigidBody as RigidBody
 from .structures import Side as Side
 from .structures import Spire as Spire
 from .structures import Wall as Wall
 from .structures import structure_from_config as structure_from_config
-from .structures.outcome import Outcome as Outcome
 from .study.results import Results as Results
 from .study.results import open_results as open_results

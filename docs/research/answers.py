@@ -19,8 +19,7 @@ from rocking.assessment.tiers import Tier, TierFit
 from rocking.assessment.verdict import Verdict
 from rocking.motion import integrate
 from rocking.records import Accelerogram
-from rocking.structures import Mechanism
-from rocking.structures.outcome import Outcome
+from rocking.structures import Mechanism, Outcome
 
 RISK = 0.01
 FACTORS = (0.5, 1.0, 2.0)

@@ -8,7 +8,7 @@ from rocking.assessment.method import Method
 from rocking.assessment.rows import meanings
 from rocking.assessment.rows.shared import CaseRow
 from rocking.assessment.verdict import Verdict
-from rocking.structures.outcome import Outcome
+from rocking.structures import Outcome
 from rocking.tables import column, row
 
 if TYPE_CHECKING:

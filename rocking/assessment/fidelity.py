@@ -24,8 +24,7 @@ from rocking.motion.integration import integrate
 from rocking.motion.members import Members, integrate_members
 from rocking.motion.response import Response
 from rocking.records import Accelerogram
-from rocking.structures import Mechanism
-from rocking.structures.outcome import Outcome
+from rocking.structures import Mechanism, Outcome
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,7 @@ from rocking.motion.response import Response
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum
-from rocking.structures import Mechanism, Structure
-from rocking.structures.outcome import Outcome
+from rocking.structures import Mechanism, Outcome, Structure
 from rocking.structures.structure import Candidate
 
 

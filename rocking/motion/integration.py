@@ -15,8 +15,8 @@ from rocking.motion.side_table import SideTable
 from rocking.motion.table import Table, linear_table, table_of
 from rocking.quantities import GRAVITY, finite, within
 from rocking.records.accelerogram import Accelerogram
+from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
-from rocking.structures.outcome import Outcome
 
 
 class Structure(Protocol):

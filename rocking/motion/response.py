@@ -7,7 +7,7 @@ import numpy as np
 
 from rocking.errors import MotionError
 from rocking.quantities import counted, shown
-from rocking.structures.outcome import Outcome
+from rocking.structures import Outcome
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -16,8 +16,8 @@ from rocking.errors import PulseError, StructureError
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY, within
 from rocking.sine_pulse import kernel
+from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock
-from rocking.structures.outcome import Outcome
 
 LARGEST_RATIO = 1e12
 """Beyond this a frequency or amplitude ratio is a mistake of units, and its square leaves no digits for the block."""

@@ -8,6 +8,7 @@ from rocking.structures.facade import Facade as Facade
 from rocking.structures.frame import Frame as Frame
 from rocking.structures.mechanism import EquivalentBlock as EquivalentBlock
 from rocking.structures.mechanism import Mechanism as Mechanism
+from rocking.structures.mechanism import Outcome as Outcome
 from rocking.structures.mechanism import Side as Side
 from rocking.structures.spire import Spire as Spire
 from rocking.structures.structure import Structure as Structure

@@ -1,4 +1,4 @@
-"""The standard form of every rocking structure, and the equivalent block it reduces to.
+"""The standard form of every rocking structure, the equivalent block it reduces to, and what may become of it.
 
 On the side s = ±1 to which it rocks, with the rotation φ ≥ 0 (theory: section 1, "One standard form"):
 
@@ -8,7 +8,9 @@ Uplift from rest to the side s = −sign(ü_g) when |ü_g| / (g + ü_v) exceeds 
 motion on this side; the angular velocity of the next flight is `restitution` times the one of arrival.
 """
 
+import math
 from dataclasses import dataclass, replace
+from enum import StrEnum
 from functools import cached_property
 from operator import methodcaller
 from typing import TYPE_CHECKING, Any, Protocol
@@ -366,3 +368,40 @@ class Mechanism:
         from rocking import plot  # the drawing stands above everything
 
         return plot(self, axes)
+
+
+class Outcome(StrEnum):
+    """Outcome of a prediction or an integration.
+
+    >>> rocking.integrate(rocking.Block(2.0, 0.2), rocking.Pulse(3.0, 8.0)).outcome
+    <Outcome.ROCKS: 'rocks'>
+    """
+
+    NO_UPLIFT = "no uplift"
+    ROCKS = "rocks"
+    OVERTURNS = "overturns"
+    FAILED = "failed"
+
+    @classmethod
+    def at(cls, rotation_ratio: float) -> "Outcome":
+        """The outcome of a largest rotation over the critical one: inf overturns, 0 does not lift."""
+        if math.isinf(rotation_ratio):
+            return cls.OVERTURNS
+        return cls.ROCKS if rotation_ratio > 0 else cls.NO_UPLIFT
+
+    @property
+    def sentence(self) -> str:
+        """One sentence for the reader."""
+        return _SENTENCES[self]
+
+    def of(self, rotation_ratio: float) -> str:
+        """The outcome in a few words; one that rocks with its largest rotation over φ_cr."""
+        return f"rocks to {rotation_ratio:.4g} φ_cr" if self is Outcome.ROCKS else str(self)
+
+
+_SENTENCES = {
+    Outcome.NO_UPLIFT: "The ground acceleration never reaches the uplift acceleration.",
+    Outcome.ROCKS: "The structure rocks and returns to rest.",
+    Outcome.OVERTURNS: "The structure overturns.",
+    Outcome.FAILED: "No result could be computed; the reason stands beside it.",
+}

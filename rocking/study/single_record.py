@@ -22,8 +22,7 @@ from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.read import read
-from rocking.structures import load_structures
-from rocking.structures.outcome import Outcome
+from rocking.structures import Outcome, load_structures
 from rocking.study.job import Study, assess_components, write_report
 from rocking.study.plan import package_sha256, settings_sha256, structures_sha256
 from rocking.study.settings import Settings

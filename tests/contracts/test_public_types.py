@@ -44,10 +44,10 @@ reveal_type(rocking.Outcome.ROCKS)
 REVEALED = [
     "rocking.records.accelerogram.Accelerogram",
     "float",
-    "rocking.structures.outcome.Outcome",
+    "rocking.structures.mechanism.Outcome",
     "rocking.motion.response.Response",
     "int",
-    "Literal[rocking.structures.outcome.Outcome.ROCKS]?",
+    "Literal[rocking.structures.mechanism.Outcome.ROCKS]?",
 ]
 
 LIBRARIES = re.compile(r"dtype\[(typing\.)?Any\]|tuple\[(typing\.)?Any, \.\.\.\]|\*\*options: Any")

@@ -12,9 +12,8 @@ from scipy.integrate import quad
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
-from rocking.structures import Arch, Block, Wall
+from rocking.structures import Arch, Block, Outcome, Wall
 from rocking.structures.mechanism import Mechanism
-from rocking.structures.outcome import Outcome
 
 BLOCK = Block(1.0, 0.25, restitution=0.85).mechanism()
 WALL = Wall(2.0, 3.0, 0.5, restitution=0.8).mechanism()

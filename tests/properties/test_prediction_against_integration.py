@@ -9,9 +9,8 @@ from scipy.constants import g
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.sine_pulse import Regime, predict_maximum
-from rocking.structures import Arch, Block, Wall
+from rocking.structures import Arch, Block, Outcome, Wall
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
-from rocking.structures.outcome import Outcome
 
 TOLERANCE = 1e-12
 """Of the integration: three orders below the 1e-9 asked for, because the motion magnifies its errors."""

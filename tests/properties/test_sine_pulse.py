@@ -11,8 +11,8 @@ from scipy.optimize import brentq
 
 from rocking.pulses.pulse import Pulse
 from rocking.sine_pulse import Regime, predict_maximum, printed_maximum
+from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock
-from rocking.structures.outcome import Outcome
 
 BLOCK = EquivalentBlock(2.0, 0.25, 0.8, 0.9)
 AMPLITUDES = st.floats(-1, 1.5).map(lambda power: 10**power)

@@ -9,8 +9,8 @@ from scipy.constants import g
 
 from rocking.pulses.pulse import Pulse
 from rocking.sine_pulse import Maximum, Regime, kernel, predict_maximum, printed_maximum
+from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock
-from rocking.structures.outcome import Outcome
 from tests.parts import callable_parts
 
 PARTS = callable_parts(kernel)

@@ -8,7 +8,7 @@ from docs.research.answers import AnswerTrial, answer_scores
 from rocking.assessment.fidelity import Answer
 from rocking.assessment.method import Method
 from rocking.assessment.verdict import Verdict
-from rocking.structures.outcome import Outcome
+from rocking.structures import Outcome
 
 
 def trial(site: str, method: Method, said: bool, falls: bool, share: float, verdict: Verdict) -> AnswerTrial:

@@ -22,8 +22,7 @@ from rocking.assessment.verdict import (
 )
 from rocking.motion.response import UNKNOWN, Response
 from rocking.sine_pulse import Regime
-from rocking.structures import Mechanism
-from rocking.structures.outcome import Outcome
+from rocking.structures import Mechanism, Outcome
 from rocking.tables import Row, column, row
 
 _NONE = math.nan

@@ -12,8 +12,7 @@ from rocking.assessment.verdict import NEGLIGIBLE, agreement, ratio, rests, with
 from rocking.errors import ConfigurationError, PulseError, StructureError
 from rocking.pulses import PULSE_METHODS, Pulse, extract_pulses
 from rocking.records import Accelerogram
-from rocking.structures import Block, Wall
-from rocking.structures.outcome import Outcome
+from rocking.structures import Block, Outcome, Wall
 from rocking.structures.structure import Structure
 
 STEP = 0.01

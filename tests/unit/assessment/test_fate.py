@@ -8,7 +8,7 @@ from rocking.assessment.fate import fates
 from rocking.assessment.rows.of_case import ComparisonRow, EnsembleRow
 from rocking.assessment.rows.of_record import FailureRow
 from rocking.assessment.verdict import Verdict
-from rocking.structures.outcome import Outcome
+from rocking.structures import Outcome
 
 
 def outcome_of(ratio: float) -> Outcome:

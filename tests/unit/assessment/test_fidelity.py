@@ -12,8 +12,7 @@ from rocking.assessment.fidelity import cheapest_answer, stays_at_rest
 from rocking.assessment.verdict import Verdict
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram
-from rocking.structures import Block, Facade
-from rocking.structures.outcome import Outcome
+from rocking.structures import Block, Facade, Outcome
 
 STEP = 0.01
 TIMES = np.arange(400) * STEP

@@ -10,9 +10,8 @@ from scipy.constants import g
 from rocking.motion import integrate, nonlinear_kernel
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
-from rocking.structures import Block
+from rocking.structures import Block, Outcome
 from rocking.structures.mechanism import Mechanism
-from rocking.structures.outcome import Outcome
 from tests.parts import callable_parts
 
 kernel = callable_parts(nonlinear_kernel)

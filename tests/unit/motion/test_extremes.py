@@ -10,8 +10,7 @@ from rocking.errors import MotionError
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
-from rocking.structures import Arch, Block, EquivalentBlock, Wall
-from rocking.structures.outcome import Outcome
+from rocking.structures import Arch, Block, EquivalentBlock, Outcome, Wall
 
 SHAPE = np.convolve(np.random.default_rng(0).normal(size=400), np.hanning(15), "same")
 SHAPE = SHAPE / np.abs(SHAPE).max()

@@ -9,9 +9,8 @@ from rocking.errors import MotionError
 from rocking.motion import integrate, integrate_batch
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
-from rocking.structures import Block, Facade
+from rocking.structures import Block, Facade, Outcome
 from rocking.structures.mechanism import Mechanism
-from rocking.structures.outcome import Outcome
 
 BLOCK = Block(1.0, 0.25, restitution=0.85)
 RECORD = noise(1, 300, 0.01, 1.6 * g * BLOCK.mechanism().uplift_multiplier)

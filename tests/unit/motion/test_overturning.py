@@ -10,8 +10,7 @@ from scipy.integrate import cumulative_trapezoid
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
-from rocking.structures import Block, EquivalentBlock
-from rocking.structures.outcome import Outcome
+from rocking.structures import Block, EquivalentBlock, Outcome
 
 
 def overturns(structure, motion, tolerance=1e-10):

@@ -8,8 +8,7 @@ from scipy.constants import g
 from rocking.motion import integrate
 from rocking.records import read
 from rocking.records.accelerogram import Accelerogram
-from rocking.structures import Arch, Block
-from rocking.structures.outcome import Outcome
+from rocking.structures import Arch, Block, Outcome
 
 pytestmark = pytest.mark.real_records
 RINALDI = "northridge1994_rinaldi/RSN1063_NORTHR_RRS228.AT2"

@@ -18,7 +18,7 @@ from rocking.reports.fragility import fragility_data, fragility_figure
 from rocking.reports.style import svg
 from rocking.reports.summary import prediction_scatter, summary_data, summary_report
 from rocking.sine_pulse import Regime
-from rocking.structures.outcome import Outcome
+from rocking.structures import Outcome
 from rocking.tables import frame, write_rows
 
 from .conftest import SETTINGS, SUMMARISED, summarised

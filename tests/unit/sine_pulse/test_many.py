@@ -9,8 +9,7 @@ from scipy.constants import g
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
 from rocking.sine_pulse import overturning_amplitudes, overturning_margins, predict_maxima, predict_maximum
-from rocking.structures import Arch, Block, EquivalentBlock, Mechanism, Wall
-from rocking.structures.outcome import Outcome
+from rocking.structures import Arch, Block, EquivalentBlock, Mechanism, Outcome, Wall
 
 WALL, OTHER = Wall(1.5, 1.5, 0.4).mechanism(), Wall(1.0, 2.0, 0.3).mechanism()
 KINDS = {

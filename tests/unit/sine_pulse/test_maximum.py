@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 from rocking.errors import PulseError, StructureError
 from rocking.pulses.pulse import Pulse
 from rocking.sine_pulse import Maximum, Regime, predict_maximum
+from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock
-from rocking.structures.outcome import Outcome
 
 SYMMETRIC = EquivalentBlock(2.0, 0.25, 0.8, 0.9)
 ASYMMETRIC = EquivalentBlock(1.7, 0.30, 0.9, 0.85, other_side=EquivalentBlock(2.4, 0.18, 0.7, 0.95))
