@@ -303,6 +303,7 @@
     if (!each.history) said.push("It does not lift enough to be drawn, or its motion was not kept.");
     return `${said.join(" ")} `;
   }
+  const warned = (record) => record.warnings.map((each) => `${each} `).join("");
 
   function choose(r, s) {
     stop();
@@ -314,7 +315,7 @@
     at("case").hidden = false;
     at("title").textContent = `${structure.name} (${structure.size}) under ${record.id}${each && each.component ? ", component " + each.component : ""}`;
     at("moves").hidden = !each;
-    at("facts").textContent = each ? facts(each) : `No result. ${record.failure} `;
+    at("facts").textContent = (each ? facts(each) : `No result. ${record.failure} `) + warned(record);
     if (reports) at("facts").append(element("a", { href: `../${encodeURIComponent(record.id)}/report.pdf` }, "report.pdf"));
     if (!each) return;
     const motion = record.motions[each.component];

@@ -57,6 +57,7 @@ def record_content(
     return {
         "id": record,
         "failure": " ".join(failure.message for failure in tables.failures),
+        "warnings": list(dict.fromkeys(each for row in tables.record for each in row.warnings)),
         "pga": _number(
             max((row.peak_acceleration_m_s2 / GRAVITY for row in tables.record), default=math.nan)
         ),

@@ -11,7 +11,7 @@ import numpy as np
 
 from rocking.assessment.fate import Fate
 from rocking.assessment.method import Method
-from rocking.assessment.rows.of_case import CandidateRow, ComparisonRow, MaximumRow
+from rocking.assessment.rows.of_case import ComparisonRow, MaximumRow
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_record import PulseRow, RecordRow
 from rocking.assessment.rows.of_study import StructureRow, structure_rows
@@ -38,6 +38,8 @@ MOST_PULSES = 3
 """Ranks of pulses that are shown."""
 MOST_COMPARED = 24
 """Cases whose comparison is drawn, those with the largest rotations."""
+_LETTERS = 24
+"""Of a line below a drawing."""
 SPECTRUM_POINTS = 36
 NO_BLOCK = 1.0
 """Defect from which on the block means nothing: it is as large as what is described."""
@@ -168,17 +170,6 @@ class _Told:
         return list(structure_rows(self.structures))
 
     @cached_property
-    def governing(self) -> dict[str, CandidateRow]:
-        """The height of hinge or crack that governs each structure under the record, where others were tried."""
-        heights: dict[str, CandidateRow] = {}
-        for row in self.tables.candidates:
-            if row.governs_record and not rests(row.integrated_rotation_ratio):
-                other = heights.get(row.structure)
-                if other is None or row.integrated_rotation_ratio > other.integrated_rotation_ratio:
-                    heights[row.structure] = row
-        return heights
-
-    @cached_property
     def scale_note(self) -> str:
         """The declared scale factors for captions and the running head, or nothing."""
         factors = dict.fromkeys(
@@ -195,10 +186,6 @@ class _Told:
         """The component that turns a structure farthest."""
         rows = [row for row in self.tables.comparison if row.structure == name]
         return max(rows, key=lambda row: np.nan_to_num(row.integrated_rotation_ratio, nan=-1.0), default=None)
-
-    def crack(self, name: str) -> str:
-        """The word for what opens in a structure."""
-        return next((row.crack for row in self.structure_rows if row.structure == name), "") or "hinge"
 
 
 # Page one --------------------------------------------------------------------------------------------------
@@ -236,11 +223,14 @@ def _left_out(many: int, noun: str, table: str) -> str:
 
 def _state(told: _Told, fate: Fate) -> figures.State:
     structure = told.structures[fate.structure]
-    height = told.governing.get(fate.structure)
-    crack = ""
-    if height is not None:
-        structure = structure.cracked_at(height.position_m)
-        crack = f"{told.crack(fate.structure)} at {number(height.position_m, 2)} m"
+    for row in told.tables.candidates:
+        if (
+            row.structure == fate.structure
+            and row.description == fate.crack
+            and math.isfinite(row.position_m)
+        ):
+            structure = structure.cracked_at(row.position_m)
+            break
     multiplier = told.structures[fate.structure].mechanism().uplift_multiplier
     peak = max((row.peak_acceleration_m_s2 for row in told.tables.record), default=math.nan) / GRAVITY
     lines = [
@@ -251,7 +241,14 @@ def _state(told: _Told, fate: Fate) -> figures.State:
         low, high = (_printed(each, fate) for each in (fate.rotation_ratio_low, fate.rotation_ratio_high))
         lines.append(f"5–95 %: {low} to {'falling' if high == 'overturns' else high}")
     lines.append(f"static {number(multiplier, 2)} g, PGA {number(peak / multiplier, 2)} ×")
-    lines += [crack] if crack else []
+    lines += [short(fate.crack, _LETTERS)] if fate.crack else []
+    if fate.elsewhere_crack:
+        many = (
+            f": {fate.elsewhere_overturning_members} of {fate.elsewhere_members}"
+            if fate.elsewhere_members
+            else ""
+        )
+        lines.append(f"{short(fate.elsewhere_crack, _LETTERS - len(many))}{many}")
     return figures.State(f"{told.numbers[fate.structure]} {fate.structure}", structure, fate, tuple(lines))
 
 
@@ -278,28 +275,21 @@ def headlines(fates: Sequence[Fate]) -> list[dict[str, str]]:
 
 def _remarks(told: _Told) -> list[str]:
     """Return what the verdicts leave out and a reader has to know beside them, in sentences."""
-    elsewhere = [
-        f"{fate.structure} ({told.crack(fate.structure)} at {number(told.governing[fate.structure].position_m, 2)} m)"
-        for fate in told.fates
-        if fate.structure in told.governing
-        and math.isinf(told.governing[fate.structure].integrated_rotation_ratio)
-        and fate.rotation_ratio < math.inf
-    ]
     depends = []
     for fate in told.fates:
         done = [row.rotation_ratio for row in told.tables.processing if row.structure == fate.structure]
         if any(map(math.isinf, done)) and any(map(math.isfinite, done)):
             depends.append(fate.structure)
-    said = [
-        (elsewhere, "Stays up as given and overturns with another height of hinge or crack: {}."),
-        (depends, "Whether it overturns depends on the processing of the record: {}."),
-    ]
-    return [text.format(printing.listed(names)) for names, text in said if names]
+    if not depends:
+        return []
+    return [f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."]
 
 
 def _warnings(told: _Told) -> list[str]:
-    """Return what the reader of the file noticed, each once."""
-    return list(dict.fromkeys(each for row in told.tables.record for each in row.warnings))
+    """Return what the reader of the file and the integrations noticed, each once."""
+    noticed = [each for row in told.tables.record for each in row.warnings]
+    noticed += [response.warning for response in told.responses.values() if response.warning]
+    return list(dict.fromkeys(noticed))
 
 
 def _notices(told: _Told) -> list[dict[str, object]]:

@@ -153,8 +153,8 @@ def _ground(panel: Axes, motion: Motion, span: tuple[float, float]) -> None:
     reach = 1.1 * max(
         accelerogram.peak_acceleration, *(abs(each.amplitude) for each in motion.pulses[:1]), 1e-9
     )
-    fixed_ticks(panel, "y", -reach, reach, 4)
-    fixed_ticks(panel, "x", *span, 10)
+    fixed_ticks(panel, "y", -reach, reach, 3)
+    fixed_ticks(panel, "x", *span, 6)
     peak = f"{motion.name}: PGA {accelerogram.peak_acceleration / GRAVITY:.2g} g"
     panel.text(0.995, 0.97, peak, transform=panel.transAxes, ha="right", va="top")
     panel.set_ylabel("[m/s²]")
@@ -358,7 +358,7 @@ def measures_figure(motions: Sequence[Motion], placed: Sequence[Placed]) -> Figu
                 *thinned(accelerograms[name].times, trace, _POINTS), line, color="black", linewidth=0.6
             )
         reach = 1.1 * max(float(np.abs(trace).max()) for trace in traces.values()) or 1.0
-        fixed_ticks(panel, "y", -reach, reach, 4)
+        fixed_ticks(panel, "y", -reach, reach, 3)
         fixed_ticks(panel, "x", *shared_span(motions), 6)
         panel.set_ylabel(label)
         _label_time(panel, row == 1)

@@ -108,16 +108,6 @@ def test_the_reports_own_settings_stand_above_its_title(example):
     assert named["about"] == {"study": "", "client": "A client", "author": "", "date": "2026-01-02"}
 
 
-def test_what_stands_only_as_it_is_given_is_said_on_page_one(example):
-    fallen = [
-        replace(row, integrated_rotation_ratio=np.inf) if row.governs_record else row
-        for row in example.tables.candidates
-    ]
-    still = [replace(row, integrated_rotation_ratio=0.2) for row in example.tables.comparison]
-    said = report_of(example, candidates=fallen, comparison=still)["sentences"]
-    assert "another height of hinge or crack: wall 3 m (hinge at " in said[0]
-
-
 def test_an_outcome_that_processing_decides_is_said(example):
     ratios = iter([0.3, np.inf])
     maxima = [
