@@ -78,7 +78,6 @@ class Variant:
     """A structure under the record processed otherwise."""
 
     processing: str
-    peak_acceleration: float
     rotation_ratio: float
     outcome: Outcome
 
@@ -134,7 +133,7 @@ def processed_variants(
             ratios |= zip(rest, computed, strict=True)
         for name in structures:
             if not math.isnan(ratio := ratios.get(name, math.nan)):
-                variant = Variant(processing, record.peak_acceleration, ratio, Outcome.at(ratio))
+                variant = Variant(processing, ratio, Outcome.at(ratio))
                 found[name].append(variant)
     return found
 

@@ -81,6 +81,7 @@ class MaximumRow(CaseRow):
     ties: str = column(
         "Which ties yield or break on the way to the largest rotation; empty where none does", default=""
     )
+    warning: str = column("What the model leaves out under this motion; empty for nothing", default="")
     reason: str = column("Why it failed, if it did", default="")
 
 
@@ -216,6 +217,7 @@ def maximum_rows(identity: Identity, case: Case, friction_coefficient: float) ->
             bounces=check.bounces,
             contacts_unknown=check.reason,
             ties=check.ties,
+            warning=response.warning,
             reason=response.reason,
         )
 
