@@ -35,7 +35,7 @@ from rocking.records.station import station_of
 from rocking.structures import Structure, load_structures
 from rocking.study.outcome import record_line
 from rocking.study.plan import JOBS, records_sha256, structures_sha256
-from rocking.study.results import written_part
+from rocking.study.results import remove_copies, written_part
 from rocking.study.settings import Settings, read_settings
 from rocking.tables import write_rows, write_whole
 
@@ -138,6 +138,8 @@ def run_job(
             tables, folder = assessed.tables, results / record.id
             if study.settings.reports:
                 write_report(assessed, study, folder)
+            else:
+                remove_copies(folder)
             if study.settings.histories:
                 rows = history_rows(record.id, assessed.responses)
                 write_rows(HistoryRow, rows, folder / HistoryRow.table.file_name)

@@ -88,14 +88,14 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     _collect(defects, lambda: check_writable(Path(settings.results)))
     if defects or structures is None:
         raise ConfigurationError("\n".join(defects))
-    package, described = package_sha256(), structures_sha256(structures)
+    numbers, described = package_sha256(reports=False), structures_sha256(structures)
     return Plan(
         settings=settings,
         records={record.id: record for record in records},
         jobs=share_out((record.id for record in records), settings.records_per_job),
-        settings_sha256=settings_sha256(settings, described, package),
+        settings_sha256=settings_sha256(settings, described, numbers),
         structures_sha256=described,
-        package_sha256=package,
+        package_sha256=package_sha256() if settings.reports else numbers,
         hashes=ContentHashes(_HASHES),
     )
 
@@ -142,13 +142,14 @@ def files_sha256(records: Iterable[CatalogueRecord], settings: Settings, hashes:
     return _sha256(*(f"{path}\0{hashes.of(path)}" for path in sorted(files)))
 
 
-def package_sha256() -> str:
-    """Return one hash for the source of this package."""
+def package_sha256(reports: bool = True) -> str:
+    """Return one hash for the source of this package. reports: with that of the reports, which changes no number."""
     root = Path(__file__).parents[1]
     digest = hashlib.sha256()
     for path in sorted(root.rglob("*")):
-        if path.suffix in _SOURCE:
-            digest.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+        name = path.relative_to(root).as_posix()
+        if path.suffix in _SOURCE and (reports or not name.startswith("reports/")):
+            digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
 
 

@@ -80,7 +80,7 @@ def assess_file(
     record does not hold what is asked of it.
     """
     listed = load_structures(structures)
-    sha256 = settings_sha256(settings, structures_sha256(listed), package_sha256())
+    sha256 = settings_sha256(settings, structures_sha256(listed), package_sha256(reports=False))
     study = _narrowed(Study(listed, settings, sha256), name, structures)
     opened = study.opened(own.channels, own.record)
     assessed = assess_components(own.record, opened, study)

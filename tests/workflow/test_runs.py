@@ -49,7 +49,7 @@ def test_a_second_run_does_nothing(finished) -> None:
 
 @pytest.mark.parametrize(
     ("edited", "again"),
-    [("motion/nonlinear_kernel.py", ["assess"] * 2 + ["summarise"]), ("reports/record/report.py", [])],
+    [("motion/nonlinear_kernel.py", ["assess"] * 2 + ["summarise"]), ("reports/record.py", [])],
     ids=["numbers", "appearance"],
 )
 def test_an_edit_of_the_package_runs_again_what_depends_on_it(
@@ -95,22 +95,24 @@ def test_what_the_settings_ask_for_is_waited_for(finished) -> None:
     settings = ("reports=true", "trade={in_summary: true}", "fragility={in_every_run: true}")
     for asked in (1, 3):
         told = finished.run("--dry-run", "--config", *settings[:asked]).stdout
-        assert re.search(r"(?m)^report_summary +1 *$", told), told
+        assert re.search(r"(?m)^summarise +1 *$", told), told
         for rule in ("trade", "fragility"):
             assert bool(re.search(rf"(?m)^{rule} +1 *$", told)) == (asked == 3), told
-        for work in ("Report on all records", "Write the page to explore the study"):
-            (reason,) = re.findall(rf": {work}\nReason: (.*)", told)
-            assert ("fragility/fragility.csv" in reason) == (asked == 3), told
+        (reason,) = re.findall(r": Summarise all records\nReason: (.*)", told)
+        assert ("fragility/fragility.csv" in reason) == (asked == 3), told
 
 
 def test_the_page_takes_up_fragility_where_it_was_measured(finished, tmp_path: Path) -> None:
     study = finished.copy_to(tmp_path / "study")
-    assert study.run("explore").returncode == 0
-    assert "Nothing to be done" in study.run("--dry-run", "explore").stdout
+    assert "Nothing to be done" in study.run("--dry-run").stdout
     (study.results / "fragility").mkdir()
     (study.results / "fragility" / "fragility.csv").write_text("measured since\n", encoding="utf-8")
-    told = study.run("--dry-run", "explore").stdout
-    assert re.search(r"(?m)^explore +1 *$", told) and not re.search(r"(?m)^fragility +1 *$", told), told
+    told = study.run("--dry-run").stdout
+    assert (
+        re.search(r"(?m)^summarise +1 *$", told)
+        and not re.search(r"(?m)^assess", told)
+        and not re.search(r"(?m)^fragility +1 *$", told)
+    ), told
 
 
 def _jobs(output: str) -> list[str]:
