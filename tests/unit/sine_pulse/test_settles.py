@@ -44,7 +44,7 @@ def test_the_chain_must_end_halfway_to_the_next_uplift() -> None:
     """a = 2 lifts the second side at 7π/6: from π on that leaves π/12, in which 2 |sin θ| stays below 2 sin π/12."""
     one, d = side(1.0, 2.0, 0.6), 1 - 2 * math.sin(math.pi / 12)
     v = limit(d, 1.0, 2.0, 0.36, math.pi / 12)
-    assert _settles((one, one), math.pi, 1, v * 0.9999, 1.0) == pytest.approx(13 * math.pi / 12, rel=1e-15)
+    assert _settles((one, one), math.pi, 1, v * 0.9999, 1.0) == pytest.approx(13 * math.pi / 12, rel=1e-14)
     assert _settles((one, one), math.pi, 1, v * 1.0001, 1.0) == -1
 
 
