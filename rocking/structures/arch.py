@@ -39,7 +39,7 @@ from rocking.structures.bodies import (
     resolved,
 )
 from rocking.structures.drawing import Path, plane, span, swept
-from rocking.structures.fields import Value, angle, count, length, restitution_value
+from rocking.structures.fields import Value, count, length, restitution_value
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.structure import Candidate, Crackable
 
@@ -72,7 +72,9 @@ class Arch(Crackable):
 
     radius: Annotated[float, length("Radius of the centreline", 10.0, (0.3, 50), "r")]
     thickness: Annotated[float, length("Radial thickness", 1.5, (0.03, 5), "t")]
-    embrace_angle: Annotated[float, angle("Embrace angle", 157.5, (60, 240), "β", {"ge": 5, "le": 270})]
+    embrace_angle: Annotated[
+        float, Value("Embrace angle", 157.5, "°", (60, 240), "β", bounds={"ge": 5, "le": 270})
+    ]
     voussoirs: Annotated[
         int | None, count("How many equal voussoirs; left out when hinges may open anywhere", 7, 3, 1000)
     ] = None

@@ -16,7 +16,7 @@ from rocking.structures.bodies import (
     resolve_restitution,
 )
 from rocking.structures.drawing import Path, rectangle, span, swept, turned
-from rocking.structures.fields import OneSided, Value, angle, length, restitution_value
+from rocking.structures.fields import OneSided, Value, length, restitution_value
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.structure import Structure
 
@@ -68,7 +68,9 @@ class Block(Structure):
     ]
     slenderness: Annotated[
         float,
-        angle("Angle between the vertical and the diagonal", 10.0, (1, 45), "α", {"gt": 0, "lt": 90}),
+        Value(
+            "Angle between the vertical and the diagonal", 10.0, "°", (1, 45), "α", bounds={"gt": 0, "lt": 90}
+        ),
     ]
     restitution: Balanced = None
     one_sided: OneSided = False

@@ -59,17 +59,6 @@ def length(
     return Value(meaning, example, "m", usual, letter, phrase, {"ge": low, "le": high})
 
 
-def angle(
-    meaning: str,
-    example: float,
-    usual: tuple[float, float],
-    letter: str,
-    bounds: Mapping[str, float],
-) -> Value:
-    """Return what is said of an angle, which a file gives in degrees."""
-    return Value(meaning, example, "°", usual, letter, PHRASE, bounds)
-
-
 def count(meaning: str, example: int, low: int, high: int) -> Value:
     """Return what is said of a whole number."""
     return Value(meaning, example, usual=(low, high), phrase="{value} {name}", bounds={"ge": low, "le": high})
@@ -134,9 +123,8 @@ class Field(Described):
             checked = self.checked(tuple(outside) if isinstance(outside, list) else outside)
         except ValueError as wrong:
             raise StructureError(f"{self.name} is {wrong}") from None
-        return checked if self.unit not in _OUTWARD else self._floats(value)
-
-    def _floats(self, value: Any) -> Any:
+        if self.unit not in _OUTWARD:
+            return checked
         return tuple(map(float, value)) if isinstance(value, tuple) else float(value)
 
     def phrased(self, text: str) -> str:
