@@ -10,6 +10,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from rocking.quantities import counted
+
 PIPE = "ROCKING_PROGRESS"
 """The variable of the environment that names the pipe; where there is none, nothing is sent."""
 _LONGEST = 1000
@@ -59,6 +61,7 @@ class Progress:
         """Show what was told, if it is for a reader."""
         if "planned" in told:
             self._total = sum(self._records.get(rule, 0) for rule in told["planned"])
+            self._show_so_far()
         elif told.get("begun") == "compile":
             self.say(COMPILING)
         elif "error" in told:
@@ -73,19 +76,21 @@ class Progress:
     def say(self, line: str) -> None:
         """Show a line, and below it how far the run has come."""
         print(f"{_BACK if self._terminal else ''}{fitting(line)}", flush=True)
-        if self._terminal and self._done < self._total:
-            print(fitting(self._so_far()), end="", flush=True)
+        self._show_so_far()
 
     def close(self) -> None:
         """Take away the line on how far the run has come."""
         print(_BACK if self._terminal else "", end="", flush=True)
 
-    def _so_far(self) -> str:
-        text = f"{self._done} of {self._total} records"
-        if not self._done:
-            return text
-        left = (time.monotonic() - self._began) / self._done * (self._total - self._done)
-        return f"{text}, about {left / 60:.0f} min left" if left > 90 else f"{text}, about {left:.0f} s left"
+    def _show_so_far(self) -> None:
+        """Below the lines of a terminal, while records are still to come: how many are done, and the time left."""
+        if not self._terminal or self._done >= self._total:
+            return
+        text = f"{self._done} of {counted(self._total, 'record')}"
+        if self._done:
+            left = (time.monotonic() - self._began) / self._done * (self._total - self._done)
+            text += f", about {left / 60:.0f} min left" if left > 90 else f", about {left:.0f} s left"
+        print(_BACK + fitting(text), end="", flush=True)
 
 
 COMPILING = "The integration is compiled, once on this machine: about half a minute."

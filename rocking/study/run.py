@@ -29,6 +29,8 @@ from rocking.study.settings import named_files
 from rocking.study.workspace import workflow_folder
 from rocking.tables import read_table
 
+_WIDEST = 24
+"""Columns for the name of a record; after a longer one its verdict follows at once."""
 _CORES = re.compile(r"(--cores|--jobs)(=.*)?|-[cj]\d*|-[cj]all")
 _ANSWERS = re.compile(
     r"(-[nhvlSDt]|--(dry-?run|help|version|list|list-rules|list-changes|lint|dag|rulegraph|filegraph|d3dag|summary|"
@@ -118,7 +120,8 @@ def _watched(folder: Path, plan: Plan, command: Sequence[str], target: str | Non
         flush=True,
     )
     progress = Progress(
-        {f"assess_{job}": len(records) for job, records in plan.jobs.items()}, max(map(len, plan.records))
+        {f"assess_{job}": len(records) for job, records in plan.jobs.items()},
+        min(_WIDEST, max(map(len, plan.records))),
     )
     with tempfile.TemporaryDirectory() as own, log.open("w", encoding="utf-8") as stream:
         pipe = Path(own) / "progress"

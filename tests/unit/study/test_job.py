@@ -230,7 +230,7 @@ def test_a_job_reads_each_file_once_and_writes_all_from_what_it_has(
     assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
     assert {each.table.file_name for each in PER_RECORD} <= {path.name for path in folder.iterdir()}
     (content,) = page_contents([tmp_path / "part"], ["made"])
-    assert content["cases"][0]["history"] and content["motions"]
+    assert content["cases"]["block"]["history"] and content["motions"]
 
 
 def test_a_history_is_that_of_the_response(tmp_path: Path) -> None:
