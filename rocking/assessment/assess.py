@@ -1,9 +1,10 @@
 """One record against one list of structures: predictions, integrations, and the two side by side."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass, field, replace
+from statistics import median
 from time import process_time
+from typing import Any
 
 from rocking.assessment.ensemble import Ensemble, GroundMotions
 from rocking.assessment.fidelity import Answer, cheapest_answer, estimate_from_velocity
@@ -61,6 +62,8 @@ class Case:
     ensemble: Ensemble | None = None
     estimate: Estimate | None = None
     """Of the share that overturns, from the peak velocity, where no ensemble ran; None of an unusual structure."""
+    durations: Mapping[Method, float] = field(default_factory=dict)
+    """CPU time of the methods that were compared, s."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +88,7 @@ class Assessment:
     cases: tuple[Case, ...]
     failures: tuple[Failure, ...]
     durations: Mapping[str, float]
-    """CPU time of each stage, s."""
+    """CPU time of each stage, s, and of each method within the responses."""
 
 
 def assess_structures(
@@ -117,6 +120,9 @@ def assess_structures(
         except RockingError as error:
             failures.append(Failure("responses", name, str(error)))
     durations = {"pulses": extracted - started, "responses": process_time() - extracted}
+    for method in Method:
+        if spent := [case.durations[method] for case in cases if method in case.durations]:
+            durations[method] = len(spent) * median(spent)  # the first case of a process loads compiled code
     return Assessment(accelerogram, analysis, candidates, tuple(cases), tuple(failures), durations)
 
 
@@ -159,9 +165,12 @@ def _case(
     alone: bool,
 ) -> Case:
     mechanism = structure if isinstance(structure, Mechanism) else structure.mechanism()
+    started = process_time()
     prediction = predict(mechanism, candidates, settings) if candidates else None
+    durations = {Method.CLOSED_FORM: process_time() - started} if candidates else {}
     if settings.fidelity == "full":
-        answer, responses = _compared(mechanism, record, prediction, settings, vertical)
+        answer, responses, spent = _compared(mechanism, record, prediction, settings, vertical)
+        durations |= spent
     else:
         answer, responses = _cheapest(structure, mechanism, record, settings, vertical)
     on_record = responses.get(Method.MECHANISM_ON_RECORD)
@@ -180,7 +189,7 @@ def _case(
             verdict_only=settings.fidelity == "auto",
         )
     estimate = estimate_from_velocity(mechanism, record) if sure is None and vertical is None else None
-    return Case(name, mechanism, prediction, responses, check, answer, sure, estimate)
+    return Case(name, mechanism, prediction, responses, check, answer, sure, estimate, durations)
 
 
 def _compared(
@@ -189,19 +198,27 @@ def _compared(
     prediction: Prediction | None,
     settings: AssessmentSettings,
     vertical: Accelerogram | None,
-) -> tuple[Answer, dict[Method, Response]]:
-    """Every method; the mechanism on the record answers."""
-    follow = partial(integrate, tolerance=settings.tolerance)
+) -> tuple[Answer, dict[Method, Response], dict[Method, float]]:
+    """Every method, and the CPU time [s] of each; the mechanism on the record answers."""
+    responses: dict[Method, Response] = {}
+    durations: dict[Method, float] = {}
+
+    def follow(
+        method: Method, moved: Mechanism | EquivalentBlock, motion: Accelerogram | Pulse, **more: Any
+    ) -> None:
+        started = process_time()
+        responses[method] = integrate(moved, motion, settings.tolerance, **more)
+        durations[method] = process_time() - started
+
     block = mechanism.equivalent_block(settings.acceleration_scale)
-    whole = follow(mechanism, record, history=True, vertical=vertical)
-    responses = {
-        Method.MECHANISM_ON_RECORD: whole,
-        Method.BLOCK_ON_RECORD: follow(block, record, vertical=vertical),
-    }
+    follow(Method.MECHANISM_ON_RECORD, mechanism, record, history=True, vertical=vertical)
+    follow(Method.BLOCK_ON_RECORD, block, record, vertical=vertical)
     if prediction is not None:
-        responses[Method.MECHANISM_ON_PULSE] = follow(mechanism, prediction.pulse)
-        responses[Method.BLOCK_ON_PULSE] = follow(prediction.block, prediction.pulse)
-    return Answer(Method.MECHANISM_ON_RECORD, whole.rotation_ratio, whole.outcome, whole), responses
+        follow(Method.MECHANISM_ON_PULSE, mechanism, prediction.pulse)
+        follow(Method.BLOCK_ON_PULSE, prediction.block, prediction.pulse)
+    whole = responses[Method.MECHANISM_ON_RECORD]
+    answer = Answer(Method.MECHANISM_ON_RECORD, whole.rotation_ratio, whole.outcome, whole)
+    return answer, responses, durations
 
 
 def _cheapest(

@@ -243,12 +243,9 @@ def _state(told: _Told, fate: Fate) -> figures.State:
     lines.append(f"static {number(multiplier, 2)} g, PGA {number(peak / multiplier, 2)} ×")
     lines += [short(fate.crack, _LETTERS)] if fate.crack else []
     if fate.elsewhere_crack:
-        many = (
-            f": {fate.elsewhere_overturning_members} of {fate.elsewhere_members}"
-            if fate.elsewhere_members
-            else ""
-        )
-        lines.append(f"{short(fate.elsewhere_crack, _LETTERS - len(many))}{many}")
+        lines.append(short(fate.elsewhere_crack, _LETTERS))
+        if fate.elsewhere_members:
+            lines.append(f"there {fate.elsewhere_overturning_members} of {fate.elsewhere_members} overturn")
     return figures.State(f"{told.numbers[fate.structure]} {fate.structure}", structure, fate, tuple(lines))
 
 

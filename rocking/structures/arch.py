@@ -160,7 +160,7 @@ class Arch(Crackable):
         return tuple(sorted(found, key=lambda each: each.multiplier))
 
     def _hinge_text(self, angle: float) -> str:
-        return f"{np.degrees(angle):.4g}°"
+        return f"{abs(np.degrees(angle)):.0f}°"  # candidates lie several degrees apart
 
     def _static_onset(self) -> Onset:
         try:

@@ -125,7 +125,7 @@ class TimingRow(Row):
     """CPU time of one stage."""
 
     record: str = column(meanings.RECORD)
-    stage: str = column("Stage")
+    stage: str = column("Stage, or a method, whose time is part of that of the stage responses")
     duration_s: float = column("CPU time")
 
 
