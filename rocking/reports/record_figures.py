@@ -48,7 +48,8 @@ LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
     Verdict.STANDS: ("●", "#dceaf7", "black", ""),
 }
 """Sign, colour, colour of letters on it, and pattern of each verdict: in print without colour the others tell it."""
-_COLUMNS, _CELL = 5, (34.0, 64.0)
+_COLUMNS = 5
+_CELL = (34.0, 67.0)
 """Structures of a row, and width and height of each, mm."""
 _DRAWN = (30.0, 27.0)
 """Room for the structure itself, mm."""
