@@ -8,7 +8,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from difflib import get_close_matches
 from functools import cache, cached_property
-from typing import Annotated, Any, Literal, TypeVar, get_args, get_type_hints
+from types import NoneType
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 from rocking.errors import RockingError
 
@@ -38,10 +39,36 @@ class Described:
     more: Mapping[str, Any] = field(default_factory=dict)
 
     @cached_property
+    def _end(self) -> str:
+        return f"_{self.unit.translate(_IN_KEYS)}" if self.unit else ""
+
+    @cached_property
     def key(self) -> str:
         """The name in a file: with the unit at its end."""
-        end = f"_{self.unit.translate(_IN_KEYS)}" if self.unit else ""
-        return self.name if self.name.endswith(end) else self.name + end
+        return self.name if self.name.endswith(self._end) else self.name + self._end
+
+    @cached_property
+    def attribute(self) -> str:
+        """The name without the unit."""
+        return self.name.removesuffix(self._end)
+
+    @cached_property
+    def holds(self) -> Any:
+        """The type of a value that is not None."""
+        one = next(
+            (kind for kind in get_args(self.kind) if self.optional and kind is not NoneType), self.kind
+        )
+        return get_origin(one) or one
+
+    @cached_property
+    def optional(self) -> bool:
+        """Whether it may be None."""
+        return NoneType in get_args(self.kind)
+
+    @property
+    def type(self) -> str:
+        """The type of a value that is not None, as Frictionless calls it."""
+        return {float: "number", int: "integer", bool: "boolean"}.get(self.holds, "string")
 
     @cached_property
     def _adapter(self) -> Any:

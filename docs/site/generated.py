@@ -213,6 +213,6 @@ def _structure(drawing: str, kind: str, form: Form) -> str:
 
 
 def _table_section(described: Table) -> str:
-    rows = ((f"`{c.name}`", c.type, c.unit, c.description, c.equation) for c in described.columns)
+    rows = ((f"`{c.name}`", c.type, c.unit, c.meaning, c.more["equation"]) for c in described.columns)
     body = table(("column", "type", "unit", "meaning", "equation"), rows)
     return f"## {described.file_name}\n\n{described.description}.\n\n{body}"

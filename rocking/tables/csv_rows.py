@@ -9,9 +9,10 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
+from rocking.described import Described
 from rocking.errors import RockingError
 from rocking.tables.files import whole, write_whole
-from rocking.tables.row import Column, R, Row, Table, cell, value_of
+from rocking.tables.row import R, Row, Table, cell, value_of
 
 
 def write_rows(row_class: type[R], rows: Iterable[R], path: Path) -> None:
@@ -135,7 +136,7 @@ def _resource(name: str, table: Table, path: str | list[str]) -> dict[str, objec
     }
 
 
-def _field(described: Column) -> dict[str, str]:
-    known = {"name": described.name, "type": described.type, "description": described.description}
-    more = {"unit": described.unit, "equation": described.equation}
-    return known | {key: value for key, value in more.items() if value}
+def _field(each: Described) -> dict[str, str]:
+    said = {"name": each.name, "type": each.type, "description": each.meaning}
+    more = {"unit": each.unit, "equation": each.more["equation"]}
+    return said | {key: value for key, value in more.items() if value}

@@ -7,8 +7,9 @@ from enum import Enum, StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rocking.described import Described
 from rocking.tables.csv_rows import check_columns, read_rows, readable
-from rocking.tables.row import Column, R, Row, unguarded
+from rocking.tables.row import R, Row, unguarded
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -54,20 +55,20 @@ def frame(
     return made
 
 
-def _dtype(described: Column) -> Any:
+def _dtype(each: Described) -> Any:
     import pandas as pd
 
-    if issubclass(described.holds, StrEnum):
-        return pd.CategoricalDtype([each.value for each in described.holds])
-    known = {float: "float64", bool: "boolean", int: "Int64" if described.optional else "int64"}
-    return known.get(described.holds, "str")
+    if issubclass(each.holds, StrEnum):
+        return pd.CategoricalDtype([one.value for one in each.holds])
+    known = {float: "float64", bool: "boolean", int: "Int64" if each.optional else "int64"}
+    return known.get(each.holds, "str")
 
 
-def _checked(found: Any, described: Column) -> Any:
-    unknown = set(found.cat.categories) - set(described.holds)
-    if unknown or (found.isna().any() and not described.optional):
-        raise ValueError(described.name)
-    return found.cat.set_categories([each.value for each in described.holds])
+def _checked(found: Any, each: Described) -> Any:
+    unknown = set(found.cat.categories) - set(each.holds)
+    if unknown or (found.isna().any() and not each.optional):
+        raise ValueError(each.name)
+    return found.cat.set_categories([one.value for one in each.holds])
 
 
 def _plain(value: object) -> object:
@@ -83,9 +84,9 @@ def rows_of(row_class: type[R], table: "DataFrame") -> Iterator[R]:
         yield row_class(**{each.name: _restored(each, getattr(found, each.name)) for each in columns})
 
 
-def _restored(described: Column, value: Any) -> Any:
+def _restored(each: Described, value: Any) -> Any:
     if value is None or value != value:
-        return None if described.optional else math.nan if described.holds is float else ""
-    if described.holds is tuple:
+        return None if each.optional else math.nan if each.holds is float else ""
+    if each.holds is tuple:
         return tuple(value.split("; ")) if value else ()
-    return described.holds(value)
+    return each.holds(value)

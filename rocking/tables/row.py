@@ -3,10 +3,11 @@
 import math
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import MISSING, dataclass, field, fields
+from dataclasses import MISSING, dataclass, replace
 from enum import Enum, StrEnum
-from types import NoneType
-from typing import Any, ClassVar, TypeVar, dataclass_transform, get_args, get_type_hints
+from typing import Any, ClassVar, Self, TypeVar, dataclass_transform
+
+from rocking.described import Described, described, described_values
 
 _UNITS = {
     "rad_s": "rad/s",
@@ -19,24 +20,6 @@ _UNITS = {
     "m": "m",
 }
 """Unit by the end of a column's name; the first that fits counts."""
-_TYPES = {float: "number", int: "integer", bool: "boolean"}
-"""Frictionless types; every other is a string."""
-
-
-@dataclass(frozen=True)
-class Column:
-    """One column: name (ending in its unit), Frictionless type, meaning, the equation it comes from, and its unit.
-
-    holds: the type of a value. optional: whether it may be None.
-    """
-
-    name: str
-    type: str
-    description: str
-    equation: str = ""
-    unit: str = ""
-    holds: Any = str
-    optional: bool = False
 
 
 @dataclass(frozen=True)
@@ -45,7 +28,7 @@ class Table:
 
     name: str
     description: str
-    columns: tuple[Column, ...]
+    columns: tuple[Described, ...]
 
     @property
     def file_name(self) -> str:
@@ -64,6 +47,28 @@ class Row:
     __slots__ = ()
     table: ClassVar[Table]
 
+    @classmethod
+    def of(cls, *sources: object, **values: Any) -> Self:
+        """Return a row of `values`; each other column is the attribute of its name of the first source that has one.
+
+        The unit may be missing there: `peak_time_s` is the `peak_time` of a response. A source is any object, or a
+        mapping. A column that no source has keeps its default.
+        """
+        for each in cls.table.columns:
+            if each.name not in values:
+                offers = (_offer(source, name) for source in sources for name in (each.name, each.attribute))
+                if (
+                    offer := next((offer for offer in offers if offer is not MISSING), MISSING)
+                ) is not MISSING:
+                    values[each.name] = offer
+        return cls(**values)
+
+
+def _offer(source: object, name: str) -> Any:
+    """The value of `source` for `name`; a method is none."""
+    value = source.get(name, MISSING) if isinstance(source, Mapping) else getattr(source, name, MISSING)
+    return MISSING if callable(value) else value
+
 
 R = TypeVar("R", bound=Row)
 
@@ -72,8 +77,7 @@ def column(
     meaning: str, *, equation: str = "", unit: str = "", last: bool = False, default: Any = MISSING
 ) -> Any:
     """Declare a field of a row. unit: where the name cannot say it. last: after the columns of the subclasses."""
-    known = {"meaning": meaning, "equation": equation, "unit": unit, "last": last}
-    return field(default=default, metadata=known)
+    return described(default, meaning, unit, equation=equation, last=last)
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(column,))
@@ -82,24 +86,16 @@ def row(name: str = "", description: str = "") -> Callable[[type[R]], type[R]]:
 
     def made(cls: type[R]) -> type[R]:
         row_class: Any = dataclass(frozen=True, slots=True, kw_only=True)(cls)
-        hints = get_type_hints(row_class)
-        declared = sorted(fields(row_class), key=lambda each: each.metadata["last"])
-        row_class.table = Table(
-            name, description, tuple(_column(f.name, hints[f.name], f.metadata) for f in declared)
-        )
+        columns = sorted(described_values(row_class).values(), key=lambda each: each.more["last"])
+        row_class.table = Table(name, description, tuple(map(_with_unit, columns)))
         return row_class
 
     return made
 
 
-def _column(name: str, hint: Any, known: Mapping[str, Any]) -> Column:
-    parts = [part for part in get_args(hint) if part is not NoneType] or [hint]
-    holds = tuple if hint == tuple[str, ...] else parts[0]
-    unit = known["unit"] or next((unit for end, unit in _UNITS.items() if name.endswith(f"_{end}")), "")
-    optional = NoneType in get_args(hint)
-    return Column(
-        name, _TYPES.get(holds, "string"), known["meaning"], known["equation"], unit, holds, optional
-    )
+def _with_unit(column: Described) -> Described:
+    ends = (unit for end, unit in _UNITS.items() if column.name.endswith(f"_{end}"))
+    return replace(column, unit=column.unit or next(ends, ""))
 
 
 _FORMULA = re.compile(r"'*[=+\-@\t\r]")
@@ -137,11 +133,11 @@ def unguarded(text: str) -> str:
     return text[1:] if text[:1] == "'" and _FORMULA.match(text) else text
 
 
-def value_of(described: Column, text: str) -> Any:
+def value_of(each: Described, text: str) -> Any:
     """The value of a cell. Raises ValueError with the column and what is allowed."""
-    holds = described.holds
-    if text == "" and (described.optional or holds is float):
-        return None if described.optional else math.nan
+    holds = each.holds
+    if text == "" and (each.optional or holds is float):
+        return None if each.optional else math.nan
     if holds is str:
         return unguarded(text)
     if holds is tuple:
@@ -154,4 +150,4 @@ def value_of(described: Column, text: str) -> Any:
             if issubclass(holds, StrEnum)
             else {bool: "true or false", int: "a whole number"}.get(holds, "a number")
         )
-        raise ValueError(f"column {described.name}: {text!r} must be {allowed}") from None
+        raise ValueError(f"column {each.name}: {text!r} must be {allowed}") from None
