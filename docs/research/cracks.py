@@ -10,8 +10,8 @@ import sys
 import warnings
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
 from itertools import pairwise
 from pathlib import Path
 
@@ -30,14 +30,20 @@ from rocking.structures import LoadedWall, Mechanism, RigidBody
 from rocking.tables import Row, column, row, write_tables
 
 COURSES = (6, 12, 20)
+CHANCES = (0.5, 0.3, 0.2)
+"""Of each number of courses: the time of a stack grows faster than their number."""
 UPLIFTS = (1.1, 6.0)
 """Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
 SCALES = 2
 """Trials of each kind of member under each record."""
 UNIT_WEIGHT = 18e3
 """Of the masonry, N/m³."""
-STEP = 1e-3
+STEP = 2e-3
 """Time step of LMGC90, s."""
+STRONG = 0.5
+"""The motion is cut to where it exceeds this share of the least uplift acceleration, for the rule and the stack alike."""
+MARGIN = 0.5
+"""Before and after that, s."""
 TURN = 0.6
 """Turn of a course, rad, from which nothing comes back: twice the largest critical rotation of any member."""
 TIMEOUT = 3600.0
@@ -70,8 +76,9 @@ class Member:
         lines = [np.column_stack([faces, [z, z]]) for faces, z in zip(self.sections, levels, strict=True)]
         return [np.vstack([lower, upper[::-1]]) for lower, upper in pairwise(lines)]
 
+    @cached_property
     def mechanisms(self) -> dict[int, Mechanism]:
-        """Return the mechanism of each joint that may open, by the number of courses beneath it."""
+        """The mechanism of each joint that may open, by the number of courses beneath it."""
         with (
             warnings.catch_warnings()
         ):  # a course wider than high keeps nothing at an impact, which is meant here
@@ -114,9 +121,10 @@ class Member:
         )
 
 
-def members() -> list[Member]:
+@cache
+def members() -> tuple[Member, ...]:
     """Return walls between floors, columns, façades with a ledge, gables, pinnacles and spires, each of COURSES."""
-    return [make(courses) for courses in COURSES for make in KINDS.values()]
+    return tuple(make(courses) for courses in COURSES for make in KINDS.values())
 
 
 def _wall(slab: float) -> Callable[[int], Member]:
@@ -193,12 +201,12 @@ def crack_rows(name: str, site: str, record: Accelerogram) -> Iterator[CrackRow]
     """Yield the trials of one record: every kind of member, SCALES times, the number of its courses drawn."""
     draw, tried = np.random.default_rng(zlib.crc32(name.encode())), members()
     for place in range(SCALES * len(KINDS)):
-        member = tried[len(KINDS) * draw.integers(len(COURSES)) + place % len(KINDS)]
-        mechanisms = member.mechanisms()
+        member = tried[len(KINDS) * draw.choice(len(COURSES), p=CHANCES) + place % len(KINDS)]
+        mechanisms = member.mechanisms
         static = min(mechanisms, key=lambda joint: mechanisms[joint].uplift_multiplier)
         lift = mechanisms[static].uplift_multiplier * GRAVITY * math.exp(draw.uniform(*np.log(UPLIFTS)))
         factor = float(lift / record.peak_acceleration)
-        motion = record.scaled(factor)
+        motion = _strong(record.scaled(factor), mechanisms[static].uplift_multiplier * GRAVITY)
         verdict, shares = ruled(mechanisms, static, motion)
         falls, opened, reason = stack(member, motion)
         yield CrackRow(
@@ -217,6 +225,13 @@ def crack_rows(name: str, site: str, record: Accelerogram) -> Iterator[CrackRow]
         )
 
 
+def _strong(motion: Accelerogram, lift: float) -> Accelerogram:
+    """Cut the motion to where its acceleration exceeds a share of what lifts the member."""
+    strong = np.flatnonzero(np.abs(motion.acceleration) >= STRONG * lift)
+    beside = round(MARGIN / motion.time_step)
+    return replace(motion, acceleration=motion.acceleration[max(strong[0] - beside, 0) : strong[-1] + beside + 1])
+
+
 def ruled(
     mechanisms: Mapping[int, Mechanism], static: int, motion: Accelerogram
 ) -> tuple[Verdict, Mapping[int, float]]:
@@ -231,7 +246,7 @@ def ruled(
 
 def stack(member: Member, motion: Accelerogram) -> tuple[bool | None, int | None, str]:
     """Return whether the stack falls in LMGC90, the joint that opened most, and why there is no answer."""
-    slowest = min(each.positive.frequency_parameter for each in member.mechanisms().values())
+    slowest = min(each.positive.frequency_parameter for each in member.mechanisms.values())
     given = {
         "member": [member.kind, member.courses],
         "acceleration": motion.acceleration.tolist(),

@@ -21,7 +21,7 @@ def pulse(peak: float) -> Accelerogram:
 def test_statics_chooses_the_crack_that_theory_names(kind):
     """Theory, section 10: the wall near its top by the slab (λ = .244), the column at its base (b/h = .125)."""
     member = KINDS[kind](20)
-    multipliers = {joint: each.uplift_multiplier for joint, each in member.mechanisms().items()}
+    multipliers = {joint: each.uplift_multiplier for joint, each in member.mechanisms.items()}
     static = min(multipliers, key=multipliers.__getitem__)
     if kind == "slab only":
         assert 15 <= static <= 19 and multipliers[static] < 0.25 < multipliers[10] == pytest.approx(
@@ -34,7 +34,7 @@ def test_statics_chooses_the_crack_that_theory_names(kind):
 
 
 def test_a_column_is_the_block_that_it_is_cut_from():
-    column = KINDS["column"](6).mechanisms()
+    column = KINDS["column"](6).mechanisms
     for joint in (0, 3):
         block = Block.of_size(0.6, 4.8 * (1 - joint / 6)).mechanism()
         assert column[joint].positive.frequency_parameter == pytest.approx(block.positive.frequency_parameter)
@@ -42,7 +42,7 @@ def test_a_column_is_the_block_that_it_is_cut_from():
 
 
 def test_the_rule_stands_only_where_every_joint_does():
-    mechanisms = KINDS["column"](6).mechanisms()
+    mechanisms = KINDS["column"](6).mechanisms
     lift = mechanisms[0].uplift_multiplier * GRAVITY
     assert ruled(mechanisms, 0, pulse(0.9 * lift))[0] is Verdict.STANDS
     assert ruled(mechanisms, 0, pulse(12 * lift))[0] is Verdict.OVERTURNS
@@ -78,6 +78,6 @@ def test_a_column_of_lmgc90_falls_where_the_block_does():
     """At its base, far beyond what overturns it, and not below uplift."""
     pytest.importorskip("compas_lmgc90", reason="install the extra compare to run this test")
     column = KINDS["column"](6)
-    lift = column.mechanisms()[0].uplift_multiplier * GRAVITY
+    lift = column.mechanisms[0].uplift_multiplier * GRAVITY
     assert stack(column, pulse(0.9 * lift)) == (False, pytest.approx(0, abs=5), "")
     assert stack(column, pulse(6 * lift))[0]
