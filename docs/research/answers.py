@@ -4,13 +4,12 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from time import process_time
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
 from docs.research import scores
-from docs.research.sites import structures_tried
+from docs.research.sites import one_of_each, structures_tried, timed
 from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.fidelity import Answer, cheapest_answer
 from rocking.assessment.intensity import peak_velocity
@@ -24,8 +23,6 @@ from rocking.structures import Mechanism, Outcome
 RISK = 0.01
 FACTORS = (0.5, 1.0, 2.0)
 SETTLING = (Method.PEAK_VELOCITY, Method.BLOCK_ON_RECORD)
-
-T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -56,11 +53,10 @@ def try_answers(records: Iterable[tuple[str, str, Accelerogram]], cases: Any) ->
     records: as `independent` gives them. cases: the TierCases of all of them.
     """
     mechanisms = [structure.mechanism() for structure in structures_tried().values()]
-    first = {site: record for _, site, record in reversed(list(records))}
-    for site, record in first.items():
+    for _, site, record in one_of_each(records):
         fits = {tier: cases.fit(tier, cases.sites != site) for tier in Tier}
         for motion in map(record.scaled, FACTORS):
-            _, velocity_s = _timed(lambda motion=motion: peak_velocity(motion))
+            _, velocity_s = timed(lambda motion=motion: peak_velocity(motion))
             for mechanism in mechanisms:
                 yield _trial(site, mechanism, motion, fits, velocity_s / len(mechanisms))
 
@@ -68,15 +64,13 @@ def try_answers(records: Iterable[tuple[str, str, Accelerogram]], cases: Any) ->
 def _trial(
     site: str, mechanism: Mechanism, record: Accelerogram, fits: Mapping[Tier, TierFit], velocity_s: float
 ) -> AnswerTrial:
-    motions, asked = (
-        GroundMotions.of(record),
-        partial(cheapest_answer, mechanism, record, risk=RISK, fits=fits),
-    )
-    truth, mechanism_s = _timed(lambda: integrate(mechanism, record))
-    alone, alone_s = _timed(asked)
-    beside, beside_s = _timed(lambda: asked(ensemble_follows=True))
-    whole, ensemble_s = _timed(lambda: ensemble(mechanism, motions))
-    quick, quick_s = _timed(lambda: ensemble(mechanism, motions, verdict_only=True))
+    motions = GroundMotions.of(record)
+    asked = partial(cheapest_answer, mechanism, record, risk=RISK, fits=fits)
+    truth, mechanism_s = timed(lambda: integrate(mechanism, record))
+    alone, alone_s = timed(asked)
+    beside, beside_s = timed(lambda: asked(ensemble_follows=True))
+    whole, ensemble_s = timed(lambda: ensemble(mechanism, motions))
+    quick, quick_s = timed(lambda: ensemble(mechanism, motions, verdict_only=True))
     return AnswerTrial(
         site=site,
         alone=alone,
@@ -91,11 +85,6 @@ def _trial(
         ensemble_s=ensemble_s,
         quick_s=quick_s,
     )
-
-
-def _timed(run: Callable[[], T]) -> tuple[T, float]:
-    started = process_time()
-    return run(), process_time() - started
 
 
 def answer_scores(trials: Sequence[AnswerTrial], replicates: int = scores.REPLICATES) -> list[scores.Score]:

@@ -5,7 +5,6 @@ where it does cracked at the joint of least λ, the choice of statics; between t
 """
 
 import json
-import math
 import sys
 import warnings
 import zlib
@@ -20,17 +19,18 @@ import numpy as np
 from docs.research import scores
 from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, properties
 from docs.research.comparison.codes import ask
-from docs.research.sites import independent
+from docs.research.report import publish
+from docs.research.sites import independent, lifting_factor, one_of_each
 from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.verdict import Verdict
 from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import LoadedWall, Mechanism, RigidBody
-from rocking.tables import Row, column, row, write_tables
+from rocking.tables import Row, column, read_rows, row, write_rows
 
 COURSES = (6, 12, 20)
-CHANCES = (0.5, 0.3, 0.2)
+CHANCES = (0.7, 0.2, 0.1)
 """Of each number of courses: the time of a stack grows faster than their number."""
 UPLIFTS = (1.1, 6.0)
 """Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
@@ -41,7 +41,7 @@ UNIT_WEIGHT = 18e3
 STEP = 2e-3
 """Time step of LMGC90, s."""
 STRONG = 0.5
-"""The motion is cut to where it exceeds this share of the least uplift acceleration, for the rule and the stack alike."""
+"""Rule and stack are given the motion where it exceeds this share of the least uplift acceleration."""
 MARGIN = 0.5
 """Before and after that, s."""
 TURN = 0.6
@@ -79,10 +79,10 @@ class Member:
     @cached_property
     def mechanisms(self) -> dict[int, Mechanism]:
         """The mechanism of each joint that may open, by the number of courses beneath it."""
-        with (
-            warnings.catch_warnings()
-        ):  # a course wider than high keeps nothing at an impact, which is meant here
-            warnings.simplefilter("ignore", StructureWarning)
+        with warnings.catch_warnings():
+            warnings.simplefilter(
+                "ignore", StructureWarning
+            )  # a course wider than high keeps nothing, as meant
             if self.slab is None:
                 return {joint: self._above(joint).mechanism() for joint in range(self.courses)}
             return {joint: self._hinged(joint).mechanism() for joint in range(1, self.courses)}
@@ -186,50 +186,56 @@ def write_cracks(
     tell: Callable[[str], None],
     most: int | None = None,
 ) -> None:
-    """Write cracks.csv and its scores into `folder`. records: their sites took no part in the rule; most: of them."""
-    chosen = {site: (name, record) for name, site, record in reversed(list(independent(records)))}
+    """Write cracks.csv, its scores and report into `folder`, and the rows of each record as they come.
+
+    records: their sites took no part in the rule; most: of them. Rows that `folder` holds are not made again.
+    """
     rows: list[CrackRow] = []
-    for site, (name, record) in list(chosen.items())[:most]:
-        rows += crack_rows(name, site, record)
+    for name, site, record in one_of_each(independent(records))[:most]:
+        path = folder / "trials" / f"{name}.csv"
+        if not path.is_file():  # a run of hours goes on where it was stopped
+            write_rows(CrackRow, (crack_row(name, site, record, k) for k in range(SCALES * len(KINDS))), path)
+        rows += read_rows(CrackRow, path)
         tell(f"{name}: {sum(each.falls is not None for each in rows)} of {len(rows)} trials")
-    write_tables(
-        {CrackRow: rows, scores.Score: list(crack_scores(rows))}, folder, "rocking-cracks", "cracks.json"
+    subtitle = "Stacks of courses in LMGC90 beside the mechanism of every joint, one component of each site."
+    tables = {CrackRow: rows, scores.Score: list(crack_scores(rows))}
+    publish(folder, "Which crack governs", subtitle, tables)
+
+
+def crack_row(name: str, site: str, record: Accelerogram, place: int) -> CrackRow:
+    """Return one trial: the kind of member by its place, its number of courses and the scale of the record drawn."""
+    draw = np.random.default_rng([zlib.crc32(name.encode()), place])
+    member = members()[len(KINDS) * draw.choice(len(COURSES), p=CHANCES) + place % len(KINDS)]
+    mechanisms = member.mechanisms
+    static = min(mechanisms, key=lambda joint: mechanisms[joint].uplift_multiplier)
+    multiplier = mechanisms[static].uplift_multiplier
+    factor = lifting_factor(record, multiplier, UPLIFTS, draw)
+    motion = _strong(record.scaled(factor), multiplier * GRAVITY)
+    verdict, shares = ruled(mechanisms, static, motion)
+    falls, opened, reason = stack(member, motion)
+    return CrackRow(
+        kind=member.kind,
+        courses=member.courses,
+        record=name,
+        site=site,
+        scale_factor=factor,
+        falls=falls,
+        opened=opened,
+        static_joint=static,
+        static_share=shares[static],
+        largest_share=max(shares.values()),
+        verdict=verdict,
+        reason=reason,
     )
-
-
-def crack_rows(name: str, site: str, record: Accelerogram) -> Iterator[CrackRow]:
-    """Yield the trials of one record: every kind of member, SCALES times, the number of its courses drawn."""
-    draw, tried = np.random.default_rng(zlib.crc32(name.encode())), members()
-    for place in range(SCALES * len(KINDS)):
-        member = tried[len(KINDS) * draw.choice(len(COURSES), p=CHANCES) + place % len(KINDS)]
-        mechanisms = member.mechanisms
-        static = min(mechanisms, key=lambda joint: mechanisms[joint].uplift_multiplier)
-        lift = mechanisms[static].uplift_multiplier * GRAVITY * math.exp(draw.uniform(*np.log(UPLIFTS)))
-        factor = float(lift / record.peak_acceleration)
-        motion = _strong(record.scaled(factor), mechanisms[static].uplift_multiplier * GRAVITY)
-        verdict, shares = ruled(mechanisms, static, motion)
-        falls, opened, reason = stack(member, motion)
-        yield CrackRow(
-            kind=member.kind,
-            courses=member.courses,
-            record=name,
-            site=site,
-            scale_factor=factor,
-            falls=falls,
-            opened=opened,
-            static_joint=static,
-            static_share=shares[static],
-            largest_share=max(shares.values()),
-            verdict=verdict,
-            reason=reason,
-        )
 
 
 def _strong(motion: Accelerogram, lift: float) -> Accelerogram:
     """Cut the motion to where its acceleration exceeds a share of what lifts the member."""
     strong = np.flatnonzero(np.abs(motion.acceleration) >= STRONG * lift)
     beside = round(MARGIN / motion.time_step)
-    return replace(motion, acceleration=motion.acceleration[max(strong[0] - beside, 0) : strong[-1] + beside + 1])
+    return replace(
+        motion, acceleration=motion.acceleration[max(strong[0] - beside, 0) : strong[-1] + beside + 1]
+    )
 
 
 def ruled(
@@ -253,6 +259,7 @@ def stack(member: Member, motion: Accelerogram) -> tuple[bool | None, int | None
         "time_step": motion.time_step,
         "critical_rotation": TURN / 6.0,  # of lmgc90.FALLEN
         "frequency_parameter": slowest,
+        "settled": min(each.critical_rotation for each in member.mechanisms.values()) / 3,
     }
     found, reason = ask("docs.research.cracks", given, TIMEOUT)
     if found is None:

@@ -12,19 +12,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from docs.research import scores
+from docs.research.report import publish
 from docs.research.scores import Score
-from docs.research.sites import independent, site_of
+from docs.research.sites import independent, lifting_factor, site_of
 from rocking.assessment.ensemble import CAUSES, Ensemble, EnsembleSettings, GroundMotions, drawn, ensemble
 from rocking.assessment.ensemble.members import lattice
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
-from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.reports.style import new_figure, styled, svg
 from rocking.structures import Structure
-from rocking.tables import Row, column, row, write_rows, write_whole
+from rocking.tables import Row, column, row
 
 DRAWS = 4000
 STRUCTURES_PER_RECORD = 3
@@ -34,6 +32,8 @@ OPEN = (0.02, 0.98)
 """Shares between which an error of the design matters."""
 ALLOWED = {64: 0.07, 256: 0.035}
 """Error asked of a share, by members."""
+EDGES = (0.0, 0.02, 0.2, 0.4, 0.6, 0.8, 0.98, 1.0)
+"""Of the classes of a reliability diagram."""
 BEYOND = 0.03
 """By how much the share of the opposite may exceed the risk of a verdict."""
 CHOSEN, LEFT_OUT = "chosen", "left out"
@@ -89,8 +89,7 @@ def _trial(
 ) -> dict[str, Any]:
     """The columns of one trial, but those that name it."""
     mechanism, settings = structure.mechanism(), EnsembleSettings()
-    wanted = np.exp(rng.uniform(*np.log(UPLIFTS))) * mechanism.uplift_multiplier * GRAVITY
-    factor = float(wanted / record.peak_acceleration)
+    factor = lifting_factor(record, mechanism.uplift_multiplier, UPLIFTS, rng)
     motions = GroundMotions.of(record.scaled(factor))
     few, more = (drawn(mechanism, motions, lattice(size, CAUSES), settings) for size in ALLOWED)
     many = drawn(mechanism, motions, rng.random((draws, CAUSES)), settings)
@@ -115,15 +114,18 @@ def _inside(whole: Ensemble, many: Ensemble) -> float:
     return float(((many.rotation_ratios >= whole.low) & (many.rotation_ratios <= whole.high)).mean())
 
 
-def ensemble_accuracy(trials: Sequence[EnsembleTrial], replicates: int = scores.REPLICATES) -> list[Score]:
-    """Return every measure on each half of the sites, with its interval."""
-    halves = {half: [trial for trial in trials if trial.half == half] for half in (CHOSEN, LEFT_OUT)}
-    return [
-        row
-        for half, own in halves.items()
-        if own
-        for row in scores.scored("ensemble", half, _measures(own), [trial.site for trial in own], replicates)
-    ]
+def ensemble_scores(trials: Sequence[EnsembleTrial], replicates: int = scores.REPLICATES) -> list[Score]:
+    """Return every measure on each half of the sites and the reliability of the shares, with intervals."""
+    found: list[Score] = []
+    for half in sorted({trial.half for trial in trials}):
+        own = [trial for trial in trials if trial.half == half]
+        sites = [trial.site for trial in own]
+        stated, drawn_share = (
+            np.array([getattr(trial, name) for trial in own]) for name in ("share", "share_drawn")
+        )
+        found += scores.scored("ensemble", half, _measures(own), sites, replicates)
+        found += scores.reliability("ensemble", half, stated, drawn_share, sites, EDGES, replicates)
+    return found
 
 
 def _measures(trials: Sequence[EnsembleTrial]) -> Mapping[str, scores.Measure]:
@@ -158,34 +160,8 @@ def write_ensemble_accuracy(
     structures: Mapping[str, Structure],
     folder: Path,
 ) -> None:
-    """Write ensemble_trials.csv, ensemble_accuracy.csv and ensemble_reliability.svg into `folder`."""
+    """Write the trials, their scores and their report into `folder`."""
     trials = list(try_ensembles(near_fault, others, structures))
-    write_rows(EnsembleTrial, trials, folder / "ensemble_trials.csv")
-    write_rows(Score, ensemble_accuracy(trials), folder / "ensemble_accuracy.csv")
-    write_whole(folder / "ensemble_reliability.svg", svg(reliability_figure(trials)).encode())
-
-
-@styled
-def reliability_figure(trials: Sequence[EnsembleTrial]) -> Figure:
-    """Draw the share of each ensemble against that of the draws, by its verdict; the diagonal is right."""
-    figure = new_figure(95, 115, margins=(16, 3, 13, 3))
-    panel = figure.subplots()
-    panel.plot([0, 1], [0, 1], color="black", linewidth=0.7)
-    for verdict, marker in {
-        Verdict.STANDS: "oC0",
-        Verdict.UNDECIDED: "xC7",
-        Verdict.OVERTURNS: "sC3",
-    }.items():
-        own = [(trial.share_drawn, trial.share) for trial in trials if trial.verdict is verdict]
-        look = {
-            "color": "none",
-            "markeredgecolor": marker[1:],
-            "markersize": 4,
-            "label": f"{verdict} ({len(own)})",
-        }
-        panel.plot(*np.array(own).reshape(-1, 2).T, marker[0], **look)
-    panel.set_xlabel(f"share of {max(trial.draws for trial in trials)} random draws that overturn [-]")
-    panel.set_ylabel("share of the ensemble that overturns [-]")
-    panel.set(xlim=(-0.03, 1.03), ylim=(-0.03, 1.03), aspect="equal")
-    panel.legend(loc="upper left")
-    return figure
+    subtitle = f"Shares of few members beside {DRAWS} random draws of the same causes."
+    tables = {EnsembleTrial: trials, Score: ensemble_scores(trials)}
+    publish(folder, "How right the share of an ensemble is", subtitle, tables)

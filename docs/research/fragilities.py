@@ -3,13 +3,16 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from time import process_time
-from typing import TypeVar
 
 import numpy as np
+from scipy.optimize import isotonic_regression
 
+from docs.research import scores
+from docs.research.report import publish
+from docs.research.scores import Score
+from docs.research.sites import timed
 from rocking.assessment.ensemble import EnsembleSettings
-from rocking.assessment.fragility import Fragility, fragility_of, incremental_dynamic_analysis
+from rocking.assessment.fragility import incremental_dynamic_analysis
 from rocking.assessment.rows.of_trade import TradeMethod
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.trade import best_sines
@@ -18,28 +21,11 @@ from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maxima
 from rocking.structures import EquivalentBlock, Structure
-from rocking.tables import Row, column, row, write_tables
 
 TIGHT = 1e-9
 """Tolerance of the reference."""
-
-T = TypeVar("T")
-
-
-@row("trade_fragility", "One row per structure and method: error and time of a whole fragility")
-class TradeFragilityRow(Row):
-    """One method for one structure."""
-
-    structure: str = column("Name of the structure")
-    method: str = column("What was computed with")
-    records: int = column("Components that were scaled")
-    stations: int = column("Stations they come from")
-    median: float = column("Peak ground velocity at which half overturn, m/s")
-    reference_median: float = column("The same of the mechanism at 1e-9, m/s")
-    error: float = column("Median over that of the reference, less one")
-    curve_error: float = column("Mean error of P(overturns) over the levels where it is open")
-    cpu_s: float = column("Processor time of all responses")
-    preparation_s: float = column("Processor time spent on the pulses of all records before")
+OPEN = (0.02, 0.98)
+"""Probabilities between which the error of a curve counts."""
 
 
 def write_fragilities(
@@ -48,68 +34,65 @@ def write_fragilities(
     folder: Path,
     tell: Callable[[str], None],
 ) -> None:
-    """Write trade_fragility.csv and its description into `folder`; tell: is given a line for each structure."""
-    sines, searched = _timed(lambda: [best_sines(record, AssessmentSettings()) for record in records])
-    rows: list[TradeFragilityRow] = []
+    """Write the scores of every method into `folder`; tell: is given a line for each structure."""
+    sines, searched_s = timed(lambda: [best_sines(record, AssessmentSettings()) for record in records])
+    found: list[Score] = []
     for name, structure in structures.items():
-        rows += fragility_rows(name, structure, records, sines, searched)
+        found += method_scores(name, structure, records, sines)
         tell(f"fragility of {name}")
-    write_tables({TradeFragilityRow: rows}, folder, "rocking-trade-fragility", "trade_fragility.json")
+    subtitle = f"{len(records)} components; the sines of all took {searched_s:.0f} s of processor time."
+    publish(folder, "What accuracy costs in a fragility", subtitle, {Score: found})
 
 
-def fragility_rows(
-    name: str,
-    structure: Structure,
-    records: Sequence[Accelerogram],
-    sines: Sequence[Sequence[Pulse]],
-    searched_s: float,
-) -> Iterator[TradeFragilityRow]:
-    """Yield the rows of one structure. sines: of each record, best first; their search took searched_s."""
+def method_scores(
+    name: str, structure: Structure, records: Sequence[Accelerogram], sines: Sequence[Sequence[Pulse]]
+) -> Iterator[Score]:
+    """Yield the scores of every method for one structure, against the mechanism at TIGHT. sines: best first."""
     analysis = partial(incremental_dynamic_analysis, records, structure, intensity_measure="pgv")
     reference = analysis(tolerance=TIGHT)
-    levels, exact = reference.levels, reference.fragility()
+    levels, exact = reference.levels, np.isinf(reference.rotation_ratios).mean(axis=2)
     factors = levels / reference.intensities[:, None]
     block = structure.mechanism().equivalent_block("rest")
-    runs: dict[TradeMethod, Callable[[], np.ndarray | Fragility]] = {
+    runs: dict[TradeMethod, Callable[[], np.ndarray]] = {
         TradeMethod.ONE_SINE: lambda: _by_sines(block, [each[:1] for each in sines], factors),
         TradeMethod.SINES: lambda: _by_sines(block, sines, factors),
-        TradeMethod.BLOCK: lambda: np.isinf(
+        TradeMethod.BLOCK: lambda: np.array(
             [integrate_batch([block], *pair, workers=1)[0] for pair in zip(records, factors, strict=True)]
-        ),
-        TradeMethod.MECHANISM: lambda: analysis(levels=levels).fragility(),
-        TradeMethod.ENSEMBLE: lambda: analysis(levels=levels, ensemble=EnsembleSettings()).fragility(),
+        )[..., None],
+        TradeMethod.MECHANISM: lambda: analysis(levels=levels).rotation_ratios,
+        TradeMethod.ENSEMBLE: lambda: analysis(levels=levels, ensemble=EnsembleSettings()).rotation_ratios,
     }
-    is_open = (exact.probability > 0.02) & (exact.probability < 0.98)
     for method, run in runs.items():
-        found, cpu_s = _timed(run)
-        if not isinstance(found, Fragility):
-            found = fragility_of(levels, found.astype(float), reference.stations)
-        yield TradeFragilityRow(
-            structure=name,
-            method=method,
-            records=len(records),
-            stations=len(set(reference.stations)),
-            median=found.median,
-            reference_median=exact.median,
-            error=found.median / exact.median - 1,
-            curve_error=float(np.abs(found.probability - exact.probability)[is_open].mean()),
-            cpu_s=cpu_s,
-            preparation_s=searched_s if method in (TradeMethod.ONE_SINE, TradeMethod.SINES) else 0.0,
-        )
+        ratios, cpu_s = timed(run)
+        shares = np.isinf(ratios).mean(axis=2)
+        measures = {
+            "error of the median": partial(_median_error, levels, shares, exact),
+            "mean error of the curve": partial(_curve_error, shares, exact),
+            "processor time of all, s": scores.mean(np.full(len(shares), cpu_s)),
+        }
+        yield from scores.scored(method, name, measures, reference.stations)
+
+
+def crossing(levels: np.ndarray, shares: np.ndarray) -> float:
+    """Return the level at which the rising curve nearest to `shares` (k,) crosses one half, linear in the logarithm."""
+    return float(np.exp(np.interp(0.5, isotonic_regression(shares).x, np.log(levels))))
+
+
+def _median_error(levels: np.ndarray, shares: np.ndarray, exact: np.ndarray, rows: np.ndarray) -> float:
+    return crossing(levels, shares[rows].mean(axis=0)) / crossing(levels, exact[rows].mean(axis=0)) - 1
+
+
+def _curve_error(shares: np.ndarray, exact: np.ndarray, rows: np.ndarray) -> float:
+    truth = exact[rows].mean(axis=0)
+    is_open = (truth > OPEN[0]) & (truth < OPEN[1])
+    return float(np.abs(shares[rows].mean(axis=0) - truth)[is_open].mean()) if is_open.any() else np.nan
 
 
 def _by_sines(block: EquivalentBlock, sines: Sequence[Sequence[Pulse]], factors: np.ndarray) -> np.ndarray:
-    """Whether the worst sine of each record overturns the block, (r, k), at `factors` (r, k); never without any."""
-    overturns = np.zeros(factors.shape, dtype=bool)
+    """The largest rotation ratio under any sine of each record, (r, k, 1), at `factors` (r, k); 0 without any."""
+    ratios = np.zeros((*factors.shape, 1))
     for place, (own, scales) in enumerate(zip(sines, factors, strict=True)):
         scaled = [Pulse(p.amplitude * f, p.circular_frequency, p.start_time) for p in own for f in scales]
         if scaled:
-            overturns[place] = np.isinf(predict_maxima([block], scaled)[0].reshape(-1, scales.size)).any(
-                axis=0
-            )
-    return overturns
-
-
-def _timed(run: Callable[[], T]) -> tuple[T, float]:
-    started = process_time()
-    return run(), process_time() - started
+            ratios[place, :, 0] = predict_maxima([block], scaled)[0].reshape(-1, scales.size).max(axis=0)
+    return ratios

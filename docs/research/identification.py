@@ -70,14 +70,10 @@ class Identification:
 
     def ranges(self) -> Mapping[str, tuple[float, float, float]]:
         """Return 5 %, 50 % and 95 % of PARAMETERS over the population."""
-        order = np.argsort(self.parameters, axis=0, kind="stable")
-        shares = np.cumsum(self.mixture.weights[order], axis=0)
-        ranked = np.take_along_axis(self.parameters, order, axis=0)
-        columns = np.arange(len(PARAMETERS))
-        low, middle, high = (
-            ranked[(shares >= level - 1e-9).argmax(axis=0), columns].tolist() for level in LEVELS
+        ends = np.quantile(
+            self.parameters, LEVELS, axis=0, weights=self.mixture.weights, method="inverted_cdf"
         )
-        return dict(zip(PARAMETERS, zip(low, middle, high, strict=True), strict=True))
+        return {name: tuple(own) for name, own in zip(PARAMETERS, ends.T.tolist(), strict=True)}
 
 
 def identify(
@@ -98,7 +94,7 @@ def identify(
     tests that nearly all end alike, the ranges stay near the prior's. What was identified holds for motions like those
     of the tests. Raises ConfigurationError when the sequences differ in length or are empty.
     """
-    labels = [str(k) for k in range(len(records))] if motions is None else list(motions)
+    labels = list(motions or map(str, range(len(records))))
     if not len(records) == len(outcomes) == len(labels) > 0:
         raise ConfigurationError(
             f"there are {len(records)} records, {len(outcomes)} outcomes and {len(labels)} motions, but there must be "

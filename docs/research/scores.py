@@ -11,6 +11,8 @@ REPLICATES = 1000
 """Draws of the sites behind an interval."""
 LEVELS = (0.05, 0.95)
 """Quantiles of the draws between which a 90 % interval lies."""
+STATED, HAPPENED = "stated", "happened"
+"""Measures of one class of a reliability diagram: its mean probability, and the share of its cases that overturned."""
 Measure = Callable[[np.ndarray], float]
 """A score of some of the cases, by index, with repeats; nan where they tell none."""
 
@@ -19,37 +21,21 @@ Measure = Callable[[np.ndarray], float]
 class Score(Row):
     """One measure of one subject."""
 
-    subject: str = column("What was judged: a tier, a method, an ensemble")
+    subject: str = column("What was judged: a tier, a method, an ensemble, a code")
     part: str = column("Cases on which it was judged")
     measure: str = column("What was measured")
     value: float = column("Its value on all cases of the part")
     value_low: float = column("5 % quantile over resampled sites")
     value_high: float = column("95 % quantile over resampled sites")
     cases: int = column("Cases behind it")
-    sites: int = column("Sites behind it; of a shake table: input motions")
-
-
-@row("reliability", "One row per subject, part and class of the stated probability")
-class Reliability(Row):
-    """One class of a reliability diagram."""
-
-    subject: str = column("What was judged")
-    part: str = column("Cases on which it was judged")
-    probability_from: float = column("Lower edge of the class")
-    probability_to: float = column("Upper edge of the class")
-    stated: float = column("Mean probability stated in it")
-    observed: float = column("Share that overturned")
-    observed_low: float = column("5 % quantile of that share over resampled sites")
-    observed_high: float = column("95 % quantile of that share over resampled sites")
-    cases: int = column("Cases in it")
-    sites: int = column("Sites in it")
+    sites: int = column("Sites behind it; of a shake table: input motions; of codes: cases")
 
 
 def scored(
     subject: str,
     part: str,
     measures: Mapping[str, Measure],
-    sites: Sequence[object],
+    sites: Sequence[object] | np.ndarray,
     replicates: int = REPLICATES,
 ) -> list[Score]:
     """Return every measure of the cases at `sites` (n,), with its interval."""
@@ -67,33 +53,17 @@ def reliability(
     part: str,
     probability: np.ndarray,
     outcomes: np.ndarray,
-    sites: Sequence[object],
+    sites: Sequence[object] | np.ndarray,
     edges: Sequence[float],
     replicates: int = REPLICATES,
-) -> Iterator[Reliability]:
-    """Yield the classes between `edges` that hold a case. probability, outcomes: (n,) in [0, 1]."""
+) -> Iterator[Score]:
+    """Yield what was STATED and what HAPPENED in the classes between `edges` that hold a case; (n,) in [0, 1]."""
     place = np.clip(np.searchsorted(edges, probability, side="right") - 1, 0, len(edges) - 2)
-    labels, draws = np.asarray(sites), resampled(sites, replicates)
-
-    def observed(rows: np.ndarray) -> float:
-        inside = rows[place[rows] == which]
-        return float(outcomes[inside].mean()) if inside.size else math.nan
-
     for which in np.unique(place).tolist():
-        rows = np.flatnonzero(place == which)
-        low, high = interval(observed, draws)
-        yield Reliability(
-            subject=subject,
-            part=part,
-            probability_from=edges[which],
-            probability_to=edges[which + 1],
-            stated=float(probability[rows].mean()),
-            observed=float(outcomes[rows].mean()),
-            observed_low=low,
-            observed_high=high,
-            cases=rows.size,
-            sites=len(np.unique(labels[rows])),
-        )
+        own = place == which
+        measures = {STATED: mean(probability[own]), HAPPENED: mean(outcomes[own])}
+        called = f"{part}, {edges[which]:g} to {edges[which + 1]:g} stated"
+        yield from scored(subject, called, measures, np.asarray(sites)[own].tolist(), replicates)
 
 
 def resampled(labels: Sequence[object] | np.ndarray, replicates: int) -> list[np.ndarray]:
@@ -117,10 +87,25 @@ def interval(measure: Measure, draws: Sequence[np.ndarray]) -> tuple[float, floa
     return float(low), float(high)
 
 
-def mean(values: np.ndarray) -> Measure:
+def mean(values: Sequence[float] | np.ndarray) -> Measure:
     """Return the mean of `values` (n,) as a measure; cases of nan do not count."""
-    counted = ~np.isnan(values)
-    return lambda rows: float(np.nanmean(values[rows])) if counted[rows].any() else math.nan
+    return _over(values, np.mean)
+
+
+def median(values: Sequence[float] | np.ndarray, share: float = 0.5) -> Measure:
+    """Return the median of `values` (n,), or another quantile, as a measure; cases of nan do not count."""
+    return _over(values, lambda known: np.quantile(known, share, method="higher"))
+
+
+def _over(values: Sequence[float] | np.ndarray, statistic: Callable[[np.ndarray], float]) -> Measure:
+    counted = np.asarray(values, dtype=float)
+
+    def measure(rows: np.ndarray) -> float:
+        known = counted[rows]
+        known = known[~np.isnan(known)]
+        return float(statistic(known)) if known.size else math.nan
+
+    return measure
 
 
 def brier(probability: np.ndarray, shares: np.ndarray) -> float:

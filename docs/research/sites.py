@@ -1,17 +1,21 @@
 """Real records by site: what counts as independent, and the structures that are tried under them."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from time import process_time
+from typing import TypeVar
 
 import numpy as np
 
 from rocking.errors import PulseError
 from rocking.pulses import Pulse, extract_pulses
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Arch, Block, Structure, Wall
 
 MOST_COMPONENTS = 2
 """Of a site that count."""
+T = TypeVar("T")
 
 
 def structures_tried() -> dict[str, Structure]:
@@ -52,6 +56,28 @@ def independent(records: Iterable[tuple[str, Accelerogram]]) -> Iterator[tuple[s
         if named == site_name and direction not in directions and len(directions) < MOST_COMPONENTS:
             directions.add(direction)
             yield name, site_name, record
+
+
+def one_of_each(records: Iterable[tuple[str, str, Accelerogram]]) -> list[tuple[str, str, Accelerogram]]:
+    """Return the first component of each site, of records as `independent` gives them."""
+    first = {site: (name, site, record) for name, site, record in reversed(list(records))}
+    return list(reversed(first.values()))
+
+
+def lifting_factor(
+    record: Accelerogram, multiplier: float, uplifts: tuple[float, float], draw: np.random.Generator
+) -> float:
+    """Draw what `record` is multiplied by, so that its peak is within `uplifts` times what lifts, log-uniform.
+
+    multiplier: uplift acceleration over g.
+    """
+    return float(multiplier * GRAVITY * np.exp(draw.uniform(*np.log(uplifts))) / record.peak_acceleration)
+
+
+def timed(run: Callable[[], T]) -> tuple[T, float]:
+    """Return what `run` returns, and the processor time that it took, s."""
+    started = process_time()
+    return run(), process_time() - started
 
 
 def site_of(record: Accelerogram) -> str:

@@ -9,7 +9,8 @@ import numpy as np
 
 from docs.research import scores
 from docs.research.answers import answer_scores, try_answers
-from docs.research.scores import Reliability, Score
+from docs.research.report import publish
+from docs.research.scores import Score
 from docs.research.sites import independent, structures_tried
 from rocking.assessment import intensity
 from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn
@@ -21,7 +22,6 @@ from rocking.assessment.tiers import write_tiers as write_fits
 from rocking.motion import integrate_batch
 from rocking.records import Accelerogram
 from rocking.structures import Structure
-from rocking.tables import write_rows
 
 FACTORS = (0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8)
 """On each record, so that it speaks for weaker and stronger shaking of the same shape."""
@@ -114,9 +114,7 @@ def left_out(tier: Tier, cases: TierCases) -> np.ndarray:
     return odds
 
 
-def tier_scores(
-    cases: TierCases, replicates: int = scores.REPLICATES
-) -> Iterator[tuple[list[Score], list[Reliability]]]:
+def tier_scores(cases: TierCases, replicates: int = scores.REPLICATES) -> Iterator[Score]:
     """Yield the scores and the reliability of each tier on sites left out."""
     overturned, part = cases.shares, "sites left out"
     for tier in Tier:
@@ -129,10 +127,8 @@ def tier_scores(
             ),
             "calibration slope": lambda rows, odds=odds: scores.logit_slope(odds[rows], overturned[rows]),
         }
-        yield (
-            scores.scored(tier, part, measures, cases.sites, replicates),
-            list(scores.reliability(tier, part, stated, overturned, cases.sites, BINS, replicates)),
-        )
+        yield from scores.scored(tier, part, measures, cases.sites, replicates)
+        yield from scores.reliability(tier, part, stated, overturned, cases.sites, BINS, replicates)
 
 
 def write_tiers(
@@ -141,15 +137,14 @@ def write_tiers(
     """Fit and judge every tier on `records`; write the fits and the scores into `folder`; tiers.json is what ships."""
     counted = list(independent(records))
     cases = TierCases(list(tier_cases(counted)))
-    found = list(tier_scores(cases, replicates))
-    answers = answer_scores(list(try_answers(counted, cases)), replicates)
-    write_rows(Score, [row for each, _ in found for row in each] + answers, folder / "tier_scores.csv")
-    write_rows(Reliability, [row for _, each in found for row in each], folder / "tier_reliability.csv")
-    hashes = sorted({record.source.sha256 for _, _, record in counted})
-    about = {
+    found = [*tier_scores(cases, replicates), *answer_scores(list(try_answers(counted, cases)), replicates)]
+    about: dict[str, object] = {
         "records": len({case.record for case in cases.cases}),
         "sites": len(set(cases.sites)),
         "cases": len(cases.cases),
-        "records_sha256": hashlib.sha256("\n".join(hashes).encode()).hexdigest(),
     }
+    told = ", ".join(f"{many} {name}" for name, many in about.items())
+    publish(folder, "What a cheap figure says of overturning", f"{told}.", {Score: found})
+    hashes = "\n".join(sorted({record.source.sha256 for _, _, record in counted}))
+    about["records_sha256"] = hashlib.sha256(hashes.encode()).hexdigest()
     write_fits(folder / "tiers.json", {tier: cases.fit(tier) for tier in Tier}, about)

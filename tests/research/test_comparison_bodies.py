@@ -9,7 +9,7 @@ import pytest
 from docs.research.comparison import lmgc90
 from docs.research.comparison.bodies import properties, rigid_bodies
 from docs.research.comparison.cases import structures
-from docs.research.comparison.runs import answer_of, landings, restitution
+from docs.research.comparison.runs import landings, limit_of_runs, restitution
 from docs.research.reference import reference_landings
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
@@ -100,10 +100,10 @@ def test_the_frame_of_lmgc90_keeps_what_angular_momentum_keeps():
         "frequency_parameter": mechanism.positive.frequency_parameter,
         "critical_rotation": mechanism.critical_rotation,
     }
-    answer = answer_of(lmgc90.runs(given), 0.0, "")
+    answer = limit_of_runs(lmgc90.runs(given), "")
     truth, _ = reference_landings(mechanism, Accelerogram(pulse, step))
     alpha, gamma = math.atan(0.5 / 4.0), 1.0
     kept = (1 - 1.5 * math.sin(alpha) ** 2 + 3 * gamma * math.cos(2 * alpha)) / (1 + 3 * gamma)
     # A first-order method at three steps: a percent of η, a few of φ.
-    assert answer["restitution"] == pytest.approx(kept, abs=0.015)
-    assert answer["rotation_ratio"] == pytest.approx(truth, rel=0.05)
+    assert answer.restitution == pytest.approx(kept, abs=0.015)
+    assert answer.rotation_ratio == pytest.approx(truth, rel=0.05)

@@ -6,50 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from docs.research.ensembles import (
-    CHOSEN,
-    LEFT_OUT,
-    EnsembleTrial,
-    ensemble_accuracy,
-    try_ensembles,
-)
+from docs.research.ensembles import CHOSEN, LEFT_OUT, EnsembleTrial, ensemble_scores, try_ensembles
 from rocking.assessment.verdict import Verdict
 from rocking.records import Accelerogram
 from rocking.structures import Block
 
 TIMES = np.arange(0, 6, 0.01)
 RECORDS = [
-    (
-        f"made {k}",
-        Accelerogram(
-            np.sin(2 * np.pi * TIMES / period) * np.exp(-((TIMES - 2) ** 2)),
-            0.01,
-            event="made",
-            station=f"{k}",
-        ),
-    )
-    for k, period in enumerate((0.5, 0.8, 1.1, 1.6))
+    (f"made {k}", Accelerogram(samples * np.exp(-((TIMES - 2) ** 2)), 0.01, event="made", station=f"{k}"))
+    for k, samples in enumerate(np.sin(2 * np.pi * TIMES / period) for period in (0.5, 0.8, 1.1, 1.6))
 ]
 STRUCTURES = {"slender": Block(2.0, 0.15), "stout": Block(3.0, 0.3)}
-TRIAL = EnsembleTrial(
-    record="a",
-    site="s",
-    half=CHOSEN,
-    structure="b",
-    scale_factor=1.0,
-    verdict=Verdict.UNDECIDED,
-    members=64,
-    share=0.5,
-    share_64=0.5,
-    share_256=0.5,
-    share_drawn=0.5,
-    draws=4000,
-    inside_band=0.9,
-)
-
-
-def _measured(trials: list[EnsembleTrial]) -> dict[str, float]:
-    return {row.measure: row.value for row in ensemble_accuracy(trials, replicates=20)}
 
 
 def test_trials_are_the_same_at_every_call_and_scatter_about_the_draws():
@@ -63,9 +30,12 @@ def test_trials_are_the_same_at_every_call_and_scatter_about_the_draws():
 
 
 def test_each_measure_counts_what_it_names():
-    wrong = replace(TRIAL, share_64=0.6, share_256=0.54, site="t")
-    sure = replace(TRIAL, verdict=Verdict.STANDS, share=0.0, share_drawn=0.09, site="u")
-    found = _measured([TRIAL, wrong, sure])
+    shares = {f"share{which}": 0.5 for which in ("", "_64", "_256", "_drawn")}
+    names = {"record": "a", "site": "s", "half": CHOSEN, "structure": "b", "verdict": Verdict.UNDECIDED}
+    first = EnsembleTrial(scale_factor=1.0, members=64, draws=4000, inside_band=0.9, **names, **shares)
+    wrong = replace(first, share_64=0.6, share_256=0.54, site="t")
+    sure = replace(first, verdict=Verdict.STANDS, share=0.0, share_drawn=0.09, site="u")
+    found = {row.measure: row.value for row in ensemble_scores([first, wrong, sure], replicates=20)}
     assert found["share within 0.07 with 64 members (0.95 is asked)"] == pytest.approx(1 / 3)
     assert found["share within 0.035 with 256 members (0.95 is asked)"] == pytest.approx(1 / 3)
     assert found["share of verdicts beyond their risk by more than 0.03 (0 is asked)"] == 1

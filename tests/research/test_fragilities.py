@@ -1,9 +1,10 @@
-"""The trade of fragilities: the mechanism is its own reference, and every method stands in a row."""
+"""The trade of fragilities: the mechanism is its own reference, and every method has its scores."""
 
 import numpy as np
 import pytest
 
-from docs.research.fragilities import TradeFragilityRow, write_fragilities
+from docs.research.fragilities import write_fragilities
+from docs.research.scores import Score
 from rocking.assessment.rows.of_trade import TradeMethod
 from rocking.records import Accelerogram
 from rocking.structures import Block
@@ -21,9 +22,10 @@ def test_the_mechanism_is_its_own_reference(tmp_path):
     ]
     told: list[str] = []
     write_fragilities(records, {"block": Block(2.0, 0.15)}, tmp_path, told.append)
-    rows = {row.method: row for row in read_table(TradeFragilityRow, tmp_path)}
-    assert told == ["fragility of block"] and (tmp_path / "trade_fragility.json").is_file()
-    assert list(rows) == ["one sine", "five sines", "block on record", "mechanism, 1e-6", "ensemble"]
-    assert rows[TradeMethod.MECHANISM].error == pytest.approx(0, abs=1e-6)
-    assert abs(rows[TradeMethod.ONE_SINE].error) < 0.1, "each record is one sine"
-    assert all(row.stations == 4 and row.cpu_s > 0 for row in rows.values())
+    rows = read_table(Score, tmp_path)
+    errors = {row.subject: row.value for row in rows if row.measure == "error of the median"}
+    assert told == ["fragility of block"] and (tmp_path / "report.pdf").is_file()
+    assert list(errors) == ["one sine", "five sines", "block on record", "mechanism, 1e-6", "ensemble"]
+    assert errors[TradeMethod.MECHANISM] == pytest.approx(0, abs=1e-6)
+    assert abs(errors[TradeMethod.ONE_SINE]) < 0.1, "each record is one sine"
+    assert {row.sites for row in rows} == {4}

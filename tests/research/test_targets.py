@@ -70,19 +70,19 @@ def rows(asked) -> Callable[[str], list[dict[str, str]]]:
 
 
 def test_calibrate_fits_and_judges_every_tier(rows, asked):
-    scores = {(row["subject"], row["measure"]): row for row in rows("calibration/tier_scores.csv")}
+    scores = {(row["subject"], row["measure"]): row for row in rows("calibrate/scores.csv")}
     for tier in Tier:
         skill, best = scores[tier, "Brier skill"], scores[tier, "Brier skill of the shares themselves"]
         assert 0 < float(skill["value_low"]) <= float(skill["value"]) < float(best["value"]) < 1
         assert skill["sites"] == "4", "three of the near-fault catalogue and one of the other"
     assert ("fidelity: auto", "wrong verdicts among those settled") in scores
-    fits = json.loads((asked.results / "calibration" / "tiers.json").read_text())
+    fits = json.loads((asked.results / "calibrate" / "tiers.json").read_text())
     assert set(fits["tiers"]) == set(Tier) and fits["about"]["sites"] == 4
     assert "1 of 1: far_4" in (asked.folder / LOG / "calibrate.log").read_text()
 
 
 def test_calibrate_ensemble_holds_ensembles_against_draws(rows, asked):
-    trials = rows("calibration/ensemble_trials.csv")
+    trials = rows("calibrate_ensemble/ensemble_trials.csv")
     assert {row["record"] for row in trials} == {"near_1", "near_2", "near_3", "far_4"}
     assert len(trials) == 4 * 3, "three trials a record"
     assert {row["half"] for row in trials if row["record"] == "far_4"} == {"left out"}
@@ -92,7 +92,7 @@ def test_calibrate_ensemble_holds_ensembles_against_draws(rows, asked):
         allowed = 4 * math.sqrt(drawn * (1 - drawn) / 256) + 1 / 256
         assert abs(float(row["share_256"]) - drawn) <= allowed
     assert any(0 < float(row["share_drawn"]) < 1 for row in trials)
-    assert "<svg" in (asked.results / "calibration" / "ensemble_reliability.svg").read_text()
+    assert (asked.results / "calibrate_ensemble" / "report.pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_compare_runs_every_case_through_every_code(tmp_path, monkeypatch):
@@ -108,7 +108,7 @@ def test_compare_runs_every_case_through_every_code(tmp_path, monkeypatch):
             assert row.verdict_agrees and row.error < 1e-6
     for code in ("rocking, tolerance 1e-03", "scipy RK45, 1e-6", "scipy DOP853, 1e-12 (reference)"):
         assert {row.case for row in table if row.code == code} == cases
-    assert (tmp_path / "comparison.pdf").read_bytes().startswith(b"%PDF")
+    assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF")
 
 
 def _read(folder: Path, number: int) -> list[Accelerogram]:
@@ -119,17 +119,17 @@ def _read(folder: Path, number: int) -> list[Accelerogram]:
 
 def test_validate_predicts_what_the_tests_showed(rows, asked):
     """The made specimens overturn above a peak, so that the nominal peak velocity, in proportion to it, never errs."""
-    scores = {(row["part"], row["subject"], row["measure"]): row for row in rows("validation/scores.csv")}
+    scores = {(row["part"], row["subject"], row["measure"]): row for row in rows("validate/scores.csv")}
     # the second specimen stands at half a g, as no block of its p would
     for specimen, least in (("specimen 1", 0.8), ("specimen 2", 0.5)):
         assert scores[specimen, "threshold on peak velocity, nominal", "accuracy"]["value"] == "1.0"
         found = scores[specimen, "identified population", "accuracy"]
         assert (found["cases"], found["sites"]) == (str(TESTS), str(TESTS // 4))
         assert least < float(found["value"]) <= 1
-    said = rows("validation/predictions.csv")
+    said = rows("validate/predictions.csv")
     fell = {(row["specimen"], row["test"]) for row in said if row["overturned"] == "true"}
     assert len(fell) == TESTS // 2 + TESTS // 4
-    assert (asked.results / "validation" / "validation.pdf").read_bytes().startswith(b"%PDF")
+    assert (asked.results / "validate" / "report.pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_paper_redraws_what_it_can(rows, asked):

@@ -9,13 +9,13 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from docs.research.comparison.cases import CodeCase
+from docs.research.comparison.runs import Answer
 from docs.research.reference import event_landings
 from rocking.errors import MotionError
 from rocking.motion import integrate
@@ -32,26 +32,6 @@ _DRIVERS = {
     LMGC90: "docs.research.comparison.lmgc90",
     ROCKING_BC: "docs.research.comparison.opensees",
 }
-
-
-@dataclass(frozen=True, eq=False)
-class Answer:
-    """What a code said: φ_max/φ_cr (nan: nothing), half its error bar, processor time [s], and landings (k,) [s].
-
-    restitution: what a reversal on still ground kept of the speed, and half its error bar. outside_hinges: share of
-    joint rotation outside the hinges of the mechanism at the largest rotation. Both nan where nothing is measured.
-    """
-
-    rotation_ratio: float
-    duration: float
-    error_bar: float = math.nan
-    landings: np.ndarray | None = None
-    reason: str = ""
-    restitution: float = math.nan
-    restitution_error: float = math.nan
-    outside_hinges: float = math.nan
-
-
 Code = Callable[[CodeCase], Answer]
 
 
@@ -110,8 +90,8 @@ def _outer(module: str) -> Code:
         found, reason = ask(module, given)
         if found is None:
             return Answer(math.nan, math.nan, reason=reason)
-        found["landings"] = np.array(found["landings"]) if found["reason"] == "" else None
-        return Answer(**found)
+        landings = None if found["landings"] is None else np.array(found["landings"])
+        return Answer(**found | {"landings": landings})
 
     return run
 

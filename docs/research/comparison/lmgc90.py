@@ -11,7 +11,7 @@ from scipy.integrate import cumulative_trapezoid
 
 from docs.research.comparison.bodies import RigidBodies, rigid_bodies
 from docs.research.comparison.cases import structures
-from docs.research.comparison.runs import Run, landings, run_of, serve, still_from
+from docs.research.comparison.runs import Answer, landings, run_of, serve, still_from
 from rocking.quantities import GRAVITY
 
 STEPS = (2e-3, 1e-3, 5e-4)
@@ -25,18 +25,18 @@ ALERT = 1e-2
 """Gap within which contacts are sought, m."""
 
 
-def runs(given: dict) -> list[Run]:
+def runs(given: dict) -> list[Answer]:
     """Return the runs of a case."""
     bodies = rigid_bodies(structures()[given["structure"]])
     return [_run(given, bodies, step) for step in STEPS]
 
 
-def _run(given: dict, bodies: RigidBodies, step: float) -> Run:
+def _run(given: dict, bodies: RigidBodies, step: float) -> Answer:
     times, turns, centres = follow(given, bodies, step)
     rotation, critical = bodies.rotation(turns), given["critical_rotation"]
     largest = int(np.abs(rotation).argmax())
     if np.abs(turns[-1]).max() > FALLEN * critical:
-        return Run(math.inf, landings=landings(times, rotation))
+        return Answer(math.inf, landings=landings(times, rotation))
     energy = _energy(bodies, times, turns, centres)
     return run_of(given, times, rotation, energy, bodies.outside_hinges(turns[largest]))
 
@@ -59,13 +59,16 @@ def follow(given: dict, bodies: RigidBodies, step: float) -> tuple[np.ndarray, n
     # LMGC90 turns the frame of a body into its principal axes before it starts.
     axes = np.array(solver.init_frame)
     fallen = FALLEN * given["critical_rotation"]
+    # On still ground the energy only falls: what has turned little for a second stays up.
+    second, still = round(1 / step), still_from(given) / step
     turns, centres = [np.zeros(len(bodies.polygons))], [np.array(solver.init_coor)]
     for _ in range(times.size - 1):
         state = solver.lmgc90.compute_one_step()
         turned = np.array(state.body_frames).reshape(-1, 3, 3).transpose(0, 2, 1) @ axes
         turns.append(np.arctan2(turned[:, 2, 0], turned[:, 0, 0]))
         centres.append(np.array(state.bodies))
-        if np.abs(turns[-1]).max() > fallen:
+        rests = len(turns) > still + second and np.abs(turns[-second:]).max() < given.get("settled", 0.0)
+        if rests or np.abs(turns[-1]).max() > fallen:
             break
     solver.finalize()
     return times[: len(turns)], np.array(turns), np.array(centres)[:, :, [0, 2]]

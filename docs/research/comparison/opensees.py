@@ -15,7 +15,7 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
 from docs.research.comparison.cases import structures
-from docs.research.comparison.runs import Run, landings, run_of, serve, still_from
+from docs.research.comparison.runs import Answer, landings, run_of, serve, still_from
 from rocking.quantities import GRAVITY
 from rocking.structures import Block, Mechanism
 
@@ -38,12 +38,12 @@ _WATCHED = 12
 _LIBRARIES = ("libquadmath.so.0", "libgfortran.so.4", "libblas.so.3", "liblapack.so.3")
 
 
-def runs(given: dict) -> list[Run]:
+def runs(given: dict) -> list[Answer]:
     """Return the runs of a case."""
     return [_run(given, strain) for strain in STRAINS]
 
 
-def _run(given: dict, strain: float) -> Run:
+def _run(given: dict, strain: float) -> Answer:
     ops = _opensees()
     structure = structures()[given["structure"]]
     _build(ops, structure, strain)
@@ -57,9 +57,9 @@ def _run(given: dict, strain: float) -> Run:
     end = still + STILL / given["frequency_parameter"]
     times, rotation, ended = _follow(ops, still, end)
     if not ended:
-        return Run(math.nan)
+        return Answer(math.nan)
     if abs(rotation[-1]) > 1.0:
-        return Run(math.inf, landings=landings(times, rotation))
+        return Answer(math.inf, landings=landings(times, rotation))
     return run_of(given, times, rotation, _potential(structure.mechanism(), rotation))
 
 

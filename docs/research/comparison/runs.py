@@ -5,7 +5,7 @@ import math
 import sys
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -15,24 +15,30 @@ VISIBLE = 0.02
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
-    """What a code says at one setting, nan where nothing.
+class Answer:
+    """What a code says: φ_max/φ_cr (inf: it overturns, nan: nothing), half its error bar, processor time [s].
 
-    rotation_ratio: φ_max/φ_cr, inf if it overturns. restitution: of a reversal on still ground. outside_hinges: share
-    of joint rotation outside the hinges of the mechanism at the largest rotation. landings: (k,) s.
+    landings: (k,) s; None: untold. reason: why there is no number. restitution: what a reversal on still ground kept of
+    the speed, and half its error bar. outside_hinges: share of joint rotation outside the hinges of the mechanism at
+    the largest rotation. These nan where nothing is measured.
     """
 
     rotation_ratio: float
+    duration: float = math.nan
+    error_bar: float = math.nan
+    landings: np.ndarray | None = None
+    reason: str = ""
     restitution: float = math.nan
+    restitution_error: float = math.nan
     outside_hinges: float = math.nan
-    landings: np.ndarray = field(default_factory=lambda: np.empty(0))
 
 
-def serve(runs: Callable[[dict], Sequence[Run]], reason: str) -> None:
+def serve(runs: Callable[[dict], Sequence[Answer]], reason: str) -> None:
     """Answer the case on standard input in JSON, on the last line of standard output; reason: why it has no limit."""
     given, start = json.load(sys.stdin), time.process_time()
-    found = runs(given)
-    print("\n" + json.dumps(answer_of(found, time.process_time() - start, reason)))
+    found = limit_of_runs(runs(given), reason)
+    found = replace(found, duration=time.process_time() - start)
+    print("\n" + json.dumps(vars(found), default=lambda array: array.tolist()))
 
 
 def run_of(
@@ -41,11 +47,15 @@ def run_of(
     rotation: np.ndarray,
     energy: np.ndarray,
     outside_hinges: float = math.nan,
-) -> Run:
+) -> Answer:
     """Return what a history (n,) that stays up says of the case `given`; energy (n,) as for `restitution`."""
     critical, still = given["critical_rotation"], still_from(given)
-    kept = restitution(times, rotation, energy, still, critical)
-    return Run(float(np.abs(rotation).max()) / critical, kept, outside_hinges, landings(times, rotation))
+    return Answer(
+        float(np.abs(rotation).max()) / critical,
+        landings=landings(times, rotation),
+        restitution=restitution(times, rotation, energy, still, critical),
+        outside_hinges=outside_hinges,
+    )
 
 
 def still_from(given: dict) -> float:
@@ -53,24 +63,17 @@ def still_from(given: dict) -> float:
     return (len(given["acceleration"]) - 1) * given["time_step"]
 
 
-def answer_of(runs: Sequence[Run], duration: float, reason: str) -> dict:
-    """Return the limits of three runs as a mapping for JSON; reason: why the largest rotation has none, if so.
+def limit_of_runs(runs: Sequence[Answer], reason: str) -> Answer:
+    """Return the limit of three runs; reason: why the largest rotation has none, if so.
 
     Where the limit of a small rotation would be negative, the last run stands, with the bar of the extrapolation.
     """
     ratio, bar = limit_of([run.rotation_ratio for run in runs])
     ratio = runs[-1].rotation_ratio if ratio < 0 else ratio
     kept, kept_bar = limit_of([run.restitution for run in runs])
-    return {
-        "rotation_ratio": ratio,
-        "error_bar": bar,
-        "restitution": kept,
-        "restitution_error": kept_bar,
-        "outside_hinges": runs[-1].outside_hinges,
-        "landings": runs[-1].landings.tolist(),
-        "duration": duration,
-        "reason": reason if math.isnan(ratio) else "",
-    }
+    told = {"reason": reason, "landings": None} if math.isnan(ratio) else {}
+    limits = {"rotation_ratio": ratio, "error_bar": bar, "restitution": kept, "restitution_error": kept_bar}
+    return replace(runs[-1], **limits, **told)
 
 
 def limit_of(answers: Sequence[float]) -> tuple[float, float]:

@@ -3,36 +3,35 @@
 import math
 import random
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from statistics import median
-from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from docs.research import scores
 from docs.research.comparison.cases import PULSES, RECORDS, SEED, CodeCase, pulse_cases, record_cases
 from docs.research.comparison.codes import (
     ANOTHER_MODEL,
     LMGC90,
     ROCKING_BC,
     SLOWEST,
-    Answer,
     Code,
     inner_codes,
     outer_codes,
 )
+from docs.research.comparison.runs import Answer
 from docs.research.reference import reference_landings
+from docs.research.report import publish
+from docs.research.scores import Score
 from rocking.errors import MotionError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
-from rocking.reports import printing
-from rocking.reports.document import compile_document
-from rocking.reports.printing import number
 from rocking.reports.style import new_figure, picture, shared_legend, styled
 from rocking.structures import Mechanism
-from rocking.tables import Row, column, row, write_tables, write_whole
+from rocking.tables import Row, column, row
 
 REFERENCE = "scipy DOP853, 1e-12 (reference)"
 REFERENCE_BUDGET = 120.0
@@ -43,6 +42,13 @@ VISIBLE = (0.02, 0.95)
 """Rotation ratios between which a block is said to do so."""
 SMALLEST_ERROR = 1e-15
 """Smaller errors, down to none, are drawn here."""
+COMPARED = (
+    "Errors are those of the largest rotation where both rock. An impact of the reference under moving ground, faster "
+    "than p φ_cr/1000, is missed where the code has none within 0.02/p. LMGC90 follows rigid bodies with inelastic "
+    "shocks and dry friction; its arch is another model: hinges open where they like, so a difference is no error of "
+    "either. RockingBC is deformable and loses by damping. Each is run at three settings, halved each time, and "
+    "extrapolated, on a sample of the cases that rock, drawn with a stated seed. Intervals are by resampling cases."
+)
 
 
 @row(
@@ -83,7 +89,7 @@ class CodeRow(Row):
 def write_comparison(
     records: Sequence[Accelerogram], folder: Path, tell: Callable[[str], None], share: float = 1.0
 ) -> None:
-    """Write codes.csv, its description and comparison.pdf into `folder`; tell: is given a line for each case.
+    """Write codes.csv, its scores and its report into `folder`; tell: is given a line for each case.
 
     share: of the cases, in (0, 1], for a shorter run.
     """
@@ -95,8 +101,15 @@ def write_comparison(
     for case in cases:
         rows += code_rows(case, {**inner_codes(), **slow.get(case.name, {})})
         tell(case.name)
-    write_tables({CodeRow: rows}, folder, "rocking-comparison")
-    write_whole(folder / "comparison.pdf", compile_document("plain.typ", report_data(rows)))
+    pulses = sum(case.kind == "pulse" for case in cases)
+    subtitle = (
+        f"{pulses} pulses and {len(cases) - pulses} stretches of records on a block, a frame and an arch of seven "
+        "voussoirs; the reference is DOP853 of scipy at 1e-12, restarted at every sample and impact."
+    )
+    shown = picture(work_figure(rows), "Median error against median processor time of every code.")
+    caption = "Small marks: cases; large ones: medians of a code. No error is drawn at 1e-15."
+    parts = [{**shown, "caption": caption}, {"heading": "What is compared", "text": COMPARED}]
+    publish(folder, "Work against precision", subtitle, {CodeRow: rows, Score: code_scores(rows)}, parts)
 
 
 def code_rows(case: CodeCase, codes: Mapping[str, Code]) -> Iterator[CodeRow]:
@@ -179,112 +192,65 @@ def _kind(ratio: float) -> int:
     return 0 if ratio == 0 else 2 if ratio > 1.5 else 1
 
 
-def report_data(rows: Sequence[CodeRow]) -> dict[str, object]:
-    """Return what the template is given."""
-    cases = {row.case: row for row in rows}
-    pulses = sum(row.motion == "pulse" for row in cases.values())
+def code_scores(rows: Sequence[CodeRow]) -> list[Score]:
+    """Return error and work of every code on every structure, with intervals by case."""
     groups: dict[tuple[str, str], list[CodeRow]] = {}
-    for each in sorted(rows, key=lambda row: row.structure):
+    for each in rows:
         groups.setdefault((each.structure, each.code), []).append(each)
-    losses = [own for own in groups.values() if own[0].code in SAMPLED]
-    shown = picture(work_figure(rows), "Median error against median processor time of every code.")
+    found: list[Score] = []
+    for (structure, code), own in sorted(groups.items()):
+        cases = [row.case for row in own]
+        found += scores.scored(code, structure, _measures(own), cases)
+        if code in SAMPLED:
+            found += scores.scored(
+                code, f"{structure}, what the other codes lose and give", _losses(own), cases
+            )
+    return found
+
+
+def _measures(rows: Sequence[CodeRow]) -> Mapping[str, scores.Measure]:
+    """Errors where both rock; verdicts and impacts of all."""
+    errors = [row.error if row.rocks else math.nan for row in rows]
+    told = [row.missed_impacts is not None for row in rows]
+    impacts = np.array([row.reference_impacts * each for row, each in zip(rows, told, strict=True)])
+    missing = np.array([row.missed_impacts or 0 for row in rows])
+
+    def missed_share(kept: np.ndarray) -> float:
+        return float(missing[kept].sum() / impacts[kept].sum()) if impacts[kept].any() else math.nan
+
     return {
-        "title": "Work against precision: the same cases through every code",
-        "subtitle": f"{pulses} pulses and {len(cases) - pulses} stretches of records on a block, a frame and an arch "
-        "of seven voussoirs; the reference is DOP853 of scipy at 1e-12, restarted at every sample and impact.",
-        "parts": [
-            {
-                **shown,
-                "caption": "Small marks: cases; large ones: medians of a code. No error is drawn at 1e-15.",
-            },
-            {**_work(groups.values()), "caption": _WORK},
-            {"heading": "The other codes", "text": _OTHERS},
-            {**_losses(losses), "caption": _LOSSES},
-        ],
+        "median error": scores.median(errors),
+        "95 % error": scores.median(errors, 0.95),
+        "share that rocks": scores.mean([row.rocks for row in rows]),
+        "share of other verdicts": scores.mean([row.verdict_agrees is False for row in rows]),
+        "share without an answer": scores.mean([math.isnan(row.rotation_ratio) for row in rows]),
+        "share of impacts missed": missed_share,
+        "processor time of a response, s": scores.median([row.duration_s for row in rows]),
     }
 
 
-_WORK = (
-    "Errors of the largest rotation where both rock. Impacts missed: of those of the reference under moving ground, "
-    "faster than p φ_cr/1000, how many have none of the code within 0.02/p."
-)
-_LOSSES = "What the other codes lose and give: median (least to largest); each case stands in codes.csv."
-_OTHERS = (
-    "LMGC90 follows rigid bodies with inelastic shocks and dry friction; its arch is another model: hinges open where "
-    "they like, so a difference is no error of either. RockingBC is deformable and loses by damping. Each is run at "
-    "three settings, halved each time, and extrapolated, on a sample of the cases that rock, drawn with a stated seed."
-)
-
-
-def _work(groups: Iterable[Sequence[CodeRow]]) -> dict[str, Any]:
-    def error(share: float) -> Callable[[Sequence[CodeRow]], str]:
-        return lambda own: _quantile([row.error for row in own if row.rocks], share)
-
-    def impacts(own: Sequence[CodeRow]) -> str:
-        told = [row for row in own if row.missed_impacts is not None]
-        return printing.of(
-            sum(row.missed_impacts or 0 for row in told), sum(r.reference_impacts for r in told)
-        )
-
-    return printing.table_of(
-        groups,
-        ("Structure", "0.6", "l", lambda own: own[0].structure),
-        ("Code", "2", "l", lambda own: own[0].code),
-        ("Cases", "0.45", "r", lambda own: printing.whole(len(own))),
-        ("Rock", "0.4", "r", lambda own: printing.whole(sum(row.rocks for row in own))),
-        ("Median error", "0.8", "r", error(0.5)),
-        ("95 % error", "0.8", "r", error(0.95)),
-        (
-            "Other verdict",
-            "0.7",
-            "r",
-            lambda own: printing.whole(sum(r.verdict_agrees is False for r in own)),
+def _losses(rows: Sequence[CodeRow]) -> Mapping[str, scores.Measure]:
+    """What a code keeps at an impact, and how many times its rotation is that of the reference, and ours with its η."""
+    barred = [not (math.isnan(row.rotation_ratio_error) or row.another_model) for row in rows]
+    apart = [abs(row.rotation_ratio - row.reference_rotation_ratio) for row in rows]
+    held = [gap <= row.rotation_ratio_error for gap, row in zip(apart, rows, strict=True)]
+    return {
+        "restitution of the reference": scores.median([row.reference_restitution for row in rows]),
+        "restitution of the code": scores.median([row.restitution for row in rows]),
+        "rotation over the reference's": scores.median(
+            [_over(row, row.reference_rotation_ratio) for row in rows]
         ),
-        ("No answer", "0.6", "r", lambda own: printing.whole(sum(math.isnan(r.rotation_ratio) for r in own))),
-        ("Impacts missed", "0.9", "r", impacts),
-        ("Time (ms)", "0.7", "r", lambda own: _quantile([1e3 * row.duration_s for row in own], 0.5)),
-    )
-
-
-def _losses(groups: Iterable[Sequence[CodeRow]]) -> dict[str, Any]:
-    def over(expected: str) -> Callable[[Sequence[CodeRow]], str]:
-        return lambda own: _range(_over(row, getattr(row, expected)) for row in own)
-
-    def within_bar(own: Sequence[CodeRow]) -> str:
-        barred = [row for row in own if not math.isnan(row.rotation_ratio_error) and not row.another_model]
-        held = [abs(r.rotation_ratio - r.reference_rotation_ratio) <= r.rotation_ratio_error for r in barred]
-        return printing.of(sum(held), len(held))
-
-    return printing.table_of(
-        groups,
-        ("Structure", "0.8", "l", lambda own: own[0].structure),
-        ("Code", "1.4", "l", lambda own: own[0].code),
-        ("Cases", "0.5", "r", lambda own: printing.whole(len(own))),
-        ("η of the reference", "0.8", "r", lambda own: number(own[0].reference_restitution)),
-        ("η of the code", "1.4", "r", lambda own: _range(row.restitution for row in own)),
-        ("φ over the reference's", "1.5", "r", over("reference_rotation_ratio")),
-        ("φ over ours, same η", "1.5", "r", over("same_restitution_rotation_ratio")),
-        ("Reference within bar", "0.7", "r", within_bar),
-    )
-
-
-def _quantile(values: Sequence[float], share: float) -> str:
-    ranked = sorted(value for value in values if not math.isnan(value))
-    return number(ranked[min(int(share * len(ranked)), len(ranked) - 1)], 2) if ranked else printing.NOTHING
+        "rotation over ours, same restitution": scores.median(
+            [_over(row, row.same_restitution_rotation_ratio) for row in rows]
+        ),
+        "share with the reference within the bar": scores.mean(np.where(barred, held, math.nan)),
+    }
 
 
 def _over(row: CodeRow, expected: float) -> float:
     """Return how many times the rotation is as large, where both rock."""
     both = math.isfinite(row.rotation_ratio) and 0 < expected < math.inf
     return row.rotation_ratio / expected if both else math.nan
-
-
-def _range(values: Iterable[float]) -> str:
-    """Return the median, and in brackets the least and the largest."""
-    told = [value for value in values if not math.isnan(value)]
-    return (
-        f"{number(median(told))} ({number(min(told))} to {number(max(told))})" if told else printing.NOTHING
-    )
 
 
 @styled
