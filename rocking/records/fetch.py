@@ -73,7 +73,7 @@ def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> li
 
 def _may_hold_counts(path: Path) -> bool:
     """Whether a file is miniSEED, or packed so that it may be."""
-    from rocking.records.formats.miniseed import MINISEED
+    from rocking.records.formats.binary import MINISEED
 
     with suppress(OSError), path.open("rb") as stream:
         head = stream.read(256)

@@ -74,3 +74,10 @@ def site(trace, inventory) -> dict[str, float]:
 def first_line(error) -> str:
     """Return the first line of what an error says, without the point at its end."""
     return (str(error).strip().splitlines() or [type(error).__name__])[0].rstrip(".")[:200]
+
+
+def names(trace) -> dict[str, str]:
+    """Return component, station, network, location and start of a trace, as fields of an Accelerogram."""
+    stats = trace.stats
+    start = {"start_time": str(stats.starttime)} if stats.starttime.timestamp else {}
+    return {"component": stats.channel} | {k: stats[k] for k in ("station", "network", "location")} | start

@@ -11,7 +11,7 @@ from made_files import MADE, MADE_BINARY, format_of, knet, peer, table
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
 from rocking.records.formats import FORMATS, Options, binary
-from rocking.records.formats.header import magnitude
+from rocking.records.formats.header import typed_magnitude
 from rocking.records.read import read_content
 
 
@@ -118,7 +118,7 @@ def test_the_earthquake_that_a_header_tells_of(name: str) -> None:
 
 @pytest.mark.parametrize(("text", "found"), [("10", 10.0), ("10.1", None), ("0.1", 0.1)])
 def test_a_magnitude_lies_between_0_and_10(text: str, found: float | None) -> None:
-    assert magnitude(text) == found
+    assert typed_magnitude(text)["magnitude"] == found
 
 
 @pytest.mark.parametrize(("line", "corner"), [

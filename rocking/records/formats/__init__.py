@@ -10,17 +10,10 @@ from rocking.records.formats.format import Format, Options
 _FILES = (
     "peer",
     "cosmos",
-    "csmip",
-    "smc",
     "volume1",
-    "knet",
     "keyed",
-    "csmnc",
-    "geonet",
-    "unam",
+    "networks",
     "binary",
-    "miniseed",
-    "titled",
     "columns",
 )
 

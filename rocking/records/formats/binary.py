@@ -1,64 +1,65 @@
-"""The formats that obspy reads, from bytes we have recognised, by the format we name, never guessed; SAC and EVT."""
+"""The formats that obspy reads, from bytes we have recognised, by the format we name: SAC, EVT, miniSEED."""
 
 import io
 import re
 import struct
 import warnings
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from rocking.errors import RecordError
+from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.sampling import LARGEST_SERIES
-from rocking.records.traces import first_line, joined
+from rocking.records.traces import calibrated, first_line, joined, names, site
 
 _DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be read|corrupt|mismatch", re.I)
 """What libmseed warns of when the numbers are not those that were written."""
 
 
-def stream(content: bytes, form: str, **options):
-    """Return obspy's Stream of `content` in the obspy format `form`, and the warnings that were raised on the way.
+def _stream(content: bytes, form: str, **options: Any):
+    """Return obspy's Stream of `content` in the obspy format `form`, joined, and what there is to warn of.
 
-    Raises RecordError for whatever obspy raises, and when nothing is in the file.
+    Raises RecordError for whatever obspy raises, for gaps, and when nothing is in the file.
     """
-    import obspy
+    import obspy  # which takes a second to import
 
-    _check_size(content, form)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
+            if form == "MSEED":
+                _check_size(content)
             result = obspy.read(io.BytesIO(content), format=form, check_compression=False, **options)
+        except RecordError:
+            raise
         except Exception as error:
             raise RecordError(f"damaged {form} file, {first_line(error)}; fetch it again.") from error
-    if form == "MSEED" and (damage := [w for w in caught if _DAMAGE.search(str(w.message))]):
-        raise RecordError(f"damaged {form} file, {first_line(damage[0].message)}; fetch it again.")
+    told = [first_line(each.message) for each in caught]
+    if form == "MSEED" and (damage := [text for text in told if _DAMAGE.search(text)]):
+        raise RecordError(f"damaged {form} file, {damage[0]}; fetch it again.")
     if not any(trace.stats.npts for trace in result):
         raise RecordError(f"the {form} file holds no samples.")
-    told = {f"obspy: {first_line(w.message)}." for w in caught}
+    notes = {f"obspy: {text}." for text in told}
     for _, station, _, channel, _, begin, seconds, _ in result.get_gaps():
         if seconds < 0:
-            told.add(
+            notes.add(
                 f"Blocks of {station} {channel} overlap by {-seconds:g} s at {begin}: repeated or overwritten."
             )
-    return result, tuple(sorted(told))
+    return joined(result), tuple(sorted(notes))
 
 
-def _check_size(content: bytes, form: str) -> None:
+def _check_size(content: bytes) -> None:
     """Check, from the heads of its records, that a miniSEED file is whole and not too large unpacked."""
-    if form != "MSEED":
-        return
     import obspy
     from obspy.io.mseed.util import get_record_information
 
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            notes = get_record_information(io.BytesIO(content))
-            heads = obspy.read(io.BytesIO(content), format=form, check_compression=False, headonly=True)
-    except Exception as error:
-        raise RecordError(f"damaged {form} file, {first_line(error)}; fetch it again.") from error
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        notes = get_record_information(io.BytesIO(content))
+        heads = obspy.read(io.BytesIO(content), format="MSEED", check_compression=False, headonly=True)
     if notes.get("excess_bytes") and not _records_end_well(content):
         raise RecordError(
             f"the last record of {notes['record_length']} bytes is cut after {notes['excess_bytes']}: "
@@ -96,77 +97,58 @@ def _is_sac(content: bytes) -> bool:
 def _fits_sac(content: bytes, order: str) -> bool:
     (version,) = struct.unpack_from(order + "i", content, _VERSION)
     (samples,) = struct.unpack_from(order + "i", content, _SAMPLES)
-    return (
-        version in (6, 7)
-        and samples > 0
-        and _SAC_HEADER + 4 * samples <= len(content) <= _SAC_HEADER + 4 * samples + 176
-    )
+    body = len(content) - _SAC_HEADER - 4 * samples
+    return version in (6, 7) and samples > 0 and 0 <= body <= 176
 
 
 def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
-    result, warnings = stream(content, "SAC", checksize=True)
+    result, warnings = _stream(content, "SAC", checksize=True)
     unit = options.unit_of(None)
-    return [_sac_record(trace, unit, options, warnings) for trace in joined(result)]
+    return [_sac_record(trace, unit, options, warnings) for trace in result]
 
 
 def _sac_record(trace, unit: str, options: Options, warnings: tuple[str, ...]) -> Accelerogram:
-    stats = trace.stats
-    azimuth = float(stats.sac.get("cmpaz", float("nan")))
-    _check_sac(stats, trace.data)
-    values, offset = without_offset(trace.data.astype(float) * stats.calib, unit)
+    header = {
+        key: float(value) for key, value in trace.stats.sac.items() if isinstance(value, float | np.floating)
+    }
+    header = {key: value for key, value in header.items() if value != _UNDEFINED}
+    # The step in the file has single precision: 0.02 is stored as 0.0199999996.
+    step = float(f"{trace.stats.delta:.6g}")
+    _check_sac(header, trace.data, step)
+    values, offset = without_offset(trace.data.astype(float) * trace.stats.calib, unit)
+    azimuth = header.get("cmpaz")
+    place = {name: header[key] for name, key in _SAC_PLACE.items() if key in header}
     return options.accelerogram(
         unit,
         values,
-        _sac_step(stats),
-        component=stats.channel,
-        station=stats.station,
-        network=stats.network,
-        location=stats.location,
+        step,
+        **names(trace),
+        **place,
         warnings=warnings,
-        start_time=str(stats.starttime),
         processing=(offset,),
-        azimuth=azimuth % 360 if -360 <= azimuth <= 360 else None,
-        **{
-            name: float(stats.sac[key])
-            for name, key in _SAC_PLACE.items()
-            if stats.sac.get(key, -12345) != -12345
-        },
+        azimuth=azimuth % 360 if azimuth is not None and -360 <= azimuth <= 360 else None,
     )
 
 
-def _check_sac(stats, data: np.ndarray) -> None:
+def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
     """Compare the extremes and the end that the header states with the samples, before any mean is removed."""
-    low, high, mean = (float(stats.sac.get(key, _UNDEFINED)) for key in ("depmin", "depmax", "depmen"))
-    allowed = 1e-4 * max(abs(low), abs(high))
-    measured = (
-        ("DEPMIN", low, data.min()),
-        ("DEPMAX", high, data.max()),
-        ("DEPMEN", mean, data.mean(dtype=float)),
-    )
-    for key, stated, found in measured:
-        if allowed and stated != _UNDEFINED and not abs(stated - found) <= allowed:
+    measured = {"depmin": data.min(), "depmax": data.max(), "depmen": data.mean(dtype=float)}
+    allowed = 1e-4 * max(abs(header.get("depmin", _UNDEFINED)), abs(header.get("depmax", _UNDEFINED)))
+    for key, value in measured.items():
+        if allowed and key in header and not abs(header[key] - value) <= allowed:
             raise RecordError(
-                f"the header states {key} = {stated:g}, but the samples reach {found:g}; the file is damaged "
-                "or its header belongs to another record."
+                f"the header states {key.upper()} = {header[key]:g}, but the samples reach {value:g}; the file is "
+                "damaged or its header belongs to another record."
             )
-    begin, end = (float(stats.sac.get(key, _UNDEFINED)) for key in ("b", "e"))
-    if _UNDEFINED not in (begin, end) and end != begin:
-        step = _sac_step(stats)
-        # Single precision keeps seven digits of the times.
-        if abs(end - begin - step * (stats.npts - 1)) > 0.5 * step + 3e-7 * max(abs(begin), abs(end)):
-            raise RecordError(
-                f"the header states an end at {end:g} s, but {stats.npts} samples every {step:g} s from "
-                f"{begin:g} s end elsewhere; the file is damaged."
-            )
-
-
-def _sac_step(stats) -> float:
-    """The step in the file has single precision: 0.02 is stored as 0.0199999996."""
-    return float(f"{stats.delta:.6g}")
-
-
-SAC = Format("SAC", "SAC (IRIS, and many networks)",
-    "SAC header of version 6 or 7 whose number of samples fits the size of the file", _is_sac, _read_sac)  # fmt: skip
+    begin, end = header.get("b"), header.get("e")
+    if begin is None or end is None or begin == end:
+        return
+    # Single precision keeps seven digits of the times.
+    if abs(end - begin - step * (data.size - 1)) > 0.5 * step + 3e-7 * max(abs(begin), abs(end)):
+        raise RecordError(
+            f"the header states an end at {end:g} s, but {data.size} samples every {step:g} s from "
+            f"{begin:g} s end elsewhere; the file is damaged."
+        )
 
 
 _OBSPY_G = 9.81
@@ -183,8 +165,8 @@ _FRAME_LENGTH = 100
 def _read_evt(content: bytes, options: Options) -> list[Accelerogram]:
     options.unit_of("m/s2")
     _check_frames(content)
-    result, warnings = stream(content, "KINEMETRICS_EVT", apply_calib=False)
-    return [_evt_record(trace, i, options, warnings) for i, trace in enumerate(joined(result))]
+    result, warnings = _stream(content, "KINEMETRICS_EVT", apply_calib=False)
+    return [_evt_record(trace, i, options, warnings) for i, trace in enumerate(result)]
 
 
 def _check_frames(content: bytes) -> None:
@@ -217,15 +199,92 @@ def _evt_record(trace, index: int, options: Options, warnings: tuple[str, ...]) 
         "m/s2",
         values,
         float(stats.delta),
-        component=component,
-        station=stats.station,
+        **names(trace) | {"component": component},
         event=str(stats.starttime)[:10],
-        start_time=str(stats.starttime),
         processing=(offset,),
         warnings=warnings,
         vertical=component.upper() in ("Z", "V", "UP") or index == 2,
     )
 
 
+_FIXED_HEADER = re.compile(rb"[0-9 \0]{6}[DRQM][ \0]")
+_LARGEST_XML = 32 * 2**20
+
+
+def _is_miniseed(content: bytes) -> bool:
+    return len(content) >= 128 and bool(_FIXED_HEADER.match(content))
+
+
+def _read_miniseed(content: bytes, options: Options) -> list[Accelerogram]:
+    """The samples are counts, turned into acceleration by the StationXML that describes the instrument."""
+    result, noticed = _stream(content, "MSEED")
+    inventory = _inventory(result[0].stats, options)
+    records = []
+    for trace in result:
+        facts: dict[str, Any] = names(trace) | site(trace, inventory)
+        if inventory is None:
+            values, unit = trace.data.astype(float), options.unit_of(None)
+        else:
+            values, sentence = calibrated(trace, inventory, options.response)
+            unit, facts["processing"] = "m/s2", (sentence,)
+        step = float(f"{trace.stats.delta:.9g}")
+        records.append(options.accelerogram(unit, values, step, warnings=noticed, **facts))
+    return records
+
+
+def _inventory(stats, options: Options):
+    """Return the inventory given, else the one in the folder that names this network and station, or None."""
+    if options.inventory is not None:
+        return _parse(options.inventory)
+    if options.unit is not None or options.folder is None:
+        return None
+    beside = sorted(options.folder.glob("*.xml"))
+    naming = [path for path in beside if _describes(path, stats.network, stats.station)]
+    if len(naming) != 1:
+        several = f"several do: {', '.join(p.name for p in naming)}" if naming else "none beside it does"
+        raise UndeclaredError(
+            f"no single StationXML describes {stats.network}.{stats.station} ({several}); "
+            "give inventory=, or unit= if the samples are already acceleration."
+        )
+    return _parse(naming[0])
+
+
+def _describes(path: Path, network: str, station: str) -> bool:
+    if not path.is_file() or path.stat().st_size > _LARGEST_XML:
+        return False
+    text = path.read_bytes().decode("utf-8", "replace")
+    station_code = re.search(rf'<(\w+:)?Station\b[^>]*\bcode="{re.escape(station)}"', text)
+    return "FDSNStationXML" in text[:2000] and f'code="{network}"' in text and station_code is not None
+
+
+def _parse(path: Path):
+    from obspy import read_inventory
+
+    try:
+        content = path.read_bytes() if path.stat().st_size <= _LARGEST_XML else b""
+    except OSError as error:
+        raise RecordError(f"the StationXML {path.name} cannot be opened, {error.strerror}.") from error
+    if b"FDSNStationXML" not in content[:2000] or b"<!DOCTYPE" in content:
+        raise RecordError(f"{path.name} is not a plain StationXML file of less than 32 MB; give one.")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return read_inventory(io.BytesIO(content), format="STATIONXML")
+    except Exception as error:
+        raise RecordError(f"damaged StationXML {path.name}, {str(error)[:200]}.") from error
+
+
+def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
+    raise RecordError(
+        "a StationXML describes an instrument and holds no samples; read the miniSEED beside it."
+    )
+
+
+SAC = Format("SAC", "SAC (IRIS, and many networks)",
+    "SAC header of version 6 or 7 whose number of samples fits the size of the file", _is_sac, _read_sac)  # fmt: skip
 EVT = Format("Kinemetrics EVT", "Kinemetrics recorders", "KMI mark at the start of the file",
     lambda content: content[:1] == b"K" and content[:32].count(b"KMI") == 1, _read_evt)  # fmt: skip
+MINISEED = Format("miniSEED", "FDSN data centres", "miniSEED fixed header (six digits, then D, R, Q or M)",
+    _is_miniseed, _read_miniseed)  # fmt: skip
+STATIONXML = Format("StationXML", "FDSN data centres", "FDSNStationXML element",
+    lambda content: b"<FDSNStationXML" in content[:2000], _refuse)  # fmt: skip

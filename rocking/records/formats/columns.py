@@ -1,8 +1,9 @@
-"""Plain columns: time and acceleration, several named channels, or one series wrapped over lines (OpenSees)."""
+"""Bare numbers: columns, or one series wrapped over lines (OpenSees), below names or a title with count and step."""
 
 import re
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from rocking.quantities import acceleration_unit
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.sampling import even_step, resampled
-from rocking.records.formats.text import after_lines, is_number, lines, numbers
+from rocking.records.formats.text import after_lines, count, is_number, lines, number, numbers, whole
 from rocking.records.instrument import other_quantity, refuse_other_quantity
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
@@ -36,77 +37,64 @@ class _Table:
     """Number of lines before the first row of numbers."""
 
 
-def _cells(line: str) -> list[str]:
-    line = line.strip().rstrip(",;").rstrip()
-    return _SEPARATOR.split(line) if line else []
-
-
-def _names(line: str) -> tuple[str, ...]:
-    parts = re.split(r"[,;\t]", line) if re.search(r"[,;\t]", line) else line.split()
-    return tuple(part.strip().strip("\"'") for part in parts)
-
-
 def _table(content: bytes) -> _Table | None:
     """Return how the columns stand, or None when the head is not comments, at most one row of names, then numbers."""
     names: tuple[str, ...] = ()
     widths: list[int] = []
     start = 0
     for line in (line for line in lines(content, _HEAD) if len(line) < 2000):
-        cells = _cells(line)
-        if not cells or (line.lstrip().startswith(("#", "%")) and not widths):
+        bare = line.strip().rstrip(",;").rstrip()
+        if not bare or (bare.startswith(("#", "%")) and not widths):
             start += not widths
-        elif all(is_number(cell) for cell in cells):
-            widths.append(len(cells))
+        elif all(map(is_number, _SEPARATOR.split(bare))):
+            widths.append(len(_SEPARATOR.split(bare)))
         elif names or widths:
             return None
         else:
-            names, start = _names(line), start + 1
+            parts = re.split(r"[,;\t]", line) if re.search(r"[,;\t]", line) else line.split()
+            names, start = tuple(part.strip().strip("\"'") for part in parts), start + 1
     uneven = len(set(widths[:-1])) > 1 or widths[-1:] > widths[:1]
     if len(widths) < 2 or uneven or (names and len(names) != widths[0]):
         return None
     return _Table(names, widths[0], start)
 
 
-def _recognise(content: bytes) -> bool:
+def _are_columns(content: bytes) -> bool:
     other = content.startswith(_COMMENTED_FORMAT) or b"\0" in content[:4096]
-    return not other and _table(points_for_commas(content) or content) is not None
+    return not other and _table(_points_for_commas(content) or content) is not None
 
 
-def _read(content: bytes, options: Options) -> list[Accelerogram]:
-    pointed = points_for_commas(content)
+def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
+    pointed = _points_for_commas(content)
     if pointed is None:
         raise RecordError(
             "the commas may be decimal signs or part the columns; write points for decimals, or part the columns "
             "with semicolons."
         )
-    content = pointed or content
-    table = _table(content)
+    table = _table(pointed)
     if table is None:
         raise RecordError("the file does not hold columns of numbers below at most one row of names.")
-    refuse_other_quantity(options.file, "\n".join(lines(content, _HEAD)[: table.start]))
+    refuse_other_quantity(options.file, "\n".join(lines(pointed, _HEAD)[: table.start]))
     width = table.width
-    body = after_lines(content, table.start)
+    body = after_lines(pointed, table.start)
     if _EMPTY_CELL.search(body):
         raise RecordError("a cell is empty; every column needs a number on every line.")
     values = numbers(body.replace(b",", b" ").replace(b";", b" "))
-    cut = _cut_number(body)
     wrapped = width > 2 and not table.names and not _time_first(values, width)
     _check_rows(body, width, last_may_be_short=wrapped)
     if width == 1 or wrapped:
         label = table.names[0] if table.names else ""
         named = "" if _unit(label) else label
-        found = [_channel(named, label, values, None, options, warnings=_repeats(values))]
+        records = [_column(named, label, values, None, options, warnings=_repeats(values))]
     else:
-        found = _channels(values.reshape(-1, width), table.names, options)
-    return [replace(record, warnings=record.warnings + cut) for record in found]
+        records = _timed_columns(values.reshape(-1, width), table.names, options)
+    return [replace(record, warnings=record.warnings + _cut_number(body)) for record in records]
 
 
 def _cut_number(body: bytes) -> tuple[str, ...]:
     """Return a warning when the last number has fewer decimals than all above it, and no line end: the file is cut."""
-    if body.endswith(b"\n"):
-        return ()
-    last = [_DECIMALS.search(line) for line in lines(body[-_TAIL:])[1:] if line.strip()]
-    decimals = [len(found[1]) for found in last if found]
+    tail = [] if body.endswith(b"\n") else lines(body[-_TAIL:])[1:]
+    decimals = [len(match[1]) for line in tail if line.strip() and (match := _DECIMALS.search(line))]
     if len(decimals) < 3 or decimals[-1] >= min(decimals[:-1]):
         return ()
     return ("The last number has fewer decimals than those above it and no line end: the file may be cut.",)
@@ -127,9 +115,9 @@ def _check_rows(body: bytes, width: int, last_may_be_short: bool) -> None:
     ends = np.flatnonzero(octets == _LINE_END)
     filled = np.diff(np.searchsorted(first, ends), prepend=0)
     rows = filled[filled != 0]
+    if last_may_be_short and rows[-1] < width:
+        rows = rows[:-1]
     wrong = np.flatnonzero(rows != width)
-    if last_may_be_short and wrong.size == 1 and wrong[0] == rows.size - 1 and rows[-1] < width:
-        return
     if wrong.size:
         raise RecordError(
             f"row {wrong[0] + 1} of the samples has {rows[wrong[0]]} columns, but the first has {width}."
@@ -146,39 +134,34 @@ def _repeats(values: np.ndarray) -> tuple[str, ...]:
     )
 
 
-def _channels(rows: np.ndarray, names: tuple[str, ...], options: Options) -> list[Accelerogram]:
+def _timed_columns(rows: np.ndarray, names: tuple[str, ...], options: Options) -> list[Accelerogram]:
     labels = names or ("time", *[""] * (rows.shape[1] - 1))
     timed = bool(_TIME.fullmatch(labels[0]))
-    told: tuple[str, ...] = ()
+    processing: tuple[str, ...] = ()
     step, warnings = options.time_step, _repeats(rows.ravel())
     if timed:
-        step, rows, told = _evened(rows)
-        warnings = told
+        times = rows[:, 0]
+        step, warnings = even_step(times), ()
+        if step is None:
+            step, even, sentence = resampled(times)
+            rows = np.stack([np.interp(even, times, column) for column in rows.T], axis=1)
+            processing = warnings = (sentence,)
     return [
-        _channel(_component(label), label, rows[:, i], step, options, processing=told, warnings=warnings)
+        _column(_component(label), label, rows[:, i], step, options, processing=processing, warnings=warnings)
         for i, label in enumerate(labels)
         if i >= timed and other_quantity(label) is None
     ]
 
 
-def _evened(rows: np.ndarray) -> tuple[float, np.ndarray, tuple[str, ...]]:
-    """Return (step, rows at even times, sentences) of rows that begin with their time."""
-    step = even_step(rows[:, 0])
-    if step is not None:
-        return step, rows, ()
-    step, at, sentence = resampled(rows[:, 0])
-    return step, np.stack([np.interp(at, rows[:, 0], column) for column in rows.T], axis=1), (sentence,)
-
-
-def _channel(
-    component: str, label: str, values: np.ndarray, step: float | None, options: Options, **fields
+def _column(
+    component: str, label: str, values: np.ndarray, step: float | None, options: Options, **fields: Any
 ) -> Accelerogram:
     return options.accelerogram(_unit(label), values, step, component=component, processed=None, **fields)
 
 
 def _unit(label: str) -> str | None:
-    found = _UNIT.search(label)
-    return acceleration_unit(found[1]) if found else None
+    match = _UNIT.search(label)
+    return acceleration_unit(match[1]) if match else None
 
 
 def _component(label: str) -> str:
@@ -191,7 +174,7 @@ _SAMPLE = 40
 """Lines that are looked at: the rest of a table is like them, or its numbers are refused one by one."""
 
 
-def points_for_commas(content: bytes) -> bytes | None:
+def _points_for_commas(content: bytes) -> bytes | None:
     """Return `content` with points for its decimal commas; unchanged where commas part numbers or there are none.
 
     A comma is a decimal sign where something else (a semicolon, a tab, blanks) parts the numbers and none has a point.
@@ -223,5 +206,74 @@ def _counts(rows: list[str]) -> bool:
     return len(rows) > 2 and len(steps) == 1 and steps.pop() > 0
 
 
+_WORDS = re.compile(r"[A-Za-z=:,;()]+")
+_UNIT_IN_WORDS = re.compile(r"(?:\b(?:in|units?(?: of| are|:)?)\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)", re.I)
+"""The unit follows the word "in" or "units", or stands in brackets."""
+_LONGEST_STEP = 1.0
+"""s; of a record, so that a line of two numbers is known for samples and step."""
+
+
+def _announced(line: str) -> tuple[str, str] | None:
+    """Return (samples, step) of a line that holds these two numbers and nothing else but words."""
+    parts = _WORDS.sub(" ", line).split()
+    if len(parts) != 2 or not all(map(is_number, parts)):
+        return None
+    for samples, step in (parts, parts[::-1]):
+        if samples.isdecimal() and int(samples) > 1 and "." in step and 0 < float(step) <= _LONGEST_STEP:
+            return samples, step
+    return None
+
+
+def _title(content: bytes) -> tuple[str, str] | None:
+    """Return (samples, step) of a title with numbers below, None of another file."""
+    head = [line for line in lines(content, _HEAD) if len(line) < 2000]
+    if len(head) < 4 or all(is_number(cell) for cell in head[0].split()):
+        return None
+    rows = [row.split() for row in head[2:-1] if row.strip()]
+    if {len(row) for row in rows} == {2} and len(head[0].split()) == 2:
+        return None  # two columns below their names
+    return _announced(head[1]) if rows and all(is_number(cell) for row in rows for cell in row) else None
+
+
+def _read_titled(content: bytes, options: Options) -> list[Accelerogram]:
+    announced = _title(content)
+    if announced is None:
+        raise RecordError("the second line does not give the number of samples and the time step.")
+    title, second, *rows = lines(content, _HEAD)
+    refuse_other_quantity(options.file, f"{title}\n{second}")
+    words = (match[1] for match in _UNIT_IN_WORDS.finditer(f"{title}\n{second}"))
+    unit = next(filter(None, map(acceleration_unit, words)), None)
+    per_line = max(len(row.split()) for row in rows)
+    declared = count("number of samples", announced[0])
+    values, notes = whole(numbers(after_lines(content, 2)), declared, per_line)
+    step, event = number("time step", announced[1]), title.strip()[:60]
+    return [options.accelerogram(unit, values, step, event=event, warnings=notes, processed=None)]
+
+
+_EMOD3D = re.compile(r"\s*(\d+)\s+(\d\.\d+e[-+]\d\d)(\s+-?\d+){2}(\s+-?\d\.\d+e[-+]\d\d){4}\s*", re.I)
+"""Number of samples, step, hours and minutes, and four reals below station and component."""
+
+
+def _is_emod3d(content: bytes) -> bool:
+    head = lines(content, 3)
+    return len(head) == 3 and len(head[0].split()) >= 2 and _EMOD3D.fullmatch(head[1]) is not None
+
+
+def _read_emod3d(content: bytes, options: Options) -> list[Accelerogram]:
+    title, second = lines(content, 3)[:2]
+    refuse_other_quantity(options.file, title)
+    station, component = title.split()[:2]
+    declared, step = second.split()[:2]
+    values, notes = whole(numbers(after_lines(content, 2)), count("number of samples", declared), per_line=6)
+    named = {"station": station, "component": component}
+    seconds = number("time step", step)
+    return [options.accelerogram(None, values, seconds, warnings=notes, processed=None, **named)]
+
+
 COLUMNS = Format("columns of numbers", "spreadsheets, OpenSees and scripts",
-    "lines that hold numbers only, below at most one row of names", _recognise, _read)  # fmt: skip
+    "lines that hold numbers only, below at most one row of names", _are_columns, _read_columns)  # fmt: skip
+TITLED = Format("titled column", "programs of analysis, files like KOBE.000",
+    "title, then a line with number of samples and step, then numbers",
+    lambda content: _title(content) is not None, _read_titled)  # fmt: skip
+EMOD3D = Format("EMOD3D text", "EMOD3D and ucgmsim, simulated and observed motion",
+    "station and component above samples, step and six more numbers", _is_emod3d, _read_emod3d)  # fmt: skip

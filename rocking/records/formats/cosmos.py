@@ -8,18 +8,13 @@ from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
-from rocking.records.formats.header import (
-    blocks,
-    check_nothing_left,
-    corner,
-    missing_channels,
-    optional,
-    optional_number,
-)
+from rocking.records.formats.header import Layout, blocks, check_nothing_left, missing_channels, optional
 from rocking.records.formats.text import count, fields, filled
 from rocking.records.instrument import site_warnings
-from rocking.records.plausibility import agree_with_header
 
+_LAYOUT = Layout(
+    station=r"Code:\s*(\S+)", high_pass=r"filtered below\s+([\d.]+)\s*Hz", half_digit=5e-7,
+)  # fmt: skip
 _FIRST = re.compile(r"(Corrected|Uncorrected)\s+(acceleration|velocity|displacement)\s+\(Format v", re.I)
 _DATA = re.compile(
     r"^\s*(?P<n>\d+)\s+(?P<quantity>\w+)\s+pts,.*?units\s*=\s*(?P<unit>[\w/^]+)\.?\s*(?:\((?P<code>\d+)\))?\s*,?"
@@ -40,53 +35,54 @@ _CODES = {"02": "g", "2": "g", "04": "cm/s2", "4": "cm/s2"}
 
 def _read(content: bytes, options: Options) -> list[Accelerogram]:
     every = blocks(content, _FIRST)
-    found = [record for block in every if (record := _block(block, options, len(every))) is not None]
-    if not found:
+    records = [record for block in every if (record := _channel(block, options, len(every))) is not None]
+    if not records:
         raise RecordError("this COSMOS file holds velocity or displacement only; use the acceleration file.")
-    return found
+    return records
 
 
-def _block(block: list[str], options: Options, held: int) -> Accelerogram | None:
+def _channel(block: list[str], options: Options, held: int) -> Accelerogram | None:
+    """Return the accelerogram of a block, or None where it is of another quantity."""
     at, data = next(((i, m) for i, line in enumerate(block) if (m := _DATA.match(line))), (0, None))
     if data is None:
         raise RecordError("no line gives points, units and Format of the samples; the file is truncated.")
+    by_code = _CODES.get(data["code"] or "")
     if not data["quantity"].lower().startswith("accel"):
-        if data["code"] in _CODES:
-            raise RecordError(
-                f"a channel of {data['quantity']} has units of {_CODES[data['code']]} by its code."
-            )
+        if by_code:
+            raise RecordError(f"a channel of {data['quantity']} has units of {by_code} by its code.")
         return None
-    unit = _CODES.get(data["code"] or "", data["unit"])
-    if acceleration_factor(unit) != acceleration_factor(data["unit"]):
+    if acceleration_factor(by_code or data["unit"]) != acceleration_factor(data["unit"]):
         raise RecordError(
-            f"the units of a channel are {data['unit']!r}, but their code {data['code']} says {unit}."
+            f"the units of a channel are {data['unit']!r}, but their code {data['code']} says {by_code}."
         )
     head = "\n".join(block[:at])
     reals = _reals(block[:at])
-    step = float(reals[_STEP]) / 1000 if 0 < reals[_STEP] < 1e4 else float(reals[_RECORDER_STEP])
+    step = reals[_STEP] / 1000 if 0 < reals[_STEP] < 1e4 else reals[_RECORDER_STEP]
     values = _samples(block[at + 1 :], data)
-    length, lasts = float(reals[_LENGTH]), values.size * step
+    length, lasts = reals[_LENGTH], values.size * step
     wrong = 0 < length < 1e5 and abs(length - lasts) > 1.5 * step + 5e-4  # not all agencies fill it
     note = f"The header gives the series a length of {length:g} s, but its samples last {lasts:g} s."
-    record = options.accelerogram(
-        data["unit"],
+    return _LAYOUT.channel(
+        head,
         values,
-        step,
+        options,
+        unit=data["unit"],
+        step=step,
         component=_component(head),
         warnings=(
             *missing_channels(head, held),
             *site_warnings(optional(r"\bLocation:\s*(.*?)\s*$", head)),
             *([note] if wrong else []),
         ),
-        station=optional(r"Code:\s*(\S+)", head),
         event=optional(r"(?:Rcrd|Record)?\s*(?:of)?\s*(.*)", block[1]),
         processed=block[0].lower().startswith("corrected"),
-        high_pass_frequency=corner(optional_number(r"filtered below\s+([\d.]+)\s*Hz", head)),
+        peak=_stated(reals[_PEAK]),
+        peak_time=_stated(reals[_PEAK_TIME]),
     )
-    peak, when = (
-        None if abs(value - _UNKNOWN) < 1e-3 else float(value) for value in reals[[_PEAK, _PEAK_TIME]]
-    )
-    return agree_with_header(record, peak, data["unit"], half_digit=5e-7, at=when)
+
+
+def _stated(real: float) -> float | None:
+    return None if abs(real - _UNKNOWN) < 1e-3 else real
 
 
 def _samples(rows: list[str], data: re.Match[str]) -> np.ndarray:
@@ -98,12 +94,12 @@ def _samples(rows: list[str], data: re.Match[str]) -> np.ndarray:
     return filled(rows[:end], declared, max(1, int(data["per_line"])), max(1, int(data["width"])))
 
 
-def _reals(head: list[str]):
+def _reals(head: list[str]) -> list[float]:
     for i, line in enumerate(head):
-        if found := _REALS.match(line):
-            values = fields(head[i + 1 : i + 1 + count("real-header lines", found[2])], int(found[3]) or 1)
-            if values.size == count("real-header values", found[1]) > _PEAK_TIME:
-                return values
+        if match := _REALS.match(line):
+            values = fields(head[i + 1 : i + 1 + count("real-header lines", match[2])], int(match[3]) or 1)
+            if values.size == count("real-header values", match[1]) > _PEAK_TIME:
+                return values.tolist()
     raise RecordError(
         f"the real header does not hold the values it announces, of which {_PEAK_TIME + 1} give step and peak; "
         "the file is damaged."

@@ -1,12 +1,126 @@
-"""Headers: finding what they declare, and saying what is missing."""
+"""Headers: a format says where in its text each fact stands, and one reader finds the facts and checks them."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from rocking.errors import RecordError
-from rocking.records.formats.text import lines, number
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats.format import Options
+from rocking.records.formats.text import count, lines, number, period
+from rocking.records.plausibility import agree_with_header
+
+NUMBER = r"([+-]?(?:\d+\.?\d*|\.\d+)(?:E[+-]?\d+)?)"
+_NAMES = "component", "station", "network", "event", "event_time"
+
+
+def key(name: str) -> str:
+    """Return the pattern of the value in a line like "NAME : value"."""
+    return rf"^[ \t]*{re.escape(name)}[ \t]*:[ \t]*(.*)"
+
+
+def keyed(**keys: str) -> dict[str, Any]:
+    """Return the patterns of a Layout for a header of such lines, from the key of each fact."""
+    return {fact: key(name) for fact, name in keys.items()}
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where the header of a format says what: patterns whose first group is the value, "" where it never does.
+
+    samples: their number. step: s; rate: Hz. duration: s, right within that many steps and that share of its last digit
+    (some agencies count n steps for n samples, others n - 1). magnitude: a text like "6.5 Mw". place: one like
+    "40.941N, 123.633W"; latitude, longitude: degrees north and east. elevation: m. distance: from the epicentre, km.
+    high_pass: Hz. peak: in peak_unit, with half a unit of its last digit; peak_time: s after the first sample.
+    """
+
+    unit: str = ""
+    samples: str = ""
+    step: str = ""
+    rate: str = ""
+    duration: str = ""
+    duration_steps: float = 1.001
+    duration_digits: float = 0.5
+    component: str = ""
+    station: str = ""
+    network: str = ""
+    event: str = ""
+    event_time: str = ""
+    magnitude: str = ""
+    place: str = ""
+    latitude: str = ""
+    longitude: str = ""
+    elevation: str = ""
+    distance: str = ""
+    high_pass: str = ""
+    peak: str = ""
+    peak_unit: str = ""
+    half_digit: float = 0.0
+    peak_time: str = ""
+
+    def text(self, name: str, head: str) -> str:
+        """Return what `head` says of the fact `name`, "" where it does not."""
+        return optional(getattr(self, name), head)
+
+    def number(self, name: str, head: str) -> float | None:
+        """Return the number that what is said of `name` begins with, None where it begins with none."""
+        return optional_number(rf"^\s*{NUMBER}", self.text(name, head))
+
+    def declared(self, name: str, head: str) -> str:
+        """Return what `head` says of `name`. Raises RecordError when it says nothing."""
+        return required(name, getattr(self, name), head)[1].strip()
+
+    def count(self, head: str) -> int:
+        """Return the number of samples. Raises RecordError when it is missing or no whole number."""
+        return count("the number of samples", self.declared("samples", head))
+
+    def channel(
+        self,
+        head: str,
+        values: np.ndarray,
+        options: Options,
+        *,
+        unit: str = "",
+        step: float | None = None,
+        peak: float | None = None,
+        peak_time: float | None = None,
+        in_file: np.ndarray | None = None,
+        **fields: Any,
+    ) -> Accelerogram:
+        """Return the accelerogram of a header and its samples (n,), after holding duration and peak against them.
+
+        unit, step [s], peak and its time where they follow from something else than the patterns; fields: more of an
+        Accelerogram, before what the header says. in_file: (n,) m/s² as agree_with_header takes it.
+        Raises RecordError when something is missing or contradicts the samples.
+        """
+        if step is None:
+            rate = self.rate and self.text("rate", head)
+            step = period("the rate", rate) if rate else number("the step", self.declared("step", head))
+        record = options.accelerogram(unit or self.unit, values, step, **self._facts(head) | fields)
+        if duration := self.text("duration", head):
+            declared = number("the duration", duration)
+            rounding = self.duration_digits * 10.0 ** -len(duration.partition(".")[2])
+            check_duration(declared, values.size, record.time_step, self.duration_steps, rounding)
+        peak = self.number("peak", head) if peak is None else peak
+        at = self.number("peak_time", head) if peak_time is None else peak_time
+        return agree_with_header(
+            record, peak, self.peak_unit or unit or self.unit, self.half_digit, at=at, samples=in_file
+        )
+
+    def _facts(self, head: str) -> dict[str, Any]:
+        north, east, height = (self.number(name, head) for name in ("latitude", "longitude", "elevation"))
+        return {
+            **{name: self.text(name, head) for name in _NAMES},
+            **typed_magnitude(self.text("magnitude", head)),
+            **coordinates(self.text("place", head)),
+            **site(north, east, height),
+            "epicentral_distance": distance(self.number("distance", head)),
+            "high_pass_frequency": corner(self.number("high_pass", head)),
+        }
 
 
 def blocks(content: bytes, first_line: re.Pattern[str]) -> list[list[str]]:
@@ -16,7 +130,7 @@ def blocks(content: bytes, first_line: re.Pattern[str]) -> list[list[str]]:
     return [text[a:b] for a, b in pairwise([*starts, len(text)])]
 
 
-def place_of(text: list[str], is_sought: Callable[[str], object], what: str) -> int:
+def place_of(text: Iterable[str], is_sought: Callable[[str], object], what: str) -> int:
     """Return the place of the first line that `is_sought`. Raises RecordError: no line `what`."""
     at = next((i for i, line in enumerate(text) if is_sought(line)), None)
     if at is None:
@@ -26,16 +140,16 @@ def place_of(text: list[str], is_sought: Callable[[str], object], what: str) -> 
 
 def required(what: str, pattern: str, text: str) -> re.Match[str]:
     """Return the first match of `pattern` in `text`. Raises RecordError saying `what` the header lacks."""
-    found = re.search(pattern, text, re.I | re.M)
-    if not found:
+    match = re.search(pattern, text, re.I | re.M) if pattern else None
+    if not match or not match[1].strip():
         raise RecordError(f"the header does not declare {what}; the file is damaged or not what it seems.")
-    return found
+    return match
 
 
 def optional(pattern: str, text: str) -> str:
     """Return the first group of the first match of `pattern` in `text`, stripped, or ""."""
-    found = re.search(pattern, text, re.I | re.M)
-    return found[1].strip() if found else ""
+    match = re.search(pattern, text, re.I | re.M) if pattern else None
+    return match[1].strip() if match else ""
 
 
 def optional_number(pattern: str, text: str) -> float | None:
@@ -46,39 +160,17 @@ def optional_number(pattern: str, text: str) -> float | None:
         return None
 
 
-def mapping(text: list[str]) -> dict[str, str]:
-    """Return the "KEY : value" lines as a mapping, keys stripped and in upper case; the first of a key counts."""
-    pairs: dict[str, str] = {}
-    for key, colon, value in (line.partition(":") for line in text):
-        if colon:
-            pairs.setdefault(key.strip().upper(), value.strip())
-    return pairs
-
-
-def valued(pairs: dict[str, str], key: str) -> str:
-    """Return the value of `key`. Raises RecordError when it is missing or empty."""
-    if not pairs.get(key):
-        raise RecordError(f"the header gives no {key}; the file is damaged or not what it seems.")
-    return pairs[key]
-
-
-def numeric(pairs: dict[str, str], key: str) -> float:
-    """Return the value of `key` as a number. Raises RecordError when it is missing or no number."""
-    return number(key, valued(pairs, key))
-
-
 def corner(value: float | None) -> float | None:
     """Return a high-pass corner in Hz, or None where the header says none (0, -999, nothing)."""
     return value if value is not None and 0 < value < 100 else None
 
 
-def magnitude(*texts: str) -> float | None:
-    """Return the first number of the first text that holds a magnitude; 0 and below stand for none."""
-    found = (optional_number(r"(-?\d+(?:\.\d+)?)", text) for text in texts)
-    return next((value for value in found if value is not None and 0 < value <= 10), None)
+def distance(kilometres: float | None) -> float | None:
+    """Return the distance in m that a header gives in km, or None where it says none (-999, 32767, nothing)."""
+    return 1000 * kilometres if kilometres is not None and 0 <= kilometres <= 20_100 else None
 
 
-_SCALES = "Mw", "Ms", "M", "ML", "mb"
+_SCALES = {scale.lower(): scale for scale in ("Mw", "Ms", "M", "ML", "mb")}
 """Of magnitude, the preferred one first."""
 _TYPED = re.compile(
     r"\b(M[wslb]?)(?![a-z])\W{0,3}(\d\d?(?:\.\d+)?)|(\d\d?(?:\.\d+)?)\s*\(?(M[wslb]?)\b", re.I
@@ -86,55 +178,53 @@ _TYPED = re.compile(
 
 
 def typed_magnitude(text: str) -> dict[str, Any]:
-    """Return magnitude and magnitude_type of a text like "6.5 Mw", "4.0(Ms)" or "/mb=6.1/Mw=7.1", by preference."""
-    scales = {scale.lower(): scale for scale in _SCALES}
-    given = {scales[(m[1] or m[4]).lower()]: magnitude(m[2] or m[3]) for m in _TYPED.finditer(text)}
-    scale = next((scale for scale in _SCALES if given.get(scale)), "")
-    return {"magnitude": given[scale] if scale else magnitude(text), "magnitude_type": scale}
+    """Return magnitude and magnitude_type of a text like "6.5 Mw", "4.0(Ms)" or "/mb=6.1/Mw=7.1", by preference.
+
+    A number without a scale counts where none has one; 0 and below stand for none.
+    """
+    given = {(m[1] or m[4]).lower(): float(m[2] or m[3]) for m in _TYPED.finditer(text)}
+    given[""] = optional_number(r"(-?\d+(?:\.\d+)?)", text) or 0.0
+    scale = next((scale for scale in _SCALES if 0 < given.get(scale, 0) <= 10), "")
+    value = given[scale] if 0 < given[scale] <= 10 else None
+    return {"magnitude": value, "magnitude_type": _SCALES.get(scale, "")}
 
 
 _ANGLE = r"(\d{1,3}(?:\.\d+)?)(?:[ °]+(\d\d?)[ ']+(\d\d?))?[ °\"]*(?:LAT\. *|LONG?\. *)?"
 _COORDINATES = re.compile(rf"{_ANGLE}([NS])\b[\s,:-]*{_ANGLE}([EW])\b", re.I)
 
 
-def coordinates(text: str, elevation: str = "") -> dict[str, float | None]:
-    """Return latitude and longitude, degrees, of a text like "40.941N, 123.633W" or "42 37 10S 173 03 13E".
-
-    elevation: the text of the height above the sea, m. What is not there, or is 0, 0, is left out.
-    """
-    place: dict[str, float | None] = {}
-    if found := _COORDINATES.search(text):
-        north, east = (
-            (float(d) + float(m or 0) / 60 + float(s or 0) / 3600) * (-1 if side.upper() in "SW" else 1)
-            for d, m, s, side in (found.groups()[:4], found.groups()[4:])
-        )
-        if abs(north) <= 90 and abs(east) <= 180 and (north, east) != (0, 0):
-            place = {"latitude": north, "longitude": east}
-    height = optional_number(r"(-?\d+(?:\.\d+)?)", elevation)
-    return place if height is None or not -500 < height < 9000 else place | {"elevation": height}
+def coordinates(text: str) -> Mapping[str, float]:
+    """Return latitude and longitude, degrees, of a text like "40.941N, 123.633W" or "42 37 10S 173 03 13E"."""
+    match = _COORDINATES.search(text)
+    if not match:
+        return {}
+    north, east = (
+        (float(d) + float(m or 0) / 60 + float(s or 0) / 3600) * (-1 if side.upper() in "SW" else 1)
+        for d, m, s, side in (match.groups()[:4], match.groups()[4:])
+    )
+    return site(north, east)
 
 
-def distance(kilometres: str) -> float | None:
-    """Return the distance in m that a header gives in km, or None where it says none (-999, 32767, nothing)."""
-    value = optional_number(r"^\s*(-?\d+(?:\.\d*)?)", kilometres)
-    return 1000 * value if value is not None and 0 <= value <= 20_100 else None
+def site(north: float | None, east: float | None, elevation: float | None = None) -> dict[str, float]:
+    """Return latitude and longitude [degrees] and elevation [m], each where it can be: no -999, and not 0, 0."""
+    place = {}
+    if (
+        north is not None
+        and east is not None
+        and (north, east) != (0, 0)
+        and abs(north) <= 90
+        and abs(east) <= 180
+    ):
+        place = {"latitude": north, "longitude": east}
+    return place | ({"elevation": elevation} if elevation is not None and -500 < elevation < 9000 else {})
 
 
-def check_duration(
-    field: str, text: str, samples: int, time_step: float, *, rounding: float | None = None
-) -> None:
-    """Check `samples` against the duration printed as `text`, s, within a step and what the print rounds.
-
-    A record of n samples lasts n steps for some agencies and n - 1 for others. rounding: s, where it is not half of the
-    last digit printed. Raises RecordError when they disagree.
-    """
-    declared = number(field, text)
-    if rounding is None:
-        rounding = 0.5 * 10.0 ** -len(text.strip().partition(".")[2])
-    if abs(samples * time_step - declared) > 1.001 * time_step + rounding:
+def check_duration(declared: float, samples: int, time_step: float, steps: float, rounding: float) -> None:
+    """Check `samples` against a duration, s, within `steps` and `rounding`, s. Raises RecordError for another."""
+    if abs(samples * time_step - declared) > steps * time_step + rounding:
         raise RecordError(
-            f"{field} is {declared:g} s, but the {samples} samples last {samples * time_step:g} s: "
-            "it is truncated or its header belongs to another record; fetch the whole file."
+            f"the header declares a duration of {declared:g} s, but the {samples} samples last "
+            f"{samples * time_step:g} s: it is truncated or its header belongs to another record; fetch the whole file."
         )
 
 

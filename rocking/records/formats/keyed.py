@@ -1,7 +1,8 @@
-"""Formats whose header is lines of "KEY: value": DYNA and AFAD, RESORCE, CWB, JMA."""
+"""Formats whose header is lines of "KEY: value": DYNA and AFAD, RESORCE, CWB, UNAM."""
 
 import re
-from datetime import datetime, timedelta
+from collections.abc import Sequence
+from dataclasses import replace
 from itertools import takewhile
 
 import numpy as np
@@ -10,77 +11,81 @@ from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import (
-    check_duration,
-    coordinates,
+    NUMBER,
+    Layout,
+    check_equal,
     corner,
-    distance,
-    mapping,
-    numeric,
+    key,
+    keyed,
     optional,
     optional_number,
     place_of,
     required,
     typed_magnitude,
-    valued,
 )
 from rocking.records.formats.sampling import even_step
-from rocking.records.formats.text import count, fields, in_columns, is_number, lines, numbers, period, whole
-from rocking.records.instrument import azimuth, is_vertical
-from rocking.records.plausibility import agree_with_header
+from rocking.records.formats.text import count, fields, in_columns, lines, number, numbers, whole
+from rocking.records.instrument import azimuth, is_vertical, other_quantity
 
+_DYNA = Layout(peak_unit="cm/s2", half_digit=5e-4, **keyed(
+    samples="NDATA", step="SAMPLING_INTERVAL_S", duration="DURATION_S", component="STREAM", station="STATION_CODE",
+    network="NETWORK", latitude="STATION_LATITUDE_DEGREE", longitude="STATION_LONGITUDE_DEGREE",
+    elevation="STATION_ELEVATION_M", distance="EPICENTRAL_DISTANCE_KM", high_pass="LOW_CUT_FREQUENCY_HZ",
+    peak="PGA_CM/S^2", peak_time="TIME_PGA_S",
+))  # fmt: skip
 _DYNA_KEY = re.compile(r"[A-Z][A-Z0-9_/^]*:")
-_DYNA_HEADER, _AFAD_HEADER, _RESORCE_HEADER, _CWB_HEADER = 100, 40, 20, 60
+_DYNA_HEADER, _AFAD_HEADER, _RESORCE_HEADER, _CWB_HEADER, _UNAM_HEADER = 100, 40, 20, 60, 160
 """Lines of the longest headers."""
-_JAPAN = timedelta(hours=9)
 _TIME = re.compile(r"(\d{4})/?(\d\d)/?(\d\d)[_ T](\d\d):?(\d\d):?(\d\d(?:\.\d{1,6})?)\d*")
 _REFILTERED = "AAD_"
 """What the lines begin with that AFAD puts above a header after filtering the samples anew (Kahramanmaraş 2023)."""
 
 
+def _refiltered(text: list[str]) -> int:
+    return sum(1 for _ in takewhile(lambda line: line.startswith(_REFILTERED), text))
+
+
 def _is_dyna(content: bytes) -> bool:
-    above = takewhile(lambda line: line.startswith(_REFILTERED), lines(content, _DYNA_HEADER))
-    head = content[sum(len(line) + 1 for line in above) :][:8000]
-    return head.startswith(b"EVENT_NAME:") and b"\nSAMPLING_INTERVAL_S:" in head
+    text = lines(content, _DYNA_HEADER)
+    head = "\n".join(text[_refiltered(text) :])
+    return head.startswith("EVENT_NAME:") and "\nSAMPLING_INTERVAL_S:" in head
 
 
 def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
-    anew = sum(1 for _ in takewhile(lambda line: line.startswith(_REFILTERED), text))
+    anew = _refiltered(text)
     length = anew + sum(1 for _ in takewhile(_DYNA_KEY.match, text[anew : anew + _DYNA_HEADER]))
-    pairs = mapping(text[anew:length]) | mapping([line.removeprefix(_REFILTERED) for line in text[:anew]])
-    kind = valued(pairs, "DATA_TYPE")
+    head = "\n".join(line.removeprefix(_REFILTERED) for line in text[:length])
+    kind = required("DATA_TYPE", key("DATA_TYPE"), head)[1].strip()
     if kind.upper() != "ACCELERATION":
         raise RecordError(f"DATA_TYPE is {kind!r}, but must be ACCELERATION; use the ACC file of the record.")
-    declared = count("NDATA", valued(pairs, "NDATA"))
-    values, notes = whole(numbers("\n".join(text[length:])), declared, per_line=1)
-    high_pass = corner(optional_number(r"^\s*([\d.]+)", pairs.get("LOW_CUT_FREQUENCY_HZ", "")))
-    start = _TIME.fullmatch(pairs.get("DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS", ""))
-    record = options.accelerogram(
-        valued(pairs, "UNITS"),
-        values,
-        numeric(pairs, "SAMPLING_INTERVAL_S"),
-        component=pairs.get("STREAM", ""),
-        station=pairs.get("STATION_CODE", ""),
-        network=pairs.get("NETWORK", ""),
-        warnings=notes,
-        event=f"{pairs.get('EVENT_NAME', '')} {pairs.get('EVENT_DATE_YYYYMMDD', '')}".strip(),
-        start_time="{}-{}-{}T{}:{}:{}Z".format(*start.groups()) if start else "",
-        **typed_magnitude(f"Mw={pairs.get('MAGNITUDE_W', '')} ML={pairs.get('MAGNITUDE_L', '')}"),
-        event_time=f"{pairs.get('EVENT_DATE_YYYYMMDD', '')} {pairs.get('EVENT_TIME_HHMMSS', '')}".strip(),
-        **coordinates(
-            f"{pairs.get('STATION_LATITUDE_DEGREE')}N {pairs.get('STATION_LONGITUDE_DEGREE')}E",
-            pairs.get("STATION_ELEVATION_M", ""),
-        ),
-        epicentral_distance=distance(pairs.get("EPICENTRAL_DISTANCE_KM", "")),
-        processed=high_pass is not None,
-        high_pass_frequency=high_pass,
+    values, notes = whole(numbers("\n".join(text[length:])), _DYNA.count(head), per_line=1)
+    start = _TIME.fullmatch(optional(key("DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS"), head))
+    date, scale_w, scale_l = (
+        optional(key(name), head) for name in ("EVENT_DATE_YYYYMMDD", "MAGNITUDE_W", "MAGNITUDE_L")
     )
-    if pairs.get("DURATION_S"):
-        check_duration("DURATION_S", pairs["DURATION_S"], declared, record.time_step)
     # The peak that the header states is that of the samples before they were filtered anew.
-    peak = None if anew else optional_number(r"^\s*(-?[\d.]+)", pairs.get("PGA_CM/S^2", ""))
-    at = optional_number(r"^\s*(-?[\d.]+)", pairs.get("TIME_PGA_S", ""))
-    return [agree_with_header(record, peak, "cm/s2", half_digit=5e-4, at=at)]
+    layout = replace(_DYNA, peak="") if anew else _DYNA
+    record = layout.channel(
+        head,
+        values,
+        options,
+        unit=required("UNITS", key("UNITS"), head)[1].strip(),
+        warnings=notes,
+        event=f"{optional(key('EVENT_NAME'), head)} {date}",
+        event_time=f"{date} {optional(key('EVENT_TIME_HHMMSS'), head)}",
+        start_time="{}-{}-{}T{}:{}:{}Z".format(*start.groups()) if start else "",
+        **typed_magnitude(f"Mw={scale_w} ML={scale_l}"),
+        processed=corner(_DYNA.number("high_pass", head)) is not None,
+    )
+    return [record]
+
+
+_AFAD = Layout("gal", half_digit=5e-7, **keyed(
+    samples="NUMBER OF DATA", step="SAMPLING INTERVAL (SEC)", station="STATION ID", event="EARTHQUAKE DATE",
+    event_time="EARTHQUAKE DATE", magnitude="EARTHQUAKE MAGNITUDE", place="STATION COORDINATES",
+    elevation="STATION ALTITUDE (M)",
+))  # fmt: skip
 
 
 def _directions(line: str) -> list[str]:
@@ -93,33 +98,30 @@ def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
     what = f"names the columns (N-S, E-W, U-D) in the first {_AFAD_HEADER}"
     at = place_of(text[:_AFAD_HEADER], _directions, what)
-    pairs = mapping(text[:at])
+    head = "\n".join(text[:at])
     labels = _directions(text[at])
     table = in_columns(numbers("\n".join(text[at + 1 :])), len(labels))
-    declared = count("NUMBER OF DATA", valued(pairs, "NUMBER OF DATA"))
-    _, notes = whole(table[:, 0], declared, per_line=1)
-    peaks = next((key for key in pairs if "PGA" in key), "")
-    records = []
-    for component, values in zip(labels, table.T, strict=True):
-        record = options.accelerogram(
-            "gal",
+    _, notes = whole(table[:, 0], _AFAD.count(head), per_line=1)
+    peaks = optional(r"^(.*PGA.*:.*)", head)
+    return [
+        _AFAD.channel(
+            head,
             values,
-            numeric(pairs, "SAMPLING INTERVAL (SEC)"),
+            options,
             component=component,
-            warnings=notes,
-            station=pairs.get("STATION ID", ""),
-            event=pairs.get("EARTHQUAKE DATE", ""),
             network="TK",
-            **typed_magnitude(pairs.get("EARTHQUAKE MAGNITUDE", "")),
-            event_time=pairs.get("EARTHQUAKE DATE", ""),
-            **coordinates(pairs.get("STATION COORDINATES", ""), pairs.get("STATION ALTITUDE (M)", "")),
+            warnings=notes,
             processed="RAW" not in peaks,
+            peak=optional_number(rf"\({re.escape(component)}\)\s*{NUMBER}", peaks),
         )
-        stated = optional_number(rf"\({re.escape(component)}\)\s*(-?[\d.]+)", pairs.get(peaks, ""))
-        records.append(agree_with_header(record, stated, "gal", half_digit=5e-7))
-    return records
+        for component, values in zip(labels, table.T, strict=True)
+    ]
 
 
+_RESORCE = Layout("m/s2", **keyed(
+    samples="NUMBER OF DATA", step="TIME INCREMENT (S)", component="ORIENTATION", station="STATION CODE / NAME",
+    event="EVENT DATE & TIME", high_pass="FILTER CUT-OFF FREQUENCY (HZ)", peak="PGA (M/S/S)",
+))  # fmt: skip
 _RESORCE_TITLE = re.compile(r"(Acc[a-z]*tion|Velocity|Displacement) time series in (\S+)", re.I)
 _RESORCE_WIDTH, _RESORCE_PER_LINE = 14, 5
 
@@ -135,104 +137,143 @@ def _read_resorce(content: bytes, options: Options) -> list[Accelerogram]:
     kind = text[at].split()[0].lower()
     if not kind.startswith("acc"):
         raise RecordError(f"this RESORCE file holds {kind}, not acceleration; use the .acc file.")
-    pairs = mapping(text[:at])
-    declared = count("Number of Data", valued(pairs, "NUMBER OF DATA"))
-    values, notes = whole(fields(text[at + 1 :], _RESORCE_WIDTH), declared, _RESORCE_PER_LINE)
-    cuts = pairs.get("FILTER CUT-OFF FREQUENCY (HZ)", "")
-    record = options.accelerogram(
-        "m/s2",
-        values,
-        numeric(pairs, "TIME INCREMENT (S)"),
-        component=pairs.get("ORIENTATION", ""),
-        warnings=notes,
-        station=pairs.get("STATION CODE / NAME", ""),
-        event=pairs.get("EVENT DATE & TIME", ""),
-        processed=bool(cuts),
-        high_pass_frequency=corner(optional_number(r"^\s*([\d.]+)", cuts)),
-    )
-    return [agree_with_header(record, optional_number(r"(.*)", pairs.get("PGA (M/S/S)", "")), "m/s2")]
+    head = "\n".join(text[:at])
+    values, notes = whole(fields(text[at + 1 :], _RESORCE_WIDTH), _RESORCE.count(head), _RESORCE_PER_LINE)
+    is_filtered = bool(_RESORCE.text("high_pass", head))
+    return [_RESORCE.channel(head, values, options, warnings=notes, processed=is_filtered)]
+
+
+_CWB = Layout("gal", half_digit=5e-4, duration_digits=0.0, **keyed(
+    duration="RECORDLENGTH(SEC)", rate="SAMPLERATE(HZ)", station="STATIONCODE", event="ORIGIN TIME(GMT+08)",
+    event_time="ORIGIN TIME(GMT+08)", latitude="STATIONLATITUDE(N)", longitude="STATIONLONGITUDE(E)",
+))  # fmt: skip
 
 
 def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
     what = f"#Data: in the first {_CWB_HEADER}"
     at = place_of(text[:_CWB_HEADER], lambda line: line.startswith("#Data:"), what)
-    pairs = mapping([line.removeprefix("#") for line in text[:at]])
-    unit = valued(pairs, "AMPLITUDEUNIT")
+    head = "\n".join(line.removeprefix("#") for line in text[:at])
+    unit = optional(key("AMPLITUDEUNIT"), head)
     if not unit.lower().startswith("gal"):
         raise RecordError(f"AmplitudeUnit is {unit!r}, but must be gal.")
-    labels = re.findall(r"([A-Z])\(", valued(pairs, "DATASEQUENCE"))
+    labels = re.findall(r"([A-Z])\(", required("DataSequence", key("DATASEQUENCE"), head)[1])
     table = in_columns(fields(text[at + 1 :], 10), len(labels) + 1)
-    step = _cwb_step(table[:, 0], pairs)
-    extremes = "\n".join(f"{key[-1]}:{value}" for key, value in pairs.items() if "MAX" in key)
+    step = even_step(table[:, 0])
+    rate = number("SampleRate", _CWB.declared("rate", head))
+    if step is None or abs(step * rate - 1) > 1e-3:
+        raise RecordError(f"SampleRate is {rate:g} Hz, but the times are not spaced so; the file is damaged.")
+    magnitudes = re.findall(r"^Magnitude\((\w+)\)(:.*)", head, re.I | re.M)
     records = []
     for component, values in zip(labels, table.T[1:], strict=True):
-        record = options.accelerogram(
-            "gal",
+        extremes = re.findall(NUMBER, optional(rf"^.*MAX.*\b{component}\s*:(.*)", head), re.I)
+        record = _CWB.channel(
+            head,
             values,
-            step,
+            options,
+            step=step,
             component=component,
-            station=pairs.get("STATIONCODE", ""),
-            event=pairs.get("ORIGIN TIME(GMT+08)", ""),
             network="TW",
-            **typed_magnitude(
-                " ".join(f"{key[9:]}={text}" for key, text in pairs.items() if key[:9] == "MAGNITUDE")
-            ),
-            event_time=pairs.get("ORIGIN TIME(GMT+08)", ""),
-            **coordinates(f"{pairs.get('STATIONLATITUDE(N)')}N {pairs.get('STATIONLONGITUDE(E)')}E"),
+            **typed_magnitude(" ".join(scale + value for scale, value in magnitudes)),
+            peak=max((abs(float(text)) for text in extremes), default=None),
         )
-        ends = re.split(r"[~\s:]+", optional(rf"({re.escape(component)}:.*)", extremes))[1:]
-        peak = max((abs(float(text)) for text in ends if is_number(text)), default=None)
-        records.append(agree_with_header(record, peak, "gal", half_digit=5e-4))
+        records.append(record)
     return records
 
 
-def _cwb_step(times: np.ndarray, pairs: dict[str, str]) -> float:
-    """Return the step of the times, s, after checking it and the length against the header."""
-    step = even_step(times)
-    rate = numeric(pairs, "SAMPLERATE(HZ)")
-    if step is None or abs(step * rate - 1) > 1e-3:
-        raise RecordError(f"SampleRate is {rate:g} Hz, but the times are not spaced so; the file is damaged.")
-    check_duration("RecordLength(sec)", valued(pairs, "RECORDLENGTH(SEC)"), times.size, step, rounding=0.0)
-    return step
+_UNAM = Layout("gal", half_digit=5e-5, **keyed(
+    samples="NUM. TOTAL DE MUESTRAS", step="INTERVALO DE MUESTREO", duration="DURACION DEL REGISTRO (S)",
+    station="CLAVE DE LA ESTACION", event="FECHA DEL SISMO [GMT]", magnitude="MAGNITUD(ES)", elevation="ALTITUD (MSNM)",
+    peak="ACEL. MAX.(GAL)",
+), place=r"^COORDENADAS DE LA ESTACION\s*:(.*\n.*)")  # fmt: skip
+_DATA = "DATOS DE ACELERACION"
+_RULE = re.compile(r"[-+]{20,}")
+_OF_CHANNELS = re.compile(r"^(.*?),? C(?:1-C6|(7-C12)).*?:(.*)")
+_REPEATED = 2
+"""Surplus lines that some files of the network end in."""
 
 
-_JMA_HEADER, _JMA_NAMES = 7, "NS,EW,UD"
+def _is_unam(content: bytes) -> bool:
+    return any(line.startswith("ARCHIVO ESTANDAR DE ACELERACI") for line in lines(content, 12))
 
 
-def _is_jma(content: bytes) -> bool:
-    return content.startswith(b"SITE CODE=") and lines(content, _JMA_HEADER)[-1].strip() == _JMA_NAMES
-
-
-def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
-    """Times are Japanese; the header gives no number of samples."""
+def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
-    head = "\n".join(text[:_JMA_HEADER])
-    unit = required("the unit", r"^\s*UNIT\s*=\s*(\w+)", head)[1]
-    rate = required("the sampling rate", r"^\s*SAMPLING RATE\s*=\s*([\d.]+)\s*Hz", head)[1]
-    begin = optional(r"^\s*INITIAL TIME\s*=\s*([\d ]+)", head)
-    rows = text[_JMA_HEADER:]
-    labels = _JMA_NAMES.split(",")
-    if broken := next((row for row in rows if row.strip() and row.count(",") != len(labels) - 1), ""):
-        raise RecordError(f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.")
-    table = in_columns(numbers("\n".join(rows).replace(",", " ")), len(labels))
-    station = optional(r"^SITE CODE=\s*([\x21-\x7e]+)", head)
-    try:
-        start = f"{(datetime.strptime(begin, '%Y %m %d %H %M %S') - _JAPAN).isoformat()}Z"
-    except (ValueError, OverflowError):
-        start = ""
+    at = place_of(
+        text[:_UNAM_HEADER], lambda line: line.startswith(_DATA), f"{_DATA} in the first {_UNAM_HEADER}"
+    )
+    rules = [i for i, line in enumerate(text[: _UNAM_HEADER + 10]) if i > at and _RULE.match(line)]
+    if len(rules) < 2:
+        raise RecordError(f"no heading {_DATA} above two rules; the file is cut.")
+    head = text[:at]
+    unit = optional(key("UNIDADES DE LOS DATOS"), "\n".join(head))
+    if not unit.lower().startswith("gal"):
+        quantity = f": a file of {word}" if (word := other_quantity(unit)) else ""
+        raise RecordError(f"UNIDADES DE LOS DATOS is {unit!r}, but must be Gal{quantity}.")
+    every = (_of_channel(head, channel) for channel in range(12))
+    heads = [own for own in every if optional(key("ORIENTACION"), own).strip(" ;")]
+    declared = sorted({_UNAM.text("samples", own) for own in heads} - {""})
+    if len(declared) != 1:
+        raise RecordError(f"the channels declare {declared} samples, but must be equally long.")
+    samples = count("NUM. TOTAL DE MUESTRAS", declared[0])
+    width = optional_number(r"^FORMATO DATOS.*\d+F(\d+)", "\n".join(head))
+    table = in_columns(fields(text[rules[1] + 1 :], max(1, int(width or 10))), len(heads))
+    table, notes = _without_repeats(table, samples)
+    _, surplus = whole(table[:, 0], samples, per_line=1)
     return [
-        options.accelerogram(
-            unit,
-            values,
-            period("SAMPLING RATE", rate),
-            component=label,
-            station=station,
-            network="JMA",
-            start_time=start,
-        )
-        for label, values in zip(labels, table.T, strict=True)
+        _unam_channel(own, values, options, notes + surplus)
+        for own, values in zip(heads, table.T, strict=True)
     ]
+
+
+def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[str, ...]) -> Accelerogram:
+    step = number("INTERVALO DE MUESTREO", _UNAM.declared("step", head))
+    rate, thinned, place = (
+        optional_number(key(name) + "$", head)
+        for name in ("VEL. DE MUESTREO", "FACTOR DE DECIMACION", "ACEL. MAX.")
+    )
+    if rate is not None:
+        check_equal("the interval", step, (thinned or 1.0) / max(1e-9, rate))
+    parts = [part.strip() for part in optional(key("ORIENTACION"), head).split(";") if part.strip()]
+    directions = (part for part in parts if azimuth(part) is not None or is_vertical(part))
+    return _UNAM.channel(
+        head,
+        values,
+        options,
+        step=step,
+        component=next(directions, parts[-1]),  # of bearing and sense, "N90E;" or "V;+", one may be blank
+        warnings=notes,
+        event_time=f"{_UNAM.text('event', head)} {optional(key('HORA EPICENTRO (GMT)'), head)}",
+        peak_time=None if place is None else (place - 1) * step,
+    )
+
+
+def _of_channel(head: Sequence[str], channel: int) -> str:
+    """Return the header of one of channels 0 to 11: of values like "/V/N00E/N90E", C1-C6 or C7-C12, its own."""
+    own = []
+    for line in head:
+        if match := _OF_CHANNELS.match(line):
+            values = [*match[3].split("/")[1:], *[""] * 6]
+            if bool(match[2]) == (channel > 5):
+                own.append(f"{match[1]}: {values[channel % 6].strip()}")
+        else:
+            own.append(line)
+    return "\n".join(own)
+
+
+def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tuple[str, ...]]:
+    """Return `table` without one or two surplus lines at its end that repeat the lines before, and a warning if so."""
+    surplus = len(table) - declared
+    if not 1 <= surplus <= _REPEATED or declared < 2:
+        return table, ()
+    last, before = table[declared:], table[declared - surplus : declared]
+    if not (np.array_equal(last, before) or np.all(last == table[declared - 1])):
+        return table, ()
+    many = "lines repeat" if surplus > 1 else "line repeats"
+    sentence = (
+        f"The header declares {declared} samples; the {surplus} surplus {many} the end and {{}} left out."
+    )
+    return table[:declared], (sentence.format("are" if surplus > 1 else "is"),)
 
 
 DYNA = Format("DYNA (ESM, ITACA, AFAD)", "ESM and ITACA (ORFEUS, INGV), AFAD",
@@ -245,5 +286,5 @@ RESORCE = Format("RESORCE", "RESORCE and SHARE, Europe",
     "RESORCE")  # fmt: skip
 CWB = Format("CWB", "Central Weather Bureau, Taiwan", "first line #Earthquake Information",
     re.compile(r"#Earthquake Information"), _read_cwb, "CWB")  # fmt: skip
-JMA = Format("JMA CSV", "Japan Meteorological Agency",
-    "SITE CODE= at the start and a seventh line NS,EW,UD", _is_jma, _read_jma)  # fmt: skip
+UNAM = Format("UNAM/CICESE", "Instituto de Ingeniería UNAM and CICESE, Mexico",
+    "line ARCHIVO ESTANDAR DE ACELERACION in the first 12", _is_unam, _read_unam, "UNAM")  # fmt: skip

@@ -5,9 +5,8 @@ import re
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
-from rocking.records.formats.header import optional
+from rocking.records.formats.header import Layout
 from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
-from rocking.records.plausibility import agree_with_header
 
 _STEPS = (
     re.compile(r"NPTS\s*=\s*(?P<npts>[^\s,]+)\s*,?\s*DT\s*=\s*(?P<dt>[0-9.+\-]+(E[+-]?\d+)?)", re.I),
@@ -19,7 +18,10 @@ _UNITS = (
     (re.compile(r"\b(UNITS OF|UNITS ARE|ACCELERATION IN)\s*\(?G\b", re.I), "g"),
 )
 _VELOCITY_UNIT = re.compile(r"\bUNITS (OF|ARE) \(?(CM|M|IN)/S(EC)?\b(?!\s*[/*^\d])")
-_PEAK = re.compile(r"PGA\s*=\s*([0-9.]+)\s*G\b", re.I)
+_LAYOUT = Layout(
+    event_time=r"\A.*\n.*?(\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?)", peak=r"PGA\s*=\s*([0-9.]+)\s*G\b",
+    peak_unit="g", half_digit=5e-6,
+)  # fmt: skip
 _FILTER_POINTS = re.compile(r"HP\s*=\s*([0-9.]+)\s*HZ", re.I)
 _POLES = re.compile(r"(-?\d+)\s+POLE\s+@\s*([0-9.]+)", re.I)
 _HEADER_LINES = 8
@@ -31,9 +33,8 @@ def _header(content: bytes) -> tuple[list[str], re.Match[str]] | None:
     """Return the lines up to the one that gives NPTS and DT, and its match."""
     head = lines(content, _HEADER_LINES)
     for i, line in enumerate(head):
-        found = next((m for pattern in _STEPS if (m := pattern.search(line[:200]))), None)
-        if found:
-            return head[: i + 1], found
+        if size := next((m for pattern in _STEPS if (m := pattern.search(line[:200]))), None):
+            return head[: i + 1], size
     return None
 
 
@@ -64,27 +65,25 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     header = _header(content)
     if header is None:
         raise RecordError("the header holds no line with NPTS and DT; give a PEER AT2 file.")
-    head, found = header
-    declared = count("NPTS", found["npts"])
-    text = " ".join(head)
-    unit = next((unit for pattern, unit in _UNITS if pattern.search(text)), None)
+    head, size = header
+    text = "\n".join(head)
+    unit = next((unit for pattern, unit in _UNITS if pattern.search(text)), "")
+    declared = count("NPTS", size["npts"])
     values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)
-    record = options.accelerogram(
-        unit,
+    record = _LAYOUT.channel(
+        text,
         values,
-        number("DT", found["dt"]),
+        options,
+        unit=unit,
+        step=number("DT", size["dt"]),
         component=_component(head),
         station=_field(head, -2),
         event=_field(head, 0),
-        event_time=optional(
-            r"(\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?)", head[1] if len(head) > 1 else ""
-        ),
         warnings=(*warnings, *([_MATCHED] if re.search(r"\bmatched\b", head[0], re.I) else [])),
         processed=True,
         high_pass_frequency=_high_pass(text),
     )
-    peak = _PEAK.search(text)
-    return [agree_with_header(record, number("PGA", peak[1]) if peak else None, "g", half_digit=5e-6)]
+    return [record]
 
 
 def _field(head: list[str], index: int) -> str:

@@ -1,27 +1,42 @@
-"""Volume 1 text of USC, RENADIC and BHRC: 13 lines of text, 7 of integers, 7 of reals, then samples in tenths of g."""
+"""Volumes 1 and 2 of text: USC, RENADIC and BHRC in tenths of g, CSMIP raw and corrected, old and new spelling.
+
+A header of 13 lines of text, 7 of integers and 7 of reals stands above each channel.
+"""
 
 import re
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from rocking.errors import RecordError
+from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, starts, without_offset
 from rocking.records.formats.header import (
+    Layout,
     blocks,
+    check_equal,
     check_nothing_left,
-    coordinates,
     missing_channels,
     optional,
     optional_number,
     required,
-    typed_magnitude,
 )
 from rocking.records.formats.sampling import check_no_gap, even_step
-from rocking.records.formats.text import count, fields, filled, in_columns, is_number, lines, number, whole
-from rocking.records.instrument import is_vertical
-from rocking.records.plausibility import agree_with_header
+from rocking.records.formats.text import (
+    column_width,
+    count,
+    fields,
+    filled,
+    in_columns,
+    is_number,
+    lines,
+    number,
+    whole,
+)
+from rocking.records.instrument import is_vertical, site_warnings
 
 _HEADER, _REALS, _RATE = 27, 20, 8
 _TEXT = 13
@@ -29,52 +44,58 @@ _STEP = 0.005
 """s; the even step to which film records are interpolated."""
 _LONGEST_GAP = 0.25
 """s."""
+_LENGTH = r"NO\. OF POINTS\s*=\s*\S+\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)"
+_SIZES: dict[str, Any] = {"unit": "g/10", "samples": r"NO\. OF POINTS\s*=\s*(\S+)"}
+_USC = Layout(**_SIZES, component=r"^COMP\s+(\S+)", station=r"^STATION\s+(USC#\s*\d+)")
+_RENADIC = Layout(
+    **_SIZES, component=r"^CHAN\s*\d+:\s*(\S+)", station=r"^(QDR S/N\s*\d+)", event=r"^([\d/]+ [\d:]+)",
+    peak=r"MAX\s*=\s*(-?[\d.]+)\s*G", peak_unit="g", half_digit=5e-4,
+)  # fmt: skip
+_BHRC = Layout(
+    **_SIZES, component=r"^COMP\s+(\S+)", station=r"FILE:\s*(\w+)", event=r"^Origin Time\s*:\s*(\S+\s+\S+)",
+    event_time=r"^Origin Time\s*:\s*(\S+\s+\S+)", magnitude=r"^(Epicenter\b.*)",
+    place=r"\bStation\s+(.*?)\s+Altitude", elevation=r"\bAltitude\s+(\S+)",
+)  # fmt: skip
+_CSMIP: dict[str, Any] = {
+    "component": r"^Chan\s*\d+:\s*(\S+)", "station": r"^Station No\.\s*(\S+)", "place": r"^Station No\.\s*\S+\s+(.*)",
+}  # fmt: skip
+_CSMIP_1 = Layout(
+    **_CSMIP, peak=r"Max\s*=\s*(-?[\d.]+)\s*g", peak_unit="g", half_digit=5e-4,
+    duration=r"Record length\s*=\s*([\d.]+)",
+)  # fmt: skip
+_CSMIP_2 = Layout(
+    **_CSMIP, high_pass=r"(?:3 dB pts at|RAMPS AT)\s+([\d.]+)", peak=r"Peak acceleration\s*=\s*(-?[\d.]+)",
+    peak_unit="cm/s2", half_digit=5e-4, peak_time=r"Peak acceleration\s*=.*?\bat\s+([\d.]+)\s*sec",
+)  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Block:
-    """One channel: its text header, the samples declared, the duration declared [s], and its rows of numbers."""
-
-    head: str
-    declared: int
-    duration: float
-    rows: list[str]
-    rate: float | None
-    """Samples per second, where the reals of the header say it."""
-
-
-def volume1_block(text: list[str]) -> Block:
-    """Return one channel from its lines. Raises RecordError when the header is cut or not in tenths of g."""
-    head = "\n".join(text[:_TEXT])
-    size = required(
-        "points and length", r"NO\. OF POINTS\s*=\s*(\S+)\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)", head
-    )
-    required("units of G/10", r"^UNITS\b.*\bG/10", head)
-    body = text[_HEADER:]
+def _rows(block: list[str]) -> tuple[str, list[str]]:
+    """Return the text and the rows of numbers of one channel in tenths of g. Raises RecordError for another unit."""
+    head = "\n".join(block[:_TEXT])
+    required("units of G/10", r"^(UNITS)\b.*\bG/10", head)
+    required("points and length", _LENGTH, head)
+    body = block[_HEADER:]
     end = next((i for i, row in enumerate(body) if row.startswith("/&")), len(body))
     check_nothing_left(body[end + 1 :])
-    rows = [row for row in body[:end] if row.strip()]
-    reals = " ".join(text[_REALS : _REALS + 2]).split()
-    rate = float(reals[_RATE]) if len(reals) > _RATE and is_number(reals[_RATE]) else 0.0
-    declared = count("NO. OF POINTS", size[1])
-    return Block(head, declared, number("duration", size[2]), rows, rate if 1 <= rate <= 1e4 else None)
+    return head, [row for row in body[:end] if row.strip()]
 
 
-def pairs(block: Block, margin: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return (times, samples) of a block of five (t, a) pairs a line in columns of 7."""
-    table = in_columns(fields(block.rows, 7, margin), 2)
+def _pairs(head: str, rows: list[str], margin: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return (times, samples) of five (t, a) pairs a line in columns of 7."""
+    table = in_columns(fields(rows, 7, margin), 2)
     times = table[:, 0]
-    whole(times, block.declared, per_line=0)
+    whole(times, _USC.count(head), per_line=0)
+    duration = number("duration", optional(_LENGTH, head))
     step = (times[-1] - times[0]) / (times.size - 1)
-    if abs(block.duration - times[-1]) > 2 * step + 0.001:  # which may count a last step or not
+    if abs(duration - times[-1]) > 2 * step + 0.001:  # which may count a last step or not
         raise RecordError(
-            f"the header declares a length of {block.duration:g} s, but the last sample stands at {times[-1]:g} s; "
+            f"the header declares a length of {duration:g} s, but the last sample stands at {times[-1]:g} s; "
             "the file is damaged or its header belongs to another record."
         )
     return times, table[:, 1]
 
 
-def evened(times: np.ndarray, values: np.ndarray) -> tuple[float, np.ndarray, tuple[str, ...]]:
+def _evened(times: np.ndarray, values: np.ndarray) -> tuple[float, np.ndarray, tuple[str, ...]]:
     """Return (step, samples at even times, sentences) of a trace digitised from film: linear between its points.
 
     Raises RecordError at a gap: points were digitised where the trace bends, a dozen to a hundred a second.
@@ -88,81 +109,162 @@ def evened(times: np.ndarray, values: np.ndarray) -> tuple[float, np.ndarray, tu
     return _STEP, np.interp(even, times, values), (sentence,)
 
 
-def _usc(block: Block, options: Options, _: int) -> Accelerogram:
-    step, values, notes = evened(*pairs(block, margin=1))
-    return options.accelerogram(
-        "g/10",
-        values,
-        step,
-        component=optional(r"^COMP\s+(\S+)", block.head),
-        station=optional(r"^STATION\s+(USC#\s*\d+)", block.head),
-        event=block.head.split("\n")[1].strip()[:60],
-        processing=notes,
-        warnings=notes,
-    )
+def _usc(block: list[str], options: Options, _: int) -> Accelerogram:
+    head, rows = _rows(block)
+    step, values, notes = _evened(*_pairs(head, rows, margin=1))
+    event = block[1].strip()[:60]
+    return _USC.channel(head, values, options, step=step, event=event, processing=notes, warnings=notes)
 
 
-def _renadic(block: Block, options: Options, held: int) -> Accelerogram:
-    times, values = pairs(block, margin=0)
+def _renadic(block: list[str], options: Options, held: int) -> Accelerogram:
+    head, rows = _rows(block)
+    times, values = _pairs(head, rows, margin=0)
     step = even_step(times)
     if step is None:
         raise RecordError("the times are not evenly spaced, but RENADIC's are; the file is damaged.")
-    record = options.accelerogram(
-        "g/10",
-        values,
-        step,
-        component=optional(r"^CHAN\s*\d+:\s*(\S+)", block.head),
-        station=optional(r"^(QDR S/N\s*\d+)", block.head),
-        event=optional(r"^([\d/]+ [\d:]+)", block.head),
-        warnings=missing_channels(block.head, held),
-    )
-    peak = optional_number(r"MAX\s*=\s*(-?[\d.]+)\s*G", block.head)
-    return agree_with_header(record, peak, "g", half_digit=5e-4)
+    return _RENADIC.channel(head, values, options, step=step, warnings=missing_channels(head, held))
 
 
-def _bhrc(block: Block, options: Options, _: int) -> Accelerogram:
-    values, offset = without_offset(
-        filled(block.rows, block.declared, per_line=10, width=13), options.unit_of("g/10")
-    )
-    step = block.duration / block.declared
+def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
+    head, rows = _rows(block)
+    samples = filled(rows, _BHRC.count(head), per_line=10, width=13)
+    values, offset = without_offset(samples, options.unit_of("g/10"))
+    step = number("duration", optional(_LENGTH, head)) / values.size
+    reals = " ".join(block[_REALS : _REALS + 2]).split()
+    rate = float(reals[_RATE]) if len(reals) > _RATE and is_number(reals[_RATE]) else 0.0
     notes: tuple[str, ...] = ()
-    if block.rate and abs(block.rate * step - 1) > 1e-3:
+    if 1 <= rate <= 1e4 and abs(rate * step - 1) > 1e-3:
         notes = (
-            f"The header gives a rate of {block.rate:g} Hz, but duration and number of points a step of {step:g} s.",
+            f"The header gives a rate of {rate:g} Hz, but duration and number of points a step of {step:g} s.",
         )
-    component = optional(r"^COMP\s+(\S+)", block.head)
-    letter = component[:1].upper()
-    return options.accelerogram(
-        "g/10",
+    letter = _BHRC.text("component", head)[:1].upper()
+    along = optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", head) if letter in ("L", "T") else None
+    return _BHRC.channel(
+        head,
         values,
-        step,
-        component=component,
-        station=optional(r"FILE:\s*(\w+)", block.head),
-        event=optional(r"^Origin Time\s*:\s*(\S+\s+\S+)", block.head),
-        **typed_magnitude(optional(r"^(Epicenter\b.*)", block.head)),
-        event_time=optional(r"^Origin Time\s*:\s*(\S+\s+\S+)", block.head),
-        **coordinates(
-            optional(r"\bStation\s+(.*?)\s+Altitude", block.head), optional(r"\bAltitude\s+(\S+)", block.head)
-        ),
+        options,
+        step=step,
         processing=(offset,),
         warnings=notes,
         vertical=is_vertical(letter),
-        azimuth=optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", block.head)
-        if letter in ("L", "T")
-        else None,
+        azimuth=along,
     )
 
 
+_VOLUME_1 = re.compile(r"Uncorrected Accelerogram Data\s+Processed", re.I)
+_VOLUME_2 = re.compile(r"Corrected accelerogram\s+.*Chan", re.I)
+_VOLUME_3 = re.compile(r"(Response and )?Fourier amplitude spectr|Response (and|spectr)", re.I)
+_DATA_1 = re.compile(
+    r"^\s*(?P<n>\d+)\s+Accelerogram points at\s+(?P<rate>[\d.]+)\s*pts/sec in units of\s+(?P<unit>\S+?)\s*\.?\s+"
+    r"Format:\s*\((?P<per_line>\d+)[FE](?P<width>\d+)", re.I,
+)  # fmt: skip
+_DATA_2 = re.compile(
+    r"^\s*(?P<n>\d+)\s+points of (?P<quantity>accel|veloc|displ)\w* data equally spaced at\s+(?P<step>[\d.]+)\s*sec"
+    r"[.,]?\s*(?:in|\(units:)\s*(?P<unit>[\w/]+)[.)]*\s*(?:\((?P<per_line>\d+)[FE](?P<width>\d+))?", re.I,
+)  # fmt: skip
+_PER_LINE = 8
+"""Of the volumes before 2000, which do not say it."""
+
+
+def _is_csmip(content: bytes) -> bool:
+    is_raw = starts(content, _VOLUME_1) and not any("RENADIC" in row.upper() for row in lines(content, _TEXT))
+    return is_raw or starts(content, _VOLUME_2)
+
+
+def _read_csmip(content: bytes, options: Options) -> list[Accelerogram]:
+    *whole_channels, rest = re.split(r"^/&.*\n?", content.decode("latin-1"), flags=re.M)
+    channels = [text.split("\n") for text in whole_channels]
+    if any(_announcement(line) or _VOLUME_1.match(line) for line in rest.split("\n")):
+        channels.append(rest.split("\n"))
+    else:
+        check_nothing_left(rest.split("\n"))
+    return [_csmip(block, options, len(channels)) for block in channels]
+
+
+def _announcement(line: str) -> re.Match[str] | None:
+    return _DATA_1.match(line) or _DATA_2.match(line)
+
+
+def _csmip(block: list[str], options: Options, held: int) -> Accelerogram:
+    announced = [(i, data) for i, line in enumerate(block) if (data := _announcement(line))]
+    if not announced and any(re.match(r"UNITS\b.*\bG/10", line, re.I) for line in block[:_TEXT]):
+        return _film(block, options, held)
+    facts: dict[str, Any] = announced[0][1].groupdict() if announced else {}
+    if not announced or (facts.get("quantity") or "accel").lower() != "accel":
+        raise RecordError(
+            "no line announces points of acceleration with their format; the file is truncated, "
+            "or holds velocity or displacement only."
+        )
+    ends = [i for i, _ in announced[1:]] + [len(block)]
+    parts = [_numbers(block[i + 1 : end], data) for (i, data), end in zip(announced, ends, strict=True)]
+    head, values = "\n".join(block[: announced[0][0]]), parts[0]
+    is_corrected = bool(_VOLUME_2.match(head))
+    step = number("step", facts["step"]) if "step" in facts else 1 / max(1e-9, number("rate", facts["rate"]))
+    points = r"^\s*(\S+)\s+points of instrument" if is_corrected else r"^No\. of points\s*=\s*(\S+)"
+    if text := optional(points, head):
+        check_equal("the number of points", count("number of points", text), values.size, 0)
+    interval = optional_number(r"^At equally-spaced intervals of\s+([\d.]+)", head)
+    if is_corrected and interval:
+        check_equal("the interval", interval, step)
+    layout = _CSMIP_2 if is_corrected else _CSMIP_1
+    named = _named(head, held)
+    return layout.channel(
+        head, values, options, unit=facts["unit"], step=step, processed=is_corrected, **named
+    )
+
+
+def _numbers(rows: list[str], data: re.Match[str]) -> np.ndarray:
+    per_line = int(data["per_line"] or _PER_LINE)
+    width = int(data["width"] or column_width(rows[0] if rows else ""))
+    return filled(rows, count("number of points", data["n"]), max(1, per_line), max(1, width))
+
+
+def _named(head: str, held: int) -> dict[str, Any]:
+    title = next((row.strip() for row in head.split("\n") if re.search(r"\bEARTHQUAKE\b", row)), "")
+    return {
+        "event": optional(r"^(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)", head) or title[:60],
+        "warnings": (
+            *missing_channels(head, held),
+            *site_warnings(optional(r"\bLocation:\s*(.*?)\s*$", head)),
+        ),
+    }
+
+
+def _film(block: list[str], options: Options, held: int) -> Accelerogram:
+    """Return a raw channel digitised from film: (t, a) pairs in seconds and tenths of g."""
+    head, rows = _rows(block)
+    times, values = _pairs(head, rows, margin=0)
+    step, even, notes = _evened(times, values)
+    named = _named(head, held)
+    named["warnings"] = (*notes, *named["warnings"])
+    in_file = values * acceleration_factor("g/10")
+    layout = replace(_CSMIP_1, duration="")
+    return layout.channel(
+        head, even, options, unit="g/10", step=step, processing=notes, in_file=in_file, **named
+    )
+
+
+def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
+    raise RecordError("this is a Volume 3 file of spectra, not a time history; use the V1 or V2 file.")
+
+
 def _volume1(
-    name: str, origin: str, sought: str, first: re.Pattern[str], read, plugin: str, mark: str = ""
+    name: str,
+    origin: str,
+    sought: str,
+    first: str,
+    read: Callable[[list[str], Options, int], Accelerogram],
+    plugin: str,
+    mark: str = "",
 ) -> Format:
     """Return the format whose channels start with a line like `first`; `mark` stands in the text below it."""
+    pattern = re.compile(first, re.I)
 
     def recognise(content: bytes) -> bool:
-        return starts(content, first) and any(mark in line.upper() for line in lines(content, _TEXT))
+        return starts(content, pattern) and any(mark in line.upper() for line in lines(content, _TEXT))
 
     def read_all(content: bytes, options: Options) -> list[Accelerogram]:
-        channels = [volume1_block(text) for text in blocks(content, first)]
+        channels = blocks(content, pattern)
         return [read(block, options, len(channels)) for block in channels]
 
     return Format(name, origin, sought, recognise, read_all, plugin)
@@ -170,10 +272,13 @@ def _volume1(
 
 USC = _volume1("USC Volume 1", "University of Southern California",
     "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I",
-    re.compile(r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", re.I), _usc, "USC_V1")  # fmt: skip
+    r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", _usc, "USC_V1")  # fmt: skip
 RENADIC = _volume1("RENADIC", "RENADIC (Universidad de Chile)",
     "first line UNCORRECTED ACCELEROGRAM DATA PROCESSED with RENADIC below",
-    re.compile(r"UNCORRECTED ACCELEROGRAM DATA\s+PROCESSED"), _renadic, "RENADIC", "RENADIC")  # fmt: skip
-BHRC = _volume1(
-    "BHRC", "BHRC, Iran", "first line * VOL1DS FILE:", re.compile(r"\* VOL1DS FILE:"), _bhrc, "BHRC"
-)
+    r"UNCORRECTED ACCELEROGRAM DATA\s+PROCESSED", _renadic, "RENADIC", "RENADIC")  # fmt: skip
+BHRC = _volume1("BHRC", "BHRC, Iran", "first line * VOL1DS FILE:", r"\* VOL1DS FILE:", _bhrc, "BHRC")
+CSMIP = Format("CSMIP V1/V2", "California Geological Survey (CSMIP, CDMG)",
+    "first line like Uncorrected Accelerogram Data Processed, or Corrected accelerogram Chan", _is_csmip,
+    _read_csmip, "CSMIP_V1V2")  # fmt: skip
+SPECTRA = Format("CSMIP V3 spectra", "California Geological Survey (CSMIP, CDMG)",
+    "first line that names response or Fourier spectra", _VOLUME_3, _refuse)  # fmt: skip

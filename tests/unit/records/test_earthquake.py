@@ -7,7 +7,7 @@ import pytest
 
 from rocking.errors import CatalogueError
 from rocking.records import load_catalogue, open_record, read
-from rocking.records.formats.header import distance, magnitude, typed_magnitude
+from rocking.records.formats.header import distance, typed_magnitude
 
 TABLE = b"time,NS\n0.00,0.1\n0.01,0.3\n0.02,0.2\n0.03,0.1\n"
 SHA = hashlib.sha256(TABLE).hexdigest()
@@ -19,12 +19,12 @@ SAID = {
     "formats_afad/20170720223109_0921.txt": (6.5, "Mw", None, "2017/07/20 22:31:09 (GMT)", (37.8747, 27.59223, 66.0)),
     "formats_geonet/20161113_110259_WTMC_20.V2A":
         (7.82, "Mw", 9.0, "2016 November 13 11:02:56", (-42.6194444, 173.0536111, None)),
-    "formats_smc/0111a.smc": (7.1, "", 89.0, "", (None, None, None)),
+    "formats_smc/0111a.smc": (7.1, "Mw", 89.0, "", (None, None, None)),
     "formats_bhrc/5529-1.V1": (6.1, "Mw", None, "2012/08/11 12:23:16", (37.498, 44.999, 1417.0)),
     "formats_cwb/1-EAS.dat": (6.0, "ML", None, "2018/02/06-23:50:42", (22.381, 120.857, None)),
     "formats_csmnc/ua0001.dat": (4.0, "Ms", None, "2012-01-03 15:39:57 BTM", (39.7, 77.599, None)),
     "formats_knet/AOM0011801241951.EW": (6.2, "", None, "2018/01/24 19:51:00", (41.5267, 140.9244, 39.0)),
-    "formats_unam/ACAC1709.191": (7.1, "M", None, "2017/09/19 18:14:40", (None, None, None)),
+    "formats_unam/ACAC1709.191": (7.1, "M", None, "2017/09/19 18:14:40", (16.84851, -99.85157, 13.0)),
     "formats_csmip/CE89146.V2": (None, "", None, "", (40.941, -123.633, None)),
     "formats_mseed_stationxml/CI.CLC..HNE.mseed": (None, "", None, "", (35.81574, -117.59751, 775.0)),
     "northridge1994_rinaldi/RSN1063_NORTHR_RRS228.AT2": (None, "", None, "1/17/1994", (None, None, None)),
@@ -54,6 +54,8 @@ def test_what_a_header_says(real_records, file):
         ("6.2", (6.2, "")),
         ("Mw= ML=4.6", (4.6, "ML")),
         ("0", (None, "")),
+        ("-999", (None, "")),
+        ("32767", (None, "")),
     ],
 )
 def test_a_moment_magnitude_comes_before_one_of_body_waves(text, found):
@@ -61,24 +63,10 @@ def test_a_moment_magnitude_comes_before_one_of_body_waves(text, found):
 
 
 @pytest.mark.parametrize(
-    ("texts", "found"),
-    [
-        (("", "5.1"), 5.1),
-        (("/M=7.1",), 7.1),
-        (("6.5 Mw", "6.2"), 6.5),
-        (("0", "-999"), None),
-        (("32767",), None),
-    ],
+    ("kilometres", "metres"), [(88.1, 88100.0), (-999.0, None), (32767.0, None), (None, None)]
 )
-def test_a_magnitude_is_the_first_that_is_one(texts, found):
-    assert magnitude(*texts) == found
-
-
-@pytest.mark.parametrize(
-    ("text", "found"), [("88.1", 88100.0), ("9", 9000.0), ("-999", None), ("32767", None), ("", None)]
-)
-def test_a_distance_is_one_on_this_earth(text, found):
-    assert distance(text) == found
+def test_a_distance_is_one_on_this_earth(kilometres, metres):
+    assert distance(kilometres) == metres
 
 
 def catalogue(folder: Path, cells: str) -> Path:

@@ -1,0 +1,281 @@
+"""Formats of single networks, whose headers are sentences or places: K-NET, JMA, CSMNC, GeoNet, USGS SMC."""
+
+import re
+from datetime import datetime, timedelta
+
+from rocking.errors import RecordError
+from rocking.quantities import positive
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats.format import Format, Options, starts, without_offset
+from rocking.records.formats.header import Layout, blocks, corner, optional, required, typed_magnitude
+from rocking.records.formats.text import (
+    after_lines,
+    column_width,
+    count,
+    fields,
+    filled,
+    in_columns,
+    lines,
+    number,
+    numbers,
+    whole,
+)
+
+_JAPAN = timedelta(hours=9)
+_DELAY = timedelta(seconds=15)
+"""Of a K-NET recorder, which its record time carries."""
+
+
+def _universal(text: str, form: str, ahead: timedelta) -> str:
+    """Return a printed time that is `ahead` of universal time as ISO 8601, "" where it is none."""
+    try:
+        return f"{(datetime.strptime(text, form) - ahead).isoformat()}Z"
+    except (ValueError, OverflowError):
+        return ""
+
+
+_KNET_KEYS = (
+    "Origin Time", "Lat.", "Long.", "Depth. (km)", "Mag.", "Station Code", "Station Lat.", "Station Long.",
+    "Station Height(m)", "Record Time", "Sampling Freq(Hz)", "Duration Time(s)", "Dir.", "Scale Factor",
+    "Max. Acc. (gal)", "Last Correction", "Memo.",
+)  # fmt: skip
+_KNET = Layout(
+    "gal", rate=r"^Sampling Freq\(Hz\)\s*(.*?)(?:Hz)?$", duration=r"^Duration Time\(s\)\s*(.*)", duration_steps=0.501,
+    duration_digits=0.0, component=r"^Dir\.\s*(.*)", station=r"^Station Code\s*(.*)", event_time=r"^Origin Time\s*(.*)",
+    magnitude=r"^Mag\.\s*(.*)", latitude=r"^Station Lat\.\s*(.*)", longitude=r"^Station Long\.\s*(.*)",
+    elevation=r"^Station Height\(m\)\s*(.*)", peak=r"^Max\. Acc\. \(gal\)\s*(.*)", half_digit=5e-4,
+)  # fmt: skip
+_KIKNET = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
+_BOREHOLE = {"1", "2", "3"}
+
+
+def _is_knet(content: bytes) -> bool:
+    head = lines(content, 10)
+    return len(head) == 10 and all(map(str.startswith, head, _KNET_KEYS))
+
+
+def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
+    text = lines(content, len(_KNET_KEYS))
+    missing = [key for key in _KNET_KEYS if not any(line.startswith(key) for line in text)]
+    if missing:
+        raise RecordError(
+            f"the header has no line {missing[0]!r}; a K-NET header has {len(_KNET_KEYS)} lines."
+        )
+    head = "\n".join(text)
+    options.unit_of("gal")
+    scale = required(
+        "a Scale Factor like 3920(gal)/6182761",
+        r"^Scale Factor\s*([\d.]+)\s*\(gal\)\s*/\s*([\d.]+)\s*$",
+        head,
+    )
+    factor = number("Scale Factor", scale[1]) / positive(
+        RecordError, "Scale Factor", number("Scale Factor", scale[2])
+    )
+    values, offset = without_offset(numbers(after_lines(content, len(_KNET_KEYS))) * factor, "gal")
+    for fact in ("duration", "peak"):
+        number(f"the {fact}", _KNET.declared(fact, head))
+    direction = _KNET.text("component", head)
+    record = _KNET.channel(
+        head,
+        values,
+        options,
+        component=_KIKNET.get(direction, direction),
+        event=f"{_KNET.text('event_time', head)} M{_KNET.text('magnitude', head)}",
+        start_time=_universal(optional(r"^Record Time\s*(.*)", head), "%Y/%m/%d %H:%M:%S", _JAPAN + _DELAY),
+        processing=(offset,),
+        network="BO",
+        borehole=direction in _BOREHOLE,
+    )
+    return [record]
+
+
+_JMA = Layout(
+    rate=r"^\s*SAMPLING RATE\s*=\s*([\d.]+)\s*Hz", station=r"^SITE CODE=\s*([\x21-\x7e]+)",
+)  # fmt: skip
+_JMA_HEADER, _JMA_NAMES = 7, "NS,EW,UD"
+
+
+def _is_jma(content: bytes) -> bool:
+    return content.startswith(b"SITE CODE=") and lines(content, _JMA_HEADER)[-1].strip() == _JMA_NAMES
+
+
+def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
+    """The header gives no number of samples."""
+    text = lines(content)
+    head = "\n".join(text[:_JMA_HEADER])
+    rows = text[_JMA_HEADER:]
+    labels = _JMA_NAMES.split(",")
+    if broken := next((row for row in rows if row.strip() and row.count(",") != len(labels) - 1), ""):
+        raise RecordError(f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.")
+    table = in_columns(numbers("\n".join(rows).replace(",", " ")), len(labels))
+    unit = required("the unit", r"^\s*UNIT\s*=\s*(\w+)", head)[1]
+    begin = optional(r"^\s*INITIAL TIME\s*=\s*([\d ]+)", head)
+    start = _universal(begin, "%Y %m %d %H %M %S", _JAPAN)
+    return [
+        _JMA.channel(head, values, options, unit=unit, component=label, network="JMA", start_time=start)
+        for label, values in zip(labels, table.T, strict=True)
+    ]
+
+
+_CSMNC = Layout(
+    "cm/s2", samples=r"^NO\. OF POINTS:\s*(\S+)", step=r"EQUALLY SPACED INTERVALS OF:\s*(\S+)",
+    duration=r"\bDURATION:\s*([\d.]+)", duration_digits=1.0, component=r"^COMP\.\s*(\S+)", station=r"^STATION:\s*(\S+)",
+    event_time=r"^\d+ +(\d{4}-\d\d-\d\d [\d:]+ \w+)", magnitude=r"^MAGNITUDE\s+([\d.]+.*)",
+    place=r"^STATION:\s*\S+\s+(.*)", peak=r"^PEAK VALUE:\s*(-?[\d.]+)",
+    peak_time=r"^PEAK VALUE:.*?\bAT\s+([\d.]+)\s*SEC", half_digit=5e-4,
+)  # fmt: skip
+_CSMNC_HEADER, _CSMNC_PER_LINE, _CSMNC_WIDTH = 16, 8, 13
+
+
+def _is_csmnc(content: bytes) -> bool:
+    head = "\n" + "\n".join(lines(content, _CSMNC_HEADER))
+    return "\nNO. OF POINTS:" in head and "\nOBSERVING POINT:" in head
+
+
+def _read_csmnc(content: bytes, options: Options) -> list[Accelerogram]:
+    text = lines(content)
+    head = "\n".join(text[:_CSMNC_HEADER])
+    kind = required("the quantity and its unit", r"^(?:UN)?CORRECTED (\w+)\s+UNIT:\s*(\S+)", head)
+    if kind[1].upper() != "ACCELERATION" or kind[2].upper() not in ("CM/SEC/SEC", "CM/S/S", "GAL"):
+        raise RecordError(f"the file holds {kind[1]} in {kind[2]}, but must hold ACCELERATION in CM/SEC/SEC.")
+    values, notes = whole(fields(text[_CSMNC_HEADER:], _CSMNC_WIDTH), _CSMNC.count(head), _CSMNC_PER_LINE)
+    is_corrected = kind[0].upper().startswith("CORRECTED")
+    event = text[2].strip()[:60]
+    return [_CSMNC.channel(head, values, options, event=event, warnings=notes, processed=is_corrected)]
+
+
+_GEONET = Layout(
+    "mm/s2", samples=r"^Number of points\s+(\S+)", step=r"(?:intervals of|data at)\s+([\d.]+)\s*s",
+    duration=r"\bDuration\s+([\d.]+)", component=r"^Component\s+(\S+)", station=r"^Site\s+(\S+)",
+    event=r"^(\d{4} \w+ \d+)\s", event_time=r"^(\d{4} \w+ \d+\s+[\d:]+)", place=r"^Site\s+\S+\s+(.*)",
+    magnitude=r"^Epicentre\b.*\b(M[A-Za-z]\s+[\d.]+)", distance=r"^Epicentre\b.*\bDist\s+([\d.]+)\s*km",
+    high_pass=r"transition bands are\s+([\d.]+)", peak=r"^Acceleration:\s+peak\s+(\S+)\s+mm/s/s",
+    peak_time=r"^Acceleration:\s+peak\s+\S+\s+mm/s/s at\s+([\d.]+)\s*s", half_digit=0.05,
+)  # fmt: skip
+_GEONET_FIRST = re.compile(r"(Un)?corrected accelerogram\s", re.I)
+_TEXT, _HEADER, _PER_LINE, _WIDTH = 16, 26, 10, 8
+_PREPENDED = 31
+"""Place in the integer header of the number of samples put before the first digitised one, from which times count.
+
+After GNS accelerogram data files, Standard Format (2008).
+"""
+
+
+def _is_geonet(content: bytes) -> bool:
+    head = lines(content, 3)
+    return bool(_GEONET_FIRST.match(head[0])) and len(head) > 1 and head[1].startswith("Site ")
+
+
+def _read_geonet(content: bytes, options: Options) -> list[Accelerogram]:
+    every = blocks(content, _GEONET_FIRST)
+    note = f"A GeoNet file holds 3 components, but this one holds {len(every)}."
+    return [_geonet_channel(block, options, (note,) if len(every) % 3 else ()) for block in every]
+
+
+def _geonet_channel(block: list[str], options: Options, notes: tuple[str, ...]) -> Accelerogram:
+    head = "\n".join(block[:_TEXT])
+    _GEONET.declared("peak", head)
+    declared = _GEONET.count(head)
+    rows = [row for row in block[_HEADER:] if row.strip()]
+    wanted = -(-declared // _PER_LINE)
+    if len(rows) not in (
+        wanted,
+        3 * wanted,
+    ):  # a corrected file goes on with as many lines of velocity and displacement
+        raise RecordError(
+            f"the header declares {declared} samples, which fill {wanted} lines once or thrice, but {len(rows)} "
+            "stand there: lines are missing or repeated, the file is truncated or damaged; fetch it again."
+        )
+    factor = number("raw unit", optional(r"readings in units of\s+([\d.]+)\s*mm/s/s", head) or "1")
+    integers = " ".join(block[_TEXT : _TEXT + 4]).split()
+    at = _GEONET.number("peak_time", head)
+    if at is not None and len(integers) == 40 and integers[_PREPENDED].isdecimal():
+        at += int(integers[_PREPENDED]) * number("the step", _GEONET.declared("step", head))
+    return _GEONET.channel(
+        head,
+        filled(rows[:wanted], declared, _PER_LINE, _WIDTH) * factor,
+        options,
+        network="NZ",
+        warnings=notes,
+        processed=block[0].lower().startswith("corrected"),
+        peak_time=at,
+    )
+
+
+_SMC = Layout(
+    "cm/s2", component=r"component\s*=\s*(\S+)", station=r"station\s*=\s*(.*?)\s*component",
+    event=r"^\s+\d{4}\s+\d+\s+\d+\s+\d{4}\s+(.*)$", distance=r"epicentral dist\s*=\s*([\d.]+)",
+)  # fmt: skip
+_SMC_KINDS = {"0": "unknown", "1": "uncorrected accelerogram", "2": "corrected accelerogram", "3": "velocity",
+              "4": "displacement", "5": "response spectrum", "6": "Fourier spectrum"}  # fmt: skip
+_SMC_FIRST = re.compile(
+    r"([0-6]) (UNKNOWN|UNCORRECTED ACC|CORRECTED ACC|VELOCITY|DISPLACEMENT|RESPONSE|FOURIER)", re.I
+)
+_SMC_TEXT, _SMC_INTEGERS, _SMC_REALS = 11, 17, 27
+"""Lines at which each part of the header ends."""
+_COMMENTS, _SAMPLES = 15, 16
+_RATE, _LARGEST, _SMALLEST, _CORNER = 1, 29, 31, 32
+"""Places in the integer and in the real header; the time of an extreme stands before its value."""
+_MISSING = 1.69e38
+
+
+def _is_smc(content: bytes) -> bool:
+    return (
+        starts(content, _SMC_FIRST) and len(head := lines(content, 12)) == 12 and len(head[11].split()) == 8
+    )
+
+
+def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
+    text = lines(content)
+    kind = text[0][:1]
+    if kind not in "012":
+        raise RecordError(f"this SMC file holds {_SMC_KINDS.get(kind, kind)}, not acceleration.")
+    integers = fields(text[_SMC_TEXT:_SMC_INTEGERS], 10)
+    reals = fields(text[_SMC_INTEGERS:_SMC_REALS], 15)
+    if integers.size < 48 or reals.size < 50:
+        raise RecordError(
+            f"the SMC header holds {integers.size} integers and {reals.size} reals, not 48 and 50."
+        )
+    remarks, samples = (count("a count in the header", f"{integers[at]:.0f}") for at in (_COMMENTS, _SAMPLES))
+    first = _SMC_REALS + remarks
+    if any(row.startswith("|") != (at < first) for at, row in enumerate(text[_SMC_REALS:], _SMC_REALS)):
+        raise RecordError(
+            f"the header declares {remarks} lines of comment, but other lines begin with |; the file is damaged."
+        )
+    rate = float(reals[_RATE])
+    if not 0 < rate < 1e6:
+        raise RecordError(f"samples per second is {rate:g}, but must be greater than 0 and below 1e6.")
+    body = [row for row in text[first:] if row.strip()]
+    width = column_width(body[0]) if body else 10
+    values, notes = whole(fields(body, width), samples, 80 // width)
+    extremes = [(abs(reals[i]), reals[i - 1]) for i in (_LARGEST, _SMALLEST) if abs(reals[i]) < _MISSING]
+    peak, at = max(extremes, default=(None, 0.0))
+    head = "\n".join(text[:_SMC_TEXT])
+    scales = " ".join(optional(r"^Moment (Mag.*)", head).replace("Mag", "Mw").split())
+    record = _SMC.channel(
+        head,
+        values,
+        options,
+        step=1 / rate,
+        **typed_magnitude(scales),
+        warnings=notes,
+        processed=kind == "2",
+        high_pass_frequency=corner(float(reals[_CORNER])),
+        peak=peak,
+        peak_time=float(at) if 0 < at < _MISSING else None,
+    )
+    return [record]
+
+
+KNET = Format("K-NET/KiK-net", "NIED, Japan",
+    "header that starts with Origin Time, Lat., Long., Depth. (km)", _is_knet, _read_knet)  # fmt: skip
+JMA = Format("JMA CSV", "Japan Meteorological Agency",
+    "SITE CODE= at the start and a seventh line NS,EW,UD", _is_jma, _read_jma)  # fmt: skip
+CSMNC = Format("CSMNC", "China Strong Motion Networks Centre",
+    "lines OBSERVING POINT: and NO. OF POINTS: in the first 16", _is_csmnc, _read_csmnc, "CSMNC")  # fmt: skip
+GEONET = Format("GeoNet V1A/V2A", "GeoNet (GNS Science), New Zealand",
+    "first line Corrected or Uncorrected accelerogram above a Site line", _is_geonet, _read_geonet,
+    "GEONET")  # fmt: skip
+SMC = Format("USGS SMC", "U.S. Geological Survey",
+    "first line like 2 CORRECTED ACCELEROGRAM above ten text lines and integers", _is_smc, _read_smc,
+    "USGS_SMC")  # fmt: skip
