@@ -1,7 +1,7 @@
 """The document of a study's fragility: curves with intervals, their medians, and which records govern them."""
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +13,7 @@ from rocking.assessment.intensity import INTENSITY_MEASURES
 from rocking.quantities import counted
 from rocking.reports.document import compile_document
 from rocking.reports.panels import draw_probability
-from rocking.reports.printing import Cell, number, table_of, whole, words
+from rocking.reports.printing import Column, given, number, table_of, words
 from rocking.reports.style import elided, new_figure, picture, styled, svg
 from rocking.tables import frame, rows_of, write_whole
 
@@ -72,18 +72,18 @@ def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") 
 def fragility_table(falls: "DataFrame", ida: "DataFrame") -> dict[str, object]:
     """Return one row per structure: its median and what overturns it first."""
     governing = governing_records(ida)
-    columns: list[tuple[str, str, str, Callable[[FragilitySummaryRow], Cell]]] = [
+    columns: list[Column] = [
         ("Structure", "1.3", "l", lambda row: row.structure),
         ("Median and its 90 % interval", "1.3", "l", _median),
         ("Disper\u00adsion [-]", "0.6", "r", lambda row: number(row.dispersion, 2)),
-        ("Sta\u00adtions", "auto", "r", lambda row: whole(row.stations)),
+        ("Sta\u00adtions", "auto", "r", lambda row: given(row.stations)),
         (
             "First to overturn it, and at what level",
             "2.2",
             "l",
             lambda row: words(governing.get(row.structure)),
         ),
-        ("Stand again, scaled up", "0.6", "r", lambda row: whole(row.reversals)),
+        ("Stand again, scaled up", "0.6", "r", lambda row: given(row.reversals)),
     ]
     if falls["annual_rate"].notna().any():
         columns.append(("Annual rate [1/year]", "0.7", "r", lambda row: number(row.annual_rate, 2)))

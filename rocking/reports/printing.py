@@ -2,33 +2,28 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from itertools import accumulate
-from typing import TypeVar
+from typing import Any
+
+from rocking.quantities import counted
+from rocking.tables import Row
 
 Cell = str | dict[str, object]
 """A text; or a text that is strong, with another below it (layout.typ)."""
-T = TypeVar("T")
+Column = tuple[str, str, str, Callable[[Any], Cell]]
+"""Heading, width (fractions of what is left, or "auto"), alignment, and what it shows of a row."""
 
 NOTHING = "–"
 """Printed where a cell is empty."""
-_WORDS = [
-    "no",
-    "one",
-    "two",
-    "three",
-    "four",
-    "five",
-    "six",
-    "seven",
-    "eight",
-    "nine",
-    "ten",
-    "eleven",
-    "twelve",
-]
+MOST_NAMED, MOST_LETTERS = 12, 300
+"""Structures that the first lines name with one verdict, and their letters; the table below them holds all."""
 _LARGEST_PLAIN = 1e6
 """Numbers up to here are printed without a power of ten."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_CHOSEN = ("scale_factor", "time_step_s", "high_pass_frequency_hz")
+"""Fields that somebody chose, which are printed as they were given."""
+_UNIT_IN_NAME = str.maketrans({"/": "_", "²": "2", "³": "3", "°": "deg", "H": "h"})
 
 
 def number(value: float | None, digits: int = 3) -> str:
@@ -50,25 +45,17 @@ def to_spread(value: float, spread: float) -> str:
     return number(value, min(max(leading - last + 1, 1), 3))
 
 
-def whole(value: int | None) -> str:
-    """Return a whole number, or a dash."""
-    return NOTHING if value is None else str(value).replace("-", "−")
-
-
 def given(value: float | None) -> str:
-    """Return a number that somebody chose (a factor, a tolerance) without trailing zeros."""
-    return NOTHING if value is None or math.isnan(value) else _typeset(f"{value:.6g}")
+    """Return a number that somebody chose (a factor, a tolerance) or counted, without trailing zeros."""
+    if value is None or math.isnan(value):
+        return NOTHING
+    return _typeset(str(value) if isinstance(value, int) else f"{value:.6g}")
 
 
 def percent(share: float) -> str:
     """Return a share in percent: one digit below 10, whole from there on, 0 where it is rounding."""
     value = 100 * share
     return _typeset(f"{value:.0f}" if abs(value) >= 10 or abs(value) < 1e-6 else f"{value:.1g}")
-
-
-def with_unit(text: str, unit: str) -> str:
-    """Return a printed number with its unit; a dash stays a dash."""
-    return text if text == NOTHING else f"{text} {unit}"
 
 
 def words(text: str | Sequence[str] | None) -> str:
@@ -84,37 +71,20 @@ def ratio(value: float | None, digits: int = 3) -> str:
     return "no uplift" if value == 0 else number(value, digits)
 
 
-def count(many: int) -> str:
-    """Return a count, in words up to twelve."""
-    return _WORDS[many] if many < len(_WORDS) else str(many)
-
-
-def counted(many: int, noun: str) -> str:
-    """Return a count with its noun in the right number."""
-    return f"{count(many)} {noun}{'' if many == 1 else 's'}"
-
-
 def listed(names: Sequence[str], most: int = 6) -> str:
     """Return the names in a row, those beyond `most` as a count."""
-    shown = ", ".join(names[:most])
     more = len(names) - most
-    return shown if more <= 0 else f"{shown} and {counted(more, 'other')}"
-
-
-MOST_NAMED, MOST_LETTERS = 12, 300
-"""Structures that the first lines name with one verdict, and their letters; the table below them holds all."""
+    return ", ".join(names[:most]) + (f" and {counted(more, 'other')}" if more > 0 else "")
 
 
 def headlines(groups: Mapping[str, Sequence[str]]) -> list[dict[str, str]]:
     """Return the first lines of a report: each verdict with its structures, as many as there is room for."""
-    return [
-        {"verdict": sentence(verdict), "names": _fitting(names)} for verdict, names in groups.items() if names
-    ]
-
-
-def _fitting(names: Sequence[str]) -> str:
-    room = sum(end <= MOST_LETTERS for end in accumulate(map(len, names)))
-    return listed(names, max(1, min(MOST_NAMED, room)))
+    lines = []
+    for verdict, names in groups.items():
+        room = sum(end <= MOST_LETTERS for end in accumulate(map(len, names)))
+        named = listed(names, max(1, min(MOST_NAMED, room)))
+        lines += [{"verdict": sentence(verdict), "names": named}] if names else []
+    return lines
 
 
 def of(part: float, whole: float) -> str:
@@ -132,25 +102,57 @@ def sentence(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
+def strong(text: str, really: bool = True) -> Cell:
+    """Return a table cell whose text is set in bold, or plain where it is not `really` meant to be."""
+    return {"text": text, "strong": True} if really else text
+
+
 def table(columns: Sequence[tuple[str, str, str]], rows: Iterable[Sequence[Cell]]) -> dict[str, object]:
     """Return a table as the templates set it; a column is (heading, width, alignment)."""
     heads, widths, alignments = zip(*columns, strict=True)
     return {"heads": heads, "widths": widths, "alignments": alignments, "rows": [list(row) for row in rows]}
 
 
-def table_of(rows: Iterable[T], *columns: tuple[str, str, str, Callable[[T], Cell]]) -> dict[str, object]:
-    """Return a table with a line for each row; a column is (heading, width, alignment, what it shows of a row)."""
+def table_of(rows: Iterable[Any], *columns: Column) -> dict[str, object]:
+    """Return a table with a line for each row."""
     return table([column[:3] for column in columns], [[show(row) for *_, show in columns] for row in rows])
 
 
-def strong(text: str, really: bool = True, **more: object) -> Cell:
-    """Return a table cell whose text is set in bold, or plain where it is not `really` meant to be."""
-    return {"text": text, "strong": True, **more} if really else text
+def columns_of(kind: type[Row], names: str, width: str = "", /, **widths: str) -> list[Column]:
+    """Return columns that show fields of rows of one `kind`, with heading and unit as the row class has them.
+
+    names: of the fields, separated by spaces. width: of all of them, else by their type. widths: of single ones.
+    """
+    columns: list[Column] = []
+    for name in names.split():
+        numeric = _described(kind, name).holds in (float, int)
+        usual, side = ("0.8", "r") if numeric else ("1", "l")
+        shown = heading(kind, name), widths.get(name, width or usual), side, partial(field_of, name)
+        columns.append(shown)
+    return columns
+
+
+def heading(kind: type[Row], name: str) -> str:
+    """Return the field `name` of a row class in words, with its unit: "Start time [s]"."""
+    described = _described(kind, name)
+    unit = described.unit or ("-" if described.holds is float else "")
+    bare = name.removesuffix("_" + described.unit.translate(_UNIT_IN_NAME))
+    return sentence(bare.replace("_", " ").replace("rotd", "RotD")) + (f" [{unit}]" if unit else "")
+
+
+def field_of(name: str, row: Row) -> str:
+    """Return the field `name` of a row as it is printed: by its type, rotation ratios in words where they are none."""
+    value = getattr(row, name)
+    if isinstance(value, float) and name not in _CHOSEN:
+        return ratio(value) if name.endswith("rotation_ratio") else number(value)
+    return given(value) if isinstance(value, float | int) else words(value)
+
+
+def _described(kind: type[Row], name: str) -> Any:
+    return next(each for each in kind.table.columns if each.name == name)
 
 
 def _typeset(text: str) -> str:
     mantissa, _, exponent = text.partition("e")
     mantissa = mantissa.replace("-", "−")
-    if not exponent:
-        return mantissa
-    return f"{mantissa}×10{str(int(exponent)).translate(_SUPERSCRIPTS)}"
+    return f"{mantissa}×10{str(int(exponent)).translate(_SUPERSCRIPTS)}" if exponent else mantissa

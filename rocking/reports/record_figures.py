@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -120,6 +120,12 @@ class History:
     band: tuple[float, float] | None
     remark: str
 
+    @property
+    def reach(self) -> float:
+        """Half of the height of its row: enough for the response and the prediction, no more than _HIGHEST."""
+        levels = [float(np.abs(self.ratio).max(initial=0)), self.predicted]
+        return min(1.25 * max((level for level in levels if 0 < level < math.inf), default=1.0), _HIGHEST)
+
 
 @dataclass(frozen=True)
 class Compared:
@@ -137,40 +143,36 @@ def shared_span(motions: Sequence[Motion]) -> tuple[float, float]:
 
 
 @styled
-def ground_figure(motions: Sequence[Motion], height: float = 19.0) -> Figure:
-    """Draw the acceleration of each component with its dominant pulse, one below the other. height: of each, mm."""
+def ground_figure(motions: Sequence[Motion]) -> Figure:
+    """Draw the acceleration of each component with its dominant pulse, one below the other."""
+    height = 19.0
     figure = new_figure(height * len(motions) + 8)
-    span = shared_span(motions)
     for place, motion in enumerate(motions):
         panel = panel_at(figure, 14, 1 + place * height, TEXT_WIDTH - 16, height - 3)
-        _ground(panel, motion, span)
-        _label_time(panel, place == len(motions) - 1)
+        _ground(panel, motion, shared_span(motions), motion is motions[-1])
     return figure
 
 
-def _ground(panel: Axes, motion: Motion, span: tuple[float, float]) -> None:
+def _ground(panel: Axes, motion: Motion, span: tuple[float, float], last: bool) -> None:
     accelerogram = motion.accelerogram
     draw_motion(panel, accelerogram, motion.dominant, span, _POINTS)
-    reach = 1.1 * max(
-        accelerogram.peak_acceleration, *(abs(each.amplitude) for each in motion.pulses[:1]), 1e-9
-    )
+    amplitudes = [abs(each.amplitude) for each in motion.pulses[:1]]
+    reach = 1.1 * max(accelerogram.peak_acceleration, *amplitudes, 1e-9)
     fixed_ticks(panel, "y", -reach, reach, 3)
-    fixed_ticks(panel, "x", *span, 6)
     peak = f"{motion.name}: PGA {accelerogram.peak_acceleration / GRAVITY:.2g} g"
     panel.text(0.995, 0.97, peak, transform=panel.transAxes, ha="right", va="top")
     panel.set_ylabel("[m/s²]")
+    _time_axis(panel, span, last)
 
 
-def _label_time(panel: Axes, last: bool) -> None:
-    if last:
-        panel.set_xlabel("time after the first sample [s]")
-    else:
-        panel.tick_params(labelbottom=False)
+def _time_axis(panel: Axes, span: tuple[float, float], last: bool) -> None:
+    fixed_ticks(panel, "x", *span, 6)
+    panel.tick_params(labelbottom=last)
+    panel.set_xlabel("time after the first sample [s]" if last else "")
 
 
-@lru_cache(maxsize=4)
 @styled
-def strip_figure(states: tuple[State, ...]) -> Figure:
+def strip_figure(states: Sequence[State]) -> Figure:
     """Draw each structure in its state, to one scale each: standing, rocking to its largest rotation, or fallen."""
     rows = math.ceil(len(states) / _COLUMNS)
     width, height = _CELL
@@ -199,8 +201,10 @@ def _draw_state(axes: Axes, state: State, middle: float, top: float) -> None:
     bar = round_length(0.5 * _DRAWN[0] / scale)
     axes.plot([middle - bar * scale / 2, middle + bar * scale / 2], [foot[1] - 2.0] * 2, "k", linewidth=1.5)
     axes.text(middle + bar * scale / 2 + 1, foot[1] - 2.0, f"{bar:g} m", va="center", fontsize=7)
-    said = Rectangle((middle - 16, foot[1] - 8.5), 32, 4.5, facecolor=colour, edgecolor="0.25", linewidth=0.5)
-    axes.add_patch(said)
+    frame = Rectangle(
+        (middle - 16, foot[1] - 8.5), 32, 4.5, facecolor=colour, edgecolor="0.25", linewidth=0.5
+    )
+    axes.add_patch(frame)
     word = f"{sign} {state.fate.verdict}"
     axes.text(middle, foot[1] - 6.3, word, ha="center", va="center", color=ink, fontweight="bold")
     for line, text in enumerate(state.lines):
@@ -227,10 +231,11 @@ def histories_figure(histories: Sequence[History], motions: Sequence[Motion]) ->
     row = min(_HIGHEST_ROW, _HISTORIES / len(histories))
     below, left, width = 20.0, 38.0, TEXT_WIDTH - 77
     figure = new_figure(row * len(histories) + below * len(motions) + 9)
-    begin, end = _window(histories)
+    span = _window(histories)
     panel = panel_at(figure, left, 1, width, row * len(histories))
+    beside: dict[str, Any] = {"transform": panel.get_yaxis_transform(), "va": "center", "fontsize": 7}
     for place, history in enumerate(histories):
-        reach, level = _reach(history), -float(place)
+        reach, level = history.reach, -float(place)
         draw_rotation(
             panel,
             history.times,
@@ -242,70 +247,47 @@ def histories_figure(histories: Sequence[History], motions: Sequence[Motion]) ->
             most=_POINTS,
         )
         label = f"{elided(history.label, 22)}\n± {reach:.2g}"
-        look: dict[str, Any] = {
-            "transform": panel.get_yaxis_transform(),
-            "va": "center",
-            "fontsize": 7,
-            "linespacing": 1.3,
-        }
-        panel.text(-0.02, level, label, ha="right", **look)
-        panel.text(1.01, level, history.remark, ha="left", **look)
-    panel.set(xlim=(begin, end), ylim=(0.5 - len(histories), 0.5), xticks=[], yticks=[])
+        panel.text(-0.02, level, label, ha="right", linespacing=1.3, **beside)
+        panel.text(1.01, level, history.remark, ha="left", linespacing=1.3, **beside)
+    panel.set(xlim=span, ylim=(0.5 - len(histories), 0.5), xticks=[], yticks=[])
     panel.spines[["left", "bottom"]].set_visible(False)
     for place, motion in enumerate(motions):
         top = 2 + row * len(histories) + place * below
-        ground = panel_at(figure, left, top, width, below - 3)
-        _ground(ground, motion, (begin, end))
-        _label_time(ground, place == len(motions) - 1)
+        _ground(panel_at(figure, left, top, width, below - 3), motion, span, motion is motions[-1])
     return figure
-
-
-def _reach(history: History) -> float:
-    """Height of a panel: enough for the response and the prediction, no further than _HIGHEST."""
-    levels = [float(np.abs(history.ratio).max(initial=0)), history.predicted]
-    return min(1.25 * max((level for level in levels if 0 < level < math.inf), default=1.0), _HIGHEST)
 
 
 def _window(histories: Sequence[History]) -> tuple[float, float]:
     """The span of time in which anything moves."""
-    begins, ends = [], []
+    moving = []
     for history in histories:
         size = np.abs(history.ratio)
-        moving = np.flatnonzero(size > _STILL * size.max(initial=0))
-        if moving.size:
-            begins.append(float(history.times[moving[0]]))
-            ends.append(float(history.times[moving[-1]]))
-    margin = 0.05 * (max(ends) - min(begins)) + 1e-3
-    return max(0.0, min(begins) - margin), max(ends) + margin
+        moving.append(history.times[size > _STILL * size.max(initial=0)])
+    times = np.concatenate(moving)
+    margin = 0.05 * float(np.ptp(times)) + 1e-3
+    return max(0.0, float(times.min()) - margin), float(times.max()) + margin
 
 
 @styled
 def pulses_figure(motions: Sequence[Motion]) -> Figure:
     """Draw of each component the dominant pulse in the record, and the energy of a pulse over onset and period."""
+    from rocking.pulses import energy_map  # which loads the compiled scan
+
     height = 36.0
     figure = new_figure(height * len(motions))
     for place, motion in enumerate(motions):
-        pulse = motion.dominant
-        if pulse is None:
-            continue
-        top = 3 + place * height
-        near, energy = panel_at(figure, 14, top, 70, 24), panel_at(figure, 100, top, 68, 24)
-        span = pulse.start_time - _ZOOM * pulse.period, pulse.end_time + _ZOOM * pulse.period
-        _ground(near, motion, (max(span[0], 0.0), min(span[1], motion.accelerogram.duration)))
-        _label_time(near, last=True)
-        draw_energy_map(energy, *_energy(motion.accelerogram), motion.pulses)
+        accelerogram, pulse = motion.accelerogram, motion.pulses[0]
+        near, energy = (panel_at(figure, left, 3 + place * height, 69, 24) for left in (14, 100))
+        zoom = _ZOOM * pulse.period
+        span = max(pulse.start_time - zoom, 0.0), min(pulse.end_time + zoom, accelerogram.duration)
+        _ground(near, motion, span, last=True)
+        # of several onsets the largest gain: no printer shows more
+        gains, frequencies = energy_map(accelerogram)
+        starts = np.arange(0, gains.shape[0], max(1, gains.shape[0] // _MAP_COLUMNS))
+        gains = np.maximum.reduceat(gains, starts, axis=0)
+        draw_energy_map(energy, starts * accelerogram.time_step, 1 / frequencies, gains, motion.pulses)
         fixed_ticks(energy, "x", *motion.span, 6)
     return figure
-
-
-def _energy(accelerogram: Accelerogram) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Onsets, periods and the largest gain of each stretch of onsets: no printer shows more."""
-    from rocking.pulses import energy_map  # which loads the compiled scan
-
-    gains, frequencies = energy_map(accelerogram)
-    stretch = max(1, gains.shape[0] // _MAP_COLUMNS)
-    starts = np.arange(0, gains.shape[0], stretch)
-    return starts * accelerogram.time_step, 1 / frequencies, np.maximum.reduceat(gains, starts, axis=0)
 
 
 @styled
@@ -315,7 +297,8 @@ def comparison_figure(cases: Sequence[Compared]) -> Figure:
     figure = new_figure(height + 16)
     panel = panel_at(figure, 46, 6, TEXT_WIDTH - 46 - 40, height)
     rows = np.arange(len(cases))
-    form, block, whole = np.array([[_placed(each) for each in case.ratios] for case in cases]).T
+    ratios = np.array([case.ratios for case in cases])
+    form, block, whole = np.where(np.isinf(ratios), _FALLEN, np.maximum(ratios, _SMALLEST)).T
     unsafe = np.array([case.agreement is Agreement.TOO_LOW for case in cases])
     panel.hlines(rows[~unsafe], form[~unsafe], whole[~unsafe], color="0.6", linewidth=0.8)
     panel.hlines(rows[unsafe], form[unsafe], whole[unsafe], color="#D55E00", linewidth=2.0)
@@ -335,34 +318,25 @@ def comparison_figure(cases: Sequence[Compared]) -> Figure:
     return figure
 
 
-def _placed(ratio: float) -> float:
-    return _FALLEN if math.isinf(ratio) else max(ratio, _SMALLEST)
-
-
 @styled
 def measures_figure(motions: Sequence[Motion], placed: Sequence[Placed]) -> Figure:
     """Draw response spectra with the structures on them, and velocity and displacement over time."""
     figure = new_figure(62)
     spectrum = panel_at(figure, 14, 2, 70, 50)
-    accelerograms = {motion.name: motion.accelerogram for motion in motions}
-    draw_response_spectra(
-        spectrum, {name: response_spectrum(each) for name, each in accelerograms.items()}, placed
-    )
+    spectra = {motion.name: response_spectrum(motion.accelerogram) for motion in motions}
+    draw_response_spectra(spectrum, spectra, placed)
     spectrum.legend(loc="lower left")
     for row, (label, integral) in enumerate(
-        (("velocity [m/s]", velocity), ("displacement [m]", displacement))
+        {"velocity [m/s]": velocity, "displacement [m]": displacement}.items()
     ):
         panel = panel_at(figure, 103, 2 + 26 * row, 65, 24)
-        traces = {name: integral(each) for name, each in accelerograms.items()}
-        for (name, trace), line in zip(traces.items(), ("-", "--", ":"), strict=False):
-            panel.plot(
-                *thinned(accelerograms[name].times, trace, _POINTS), line, color="black", linewidth=0.6
-            )
-        reach = 1.1 * max(float(np.abs(trace).max()) for trace in traces.values()) or 1.0
+        traces = [(motion.accelerogram.times, integral(motion.accelerogram)) for motion in motions]
+        for trace, line in zip(traces, ("-", "--", ":"), strict=False):
+            panel.plot(*thinned(*trace, _POINTS), line, color="black", linewidth=0.6)
+        reach = 1.1 * max(float(np.abs(trace).max()) for _, trace in traces) or 1.0
         fixed_ticks(panel, "y", -reach, reach, 3)
-        fixed_ticks(panel, "x", *shared_span(motions), 6)
         panel.set_ylabel(label)
-        _label_time(panel, row == 1)
+        _time_axis(panel, shared_span(motions), row == 1)
     return figure
 
 

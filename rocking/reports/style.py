@@ -5,7 +5,7 @@ import math
 from collections.abc import Callable, Sequence
 from functools import cache, wraps
 from pathlib import Path
-from typing import ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
 import matplotlib
 import numpy as np
@@ -13,7 +13,14 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ft2font import FT2Font
-from matplotlib.ticker import FixedFormatter, FixedLocator, LogLocator, NullLocator, StrMethodFormatter
+from matplotlib.ticker import (
+    FixedFormatter,
+    FixedLocator,
+    LogLocator,
+    MaxNLocator,
+    NullLocator,
+    StrMethodFormatter,
+)
 
 TEXT_WIDTH = 170.0
 """Width of the text of a page, mm."""
@@ -22,11 +29,11 @@ RECORD, PULSE, PREDICTED, UPLIFT = "0.35", "#D55E00", "#0072B2", "#009E73"
 MOST_POINTS = 4000
 """Points of a trace; a longer one keeps the least and the largest value of each stretch."""
 FONT_FOLDER = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
+Picture = dict[str, str]
 Margins = tuple[float, float, float, float]
 MARGINS: Margins = (14.0, 2.0, 8.5, 4.0)
 """Left, right, bottom, top, mm: room for tick labels and one line of axis label."""
 _MILLIMETRES_PER_INCH = 25.4
-_STEPS = (1.0, 2.0, 5.0, 10.0)
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -74,9 +81,14 @@ def svg(figure: Figure) -> str:
     return stream.getvalue()
 
 
-def picture(figure: Figure, alt: str) -> dict[str, str]:
+def picture(figure: Figure, alt: str) -> Picture:
     """Return a figure as the templates take it: SVG and alternative text."""
     return {"svg": svg(figure), "alt": alt}
+
+
+def pictures(draw: Callable[..., Figure], things: Sequence[Any], alt: str, *more: Any) -> list[Picture]:
+    """Return the figure that `draw` makes of `things`, or nothing where there are none."""
+    return [picture(draw(things, *more), alt)] if things else []
 
 
 def shared_legend(figure: Figure, names: Sequence[str], ncols: int) -> None:
@@ -99,10 +111,8 @@ def plain_logarithmic(panel: Axes, which: str) -> None:
 
 def fixed_ticks(panel: Axes, which: str, low: float, high: float, wished: int = 5) -> None:
     """Give the x or y axis its limits and about `wished` round ticks between them, which nothing has to seek again."""
-    raw = (high - low) / wished
-    power = 10.0 ** math.floor(math.log10(raw))
-    step = power * next(each for each in _STEPS if each * power >= raw * (1 - 1e-9))
-    places = step * np.arange(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)
+    places = np.asarray(MaxNLocator(wished, steps=[1, 2, 5, 10]).tick_values(low, high))
+    places = places[(places >= low) & (places <= high)]
     axis = panel.xaxis if which == "x" else panel.yaxis
     axis.set_major_locator(FixedLocator(places.tolist()))
     axis.set_major_formatter(FixedFormatter([f"{round(place, 12):g}".replace("-", "−") for place in places]))

@@ -149,7 +149,7 @@ def run_job(
 
 def write_report(assessed: Assessed, study: Study, folder: Path) -> None:
     """Write report.pdf of one record into `folder`, beside the tables that it names."""
-    from rocking.reports.record import failure_report, record_report  # matplotlib takes a second to import
+    from rocking.reports.record import RecordReport, failure_report  # matplotlib takes a second to import
 
     tables, record = assessed.tables, assessed.record.id
     tables.write(folder)
@@ -157,7 +157,7 @@ def write_report(assessed: Assessed, study: Study, folder: Path) -> None:
         report = failure_report(record, " ".join(failure.message for failure in tables.failures))
     else:
         told = (study.structures, tables, study.settings.mapping(), assessed.vertical, assessed.responses)
-        report = record_report(record, assessed.accelerograms, *told)
+        report = RecordReport(record, assessed.accelerograms, *told).pdf()
     write_whole(folder / "report.pdf", report)
 
 

@@ -2,6 +2,7 @@
 
 import resource
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,13 +10,13 @@ from clock import least_cpu
 
 sys.path.append(str(Path(__file__).parents[1] / "unit" / "reports"))
 
-from conftest import Assessed, assessed, shaken
+from conftest import assessed, shaken
 
-from rocking.reports.record import record_report
+from rocking.reports.record import RecordReport
 from rocking.structures import Arch, Block, Wall
 
 
-def ten_structures() -> Assessed:
+def ten_structures() -> RecordReport:
     """Blocks, walls and arches under one component."""
     structures = {f"block {height} m": Block.of_size(0.22 * height, height) for height in (2, 3, 5, 8)}
     structures |= {
@@ -27,10 +28,10 @@ def ten_structures() -> Assessed:
     return assessed("ten", [shaken(station="STA")], structures)
 
 
-def another(case: Assessed, place: int) -> bytes:
+def another(case: RecordReport, place: int) -> bytes:
     """A report of another name and motion: the typesetter remembers what it has set before."""
     moved = [accelerogram.scaled(1 + 1e-3 * place) for accelerogram in case.accelerograms]
-    return record_report(f"report {place}", moved, *case.arguments[2:])
+    return replace(case, record=f"report {place}", accelerograms=moved).pdf()
 
 
 def resident() -> float:

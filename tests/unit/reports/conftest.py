@@ -1,7 +1,6 @@
 """One assessed record for the tests of the reports: synthetic motion, real computation, rows as CSV files hold."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -18,6 +17,7 @@ from rocking.assessment.variations import candidates, processed_variants
 from rocking.assessment.verdict import Verdict
 from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram, Source
+from rocking.reports.record import RecordReport
 from rocking.structures import Arch, Block, Wall
 from rocking.tables import frame
 
@@ -44,21 +44,6 @@ def fate(verdict: Verdict, rotation_ratio: float, **more) -> Fate:
     return Fate(**blank | texts | counts | {"verdict": verdict, "rotation_ratio": rotation_ratio} | more)
 
 
-@dataclass(frozen=True)
-class Assessed:
-    """What a report is made from."""
-
-    record: str
-    accelerograms: list[Accelerogram]
-    structures: dict[str, object]
-    tables: RecordTables
-
-    @property
-    def arguments(self) -> tuple:
-        """The arguments of record_report."""
-        return self.record, self.accelerograms, self.structures, self.tables, SETTINGS
-
-
 def shaken(component: str = "EW", scale_factor: float = 1.0, **identity) -> Accelerogram:
     """One sine pulse of 0.5 g in noise that dies away; 20 s at 100 Hz."""
     times = np.arange(2000) * 0.01
@@ -70,8 +55,8 @@ def shaken(component: str = "EW", scale_factor: float = 1.0, **identity) -> Acce
     return Accelerogram(samples, 0.01, component, source=source, scale_factor=scale_factor, **identity)
 
 
-def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[str, object]) -> Assessed:
-    """Compute every table of `record`."""
+def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[str, object]) -> RecordReport:
+    """Compute every table of `record` and return its report."""
     tables = RecordTables()
     for accelerogram in accelerograms:
         computed = assess_structures(accelerogram, structures, ASSESSMENT)
@@ -84,7 +69,7 @@ def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[st
             tables.candidates.extend(candidate_rows(identity, name, found))
             variants = processed_variants({name: structure}, records, ASSESSMENT)
             tables.maxima.extend(processing_rows(identity, name, variants[name]))
-    return Assessed(record, accelerograms, structures, tables)
+    return RecordReport(record, accelerograms, structures, tables, SETTINGS)
 
 
 def summarised(tables: RecordTables, structures: dict[str, object]) -> dict[str, object]:
@@ -95,7 +80,7 @@ def summarised(tables: RecordTables, structures: dict[str, object]) -> dict[str,
 
 
 @pytest.fixture(scope="package")
-def example() -> Assessed:
+def example() -> RecordReport:
     """Four structures under one component: two rock, one overturns, one is not lifted."""
     structures = {
         "block 4 m": Block.of_size(1.0, 4.0),
@@ -108,7 +93,7 @@ def example() -> Assessed:
 
 
 @pytest.fixture(scope="package")
-def hostile() -> Assessed:
+def hostile() -> RecordReport:
     """Hostile names everywhere, two components, a declared scale factor."""
     structures = {name: Block.of_size(0.6 + 0.1 * place, 3.0) for place, name in enumerate(HOSTILE)}
     names = {"station": HOSTILE[0], "event": HOSTILE[1], "path": HOSTILE[2], "scale_factor": 12.5}

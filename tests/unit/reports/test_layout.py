@@ -11,7 +11,6 @@ import pytest
 
 from rocking.assessment.rows.of_folder import RecordTables
 from rocking.reports.document import compile_document
-from rocking.reports.record import record_report
 from rocking.reports.summary import summary_report
 
 from .conftest import SETTINGS, SUMMARISED, summarised
@@ -104,7 +103,7 @@ def test_the_report_of_a_record_is_well_laid(example, count):
     }
     structures = dict.fromkeys(names, example.structures["wall 3 m"])
     tables = replace(example.tables, **kept)
-    document = record_report(example.record, example.accelerograms, structures, tables, SETTINGS)
+    document = replace(example, structures=structures, tables=tables).pdf()
     words = [word[4] for page in assert_well_laid(document) for word in page]
     tables_named = [
         after for word, after in itertools.pairwise(words) if word == "Table" and after.endswith(".")

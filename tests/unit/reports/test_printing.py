@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from rocking.assessment.rows.of_record import PulseRow
 from rocking.reports import printing
 
 
@@ -36,7 +37,8 @@ def test_a_chosen_number_has_no_trailing_zeros():
     assert [printing.given(value) for value in (12.5, 1.0, 1e-06, None)] == ["12.5", "1", "1×10⁻⁶", "–"]
 
 
-def test_counts_are_words_up_to_twelve():
-    assert printing.counted(1, "case") == "one case"
-    assert printing.counted(0, "case") == "no cases"
-    assert printing.counted(13, "case") == "13 cases"
+def test_a_column_has_the_heading_unit_and_digits_of_its_field():
+    columns = printing.columns_of(PulseRow, "component start_time_s gain_m2_s3 gain_ratio rank")
+    heads = ["Component", "Start time [s]", "Gain [m²/s³]", "Gain ratio [-]", "Rank"]
+    assert [column[0] for column in columns] == heads
+    assert "".join(side for *_, side, _ in columns) == "lrrrr"
