@@ -42,7 +42,7 @@ PLAN.hashes.save()
 
 # Not before: a dry run leaves the catalogue as it is.
 onstart:
-    PLAN.begin()
+    begin(PLAN)
 
 
 # The tables stand all the same, and say why; but a study of which nothing could be read has not succeeded.

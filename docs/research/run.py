@@ -32,7 +32,7 @@ def main(target, catalogues, mirror, structures, folder, tell):
 
 if __name__ == "__main__":
     sys.path.append(str(Path(snakemake.scriptdir).parents[1]))  # docs/ lies beside rocking/
-    from rocking.study.progress import line_writer
+    from rocking.study.terminal import line_writer
 
     main(
         snakemake.rule,

@@ -10,7 +10,7 @@ from shlex import quote
 
 from rocking.errors import CatalogueError, ConfigurationError, RockingError, UnknownFormatError
 from rocking.quantities import GRAVITY, counted
-from rocking.study.doors import close_doors
+from rocking.study import close_doors
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

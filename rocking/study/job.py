@@ -3,6 +3,7 @@
 import contextlib
 import fcntl
 import os
+import signal
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -33,10 +34,10 @@ from rocking.records import Accelerogram, CatalogueRecord, Station, aligned, loa
 from rocking.records.processing import process
 from rocking.records.station import station_of
 from rocking.structures import Structure, load_structures
-from rocking.study.outcome import record_line
-from rocking.study.plan import JOBS, records_sha256, structures_sha256
+from rocking.study.plan import JOBS, sha256_of, structures_sha256
 from rocking.study.results import remove_copies, written_part
 from rocking.study.settings import Settings, read_settings
+from rocking.study.terminal import record_line
 from rocking.tables import write_rows, write_whole
 
 Opened = tuple[list[Accelerogram], Accelerogram | None]
@@ -94,18 +95,20 @@ def planned(config: Mapping[str, Any], params: Any) -> tuple[Study, list[Catalog
     """
     with contextlib.suppress(OSError):
         fcntl.flock(os.open(JOBS, os.O_RDWR | os.O_CREAT), fcntl.LOCK_SH)  # never closed: held to the end
+        signal.signal(
+            signal.SIGINT, signal.SIG_IGN
+        )  # of the terminal, which the scheduler passes on as SIGTERM
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
     settings = read_settings(config)
     structures = load_structures(settings.structures)
-    if structures_sha256(structures) != params.structures_sha256:
-        raise ConfigurationError(
-            f"{settings.structures}: the structures changed while the study ran; start the study again."
-        )
     rows = {row.id: row for row in load_catalogue(settings.catalogue)}
     records = [rows[name] for name in params.records if name in rows]
-    if records_sha256(records) != params.records_sha256:
-        raise ConfigurationError(
-            f"{settings.catalogue}: the catalogue changed while the study ran; start the study again."
-        )
+    for name, sha256, before in (
+        (settings.structures, structures_sha256(structures), params.structures_sha256),
+        (settings.catalogue, sha256_of(*records), params.records_sha256),
+    ):
+        if sha256 != before:
+            raise ConfigurationError(f"{name}: the file changed while the study ran; start the study again.")
     return Study(structures, settings, params.settings_sha256), records
 
 

@@ -6,7 +6,7 @@ import math
 import os
 import stat
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,14 +22,16 @@ from rocking.study.settings import Settings, named_files, read_settings
 from rocking.tables import write_whole
 from rocking.tables.yaml_file import read_yaml
 
-Found = TypeVar("Found")
+T = TypeVar("T")
 
-_HASHES = Path(".snakemake") / "rocking_hashes.json"
-"""Beside what snakemake remembers of a study; it may be removed at any time."""
 JOBS = Path(".snakemake") / "rocking_jobs.lock"
 """Held by every job of a study while it works, in the folder of the study."""
+_HASHES = Path(".snakemake") / "rocking_hashes.json"
+"""Beside what snakemake remembers of a study; it may be removed at any time."""
 _SETTLED = 2.0
 """s; a file that changed more recently may change again without its times telling, so its hash is not kept."""
+_SOURCE = {".py", ".csv", ".json", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
+_FEW, _MANY = 8, 200
 
 
 @dataclass(frozen=True)
@@ -40,35 +42,41 @@ class Plan:
     records: Mapping[str, CatalogueRecord]
     jobs: Mapping[str, tuple[str, ...]]
     settings_sha256: str
-    """Names the settings that change a number, the structure list and the package, in every row."""
     structures_sha256: str
     package_sha256: str
     hashes: "ContentHashes"
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """What to tell the user before the run, one sentence each."""
-        new = unlisted(Path(self.settings.catalogue))
-        return (*repeated(self.records.values()), *new, *self._left())
+        """What to tell the user before the run, one sentence each; folders of records that left the catalogue too."""
+        kept = {*self.records, "summary", "fragility"}
+        reports = sorted(Path(self.settings.results).glob("*/report.pdf"))
+        left = (report.parent for report in reports if report.parent.name not in kept)
+        return (
+            *repeated(self.records.values()),
+            *unlisted(Path(self.settings.catalogue)),
+            *(
+                f"{each} is of a record that is not in the catalogue any more; remove it if you do not need it."
+                for each in left
+            ),
+        )
 
-    def _left(self) -> Iterator[str]:
-        """Folders of results whose record left the catalogue."""
-        for report in sorted(Path(self.settings.results).glob("*/report.pdf")):
-            if (folder := report.parent).name not in {*self.records, "summary", "fragility"}:
-                yield f"{folder} is of a record that is not in the catalogue any more; remove it if you do not need it."
-
-    def begin(self) -> None:
+    def fill_hashes(self) -> None:
         """Write the hashes that the catalogue leaves blank: the files are checked against them from now on."""
         fill_hashes(self.settings.catalogue, self.settings.mirror)
 
     def params(self, *jobs: str) -> dict[str, Any]:
-        """Return what the results of `jobs`, or of all, depend on: snakemake remembers and compares it."""
+        """Return what the results of `jobs`, or of all, depend on: snakemake remembers and compares it.
+
+        The files that count are those on this machine from which the records are read, StationXML among them.
+        """
         names = [name for job in jobs for name in self.jobs[job]] if jobs else list(self.records)
         records = [self.records[name] for name in names]
+        files = sorted({path for record in records for path in local_files(record, self.settings.mirror)})
         return {
             "records": names,
-            "records_sha256": records_sha256(records),
-            "files_sha256": files_sha256(records, self.settings, self.hashes),
+            "records_sha256": sha256_of(*records),
+            "files_sha256": sha256_of(*((str(path), self.hashes.of(path)) for path in files)),
             "structures_sha256": self.structures_sha256,
             "settings_sha256": self.settings_sha256,
             "package_sha256": self.package_sha256,
@@ -83,31 +91,29 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     defects: list[str] = []
     settings = _collect(defects, lambda: read_settings(config)) or named_files(config)
     listed = _collect(defects, lambda: load_catalogue(settings.catalogue)) or ()
-    records = [filled(record, settings.mirror) for record in listed]
     structures = _collect(defects, lambda: load_structures(settings.structures))
     _collect(defects, lambda: check_writable(Path(settings.results)))
     if defects or structures is None:
         raise ConfigurationError("\n".join(defects))
-    numbers, described = package_sha256(reports=False), structures_sha256(structures)
+    records = {record.id: filled(record, settings.mirror) for record in listed}
     return Plan(
         settings=settings,
-        records={record.id: record for record in records},
-        jobs=share_out((record.id for record in records), settings.records_per_job),
-        settings_sha256=settings_sha256(settings, described, numbers),
-        structures_sha256=described,
-        package_sha256=package_sha256() if settings.reports else numbers,
+        records=records,
+        jobs=share_out(records, settings.records_per_job),
+        settings_sha256=settings_sha256(settings, structures),
+        structures_sha256=structures_sha256(structures),
+        package_sha256=package_sha256(reports=settings.reports),
         hashes=ContentHashes(_HASHES),
     )
 
 
 def check_config_file(path: Path) -> dict[str, Any]:
     """Return what a config.yaml says. Raises ConfigurationError, also where snakemake would be silent or hang."""
-    said, _ = read_yaml(path, ConfigurationError, "file of settings")
-    if not isinstance(said or {}, dict):
-        raise ConfigurationError(
-            f"{path}: the file holds {type(said).__name__}, but must hold settings; mend it."
-        )
-    return said or {}
+    content, _ = read_yaml(path, ConfigurationError, "file of settings")
+    if not isinstance(content or {}, dict):
+        kind = type(content).__name__
+        raise ConfigurationError(f"{path}: the file holds {kind}, but must hold settings; mend it.")
+    return content or {}
 
 
 def check_writable(results: Path) -> None:
@@ -121,25 +127,19 @@ def check_writable(results: Path) -> None:
         )
 
 
-def settings_sha256(settings: Settings, structures: str, package: str) -> str:
-    """Return one hash for the settings that change a number, and those of the structure list and the package."""
-    return _sha256(json.dumps(settings.numbers(), sort_keys=True), structures, package)
+def sha256_of(*contents: object) -> str:
+    """Return one hash for what `contents` say."""
+    return hashlib.sha256("\n".join(map(repr, contents)).encode()).hexdigest()
 
 
 def structures_sha256(structures: Mapping[str, Structure]) -> str:
     """Return one hash for what a structure list says, whatever its comments and its layout."""
-    return _sha256(json.dumps({name: each.as_config() for name, each in structures.items()}, default=str))
+    return sha256_of(*((name, each.as_config()) for name, each in structures.items()))
 
 
-def records_sha256(records: Iterable[CatalogueRecord]) -> str:
-    """Return one hash for catalogue rows, in their order."""
-    return _sha256(*map(repr, records))
-
-
-def files_sha256(records: Iterable[CatalogueRecord], settings: Settings, hashes: "ContentHashes") -> str:
-    """Return one hash for the files on this machine from which `records` are read, StationXML among them."""
-    files = {p for record in records for p in local_files(record, settings.mirror)}
-    return _sha256(*(f"{path}\0{hashes.of(path)}" for path in sorted(files)))
+def settings_sha256(settings: Settings, structures: Mapping[str, Structure]) -> str:
+    """Return the hash that every row names: of the settings that change a number, the structures and the package."""
+    return sha256_of(settings.numbers(), structures_sha256(structures), package_sha256(reports=False))
 
 
 def package_sha256(reports: bool = True) -> str:
@@ -153,19 +153,18 @@ def package_sha256(reports: bool = True) -> str:
     return digest.hexdigest()
 
 
-_SOURCE = {".py", ".csv", ".json", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
-
-
 class ContentHashes:
-    """The sha256 of files. store: a file that keeps them from run to run, for as long as a file's size and times stay.
+    """The sha256 of files, which the file `store` keeps from run to run for as long as their size and times stay.
 
     The time of the last change (ctime), which no program can set, stands among them.
     """
 
-    def __init__(self, store: Path | None = None) -> None:
+    def __init__(self, store: Path) -> None:
         self._store = store
-        self._known = _stored(store) if store else {}
-        self._kept: dict[str, list[object]] = {}
+        self._before: dict[str, str] = {}
+        self._now: dict[str, str] = {}
+        with suppress(OSError, ValueError, TypeError):
+            self._before = dict(json.loads(store.read_text(encoding="utf-8")))
 
     def of(self, path: Path) -> str:
         """Return the sha256 of the file at `path`, "" for what no reader takes: another kind of file, or too large."""
@@ -173,32 +172,28 @@ class ContentHashes:
             status = path.stat()
             if not stat.S_ISREG(status.st_mode) or status.st_size > LARGEST_FILE:
                 return ""
-            marks = [status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino]
-            known = self._known.get(str(path))
-            if known and known[:-1] == marks:
-                found = str(known[-1])
-            else:
+            mark = f"{path} {status.st_ino} {status.st_size} {status.st_mtime_ns} {status.st_ctime_ns}"
+            if (sha256 := self._before.get(mark)) is None:
                 with path.open("rb") as stream:
-                    found = hashlib.file_digest(stream, "sha256").hexdigest()
+                    sha256 = hashlib.file_digest(stream, "sha256").hexdigest()
         except OSError:
             return ""
         if time.time() - status.st_ctime > _SETTLED:
-            self._kept[str(path)] = [*marks, found]
-        return found
+            self._now[mark] = sha256
+        return sha256
 
     def save(self) -> None:
-        """Keep what is known of the files that were asked for, if the folder of the store is there."""
-        if self._store and self._store.parent.is_dir() and self._kept != self._known:
-            write_whole(self._store, json.dumps(self._kept).encode())
+        """Keep the hashes of the files that were asked for, if the folder of the store is there."""
+        if self._store.parent.is_dir() and self._now != self._before:
+            write_whole(self._store, json.dumps(self._now).encode())
 
 
 def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, tuple[str, ...]]:
-    """Share out records to jobs by a hash of their identifier, so that adding one record changes one job.
+    """Return the identifiers of each job, in their order, by the name of the job.
 
     size: about how many records a job takes; None chooses eight, but more rather than start more than eight jobs, and
-    at most 200, so that neither starting a job nor losing one costs much: a start costs as much as twenty records
-    without reports. The number of jobs is a power of two; only where it doubles, every job changes.
-    Returns the identifiers of each job that has any, in their order, by the name of the job.
+    at most 200: a start costs as much as twenty records without reports. A hash of the identifier chooses the job, and
+    the number of jobs is a power of two, so that one record more changes one job, or all where that number doubles.
     """
     identifiers = tuple(identifiers)
     number = len(identifiers)
@@ -211,24 +206,7 @@ def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, 
     return {name: tuple(shared[name]) for name in sorted(shared)}
 
 
-_FEW, _MANY = 8, 200
-
-
-def _sha256(*texts: str) -> str:
-    return hashlib.sha256("\n".join(texts).encode()).hexdigest()
-
-
-def _stored(store: Path) -> dict[str, list[object]]:
-    with suppress(OSError, ValueError):
-        found = json.loads(store.read_text(encoding="utf-8"))
-        if isinstance(found, dict) and all(
-            isinstance(marks, list) and len(marks) == 5 for marks in found.values()
-        ):
-            return found
-    return {}
-
-
-def _collect(defects: list[str], load: Callable[[], Found]) -> Found | None:
+def _collect(defects: list[str], load: Callable[[], T]) -> T | None:
     try:
         return load()
     except RockingError as error:

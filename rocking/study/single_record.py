@@ -24,7 +24,7 @@ from rocking.records.catalogue import CatalogueRecord
 from rocking.records.read import read
 from rocking.structures import Outcome, load_structures
 from rocking.study.job import Study, assess_components, write_report
-from rocking.study.plan import package_sha256, settings_sha256, structures_sha256
+from rocking.study.plan import settings_sha256
 from rocking.study.settings import Settings
 from rocking.tables import write_rows, write_tables
 
@@ -80,7 +80,7 @@ def assess_file(
     record does not hold what is asked of it.
     """
     listed = load_structures(structures)
-    sha256 = settings_sha256(settings, structures_sha256(listed), package_sha256(reports=False))
+    sha256 = settings_sha256(settings, listed)
     study = _narrowed(Study(listed, settings, sha256), name, structures)
     opened = study.opened(own.channels, own.record)
     assessed = assess_components(own.record, opened, study)

@@ -87,7 +87,7 @@ def test_a_list_of_structures_edited_while_a_study_runs_stops_it(finished, tmp_p
         script.write_text(source)
         os.utime(script, ns=(status.st_atime_ns, status.st_mtime_ns))
     assert done.returncode != 0
-    assert "structures.yaml: the structures changed while the study ran" in done.stdout
+    assert "structures.yaml: the file changed while the study ran" in done.stdout
     assert "3.3" in structures.read_text()
     assert study.tables() == finished.tables()
 

@@ -11,17 +11,16 @@ from pathlib import Path
 
 import pytest
 
-from rocking.study.run import is_locked
-
 KILLS = int(os.environ.get("ROCKING_KILLS", "1"))
 """How many runs are killed; ROCKING_KILLS=20 takes some minutes."""
 
 
-def _started(study, *options: str) -> subprocess.Popen[str]:
-    command = [sys.executable, "-m", "rocking.study.cli", "run", str(study.folder), *options]
+def _started(study, *command: str) -> subprocess.Popen[str]:
+    """A run of the study in a process group of its own: by `rocking run`, or by another command."""
+    ours = (sys.executable, "-m", "rocking.study.cli", "run", str(study.folder))
     surroundings = study.surroundings | {"cwd": study.tree}
     streams = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
-    return subprocess.Popen(command, start_new_session=True, **streams, **surroundings)
+    return subprocess.Popen(command or ours, start_new_session=True, **streams, **surroundings)
 
 
 def _wait(condition: Callable[[], object], process: subprocess.Popen[str]) -> None:
@@ -36,55 +35,35 @@ def _jobs_run(study) -> bool:
     return any((study.folder / ".snakemake" / "incomplete").glob("*"))
 
 
-def _schedulers(study) -> list[int]:
-    import psutil
-
-    here = str(study.folder)
-    return [p.pid for p in psutil.process_iter(["cmdline"]) if here in (p.info["cmdline"] or [])]
-
-
-def _kill_all(study, process: subprocess.Popen[str]) -> None:
-    """Kill the command, its scheduler and all jobs, as a power cut would."""
-    process.kill()
-    for scheduler in _schedulers(study):
-        if scheduler != process.pid:
-            os.killpg(scheduler, signal.SIGKILL)
+def _kill_all(process: subprocess.Popen[str]) -> None:
+    """Kill the command and all its jobs, as a power cut would."""
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
     process.wait(timeout=100)
     process.stdout.close()
 
 
-@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_one_request_to_stop_ends_in_order(start, tmp_path: Path, number: int, status: int) -> None:
+@pytest.mark.parametrize(
+    ("number", "everybody"),
+    [(signal.SIGINT, True), (signal.SIGINT, False), (signal.SIGTERM, False), (signal.SIGHUP, True)],
+    ids=["Ctrl-C", "interrupt", "request", "terminal closed"],
+)
+def test_one_request_to_stop_ends_in_order(start, tmp_path: Path, number: int, everybody: bool) -> None:
     study = start.copy_to(tmp_path / "study")
     process = _started(study)
     try:
         _wait(lambda: _jobs_run(study), process)
-        process.send_signal(number)
+        (os.killpg if everybody else os.kill)(process.pid, number)
         told = process.communicate(timeout=300)[0]
+        assert process.returncode == 128 + number, told
+        assert f"To go on: rocking run {study.folder}" in told
+        assert not study.unfinished() and not (study.results / "summary" / "provenance.json").exists()
+        with pytest.raises(ProcessLookupError):
+            os.killpg(process.pid, 0)
     finally:
-        _kill_all(study, process)
-    assert process.returncode == status, told
-    assert f"To go on: rocking run {study.folder}" in told
-    assert not is_locked(study.folder) and not study.unfinished()
-    assert not _schedulers(study), "snakemake or a job is still there"
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells a process that its parent died")
-def test_the_scheduler_ends_in_order_when_the_command_alone_is_killed(start, tmp_path: Path) -> None:
-    study = start.copy_to(tmp_path / "study")
-    process = _started(study)
-    try:
-        _wait(lambda: _jobs_run(study), process)
-        process.kill()
-        process.wait(timeout=100)
-        deadline = time.monotonic() + 300
-        while _schedulers(study):
-            assert time.monotonic() < deadline, "snakemake works on without its command"
-            time.sleep(0.1)
-    finally:
-        _kill_all(study, process)
-    assert not is_locked(study.folder) and not study.unfinished()
-    assert not (study.results / "summary" / "provenance.json").exists(), "it took up all further jobs"
+        _kill_all(process)
 
 
 def test_after_a_kill_the_same_command_goes_on_to_the_same_bytes(finished, start, tmp_path: Path) -> None:
@@ -97,13 +76,11 @@ def test_after_a_kill_the_same_command_goes_on_to_the_same_bytes(finished, start
             _wait(lambda study=study: _jobs_run(study), process)
             time.sleep(moment.uniform(0, 5) if number else 0)
         finally:
-            _kill_all(study, process)
-        expected, locked = finished.tables(), is_locked(study.folder)
-        assert locked or number, "as a power cut leaves it"
+            _kill_all(process)
+        expected = finished.tables()
         assert {path: expected[path] for path in study.tables()} == study.tables(), "half-written"
         again = study.rocking("run", str(study.folder))
         assert again.returncode == 0, again.stdout + again.stderr
-        assert ("left its lock" in again.stdout) == locked
         assert study.tables() == expected and not study.unfinished()
         _check_verdicts(again.stdout, 0 if number else 3)
 
@@ -117,30 +94,36 @@ def _check_verdicts(told: str, at_least: int) -> None:
         assert any(f"{word}: " in line for word in ("overturns", "undecided", "stands"))
 
 
-def test_a_second_run_is_locked_out_and_harms_nothing(finished, tmp_path: Path) -> None:
+def test_a_run_waits_for_the_jobs_of_one_whose_scheduler_alone_was_killed(start, tmp_path: Path) -> None:
+    study = start.copy_to(tmp_path / "study")
+    process = _started(study)
+    try:
+        _wait(lambda: _jobs_run(study), process)
+        process.kill()
+        again = study.rocking("run", str(study.folder))
+        assert again.returncode == 0, again.stdout + again.stderr
+    finally:
+        _kill_all(process)
+    assert not study.unfinished()
+
+
+@pytest.mark.parametrize("otherwise", [False, True], ids=["rocking run", "snakemake"])
+def test_a_second_run_is_locked_out_and_harms_nothing(finished, tmp_path: Path, otherwise: bool) -> None:
     study = finished.copy_to(tmp_path / "study")
     study.forget("good_3")
-    first = _started(study)
+    first = _started(study, *(study.command() if otherwise else ()))
     try:
         _wait(lambda: _jobs_run(study), first)
         second = study.rocking("run", str(study.folder))
         assert second.returncode == 1
-        assert "another run works in this study (process " in second.stderr
+        assert "another run works in this study" in second.stderr
+        third = study.run()
+        assert third.returncode == 1 and "another run works in this study" in third.stdout
         first.communicate(timeout=600)
     finally:
-        _kill_all(study, first)
+        _kill_all(first)
     assert first.returncode == 0
     assert study.tables() == finished.tables()
-
-
-def test_the_lock_of_a_scheduler_started_otherwise_is_left_alone(finished, tmp_path: Path) -> None:
-    study = finished.copy_to(tmp_path / "study")
-    locks = study.folder / ".snakemake" / "locks"
-    locks.mkdir(exist_ok=True)
-    (locks / "0.input.lock").write_text("records/good_1.txt\n")
-    done = study.rocking("run", str(study.folder))
-    assert done.returncode == 1 and "-- --unlock" in done.stderr
-    assert is_locked(study.folder)
 
 
 def test_nothing_is_imported_from_the_folder_of_the_study(finished, tmp_path: Path) -> None:

@@ -2,14 +2,15 @@
 
 from pathlib import Path  # for the rules
 
-from rocking.study.doors import close_doors
+from rocking.study import close_doors
 
 close_doors()  # before the imports that open them
 
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
-from rocking.study.outcome import check_any_read
 from rocking.study.plan import check_config_file, make_plan
 from rocking.study.results import IN_PARTS, PAGE, part
+from rocking.study.run import begin
+from rocking.study.terminal import check_any_read
 
 # What the user writes (catalogue, records, StationXML, structures) is watched by its content, in params, not as input:
 # snakemake goes by dates, and behind a file that is dated in the future it removes what a job wrote.

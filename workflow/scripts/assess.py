@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from rocking.study.job import planned, run_job
-from rocking.study.progress import line_writer
+from rocking.study.terminal import line_writer
 
 if __name__ == "__main__":
     study, records = planned(snakemake.config, snakemake.params)

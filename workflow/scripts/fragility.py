@@ -5,7 +5,7 @@ from pathlib import Path
 from rocking.reports.fragility import write_fragility_report
 from rocking.study.fragility import write_fragility
 from rocking.study.job import planned
-from rocking.study.progress import line_writer
+from rocking.study.terminal import line_writer
 
 if __name__ == "__main__":
     output, tell = snakemake.output, line_writer(Path(snakemake.log[0]))

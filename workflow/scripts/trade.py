@@ -9,7 +9,7 @@ from rocking.assessment.trade import trade
 from rocking.errors import RockingError
 from rocking.reports.trade import write_trade_report
 from rocking.study.job import planned
-from rocking.study.progress import line_writer
+from rocking.study.terminal import line_writer
 from rocking.tables import write_tables
 
 MOST_RECORDS = 70

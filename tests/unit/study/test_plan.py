@@ -81,7 +81,7 @@ def test_a_blank_hash_is_filled_in_and_checked_from_then_on(tmp_path: Path) -> N
     first = make_plan(settings)
     assert Path(str(settings["catalogue"])).read_bytes() == before, "a plan alone writes nothing"
     assert first.records["a"].sha256 == hashlib.sha256(b"one").hexdigest() and first.records["b"].sha256 == ""
-    first.begin()
+    first.fill_hashes()
     planned(settings, SimpleNamespace(**first.params()))
     (tmp_path / "a.AT2").write_bytes(b"two")
     assert make_plan(settings).records["a"].sha256 == first.records["a"].sha256

@@ -3,17 +3,14 @@
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
-from rocking.study.progress import send
+from rocking.study.terminal import send
 
 
 class LogHandler(LogHandlerBase):
-    """Sends the plan, the begin and the end of jobs and the errors of a run; snakemake's own log stays as it is."""
+    """Sends the plan, the begin of jobs and the errors of a run; snakemake's own log stays as it is."""
 
     writes_to_stream = writes_to_file = needs_rulegraph = False
     has_filter = has_formatter = True
-
-    def __post_init__(self):
-        self.rules = {}
 
     def emit(self, record):
         """Send what the reader of a terminal wants to know of an event."""
@@ -21,9 +18,6 @@ class LogHandler(LogHandlerBase):
         if event == LogEvent.RUN_INFO:
             send(planned={name: number for name, number in record.stats.items() if name != "total"})
         elif event == LogEvent.JOB_INFO:
-            self.rules[record.jobid] = record.rule_name
             send(begun=record.rule_name)
-        elif event == LogEvent.JOB_FINISHED:
-            send(finished=self.rules.get(record.job_id, ""))
         elif event == LogEvent.ERROR:
             send(error=record.getMessage())

@@ -1,5 +1,6 @@
-"""What a person is told of records: each case in the right group, worst component and ensemble included."""
+"""What a person is told of a run, and of records: each case in the right group, worst component and ensemble included."""
 
+import io
 import math
 from pathlib import Path
 
@@ -10,7 +11,8 @@ from rocking.assessment.rows.of_case import ComparisonRow, EnsembleRow
 from rocking.assessment.rows.of_record import FailureRow
 from rocking.assessment.verdict import Verdict
 from rocking.structures import Outcome
-from rocking.study.outcome import closing_lines, paths_to_read, record_line
+from rocking.study import terminal
+from rocking.study.terminal import Progress, closing_lines, line_writer, paths_to_read, record_line, send
 
 
 def _case(record: str, structure: str, ratio: float) -> ComparisonRow:
@@ -116,3 +118,33 @@ def test_the_paths_are_those_that_exist(tmp_path: Path) -> None:
         f"Page to explore: {summary / 'explore.html'}",
         f"Summary: {summary / 'summary.pdf'}",
     ]
+
+
+def test_what_is_sent_stands_in_the_log_and_on_the_terminal(tmp_path: Path) -> None:
+    (tmp_path / "assess_a.log").write_text("of an older run\n")
+    progress = Progress({"assess_a": 2}, width=6, stream=io.StringIO())
+    with progress.followed():
+        line_writer(tmp_path / "assess_a.log")("one: rests: pier")
+        line_writer(tmp_path / "trade.log")("1 of 12: one, pier: 14 runs")
+        send(error="it broke")
+        send(begun="compile")
+    line_writer(tmp_path / "trade.log")("first")  # nobody reads any more, and nobody waits for it
+    assert (tmp_path / "assess_a.log").read_text() == "one: rests: pier\n"
+    *lines, compiling = progress.stream.getvalue().splitlines()
+    assert "compiled" in compiling and lines == ["one     rests: pier", "trade: 1 of 12: one, pier: 14 runs"]
+    assert progress.errors == ["it broke"]
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_on_a_terminal_it_says_how_far_it_has_come(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(terminal, "fitting", lambda line, stream: line)
+    progress = Progress({"assess_a": 40}, width=3, stream=Terminal())
+    progress.tell({"planned": {"assess_a": 1, "summarise": 1}})
+    assert progress.stream.getvalue().endswith("0 of 40 records")
+    progress._began -= 600  # ten minutes for the first record
+    progress.tell({"job": "assess_a", "line": "one: stands: pier"})
+    assert progress.stream.getvalue().endswith("1 of 40 records, about 390 min left")

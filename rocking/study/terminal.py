@@ -1,7 +1,14 @@
-"""What came of records, in a few lines: which structures overturn, what failed, and where to read on."""
+"""What a run says: its progress, which jobs and scheduler send as JSON lines, and what came of the records."""
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+import json
+import os
+import tempfile
+import time
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from threading import Thread
+from typing import Any, BinaryIO, TextIO
 
 from rocking.assessment.fate import ORDER, Fate
 from rocking.assessment.rows.of_record import FailureRow
@@ -95,3 +102,103 @@ def _table(under: dict[str, list[Fate]], records: int) -> Iterator[str]:
 def _sentence(failure: FailureRow) -> str:
     of = f"{failure.structure}: " if failure.structure else ""
     return of + failure.message.removeprefix(f"{failure.record}: ")
+
+
+PIPE = "ROCKING_PROGRESS"
+"""The variable of the environment that names the pipe; where there is none, nothing is sent."""
+_LONGEST = 1000
+"""Characters of a message: what the system writes to a pipe at once, by whatever process, is at least 4096 bytes."""
+
+
+def send(**told: Any) -> None:
+    """Send what happened to the one who waits, if there is one."""
+    text = json.dumps(
+        {name: each[:_LONGEST] if isinstance(each, str) else each for name, each in told.items()}
+    )
+    with suppress(KeyError, OSError):  # without blocking: the one who waited may be gone
+        pipe = os.open(os.environ[PIPE], os.O_WRONLY | os.O_NONBLOCK)
+        try:
+            os.write(pipe, text.encode() + b"\n")
+        finally:
+            os.close(pipe)
+
+
+def line_writer(log: Path) -> Callable[[str], None]:
+    """Return what adds a line to `log`, begun anew, and shows it to the one who waits."""
+    log.write_text("", encoding="utf-8")
+
+    def add(line: str) -> None:
+        with log.open("a", encoding="utf-8") as stream:
+            print(line, file=stream)
+        send(job=log.stem, line=line)
+
+    return add
+
+
+class Progress:
+    """Turns what jobs and scheduler send into lines for a person, and counts what is done.
+
+    records: how many each job takes, by the name of its rule. width: of their longest identifier. On a terminal, lines
+    are cut to its width, and "12 of 44 records, about 1 min left" stands below them.
+    """
+
+    def __init__(self, records: Mapping[str, int], width: int, stream: TextIO) -> None:
+        self._records = records
+        self._width = width
+        self.stream = stream
+        self._back = "\r\x1b[K" if stream.isatty() else ""  # to the begin of the line, and the line empty
+        self._total = 0
+        self._done = 0
+        self._began = time.monotonic()
+        self.errors: list[str] = []
+
+    @contextmanager
+    def followed(self) -> Iterator[None]:
+        """Show what is sent meanwhile, all of it before the end."""
+        with tempfile.TemporaryDirectory() as folder:
+            pipe = os.environ[PIPE] = str(Path(folder) / "progress")
+            os.mkfifo(pipe)
+            with os.fdopen(os.open(pipe, os.O_RDWR), "rb") as lines:
+                reader = Thread(target=self._follow, args=(lines,))
+                reader.start()
+                try:
+                    yield
+                finally:
+                    os.write(lines.fileno(), b"\n")
+                    reader.join()
+                    del os.environ[PIPE]
+        print(self._back, end="", file=self.stream, flush=True)
+
+    def _follow(self, lines: BinaryIO) -> None:
+        for line in iter(lines.readline, b"\n"):
+            self.tell(json.loads(line))
+
+    def tell(self, told: Mapping[str, Any]) -> None:
+        """Show what was told, if it is for a reader."""
+        if "planned" in told:
+            self._total = sum(self._records.get(rule, 0) for rule in told["planned"])
+        elif told.get("begun") == "compile":
+            self._show("The integration is compiled, once on this machine: about half a minute.")
+        elif "error" in told:
+            self.errors.append(told["error"])
+        elif told.get("job") in self._records:
+            self._done += 1
+            record, _, text = told["line"].partition(": ")
+            self._show(f"{record:<{self._width}}  {text}")
+        elif "line" in told:
+            self._show(f"{told['job']}: {told['line']}")
+        if self._back and self._done < self._total:
+            text = f"{self._done} of {counted(self._total, 'record')}"
+            if self._done:
+                left = (time.monotonic() - self._began) / self._done * (self._total - self._done)
+                text += f", about {left / 60:.0f} min left" if left > 90 else f", about {left:.0f} s left"
+            print(self._back + fitting(text, self.stream), end="", file=self.stream, flush=True)
+
+    def _show(self, line: str) -> None:
+        print(self._back + fitting(line, self.stream), file=self.stream, flush=True)
+
+
+def fitting(line: str, stream: TextIO) -> str:
+    """Return `line`, cut to the width of the terminal if `stream` is one."""
+    columns = os.get_terminal_size(stream.fileno()).columns if stream.isatty() else 0
+    return line[: columns - 1] + "…" if 0 < columns < len(line) else line
