@@ -50,16 +50,10 @@ class Plan:
     def doubts(self) -> tuple[str, ...]:
         """What to tell the user before the run, one sentence each; folders of records that left the catalogue too."""
         kept = {*self.records, "summary", "fragility"}
-        reports = sorted(Path(self.settings.results).glob("*/report.pdf"))
-        left = (report.parent for report in reports if report.parent.name not in kept)
-        return (
-            *repeated(self.records.values()),
-            *unlisted(Path(self.settings.catalogue)),
-            *(
-                f"{each} is of a record that is not in the catalogue any more; remove it if you do not need it."
-                for each in left
-            ),
-        )
+        folders = (report.parent for report in sorted(Path(self.settings.results).glob("*/report.pdf")))
+        left = "{} is of a record that is not in the catalogue any more; remove it if you do not need it."
+        gone = (left.format(folder) for folder in folders if folder.name not in kept)
+        return (*repeated(self.records.values()), *unlisted(Path(self.settings.catalogue)), *gone)
 
     def fill_hashes(self) -> None:
         """Write the hashes that the catalogue leaves blank: the files are checked against them from now on."""

@@ -16,7 +16,7 @@ from rocking.errors import ConfigurationError
 from rocking.records import CatalogueRecord
 from rocking.study import plan
 from rocking.study.job import planned
-from rocking.study.plan import ContentHashes, files_sha256, make_plan, share_out
+from rocking.study.plan import ContentHashes, Plan, make_plan, share_out
 from rocking.study.settings import Settings
 
 ROOT = Path(__file__).parents[3]
@@ -195,7 +195,8 @@ def _record(folder: Path, content: bytes = b"samples", **cells: object) -> Catal
 
 
 def _hash(record: CatalogueRecord, hashes: ContentHashes | None = None, **settings: object) -> str:
-    return files_sha256([record], Settings(**settings), hashes or ContentHashes())
+    made = hashes or ContentHashes(Path("nowhere"))
+    return Plan(Settings(**settings), {"a": record}, {}, "", "", "", made).params()["files_sha256"]
 
 
 @pytest.mark.parametrize("when", [1e9, time.time() + 3e8], ids=["long ago", "in ten years"])
@@ -250,7 +251,7 @@ def test_a_file_that_stayed_is_not_read_again(tmp_path: Path, monkeypatch: pytes
     first = _hash(record, hashes)
     hashes.save()
     with monkeypatch.context() as patched:
-        patched.setattr(plan.hashlib, "file_digest", lambda *_: pytest.fail("it is read again"))
+        patched.setattr(hashlib, "file_digest", lambda *_: pytest.fail("it is read again"))
         assert _hash(record, ContentHashes(store)) == first
     status = (tmp_path / "a.dat").stat()
     (tmp_path / "a.dat").write_bytes(b"Samples")

@@ -1,4 +1,4 @@
-"""What a person is told of a run, and of records: each case in the right group, worst component and ensemble included."""
+"""What a person is told of a run and of records: each case in its group, worst component and ensemble included."""
 
 import io
 import math
