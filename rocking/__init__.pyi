@@ -1,7 +1,7 @@
+from .assessment.assess import StructureAssessment as StructureAssessment
+from .assessment.assess import assess as assess
 from .assessment.fragility import Fragility as Fragility
 from .assessment.fragility import fragility as fragility
-from .assessment.single import StructureAssessment as StructureAssessment
-from .assessment.single import assess as assess
 from .assessment.trade import trade as trade
 from .assessment.verdict import Verdict as Verdict
 from .errors import CatalogueError as CatalogueError

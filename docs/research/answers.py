@@ -11,11 +11,9 @@ import numpy as np
 from docs.research import scores
 from docs.research.sites import one_of_each, structures_tried, timed
 from rocking.assessment.ensemble import GroundMotions, ensemble
-from rocking.assessment.fidelity import Answer, cheapest_answer
+from rocking.assessment.fidelity import Answer, Tier, TierFit, cheapest_answer
 from rocking.assessment.intensity import peak_velocity
-from rocking.assessment.method import Method
-from rocking.assessment.tiers import Tier, TierFit
-from rocking.assessment.verdict import Verdict
+from rocking.assessment.verdict import Method, Verdict
 from rocking.motion import integrate
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism, Outcome

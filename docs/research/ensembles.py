@@ -16,9 +16,22 @@ import numpy as np
 from docs.research import scores
 from docs.research.report import publish
 from docs.research.scores import Score
+<<<<<<< HEAD
 from docs.research.sites import independent, lifting_factor, site_of
 from rocking.assessment.ensemble import CAUSES, Ensemble, EnsembleSettings, GroundMotions, drawn, ensemble
-from rocking.assessment.ensemble.members import lattice
+from rocking.assessment.ensemble import lattice
+=======
+from docs.research.sites import independent, site_of
+from rocking.assessment.ensemble import (
+    CAUSES,
+    Ensemble,
+    EnsembleSettings,
+    GroundMotions,
+    drawn,
+    ensemble,
+    lattice,
+)
+>>>>>>> 27056fe (Fill rows by the names of their columns, and join what is read as one)
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.records import Accelerogram
 from rocking.structures import Structure
@@ -91,8 +104,8 @@ def _trial(
     mechanism, settings = structure.mechanism(), EnsembleSettings()
     factor = lifting_factor(record, mechanism.uplift_multiplier, UPLIFTS, rng)
     motions = GroundMotions.of(record.scaled(factor))
-    few, more = (drawn(mechanism, motions, lattice(size, CAUSES), settings) for size in ALLOWED)
-    many = drawn(mechanism, motions, rng.random((draws, CAUSES)), settings)
+    few, more = (drawn(mechanism, motions, lattice(size), settings) for size in ALLOWED)
+    many = drawn(mechanism, motions, rng.random((draws, len(CAUSES))), settings)
     whole = ensemble(mechanism, motions, settings)
     return {
         "scale_factor": factor,
@@ -109,9 +122,14 @@ def _trial(
 
 def _inside(whole: Ensemble, many: Ensemble) -> float:
     """Where some overturn the band is open above and holds more than its share, so it says nothing of the design."""
-    if whole.median <= NEGLIGIBLE or np.isinf(many.rotation_ratios).any():
+    if whole.rotation_ratio_median <= NEGLIGIBLE or np.isinf(many.rotation_ratios).any():
         return float("nan")
-    return float(((many.rotation_ratios >= whole.low) & (many.rotation_ratios <= whole.high)).mean())
+    return float(
+        (
+            (many.rotation_ratios >= whole.rotation_ratio_low)
+            & (many.rotation_ratios <= whole.rotation_ratio_high)
+        ).mean()
+    )
 
 
 def ensemble_scores(trials: Sequence[EnsembleTrial], replicates: int = scores.REPLICATES) -> list[Score]:

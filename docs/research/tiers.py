@@ -12,13 +12,10 @@ from docs.research.answers import answer_scores, try_answers
 from docs.research.report import publish
 from docs.research.scores import Score
 from docs.research.sites import independent, structures_tried
-from rocking.assessment import intensity
-from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn
-from rocking.assessment.ensemble.members import lattice
-from rocking.assessment.fidelity import stays_at_rest
-from rocking.assessment.intensity import NUDGES
-from rocking.assessment.tiers import Tier, TierFit
-from rocking.assessment.tiers import write_tiers as write_fits
+from rocking.assessment import fidelity
+from rocking.assessment.ensemble import EnsembleSettings, GroundMotions, drawn, lattice
+from rocking.assessment.fidelity import NUDGES, Tier, TierFit, stays_at_rest
+from rocking.assessment.fidelity import write_tiers as write_fits
 from rocking.motion import integrate_batch
 from rocking.records import Accelerogram
 from rocking.structures import Structure
@@ -76,17 +73,15 @@ def tier_cases(
     for name, site, record in records:
         on_block = integrate_batch(blocks, record, nudged.ravel()).reshape(len(blocks), *nudged.shape)
         for k, (structure, mechanism) in enumerate(mechanisms.items()):
-            own = intensity.of_structure(mechanism)
+            own = fidelity.of_structure(mechanism)
             for i, factor in enumerate(FACTORS):
                 motion = record.scaled(factor)
                 if stays_at_rest(mechanism, motion):
                     continue
-                motions, points = GroundMotions.of(motion), lattice(MEMBERS, CAUSES)
+                motions, points = GroundMotions.of(motion), lattice(MEMBERS)
                 members = drawn(mechanism, motions, points, EnsembleSettings())
-                if not members.failed:
-                    measures = intensity.of_velocity(motion, blocks[k]) | intensity.from_nudged(
-                        on_block[k, i]
-                    )
+                if not members.failed_members:
+                    measures = fidelity.of_velocity(motion, blocks[k]) | fidelity.from_nudged(on_block[k, i])
                     yield TierCase(name, site, structure, factor, own | measures, members.overturning_share)
 
 

@@ -9,8 +9,8 @@ import yaml
 
 import rocking
 from docs.site.drawings import forms
-from rocking.assessment.rows.of_case import HistoryRow
 from rocking.assessment.rows.of_folder import PER_RECORD
+from rocking.assessment.rows.of_record import HistoryRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES, SpectrumRow
 from rocking.quantities import ACCELERATION_UNITS
 from rocking.records.formats import FORMATS

@@ -1,18 +1,19 @@
-"""One record against one list of structures: predictions, integrations, and the two side by side."""
+"""One record against structures: predictions, integrations and the two side by side; and one structure in one call."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
+from math import inf, nan
 from statistics import median
 from time import process_time
-from typing import Any
+from types import NoneType
+from typing import TYPE_CHECKING, Any
 
-from rocking.assessment.ensemble import Ensemble, GroundMotions
-from rocking.assessment.fidelity import Answer, cheapest_answer, estimate_from_velocity
-from rocking.assessment.method import Method
+from rocking.assessment.ensemble import Ensemble, EnsembleSettings, GroundMotions
+from rocking.assessment.fidelity import Answer, Estimate, Tier, cheapest_answer, estimated
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.tiers import Estimate
 from rocking.assessment.variations import cracks, ensemble_over_cracks
-from rocking.errors import PulseError, RockingError
+from rocking.assessment.verdict import Method, ratio_in_words
+from rocking.errors import ConfigurationError, PulseError, RockingError
 from rocking.motion.integration import integrate
 from rocking.motion.response import UNKNOWN, ModelCheck, Response, check_model
 from rocking.pulses import (
@@ -28,17 +29,21 @@ from rocking.records import Accelerogram
 from rocking.sine_pulse import Maximum, predict_maximum, printed_maximum
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from pandas import DataFrame
+
 
 @dataclass(frozen=True)
 class Prediction:
     """The closed forms of one structure under one pulse.
 
-    rank: of the pulse among those that its method offers.
+    pulse_rank: of the pulse among those that its method offers. amplitude_ratio, frequency_ratio: a and ω_g/p.
     """
 
     block: EquivalentBlock
     pulse: Pulse
-    rank: int
+    pulse_rank: int
     amplitude_ratio: float
     frequency_ratio: float
     printed: float
@@ -51,6 +56,8 @@ class Case:
 
     check: whether the model held along the response of the mechanism to the record. answer: of the mechanism on the
     record, or of the cheapest method that is trusted in its stead. ensemble: None where none was asked for.
+    overturning_estimate: from the peak velocity, where no ensemble ran; None of an unusual structure. durations: CPU
+    time of the methods that were compared, s.
     """
 
     structure: str
@@ -60,10 +67,19 @@ class Case:
     check: ModelCheck
     answer: Answer
     ensemble: Ensemble | None = None
-    estimate: Estimate | None = None
-    """Of the share that overturns, from the peak velocity, where no ensemble ran; None of an unusual structure."""
+    overturning_estimate: Estimate | None = None
     durations: Mapping[Method, float] = field(default_factory=dict)
-    """CPU time of the methods that were compared, s."""
+
+    @property
+    def predicted_rotation_ratio(self) -> float:
+        """Of the closed form; nan without a pulse."""
+        return self.prediction.maximum.rotation_ratio if self.prediction else nan
+
+    @property
+    def integrated_rotation_ratio(self) -> float:
+        """Of the mechanism on the record; nan where something cheaper answered."""
+        response = self.responses.get(Method.MECHANISM_ON_RECORD)
+        return response.rotation_ratio if response else nan
 
 
 @dataclass(frozen=True)
@@ -137,18 +153,15 @@ def predict(
     """
     settings = settings or AssessmentSettings()
     block = mechanism.equivalent_block(settings.acceleration_scale)
-
-    def demand(pulse: Pulse) -> float:
-        return predict_maximum(block, pulse).rotation_ratio
-
-    chosen = predicting_pulse(candidates, demand)
+    chosen = predicting_pulse(candidates, lambda pulse: predict_maximum(block, pulse).rotation_ratio)
     pulse = chosen.pulse
-    amplitude_ratio = abs(pulse.amplitude) / (GRAVITY * _uplift_multiplier(block, pulse))
+    # Positive acceleration lifts the negative side first.
+    side = block.other_side if block.other_side is not None and pulse.amplitude > 0 else block
     return Prediction(
         block=block,
         pulse=pulse,
-        rank=candidates.index(chosen) + 1,
-        amplitude_ratio=amplitude_ratio,
+        pulse_rank=candidates.index(chosen) + 1,
+        amplitude_ratio=abs(pulse.amplitude) / (GRAVITY * side.uplift_multiplier),
         frequency_ratio=pulse.circular_frequency / block.frequency_parameter,
         printed=printed_maximum(block, pulse),
         maximum=predict_maximum(block, pulse),
@@ -167,9 +180,8 @@ def _case(
     mechanism = structure if isinstance(structure, Mechanism) else structure.mechanism()
     prediction, durations = None, {}
     if candidates:
-        mechanism.equivalent_block(
-            settings.acceleration_scale
-        )  # kept by the mechanism: no time of the closed form
+        # The mechanism keeps its block, which is no time of the closed form.
+        mechanism.equivalent_block(settings.acceleration_scale)
         started = process_time()
         prediction = predict(mechanism, candidates, settings)
         durations[Method.CLOSED_FORM] = process_time() - started
@@ -178,23 +190,19 @@ def _case(
         durations |= spent
     else:
         answer, responses = _cheapest(structure, mechanism, record, settings, vertical)
-    on_record = responses.get(Method.MECHANISM_ON_RECORD)
-    check = UNKNOWN
+    on_record, check, members = responses.get(Method.MECHANISM_ON_RECORD), UNKNOWN, None
     if on_record is not None and isinstance(structure, Structure):
         check = check_model(structure, on_record, record, vertical)
-    sure = None
     if settings.ensemble.members and answer.method is Method.MECHANISM_ON_RECORD:
         # Of two components the ensemble over their directions decides, so that theirs need not try every crack.
         covered = structure if alone or settings.fidelity == "auto" else cracks(structure)[0][1]
-        sure = ensemble_over_cracks(
-            covered,
-            GroundMotions.of(record, vertical, processing=settings.ensemble.processing),
-            settings,
-            nominal=answer.rotation_ratio,
-            verdict_only=settings.fidelity == "auto",
-        )
-    estimate = estimate_from_velocity(mechanism, record) if sure is None and vertical is None else None
-    return Case(name, mechanism, prediction, responses, check, answer, sure, estimate, durations)
+        motions = GroundMotions.of(record, vertical, processing=settings.ensemble.processing)
+        members = ensemble_over_cracks(covered, motions, settings, verdict_only=settings.fidelity == "auto")
+        members = replace(members, rotation_ratio=answer.rotation_ratio)
+    estimate = None
+    if members is None and vertical is None:
+        estimate = estimated(Tier.PEAK_VELOCITY, mechanism, record)
+    return Case(name, mechanism, prediction, responses, check, answer, members, estimate, durations)
 
 
 def _compared(
@@ -241,7 +249,7 @@ def _cheapest(
     risk, first = settings.fidelity_risk, mechanism
     if len(may_form := cracks(structure)) > 1:
         first = may_form[0][1]
-        estimates = (estimate_from_velocity(each, record) for _, each in may_form)
+        estimates = (estimated(Tier.PEAK_VELOCITY, each, record) for _, each in may_form)
         if not all(each is not None and each.high <= risk for each in estimates):
             risk = 0.0
     answer = cheapest_answer(
@@ -259,7 +267,166 @@ def _cheapest(
     return answer, {} if answer.response is None else {Method.MECHANISM_ON_RECORD: answer.response}
 
 
-def _uplift_multiplier(block: EquivalentBlock, pulse: Pulse) -> float:
-    """λ of the side that the pulse lifts first: positive acceleration lifts the negative side."""
-    side = block.other_side if block.other_side is not None and pulse.amplitude > 0 else block
-    return side.uplift_multiplier
+@dataclass(frozen=True)
+class Governing:
+    """The mechanism that governs: what opens, the share of members that overturn, and their median rotation ratio."""
+
+    description: str
+    overturning_share: float
+    rotation_ratio: float
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class StructureAssessment(Ensemble):
+    """What came of one structure: the ensemble over all that is not known, directions included.
+
+    cases: by component. rotation_ratio: largest rotation over critical rotation of the case as given, the worse
+    component; inf if it overturns. static_multiplier: least λ of the cracks that may form, the acceleration in g at
+    which statics lets it fall.
+
+    >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
+    >>> assessment = rocking.assess(record, rocking.Block(2.0, 0.2))
+    >>> print(assessment.verdict)
+    overturns
+    """
+
+    cases: Mapping[str, Case]
+    static_multiplier: float
+
+    @property
+    def governing(self) -> Governing:
+        """The mechanism of statics, or the one that does not stand though that does; "" where there is one only."""
+        worst = self.elsewhere or self
+        return Governing(worst.crack, worst.overturning_share, worst.rotation_ratio_median)
+
+    @property
+    def falls_to(self) -> int:
+        """Side to which it falls as given, 1 or -1 as `Response.peak_side` counts them; 0 where it does not."""
+        return self.response.peak_side if self.rotation_ratio == inf else 0
+
+    @property
+    def response(self) -> Response:
+        """The integration of the mechanism as given, with its history; of the worse component."""
+        responses = [case.responses[Method.MECHANISM_ON_RECORD] for case in self.cases.values()]
+        return max(responses, key=lambda response: response.rotation_ratio)
+
+    def __repr__(self) -> str:
+        other = self.elsewhere
+        given, low, high = (
+            "overturns" if ratio == inf else f"{ratio:.2g}"
+            for ratio in (self.rotation_ratio, self.rotation_ratio_low, self.rotation_ratio_high)
+        )
+        there = f"; with the {other.crack} in {other.overturning_members} of {other.members}" if other else ""
+        return (
+            f"<{self.verdict}: overturns in {self.overturning_members} of {self.members} members; as given {given}, "
+            f"5–95 % {low} to {high} of the critical rotation{there}>"
+        )
+
+    def frame(self) -> "DataFrame":
+        """One row per method and component: its rotation ratio, and how that stands to the integration, in words."""
+        from pandas import DataFrame  # slow to import, and needed by those alone who ask for a frame
+
+        return DataFrame(row for component, case in self.cases.items() for row in _rows(component, case))
+
+    def plot(self, axes: "Axes | None" = None) -> "Axes":
+        """Draw the rotation of the case as given against time, with the members' 5–95 % beside it; return the axes."""
+        from rocking import plot  # the drawing stands above everything
+
+        return plot(self, axes)
+
+
+def assess(
+    record: Accelerogram | Sequence[Accelerogram] | object,
+    structure: Structure | Mechanism,
+    *,
+    members: int | None = None,
+    settings: AssessmentSettings | None = None,
+    vertical: Accelerogram | None = None,
+) -> StructureAssessment:
+    """Say whether `structure` survives `record`, and how sure that is.
+
+    record: one accelerogram, or both horizontal components, which then make one ensemble over eight directions; or an
+    obspy Stream or Trace, as Accelerogram.from_obspy reads it, whose vertical component acts too. members: of the
+    ensemble, by default those of the settings. vertical: sample by sample as the record; half of the members feel it.
+    Raises ConfigurationError for no record or more than two, RockingError where it cannot be followed.
+
+    >>> pulse = rocking.Pulse(amplitude=3.0, circular_frequency=8.0, start_time=0.5)
+    >>> record = rocking.Accelerogram(pulse.acceleration(np.arange(500) * 0.01), 0.01)
+    >>> print(rocking.assess(record, rocking.Block(semi_diagonal=2.0, slenderness=0.2)).verdict)
+    stands
+    """
+    if type(record).__module__.startswith("obspy."):
+        channels = Accelerogram.from_obspy(record)
+        record = [each for each in channels if not each.vertical]
+        vertical = vertical or next((each for each in channels if each.vertical), None)
+    records = _checked_records(record)
+    for name, value, allowed, words in (
+        ("structure", structure, (Structure, Mechanism), "a structure or a mechanism"),
+        ("vertical", vertical, (Accelerogram, NoneType), "an accelerogram"),
+        ("settings", settings, (AssessmentSettings, NoneType), "AssessmentSettings"),
+    ):
+        if not isinstance(value, allowed):
+            raise ConfigurationError(f"{name} is a {type(value).__name__}, but must be {words}.")
+    settings = replace(settings or AssessmentSettings(), fidelity="full")
+    wanted = settings.ensemble.members if members is None else members
+    varied = replace(settings.ensemble, members=wanted or EnsembleSettings().members)
+    settings = replace(settings, ensemble=varied)
+    names = [each.component for each in records]
+    if len(set(names)) < len(names) or not all(names):
+        names = [f"component {place}" for place, _ in enumerate(records, start=1)]
+    alone = len(records) == 1
+    # The ensemble over the directions of a pair speaks for its components.
+    of_each = settings if alone else replace(settings, ensemble=replace(varied, members=0))
+    cases = {}
+    for name, each in zip(names, records, strict=True):
+        assessment = assess_structures(each, {"structure": structure}, of_each, vertical, alone)
+        if not assessment.cases:
+            raise RockingError(assessment.failures[-1].message)
+        cases[name] = assessment.cases[0]
+    over_all = cases[names[0]].ensemble
+    if over_all is None:
+        motions = GroundMotions.of_pair(records[0], records[1], vertical, processing=varied.processing)
+        over_all = ensemble_over_cracks(structure, motions, settings)
+    worse = max(case.integrated_rotation_ratio for case in cases.values())
+    of_all = {each.name: getattr(over_all, each.name) for each in fields(Ensemble)} | {
+        "rotation_ratio": worse
+    }
+    multiplier = cracks(structure)[0][1].uplift_multiplier
+    return StructureAssessment(**of_all, cases=cases, static_multiplier=multiplier)
+
+
+def _checked_records(record: object) -> list[Accelerogram]:
+    """The horizontal components. Raises ConfigurationError unless they are one or two accelerograms."""
+    records = [record] if isinstance(record, Accelerogram) else record
+    if isinstance(records, str | bytes) or not isinstance(records, Sequence):
+        raise ConfigurationError(
+            f"record is a {type(record).__name__}, but must be an accelerogram, or two horizontal ones; "
+            "rocking.read gives those of a file."
+        )
+    for each in records:
+        if not isinstance(each, Accelerogram):
+            raise ConfigurationError(f"record holds a {type(each).__name__}, but must hold accelerograms.")
+    if len(records) not in (1, 2):
+        raise ConfigurationError(
+            f"record holds {len(records)} accelerograms, but must hold one or two horizontal ones."
+        )
+    return list(records)
+
+
+def _rows(component: str, case: Case) -> list[dict[str, Any]]:
+    integrated = case.responses[Method.MECHANISM_ON_RECORD].rotation_ratio
+    ratios = {method: response.rotation_ratio for method, response in case.responses.items()}
+    if case.prediction is not None:
+        ratios[Method.CLOSED_FORM] = case.prediction.maximum.rotation_ratio
+    return [
+        {
+            "component": component,
+            "method": str(method),
+            "rotation_ratio": ratios[method],
+            "in_words": ""
+            if method is Method.MECHANISM_ON_RECORD
+            else ratio_in_words(ratios[method], integrated),
+        }
+        for method in Method
+        if method in ratios
+    ]

@@ -1,25 +1,27 @@
 """Fate: what became of one structure under one record, all components considered. The only place that decides it."""
 
 import math
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, final
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TypeVar, final
 
-from rocking.assessment.method import Method
-from rocking.assessment.rows import meanings
-from rocking.assessment.rows.shared import CaseRow
-from rocking.assessment.verdict import Verdict
+from rocking.assessment.rows import of_record as rows
+from rocking.assessment.rows.of_record import (
+    CandidateRow,
+    CaseRow,
+    ComparisonRow,
+    EnsembleRow,
+    FailureRow,
+    MaximumRow,
+)
+from rocking.assessment.verdict import Method, Verdict
 from rocking.structures import Outcome
 from rocking.tables import column, row
 
-if TYPE_CHECKING:
-    from rocking.assessment.rows.of_case import CandidateRow, ComparisonRow, EnsembleRow, MaximumRow
-    from rocking.assessment.rows.of_record import FailureRow
-
+R = TypeVar("R", ComparisonRow, EnsembleRow, FailureRow, CandidateRow)
 BOTH_COMPONENTS = "both"
 """In place of a component: all directions of a record."""
 ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, Verdict.UNKNOWN, Verdict.STANDS)
 """The worst verdict first; what could not be computed may overturn."""
-_NONE = float("nan")
 
 
 @row(
@@ -33,8 +35,8 @@ class Fate(CaseRow):
     overturning_members: int = column("Members of the governing ensemble that overturn")
     members: int = column("Members that were followed; 0 without an ensemble")
     overturning_share: float = column("Share of the members that overturn; of a single run 0 or 1")
-    crack: str = column(meanings.CRACK)
-    elsewhere_crack: str = column(meanings.ELSEWHERE)
+    crack: str = column(rows.CRACK)
+    elsewhere_crack: str = column(rows.ELSEWHERE)
     elsewhere_overturning_members: int | None = column("Members that overturn where it cracks there")
     elsewhere_members: int | None = column("Members that were followed there; 0: of a single run")
     rotation_ratio: float = column(
@@ -45,7 +47,7 @@ class Fate(CaseRow):
     rotation_ratio_high: float = column("95 % quantile over the members; INF if more than 5 % overturn")
     direction: str = column("Direction in which it rotates most; empty with one direction")
     polarity: str = column("Sign of the motion with which it rotates most: as recorded or reversed, or empty")
-    peak_side: int | None = column(meanings.PEAK_SIDE)
+    peak_side: int | None = column(rows.PEAK_SIDE)
     why: str = column("What the verdict rests on")
 
     @property
@@ -77,11 +79,11 @@ class Fate(CaseRow):
 
 
 def fates(
-    cases: Iterable["ComparisonRow"],
-    ensembles: Iterable["EnsembleRow"] = (),
-    failures: Iterable["FailureRow"] = (),
-    maxima: Iterable["MaximumRow"] = (),
-    candidates: Iterable["CandidateRow"] = (),
+    cases: Iterable[ComparisonRow],
+    ensembles: Iterable[EnsembleRow] = (),
+    failures: Iterable[FailureRow] = (),
+    maxima: Iterable[MaximumRow] = (),
+    candidates: Iterable[CandidateRow] = (),
 ) -> list[Fate]:
     """Return what became of each structure under each record, in the order of `cases`.
 
@@ -90,121 +92,75 @@ def fates(
     unless another component overturns or an ensemble over all directions decides. maxima: tell the side. candidates:
     other cracks, of which without an ensemble one that overturns leaves undecided what stands as given.
     """
-    by_pair: dict[tuple[str, str], list[ComparisonRow]] = {}
-    for case in cases:
-        by_pair.setdefault((case.record, case.structure), []).append(case)
-    failed: dict[tuple[str, str], list[FailureRow]] = {}
-    for failure in failures:
-        if failure.stage == "responses" and failure.structure:
-            failed.setdefault((failure.record, failure.structure), []).append(failure)
-    governing = governing_ensembles(ensembles)
-    sides = {
-        (each.record, each.component, each.structure): each.peak_side
-        for each in maxima
-        if each.method is Method.MECHANISM_ON_RECORD and not each.processing
-    }
-    fallen: dict[tuple[str, str], CandidateRow] = {}
-    for each in candidates:
-        if math.isinf(each.integrated_rotation_ratio):
-            fallen.setdefault((each.record, each.structure), each)
+    by_pair = _by_pair(cases)
+    failed = _by_pair(each for each in failures if each.stage == "responses" and each.structure)
+    governing = {pair: max(several, key=_weight) for pair, several in _by_pair(ensembles).items()}
+    fallen = _by_pair(each for each in candidates if math.isinf(each.integrated_rotation_ratio))
+    on_record = (each for each in maxima if each.method is Method.MECHANISM_ON_RECORD and not each.processing)
+    sides = {(each.record, *each.case): each.peak_side for each in on_record}
     return [
-        _fate(of_pair, governing.get(pair), failed.get(pair, ()), sides, fallen.get(pair))
+        _fate(of_pair, governing.get(pair), failed.get(pair, ()), sides, fallen.get(pair, ()))
         for pair, of_pair in by_pair.items()
-    ] + [_failed(found[0]) for pair, found in failed.items() if pair not in by_pair]
+    ] + [
+        Fate.of(first, verdict=Verdict.UNKNOWN, overturning_members=0, members=0, why=first.message)
+        for pair, (first, *_) in failed.items()
+        if pair not in by_pair
+    ]
 
 
-def governing_ensembles(rows: Iterable["EnsembleRow"]) -> dict[tuple[str, str], "EnsembleRow"]:
-    """Return by record and structure the ensemble that speaks for all components."""
-    governing: dict[tuple[str, str], EnsembleRow] = {}
+def _by_pair(rows: Iterable[R]) -> dict[tuple[str, str], list[R]]:
+    """The rows of each record and structure, in the order in which they come."""
+    grouped: dict[tuple[str, str], list[R]] = {}
     for each in rows:
-        pair = each.record, each.structure
-        governing[pair] = max(governing[pair], each, key=_weight) if pair in governing else each
-    return governing
+        grouped.setdefault((each.record, each.structure), []).append(each)
+    return grouped
 
 
 def _fate(
-    cases: Sequence["ComparisonRow"],
-    ensemble: "EnsembleRow | None",
-    failures: Sequence["FailureRow"],
-    sides: dict[tuple[str, str, str], int | None],
-    fallen: "CandidateRow | None",
+    cases: Sequence[ComparisonRow],
+    ensemble: EnsembleRow | None,
+    failures: Sequence[FailureRow],
+    sides: Mapping[tuple[str, str, str], int | None],
+    fallen: Sequence[CandidateRow],
 ) -> Fate:
     worst = max(cases, key=_badness)
-    verdict, why = _decided(worst, ensemble)
     missing = [case.component for case in cases if case.answer_outcome is Outcome.FAILED]
     missing += [failure.component for failure in failures]
     over_all = ensemble is not None and ensemble.component == BOTH_COMPONENTS
-    if missing and verdict is not Verdict.OVERTURNS and not over_all:
-        names = ", ".join(name or "not named" for name in missing)
-        verdict, why = Verdict.UNKNOWN, f"the component {names} gave no result"
-    elsewhere_crack, elsewhere = (ensemble.elsewhere_crack, ensemble) if ensemble else ("", None)
-    if ensemble is None and fallen is not None and verdict is Verdict.STANDS:
-        verdict, elsewhere_crack = Verdict.UNDECIDED, fallen.description
+    elsewhere_crack = ensemble.elsewhere_crack if ensemble else ""
+    if ensemble is not None:
+        verdict = ensemble.verdict
+        why = f"{ensemble.overturning_members} of {ensemble.members} members overturn"
+    elif worst.answer_outcome is Outcome.FAILED:
+        verdict, why = Verdict.UNKNOWN, "no component gave a result"
+    elif fallen and not missing and worst.answer_outcome is not Outcome.OVERTURNS:
+        verdict, elsewhere_crack = Verdict.UNDECIDED, fallen[0].description
         why = f"one run as recorded stands, and with the {elsewhere_crack} it overturns"
-    followed = ensemble if ensemble is not None and ensemble.members else None
-    direction = worst.component if len(cases) > 1 else ""
-    single = _NONE if verdict is Verdict.UNKNOWN else float(verdict is Verdict.OVERTURNS)
-    return Fate(
-        **{name: getattr(worst, name) for name in CaseRow.table.column_names}
-        | {"component": ensemble.component if ensemble else worst.component},
+    else:
+        verdict = Verdict.OVERTURNS if worst.answer_outcome is Outcome.OVERTURNS else Verdict.STANDS
+        why = worst.answer_reason or "one run as recorded, without an ensemble"
+    if missing and verdict is not Verdict.OVERTURNS and not over_all:
+        verdict = Verdict.UNKNOWN
+        why = f"the component {', '.join(name or 'not named' for name in missing)} gave no result"
+    single = math.nan if verdict is Verdict.UNKNOWN else float(verdict is Verdict.OVERTURNS)
+    return Fate.of(
+        worst,
+        ensemble,
+        component=ensemble.component if ensemble else worst.component,
         verdict=verdict,
-        overturning_members=followed.overturning_members if followed else 0,
-        members=followed.members if followed else 0,
-        overturning_share=followed.overturning_share if followed else single,
-        crack=ensemble.crack if ensemble else "",
+        overturning_members=ensemble.overturning_members if ensemble else 0,
+        members=ensemble.members if ensemble else 0,
+        overturning_share=ensemble.overturning_share if ensemble else single,
         elsewhere_crack=elsewhere_crack,
-        elsewhere_overturning_members=elsewhere.elsewhere_overturning_members if elsewhere else None,
-        elsewhere_members=elsewhere.elsewhere_members if elsewhere else None,
         rotation_ratio=worst.integrated_rotation_ratio,
-        rotation_ratio_low=followed.rotation_ratio_low if followed else _NONE,
-        rotation_ratio_median=followed.rotation_ratio_median if followed else _NONE,
-        rotation_ratio_high=followed.rotation_ratio_high if followed else _NONE,
-        direction=(ensemble.worst_direction if ensemble else "") or direction,
-        polarity=ensemble.worst_polarity if ensemble else "",
-        peak_side=sides.get((worst.record, worst.component, worst.structure)),
+        direction=(ensemble and ensemble.worst_direction) or (worst.component if len(cases) > 1 else ""),
+        polarity=ensemble and ensemble.worst_polarity,
+        peak_side=sides.get((worst.record, *worst.case)),
         why=why,
     )
 
 
-def _decided(worst: "ComparisonRow", ensemble: "EnsembleRow | None") -> tuple[Verdict, str]:
-    """The verdict of the ensemble, or of the single run without one, and what it rests on."""
-    if ensemble is not None:
-        return ensemble.verdict, f"{ensemble.overturning_members} of {ensemble.members} members overturn"
-    if worst.answer_outcome is Outcome.FAILED:
-        return Verdict.UNKNOWN, "no component gave a result"
-    verdict = Verdict.OVERTURNS if worst.answer_outcome is Outcome.OVERTURNS else Verdict.STANDS
-    return verdict, worst.answer_reason or "one run as recorded, without an ensemble"
-
-
-def _failed(failure: "FailureRow") -> Fate:
-    """The fate of a structure that no component gave a result for."""
-    return Fate(
-        record=failure.record,
-        component=failure.component,
-        structure=failure.structure,
-        scale_factor=_NONE,
-        record_sha256="",
-        settings_sha256="",
-        verdict=Verdict.UNKNOWN,
-        overturning_members=0,
-        members=0,
-        overturning_share=_NONE,
-        crack="",
-        elsewhere_crack="",
-        elsewhere_overturning_members=None,
-        elsewhere_members=None,
-        rotation_ratio=_NONE,
-        rotation_ratio_low=_NONE,
-        rotation_ratio_median=_NONE,
-        rotation_ratio_high=_NONE,
-        direction="",
-        polarity="",
-        peak_side=None,
-        why=failure.message,
-    )
-
-
-def _weight(each: "EnsembleRow") -> tuple[float, ...]:
+def _weight(each: EnsembleRow) -> tuple[float, ...]:
     share = each.overturning_share, each.rotation_ratio_high
     return (each.component == BOTH_COMPONENTS, *map(_or_least, share))
 
@@ -213,7 +169,7 @@ def _or_least(value: float) -> float:
     return -1.0 if math.isnan(value) else value
 
 
-def _badness(case: "ComparisonRow") -> tuple[int, float]:
+def _badness(case: ComparisonRow) -> tuple[int, float]:
     """What is not known may overturn, and so counts for more than any rocking, but less than overturning."""
     kinds = {Outcome.OVERTURNS: 2, Outcome.FAILED: 1}
     return kinds.get(case.answer_outcome, 0), _or_least(case.integrated_rotation_ratio)

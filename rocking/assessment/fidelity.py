@@ -1,30 +1,203 @@
 """What must be computed to say whether a structure overturns under a record: the first of these that settles it.
 
 1. Nothing: |ü_g| / (g + ü_v) never exceeds λ, so it stays at rest. Exact.
-2. Peak velocity: from p PGV/(gλ) the structure stands, where the estimate's 90 % interval lies within the risk
-   (rocking.assessment.tiers). Of a structure unlike those of the calibration, and with vertical motion, it says
-   nothing.
+2. Peak velocity: from p PGV/(gλ) the structure stands, where the estimate's 90 % interval lies within the risk. Of a
+   structure unlike those of the calibration, and with vertical motion, it says nothing.
 3. Block on record at five scales, where an ensemble would follow: whether it stands or overturns, likewise. It costs
    twice as much as the mechanism once, but a fortieth of an ensemble.
 4. Mechanism on record, which settles what happens as given.
 5. The ensemble, where one is asked for, which ends after 16 members that all stay far from overturning.
+
+The estimates of 2 and 3 are tiers, each a logistic regression of the share of members that overturn, fitted by the
+target `calibrate` to the ensembles of mechanisms under real records; tiers.json holds the coefficients. The interval of
+an estimate is that of the fit, by resampling sites in the large (a sandwich of their scores).
 """
 
+import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from enum import StrEnum
+from functools import lru_cache
+from pathlib import Path
 
-from rocking.assessment import intensity
-from rocking.assessment.intensity import NUDGES
-from rocking.assessment.method import Method
-from rocking.assessment.tiers import Estimate, Tier, TierFit, shipped_tiers
+import numpy as np
+from scipy.special import expit
+
+from rocking.assessment.intensity import peak_velocity, per_velocity
+from rocking.assessment.verdict import Method
 from rocking.errors import StructureError
 from rocking.motion.forcing import forcing_of
 from rocking.motion.integration import integrate
 from rocking.motion.members import Members, integrate_members
 from rocking.motion.response import Response
 from rocking.records import Accelerogram
-from rocking.structures import Mechanism, Outcome
+from rocking.structures import EquivalentBlock, Mechanism, Outcome
+from rocking.tables import write_whole
+
+NUDGES = (0.75, 0.875, 1.0, 1.125, 1.25)
+"""Factors on the ground motion at which the block is tried around the motion as given."""
+_SMALLEST, _LARGEST = math.log(1e-3), math.log(1e3)
+"""Logs of ratios are kept between these."""
+_TURNED = math.log(2.0)
+"""Largest log of a rotation ratio: a block that stays up hardly turns beyond its critical rotation."""
+STRUCTURE = ("restitution", "restoring_defect", "forcing_defect")
+"""Terms of the structure, which every tier has last."""
+NORMAL_95 = 1.6449
+"""95 % quantile of the normal distribution."""
+_SLACK = 0.05
+"""Share of the range of a property by which a structure may lie beyond those behind the fit."""
+
+
+class Tier(StrEnum):
+    """What an estimate rests on."""
+
+    PEAK_VELOCITY = "peak velocity"
+    BLOCK_AT_FIVE_SCALES = "block at five scales"
+
+    @property
+    def terms(self) -> tuple[str, ...]:
+        """The measures it takes."""
+        return (*_TERMS[self], *STRUCTURE)
+
+
+_TERMS: Mapping[Tier, tuple[str, ...]] = {
+    Tier.PEAK_VELOCITY: ("peak_velocity",),
+    Tier.BLOCK_AT_FIVE_SCALES: (
+        "block",
+        "block_overturns",
+        "block_high",
+        "block_overturning_share",
+        "block_never_overturns",
+        "block_always_overturns",
+    ),
+}
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Share of the members that overturn, estimated from a tier, and its 90 % interval."""
+
+    share: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, eq=False)
+class TierFit:
+    """One fitted tier.
+
+    centre, spread, least, largest: (k,) of the terms. coefficients: (k + 1,) and their covariance (k + 1, k + 1),
+    intercept first. frequencies: least and largest frequency parameter behind the fit, rad/s.
+    """
+
+    tier: Tier
+    centre: np.ndarray
+    spread: np.ndarray
+    least: np.ndarray
+    largest: np.ndarray
+    coefficients: np.ndarray
+    covariance: np.ndarray
+    frequencies: tuple[float, float]
+
+    def unlike(self, measures: Mapping[str, float]) -> str:
+        """Say which property of a structure lies beyond those behind the fit; "" where none does."""
+        ranges = {"frequency_parameter": self.frequencies}
+        for place, name in enumerate(STRUCTURE, start=-len(STRUCTURE)):
+            ranges[name] = float(self.least[place]), float(self.largest[place])
+        for name, (least, largest) in ranges.items():
+            slack, value = _SLACK * (largest - least), measures[name]
+            if not least - slack <= value <= largest + slack:
+                shown, low, high = (f"{float(f'{each:.2g}'):g}" for each in (value, least, largest))
+                return f"{name.replace('_', ' ')} is {shown}, beyond the {low} to {high} of the calibration"
+        return ""
+
+    def design(self, terms: np.ndarray) -> np.ndarray:
+        """(n, k + 1) of the terms (n, k): an intercept, and what is centred and scaled."""
+        return np.column_stack([np.ones(len(terms)), (terms - self.centre) / self.spread])
+
+    def log_odds(self, terms: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Log odds of overturning (n,) of terms (n, k), and their standard error."""
+        design = self.design(terms)
+        variance = np.einsum("ij,jk,ik->i", design, self.covariance, design)
+        return design @ self.coefficients, np.sqrt(np.maximum(variance, 0.0))
+
+    def estimate(self, measures: Mapping[str, float]) -> Estimate | None:
+        """Return what the tier says of a case; None of a structure unlike all behind it.
+
+        Raises KeyError where a measure is missing.
+        """
+        if self.unlike(measures):
+            return None
+        odds, error = self.log_odds(np.array([[measures[term] for term in self.tier.terms]]))
+        return Estimate(*(float(expit(odds[0] + k * NORMAL_95 * error[0])) for k in (0, -1, 1)))
+
+
+@lru_cache(maxsize=1)
+def shipped_tiers() -> dict[Tier, TierFit]:
+    """Return the tiers that the package ships, made by the target `calibrate` from real records."""
+    return read_tiers(Path(__file__).with_name("tiers.json"))
+
+
+def read_tiers(path: Path) -> dict[Tier, TierFit]:
+    """Return the tiers in a file that `write_tiers` made."""
+    fits = {}
+    for name, each in json.loads(path.read_text(encoding="utf-8"))["tiers"].items():
+        low, high = each.pop("frequencies")
+        arrays = {key: np.array(values) for key, values in each.items() if key != "terms"}
+        fits[Tier(name)] = TierFit(Tier(name), frequencies=(low, high), **arrays)
+    return fits
+
+
+def write_tiers(path: Path, fits: Mapping[Tier, TierFit], about: Mapping[str, object]) -> None:
+    """Write tiers as JSON. about: records, sites and cases behind them, and records_sha256 of the records' hashes."""
+    tiers = {
+        str(tier): {"terms": tier.terms}
+        | {name: np.asarray(each).tolist() for name, each in asdict(fit).items() if name != "tier"}
+        for tier, fit in fits.items()
+    }
+    write_whole(path, (json.dumps({"about": dict(about), "tiers": tiers}, indent=1) + "\n").encode())
+
+
+def of_structure(mechanism: Mechanism) -> dict[str, float]:
+    """Return what tiers take of a structure: restitution, defects of its equivalent block, frequency parameter."""
+    defects = mechanism.block_defects
+    return {
+        "restitution": min(side.restitution for side in mechanism.sides),
+        "restoring_defect": defects.restoring,
+        "forcing_defect": defects.forcing,
+        "frequency_parameter": mechanism.equivalent_block("rest").frequency_parameter,
+    }
+
+
+def of_velocity(record: Accelerogram, block: EquivalentBlock) -> dict[str, float]:
+    """Return ln of p PGV/(gλ)."""
+    return {"peak_velocity": _log(per_velocity(block) * peak_velocity(record))}
+
+
+def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
+    """Return what the rotation ratios at NUDGES tell: of the middle one, of the largest, and how many overturn.
+
+    A block that fails counts as one that overturns.
+    """
+    overturns = ~(rotation_ratios < math.inf)
+    share = float(overturns.mean())
+    logs = [
+        0.0 if falls else _log(ratio, _TURNED)
+        for ratio, falls in zip(rotation_ratios, overturns, strict=True)
+    ]
+    return {
+        "block": logs[len(NUDGES) // 2],
+        "block_overturns": float(overturns[len(NUDGES) // 2]),
+        "block_high": logs[-1],
+        "block_overturning_share": share,
+        "block_never_overturns": float(share == 0),
+        "block_always_overturns": float(share == 1),
+    }
+
+
+def _log(ratio: float, largest: float = _LARGEST) -> float:
+    return min(max(math.log(ratio), _SMALLEST), largest) if ratio > 0 else _SMALLEST
 
 
 @dataclass(frozen=True)
@@ -72,11 +245,10 @@ def cheapest_answer(
         reason = "the ground never reaches the uplift acceleration"
         return Answer(Method.NOTHING_TO_INTEGRATE, 0.0, Outcome.NO_UPLIFT, still, reason)
     if vertical is None and risk > 0:
-        fits = fits or shipped_tiers()
-        estimate = estimate_from_velocity(mechanism, record, fits)
+        estimate = estimated(Tier.PEAK_VELOCITY, mechanism, record, fits)
         if estimate is not None and estimate.high <= risk:
             return _settled(estimate, Method.PEAK_VELOCITY, "p PGV/(gλ)", risk)
-        estimate = _from_block(mechanism, record, fits) if ensemble_follows else None
+        estimate = estimated(Tier.BLOCK_AT_FIVE_SCALES, mechanism, record, fits) if ensemble_follows else None
         if estimate is not None and (estimate.high <= risk or estimate.low >= 1 - risk):
             return _settled(estimate, Method.BLOCK_ON_RECORD, f"the block at {len(NUDGES)} scales", risk)
     whole = integrate(mechanism, record, tolerance, history=history, vertical=vertical)
@@ -84,28 +256,20 @@ def cheapest_answer(
     return Answer(Method.MECHANISM_ON_RECORD, whole.rotation_ratio, whole.outcome, whole, reason)
 
 
-def estimate_from_velocity(
-    mechanism: Mechanism, record: Accelerogram, fits: Mapping[Tier, TierFit] | None = None
+def estimated(
+    tier: Tier, mechanism: Mechanism, record: Accelerogram, fits: Mapping[Tier, TierFit] | None = None
 ) -> Estimate | None:
-    """Return the share that overturns, from p PGV/(gλ); None of a structure unlike those of the calibration."""
+    """Return the share that overturns, as `tier` has it; None of a structure unlike those of the calibration."""
+    fit = (fits or shipped_tiers())[tier]
     try:
-        own, block = intensity.of_structure(mechanism), mechanism.equivalent_block("rest")
-    except StructureError:
-        return None
-    return (fits or shipped_tiers())[Tier.PEAK_VELOCITY].estimate(own | intensity.of_velocity(record, block))
-
-
-def _from_block(mechanism: Mechanism, record: Accelerogram, fits: Mapping[Tier, TierFit]) -> Estimate | None:
-    """What the block under the record at NUDGES says; None of a structure unlike those of the calibration."""
-    fit = fits[Tier.BLOCK_AT_FIVE_SCALES]
-    try:
-        own, block = intensity.of_structure(mechanism), mechanism.equivalent_block("rest")
+        own, block = of_structure(mechanism), mechanism.equivalent_block("rest")
     except StructureError:
         return None
     if fit.unlike(own):
         return None
-    ratios = integrate_members(block, record, Members(NUDGES)).rotation_ratio
-    return fit.estimate(own | intensity.from_nudged(ratios))
+    if tier is Tier.PEAK_VELOCITY:
+        return fit.estimate(own | of_velocity(record, block))
+    return fit.estimate(own | from_nudged(integrate_members(block, record, Members(NUDGES)).rotation_ratio))
 
 
 def _settled(estimate: Estimate, method: Method, by: str, risk: float) -> Answer:

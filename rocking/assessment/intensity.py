@@ -1,6 +1,5 @@
 """Intensity measures: one number for a record, or for a record and a structure. The registry names them all."""
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from weakref import WeakKeyDictionary
@@ -16,12 +15,6 @@ from rocking.structures import EquivalentBlock, Mechanism
 
 SPECTRAL_PERIOD = 1.0
 """Of the spectral acceleration, s."""
-NUDGES = (0.75, 0.875, 1.0, 1.125, 1.25)
-"""Factors on the ground motion at which the block is tried around the motion as given."""
-_SMALLEST, _LARGEST = math.log(1e-3), math.log(1e3)
-"""Logs of ratios are kept between these."""
-_TURNED = math.log(2.0)
-"""Largest log of a rotation ratio: a block that stays up hardly turns beyond its critical rotation."""
 
 
 @dataclass(frozen=True)
@@ -117,44 +110,3 @@ def intensity_measure(name: str) -> IntensityMeasure:
             f"intensity_measure is {name!r}, but must be one of {', '.join(INTENSITY_MEASURES)}."
         )
     return INTENSITY_MEASURES[name]
-
-
-def of_structure(mechanism: Mechanism) -> dict[str, float]:
-    """Return what tiers take of a structure: restitution, defects of its equivalent block, frequency parameter."""
-    defects = mechanism.block_defects
-    return {
-        "restitution": min(side.restitution for side in mechanism.sides),
-        "restoring_defect": defects.restoring,
-        "forcing_defect": defects.forcing,
-        "frequency_parameter": mechanism.equivalent_block("rest").frequency_parameter,
-    }
-
-
-def of_velocity(record: Accelerogram, block: EquivalentBlock) -> dict[str, float]:
-    """Return ln of p PGV/(gλ)."""
-    return {"peak_velocity": _log(per_velocity(block) * peak_velocity(record))}
-
-
-def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
-    """Return what the rotation ratios at NUDGES tell: of the middle one, of the largest, and how many overturn.
-
-    A block that fails counts as one that overturns.
-    """
-    overturns = ~(rotation_ratios < math.inf)
-    share = float(overturns.mean())
-    logs = [
-        0.0 if falls else _log(ratio, _TURNED)
-        for ratio, falls in zip(rotation_ratios, overturns, strict=True)
-    ]
-    return {
-        "block": logs[len(NUDGES) // 2],
-        "block_overturns": float(overturns[len(NUDGES) // 2]),
-        "block_high": logs[-1],
-        "block_overturning_share": share,
-        "block_never_overturns": float(share == 0),
-        "block_always_overturns": float(share == 1),
-    }
-
-
-def _log(ratio: float, largest: float = _LARGEST) -> float:
-    return min(max(math.log(ratio), _SMALLEST), largest) if ratio > 0 else _SMALLEST

@@ -5,21 +5,20 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
+from typing import Any
 
 import numpy as np
 
-from rocking.assessment.ensemble import Ensemble, GroundMotions, ensemble
-from rocking.assessment.ensemble.ground_motions import AS_IT_IS
+from rocking.assessment.ensemble import AS_IT_IS, Ensemble, GroundMotions, ensemble
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import Verdict
 from rocking.errors import RockingError
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import integrate
-from rocking.motion.response import Response
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum
-from rocking.structures import Mechanism, Outcome, Structure
+from rocking.structures import Mechanism, Structure
 from rocking.structures.structure import Candidate
 
 
@@ -29,8 +28,8 @@ class CrackResponse:
 
     description: str
     position: float
-    predicted: float
-    integrated: float
+    predicted_rotation_ratio: float
+    integrated_rotation_ratio: float
 
 
 def ensemble_over_cracks(
@@ -38,18 +37,17 @@ def ensemble_over_cracks(
     motions: GroundMotions,
     settings: AssessmentSettings,
     *,
-    nominal: float = math.nan,
     verdict_only: bool = False,
 ) -> Ensemble:
     """Return the ensemble of the mechanism that statics chooses, of least λ, with what other cracks may change.
 
     Where it stands, every other mechanism that may form is followed, the worst under the strongest motion first, until
     one does not stand: that one is `elsewhere`. One that stays far from overturning in the first members ends early.
-    nominal, verdict_only: as `ensemble` takes them. Raises MotionError as `integrate` does.
+    verdict_only: as `ensemble` takes it. Raises MotionError as `integrate` does.
     """
     follow = partial(ensemble, motions=motions, settings=settings.ensemble, tolerance=settings.tolerance)
     (description, mechanism), *others = cracks(structure)
-    headline = follow(mechanism, nominal=nominal, verdict_only=verdict_only)
+    headline = follow(mechanism, verdict_only=verdict_only)
     if not others:
         return headline
     headline = replace(headline, crack=description)
@@ -57,7 +55,7 @@ def ensemble_over_cracks(
         return headline
     strongest = max(motions.horizontal.values(), key=lambda motion: motion.peak_acceleration)
     mechanisms = [each for _, each in others]
-    ratios = integrate_batch(mechanisms, strongest, tolerance=settings.tolerance, workers=1)[:, 0]
+    ratios = _rotation_ratios(mechanisms, strongest, settings)
     for place in np.argsort(-np.nan_to_num(ratios, nan=math.inf), kind="stable"):
         other = follow(mechanisms[place], verdict_only=True)
         if other.verdict is not Verdict.STANDS:
@@ -71,15 +69,6 @@ def cracks(structure: Structure | Mechanism) -> tuple[tuple[str, Mechanism], ...
     if isinstance(structure, Mechanism):
         return (("", structure),)
     return tuple((each.description, each.structure.mechanism()) for each in structure.candidates())
-
-
-@dataclass(frozen=True)
-class Variant:
-    """A structure under the record processed otherwise."""
-
-    processing: str
-    rotation_ratio: float
-    outcome: Outcome
 
 
 def candidates(
@@ -115,40 +104,36 @@ def processed_variants(
     structures: Mapping[str, Structure],
     records: Mapping[str, Accelerogram],
     settings: AssessmentSettings,
-    as_it_is: Mapping[str, Response] | None = None,
+    as_it_is: Mapping[str, float] | None = None,
     vertical: Accelerogram | None = None,
-) -> dict[str, list[Variant]]:
-    """Return the responses of each of `structures` to each of `records`, which `processed` gives, by structure.
+) -> dict[str, dict[str, float]]:
+    """Return the rotation ratio of each of `structures` under each of `records`, by structure and processing.
 
-    as_it_is: of a structure to the record itself, where it is known. vertical: acts with each. A response that cannot
-    be followed is left out.
+    records: as `processed` gives them. as_it_is: the ratios under the record itself, where they are known (not nan).
+    vertical: acts with each. A response that cannot be followed is left out.
     """
-    found: dict[str, list[Variant]] = {name: [] for name in structures}
+    varied: dict[str, dict[str, float]] = {name: {} for name in structures}
     for processing, record in records.items():
-        known = as_it_is or {} if processing == AS_IT_IS else {}
-        ratios = {name: response.rotation_ratio for name, response in known.items()}
-        rest = [name for name in structures if name not in ratios]
+        ratios = dict(as_it_is or {}) if processing == AS_IT_IS else {}
+        rest = [name for name in structures if math.isnan(ratios.get(name, math.nan))]
         with suppress(RockingError):
             computed = _rotation_ratios([structures[name] for name in rest], record, settings, vertical)
             ratios |= zip(rest, computed, strict=True)
-        for name in structures:
-            if not math.isnan(ratio := ratios.get(name, math.nan)):
-                variant = Variant(processing, ratio, Outcome.at(ratio))
-                found[name].append(variant)
-    return found
+        for name, ratio in ratios.items():
+            if not math.isnan(ratio):
+                varied[name][processing] = ratio
+    return varied
 
 
 def _rotation_ratios(
-    structures: Sequence[Structure],
+    structures: Sequence[Structure | Mechanism],
     record: Accelerogram,
     settings: AssessmentSettings,
     vertical: Accelerogram | None = None,
 ) -> list[float]:
     """The largest rotation ratio of each, nan where it cannot be followed; one thread, as a job has one core."""
-    tolerance = settings.tolerance
-    return integrate_batch(structures, record, vertical=vertical, tolerance=tolerance, workers=1)[
-        :, 0
-    ].tolist()
+    how: Any = {"vertical": vertical, "tolerance": settings.tolerance, "workers": 1}
+    return integrate_batch(structures, record, **how)[:, 0].tolist()
 
 
 @lru_cache(maxsize=64)

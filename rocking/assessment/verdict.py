@@ -1,4 +1,4 @@
-"""Verdicts, and how a prediction stands to the integration: each word and each threshold is defined here once.
+"""Verdicts, methods, and how a prediction stands to the integration: each word and threshold is defined here once.
 
 A structure rests, rocks or overturns. It rests up to `NEGLIGIBLE` of its critical rotation, lifted or not: whether a
 rotation is exactly zero hangs on the last digit of the uplift acceleration, and a tremor below a thousandth of the
@@ -29,6 +29,21 @@ class Verdict(StrEnum):
     UNDECIDED = "undecided"
     UNKNOWN = "unknown"
     """Nothing could be computed."""
+
+
+class Method(StrEnum):
+    """How a largest rotation was computed."""
+
+    PRINTED = "printed"
+    CLOSED_FORM = "closed form"
+    BLOCK_ON_PULSE = "block on pulse"
+    BLOCK_ON_RECORD = "block on record"
+    MECHANISM_ON_PULSE = "mechanism on pulse"
+    MECHANISM_ON_RECORD = "mechanism on record"
+    PEAK_VELOCITY = "peak velocity"
+    """The probability of overturning that p PGV/(gλ) gives is beyond doubt; the rotation is its median."""
+    NOTHING_TO_INTEGRATE = "nothing to integrate"
+    """The ground never reaches the uplift acceleration, so the rotation is zero exactly."""
 
 
 class Agreement(StrEnum):
@@ -89,11 +104,11 @@ def ratio_in_words(predicted: float, integrated: float) -> str:
     kinds = _severity(predicted), _severity(integrated)
     if kinds != (1, 1):
         return _WORDS[kinds]
-    found = predicted / integrated
-    factor = max(found, 1 / found)
+    factor = max(predicted / integrated, integrated / predicted)
     if factor <= 1 + CLOSE:
         return f"within {CLOSE:.0%}".replace("%", " %")
-    return f"{_two_digits(factor)} × too {'high' if found > 1 else 'low'}"
+    digits = f"{factor:.1f}" if factor < 10 else f"{float(f'{factor:.2g}'):.0f}"
+    return f"{digits} × too {'high' if predicted > integrated else 'low'}"
 
 
 _WORDS = {
@@ -109,14 +124,10 @@ _WORDS = {
 """By predicted and integrated severity: rests, rocks, overturns."""
 
 
-def _two_digits(value: float) -> str:
-    return f"{value:.1f}" if value < 10 else f"{float(f'{value:.2g}'):.0f}"
-
-
 def within_factor_two(predicted: float, integrated: float) -> bool | None:
     """Whether two rotation ratios lie within a factor two of each other; None where they have no ratio."""
-    found = ratio(predicted, integrated)
-    return None if math.isnan(found) else 0.5 <= found <= 2
+    quotient = ratio(predicted, integrated)
+    return None if math.isnan(quotient) else 0.5 <= quotient <= 2
 
 
 def _severity(rotation_ratio: float) -> int:

@@ -15,8 +15,8 @@ from rocking.reports.drawings import draw_dimensions, draw_marks, draw_structure
 from rocking.reports.style import PREDICTED, PULSE, RECORD, UPLIFT, plain_logarithmic, thinned
 
 if TYPE_CHECKING:
+    from rocking.assessment.assess import StructureAssessment
     from rocking.assessment.fragility import Fragility
-    from rocking.assessment.single import StructureAssessment
     from rocking.motion.batch import RockingSpectrum
     from rocking.motion.response import Response
     from rocking.pulses import Pulse, PulseAnalysis

@@ -10,12 +10,10 @@ from typing import Any
 import numpy as np
 
 from rocking.assessment.fate import Fate
-from rocking.assessment.method import Method
-from rocking.assessment.rows.of_case import ComparisonRow, MaximumRow
 from rocking.assessment.rows.of_folder import RecordTables
-from rocking.assessment.rows.of_record import PulseRow, RecordRow
+from rocking.assessment.rows.of_record import ComparisonRow, MaximumRow, PulseRow, RecordRow
 from rocking.assessment.rows.of_study import StructureRow, structure_rows
-from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Verdict, agreement, rests
+from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Method, Verdict, agreement, rests
 from rocking.motion.batch import rocking_spectrum
 from rocking.motion.integration import integrate
 from rocking.motion.response import Response

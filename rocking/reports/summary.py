@@ -10,11 +10,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from rocking.assessment.fate import ORDER, Fate
-from rocking.assessment.method import Method
-from rocking.assessment.rows.of_case import ComparisonRow
-from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow
+from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, PulseRow, RecordRow
 from rocking.assessment.rows.of_study import AgreementRow
-from rocking.assessment.verdict import Agreement, Verdict, agreement, within_factor_two
+from rocking.assessment.verdict import Agreement, Method, Verdict, agreement, within_factor_two
 from rocking.quantities import GRAVITY, counted
 from rocking.reports import printing
 from rocking.reports.document import compile_document

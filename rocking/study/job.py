@@ -15,19 +15,20 @@ from rocking.assessment.assess import Assessment, Failure, assess_structures
 from rocking.assessment.ensemble import GroundMotions, processed
 from rocking.assessment.fate import BOTH_COMPONENTS
 from rocking.assessment.horizontal_motion import horizontal_motions
-from rocking.assessment.method import Method
-from rocking.assessment.rows.of_case import (
+from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.rows.of_record import (
+    ComponentRow,
     HistoryRow,
+    TimingRow,
     candidate_rows,
     ensemble_row,
     history_rows,
+    identity_of,
     processing_rows,
 )
-from rocking.assessment.rows.of_folder import RecordTables
-from rocking.assessment.rows.of_record import TimingRow
-from rocking.assessment.rows.shared import Identity
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, ensemble_over_cracks, processed_variants
+from rocking.assessment.verdict import Method
 from rocking.errors import ConfigurationError, RockingError
 from rocking.motion.response import Response
 from rocking.records import Accelerogram, CatalogueRecord, Station, aligned, load_catalogue, open_station
@@ -199,7 +200,7 @@ def assess_components(
         beside = None if assessed.vertical is None else aligned(assessed.vertical, accelerogram)
         alone = len(assessed.accelerograms) == 1
         assessment = assess_structures(accelerogram, study.structures, study.assessment, beside, alone)
-        identity = Identity(record.id, accelerogram, study.settings_sha256)
+        identity = identity_of(record.id, accelerogram, study.settings_sha256)
         tables.add(identity, assessment, study.assessment, record.licence, beside, motion)
         for case in assessment.cases:
             if response := case.responses.get(Method.MECHANISM_ON_RECORD):
@@ -221,7 +222,7 @@ def assess_components(
 def _assess_directions(assessed: Assessed, study: Study) -> None:
     """Append the ensembles over directions of a record that has two horizontal components."""
     (first, second), tables, settings = assessed.accelerograms, assessed.tables, study.assessment.ensemble
-    identity = Identity(assessed.record.id, first, study.settings_sha256)
+    identity = identity_of(assessed.record.id, first, study.settings_sha256)
     names = dict.fromkeys(alone.structure for alone in tables.ensemble)
     try:
         motions = GroundMotions.of_pair(first, second, assessed.vertical, processing=settings.processing)
@@ -233,14 +234,14 @@ def _assess_directions(assessed: Assessed, study: Study) -> None:
 
 
 def _vary(
-    identity: Identity,
+    identity: ComponentRow,
     assessment: Assessment,
     study: Study,
     tables: RecordTables,
     vertical: Accelerogram | None,
 ) -> None:
     """Append the rows of candidates and processing, for every structure that gave a result."""
-    record, cases = identity.accelerogram, {case.structure: case for case in assessment.cases}
+    record, cases = assessment.accelerogram, {case.structure: case for case in assessment.cases}
     for name, case in cases.items():
         pulse = case.prediction.pulse if case.prediction else None
         try:
@@ -252,8 +253,7 @@ def _vary(
             tables.fail(identity.record, record.component, Failure("variations", name, str(error)))
     if study.settings.processing_variants:
         structures = {name: study.structures[name] for name in cases}
-        followed = {name: case.responses.get(Method.MECHANISM_ON_RECORD) for name, case in cases.items()}
-        known = {name: response for name, response in followed.items() if response is not None}
+        known = {name: case.integrated_rotation_ratio for name, case in cases.items()}
         variants = processed_variants(structures, processed(record), study.assessment, known, vertical)
         for name, of_structure in variants.items():
             tables.maxima.extend(processing_rows(identity, name, of_structure))

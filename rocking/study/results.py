@@ -12,7 +12,7 @@ from rocking.assessment.fate import Fate
 from rocking.assessment.rows.of_folder import PER_RECORD, RecordTables
 from rocking.assessment.rows.of_record import TimingRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
-from rocking.assessment.rows.of_trade import TradeRow
+from rocking.assessment.trade import TradeRow
 from rocking.errors import RockingError
 from rocking.tables import Row, frame, head, rows_written, whole, write_whole, written_together
 

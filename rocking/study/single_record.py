@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from rocking.assessment.rows.of_case import ComparisonRow
 from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.rows.of_record import ComparisonRow
 from rocking.assessment.rows.of_study import (
     CapacityRow,
     SpectrumRow,

@@ -7,7 +7,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from rocking.assessment.fragility.rows import FragilitySummaryRow, IdaRow
-from rocking.assessment.rows.of_case import ComparisonRow, MaximumRow
+from rocking.assessment.rows.of_record import ComparisonRow, MaximumRow
 from rocking.assessment.rows.of_study import (
     AGREEMENT_COLUMNS,
     SUMMARY_TABLES,

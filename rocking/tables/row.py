@@ -51,23 +51,36 @@ class Row:
     def of(cls, *sources: object, **values: Any) -> Self:
         """Return a row of `values`; each other column is the attribute of its name of the first source that has one.
 
-        The unit may be missing there: `peak_time_s` is the `peak_time` of a response. A source is any object, or a
-        mapping. A column that no source has keeps its default.
+        The unit may be missing there: `peak_time_s` is the `peak_time` of a response. a_b is b of a where a source has
+        no a_b itself: `elsewhere_crack` is `ensemble.elsewhere.crack`. A source is any object, or a mapping. What is
+        None, or what no source has, leaves its cell empty.
         """
         for each in cls.table.columns:
             if each.name not in values:
                 offers = (_offer(source, name) for source in sources for name in (each.name, each.attribute))
-                if (
-                    offer := next((offer for offer in offers if offer is not MISSING), MISSING)
-                ) is not MISSING:
-                    values[each.name] = offer
+                values[each.name] = next((offer for offer in offers if offer is not MISSING), None)
+            if values[each.name] is None:
+                values[each.name] = None if each.optional else _EMPTY.get(each.holds)
         return cls(**values)
 
 
+_EMPTY = {float: math.nan, str: "", tuple: ()}
+"""What stands for no value, by type; None for every other."""
+
+
 def _offer(source: object, name: str) -> Any:
-    """The value of `source` for `name`; a method is none."""
+    """The value of `source` for `name`, b of its a for the name a_b; a method is none."""
     value = source.get(name, MISSING) if isinstance(source, Mapping) else getattr(source, name, MISSING)
-    return MISSING if callable(value) else value
+    if value is not MISSING:
+        return MISSING if callable(value) else value
+    parts = name.split("_")
+    for place in range(len(parts) - 1, 0, -1):
+        inner = getattr(source, "_".join(parts[:place]), MISSING)
+        if inner is None:
+            return None
+        if inner is not MISSING and (value := _offer(inner, "_".join(parts[place:]))) is not MISSING:
+            return value
+    return MISSING
 
 
 R = TypeVar("R", bound=Row)

@@ -11,8 +11,7 @@ from docs.research.answers import AnswerTrial, answer_scores
 from docs.research.scores import HAPPENED, logistic, logit_slope
 from docs.research.sites import independent
 from rocking.assessment.fidelity import Answer
-from rocking.assessment.method import Method
-from rocking.assessment.verdict import Verdict
+from rocking.assessment.verdict import Method, Verdict
 from rocking.records import Accelerogram
 from rocking.structures import Outcome
 

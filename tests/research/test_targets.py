@@ -12,7 +12,7 @@ from made_campaign import write_campaign
 
 import rocking
 from docs.research.comparison import table as comparison
-from rocking.assessment.tiers import Tier
+from rocking.assessment.fidelity import Tier
 from rocking.records import Accelerogram
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.tables import read_table

@@ -10,7 +10,7 @@ import pytest
 from docs.research.sites import independent, structures_tried
 from docs.research.tiers import TierCases, left_out, tier_cases, tier_scores
 from rocking.assessment.ensemble import GroundMotions, ensemble
-from rocking.assessment.tiers import Tier
+from rocking.assessment.fidelity import Tier
 from rocking.records import Accelerogram, load_catalogue, open_record
 from rocking.structures import Block
 

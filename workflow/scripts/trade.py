@@ -4,8 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rocking.assessment.rows.of_trade import TradeRow
-from rocking.assessment.trade import trade
+from rocking.assessment.trade import TradeRow, trade
 from rocking.errors import RockingError
 from rocking.reports.trade import write_trade_report
 from rocking.study.job import planned

@@ -8,8 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from rocking.assessment.ensemble import CAUSES, EnsembleSettings, GroundMotions, drawn
-from rocking.assessment.ensemble.members import lattice
+from rocking.assessment.ensemble import EnsembleSettings, GroundMotions, drawn, lattice
 from rocking.assessment.fragility.curve import Fragility, fragility_of
 from rocking.assessment.intensity import INTENSITY_MEASURES, IntensityMeasure, per_velocity
 from rocking.assessment.intensity import intensity_measure as measure_named
@@ -256,7 +255,7 @@ class _Cases:
             motion = self.records[record]
             found = integrate_batch([self.mechanism], motion, factors, tolerance=self.tolerance, workers=1)
             return found[0][:, None]
-        points = lattice(MEMBERS, CAUSES)
+        points = lattice(MEMBERS)
         return np.array([self._drawn(self.ensemble, record, factor, points) for factor in factors])
 
     def _drawn(

@@ -10,7 +10,7 @@ from rocking.assessment.fragility.curve import CURVES, Fragility
 from rocking.assessment.fragility.explanation import dependence, efficiency
 from rocking.assessment.fragility.hazard import HazardRow, annual_rate
 from rocking.assessment.intensity import INTENSITY_MEASURES, MEASURES_IN_WORDS, IntensityMeasure
-from rocking.assessment.rows import meanings
+from rocking.assessment.rows import of_record as meanings
 from rocking.errors import ConfigurationError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram

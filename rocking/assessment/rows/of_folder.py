@@ -1,32 +1,30 @@
 """The tables of one record: filled by an assessment, written, and read again as rows."""
 
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import get_args, get_type_hints
 
 from rocking.assessment.assess import Assessment, Failure
 from rocking.assessment.fate import Fate, fates
 from rocking.assessment.horizontal_motion import HorizontalMotion
-from rocking.assessment.method import Method
-from rocking.assessment.rows.of_case import (
+from rocking.assessment.rows.of_record import (
     CandidateRow,
     ComparisonRow,
+    ComponentRow,
     EnsembleRow,
-    MaximumRow,
-    comparison_row,
-    ensemble_row,
-    maximum_rows,
-)
-from rocking.assessment.rows.of_record import (
     FailureRow,
+    MaximumRow,
     PulseRow,
     RecordRow,
     TimingRow,
+    comparison_row,
+    ensemble_row,
+    maximum_rows,
     pulse_rows,
     record_row,
 )
-from rocking.assessment.rows.shared import Identity
 from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.verdict import Method
 from rocking.records import Accelerogram
 from rocking.tables import Row, read_table, write_tables, written_together
 
@@ -76,7 +74,7 @@ class RecordTables:
 
     def add(
         self,
-        identity: Identity,
+        identity: ComponentRow,
         assessment: Assessment,
         settings: AssessmentSettings,
         licence: str,
@@ -85,7 +83,7 @@ class RecordTables:
     ) -> None:
         """Append what one assessment gives. motion: of the pair of components, or None for that of one alone."""
         dominant = assessment.analysis.dominant if assessment.analysis else None
-        self.record.append(record_row(identity, licence, vertical, motion, dominant))
+        self.record.append(record_row(identity, assessment.accelerogram, licence, vertical, motion, dominant))
         self.pulses.extend(pulse_rows(identity, assessment.analysis, assessment.candidates))
         for case in assessment.cases:
             self.maxima.extend(maximum_rows(identity, case, settings.friction_coefficient))
@@ -97,7 +95,7 @@ class RecordTables:
 
     def fail(self, record: str, component: str, failure: Failure) -> None:
         """Append a row of the failures."""
-        self.failures.append(FailureRow(record=record, component=component, **asdict(failure)))
+        self.failures.append(FailureRow.of(failure, record=record, component=component))
 
 
 PER_RECORD: tuple[type[Row], ...] = tuple(get_args(each)[0] for each in get_type_hints(RecordTables).values())

@@ -1,16 +1,74 @@
-"""Rows about a record: what was read, its pulses, what failed, and how long it took."""
+"""The rows of the tables of one record: each class says what its columns are, and `of` fills them by name."""
 
 import math
-from collections.abc import Iterator, Sequence
-from typing import Any, final
+from collections.abc import Iterator, Mapping, Sequence
+from typing import final
 
+from rocking.assessment.assess import Case
+from rocking.assessment.ensemble import CAUSES, Ensemble
 from rocking.assessment.horizontal_motion import HorizontalMotion, horizontal_motions
-from rocking.assessment.rows import meanings
-from rocking.assessment.rows.shared import ComponentRow, Identity
+from rocking.assessment.variations import CrackResponse, governing
+from rocking.assessment.verdict import (
+    Agreement,
+    Method,
+    Verdict,
+    agreement,
+    ratio,
+    ratio_in_words,
+    within_factor_two,
+)
+from rocking.motion.response import UNKNOWN, Response
 from rocking.pulses import Pulse, PulseAnalysis, PulseEvidence
 from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
+from rocking.sine_pulse import Regime
+from rocking.structures import Mechanism, Outcome
 from rocking.tables import Row, column, row
+
+RECORD = "Identifier of the record in the catalogue"
+COMPONENT = "Component of the ground motion, as the file names it"
+STRUCTURE = "Name of the structure in the structure list"
+SCALE_FACTOR = "What the accelerations of the file were multiplied by, beyond their unit"
+RECORD_SHA256 = "SHA-256 of the file the record was read from"
+ROTATION_RATIO = "Largest rotation over critical rotation; INF if it overturns, 0 without uplift"
+PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift"
+CRACK = "What opens, as statics chooses it among the cracks that may form; empty where none else may"
+ELSEWHERE = "Another crack that may form and with which it does not stand; empty where there is none"
+_REGIME = "Regime of the closed form in which the prediction was made"
+_SHARE = (
+    "Share of the variance of the rotation (1 where it overturns) that {} explains; empty where it is fixed"
+)
+
+
+@row()
+class ComponentRow(Row):
+    """A row about one component of one record; without more columns, what names and hashes all of them share."""
+
+    record: str = column(RECORD)
+    component: str = column(COMPONENT)
+    scale_factor: float = column(SCALE_FACTOR, last=True)
+    record_sha256: str = column(RECORD_SHA256, last=True)
+    settings_sha256: str = column(
+        "SHA-256 of the settings, the structure list and the package that made this row", last=True
+    )
+
+
+def identity_of(record: str, accelerogram: Accelerogram, settings_sha256: str) -> ComponentRow:
+    """Return what every row about a component of `record` holds."""
+    sha256 = accelerogram.source.sha256
+    return ComponentRow.of(accelerogram, record=record, record_sha256=sha256, settings_sha256=settings_sha256)
+
+
+@row()
+class CaseRow(ComponentRow):
+    """A row about one structure under one component of one record."""
+
+    structure: str = column(STRUCTURE)
+
+    @property
+    def case(self) -> tuple[str, str]:
+        """Component and structure."""
+        return self.component, self.structure
 
 
 @row("record", "One row per component: what was read and what was done to it before use")
@@ -18,21 +76,15 @@ class RecordRow(ComponentRow):
     """One component of a record as it was used."""
 
     event: str = column("Earthquake")
-    magnitude: float | None = column(
-        "Magnitude of the earthquake, where file or catalogue know it", default=None
-    )
-    epicentral_distance_m: float | None = column(
-        "Distance to the epicentre, where file or catalogue give it", default=None
-    )
-    magnitude_type: str = column("Scale of the magnitude, where the file says it", default="")
-    event_time: str = column("Time or date of the earthquake, as the file prints it", default="")
+    magnitude: float | None = column("Magnitude of the earthquake, where file or catalogue know it")
+    epicentral_distance_m: float | None = column("Distance to the epicentre, where file or catalogue give it")
+    magnitude_type: str = column("Scale of the magnitude, where the file says it")
+    event_time: str = column("Time or date of the earthquake, as the file prints it")
     station: str = column("Recording station")
-    station_latitude_deg: float | None = column("Latitude of the station, north", default=None)
-    station_longitude_deg: float | None = column("Longitude of the station, east", default=None)
-    station_elevation_m: float | None = column("Elevation of the station above the sea", default=None)
-    start_time: str = column(
-        "Time of the first sample, as the file states it; empty where it does not", default=""
-    )
+    station_latitude_deg: float | None = column("Latitude of the station, north")
+    station_longitude_deg: float | None = column("Longitude of the station, east")
+    station_elevation_m: float | None = column("Elevation of the station above the sea")
+    start_time: str = column("Time of the first sample, as the file states it")
     file: str = column("File the record was read from")
     format: str = column("Format that recognised the file")
     unit: str = column("Unit of the numbers in the file")
@@ -48,29 +100,26 @@ class RecordRow(ComponentRow):
     arias_intensity_m_s: float = column("Arias intensity", equation="π/(2g) ∫a² dt")
     significant_duration_s: float = column("Time between 5 and 95 % of the Arias intensity (D5–95)")
     rotd50_peak_acceleration_m_s2: float = column(
-        "Median over all directions of the peak acceleration of the pair of components; empty for one alone"
+        "Median peak acceleration of the pair over all directions; empty for one alone"
     )
     rotd100_peak_acceleration_m_s2: float = column(
-        "Largest peak acceleration of the pair of components in any direction; empty for one alone"
+        "Largest peak acceleration of the pair in any direction; empty for one alone"
     )
     velocity_pulse_period_s: float = column(
-        "Period T_p of the velocity pulse (Shahi & Baker 2014) of the pair of components, or of one alone"
+        "Period T_p of the velocity pulse (Shahi & Baker 2014) of the pair, or of one alone"
     )
     velocity_pulse_centre_time_s: float = column("Middle of the velocity pulse after the first sample")
     velocity_pulse_peak_velocity_m_s: float = column("Peak velocity along the axis of the velocity pulse")
     velocity_pulse_orientation_rad: float = column(
-        "Axis of the velocity pulse, from the first of the pair towards the second; 0 for one component alone"
+        "Axis of the velocity pulse, from the first of the pair towards the second"
     )
     velocity_pulse_azimuth_deg: float = column(
-        "Axis of the velocity pulse clockwise from north, 0 to 180, where the components know theirs",
-        unit="°",
+        "The same axis clockwise from north, where the components know theirs"
     )
     velocity_pulse_indicator: float = column("Pulse indicator of Shahi & Baker (2014)")
-    velocity_pulse_like: bool | None = column(
-        "Whether their criterion calls the motion pulse-like", default=None
-    )
+    velocity_pulse_like: bool | None = column("Whether their criterion calls the motion pulse-like")
     pulse_period_ratio: float = column("Period of the dominant sine pulse over T_p")
-    pulse_periods_unlike: bool | None = column("Whether the two differ by more than a factor 2", default=None)
+    pulse_periods_unlike: bool | None = column("Whether the two differ by more than a factor 2")
     high_pass_frequency_hz: float | None = column("Corner of the high-pass known to have been applied")
     processing: tuple[str, ...] = column("Steps applied to the numbers of the file, in order")
     warnings: tuple[str, ...] = column("What the reader noticed")
@@ -92,9 +141,7 @@ class PulseRow(ComponentRow):
     start_time_s: float = column("Start of the pulse after the first sample")
     gain_m2_s3: float = column("Energy gain of the matched filter")
     gain_ratio: float = column("Energy gain over that of the dominant pulse")
-    explained_energy: float = column(
-        "Share of the record's acceleration energy that the pulse explains (EVa)"
-    )
+    explained_energy: float = column("Share of the acceleration energy that the pulse explains (EVa)")
     effective_length_m: float = column("Amplitude times period squared")
     flags: tuple[str, ...] = column("What makes the pulse doubtful")
 
@@ -109,13 +156,155 @@ class PulseRow(ComponentRow):
         return Pulse(self.amplitude_m_s2, self.circular_frequency_rad_s, self.start_time_s)
 
 
+@row("maxima", "One row per structure and method, closed form or integration: the largest rotation")
+@final
+class MaximumRow(CaseRow):
+    """The largest rotation of one case by one method."""
+
+    method: Method = column("How the number was computed")
+    processing: str = column("What else was done to the record; empty as it is used")
+    rotation_ratio: float = column(ROTATION_RATIO)
+    rotation_rad: float = column("Largest rotation; INF if it overturns")
+    outcome: Outcome | None = column("no uplift, rocks, overturns or failed")
+    error: float = column("Rotation ratio over that of the mechanism on the record, minus 1, where both rock")
+    regime: Regime | None = column(_REGIME)
+    impacts: int | None = column("Number of impacts")
+    pulse_rank: int | None = column("Of a closed form: rank of its pulse among those of the method")
+    amplitude_ratio: float = column(
+        "Of a closed form: a = a_g / (g times uplift multiplier)", equation="Eq. 16"
+    )
+    frequency_ratio: float = column(
+        "Of a closed form: circular frequency of the pulse over p",
+        equation="Eq. 16",
+    )
+    peak_side: int | None = column(PEAK_SIDE)
+    peak_time_s: float = column("Time of the largest rotation after the first sample")
+    uplift_time_s: float = column("Time of the first uplift after the first sample")
+    tolerance: float = column("Relative tolerance of the integration; 0 for an exact solution")
+    steps: int | None = column("Steps taken")
+    friction_needed: float = column(
+        "Largest friction coefficient a contact needs; INF where one is not pressed"
+    )
+    slides: bool | None = column("Whether that exceeds the friction of the settings: the model does not hold")
+    bounces: bool | None = column("Whether a contact would have to pull: the model does not hold")
+    contacts_unknown: str = column("Why nothing is known of the contacts; empty where something is")
+    ties: str = column("Which ties yield or break on the way to the largest rotation")
+    warning: str = column("What the model leaves out under this motion; empty for nothing")
+    reason: str = column("Why it failed, if it did")
+
+
+@row(
+    "comparison",
+    "One row per structure: the closed form under the dominant pulse beside the integration of the whole record",
+)
+@final
+class ComparisonRow(CaseRow):
+    """One case: the prediction beside the integration, and what answered."""
+
+    predicted_rotation_ratio: float = column("Exact maximum of the equivalent block under the dominant pulse")
+    integrated_rotation_ratio: float = column(
+        "Mechanism under the whole record; empty where something cheaper settled it"
+    )
+    prediction_over_integration: float = column("Predicted over integrated rotation ratio, where both rock")
+    prediction_in_words: str = column("How the prediction stands to the integration, in words")
+    within_factor_two: bool | None = column("Whether that ratio lies between 1/2 and 2, where both rock")
+    agreement: Agreement = column(
+        "Rest, rocking or overturning in the closed form and in the integration: same outcome, too low or too high"
+    )
+    regime: Regime | None = column(_REGIME)
+    answer_method: Method = column("What settled the verdict: the mechanism on the record, or with auto less")
+    answer_outcome: Outcome = column("What that says: no uplift, rocks, overturns or failed")
+    answer_reason: str = column("Why that one settled it, where fidelity: auto chose it")
+    overturning_estimate: float = column(
+        "Estimate of the share of members that overturn, from p PGV/(gλ), calibrated on real records; empty where an "
+        "ensemble ran or the structure is unlike those of the calibration"
+    )
+    overturning_estimate_low: float = column("Lower end of its 90 % interval")
+    overturning_estimate_high: float = column("Upper end of its 90 % interval")
+
+    @property
+    def spared(self) -> bool:
+        """Whether something cheaper than the full integration answered."""
+        return self.answer_method is not Method.MECHANISM_ON_RECORD
+
+
+@row(
+    "ensemble",
+    "One row per structure: what becomes of it when what is not known varies; component 'both' for all directions",
+)
+@final
+class EnsembleRow(CaseRow):
+    """The ensemble of one case."""
+
+    verdict: Verdict = column("stands, overturns or undecided, from the share and the risk beside it")
+    overturning_share: float = column("Share of the members that overturn")
+    overturning_members: int = column("Members that overturn")
+    members: int = column("Members that were followed")
+    failed_members: int = column("Members that could not be followed")
+    crack: str = column(CRACK)
+    elsewhere_crack: str = column(ELSEWHERE)
+    elsewhere_overturning_members: int | None = column("Members that overturn where it cracks there")
+    elsewhere_members: int | None = column("Members that were followed there")
+    uplift_share: float = column("Share of the members that lift")
+    rotation_ratio_low: float = column("5 % quantile of largest rotation over critical rotation")
+    rotation_ratio_median: float = column("Median of largest rotation over critical rotation")
+    rotation_ratio_high: float = column("95 % quantile of the same; INF if it overturns")
+    risk: float = column("Largest probability of the opposite that the verdict may bear")
+    amplitude_range: float = column("The motion varied by plus or minus this share")
+    restitution_range: float = column("The restitution varied by plus or minus this much")
+    amplitude_share: float = column(_SHARE.format("the amplitude"))
+    restitution_share: float = column(_SHARE.format("the restitution"))
+    polarity_share: float = column(_SHARE.format("the sign of the motion"))
+    direction_share: float = column(_SHARE.format("the direction"))
+    processing_share: float = column(_SHARE.format("the processing of the record"))
+    vertical_share: float = column(_SHARE.format("the vertical motion"))
+    worst_direction: str = column("Direction in which it rotates most on average; empty with one direction")
+    worst_polarity: str = column(
+        "Sign of the motion with which it rotates most on average: as recorded, reversed"
+    )
+    worst_processing: str = column("Processing under which it rotates most on average; empty with one")
+
+
+@row(
+    "candidates",
+    "One row per crack that may form, as a hinge of a wall at another height: the governing one is marked",
+)
+@final
+class CandidateRow(CaseRow):
+    """One crack that may form."""
+
+    description: str = column("What opens, and where")
+    position_m: float = column("Height of the hinge or crack above the base; empty where none tells it")
+    predicted_rotation_ratio: float = column("Exact maximum of its equivalent block under the dominant pulse")
+    integrated_rotation_ratio: float = column("Its mechanism under the whole record")
+    governs_pulse: bool = column("Whether it rotates most under the pulse; the lowest of those that overturn")
+    governs_record: bool = column(
+        "Whether it rotates most under the record, the lowest of those that overturn"
+    )
+
+
+@row(
+    "histories",
+    "One row per component, structure and step: the rotation as it was integrated, until it overturns",
+)
+class HistoryRow(Row):
+    """One step of one response."""
+
+    record: str = column(RECORD)
+    component: str = column(COMPONENT)
+    structure: str = column(STRUCTURE)
+    time_s: float = column("Time after the first sample")
+    rotation_rad: float = column("Rotation, signed by the side; zero before uplift")
+    angular_velocity_rad_s: float = column("Its derivative, after the impact where there is one")
+
+
 @row("failures", "One row per record or structure that gave no result, and why")
 class FailureRow(Row):
     """Something that gave no result."""
 
-    record: str = column(meanings.RECORD)
-    component: str = column(meanings.COMPONENT)
-    structure: str = column(meanings.STRUCTURE)
+    record: str = column(RECORD)
+    component: str = column(COMPONENT)
+    structure: str = column(STRUCTURE)
     stage: str = column("Stage that failed")
     message: str = column("What is wrong, what is allowed and what to do")
 
@@ -124,13 +313,14 @@ class FailureRow(Row):
 class TimingRow(Row):
     """CPU time of one stage."""
 
-    record: str = column(meanings.RECORD)
+    record: str = column(RECORD)
     stage: str = column("Stage, or a method, whose time is part of that of the stage responses")
     duration_s: float = column("CPU time")
 
 
 def record_row(
-    identity: Identity,
+    identity: ComponentRow,
+    accelerogram: Accelerogram,
     licence: str,
     vertical: Accelerogram | None = None,
     motion: HorizontalMotion | None = None,
@@ -140,60 +330,33 @@ def record_row(
 
     motion: None makes that of the component alone. dominant: its sine pulse of largest energy gain.
     """
-    accelerogram = identity.accelerogram
-    measures = record_measures(accelerogram)
-    return RecordRow(
-        **identity.columns,
-        event=accelerogram.event,
-        station=accelerogram.station,
-        start_time=accelerogram.start_time,
+    motion = motion or horizontal_motions([accelerogram])[0]
+    pulse, rotd = motion.velocity_pulse, motion.rotd
+    return RecordRow.of(
+        identity,
+        accelerogram,
+        accelerogram.source,
+        record_measures(accelerogram),
+        motion,
         file=accelerogram.source.path,
-        format=accelerogram.source.format,
-        unit=accelerogram.source.unit,
         licence=licence,
-        vertical_component=vertical.component or "not named" if vertical else "",
-        vertical_peak_acceleration_m_s2=vertical.peak_acceleration if vertical else math.nan,
         samples=accelerogram.acceleration.size,
-        time_step_s=accelerogram.time_step,
-        duration_s=accelerogram.duration,
-        peak_acceleration_m_s2=accelerogram.peak_acceleration,
-        peak_velocity_m_s=measures.peak_velocity,
-        peak_displacement_m=measures.peak_displacement,
-        arias_intensity_m_s=measures.arias_intensity,
-        significant_duration_s=measures.significant_duration,
-        magnitude=accelerogram.magnitude,
-        epicentral_distance_m=accelerogram.epicentral_distance,
-        magnitude_type=accelerogram.magnitude_type,
-        event_time=accelerogram.event_time,
         station_latitude_deg=accelerogram.latitude,
         station_longitude_deg=accelerogram.longitude,
         station_elevation_m=accelerogram.elevation,
-        **_motion_columns(motion or horizontal_motions([accelerogram])[0], dominant),
-        high_pass_frequency_hz=accelerogram.high_pass_frequency,
-        processing=accelerogram.processing,
-        warnings=accelerogram.warnings,
+        vertical_component=vertical and (vertical.component or "not named"),
+        vertical_peak_acceleration_m_s2=vertical and vertical.peak_acceleration,
+        rotd50_peak_acceleration_m_s2=rotd and rotd.rotd50,
+        rotd100_peak_acceleration_m_s2=rotd and rotd.rotd100,
+        velocity_pulse_azimuth_deg=motion.azimuth,
+        velocity_pulse_like=pulse and pulse.pulse_like,
+        pulse_period_ratio=pulse and dominant and dominant.period / pulse.period,
+        pulse_periods_unlike=motion.is_unlike(dominant),
     )
 
 
-def _motion_columns(motion: HorizontalMotion, dominant: Pulse | None) -> dict[str, Any]:
-    pulse, rotd = motion.velocity_pulse, motion.rotd
-    return {
-        "rotd50_peak_acceleration_m_s2": rotd.rotd50 if rotd else math.nan,
-        "rotd100_peak_acceleration_m_s2": rotd.rotd100 if rotd else math.nan,
-        "velocity_pulse_period_s": pulse.period if pulse else math.nan,
-        "velocity_pulse_centre_time_s": pulse.centre_time if pulse else math.nan,
-        "velocity_pulse_peak_velocity_m_s": pulse.peak_velocity if pulse else math.nan,
-        "velocity_pulse_orientation_rad": pulse.orientation if pulse else math.nan,
-        "velocity_pulse_azimuth_deg": math.nan if motion.azimuth is None else motion.azimuth,
-        "velocity_pulse_indicator": pulse.indicator if pulse else math.nan,
-        "velocity_pulse_like": pulse.pulse_like if pulse else None,
-        "pulse_period_ratio": dominant.period / pulse.period if pulse and dominant else math.nan,
-        "pulse_periods_unlike": motion.is_unlike(dominant),
-    }
-
-
 def pulse_rows(
-    identity: Identity, analysis: PulseAnalysis | None, candidates: Sequence[PulseEvidence] = ()
+    identity: ComponentRow, analysis: PulseAnalysis | None, candidates: Sequence[PulseEvidence] = ()
 ) -> Iterator[PulseRow]:
     """Yield the rows of the ranked alternatives, the dominant pulse first, then those of the pursuit sequence.
 
@@ -203,20 +366,125 @@ def pulse_rows(
         return
     others = [evidence for evidence in candidates if evidence not in analysis.ranked]
     kinds = {"alternative": analysis.ranked, "sequence": analysis.sequence, "predicting": others}
-    for kind, found in kinds.items():
-        for rank, evidence in enumerate(found, start=1):
-            pulse, dominant = evidence.pulse, kind == "alternative" and rank == 1
-            yield PulseRow(
-                **identity.columns,
+    for kind, pulses in kinds.items():
+        for rank, evidence in enumerate(pulses, start=1):
+            yield PulseRow.of(
+                identity,
+                evidence,
+                evidence.pulse,
                 kind=kind,
                 rank=rank,
-                amplitude_m_s2=pulse.amplitude,
-                circular_frequency_rad_s=pulse.circular_frequency,
-                period_s=pulse.period,
-                start_time_s=pulse.start_time,
-                gain_m2_s3=evidence.gain,
                 gain_ratio=evidence.gain / analysis.evidence.gain,
-                explained_energy=evidence.explained_energy,
-                effective_length_m=evidence.effective_length,
-                flags=analysis.flags if dominant else (),
+                flags=analysis.flags if evidence is analysis.evidence and kind == "alternative" else (),
             )
+
+
+def maximum_rows(identity: ComponentRow, case: Case, friction_coefficient: float) -> Iterator[MaximumRow]:
+    """Yield the row of each closed form, Eq. 15 as printed and the exact one, and of each integration."""
+    reference = case.integrated_rotation_ratio
+    if case.prediction is not None:
+        shared = identity, case, case.prediction
+        printed = case.prediction.printed
+        yield MaximumRow.of(
+            *shared,
+            method=Method.PRINTED,
+            rotation_ratio=printed,
+            rotation_rad=printed * case.prediction.block.critical_rotation,
+            error=ratio(printed, reference) - 1,
+        )
+        maximum = case.prediction.maximum
+        yield MaximumRow.of(
+            *shared,
+            maximum,
+            method=Method.CLOSED_FORM,
+            rotation_rad=_rotation(case.mechanism, maximum.rotation_ratio, maximum.peak_side),
+            error=ratio(maximum.rotation_ratio, reference) - 1,
+        )
+    for method, response in case.responses.items():
+        on_record = method is Method.MECHANISM_ON_RECORD
+        check = case.check if on_record else UNKNOWN
+        yield MaximumRow.of(
+            identity,
+            response,
+            check,
+            structure=case.structure,
+            method=method,
+            rotation_rad=_rotation(case.mechanism, response.rotation_ratio, response.peak_side),
+            error=math.nan if on_record else ratio(response.rotation_ratio, reference) - 1,
+            slides=check.slides(friction_coefficient),
+            contacts_unknown=check.reason,
+        )
+
+
+def _rotation(mechanism: Mechanism, rotation_ratio: float, side: int) -> float:
+    """The rotation in rad that `rotation_ratio` means on `side` (+1 or −1) of `mechanism`."""
+    return rotation_ratio * mechanism.sides[0 if side >= 0 else -1].critical_rotation
+
+
+def processing_rows(
+    identity: ComponentRow, structure: str, rotation_ratios: Mapping[str, float]
+) -> Iterator[MaximumRow]:
+    """Yield the row of each processing of the record for one structure, from the rotation ratios by processing."""
+    for processing, rotation_ratio in rotation_ratios.items():
+        yield MaximumRow.of(
+            identity,
+            structure=structure,
+            method=Method.MECHANISM_ON_RECORD,
+            processing=processing,
+            rotation_ratio=rotation_ratio,
+            outcome=Outcome.at(rotation_ratio),
+        )
+
+
+def comparison_row(identity: ComponentRow, case: Case) -> ComparisonRow:
+    """Return the row of one case: the closed form beside the integration of the whole record."""
+    ratios = case.predicted_rotation_ratio, case.integrated_rotation_ratio
+    return ComparisonRow.of(
+        identity,
+        case,
+        prediction_over_integration=ratio(*ratios),
+        prediction_in_words=ratio_in_words(*ratios),
+        within_factor_two=within_factor_two(*ratios),
+        agreement=agreement(*ratios),
+        regime=case.prediction and case.prediction.maximum.regime,
+        overturning_estimate=case.overturning_estimate and case.overturning_estimate.share,
+    )
+
+
+def ensemble_row(
+    identity: ComponentRow, structure: str, ensemble: Ensemble, component: str | None = None
+) -> EnsembleRow:
+    """Return the row of one ensemble. component: instead of the one of `identity`."""
+    return EnsembleRow.of(
+        identity,
+        ensemble,
+        ensemble.settings,
+        structure=structure,
+        component=identity.component if component is None else component,
+        worst_direction=ensemble.worst("direction"),
+        worst_polarity={"1.0": "as recorded", "-1.0": "reversed"}.get(ensemble.worst("polarity"), ""),
+        worst_processing=ensemble.worst("processing"),
+        **{f"{cause}_share": ensemble.shares.get(cause) for cause in CAUSES},
+    )
+
+
+def candidate_rows(
+    identity: ComponentRow, structure: str, candidates: Sequence[CrackResponse]
+) -> Iterator[CandidateRow]:
+    """Yield the row of each crack that may form in one structure."""
+    on_pulse = governing([candidate.predicted_rotation_ratio for candidate in candidates])
+    on_record = governing([candidate.integrated_rotation_ratio for candidate in candidates])
+    for place, candidate in enumerate(candidates):
+        marks = {"governs_pulse": place == on_pulse, "governs_record": place == on_record}
+        yield CandidateRow.of(identity, candidate, structure=structure, **marks)
+
+
+def history_rows(record: str, responses: Mapping[tuple[str, str], Response]) -> Iterator[HistoryRow]:
+    """Yield the history of each response by component and structure, as maxima.csv sums it up.
+
+    A response without a history has no rows.
+    """
+    for (component, structure), response in responses.items():
+        if response.times is not None:
+            for step in response.frame().to_dict("records"):
+                yield HistoryRow.of(record=record, component=component, structure=structure, **step)

@@ -7,9 +7,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rocking.assessment.fate import Fate
-from rocking.assessment.rows import meanings
-from rocking.assessment.rows.of_case import ComparisonRow, EnsembleRow, MaximumRow
-from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow, TimingRow
+from rocking.assessment.rows import of_record as rows
+from rocking.assessment.rows.of_record import (
+    ComparisonRow,
+    EnsembleRow,
+    FailureRow,
+    MaximumRow,
+    PulseRow,
+    RecordRow,
+    TimingRow,
+)
 from rocking.motion.batch import rocking_spectrum
 from rocking.records import Accelerogram
 from rocking.structures import Structure
@@ -18,6 +25,8 @@ from rocking.tables import Row, column, row
 if TYPE_CHECKING:
     from pandas import DataFrame
 
+_P = "p of the equivalent block"
+_ETA = "Ratio of angular velocities after and before an impact"
 CAPACITY_POINTS = 21
 """Rotations of a capacity curve, from rest to the critical one."""
 
@@ -26,11 +35,11 @@ CAPACITY_POINTS = 21
 class StructureRow(Row):
     """One structure of the structure list."""
 
-    structure: str = column(meanings.STRUCTURE)
+    structure: str = column(rows.STRUCTURE)
     type: str = column("Type of the structure, as in the structure list")
     geometry: str = column("Its sizes with units, as they were given")
     crack: str = column("What opens, in a word: hinge, crack; empty where nothing else may open")
-    frequency_parameter_rad_s: float = column(meanings.FREQUENCY_PARAMETER, equation="Eq. 11")
+    frequency_parameter_rad_s: float = column(_P, equation="Eq. 11")
     critical_rotation_rad: float = column("Critical rotation")
     uplift_multiplier: float = column("Uplift acceleration in g", equation="Eq. 7")
     static_multiplier: float = column(
@@ -41,7 +50,7 @@ class StructureRow(Row):
     linearised_over_true_uplift: float = column(
         "Uplift acceleration of the linearised block over the true one", equation="Eq. 12"
     )
-    restitution: float = column(meanings.RESTITUTION, equation="Eq. 2")
+    restitution: float = column(_ETA, equation="Eq. 2")
     restoring_defect: float = column(
         "Largest error of the restoring acceleration of the block exact at rest up to φ_cr, over that at rest"
     )
@@ -54,7 +63,7 @@ class StructureRow(Row):
 class CapacityRow(Row):
     """One point of the capacity curve of one side of one structure."""
 
-    structure: str = column(meanings.STRUCTURE)
+    structure: str = column(rows.STRUCTURE)
     side: str = column("positive or negative: the side to which it rocks")
     rotation_rad: float = column("Rotation")
     multiplier: float = column(
@@ -97,13 +106,13 @@ class AgreementRow(Row):
 class SpectrumRow(Row):
     """One block under one component."""
 
-    component: str = column(meanings.COMPONENT)
-    frequency_parameter_rad_s: float = column(meanings.FREQUENCY_PARAMETER, equation="Eq. 11")
+    component: str = column(rows.COMPONENT)
+    frequency_parameter_rad_s: float = column(_P, equation="Eq. 11")
     uplift_multiplier: float = column("Uplift acceleration of the equivalent block in g", equation="Eq. 12")
-    restitution: float = column(meanings.RESTITUTION, equation="Eq. 2")
-    rotation_ratio: float = column(meanings.ROTATION_RATIO)
-    scale_factor: float = column(meanings.SCALE_FACTOR)
-    record_sha256: str = column(meanings.RECORD_SHA256)
+    restitution: float = column(_ETA, equation="Eq. 2")
+    rotation_ratio: float = column(rows.ROTATION_RATIO)
+    scale_factor: float = column(rows.SCALE_FACTOR)
+    record_sha256: str = column(rows.RECORD_SHA256)
 
 
 def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow]:
@@ -112,19 +121,17 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
         mechanism = structure.mechanism()
         side = mechanism.positive
         linearised = side.scaled_acceleration("linearised")
-        yield StructureRow(
+        yield StructureRow.of(
+            side,
+            structure,
             structure=name,
             type=structure.type_name,
             geometry=structure.description,
             crack=structure.crack_name,
-            frequency_parameter_rad_s=side.frequency_parameter,
-            critical_rotation_rad=side.critical_rotation,
             uplift_multiplier=mechanism.uplift_multiplier,
-            static_multiplier=structure.static_multiplier,
             acceleration_scale_linearised=linearised,
             acceleration_scale_uplift=side.scaled_acceleration("uplift"),
             linearised_over_true_uplift=side.critical_rotation / linearised / side.uplift_multiplier,
-            restitution=side.restitution,
             restoring_defect=mechanism.block_defects.restoring,
             forcing_defect=mechanism.block_defects.forcing,
         )
@@ -137,17 +144,13 @@ def capacity_rows(structures: Mapping[str, Structure]) -> Iterator[CapacityRow]:
         for sign in signs:
             curve = structure.capacity_curve(sign, CAPACITY_POINTS)
             columns = (curve.rotation, curve.multiplier, curve.displacement, curve.effective_displacement)
-            for rotation, multiplier, displacement, effective in zip(
-                *map(np.ndarray.tolist, columns), strict=True
-            ):
-                yield CapacityRow(
+            for point in np.column_stack(columns).tolist():
+                names = ("rotation_rad", "multiplier", "displacement_m", "effective_displacement_m")
+                yield CapacityRow.of(
+                    curve,
                     structure=name,
                     side="positive" if sign > 0 else "negative",
-                    rotation_rad=rotation,
-                    multiplier=multiplier,
-                    displacement_m=displacement,
-                    effective_displacement_m=effective,
-                    participating_mass_ratio=curve.participating_mass_ratio,
+                    **dict(zip(names, point, strict=True)),
                 )
 
 
@@ -197,16 +200,14 @@ def spectrum_rows(
     """Yield the rocking spectrum of each component over p (m,) [rad/s] and λ (n,)."""
     for accelerogram in accelerograms:
         ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, restitution)
-        for (i, p), (k, multiplier) in product(
-            enumerate(frequency_parameters.tolist()), enumerate(uplift_multipliers.tolist())
-        ):
-            yield SpectrumRow(
-                component=accelerogram.component,
-                frequency_parameter_rad_s=p,
+        blocks = product(frequency_parameters.tolist(), uplift_multipliers.tolist())
+        for (frequency, multiplier), ratio in zip(blocks, np.ravel(ratios).tolist(), strict=True):
+            yield SpectrumRow.of(
+                accelerogram,
+                frequency_parameter_rad_s=frequency,
                 uplift_multiplier=multiplier,
                 restitution=restitution,
-                rotation_ratio=float(ratios[i, k]),
-                scale_factor=accelerogram.scale_factor,
+                rotation_ratio=ratio,
                 record_sha256=accelerogram.source.sha256,
             )
 

@@ -91,7 +91,7 @@ def test_every_pulse_method_predicts(name):
         RECORD, {"block": BLOCK}, AssessmentSettings(pulse=PredictingPulse(choice=name))
     )
     assert not found.failures
-    assert found.cases[0].prediction.pulse == found.candidates[found.cases[0].prediction.rank - 1].pulse
+    assert found.cases[0].prediction.pulse == found.candidates[found.cases[0].prediction.pulse_rank - 1].pulse
 
 
 def test_a_pulse_method_that_finds_nothing_costs_no_integration():

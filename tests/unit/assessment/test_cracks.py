@@ -42,7 +42,7 @@ def test_stands_means_that_every_crack_stands_and_a_crack_that_does_not_is_named
         if of_statics is not Verdict.STANDS:
             assert found.verdict is of_statics
         elif set(verdicts.values()) == {Verdict.STANDS}:
-            assert found.verdict is Verdict.STANDS and found.ensemble.elsewhere is None
+            assert found.verdict is Verdict.STANDS and found.elsewhere is None
         else:
             assert found.verdict is Verdict.UNDECIDED
             assert verdicts[found.governing.description] is not Verdict.STANDS
@@ -54,7 +54,7 @@ def test_stands_means_that_every_crack_stands_and_a_crack_that_does_not_is_named
 def test_a_known_crack_has_no_other():
     known = replace(WALL, crack="known")
     found = rocking.assess(record(3.0), known)
-    assert len(cracks(known)) == 1 and found.ensemble.crack == "" and found.ensemble.elsewhere is None
+    assert len(cracks(known)) == 1 and found.crack == "" and found.elsewhere is None
     assert found.static_multiplier == known.mechanism().uplift_multiplier
 
 

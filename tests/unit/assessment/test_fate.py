@@ -5,8 +5,7 @@ import math
 import pytest
 
 from rocking.assessment.fate import fates
-from rocking.assessment.rows.of_case import ComparisonRow, EnsembleRow
-from rocking.assessment.rows.of_record import FailureRow
+from rocking.assessment.rows.of_record import ComparisonRow, EnsembleRow, FailureRow
 from rocking.assessment.verdict import Verdict
 from rocking.structures import Outcome
 

@@ -98,7 +98,7 @@ def test_a_block_unlike_its_mechanism_settles_nothing_and_gets_no_estimate():
     assert found.method is Method.MECHANISM_ON_RECORD
     settings = AssessmentSettings(fidelity="auto", ensemble=EnsembleSettings(members=0))
     (case,) = assess_structures(strong, {"tied": tied}, settings).cases
-    assert case.estimate is None
+    assert case.overturning_estimate is None
 
 
 def test_a_study_answers_with_the_cheapest():

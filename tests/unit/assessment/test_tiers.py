@@ -5,9 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from rocking.assessment import intensity
-from rocking.assessment.intensity import NUDGES
-from rocking.assessment.tiers import STRUCTURE, Tier, read_tiers, shipped_tiers, write_tiers
+from rocking.assessment import fidelity
+from rocking.assessment.fidelity import NUDGES, STRUCTURE, Tier, read_tiers, shipped_tiers, write_tiers
 from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
@@ -27,9 +26,9 @@ def record(factor: float = 1.0) -> Accelerogram:
 def measured(factor: float = 1.0) -> dict[str, float]:
     ratios = np.array([integrate(EQUIVALENT, record(factor * nudge)).rotation_ratio for nudge in NUDGES])
     return (
-        intensity.of_structure(MECHANISM)
-        | intensity.of_velocity(record(factor), EQUIVALENT)
-        | intensity.from_nudged(ratios)
+        fidelity.of_structure(MECHANISM)
+        | fidelity.of_velocity(record(factor), EQUIVALENT)
+        | fidelity.from_nudged(ratios)
     )
 
 

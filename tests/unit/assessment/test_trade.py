@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking.assessment.rows.of_trade import TradeMethod
+from rocking.assessment.trade import TradeMethod
 
 STRUCTURES = {"block": rocking.Block(2.0, 0.15), "stout": rocking.Block(2.0, 0.7)}
 

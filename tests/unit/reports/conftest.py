@@ -6,13 +6,19 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import AssessmentSettings, assess_structures
-from rocking.assessment.ensemble.ground_motions import processed
+from rocking.assessment.ensemble import processed
 from rocking.assessment.fate import Fate
-from rocking.assessment.rows.of_case import ComparisonRow, candidate_rows, processing_rows
 from rocking.assessment.rows.of_folder import RecordTables
-from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow
+from rocking.assessment.rows.of_record import (
+    ComparisonRow,
+    FailureRow,
+    PulseRow,
+    RecordRow,
+    candidate_rows,
+    identity_of,
+    processing_rows,
+)
 from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows, structure_rows
-from rocking.assessment.rows.shared import Identity
 from rocking.assessment.variations import candidates, processed_variants
 from rocking.assessment.verdict import Verdict
 from rocking.pulses import Pulse
@@ -60,7 +66,7 @@ def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[st
     tables = RecordTables()
     for accelerogram in accelerograms:
         computed = assess_structures(accelerogram, structures, ASSESSMENT)
-        identity = Identity(record, accelerogram, "cd" * 32)
+        identity = identity_of(record, accelerogram, "cd" * 32)
         tables.add(identity, computed, ASSESSMENT, "CC0-1.0")
         records = processed(accelerogram)
         pulse = computed.analysis.dominant if computed.analysis else None

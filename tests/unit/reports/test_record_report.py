@@ -8,9 +8,8 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from rocking.assessment.method import Method
 from rocking.assessment.rows.of_study import structure_rows
-from rocking.assessment.verdict import Agreement, Verdict
+from rocking.assessment.verdict import Agreement, Method, Verdict
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports.record import RecordReport, failure_report, headlines
 from rocking.structures import Block

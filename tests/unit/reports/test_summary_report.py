@@ -8,11 +8,25 @@ import pytest
 from rocking.assessment.fate import BOTH_COMPONENTS, Fate, fates
 from rocking.assessment.fragility.rows import FragilityRow, FragilitySummaryRow
 from rocking.assessment.intensity import INTENSITY_MEASURES
-from rocking.assessment.method import Method
-from rocking.assessment.rows.of_case import ComparisonRow, EnsembleRow, MaximumRow
-from rocking.assessment.rows.of_record import FailureRow, PulseRow, RecordRow, TimingRow
+from rocking.assessment.rows.of_record import (
+    ComparisonRow,
+    EnsembleRow,
+    FailureRow,
+    MaximumRow,
+    PulseRow,
+    RecordRow,
+    TimingRow,
+)
 from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows
-from rocking.assessment.verdict import Agreement, Verdict, agreement, ratio, ratio_in_words, within_factor_two
+from rocking.assessment.verdict import (
+    Agreement,
+    Method,
+    Verdict,
+    agreement,
+    ratio,
+    ratio_in_words,
+    within_factor_two,
+)
 from rocking.reports.fragility import fragility_data, fragility_figure
 from rocking.reports.style import svg
 from rocking.reports.summary import prediction_scatter, summary_data, summary_report

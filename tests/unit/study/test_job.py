@@ -11,10 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rocking.assessment.method import Method
-from rocking.assessment.rows.of_case import ComparisonRow, HistoryRow, MaximumRow
 from rocking.assessment.rows.of_folder import PER_RECORD
-from rocking.assessment.rows.of_record import FailureRow, PulseRow
+from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, HistoryRow, MaximumRow, PulseRow
+from rocking.assessment.verdict import Method
 from rocking.errors import RockingError, StructureError
 from rocking.motion import integrate
 from rocking.records.catalogue import CatalogueRecord

@@ -1,0 +1,428 @@
+"""The ensemble: what becomes of a structure when all that is not known varies within stated ranges.
+
+Each cause is uniform in its range and independent of the others. What the causes are is an assumption, not a
+measurement; the ensemble says how sure an answer can be if they are right. Its members stand at the points of a
+deterministic design: rank-1 lattices, the smaller ones contained in the larger.
+"""
+
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
+from types import MappingProxyType
+
+import numpy as np
+
+from rocking.assessment.verdict import NEGLIGIBLE, Verdict, verdict
+from rocking.described import check_described, described
+from rocking.errors import ConfigurationError, MotionError, RecordError
+from rocking.motion.forcing import forcing_of
+from rocking.motion.integration import TOLERANCES, Rocking, reduce
+from rocking.motion.members import follow_factors
+from rocking.pulses import rotated
+from rocking.quantities import within
+from rocking.records import Accelerogram
+from rocking.records.processing import process, variants
+from rocking.records.rotation import aligned
+from rocking.structures import Mechanism
+
+CAUSES = ("amplitude", "restitution", "polarity", "direction", "processing", "vertical")
+"""What may vary: each is a coordinate of a point of the design."""
+SIZES = (16, 64, 256, 1024, 4096)
+"""Numbers of points that a design may have; each is contained in the next."""
+FIRST, MOST_NEAR_A_LIMIT = 16, 256
+"""Members with which an ensemble begins, and those it grows to where its verdict is not clear."""
+
+
+@dataclass(frozen=True)
+class EnsembleSettings:
+    """What is not known of a case, and how much of it a verdict bears. Raises ConfigurationError."""
+
+    members: int = described(
+        64,
+        "members of an ensemble, taken up to the next of 16, 64, 256, 1024 and 4096; 0: none",
+        ge=0,
+        le=4096,
+    )
+    amplitude_range: float = described(
+        0.05, "the ground motion is known to plus or minus this share", ge=0, le=0.9
+    )
+    restitution_range: float = described(
+        0.05,
+        "the restitution is known to plus or minus this much, where a structure does not say its own",
+        ge=0,
+        le=1,
+    )
+    polarity: bool = described(
+        True, "whether the sign of the motion is unknown to a structure with unlike sides"
+    )
+    processing: bool = described(
+        True, "whether baseline and corner frequency of a record are unknown whose file says that it is raw"
+    )
+    risk: float = described(
+        0.05, "largest probability of the opposite under which a structure stands or overturns", gt=0, le=0.45
+    )
+
+    def __post_init__(self) -> None:
+        check_described(ConfigurationError, self)
+
+    @property
+    def size(self) -> int:
+        """Members of the design that is used; 0 for none."""
+        return next(size for size in (0, *SIZES) if size >= self.members)
+
+
+UNANIMOUS = 64
+"""Members of which none overturns, or none stands, that settle a verdict."""
+FAR = 0.3
+"""Largest rotation ratio of fewer members up to which they settle that it stands: of 16 on the sites for choosing, no
+case up to it overturned in more than 2 % of 64. docs/research measures what it does on all sites."""
+LATTICE_ERROR = 4.0
+"""Members times the error of a probability that 95 in 100 cases stay below; see docs/research/ensembles.py."""
+_STRATA = 8
+"""Parts of its range between which the share of a continuous cause is measured."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Ensemble:
+    """The largest rotation ratio of every member, (m,): inf overturns, 0 does not lift, nan failed.
+
+    causes: value of each cause that varied, by member, (m,). settings: what varied by how much, with the structure's
+    own range of the restitution. rotation_ratio: of the case as given, nan where it is not known. reasons: why members
+    failed. crack: what opens, as statics chooses it, where the structure does not say where it is cracked. elsewhere:
+    that of another crack that may form and does not stand, where this one stands.
+    """
+
+    rotation_ratios: np.ndarray
+    causes: Mapping[str, np.ndarray]
+    settings: EnsembleSettings
+    rotation_ratio: float = float("nan")
+    reasons: Mapping[int, str] = field(default_factory=dict)
+    crack: str = ""
+    elsewhere: "Ensemble | None" = None
+
+    def __repr__(self) -> str:
+        return (
+            f"<Ensemble: {self.verdict}, overturns in {self.overturning_members} of {self.members}, largest rotation "
+            f"{self.rotation_ratio_low:.3g} to {self.rotation_ratio_high:.3g} of the critical one>"
+        )
+
+    @cached_property
+    def _followed(self) -> np.ndarray:
+        return self.rotation_ratios[~np.isnan(self.rotation_ratios)]
+
+    @property
+    def members(self) -> int:
+        """Members that could be followed."""
+        return self._followed.size
+
+    @property
+    def failed_members(self) -> int:
+        """Members that could not."""
+        return self.rotation_ratios.size - self.members
+
+    @cached_property
+    def overturning_members(self) -> int:
+        """Members that overturn."""
+        return int(np.isinf(self._followed).sum())
+
+    @property
+    def overturning_share(self) -> float:
+        """Share of members that overturn; nan without members."""
+        return self.overturning_members / self.members if self.members else float("nan")
+
+    @property
+    def uplift_share(self) -> float:
+        """Share of members that lift; nan without members."""
+        return float((self._followed > 0).mean()) if self.members else float("nan")
+
+    @property
+    def rotation_ratio_low(self) -> float:
+        """5 % quantile of the rotation ratio."""
+        return self._quantile(0.05)
+
+    @property
+    def rotation_ratio_median(self) -> float:
+        """Median of the rotation ratio."""
+        return self._quantile(0.5)
+
+    @property
+    def rotation_ratio_high(self) -> float:
+        """95 % quantile of the rotation ratio; inf where more than 5 % overturn."""
+        return self._quantile(0.95)
+
+    def _quantile(self, share: float) -> float:
+        """Linear between the members, taken at the middles of equal parts of probability; inf beside one that is."""
+        if not self.members:
+            return float("nan")
+        place = np.clip(share * self.members - 0.5, 0, self.members - 1)
+        return float(np.interp(place, np.arange(self.members), np.sort(self._followed)))
+
+    @property
+    def verdict(self) -> Verdict:
+        """What can be said of the structure: undecided, too, where it stands only as statics lets it crack."""
+        if self.members and np.all(self._followed <= NEGLIGIBLE):
+            alone = Verdict.STANDS
+        else:
+            alone = verdict(self.overturning_share, self.probability_error, self.settings.risk)
+        return Verdict.UNDECIDED if alone is Verdict.STANDS and self.elsewhere is not None else alone
+
+    @property
+    def probability_error(self) -> float:
+        """How far the probability may lie from that of very many members; none where so many agree that it is small.
+
+        Of a lattice the error falls with the members themselves, not with their root. No member of UNANIMOUS or more
+        that differs counts as none that does, and so do fewer that all stay FAR from overturning.
+        """
+        many = self.members >= UNANIMOUS and self.overturning_members in (0, self.members)
+        return 0.0 if many or self.far else LATTICE_ERROR / max(self.members, 1)
+
+    @property
+    def far(self) -> bool:
+        """Whether all members stay far from overturning."""
+        return bool(self.members and self._followed.max() <= FAR)
+
+    @cached_property
+    def shares(self) -> dict[str, float]:
+        """Share of the variance of the rotation ratio (1 where it overturns) that each cause explains by itself."""
+        followed = ~np.isnan(self.rotation_ratios)
+        answer = np.minimum(self._followed, 1.0)
+        return {name: _share(answer, values[followed]) for name, values in self.causes.items()}
+
+    def worst(self, cause: str) -> str:
+        """Return the value of `cause` with which it rotates most on average; "" of a cause that did not vary."""
+        if (values := self.causes.get(cause)) is None:
+            return ""
+        capped = np.minimum(self.rotation_ratios, 1.0)
+        means = {str(name): float(np.nanmean(capped[values == name])) for name in np.unique(values)}
+        return max(means, key=means.__getitem__)
+
+
+def _share(answer: np.ndarray, values: np.ndarray) -> float:
+    """The variance between the groups of a cause over the whole, less what chance alone would put there (ω²)."""
+    total = float(((answer - answer.mean()) ** 2).sum())
+    if answer.size < 2 * _STRATA or total == 0:
+        return 0.0
+    kinds, group = np.unique(values, return_inverse=True)
+    if values.dtype.kind == "f" and kinds.size > _STRATA:
+        group = np.argsort(np.argsort(values, kind="stable")) * _STRATA // values.size
+    counts = np.bincount(group)
+    means = np.bincount(group, answer) / counts
+    between = float((counts * (means - answer.mean()) ** 2).sum())
+    within = (total - between) / (answer.size - counts.size)
+    return float(np.clip((between - (counts.size - 1) * within) / total, 0.0, 1.0))
+
+
+AS_IT_IS = "unchanged"
+"""The variant that is the record itself."""
+
+
+def is_raw(accelerogram: Accelerogram) -> bool:
+    """Whether the record comes from a file that says it is uncorrected, whatever was done to it since."""
+    return bool(accelerogram.source.path) and accelerogram.processed is False
+
+
+DIRECTIONS = 8
+"""Of the motion of two components, spread evenly over half a turn; the other half is that of the sign. Of 53 decided
+verdicts over three directions, 7 went beyond their risk in 24."""
+
+
+@lru_cache(maxsize=2)  # the two components of a record
+def processed(accelerogram: Accelerogram) -> Mapping[str, Accelerogram]:
+    """Return the record as each variant of the processing leaves it, by name, made once; those that do not fit are left
+    out. The one AS_IT_IS is the same object.
+    """
+    records = {}
+    for name, processing in variants().items():
+        with suppress(RecordError):
+            records[name] = process(accelerogram, processing)
+    return MappingProxyType(records)
+
+
+@dataclass(frozen=True, eq=False)
+class GroundMotions:
+    """What the ground may have done: at least one horizontal motion by direction and processing, and the vertical one.
+
+    All have the same samples. The members are shared out evenly to directions and to processings, and half of them
+    feel the vertical motion where there is one.
+    """
+
+    horizontal: Mapping[tuple[str, str], Accelerogram]
+    vertical: Accelerogram | None = None
+
+    @classmethod
+    def of(
+        cls, accelerogram: Accelerogram, vertical: Accelerogram | None = None, *, processing: bool = False
+    ) -> "GroundMotions":
+        """One component as it is; with `processing`, a raw one as each variant of its processing leaves it."""
+        found = _processings(processing, accelerogram)
+        horizontal = {(accelerogram.component, name): motions[0] for name, motions in found.items()}
+        return cls(horizontal, vertical)
+
+    @classmethod
+    def of_pair(
+        cls,
+        first: Accelerogram,
+        second: Accelerogram,
+        vertical: Accelerogram | None = None,
+        *,
+        processing: bool = False,
+    ) -> "GroundMotions":
+        """Both horizontal components and the directions between them, DIRECTIONS in all. Raises RecordError.
+
+        processing: as in `of`.
+        """
+        horizontal: dict[tuple[str, str], Accelerogram] = {}
+        for processed_as, (one, other) in _processings(processing, first, second).items():
+            for place in range(DIRECTIONS):
+                motion = rotated(one, other, np.pi * place / DIRECTIONS)
+                horizontal[_direction(place, first, second, motion), processed_as] = motion
+        along = next(iter(horizontal.values()))
+        return cls(horizontal, None if vertical is None else aligned(vertical, along))
+
+    @cached_property
+    def directions(self) -> tuple[str, ...]:
+        """The names of the directions."""
+        return tuple(dict.fromkeys(direction for direction, _ in self.horizontal))
+
+    @cached_property
+    def processings(self) -> tuple[str, ...]:
+        """The names of the processings."""
+        return tuple(dict.fromkeys(processing for _, processing in self.horizontal))
+
+
+def _direction(place: int, first: Accelerogram, second: Accelerogram, motion: Accelerogram) -> str:
+    """Its name: that of a component where it is one."""
+    if place == 0:
+        return first.component or "first"
+    return (second.component or "second") if 2 * place == DIRECTIONS else motion.component
+
+
+def _processings(wanted: bool, *components: Accelerogram) -> dict[str, tuple[Accelerogram, ...]]:
+    """The components by what their processing is named; those of raw ones that fit them all, if wanted."""
+    if not wanted or not all(map(is_raw, components)):
+        return {"": components}
+    found = [processed(component) for component in components]
+    return {
+        name: tuple(each[name] for each in found) for name in found[0] if all(name in each for each in found)
+    }
+
+
+_GENERATOR = (1, 182667, 469891, 377, 1723, 1677)
+"""Amplitude, restitution and polarity have the first components of the vector exod2_base2_m20 of Cools, Kuo & Nuyens
+(2006), Constructing embedded lattice rules for multivariate integration, SIAM J. Sci. Comput. 28, 2162-2188, published
+before any record here was seen. Its next component is that of the amplitude again at 64 points, so the others,
+direction, processing and vertical, follow from the same criterion for SIZES: of all numbers, one after the other, the
+one whose pairs with those before it have the least worst-case error (unanchored Sobolev space, order 2), relative to
+the best at each size, at the worst size. No record takes part in it, so every site is left out of the choice."""
+_SHIFT = 0.5 / 64 + 0.5 / SIZES[-1]
+"""Of all points: the first coordinate of the 64 that are usual stands in the middle of its strata, but for half a step
+of the largest lattice, which leaves no point of it on a border."""
+
+
+@lru_cache(maxsize=16)
+def lattice(size: int) -> np.ndarray:
+    """Return `size` points in (0, 1), (size, 6), read-only; the first of them are those of a smaller lattice.
+
+    size: one of SIZES. A point k has the coordinates k z/size modulo 1 with the generating vector z, moved by _SHIFT.
+    Those of the lattice of a quarter the size come first.
+    """
+    generator = np.array(_GENERATOR) % size
+    points = (_order(size)[:, None] * generator % size / size + _SHIFT) % 1.0
+    points.setflags(write=False)
+    return points
+
+
+def _order(size: int) -> np.ndarray:
+    """The numbers below `size`, those that a quarter of the points would have before the others."""
+    if size <= SIZES[0]:
+        return np.arange(size)
+    coarse = _order(size // 4) * 4
+    return np.concatenate([coarse, np.setdiff1d(np.arange(size), coarse)])
+
+
+def ensemble(
+    structure: Rocking,
+    motions: GroundMotions,
+    settings: EnsembleSettings | None = None,
+    *,
+    tolerance: float = 1e-6,
+    verdict_only: bool = False,
+) -> Ensemble:
+    """Follow `structure` through the members of its ensemble, the same ones at every call.
+
+    It ends after FIRST members that all rest, and grows to MOST_NEAR_A_LIMIT where those asked for leave a verdict in
+    doubt that more may settle. verdict_only: it ends after FIRST members, too, that all stay far from overturning:
+    that settles the verdict but says less of the band. Raises MotionError as `integrate` does.
+    """
+    settings = settings or EnsembleSettings()
+    points = lattice(max(settings.size, MOST_NEAR_A_LIMIT))
+    made = drawn(structure, motions, points[:FIRST], settings, tolerance=tolerance)
+    if np.all(made.rotation_ratios <= NEGLIGIBLE) or (verdict_only and made.far):
+        return made
+    for size in (settings.size, MOST_NEAR_A_LIMIT):
+        done = made.rotation_ratios.size
+        if size > done and (done == FIRST or _near_a_limit(made)):
+            made = _joined(made, drawn(structure, motions, points[done:size], settings, tolerance=tolerance))
+    return made
+
+
+def _near_a_limit(made: Ensemble) -> bool:
+    opposite = min(made.overturning_share, 1 - made.overturning_share)
+    return made.verdict is Verdict.UNDECIDED and opposite - made.probability_error <= made.settings.risk
+
+
+def _joined(first: Ensemble, more: Ensemble) -> Ensemble:
+    count = first.rotation_ratios.size
+    return replace(
+        first,
+        rotation_ratios=np.concatenate([first.rotation_ratios, more.rotation_ratios]),
+        causes={name: np.concatenate([values, more.causes[name]]) for name, values in first.causes.items()},
+        reasons={**first.reasons, **{count + k: reason for k, reason in more.reasons.items()}},
+    )
+
+
+def drawn(
+    structure: Rocking,
+    motions: GroundMotions,
+    points: np.ndarray,
+    settings: EnsembleSettings,
+    *,
+    tolerance: float = 1e-6,
+) -> Ensemble:
+    """Return the members at `points`, (m, 6) in (0, 1): one column for each of CAUSES, used where it varies."""
+    reduced = reduce(structure)
+    tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
+    if isinstance(reduced, Mechanism) and reduced.restitution_range is not None:
+        settings = replace(settings, restitution_range=reduced.restitution_range)
+    amplitude = 1 + settings.amplitude_range * (2 * points[:, 0] - 1)
+    offset = settings.restitution_range * (2 * points[:, 1] - 1)
+    own = np.array([reduced.sides[0].restitution, reduced.sides[-1].restitution])
+    restitution = np.clip(own + offset[:, None], 0.0, 1.0)
+    unlike = settings.polarity and not reduced.symmetric
+    polarity = np.where(points[:, 2] < 0.5, -1.0, 1.0) if unlike else np.ones(len(points))
+    directions, processings = motions.directions, motions.processings
+    direction = np.array(directions)[(points[:, 3] * len(directions)).astype(int)]
+    processing = np.array(processings)[(points[:, 4] * len(processings)).astype(int)]
+    lifted = np.where(points[:, 5] < 0.5, amplitude, 0.0)
+    varies = {
+        "amplitude": amplitude if settings.amplitude_range else None,
+        "restitution": offset if settings.restitution_range else None,
+        "polarity": polarity if unlike else None,
+        "direction": direction if len(directions) > 1 else None,
+        "processing": processing if len(processings) > 1 else None,
+        "vertical": lifted > 0 if motions.vertical is not None else None,
+    }
+    causes = {name: values for name, values in varies.items() if values is not None}
+    ratios = np.full(len(points), np.nan)
+    reasons: dict[int, str] = {}
+    for (along, done), motion in motions.horizontal.items():
+        rows = np.flatnonzero((direction == along) & (processing == done))
+        if rows.size:
+            forcing = forcing_of(motion, motions.vertical)
+            lift = None if motions.vertical is None else lifted[rows]
+            factors = amplitude[rows] * polarity[rows], lift, restitution[rows]
+            responses = follow_factors(reduced, forcing, *factors, tolerance)
+            ratios[rows] = responses.rotation_ratio
+            reasons |= {int(rows[k]): reason for k, reason in responses.reasons.items()}
+    return Ensemble(ratios, causes, settings, reasons=reasons)
