@@ -39,7 +39,7 @@ from .conftest import SETTINGS, SUMMARISED, summarised
 
 def case(structure: str, predicted: float, integrated: float, record: str = "one") -> ComparisonRow:
     """One row of the comparison table."""
-    return ComparisonRow(
+    return ComparisonRow.of(
         record=record,
         component="EW",
         structure=structure,
@@ -77,7 +77,7 @@ def scaled(record: str) -> RecordRow:
     numbers = [
         each.name for each in RecordRow.table.columns if each.holds is float and each.name != "scale_factor"
     ]
-    return RecordRow(
+    return RecordRow.of(
         **dict.fromkeys((*texts, "record_sha256", "settings_sha256"), ""),
         **dict.fromkeys(numbers, 1.0),
         record=record,
@@ -127,7 +127,7 @@ def ensemble(
 ) -> EnsembleRow:
     """One row of the ensemble table, of 64 members."""
     numbers = [each.name for each in EnsembleRow.table.columns if each.holds is float]
-    return EnsembleRow(
+    return EnsembleRow.of(
         **dict.fromkeys(numbers, 0.4) | {"overturning_share": overturning / 64, "scale_factor": 1.0},
         record=record,
         component=component,
@@ -306,7 +306,7 @@ FRAGILITY = {
     "fragility_summary": frame(
         FragilitySummaryRow,
         [
-            FragilitySummaryRow(
+            FragilitySummaryRow.of(
                 structure="pier",
                 intensity_measure="pgv",
                 rotation_ratio=math.inf,
