@@ -16,12 +16,7 @@ import numpy as np
 from docs.research import scores
 from docs.research.report import publish
 from docs.research.scores import Score
-<<<<<<< HEAD
 from docs.research.sites import independent, lifting_factor, site_of
-from rocking.assessment.ensemble import CAUSES, Ensemble, EnsembleSettings, GroundMotions, drawn, ensemble
-from rocking.assessment.ensemble import lattice
-=======
-from docs.research.sites import independent, site_of
 from rocking.assessment.ensemble import (
     CAUSES,
     Ensemble,
@@ -31,7 +26,6 @@ from rocking.assessment.ensemble import (
     ensemble,
     lattice,
 )
->>>>>>> 27056fe (Fill rows by the names of their columns, and join what is read as one)
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.records import Accelerogram
 from rocking.structures import Structure
@@ -124,12 +118,8 @@ def _inside(whole: Ensemble, many: Ensemble) -> float:
     """Where some overturn the band is open above and holds more than its share, so it says nothing of the design."""
     if whole.rotation_ratio_median <= NEGLIGIBLE or np.isinf(many.rotation_ratios).any():
         return float("nan")
-    return float(
-        (
-            (many.rotation_ratios >= whole.rotation_ratio_low)
-            & (many.rotation_ratios <= whole.rotation_ratio_high)
-        ).mean()
-    )
+    low, high = whole.rotation_ratio_low, whole.rotation_ratio_high
+    return float(((many.rotation_ratios >= low) & (many.rotation_ratios <= high)).mean())
 
 
 def ensemble_scores(trials: Sequence[EnsembleTrial], replicates: int = scores.REPLICATES) -> list[Score]:

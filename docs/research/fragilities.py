@@ -12,12 +12,7 @@ from docs.research.report import publish
 from docs.research.scores import Score
 from docs.research.sites import timed
 from rocking.assessment.ensemble import EnsembleSettings
-<<<<<<< HEAD
 from rocking.assessment.fragility import incremental_dynamic_analysis
-from rocking.assessment.trade import TradeMethod
-=======
-from rocking.assessment.fragility import Fragility, fragility_of, incremental_dynamic_analysis
->>>>>>> 27056fe (Fill rows by the names of their columns, and join what is read as one)
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.trade import TradeMethod, best_sines
 from rocking.motion import integrate_batch

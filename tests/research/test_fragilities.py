@@ -3,14 +3,9 @@
 import numpy as np
 import pytest
 
-<<<<<<< HEAD
 from docs.research.fragilities import write_fragilities
 from docs.research.scores import Score
 from rocking.assessment.trade import TradeMethod
-=======
-from docs.research.fragilities import TradeFragilityRow, write_fragilities
-from rocking.assessment.trade import TradeMethod
->>>>>>> 27056fe (Fill rows by the names of their columns, and join what is read as one)
 from rocking.records import Accelerogram
 from rocking.structures import Block
 from rocking.tables import read_table
