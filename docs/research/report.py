@@ -43,8 +43,8 @@ def _score_table(scores: Sequence[Score], part: str) -> dict[str, object]:
         ("Subject", "1.6", "l", lambda row: row.subject),
         ("Value", "0.6", "r", lambda row: number(row.value)),
         ("90 % interval", "1.1", "r", lambda row: f"{number(row.value_low)} to {number(row.value_high)}"),
-        ("Cases", "0.5", "r", lambda row: printing.whole(row.cases)),
-        ("Sites", "0.5", "r", lambda row: printing.whole(row.sites)),
+        ("Cases", "0.5", "r", lambda row: printing.given(row.cases)),
+        ("Sites", "0.5", "r", lambda row: printing.given(row.sites)),
     )
     return {**table, "caption": f"{printing.sentence(part)}; intervals by resampling sites."}
 
