@@ -5,24 +5,15 @@ import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from typing import TYPE_CHECKING, TypeGuard
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rocking.errors import MotionError, RockingError
-from rocking.motion import linear_kernel as kernel
-from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
-from rocking.motion.integration import (
-    LARGEST_GROWTH,
-    NO_LOG,
-    TOLERANCES,
-    Rocking,
-    reduce,
-    samples_of,
-    solvable_exactly,
-)
+from rocking.motion.forcing import GroundMotion, forcing_of
+from rocking.motion.integration import LARGEST_GROWTH, TOLERANCES, Rocking, reduce
 from rocking.motion.members import Members, follow_factors
-from rocking.quantities import GRAVITY, within
+from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import EquivalentBlock
 
@@ -62,14 +53,15 @@ def integrate_batch(
         )
     factors, forcing = _factors(scale_factors), forcing_of(record, vertical)
     ratios = np.full((len(structures), factors.size), math.nan)
-    if factors.size == 1 and len(structures) > 1 and _solvable(structures, forcing):
-        return _blocks(structures, forcing.scaled(factors[0]))[:, None]
     workers = workers or os.cpu_count() or 1
 
     def run(job: Sequence[tuple[int, slice]]) -> None:
         for index, some in job:
             with suppress(RockingError):
-                ratios[index, some] = _ratios(structures[index], forcing, factors[some], tolerance)
+                vertical = factors[some] if forcing.vertical else None
+                reduced = reduce(structures[index])
+                found = follow_factors(reduced, forcing, factors[some], vertical, None, tolerance)
+                ratios[index, some] = found.rotation_ratio
 
     jobs = _shared_out(len(structures), factors.size, workers)
     if workers == 1 or len(jobs) == 1:
@@ -79,12 +71,6 @@ def integrate_batch(
         with ThreadPoolExecutor(workers) as pool:
             list(pool.map(run, jobs))
     return ratios
-
-
-def _ratios(structure: Rocking, forcing: Forcing, factors: np.ndarray, tolerance: float) -> np.ndarray:
-    """The rotation ratios of one structure at `factors` (n,) of the motion."""
-    lift = factors if forcing.vertical else None
-    return follow_factors(reduce(structure), forcing, factors, lift, None, tolerance).rotation_ratio
 
 
 def _factors(given: Sequence[float] | np.ndarray) -> np.ndarray:
@@ -109,39 +95,6 @@ def _shared_out(structures: int, factors: int, workers: int) -> list[list[tuple[
     ]
     size = max(1, _SMALLEST_CHUNK // min(chunk, factors))
     return [calls[k : k + size] for k in range(0, len(calls), size)]
-
-
-def _solvable(structures: Sequence[object], forcing: Forcing) -> TypeGuard[Sequence[EquivalentBlock]]:
-    """Whether `_blocks` takes them: equivalent blocks that rock to both sides, each with a closed form."""
-    return all(
-        isinstance(each, EquivalentBlock) and not each.one_sided and solvable_exactly(each, forcing)
-        for each in structures
-    )
-
-
-def _blocks(blocks: Sequence[EquivalentBlock], forcing: Forcing) -> np.ndarray:
-    """φ_max/φ_cr, (m,), of every block in one compiled call; inf overturns, 0 does not lift, nan: too many impacts."""
-    both = [(block.sides[0], block.sides[-1]) for block in blocks]
-    status, peaks = np.zeros(len(blocks), dtype=np.int64), np.zeros((len(blocks), 2))
-    kernel.rock_linear_blocks(
-        np.array([[side.frequency_parameter for side in sides] for sides in both]),
-        np.array([[1 / (GRAVITY * side.uplift_multiplier) for side in sides] for sides in both]),
-        np.array([[side.critical_arc for side in sides] for sides in both]),
-        np.array([[side.restitution for side in sides] for sides in both]),
-        forcing.ground.horizontal * forcing.factor,
-        forcing.ground.time_step,
-        np.empty((2, 2, forcing.samples)),
-        np.zeros((2, 2)),
-        NO_LOG,
-        status,
-        peaks,
-    )
-    for peak, sides in zip(peaks, both, strict=True):
-        peak[:] = [side.rotation_ratio(x) for side, x in zip(sides, peak.tolist(), strict=True)]
-    ratios = peaks.max(axis=1)
-    ratios[status == kernel.OVERTURNS] = np.inf
-    ratios[status > kernel.OVERTURNS] = np.nan
-    return ratios
 
 
 class RockingSpectrum(np.ndarray):
@@ -184,14 +137,13 @@ def rocking_spectrum(
     >>> rocking_spectrum(record, [1.0, 2.0, 3.0], [0.1, 0.3], 0.9).shape
     (3, 2)
     """
-    forcing = forcing_of(accelerogram)
     if not isinstance(accelerogram, Accelerogram):
         raise MotionError(
-            "accelerogram is a Pulse, but must be an Accelerogram; pulse_spectrum takes a pulse."
+            f"accelerogram is a {type(accelerogram).__name__}, but must be an Accelerogram; "
+            "pulse_spectrum takes a pulse."
         )
     frequencies = _positive("frequency_parameters", frequency_parameters)
     multipliers = _positive("uplift_multipliers", uplift_multipliers)
-    pushes = 1 / (GRAVITY * multipliers)
     restitution = within(MotionError, "restitution", restitution, 0, 1)
     step = accelerogram.time_step
     if frequencies.size and frequencies.max() * step > LARGEST_GROWTH:
@@ -199,34 +151,15 @@ def rocking_spectrum(
             f"frequency_parameters reach {frequencies.max()!r} rad/s, but at a time step of {step!r} s "
             f"must stay below {LARGEST_GROWTH / step:g}."
         )
-    ratios = RockingSpectrum((frequencies.size, pushes.size))
+    # The block of λ under the record responds as the one of λ = 1 under the record over λ.
+    blocks = [EquivalentBlock(p, 1.0, 1.0, restitution) for p in frequencies.tolist()]
+    ratios = integrate_batch(blocks, accelerogram, 1 / multipliers, workers=workers).view(RockingSpectrum)
     ratios.frequency_parameters, ratios.uplift_multipliers = frequencies, multipliers
-    rows = ratios.view(np.ndarray)
-
-    def row(i: int) -> None:
-        block = EquivalentBlock(float(frequencies[i]), 1.0, GRAVITY, restitution)
-        samples, status = samples_of(block.sides, forcing), np.zeros(pushes.size, dtype=np.int64)
-        kernel.spectrum_row(
-            frequencies[i : i + 1],
-            pushes,
-            np.ones(1),
-            restitution,
-            samples,
-            np.zeros((2, 2)),
-            NO_LOG,
-            status,
-            rows[i],
-        )
-        rows[i, status == kernel.OVERTURNS] = np.inf
-        rows[i, status > kernel.OVERTURNS] = np.nan
-
-    with ThreadPoolExecutor(workers or os.cpu_count()) as pool:
-        list(pool.map(row, range(frequencies.size)))
     return ratios
 
 
 def _positive(field: str, values: Sequence[float] | np.ndarray) -> np.ndarray:
     array = np.array(values, dtype=float)
-    if array.ndim != 1 or not np.all(np.isfinite(array)) or not np.all(array > 0):
+    if array.ndim != 1 or not array.size or not np.all(np.isfinite(array) & (array > 0)):
         raise MotionError(f"{field} must be a one-dimensional array of finite numbers greater than 0.")
     return array

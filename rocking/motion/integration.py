@@ -9,6 +9,7 @@ import numpy as np
 
 from rocking.errors import MotionError
 from rocking.motion import linear_kernel, nonlinear_kernel
+from rocking.motion.compiled import IMPACT_LIMIT, OVERTURNS, ROCKS, TOO_MANY_IMPACTS
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.response import Response
 from rocking.motion.side_table import SideTable
@@ -35,8 +36,8 @@ STEP_SHARE = 0.03
 """Share of the tolerance that one step may spend: each flight amplifies the errors of those before it."""
 OUTCOMES = {
     0: Outcome.NO_UPLIFT,
-    nonlinear_kernel.ROCKS: Outcome.ROCKS,
-    nonlinear_kernel.OVERTURNS: Outcome.OVERTURNS,
+    ROCKS: Outcome.ROCKS,
+    OVERTURNS: Outcome.OVERTURNS,
 }
 WEIGHTLESS = (
     "the vertical motion takes away more than gravity for an instant, so that bodies would fly; the model keeps them "
@@ -148,10 +149,10 @@ def samples_of(sides: Sequence[EquivalentBlock], forcing: Forcing) -> linear_ker
 
 def failure(status: int, impacts: int) -> MotionError:
     """Why a run has no answer."""
-    if status == nonlinear_kernel.TOO_MANY_IMPACTS:
+    if status == TOO_MANY_IMPACTS:
         return MotionError(
             f"the structure met {impacts} impacts before the motion ended, but at most "
-            f"{nonlinear_kernel.IMPACT_LIMIT} are followed; a restitution below 1 brings it to rest."
+            f"{IMPACT_LIMIT} are followed; a restitution below 1 brings it to rest."
         )
     return MotionError("the motion left the range of floating-point numbers; check the record's amplitude.")
 
@@ -174,43 +175,34 @@ def _follow(
     start: Start,
     history: bool = False,
 ) -> Response:
-    if isinstance(reduced, Mechanism):
-        return _stepped(table_of(reduced, forcing.vertical), forcing, tolerance, start, history)
-    if solvable_exactly(reduced, forcing):
+    if isinstance(reduced, EquivalentBlock) and solvable_exactly(reduced, forcing):
         return _exact(reduced, forcing, start, history)
-    return _stepped(linear_table(reduced), forcing, tolerance, start, history)
-
-
-def _stepped(table: Table, forcing: Forcing, tolerance: float, start: Start, history: bool) -> Response:
-    """Integrate the table's mechanism through the forcing."""
+    table = (
+        linear_table(reduced) if isinstance(reduced, EquivalentBlock) else table_of(reduced, forcing.vertical)
+    )
     sides = table.kernel_of(forcing)
-    state = nonlinear_kernel.Start(*(_initial_arc(table, start) if start[2] else (0.0, 0.0, 0)))
+    arc, speed, side = _initial_arc(table, start) if start[2] else (0.0, 0.0, 0)
+    begin = nonlinear_kernel.Motion(0, 0.0, arc, speed, side, arc, abs(speed))
     lift = forcing.factor if forcing.vertical else 0.0
     member = nonlinear_kernel.Member(forcing.factor, lift, table.restitution)
-    phase, peaks = nonlinear_kernel.memory(sides.ties), np.empty((2, 2))
-    arguments = (sides, forcing.ground, member, state, STEP_SHARE * tolerance, False, phase, peaks)
-    run, log = _logged(nonlinear_kernel.rock, arguments, forcing.samples if history else 0)
-    ratios = [_ratio(table.side(1), peaks[0, 0]), _ratio(table.side(-1), peaks[0, 1])]
-    response = _concluded(
-        run, ratios, peaks[1], forcing.start_time, tolerance, table if history else None, log
+    phase = nonlinear_kernel.memory(sides.ties)
+    arguments = sides, forcing.ground, member, begin, STEP_SHARE * tolerance, False, phase
+    return _answer(
+        nonlinear_kernel.rock, arguments, table.sides, forcing, tolerance, table if history else None
     )
-    return replace(response, warning=WEIGHTLESS) if forcing.weightless else response
 
 
 def _exact(block: EquivalentBlock, forcing: Forcing, start: Start, history: bool) -> Response:
     """Follow the block through a record in closed form: no time-stepping error, only event times are iterated."""
-    sides, state = block.sides, (0.0, 0.0, 0)
+    sides, begin = block.sides, linear_kernel.Motion(0, 0.0, 0.0, 0.0, 0)
     if start[2]:
         own = sides[0 if start[2] > 0 else -1]
-        arc, speed, sign = _initial_arc(linear_table(block), start)
-        state = (arc / own.critical_arc, speed / own.velocity_scale, sign)
-    restitution, peaks = (sides[0].restitution, sides[-1].restitution), np.empty((2, 2))
-    samples = samples_of(sides, forcing)
-    begin = linear_kernel.State(*state)
-    arguments = (blocks_of(block), samples, forcing.factor, restitution, begin, False, peaks)
-    run, log = _logged(linear_kernel.rock_linear, arguments, forcing.samples if history else 0)
-    ratios = [sides[k].rotation_ratio(float(peaks[0, k])) for k in (0, -1)]
-    return _concluded(run, ratios, peaks[1], 0.0, 0.0, linear_table(block) if history else None, log)
+        arc, speed, side = _initial_arc(linear_table(block), start)
+        begin = linear_kernel.Motion(0, 0.0, arc / own.critical_arc, speed / own.velocity_scale, side)
+    restitution = sides[0].restitution, sides[-1].restitution
+    arguments = blocks_of(block), samples_of(sides, forcing), forcing.factor, restitution, begin, False
+    table = linear_table(block) if history else None
+    return _answer(linear_kernel.rock_linear, arguments, sides, forcing, 0.0, table)
 
 
 def _initial_arc(table: Table, start: Start) -> Start:
@@ -223,36 +215,26 @@ def _initial_arc(table: Table, start: Start) -> Start:
     return arc, velocity / float(side.slope(arc)), sign
 
 
-def _ratio(side: SideTable, arc: float) -> float:
-    return side.rotation_at(float(arc)) / side.critical_rotation if arc > 0 else 0.0
-
-
-def _logged(run: Any, arguments: tuple[Any, ...], expected: int) -> tuple[tuple[Any, ...], np.ndarray]:
-    """Call the compiled `run` with a log that is large enough; `expected` samples, 0 for no log."""
-    log = np.empty((2 * expected + 1000, 3)) if expected else NO_LOG
-    result = run(*arguments, log)
-    if result[-1] > log.shape[0] > 0:
-        log = np.empty((result[-1], 3))
-        result = run(*arguments, log)
-    return result, log[: result[-1]]
-
-
-def _concluded(
-    run: tuple[Any, ...],
-    ratios: list[float],
-    when: np.ndarray,
-    start_time: float,
+def _answer(
+    run: Any,
+    arguments: tuple[Any, ...],
+    sides: Sequence[SideTable | EquivalentBlock],
+    forcing: Forcing,
     tolerance: float,
     table: Table | None,
-    log: np.ndarray,
 ) -> Response:
-    """The Response of a finished run, overturned where a ratio is past the end; with a table, its history as well.
+    """The Response of the compiled `run`, overturned where a side is past its end; with a table, its history as well.
 
     Raises MotionError for a run that has no answer.
     """
-    status, impacts, uplift, last_side, steps, _ = run
+    peaks, log = np.empty((2, 2)), NO_LOG if table is None else np.zeros((2 * forcing.samples + 1001, 3))
+    status, impacts, uplift, last_side, steps = run(*arguments, peaks, log)
+    if table is not None and log[0, 0] >= log.shape[0]:
+        log = np.zeros((int(log[0, 0]) + 1, 3))
+        run(*arguments, peaks, log)
     if status not in OUTCOMES:
         raise failure(status, impacts)
+    ratios = [sides[k].rotation_ratio(float(peaks[0, k])) for k in (0, -1)]
     outcome = OUTCOMES[status] if math.isfinite(max(ratios)) else Outcome.OVERTURNS
     largest = 0 if ratios[0] >= ratios[1] else 1
     rocks = outcome is Outcome.ROCKS
@@ -261,12 +243,13 @@ def _concluded(
         rotation_ratio=math.inf if outcome is Outcome.OVERTURNS else ratios[largest],
         outcome=outcome,
         impacts=impacts,
-        peak_time=start_time + float(when[largest]) if rocks else math.nan,
-        uplift_time=start_time + uplift,
+        peak_time=forcing.start_time + float(peaks[1, largest]) if rocks else math.nan,
+        uplift_time=forcing.start_time + uplift,
         peak_side=(1, -1)[largest] if rocks else last_side,
         steps=steps,
         tolerance=tolerance,
-        times=None if times is None else times + start_time,
+        warning=WEIGHTLESS if forcing.weightless else "",
+        times=None if times is None else times + forcing.start_time,
         rotation=rotation,
         angular_velocity=velocity,
     )
@@ -274,7 +257,7 @@ def _concluded(
 
 def _states(table: Table, log: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times, rotations and angular velocities, signed, of the lines of a log, which holds arcs."""
-    times, arcs, speeds = log.T
+    times, arcs, speeds = log[1 : int(log[0, 0]) + 1].T
     rotation, velocity = np.empty_like(arcs), np.empty_like(arcs)
     negative = (arcs < 0) | ((arcs == 0) & (speeds < 0))
     for sign, rows in ((1, ~negative), (-1, negative)):

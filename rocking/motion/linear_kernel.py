@@ -8,30 +8,28 @@ in one file, and so do the tuples that they take.
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
-ROCKS, OVERTURNS, TOO_MANY_IMPACTS, NOT_FINITE = 1, 2, 3, 4
-"""How a run ends; 0 is no uplift."""
-
-REST_ENERGY = 1e-14
-"""Rocking ends at an impact that leaves less than this share of the energy that reaches φ_cr."""
-
-SETTLED = 1e-10
-"""A root is found by Newton's method when its last move is below this share: the next would be its square."""
-
-IMPACT_LIMIT = 5_000_000
-
-INSTANT, PAUSE = 1e-14, 1e-9
-"""A landing sooner than INSTANT after an uplift is a rounding: it rests for PAUSE. Both are shares of a sample."""
+from rocking.motion.compiled import (
+    IMPACT_LIMIT,
+    INSTANT,
+    LOOK_AHEAD,
+    NOT_FINITE,
+    OVERTURNS,
+    PAUSE,
+    REST_ENERGY,
+    ROCKS,
+    SETTLED,
+    TOO_MANY_IMPACTS,
+    compiled,
+    entry,
+    part,
+)
 
 NEAR = 1 / 16
 """Largest x of a chain of impacts that is looked at as a whole."""
-
-LOOK_AHEAD = 100
-"""Samples over which such a chain is examined for its end."""
 
 
 class Blocks(NamedTuple):
@@ -57,14 +55,6 @@ class Samples(NamedTuple):
     takeable: np.ndarray
 
 
-class State(NamedTuple):
-    """The state when the motion begins: x, x'/p, and side; side 0 is rest."""
-
-    x: float
-    w: float
-    side: int
-
-
 class Motion(NamedTuple):
     """Where a motion is: sample, time into it [s], x, x'/p, and side; side 0 is rest."""
 
@@ -75,16 +65,6 @@ class Motion(NamedTuple):
     side: int
 
 
-class Tally(NamedTuple):
-    """What has happened: status, impacts, time of the first uplift, steps, lines of log."""
-
-    status: int
-    impacts: int
-    uplift: float
-    steps: int
-    logged: int
-
-
 class Sample(NamedTuple):
     """A sample in which something may happen: x'' + 1 − x at its begin and end, and x and x'/p at its end if not."""
 
@@ -92,25 +72,6 @@ class Sample(NamedTuple):
     final: float
     x: float
     w: float
-
-
-# Contraction to fused multiply-adds changes roundings only; infinities and NaN keep their meaning. Without numba's
-# counting of references nothing may allocate an array: scratch arrays are handed in, filled element by element, for an
-# array expression compiles hundreds of functions of its own. Only what Python calls gets a wrapper for it: the
-# wrappers would take a third of the time of compiling.
-_OPTIONS: dict[str, Any] = {
-    "cache": True,
-    "nogil": True,
-    "error_model": "numpy",
-    "fastmath": {"contract"},
-    "_nrt": False,
-    "no_cfunc_wrapper": True,
-}
-_INNER: dict[str, Any] = {**_OPTIONS, "no_cpython_wrapper": True}
-entry = njit(**_OPTIONS)
-compiled = njit(**_INNER)
-part = njit(forceinline=True, **_INNER)
-"""Of what is called from one place: inlined there, so that nothing is handed over by way of memory."""
 
 
 @compiled
@@ -143,13 +104,22 @@ def _uplift(blocks, ground, factor, time_step, i, tau):
 
 
 @compiled
-def _write(log, logged, time, rotation, velocity):
-    """Write one line of history where there is room; the count tells how much room was needed."""
-    if log.shape[0] == 0:
-        return 0
-    if logged < log.shape[0]:
-        log[logged, 0], log[logged, 1], log[logged, 2] = time, rotation, velocity
-    return logged + 1
+def _write(log, time, rotation, velocity):
+    """Write one line of history where there is room; the first row counts how much room was needed."""
+    if log.shape[0] > 0:
+        line = int(log[0, 0]) + 1
+        log[0, 0] = line
+        if line < log.shape[0]:
+            log[line, 0], log[line, 1], log[line, 2] = time, rotation, velocity
+
+
+@compiled
+def _keep(best, log, side, peak, span, time):
+    """Keep a peak where it is the largest of its side, and write it down."""
+    slot = 0 if side > 0 else 1
+    if peak > best[0, slot]:
+        best[0, slot], best[1, slot] = peak, time
+    _write(log, time, side * peak * span, 0.0)
 
 
 @compiled
@@ -223,8 +193,8 @@ def _sample_events(x, w, drive, ramp, span):
     if force * (_exact(x, w, drive, ramp, span)[2]) < 0:  # the velocity has an extreme, its only one
         bound = min(math.atanh(min(-force / (w + ramp), 1 - 1e-16)), span)
     low, floor, speed = 0.0, x, w
-    for part in range(2):
-        if part == 1:
+    for half in range(2):
+        if half == 1:
             if bound == span:
                 break
             bound = span
@@ -306,31 +276,28 @@ def _dies_out(blocks, ground, factor, time_step, restitution, i, tau, speed, bes
 
 
 @compiled
-def _free(x, w, side, k, time, blocks, restitution, best, impacts, log, logged):
-    """Follow the equivalent block over still ground until no larger peak can come, in closed form.
+def _free(motion, time, blocks, restitution, best, log):
+    """Follow the equivalent block over still ground from `time` until no larger peak can come, in closed form.
 
-    (x − 1)² − w² is constant in each flight. Returns status, impacts, side, logged.
+    (x − 1)² − w² is constant in each flight. Returns status, impacts, side.
     """
-    frequency, span = blocks.frequency, blocks.span
-    last, turns = frequency.size - 1, 0
+    _, _, x, w, side = motion
+    frequency, span, last = blocks.frequency, blocks.span, blocks.frequency.size - 1
+    impacts, turns, k = 0, 0, 0 if side > 0 else last
     for _ in range(last + 2):
         unstable, stable = x - 1 + w, x - 1 - w
         if unstable >= 0:
-            return OVERTURNS, impacts, side, logged
+            return OVERTURNS, impacts, side
         energy = w * w + x * (2 - x)
         if w > 0:
             peak = energy / (1 + math.sqrt(max(1 - energy, 0.0)))
-            at = time + 0.5 * math.log(stable / unstable) / frequency[k]
-            logged = _write(log, logged, at, side * peak * span[k], 0.0)
-            slot = 0 if side > 0 else 1
-            if peak > best[0, slot]:
-                best[0, slot], best[1, slot] = peak, at
+            _keep(best, log, side, peak, span[k], time + 0.5 * math.log(stable / unstable) / frequency[k])
             turns += 1
             if turns > last:
                 break
         arrival = math.sqrt(energy)
         time += math.log((-1 - arrival) / unstable) / frequency[k]
-        logged = _write(log, logged, time, 0.0, -side * arrival * span[k] * frequency[k])
+        _write(log, time, 0.0, -side * arrival * span[k] * frequency[k])
         impacts += 1
         w = arrival * restitution[0 if side > 0 else 1] * frequency[k] * span[k]
         if not blocks.one_sided:
@@ -339,15 +306,15 @@ def _free(x, w, side, k, time, blocks, restitution, best, impacts, log, logged):
         x = 0.0
         if w * w <= REST_ENERGY:
             break
-    return ROCKS, impacts, side, logged
+    return ROCKS, impacts, side
 
 
 @part
-def _glide(ground, bound, time_step, p, scale, limit, full, motion, span, log, logged):
+def _glide(ground, bound, time_step, p, scale, limit, full, motion, span, log):
     """Advance from sample to sample, exactly, until one in which something may happen, an overturning, or the end.
 
     x'' = x + drive in p t, with a drive that is linear within a sample. full: the weights of a whole sample. Returns
-    where it is then, that sample, whether it overturned, samples passed, lines of log.
+    where it is then, that sample, whether it overturned, samples passed.
     """
     i, tau, x, w, side = motion
     growth, decay, up, up_end, down, down_end = full
@@ -367,117 +334,81 @@ def _glide(ground, bound, time_step, p, scale, limit, full, motion, span, log, l
         # |x''| is largest at an end of the sample, so a velocity beyond y |x''| has no zero within it.
         same = force * later >= 0 or abs(w) > width * max(abs(force), abs(later))
         if not (new > 0 and w * pull > 0 and same):
-            return Motion(i, tau, x, w, side), Sample(drive, final, new, pull), False, passed, logged
+            return Motion(i, tau, x, w, side), Sample(drive, final, new, pull), False, passed
         i, tau, x, w, drive = i + 1, 0.0, new, pull, final
         growth, decay, up, up_end, down, down_end = full
         width = p * time_step
         passed += 1
-        if log.shape[0] > 0:
-            logged = _write(log, logged, i * time_step, span * x, span * w * p)
+        _write(log, i * time_step, span * x, span * w * p)
         fallen = q - 1 > limit * bound[i]
         if fallen or i == ground.size - 1:
-            return Motion(i, tau, x, w, side), Sample(drive, final, new, pull), fallen, passed, logged
+            return Motion(i, tau, x, w, side), Sample(drive, final, new, pull), fallen, passed
 
 
 @part
 def _begin(blocks, start, best, log):
-    """The motion that starts so, and what has happened until then."""
-    x, w, side = start
+    """Forget what `best` held, and write down the start."""
     best[0, 0] = best[0, 1] = 0.0
     best[1, 0] = best[1, 1] = np.nan
-    status, uplift, k = 0, np.nan, 0 if side > 0 else blocks.frequency.size - 1
-    if side != 0:
-        status, uplift, slot = ROCKS, 0.0, 0 if side > 0 else 1
-        best[0, slot], best[1, slot] = x, 0.0
-    span = blocks.span[k]
-    logged = _write(log, 0, 0.0, side * x * span, side * w * span * blocks.frequency[k])
-    return Motion(0, 0.0, x, w, side), Tally(status, 0, uplift, 0, logged)
+    slot, k = (0, 0) if start.side > 0 else (1, blocks.frequency.size - 1)
+    if start.side != 0:
+        best[0, slot], best[1, slot] = start.x, 0.0
+    rotation, velocity = start.side * start.x * blocks.span[k], start.side * start.w * blocks.span[k]
+    _write(log, 0.0, rotation, velocity * blocks.frequency[k])
 
 
 @part
-def _lift(blocks, samples, factor, motion, tally, log):
+def _lift(blocks, samples, factor, motion, log):
     """The motion at its next uplift; at rest still if there is none."""
-    time_step, (status, impacts, uplift, steps, logged) = samples.time_step, tally
+    time_step = samples.time_step
     i, tau, side = _uplift(blocks, samples.ground, factor, time_step, motion.interval, motion.offset)
     if side != 0:
-        if status == 0:
-            status, uplift = ROCKS, i * time_step + tau
-        logged = _write(log, logged, i * time_step + tau, 0.0, 0.0)
-    return Motion(i, tau, 0.0, 0.0, side), Tally(status, impacts, uplift, steps, logged)
+        _write(log, i * time_step + tau, 0.0, 0.0)
+    return Motion(i, tau, 0.0, 0.0, side)
 
 
 @part
-def _carry_on(blocks, samples, k, motion, tally, sample, unstable, log):
-    """The motion after a sample without an impact. unstable: what x − 1 + x'/p may be at most, by sample."""
-    status, impacts, uplift, steps, logged = tally
-    if not abs(sample.x) < np.inf:
-        return motion, Tally(NOT_FINITE, impacts, uplift, steps, logged)
-    i, side, span = motion.interval + 1, motion.side, blocks.span[k]
-    at = i * samples.time_step
-    logged = _write(log, logged, at, side * sample.x * span, side * sample.w * span * blocks.frequency[k])
-    limit, takeable = unstable
-    if sample.x + sample.w - 1 > limit * takeable[i]:
-        status = OVERTURNS
-    return Motion(i, 0.0, sample.x, sample.w, side), Tally(status, impacts, uplift, steps, logged)
-
-
-@part
-def _strike(blocks, samples, factor, restitution, k, motion, tally, w, landing, y, settle, best, log):
-    """The motion after the impact at the scaled time `landing` of the y that were left of the sample, met with w."""
+def _strike(blocks, samples, factor, restitution, k, motion, w, landing, settle, best, log):
+    """The motion after the impact, met with w, at the scaled time `landing`."""
     i, tau, _, _, side = motion
-    status, impacts, uplift, steps, logged = tally
     ground, time_step, span, p = samples.ground, samples.time_step, blocks.span, blocks.frequency
+    instant = landing <= INSTANT * (p[k] * (time_step - tau))
     tau += landing / p[k]
-    logged = _write(log, logged, i * time_step + tau, 0.0, side * w * span[k] * p[k])
+    _write(log, i * time_step + tau, 0.0, side * w * span[k] * p[k])
     w *= -restitution[0 if side > 0 else 1] * p[k] * span[k]
     if not blocks.one_sided:
         side, k = -side, p.size - 1 - k
     w /= p[k] * span[k]
-    logged = _write(log, logged, i * time_step + tau, 0.0, side * w * span[k] * p[k])
+    _write(log, i * time_step + tau, 0.0, side * w * span[k] * p[k])
     if not w * w > REST_ENERGY or w < 0:
         side = 0
-        if landing <= INSTANT * y:
-            tau += PAUSE * time_step
+        tau += PAUSE * time_step if instant else 0.0
     elif settle and w < NEAR:
         speed = w * p[k] * span[k]
         if _dies_out(blocks, ground, factor, time_step, restitution, i, tau, speed, best[0]):
             side = 0
-    status = TOO_MANY_IMPACTS if impacts + 1 >= IMPACT_LIMIT else status
-    return Motion(i, tau, 0.0, w, side), Tally(status, impacts + 1, uplift, steps, logged)
+    return Motion(i, tau, 0.0, w, side)
 
 
 @part
-def _meet(blocks, samples, factor, restitution, k, motion, tally, sample, unstable, settle, best, log):
-    """The motion after a sample in which it may turn and land."""
+def _meet(blocks, samples, factor, restitution, k, motion, sample, unstable, takeable, settle, best, log):
+    """The motion after a sample in which it may turn and land, its status, and whether it has landed."""
     i, tau, x, w, side = motion
-    status, impacts, uplift, steps, logged = tally
-    p, slot = blocks.frequency[k], 0 if side > 0 else 1
+    p, span = blocks.frequency[k], blocks.span[k]
     y = p * (samples.time_step - tau)
     ramp = (sample.final - sample.drive) / y
     landing, peak, at = _sample_events(x, w, sample.drive, ramp, y)
-    when = i * samples.time_step + tau + at / p
-    if peak > best[0, slot]:
-        best[0, slot], best[1, slot] = peak, when
     if peak > 0:
-        logged = _write(log, logged, when, side * peak * blocks.span[k], 0.0)
-    tally = Tally(status, impacts, uplift, steps + 1, logged)
-    if landing < 0:
-        return _carry_on(blocks, samples, k, motion, tally, sample, unstable, log)
-    _, w, _ = _exact(x, w, sample.drive, ramp, landing)
-    return _strike(blocks, samples, factor, restitution, k, motion, tally, w, landing, y, settle, best, log)
-
-
-@part
-def _concluded(blocks, count, time_step, restitution, motion, tally, best, log):
-    """What `rock_linear` returns: where it still rocks at the end of the record, after what follows that."""
-    i, _, x, w, side = motion
-    status, impacts, uplift, steps, logged = tally
-    if side != 0 and status == ROCKS and i >= count:
-        k, time = 0 if side > 0 else blocks.frequency.size - 1, count * time_step
-        status, impacts, side, logged = _free(
-            x, w, side, k, time, blocks, restitution, best, impacts, log, logged
-        )
-    return status, impacts, uplift, side, steps, logged
+        _keep(best, log, side, peak, span, i * samples.time_step + tau + at / p)
+    if landing >= 0:
+        _, w, _ = _exact(x, w, sample.drive, ramp, landing)
+        motion = _strike(blocks, samples, factor, restitution, k, motion, w, landing, settle, best, log)
+        return motion, ROCKS, 1
+    if not abs(sample.x) < np.inf:
+        return motion, NOT_FINITE, 0
+    _write(log, (i + 1) * samples.time_step, side * sample.x * span, side * sample.w * span * p)
+    falls = sample.x + sample.w - 1 > unstable * takeable[i + 1]
+    return Motion(i + 1, 0.0, sample.x, sample.w, side), OVERTURNS if falls else ROCKS, 0
 
 
 @entry
@@ -486,87 +417,82 @@ def rock_linear(blocks, samples, factor, restitution, start, settle, best, log):
 
     factor: of ü_g. restitution: η of the positive and of the negative side. settle: whether a chain of impacts that
     provably dies out is left out, with its impacts. best: (2, 2), filled with the largest x of the positive and of the
-    negative side, and their times. log: (m, 3) for the history, or no rows. Returns status, impacts, uplift time, last
-    side, steps, lines of log.
+    negative side, and their times. log: (1 + m, 3) for the history, whose lines the first row counts, or no rows.
+    Returns status, impacts, uplift time, last side, steps.
     """
     ground, time_step, last = samples.ground, samples.time_step, blocks.frequency.size - 1
     whole = _weights(blocks.frequency[0] * time_step), _weights(blocks.frequency[last] * time_step)
-    motion, tally = _begin(blocks, start, best, log)
-    while motion.interval < ground.size - 1 and tally.status <= ROCKS:
+    _begin(blocks, start, best, log)
+    motion, impacts, steps, count = start, 0, 0, ground.size - 1
+    status, uplift = (ROCKS, 0.0) if start.side != 0 else (0, np.nan)
+    while motion.interval < count and status <= ROCKS:
         if motion.side == 0:
-            motion, tally = _lift(blocks, samples, factor, motion, tally, log)
+            motion = _lift(blocks, samples, factor, motion, log)
             if motion.side == 0:
                 break
+            if status == 0:
+                status, uplift = ROCKS, motion.interval * time_step + motion.offset
         i, tau, x, w, side = motion
         if time_step - tau <= 0:
             motion = Motion(i + 1, 0.0, x, w, side)
             continue
         k = 0 if side > 0 else last
         p, push, span = blocks.frequency[k], blocks.push[k], blocks.span[k]
-        unstable = push * abs(factor) * (1 + 1e-12), samples.takeable[k, 0 if side * factor > 0 else 1]
-        motion, sample, fallen, passed, logged = _glide(
-            ground, unstable[1], time_step, p, side * push * factor, unstable[0], whole[k], motion, side * span,
-            log, tally.logged,
-        )  # fmt: skip
-        status = OVERTURNS if fallen else tally.status
-        tally = Tally(status, tally.impacts, tally.uplift, tally.steps + passed, logged)
-        if not fallen and motion.interval < ground.size - 1:
-            motion, tally = _meet(
-                blocks, samples, factor, restitution, k, motion, tally, sample, unstable, settle, best, log
+        unstable, takeable = (
+            push * abs(factor) * (1 + 1e-12),
+            samples.takeable[k, 0 if side * factor > 0 else 1],
+        )
+        motion, sample, fallen, passed = _glide(
+            ground, takeable, time_step, p, side * push * factor, unstable, whole[k], motion, side * span, log
+        )
+        steps += passed
+        if fallen:
+            status = OVERTURNS
+        elif motion.interval < count:
+            motion, status, landed = _meet(
+                blocks, samples, factor, restitution, k, motion, sample, unstable, takeable, settle, best, log
             )
-    return _concluded(blocks, ground.size - 1, time_step, restitution, motion, tally, best, log)
+            steps, impacts = steps + 1, impacts + landed
+            status = TOO_MANY_IMPACTS if impacts >= IMPACT_LIMIT else status
+    if motion.side == 0 or status != ROCKS or motion.interval < count:
+        return status, impacts, uplift, motion.side, steps
+    status, bounces, side = _free(motion, count * time_step, blocks, restitution, best, log)
+    return status, impacts + bounces, uplift, side, steps
+
+
+@part
+def _fill(blocks, samples, factor):
+    """Fill what is needed of `takeable` under a motion of the sign of `factor`, where a negative end says it is not."""
+    for side in (1, -1):
+        k, sign = 0 if side > 0 else blocks.frequency.size - 1, side if factor > 0 else -side
+        out = samples.takeable[k, 0 if sign > 0 else 1]
+        if out[-1] < 0:
+            takeback(samples.ground, samples.time_step, blocks.frequency[k], sign, out)
 
 
 @entry
-def rock_linear_members(blocks, samples, factors, restitution, best, log, status, peaks, impacts):
-    """`rock_linear` for every member (m,): fill status, peaks (m, 2), the largest x of each side, and impacts.
+def rock_linear_members(
+    frequency, push, span, one_sided, samples, factors, restitution, best, log, status, peaks, impacts
+):
+    """`rock_linear` from rest for every member (m,): fill status, peaks (m, 2), the largest x by side, and impacts.
 
-    factors: (m,) of ü_g. restitution: (m, 2), of the positive and of the negative side. best, log: scratch, (2, 2) and
-    no rows. Chains of impacts that provably die out are not followed, nor counted.
+    frequency, push, span: (m, k), a row of Blocks for each member. samples: with negative `takeable`, which is filled
+    where a member needs it. factors: (m,) of ü_g. restitution: (m, 2), of the positive and of the negative side. best,
+    log: scratch, (2, 2) and no rows. status, peaks, impacts: 0. Chains of impacts that provably die out are not
+    followed, nor counted.
     """
-    start = State(0.0, 0.0, 0)
+    ground, time_step = samples.ground, samples.time_step
     settle = factors.size > 0  # for a literal True `rock_linear` would be compiled once more
     for m in range(factors.size):
-        eta = restitution[m, 0], restitution[m, 1]
-        status[m], impacts[m], _, _, _, _ = rock_linear(
-            blocks, samples, factors[m], eta, start, settle, best, log
-        )
-        peaks[m, 0], peaks[m, 1] = best[0, 0], best[0, 1]
-
-
-@entry
-def spectrum_row(frequency, pushes, unit, restitution, samples, best, log, status, peaks):
-    """Fill status and peaks (n,) of symmetric blocks, one frequency (1,) and every push = 1/(gλ). unit: (1,), 1."""
-    start, settle, eta = State(0.0, 0.0, 0), pushes.size > 0, (restitution, restitution)
-    for j in range(pushes.size):
-        blocks = Blocks(frequency, pushes[j : j + 1], unit, False)
-        status[j], _, _, _, _, _ = rock_linear(blocks, samples, 1.0, eta, start, settle, best, log)
-        peaks[j] = max(best[0, 0], best[0, 1])
-
-
-@entry
-def rock_linear_blocks(
-    frequency, push, span, restitution, ground, time_step, takeable, best, log, status, peaks
-):
-    """`rock_linear` from rest for every block with two sides, (m, 2) each: fill status (m,) and peaks (m, 2).
-
-    takeable, best, log: scratch, (2, 2, n), (2, 2) and no rows. Blocks that the record does not lift cost nothing.
-    """
-    start, settle, sides = State(0.0, 0.0, 0), status.size > 0, (1, -1)
-    for m in range(status.size):
-        status[m] = 0
-        peaks[m, 0] = peaks[m, 1] = 0.0
-        first = 0
-        while first < ground.size and -ground[first] * push[m, 0] <= 1 and ground[first] * push[m, 1] <= 1:
-            first += 1
-        if first == ground.size:
-            continue
-        moving = ground[max(first - 1, 0) :]  # until then it rests
-        # With a factor of 1, the positive side is pushed back by positive ü_g, the negative one by negative ü_g.
-        for k in range(2):
-            takeback(moving, time_step, frequency[m, k], sides[k], takeable[k, k])
-        blocks = Blocks(frequency[m], push[m], span[m], False)
-        samples = Samples(moving, time_step, takeable)
-        eta = restitution[m, 0], restitution[m, 1]
-        status[m], _, _, _, _, _ = rock_linear(blocks, samples, 1.0, eta, start, settle, best, log)
-        peaks[m, 0], peaks[m, 1] = best[0, 0], best[0, 1]
+        for k in range(frequency.shape[1]):
+            if m > 0 and frequency[m, k] != frequency[m - 1, k]:
+                samples.takeable[k, 0, -1] = samples.takeable[k, 1, -1] = -1.0
+        blocks = Blocks(frequency[m], push[m], span[m], one_sided)
+        i, tau, side = _uplift(blocks, ground, factors[m], time_step, 0, 0.0)
+        if side != 0:
+            _fill(blocks, samples, factors[m])
+            start, eta = Motion(i, tau, 0.0, 0.0, side), (restitution[m, 0], restitution[m, 1])
+            status[m], impacts[m], _, _, _ = rock_linear(
+                blocks, samples, factors[m], eta, start, settle, best, log
+            )
+            peaks[m, 0], peaks[m, 1] = best[0, 0], best[0, 1]

@@ -1,6 +1,6 @@
 """Many responses of one structure to one ground motion in one compiled call: the members of an ensemble."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from rocking.errors import MotionError
 from rocking.motion import linear_kernel, nonlinear_kernel
+from rocking.motion.compiled import OVERTURNS, ROCKS
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.integration import (
     NO_LOG,
@@ -17,9 +18,9 @@ from rocking.motion.integration import (
     blocks_of,
     failure,
     reduce,
-    samples_of,
     solvable_exactly,
 )
+from rocking.motion.side_table import SideTable
 from rocking.motion.table import Table, linear_table, table_of
 from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
@@ -183,7 +184,7 @@ def _stepped(
     tolerance: float,
 ) -> MemberResponses:
     """By the kernel that integrates to a tolerance."""
-    status, peaks, impacts = _room(horizontal.size)
+    results = _room(horizontal.size)
     sides = table.kernel_of(forcing)
     nonlinear_kernel.rock_members(
         sides,
@@ -195,47 +196,48 @@ def _stepped(
         nonlinear_kernel.memory(sides.ties),
         np.zeros((2, 2)),
         NO_LOG,
-        status,
-        peaks,
-        impacts,
+        *results,
     )
-    read_back = [lambda arcs, side=side: side.rotation(arcs) / side.critical_rotation for side in table.sides]
-    return _concluded(status, peaks, impacts, read_back)
+    return _concluded(table.sides, *results)
 
 
 def _exact(
     block: EquivalentBlock, forcing: Forcing, horizontal: np.ndarray, restitution: np.ndarray | None
 ) -> MemberResponses:
     """By the kernel that is exact."""
-    sides = block.sides
-    status, peaks, impacts = _room(horizontal.size)
-    eta = _restitutions(restitution, (sides[0].restitution, sides[-1].restitution), horizontal.size)
-    samples = samples_of(sides, forcing)
+    sides, results = block.sides, _room(horizontal.size)
+    own, ground = blocks_of(block), forcing.ground
+    takeable = np.empty((len(sides), 2, forcing.samples))
+    takeable[..., -1] = -1.0
     linear_kernel.rock_linear_members(
-        blocks_of(block), samples, horizontal, eta, np.zeros((2, 2)), NO_LOG, status, peaks, impacts
+        *(np.tile(values, (horizontal.size, 1)) for values in (own.frequency, own.push, own.span)),
+        own.one_sided,
+        linear_kernel.Samples(ground.horizontal, ground.time_step, takeable),
+        horizontal,
+        _restitutions(restitution, (sides[0].restitution, sides[-1].restitution), horizontal.size),
+        np.zeros((2, 2)),
+        NO_LOG,
+        *results,
     )
-    return _concluded(status, peaks, impacts, [side.rotation_ratios for side in sides])
+    return _concluded(sides, *results)
 
 
 def _concluded(
+    sides: Sequence[SideTable | EquivalentBlock],
     status: np.ndarray,
     peaks: np.ndarray,
     impacts: np.ndarray,
-    read_back: Sequence[Callable[[np.ndarray], np.ndarray]],
 ) -> MemberResponses:
-    """status, peaks, impacts: (m,), (m, 2) and (m,) as the kernels leave them. read_back: φ/φ_cr of a side's peaks.
-
-    There is one read_back for sides that mirror each other.
-    """
-    peaks[status != nonlinear_kernel.ROCKS] = 0.0
-    if len(read_back) == 1:
-        side, ratio = np.where(peaks[:, 0] >= peaks[:, 1], 1, -1), read_back[0](peaks.max(axis=1))
+    """status, peaks, impacts: (m,), (m, 2) and (m,) as the kernels leave them. sides: one where they are mirrored."""
+    peaks[status != ROCKS] = 0.0
+    if len(sides) == 1:
+        side, ratio = np.where(peaks[:, 0] >= peaks[:, 1], 1, -1), sides[0].rotation_ratios(peaks.max(axis=1))
     else:
-        one, other = (read(peaks[:, column]) for column, read in enumerate(read_back))
+        one, other = (side.rotation_ratios(peaks[:, column]) for column, side in enumerate(sides))
         side, ratio = np.where(one >= other, 1, -1), np.maximum(one, other)
     side[status == 0] = 0
-    ratio[status == nonlinear_kernel.OVERTURNS] = np.inf  # as it is where it passed the end of the mechanism
-    failed = np.flatnonzero(status > nonlinear_kernel.OVERTURNS)
+    ratio[status == OVERTURNS] = np.inf  # as it is where it passed the end of the mechanism
+    failed = np.flatnonzero(status > OVERTURNS)
     ratio[failed], side[failed] = np.nan, 0
     reasons = {int(k): str(failure(int(status[k]), int(impacts[k]))) for k in failed}
     return MemberResponses(ratio, side, reasons)

@@ -13,35 +13,30 @@ in one file, and so do the tuples that they take.
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
-ROCKS, OVERTURNS, TOO_MANY_IMPACTS, NOT_FINITE = 1, 2, 3, 4
-"""How a run ends; 0 is no uplift."""
-
-REST_ENERGY = 1e-14
-"""Rocking ends at an impact that leaves less than this share of the energy that reaches φ_cr.
-
-The next flight would rise to about half this share of φ_cr, less than ten roundings of φ_cr."""
-
-SETTLED = 1e-10
-"""A root is found by Newton's method when its last move is below this share: the next would be its square."""
-
-IMPACT_LIMIT = 5_000_000
-
-INSTANT, PAUSE = 1e-14, 1e-9
-"""A landing sooner than INSTANT after an uplift is a rounding: it rests for PAUSE. Both are shares of a sample."""
+from rocking.motion.compiled import (
+    IMPACT_LIMIT,
+    INSTANT,
+    LOOK_AHEAD,
+    NOT_FINITE,
+    OVERTURNS,
+    PAUSE,
+    ROCKS,
+    SETTLED,
+    TOO_MANY_IMPACTS,
+    compiled,
+    entry,
+    part,
+)
 
 SHORT_SHARE = 0.1
 """Share of a step's tolerance that the short series may take.
 
 Its estimate is sharper than that of the long one, which overrates the error a thousandfold. With this share as many
 responses keep to the tolerance as with the long series alone (0.2 % do not, being chaotic); with all, 0.7 % do not."""
-
-LOOK_AHEAD = 100
-"""Samples over which a chain of impacts is examined for its end."""
 
 
 class Ties(NamedTuple):
@@ -109,14 +104,6 @@ class Member(NamedTuple):
     restitution: tuple[float, float]
 
 
-class Start(NamedTuple):
-    """The state when the motion begins: arc, speed outward, and side; side 0 is rest."""
-
-    arc: float
-    speed: float
-    side: int
-
-
 class Motion(NamedTuple):
     """Where a motion is.
 
@@ -133,17 +120,6 @@ class Motion(NamedTuple):
     fastest: float
 
 
-class Tally(NamedTuple):
-    """What has happened: status, impacts, time of the first uplift, steps, peaks over still ground, lines of log."""
-
-    status: int
-    impacts: int
-    uplift: float
-    steps: int
-    turns: int
-    logged: int
-
-
 class Step(NamedTuple):
     """A step: its series, length, arc and speed at its end, when it turns and lands (−1: not), how it `_leaves`."""
 
@@ -156,37 +132,12 @@ class Step(NamedTuple):
     leaves: int
 
 
-# Contraction to fused multiply-adds changes roundings only; infinities and NaN keep their meaning. Without numba's
-# counting of references, which took a fifth of the time, nothing may allocate an array: scratch arrays are handed in,
-# filled element by element, for an array expression compiles hundreds of functions of its own. Only what Python calls
-# gets a wrapper for it: the wrappers would take a third of the time of compiling.
-_OPTIONS: dict[str, Any] = {
-    "cache": True,
-    "nogil": True,
-    "error_model": "numpy",
-    "fastmath": {"contract"},
-    "_nrt": False,
-    "no_cfunc_wrapper": True,
-}
-_INNER: dict[str, Any] = {**_OPTIONS, "no_cpython_wrapper": True}
-entry = njit(**_OPTIONS)
-compiled = njit(**_INNER)
-part = njit(forceinline=True, **_INNER)
-"""Of what is called from one place: inlined there, so that nothing is handed over by way of memory."""
-
-
-@compiled
-def _margin(lift, push, gravity, held):
-    """Acceleration along the arc that a push towards a side gives a structure that its ties hold at rest."""
-    return lift[1] * push - lift[0] * gravity - held
-
-
 @compiled
 def _margins(sides, held, ground, gravity):
-    """Acceleration that would lift the structure at rest to the positive and to the negative side."""
-    lift = sides.lift
-    negative = -np.inf if sides.one_sided else _margin(lift[lift.shape[0] - 1], ground, gravity, held[1])
-    return _margin(lift[0], -ground, gravity, held[0]), negative
+    """Acceleration along the arc that would lift the structure, held by its ties, to the positive and negative side."""
+    lift, last = sides.lift, sides.lift.shape[0] - 1
+    negative = lift[last, 1] * ground - lift[last, 0] * gravity - held[1]
+    return lift[0, 1] * -ground - lift[0, 0] * gravity - held[0], -np.inf if sides.one_sided else negative
 
 
 @compiled
@@ -668,17 +619,14 @@ def _eventless(x, h, share, arc, room, farthest, fastest, tolerance):
 
 
 @part
-def _glide(sides, phase, ground, member, k, motion, tolerance, log, logged):
-    """Advance from sample to sample by the short series, up to one in which something may happen, or the end.
-
-    Returns where it is then, and lines of log.
-    """
+def _glide(sides, phase, ground, member, k, motion, tolerance, log):
+    """Advance from sample to sample by the short series, up to one in which something may happen, or the end."""
     i, tau, arc, speed, side, farthest, fastest = motion
     pieces, grid, critical, h = sides.pieces, sides.grid, sides.critical[k], ground.time_step
     horizontal, vertical, rate, slot = ground.horizontal, ground.vertical, 1 / h, 0 if side > 0 else 1
     share = h / _longest_step(sides.ties, phase, slot, sides.longest_step[k])
     if share > 1:
-        return motion, logged
+        return motion
     push, weight = side * member.horizontal * horizontal[i], ground.gravity + member.vertical * vertical[i]
     while i < horizontal.size - 1:
         next_push = side * member.horizontal * horizontal[i + 1]
@@ -694,9 +642,8 @@ def _glide(sides, phase, ground, member, k, motion, tolerance, log, logged):
             break
         i, arc, speed, push, weight = i + 1, new, pull, next_push, next_weight
         farthest, fastest = max(farthest, arc), max(fastest, abs(speed))
-        if log.shape[0] > 0:
-            logged = _write(log, logged, i * h, side * arc, side * speed)
-    return Motion(i, tau, arc, speed, side, farthest, fastest), logged
+        _write(log, i * h, side * arc, side * speed)
+    return Motion(i, tau, arc, speed, side, farthest, fastest)
 
 
 @compiled
@@ -796,13 +743,13 @@ def _back(x):
 
 
 @compiled
-def _write(log, logged, time, arc, speed):
-    """Write one line of history where there is room; the count tells how much room was needed."""
-    if log.shape[0] == 0:
-        return 0
-    if logged < log.shape[0]:
-        log[logged, 0], log[logged, 1], log[logged, 2] = time, arc, speed
-    return logged + 1
+def _write(log, time, arc, speed):
+    """Write one line of history where there is room; the first row counts how much room was needed."""
+    if log.shape[0] > 0:
+        line = int(log[0, 0]) + 1
+        log[0, 0] = line
+        if line < log.shape[0]:
+            log[line, 0], log[line, 1], log[line, 2] = time, arc, speed
 
 
 @part
@@ -901,46 +848,28 @@ def _row(sides, side):
 
 
 @part
-def _passed(tally, steps, logged):
-    """The tally after more steps."""
-    return Tally(tally.status, tally.impacts, tally.uplift, tally.steps + steps, tally.turns, logged)
-
-
-@part
 def _begin(sides, phase, start, best, log):
-    """The motion that starts so, and what has happened until then."""
+    """Forget what `best` and the ties held, and write down the start."""
+    _forget(sides.ties, phase)
     best[0, 0] = best[0, 1] = 0.0
     best[1, 0] = best[1, 1] = np.nan
-    status, uplift, side = 0, np.nan, start.side
+    side, slot = start.side, 0 if start.side > 0 else 1
     if side != 0:
-        status, uplift, slot = ROCKS, 0.0, 0 if side > 0 else 1
         best[0, slot], best[1, slot] = start.arc, 0.0
         _enter(sides.ties, sides.grid, phase, side, _row(sides, side), start.arc, 1.0)
         if start.speed < 0:  # it came that far and turned: what yielded there lets go elastically
             _enter(sides.ties, sides.grid, phase, side, _row(sides, side), start.arc, -1.0)
-    logged = _write(log, 0, 0.0, side * start.arc, side * start.speed)
-    motion = Motion(0, 0.0, start.arc, start.speed, side, start.arc, abs(start.speed))
-    return motion, Tally(status, 0, uplift, 0, 0, logged)
+    _write(log, 0.0, side * start.arc, side * start.speed)
 
 
 @part
-def _next_interval(motion):
-    """The same motion, said of the interval at whose beginning it is."""
-    _, _, arc, speed, side, farthest, fastest = motion
-    return Motion(motion.interval + 1, 0.0, arc, speed, side, farthest, fastest)
-
-
-@part
-def _lift(sides, phase, ground, member, motion, tally, log):
+def _lift(sides, phase, ground, member, motion, log):
     """The motion at its next uplift; at rest still if there is none."""
     i, tau, side = _next_uplift(sides, phase, ground, member, motion.interval, motion.offset)
-    status, impacts, uplift, steps, turns, logged = tally
     if side != 0:
-        if status == 0:
-            status, uplift = ROCKS, i * ground.time_step + tau
-        logged = _write(log, logged, i * ground.time_step + tau, 0.0, 0.0)
+        _write(log, i * ground.time_step + tau, 0.0, 0.0)
         _enter(sides.ties, sides.grid, phase, side, _row(sides, side), 0.0, 1.0)
-    return Motion(i, tau, 0.0, 0.0, side, 0.0, 0.0), Tally(status, impacts, uplift, steps, turns, logged)
+    return Motion(i, tau, 0.0, 0.0, side, 0.0, 0.0)
 
 
 @part
@@ -968,25 +897,22 @@ def _step(sides, phase, ground, member, k, motion, tolerance, left):
 
 
 @part
-def _turn(ground, motion, tally, step, best, log):
+def _turn(ground, motion, step, best, log):
     """Keep the peak that a step passes."""
-    status, impacts, uplift, steps, turns, logged = tally
     peak, slot = motion.arc + _displacement(step.series, step.turn), 0 if motion.side > 0 else 1
     now = motion.interval * ground.time_step + motion.offset
     if peak > best[0, slot]:
         best[0, slot], best[1, slot] = peak, now + step.turn
-    logged = _write(log, logged, now + step.turn, motion.side * peak, 0.0)
-    return Tally(status, impacts, uplift, steps, turns + _over(ground, motion.interval), logged)
+    _write(log, now + step.turn, motion.side * peak, 0.0)
 
 
 @part
-def _carry_on(sides, phase, ground, member, k, motion, tally, step, left, log):
-    """The motion after a step that does not land."""
+def _carry_on(sides, phase, ground, member, k, motion, step, left, log):
+    """The motion after a step that does not land, and its status."""
     i, tau, _, _, side, farthest, fastest = motion
-    status, impacts, uplift, steps, turns, logged = tally
     arc, speed, h, leaves, slot = step.arc, step.speed, step.length, step.leaves, 0 if side > 0 else 1
     if not arc > 0 and not abs(arc) < np.inf:
-        return motion, Tally(NOT_FINITE, impacts, uplift, steps, turns, logged)
+        return motion, NOT_FINITE
     now = i * ground.time_step + tau
     if leaves != 0:
         arc = _boundary(sides.ties, phase, slot, leaves, arc)
@@ -995,25 +921,23 @@ def _carry_on(sides, phase, ground, member, k, motion, tally, step, left, log):
         way = 1.0 if leaves == 1 or (leaves == 0 and speed > 0) else -1.0
         _enter(sides.ties, sides.grid, phase, side, k, arc, way)
     i, tau = (i + 1, 0.0) if h == left else (i, tau + h)
-    logged = _write(log, logged, now + h, side * arc, side * speed)
+    _write(log, now + h, side * arc, side * speed)
     motion = Motion(i, tau, arc, speed, side, max(farthest, arc), max(fastest, abs(speed)))
-    status = OVERTURNS if _lost(sides, phase, ground, member, k, motion) else status
-    return motion, Tally(status, impacts, uplift, steps, turns, logged)
+    return motion, OVERTURNS if _lost(sides, phase, ground, member, k, motion) else ROCKS
 
 
 @part
-def _strike(sides, phase, ground, member, k, motion, tally, step, settle, best, log):
+def _strike(sides, phase, ground, member, k, motion, step, settle, best, log):
     """The motion after the impact that ends a step; at rest where it ends there."""
     i, tau, _, _, side, _, _ = motion
-    status, impacts, uplift, steps, turns, logged = tally
     landing, arrival = step.landing, -_speed(step.series, step.landing)
     now = i * ground.time_step + tau + landing
     tau += landing
-    logged = _write(log, logged, now, 0.0, -side * arrival)
+    _write(log, now, 0.0, -side * arrival)
     speed = arrival * member.restitution[0 if side > 0 else 1]
     if not sides.one_sided:
         side, k = -side, sides.pieces.shape[0] - 1 - k
-    logged = _write(log, logged, now, 0.0, side * speed)
+    _write(log, now, 0.0, side * speed)
     _enter(sides.ties, sides.grid, phase, side, k, 0.0, 1.0)
     if not speed > sides.rest_speed[k]:
         side = 0
@@ -1021,10 +945,7 @@ def _strike(sides, phase, ground, member, k, motion, tally, step, settle, best, 
             tau += PAUSE * ground.time_step
     elif settle and speed < sides.near[k, 6] and _dies_out(sides, ground, member, i, tau, speed, best[0]):
         side = 0
-    status = TOO_MANY_IMPACTS if impacts + 1 >= IMPACT_LIMIT else status
-    return Motion(i, tau, 0.0, speed, side, 0.0, speed), Tally(
-        status, impacts + 1, uplift, steps, turns, logged
-    )
+    return Motion(i, tau, 0.0, speed, side, 0.0, speed)
 
 
 @entry
@@ -1033,35 +954,43 @@ def rock(sides, ground, member, start, tolerance, settle, phase, best, log):
 
     settle: whether a chain of impacts that provably dies out is left out, with its impacts. phase: room for the memory
     of the ties. best: (2, 2), filled with the largest arc of the positive and of the negative side, and their times.
-    log: (m, 3) for the history, or no rows. Returns status, impacts, uplift time, last side, steps, lines of log.
+    log: (1 + m, 3) for the history, whose lines the first row counts, or no rows.
+    Returns status, impacts, uplift time, last side, steps.
     """
-    time_step = ground.time_step
-    _forget(sides.ties, phase)
-    motion, tally = _begin(sides, phase, start, best, log)
-    while tally.status <= ROCKS:
+    time_step, motion = ground.time_step, start
+    _begin(sides, phase, start, best, log)
+    impacts, steps, turns = 0, 0, 0
+    status, uplift = (ROCKS, 0.0) if start.side != 0 else (0, np.nan)
+    while status <= ROCKS:
         if motion.side == 0:
-            motion, tally = _lift(sides, phase, ground, member, motion, tally, log)
+            motion = _lift(sides, phase, ground, member, motion, log)
             if motion.side == 0:
                 break
+            if status == 0:
+                status, uplift = ROCKS, motion.interval * time_step + motion.offset
         k = _row(sides, motion.side)
         if time_step - motion.offset <= 0 and not _over(ground, motion.interval):
-            motion = _next_interval(motion)
+            _, _, arc, speed, side, farthest, fastest = motion
+            motion = Motion(motion.interval + 1, 0.0, arc, speed, side, farthest, fastest)
         if ground.circular_frequency == 0 and motion.offset == 0 and not _over(ground, motion.interval):
             before = motion.interval
-            motion, logged = _glide(sides, phase, ground, member, k, motion, tolerance, log, tally.logged)
-            tally = _passed(tally, motion.interval - before, logged)
+            motion = _glide(sides, phase, ground, member, k, motion, tolerance, log)
+            steps += motion.interval - before
         left = np.inf if _over(ground, motion.interval) else time_step - motion.offset
         step = _step(sides, phase, ground, member, k, motion, tolerance, left)
-        tally = _passed(tally, 1, tally.logged)
+        steps += 1
         if motion.speed > 0 and step.turn >= 0:
-            tally = _turn(ground, motion, tally, step, best, log)
-            if tally.turns >= sides.pieces.shape[0]:
+            _turn(ground, motion, step, best, log)
+            turns += _over(ground, motion.interval)
+            if turns >= sides.pieces.shape[0]:
                 break
         if step.landing < 0:
-            motion, tally = _carry_on(sides, phase, ground, member, k, motion, tally, step, left, log)
+            motion, status = _carry_on(sides, phase, ground, member, k, motion, step, left, log)
         else:
-            motion, tally = _strike(sides, phase, ground, member, k, motion, tally, step, settle, best, log)
-    return tally.status, tally.impacts, tally.uplift, motion.side, tally.steps, tally.logged
+            motion = _strike(sides, phase, ground, member, k, motion, step, settle, best, log)
+            impacts += 1
+            status = TOO_MANY_IMPACTS if impacts >= IMPACT_LIMIT else status
+    return status, impacts, uplift, motion.side, steps
 
 
 @entry
@@ -1074,13 +1003,11 @@ def rock_members(
     phase, best, log: scratch as `rock` takes it, the log without rows. Chains of impacts that provably die out are not
     followed, nor counted.
     """
-    settle, start = (
-        horizontal.size > 0,
-        Start(0.0, 0.0, 0),
-    )  # for a literal True `rock` would be compiled once more
+    settle = horizontal.size > 0  # for a literal True `rock` would be compiled once more
+    start = Motion(0, 0.0, 0.0, 0.0, 0, 0.0, 0.0)
     for m in range(horizontal.size):
         member = Member(horizontal[m], vertical[m], (restitution[m, 0], restitution[m, 1]))
-        status[m], impacts[m], _, _, _, _ = rock(
+        status[m], impacts[m], _, _, _ = rock(
             sides, ground, member, start, tolerance, settle, phase, best, log
         )
         peaks[m, 0], peaks[m, 1] = best[0, 0], best[0, 1]

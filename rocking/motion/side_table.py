@@ -90,6 +90,14 @@ class SideTable:
             ratio = coefficient + (arc - centre) * ratio
         return float(arc * ratio)
 
+    def rotation_ratio(self, arc: float) -> float:
+        """Return φ/φ_cr of one arc; 0 for none."""
+        return self.rotation_at(arc) / self.critical_rotation if arc > 0 else 0.0
+
+    def rotation_ratios(self, arcs: np.ndarray) -> np.ndarray:
+        """The same of many, any shape."""
+        return self.rotation(arcs) / self.critical_rotation
+
     def slope(self, arc: np.ndarray | float, rotation: np.ndarray | None = None) -> np.ndarray:
         """Return dφ/dq at `arc`, any shape; `rotation` there, where it is known, spares finding it."""
         if self.rotation_map is not None:

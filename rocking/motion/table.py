@@ -7,8 +7,9 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from rocking.motion.compiled import REST_ENERGY
 from rocking.motion.forcing import Forcing
-from rocking.motion.nonlinear_kernel import REST_ENERGY, Sides, Ties
+from rocking.motion.nonlinear_kernel import Sides, Ties
 from rocking.motion.side_table import DEGREE, SideTable, linear_side, side_table
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 

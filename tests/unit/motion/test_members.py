@@ -9,11 +9,6 @@ from scipy.constants import g
 
 from rocking.errors import MotionError
 from rocking.motion import Members, integrate, integrate_batch, integrate_members
-from rocking.motion import linear_kernel as linear
-from rocking.motion import nonlinear_kernel as kernel
-from rocking.motion.forcing import forcing_of
-from rocking.motion.integration import blocks_of, samples_of
-from rocking.motion.table import table_of
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Block
@@ -88,67 +83,27 @@ def test_a_pulse_and_its_mirror_image():
     assert alone[0] != pytest.approx(alone[1], rel=1e-2)
 
 
-def chains(mechanism, motion, settle):
-    """Largest arcs and impacts with and without the chains of impacts that provably die out."""
-    table, best = table_of(mechanism), np.empty((2, 2))
-    status, impacts, *_ = kernel.rock(
-        table.kernel,
-        forcing_of(motion).ground,
-        kernel.Member(1.0, 0.0, table.restitution),
-        kernel.Start(0.0, 0.0, 0),
-        1e-12,
-        settle,
-        kernel.memory(None),
-        best,
-        np.empty((0, 3)),
-    )
-    return status, best[0].max(), impacts
+@pytest.mark.parametrize("linear", [False, True])
+def test_chains_of_impacts_that_die_out_change_nothing(linear):
+    """Members leave them out and `integrate` follows them: both end in the same rest, and so does what follows.
 
-
-def test_chains_of_impacts_that_die_out_change_nothing():
-    """The rest that they end in is the same, to what a rest leaves (1e-14 of the energy), and so is what follows."""
-    rng, saved = np.random.default_rng(8), 0
+    Only cases count whose peak changes by less than a hundred times a change of the motion: roundings then stay far
+    below 1e-9 on any processor.
+    """
+    rng, steady = np.random.default_rng(8), 0
     for _ in range(200):
         mechanism, motion = random_case(rng)
         if isinstance(motion, Pulse):
             continue
-        (status, peak, impacts), (short, cut, fewer) = (chains(mechanism, motion, s) for s in (False, True))
-        assert short == status
-        assert fewer <= impacts
-        saved += impacts - fewer
-        if status == kernel.ROCKS:
-            assert cut == pytest.approx(peak, rel=1e-9)
-    assert saved > 1000
-
-
-def test_the_same_of_equivalent_blocks():
-    rng, saved = np.random.default_rng(8), 0
-    for _ in range(200):
-        mechanism, motion = random_case(rng)
-        block = mechanism.equivalent_block()
-        sides = block.sides
-        if isinstance(motion, Pulse):
-            continue
-        runs = []
-        for settle in (False, True):
-            best = np.empty((2, 2))
-            status, impacts, *_ = linear.rock_linear(
-                blocks_of(block),
-                samples_of(sides, forcing_of(motion)),
-                1.0,
-                (sides[0].restitution, sides[-1].restitution),
-                linear.State(0.0, 0.0, 0),
-                settle,
-                best,
-                np.empty((0, 3)),
-            )
-            runs.append((status, best[0].max(), impacts))
-        (status, peak, impacts), (short, cut, fewer) = runs
-        assert short == status
-        saved += impacts - fewer
-        if status == linear.ROCKS:
-            assert cut == pytest.approx(peak, rel=1e-9)
-    assert saved > 1000
+        structure = mechanism.equivalent_block() if linear else mechanism
+        alone, stronger = (
+            integrate(structure, motion.scaled(f), 1e-12).rotation_ratio for f in (1, 1 + 1e-9)
+        )
+        if np.isfinite(alone) and abs(stronger / alone - 1) < 1e-7:
+            found = integrate_members(structure, motion, Members(), 1e-12).rotation_ratio[0]
+            assert found == pytest.approx(alone, rel=1e-9)
+            steady += 1
+    assert steady > 40
 
 
 def test_batch_equals_one_response_at_a_time():
