@@ -7,6 +7,7 @@ to do. KEY=VALUE changes a setting: reports=True sets the PDFs too, structures=F
 
 import csv
 import resource
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -19,23 +20,15 @@ ROOT = Path(__file__).parents[2]
 
 def run(folder: Path, *options: str) -> str:
     """Run the workflow on the study in `folder`; return what it printed."""
-    command = [
-        *(
-            sys.executable,
-            "-m",
-            "snakemake",
-            "--snakefile",
-            str(ROOT / "Snakefile"),
-            "--cores",
-            "2",
-            "--quiet",
-        ),
-        *("--directory", str(folder), "--configfile", str(folder / "config.yaml")),
-        *("--workflow-profile", str(ROOT / "workflow" / "profiles" / "default"), "--config", *options),
-    ]
+    profile = ROOT / "workflow" / "profiles" / "default"
+    command = (
+        f"{sys.executable} -m snakemake --snakefile {ROOT / 'Snakefile'} --cores 2 --quiet --directory {folder} "
+        f"--configfile {folder / 'config.yaml'} --workflow-profile {profile} --config"
+    )
     return subprocess.run(
-        command, check=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    ).stdout
+        [*shlex.split(command), *options],
+        check=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+    ).stdout  # fmt: skip
 
 
 def cpu_of_children() -> float:
