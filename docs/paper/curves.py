@@ -1,7 +1,8 @@
 """The curves of the source paper's figures, computed here; each is a row of data before it is a line on paper."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 
@@ -59,19 +60,8 @@ class Curve:
     y: np.ndarray
     style: str = ""
 
-    def rows(self) -> Iterator[CurveRow]:
-        """Yield the points of the curve."""
-        for x, y in zip(self.x, self.y, strict=True):
-            yield CurveRow(
-                panel=self.panel,
-                curve=self.label,
-                x_quantity=self.x_quantity,
-                x=float(x),
-                y_quantity=self.y_quantity,
-                y=float(y),
-            )
 
-
+@cache
 def wall_sides() -> dict[str, Side]:
     """Return the walls of Figs. 3 and 4, hinged at mid-height, by label."""
     return {
@@ -98,6 +88,7 @@ def with_printed_inertia(side: Side) -> Side:
     )
 
 
+@cache
 def arch_sides() -> dict[str, Side]:
     """Return the semicircular arches of Figs. 6 and 7, by label."""
     return {
@@ -108,22 +99,12 @@ def arch_sides() -> dict[str, Side]:
 
 def period_curves(sides: dict[str, Side], panel: str, scale: Scale = "linearised") -> list[Curve]:
     """Return block over true period of free rocking against amplitude (Figs. 3a and 6a)."""
-    return [
-        Curve(
-            panel,
-            label,
-            AMPLITUDE,
-            PERIOD,
-            AMPLITUDES,
-            np.array(
-                [
-                    block_period(side, u, scale) / natural_period(side, u * side.critical_rotation)
-                    for u in AMPLITUDES
-                ]
-            ),
-        )
-        for label, side in sides.items()
-    ]
+    curves = []
+    for label, side in sides.items():
+        true = [natural_period(side, u * side.critical_rotation) for u in AMPLITUDES]
+        block = [block_period(side, u, scale) for u in AMPLITUDES]
+        curves.append(Curve(panel, label, AMPLITUDE, PERIOD, AMPLITUDES, np.divide(block, true)))
+    return curves
 
 
 def overturning_curves(sides: dict[str, Side], scale: Scale, panel: str) -> list[Curve]:
@@ -183,4 +164,8 @@ def _hinged(height_ratio: float, thickness_ratio: float) -> Wall:
 
 def rows_of(curves: Sequence[Curve]) -> list[CurveRow]:
     """Return all points of all curves."""
-    return [row for curve in curves for row in curve.rows()]
+    return [
+        CurveRow.of(curve, curve=curve.label, x=x, y=y)
+        for curve in curves
+        for x, y in zip(curve.x.tolist(), curve.y.tolist(), strict=True)
+    ]

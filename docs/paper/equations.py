@@ -53,16 +53,10 @@ def equation_rows() -> list[EquationRow]:
 def _row(
     equation: str, forms: tuple[str, str], quantity: str, numbers: tuple[float, float, float], by: str
 ) -> EquationRow:
-    printed, corrected, deciding = (float(number) for number in numbers)
+    names = ("printed_number", "corrected_number", "deciding_number")
+    values = dict(zip(names, map(float, numbers), strict=True))
     return EquationRow(
-        equation=equation,
-        printed=forms[0],
-        corrected=forms[1],
-        quantity=quantity,
-        printed_number=printed,
-        corrected_number=corrected,
-        deciding_number=deciding,
-        decided_by=by,
+        equation=equation, printed=forms[0], corrected=forms[1], quantity=quantity, decided_by=by, **values
     )
 
 

@@ -36,7 +36,7 @@ def lively(mechanism: Mechanism, seconds: float, rounds: int = 1) -> Accelerogra
 
 
 def beside_scipy() -> None:
-    """One response with its error against a run at 1e-13, and the same by the oracle of the tests with its own error."""
+    """One response with its error against a run at 1e-13, and the same by the oracle of the tests with its own."""
     for name, structure in (("block", BLOCK), ("arch", Arch(20.0, 2.4, np.pi))):
         mechanism = structure.mechanism()
         motion = lively(mechanism, 4)

@@ -7,7 +7,7 @@ from scipy import signal
 from rocking.pulses import PULSE_METHODS, PulseSettings, extract_pulses, predicting_pulse
 from rocking.records.accelerogram import Accelerogram
 
-SEEDS = 200
+SEEDS = 60
 
 
 def sine_cycle(times, amplitude, period, start):
@@ -42,11 +42,8 @@ def planted(seed, ratio, count=4000, step=0.01, shortest=0.4):
     period = np.exp(rng.uniform(np.log(shortest), np.log(3.0)))
     amplitude = rng.choice((-1.0, 1.0)) * rng.uniform(1.0, 6.0)
     start = rng.uniform(3.0, 0.5 * count * step)
-    times = np.arange(count) * step
-    samples = sine_cycle(times, amplitude, period, start)
-    if ratio:
-        samples = samples + ratio * abs(amplitude) * boore_noise(rng, count, step)
-    return samples, amplitude, period, start
+    samples = sine_cycle(np.arange(count) * step, amplitude, period, start)
+    return samples + ratio * abs(amplitude) * boore_noise(rng, count, step), amplitude, period, start
 
 
 def recovered(pulse, period, start):
@@ -54,12 +51,11 @@ def recovered(pulse, period, start):
     return abs(np.log(pulse.period / period)) < 0.25 and abs(pulse.start_time - start) < 0.3 * period
 
 
-@pytest.mark.parametrize("step", [0.005, 0.01, 0.02])
-@pytest.mark.parametrize("period", [0.3, 0.7, 1.9, 5.0])
-@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize(
+    ("step", "period", "sign"),
+    [(0.005, 0.3, 1), (0.01, 0.3, -1), (0.005, 5.0, -1), (0.02, 0.7, 1), (0.02, 1.9, -1)],
+)
 def test_noise_free_sine_is_recovered(step, period, sign):
-    if period / step < 15:
-        pytest.skip("fewer than 15 samples in the cycle")
     start = 4.0 + 0.377 * step
     times = np.arange(0, 20, step)
     found = extract_pulses(Accelerogram(sine_cycle(times, sign * 3.1, period, start), step))
@@ -114,16 +110,6 @@ def same(found, reference, amplitude=1.0, delay=0.0, rel=1e-9):
     assert pulse.start_time == pytest.approx(other.start_time + delay, abs=rel * other.period)
 
 
-@pytest.mark.parametrize("seed", range(20))
-def test_invariance_to_scale_sign_shift_and_padding(seed):
-    samples = planted(seed, 0.5)[0]
-    reference = extract_pulses(Accelerogram(samples, 0.01))
-    same(extract_pulses(Accelerogram(37.3 * samples, 0.01)), reference, amplitude=37.3)
-    same(extract_pulses(Accelerogram(-samples, 0.01)), reference, amplitude=-1)
-    same(extract_pulses(Accelerogram(np.pad(samples, (311, 0)), 0.01)), reference, delay=3.11)
-    same(extract_pulses(Accelerogram(np.pad(samples, (0, 777)), 0.01)), reference)
-
-
 def quiet_ended(seed, step=0.01, count=4000):
     """A pulse in noise whose velocity is zero at both ends, so that zeros may be appended: (n,) m/s²."""
     samples = planted(seed, 0.5, count, step, shortest=0.6)[0]
@@ -172,17 +158,11 @@ def test_every_method_finds_a_sine_that_stands_alone(name, period, sign):
     assert found.start_time == pytest.approx(12.003, abs=1e-6 * period)
 
 
-@pytest.mark.parametrize("seed", range(10))
-def test_an_offset_of_a_tenth_hardly_matters(seed):
-    samples = planted(seed, 0.25)[0]
-    reference = extract_pulses(Accelerogram(samples, 0.01))
-    same(extract_pulses(Accelerogram(samples + 0.1, 0.01)), reference, rel=1e-3)
-
-
-@pytest.mark.parametrize("seed", range(10))
-def test_resampling_hardly_matters(seed):
+@pytest.mark.parametrize("seed", range(6))
+def test_an_offset_of_a_tenth_and_another_sampling_hardly_matter(seed):
     samples = planted(seed, 0.25, count=8000, step=0.005)[0]
     reference = extract_pulses(Accelerogram(samples, 0.005))
+    same(extract_pulses(Accelerogram(samples + 0.1, 0.005)), reference, rel=1e-3)
     for factor in (2, 4):
         coarse = signal.decimate(samples, factor, ftype="fir", zero_phase=True)
         same(extract_pulses(Accelerogram(coarse, 0.005 * factor)), reference, rel=1e-2)
@@ -193,30 +173,32 @@ def burst(times, amplitude, frequency, cycles, start):
     return amplitude * np.sin(2 * np.pi * phase) * ((phase > 0) & (phase < cycles))
 
 
+def ranks(seeds, shortest, strength, frequency, cycles):
+    """Periods of planted pulses beside a burst `strength` times as strong, and their places in the ranking, from 0."""
+    places = []
+    for seed in seeds:
+        samples, amplitude, period, start = planted(seed, 0.25, shortest=shortest)
+        at = np.random.default_rng(1000 + seed).uniform(2, 30)
+        samples = samples + burst(np.arange(4000) * 0.01, strength * amplitude, frequency, cycles, at)
+        ranked = extract_pulses(Accelerogram(samples, 0.01)).ranked
+        hits = [recovered(each.pulse, period, start) for each in ranked]
+        places.append((period, hits.index(True) if any(hits) else len(hits)))
+    return np.array(places).T
+
+
 def test_a_strong_fast_burst_does_not_hide_the_pulse():
     # T ≥ 0.7 s: a cycle of the burst carries (3 a_g)² · 0.125 s / 2 = 0.56 a_g², more than a shorter pulse's a_g² T / 2
     # would by far; what of it leaks into the band up to 5 Hz rivals pulses below 0.7 s
-    hits = 0
-    for seed in range(SEEDS):
-        samples, amplitude, period, start = planted(seed, 0.25, shortest=0.7)
-        at = np.random.default_rng(1000 + seed).uniform(2, 30)
-        samples = samples + burst(np.arange(4000) * 0.01, 3 * amplitude, 8.0, 6, at)
-        hits += recovered(extract_pulses(Accelerogram(samples, 0.01)).dominant, period, start)
-    assert hits / SEEDS >= 0.95
+    _, place = ranks(range(SEEDS), 0.7, 3, 8.0, 6)
+    assert np.mean(place == 0) >= 0.95
 
 
-@pytest.mark.parametrize(("shortest", "first"), [(1.2, 3), (0.5, 5)])
-def test_a_burst_within_the_band_leaves_the_pulse_among_the_first(shortest, first):
+def test_a_burst_within_the_band_leaves_the_pulse_among_the_first():
     # a cycle of the burst carries (2 a_g)² · 0.25 s / 2 = 0.5 a_g², as much as a pulse of T = 1 s, and the burst
     # holds three such maxima: below that period the pulse is not among the first three, but among the first five
-    hits = 0
-    for seed in range(SEEDS):
-        samples, amplitude, period, start = planted(seed, 0.25, shortest=shortest)
-        at = np.random.default_rng(1000 + seed).uniform(2, 30)
-        samples = samples + burst(np.arange(4000) * 0.01, 2 * amplitude, 4.0, 2, at)
-        ranked = extract_pulses(Accelerogram(samples, 0.01)).ranked[:first]
-        hits += any(recovered(e.pulse, period, start) for e in ranked)
-    assert hits / SEEDS >= 0.95
+    period, place = ranks(range(SEEDS), 0.5, 2, 4.0, 2)
+    assert np.mean(place < 5) >= 0.95
+    assert np.mean(place[period >= 1.2] < 3) >= 0.95
 
 
 def test_noise_alone_explains_little():

@@ -10,7 +10,7 @@ import pytest
 
 from docs.paper import curves as paper_curves
 from docs.paper.equations import drawn_gravity, drawn_ground, drawn_inertia
-from docs.paper.report import EquationRow, equation_rows, equivalence_figures, paper_figures, paper_report
+from docs.paper.report import equation_rows, equivalence_figures, paper_figures, paper_report
 from docs.paper.response import RADII, example_arch, predicted_levels, response_curves
 from docs.paper.write import SHIPPED, write_paper
 from rocking.motion import integrate
@@ -77,12 +77,6 @@ def test_the_printed_equation_14_peaks_where_the_paper_says():
     assert np.all(np.diff(corrected.y) > 0)
 
 
-def test_figure_3_tends_to_one_for_the_slender_wall():
-    curves = {curve.label: curve for curve in paper_curves.period_curves(paper_curves.wall_sides(), "a")}
-    assert np.all(np.abs(curves["α = 0.05 rad"].y - 1) < 0.005)
-    assert np.all(curves["α = 0.3 rad"].y < curves["α = 0.05 rad"].y)
-
-
 def errors(name: str, panel: str) -> dict[str, np.ndarray]:
     """The curves of one panel of a figure, less 1, by label."""
     (figure,) = (each for each in equivalence_figures() if each.name == name)
@@ -93,20 +87,20 @@ def errors(name: str, panel: str) -> dict[str, np.ndarray]:
     }
 
 
-@pytest.mark.parametrize("periods", ["figure_3", "figure_6"])
-def test_the_period_of_the_block_exact_at_rest_is_closer_than_the_paper_s(periods):
-    paper, ours = errors(periods, "a"), errors(periods, "c")
-    for label, printed in paper.items():
+@pytest.mark.parametrize("figure", ["figure_3", "figure_6"])
+def test_the_period_of_the_block_exact_at_rest_is_closer_than_the_paper_s(figure):
+    ours = errors(figure, "c")
+    for label, printed in errors(figure, "a").items():
         # it tends to the structure's own at rest: at 0.02 φ_cr G and I have moved by a few percent
         assert abs(ours[label][0]) < 0.005
         assert np.abs(ours[label]).max() <= np.abs(printed).max()
 
 
-@pytest.mark.parametrize("times", ["figure_4", "figure_7"])
-def test_the_block_exact_at_rest_overturns_more_nearly_when_the_structure_does(times):
-    ours = errors(times, "c")
+@pytest.mark.parametrize("figure", ["figure_4", "figure_7"])
+def test_the_block_exact_at_rest_overturns_more_nearly_when_the_structure_does(figure):
+    ours = errors(figure, "c")
     for panel in "ab":
-        for label, printed in errors(times, panel).items():
+        for label, printed in errors(figure, panel).items():
             assert np.abs(ours[label]).mean() <= np.abs(printed).mean()
 
 
@@ -131,12 +125,8 @@ def test_without_its_record_figure_8_says_so_and_shows_the_shipped_one(tmp_path)
     assert message.startswith("Fig. 8 is drawn for the shipped record") and "lists no RSN1063" in message
     assert (tmp_path / "figure_8.csv").stat().st_size > 1000
     assert (tmp_path / "paper.pdf").read_bytes().startswith(b"%PDF")
-
-
-def test_the_document_is_the_same_twice_and_names_what_is_missing(figures, equations):
-    assert "The record of the paper is missing." in figures[-1].caption
-    assert paper_report(figures, equations) == paper_report(figures, equations)
-    assert {type(row) for row in equations} == {EquationRow}
+    rows = equation_rows()
+    assert paper_report([], rows) == paper_report([], rows)
 
 
 @pytest.mark.real_records
