@@ -86,24 +86,22 @@ def revealed(output: str, script: str) -> dict[int, str]:
     return {int(line): kind for line, kind in notes}
 
 
+@pytest.mark.slow
 def test_a_typed_script_passes_strictly_and_no_public_name_is_untyped(tmp_path):
     pytest.importorskip("mypy", reason="mypy checks the types, of the extra test")
     expressions = members()
     surface = "\n".join(["import rocking", *(f"reveal_type({name})" for name in expressions)])
     for name, text in (("user", USER_SCRIPT), ("surface", surface)):
         (tmp_path / f"{name}.py").write_text(text, encoding="utf-8")
-    command = [
-        sys.executable,
-        "-m",
-        "mypy",
-        "--strict",
-        "--config-file=",
-        "--cache-dir=cache",
-        "user.py",
-        "surface.py",
-    ]
+    options = ("--strict", "--config-file=", "--cache-dir=cache", "user.py", "surface.py")
     surroundings = os.environ | {"MYPYPATH": str(ROOT)}
-    done = subprocess.run(command, cwd=tmp_path, env=surroundings, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", *options],
+        cwd=tmp_path,
+        env=surroundings,
+        capture_output=True,
+        text=True,
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     assert list(revealed(done.stdout, "user").values()) == REVEALED
     types = revealed(done.stdout, "surface")

@@ -89,6 +89,7 @@ def test_the_examples_of_a_page_run(path, tmp_path):
     succeeds(sys.executable, "-W", "error", "-W", ignored, str(script), folder=tmp_path)
 
 
+@pytest.mark.slow
 def test_the_page_on_fdsn_reaches_a_verdict(monkeypatch, capsys):
     """With a stored answer in the place of the service: counts, and the sensitivity that makes them m/s²."""
     (code, _) = re.findall(r"^```py\n(.*?)^```$", written(FOLDER / "fdsn.md"), re.M | re.S)
@@ -121,10 +122,8 @@ def stored_answer():
     from obspy.core.inventory import Channel, Inventory, Network, Response, Station
     from obspy.core.inventory.response import InstrumentSensitivity
 
-    start, place = (
-        UTCDateTime("2019-07-06T03:19:40"),
-        {"latitude": 35.8, "longitude": -117.6, "elevation": 735},
-    )
+    start = UTCDateTime("2019-07-06T03:19:40")
+    place = {"latitude": 35.8, "longitude": -117.6, "elevation": 735}
     times = np.arange(0, 20, 0.01)
     acceleration = 3.0 * np.sin(2 * np.pi * times) * (times > 5) * (times < 6)
     said = InstrumentSensitivity(COUNTS_PER_M_S2, 1.0, input_units="M/S**2", output_units="COUNTS")
@@ -156,7 +155,10 @@ def test_the_commands_of_a_page_are_understood(path):
     commands = [line for line in shell if line.startswith("rocking ")]
     commands += [line for line in re.findall(r"`(rocking [a-z]+ [^`]+)`", text) if "FILE" not in line]
     for command in commands:
-        _parser().parse_args(shlex.split(command, comments=True)[1:])
+        given = shlex.split(command, comments=True)[1:]
+        assert vars(_parser().parse_args(given)), (
+            command
+        )  # which ends the process where it does not understand
 
 
 @pytest.mark.parametrize("path", WRITTEN, ids=lambda path: path.name)
@@ -172,11 +174,6 @@ def test_every_test_that_a_page_names_exists():
         assert f"def {function}" in written(ROOT / file), f"{file}::{function}"
 
 
-def test_every_page_has_its_place_in_the_navigation():
-    configuration = written(FOLDER.parent / "mkdocs.yml")
-    assert {path.name for path in PAGES} == set(re.findall(r": (\w+\.md)$", configuration, re.M))
-
-
 @pytest.mark.slow
 def test_the_site_needs_no_network_and_its_links_lead_somewhere(site, folder):
     pages = {name: Links(text) for name, text in site.items() if name != "404.html"}
@@ -189,6 +186,7 @@ def test_the_site_needs_no_network_and_its_links_lead_somewhere(site, folder):
                 continue
             assert file in (*pages, "", "."), f"{name}: {target}"
             assert not anchor or anchor in pages.get(file, page).anchors, f"{name}: {target}"
+    assert {path.stem for path in PAGES} <= {Path(name).stem for name in pages}
     assert site["theory.html"].count("<math") > 30, "equations are set before the page is opened"
 
 
@@ -217,18 +215,6 @@ def test_a_drawing_shows_the_letter_of_every_size(name, kind, form):
         letter = field.said.letter
         if field.required and letter and field.unit in ("m", "°"):
             assert any(text.rstrip("₀₁₂₃₄₅₆₇₈₉") in (letter, letter[0]) for text in texts), field.meaning
-
-
-@pytest.mark.slow
-def test_every_figure_of_the_pages_is_made(folder):
-    named = {
-        f"{path.stem}_{name}.svg"
-        for path in PAGES
-        for name in re.findall(r"^<!-- figure: (\w+)\.", written(path), re.M)
-    }
-    paper = {f"paper_figure_{number}.svg" for number in (3, 4, 6, 7)}
-    drawings = {f"{name}.svg" for name, *_ in forms()}
-    assert {path.name for path in (folder / "figures").iterdir()} == named | paper | drawings
 
 
 def test_an_unknown_generated_part_is_refused():
