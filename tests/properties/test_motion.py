@@ -12,7 +12,7 @@ from scipy.integrate import quad
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
-from rocking.structures import Arch, Block, Outcome, Wall
+from rocking.structures import Arch, Block, EquivalentBlock, Outcome, Wall
 from rocking.structures.mechanism import Mechanism
 
 BLOCK = Block(1.0, 0.25, restitution=0.85).mechanism()
@@ -26,10 +26,10 @@ FEW = settings(max_examples=25, deadline=None, derandomize=True, suppress_health
 
 def lossless(mechanism: Mechanism) -> Mechanism:
     """The same with η = 1 on every side."""
-    sides = {"positive": mechanism.positive, "negative": mechanism.negative}
-    return replace(
-        mechanism, **{name: side and replace(side, restitution=1.0) for name, side in sides.items()}
+    positive, negative = (
+        side and replace(side, restitution=1.0) for side in (mechanism.positive, mechanism.negative)
     )
+    return replace(mechanism, positive=positive, negative=negative)
 
 
 def noise(seed: int, mechanism, strength: float = 1.5, count: int = 200, step: float = 0.02) -> Accelerogram:
@@ -146,8 +146,6 @@ def test_similar_structures_under_time_scaled_records(seed, scale):
 @given(seed=SEEDS, p=st.floats(0.5, 10), critical=st.floats(1e-3, 1.0), scale=st.floats(0.1, 3.0))
 def test_every_equivalent_block_is_the_universal_one(seed, p, critical, scale):
     """In x = φ/φ_cr, p t and ü_g/(g λ) only η remains."""
-    from rocking.structures import EquivalentBlock
-
     one, other = EquivalentBlock(1.0, 1.0, 1.0, 0.8), EquivalentBlock(p, critical, scale, 0.8)
     record = noise(seed, one, step=0.05)
     same = Accelerogram(record.acceleration * other.uplift_multiplier, record.time_step / p)
@@ -192,7 +190,7 @@ def test_impact_work_balance(seed):
     )
     lost = sum(energy(side, 0.0, velocity[k]) * (1 - BLOCK.restitution**2) for k in landed)
     last = energy(side, abs(response.rotation[-1]), velocity[-1])
-    assert lost >= 0
+    assert lost > 0
     assert lost + last == pytest.approx(work_of_ground(side, response, record), rel=1e-4)
 
 

@@ -94,9 +94,5 @@ def test_where_the_printed_equation_is_dangerous(
     found = predicted(a, omega)
     assert found.rotation_ratio == pytest.approx(true, abs=0.005)
     assert found.regime is regime
-
-
-def test_the_printed_equation_can_be_negative() -> None:
-    """At ω = 8 and a from 20 on the block is beyond φ_cr when the pulse ends and 1 − D₀ < 0."""
-    values = [printed_maximum(BLOCK, on_block(a, 8.0)) for a in (16.0, 20.0, 24.0)]
-    assert min(values) < 0
+    # at ω = 8 and a from 20 on the block is beyond φ_cr when the pulse ends, and 1 − D₀ < 0
+    assert printed_maximum(BLOCK, on_block(20.0, 8.0)) < 0 or printed_maximum(BLOCK, on_block(24.0, 8.0)) < 0
