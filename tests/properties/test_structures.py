@@ -15,7 +15,7 @@ from rocking.structures.wall import Wall
 
 LENGTH = st.floats(0.1, 20.0)
 SHARE = st.floats(0.02, 0.98)
-FEW = settings(max_examples=20, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
+FEW = settings(max_examples=8, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 MANY = settings(
     max_examples=50, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
 )
