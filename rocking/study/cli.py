@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 from shlex import quote
+from typing import Any
 
 from rocking.errors import CatalogueError, ConfigurationError, RockingError, UnknownFormatError
 from rocking.quantities import GRAVITY, counted
@@ -21,7 +22,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     try:
         with warnings.catch_warnings():
-            warnings.showwarning = _say
+            warnings.showwarning = _show
             close_doors()
             return options.run(options) or 0
     except RockingError as error:
@@ -35,84 +36,67 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
 
 
-def _say(message: Warning | str, *_: object, **__: object) -> None:
+def _show(message: Warning | str, *_: object, **__: object) -> None:
     """A warning as one line for the reader, without the line of code that it came from."""
     print(f"rocking: {message}", file=sys.stderr)
 
 
 def _parser() -> argparse.ArgumentParser:
+    declared = argparse.ArgumentParser(add_help=False)
+    declared.add_argument(
+        "--unit", help="of the numbers, where the file does not say it: m/s2, cm/s2, g, ..."
+    )
+    declared.add_argument("--time-step", type=float, help="in s, where the file does not say it")
+    one_file = argparse.ArgumentParser(add_help=False, parents=[declared])
+    one_file.add_argument("file", type=Path, help="accelerogram in any known format")
+    one_file.add_argument("--scale", type=float, default=1.0, help="factor on the accelerations (default: 1)")
+    channels = argparse.ArgumentParser(add_help=False, parents=[one_file])
+    channels.add_argument("--component", default="", help="component to use (default: every horizontal one)")
+
     parser = argparse.ArgumentParser(
         prog="rocking", description="Rocking structures under recorded earthquakes."
     )
     parser.add_argument("--version", action="version", version=f"%(prog)s {version('rocking')}")
     verbs = parser.add_subparsers(required=True, metavar="verb")
-    start = _verb(verbs, "start", _start, "start a study in a folder of your own")
-    start.add_argument("folder", type=Path)
-    catalogue = _verb(verbs, "catalogue", _catalogue, "write a catalogue of the accelerograms in a folder")
-    catalogue.add_argument("folder", type=Path)
-    catalogue.add_argument("--output", type=Path, help="CSV file to write (default: catalogue.csv in it)")
-    _declarations(catalogue)
-    run = _verb(verbs, "run", _run, "run the study in a folder")
-    run.add_argument("folder", type=Path, nargs="?", default=Path(), help="of the study (default: this one)")
-    run.add_argument(
+
+    def verb(function: Any, text: str, *parents: argparse.ArgumentParser) -> Any:
+        name = function.__name__.removeprefix("_")
+        made = verbs.add_parser(name, help=text, description=text, parents=parents)
+        made.set_defaults(run=function)
+        return made.add_argument
+
+    add = verb(_start, "start a study in a folder of your own")
+    add("folder", type=Path)
+    add = verb(_catalogue, "write a catalogue of the accelerograms in a folder", declared)
+    add("folder", type=Path)
+    add("--output", type=Path, help="CSV file to write (default: catalogue.csv in it)")
+    add = verb(_run, "run the study in a folder")
+    add("folder", type=Path, nargs="?", default=Path(), help="of the study (default: this one)")
+    add(
         "snakemake", nargs="*", help="a target such as trade; what follows -- goes to snakemake: -- --dry-run"
     )
-    tables = _verb(verbs, "tables", _tables, "write the tables of records of a study that has been run")
-    tables.add_argument("results", type=Path, help="folder of the results of a study")
-    tables.add_argument("record", nargs="+", help="identifier in the catalogue")
-    reading = _record_verb(verbs, "read", _read, "read a file and say what it is")
-    reading.add_argument(
-        "--details", action="store_true", help="of a file that is not recognised: what each reader looked for"
-    )
-    for name, function, text in (
-        ("pulse", _pulse, "dominant sine pulse of a file"),
-        ("assess", _assess, "assess structures under a file"),
-        ("spectrum", _spectrum, "rocking spectrum of a file as CSV"),
-    ):
-        verb = _record_verb(verbs, name, function, text)
-        verb.add_argument("--component", default="", help="component to use (default: every horizontal one)")
-    _assess_options(verbs.choices["assess"])
-    verbs.choices["spectrum"].add_argument(
-        "--restitution", type=float, default=0.9, help="velocity ratio of an impact, 0 to 1 (default: 0.9)"
-    )
-    verbs.choices["spectrum"].add_argument(
-        "--output", type=Path, default=Path("spectrum.csv"), help="CSV file"
-    )
+    add = verb(_tables, "write the tables of records of a study that has been run")
+    add("results", type=Path, help="folder of the results of a study")
+    add("record", nargs="+", help="identifier in the catalogue")
+    add = verb(_read, "read a file and say what it is", one_file)
+    of_each = "of a file that is not recognised: what each reader looked for"
+    add("--details", action="store_true", help=of_each)
+    verb(_pulse, "dominant sine pulse of a file", channels)
+    add = verb(_assess, "assess structures under a file", channels)
+    add("structures", type=Path, help="YAML file that lists structures")
+    add("name", nargs="?", help="name of one structure in the list (default: all)")
+    add("--output", type=Path, help="folder for report.pdf and the tables behind it")
+    add = verb(_spectrum, "rocking spectrum of a file as CSV", channels)
+    add("--restitution", type=float, default=0.9, help="velocity ratio of an impact, 0 to 1 (default: 0.9)")
+    add("--output", type=Path, default=Path("spectrum.csv"), help="CSV file")
     return parser
-
-
-def _verb(verbs, name: str, function, text: str) -> argparse.ArgumentParser:
-    parser = verbs.add_parser(name, help=text, description=text)
-    parser.set_defaults(run=function)
-    return parser
-
-
-def _record_verb(verbs, name: str, function, text: str) -> argparse.ArgumentParser:
-    parser = _verb(verbs, name, function, text)
-    parser.add_argument("file", type=Path, help="accelerogram in any known format")
-    parser.add_argument("--scale", type=float, default=1.0, help="factor on the accelerations (default: 1)")
-    _declarations(parser)
-    return parser
-
-
-def _declarations(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--unit", help="of the numbers, where the file does not say it: m/s2, cm/s2, g, ...")
-    parser.add_argument("--time-step", type=float, help="in s, where the file does not say it")
-
-
-def _assess_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("structures", type=Path, help="YAML file that lists structures")
-    parser.add_argument("name", nargs="?", help="name of one structure in the list (default: all)")
-    parser.add_argument("--output", type=Path, help="folder for report.pdf and the tables behind it")
 
 
 def _start(options: argparse.Namespace) -> None:
     from rocking.study.workspace import start
 
-    for path in start(options.folder):
-        print(path)
     records = options.folder / "records"
-    print(f"Put your records into {records}, then:")
+    print(*start(options.folder), f"Put your records into {records}, then:", sep="\n")
     print(f"  rocking catalogue {quote(str(records))}")
     print(f"  rocking run {quote(str(options.folder))}")
 
@@ -155,8 +139,8 @@ def _read(options: argparse.Namespace) -> None:
         if options.details:
             print("\n".join(error.details))
         raise
-    for found in records:
-        accelerogram = found if options.scale == 1 else scaled(found, options.scale)
+    for record in records:
+        accelerogram = record if options.scale == 1 else scaled(record, options.scale)
         peak = accelerogram.peak_acceleration
         print(
             f"{accelerogram.source.format}: {accelerogram.event or 'event not named'}, "
@@ -184,34 +168,40 @@ def _pulse(options: argparse.Namespace) -> None:
 
 
 def _assess(options: argparse.Namespace) -> None:
-    from rocking.study.settings import Settings
-    from rocking.study.single_record import assess_file
+    from rocking.study.workspace import assess_file
 
-    own = _own_file(options)
-    print("\n".join(assess_file(own, options.structures, options.name, Settings(), options.output)))
+    record, channels = _own_file(options)
+    lines = assess_file(record, channels, options.structures, options.name, options.output)
+    print(*lines, sep="\n")
     if options.output is not None:
-        print(options.output / own.record.id / "report.pdf")
+        print(options.output / record.id / "report.pdf")
 
 
 def _spectrum(options: argparse.Namespace) -> None:
-    from rocking.study.single_record import write_spectrum
+    import numpy as np
 
-    write_spectrum(_accelerograms(options), options.restitution, options.output)
+    from rocking.assessment.rows.of_study import SpectrumRow, spectrum_rows
+    from rocking.tables import write_rows
+
+    frequency_parameters = np.geomspace(0.5, 10, 40)
+    uplift_multipliers = np.geomspace(0.02, 1, 40)
+    accelerograms = _accelerograms(options)
+    rows = spectrum_rows(accelerograms, frequency_parameters, uplift_multipliers, options.restitution)
+    write_rows(SpectrumRow, rows, options.output)
     print(options.output)
 
 
-def _accelerograms(options: argparse.Namespace):
+def _accelerograms(options: argparse.Namespace) -> Any:
     """The horizontal components of the file, processed as a study would."""
     from rocking.study.job import Study
 
-    own = _own_file(options)
-    return Study({}).opened(own.channels, own.record)[0]
+    return Study({}).open(*_own_file(options))[0]
 
 
-def _own_file(options: argparse.Namespace):
-    from rocking.study.single_record import Declared, read_own
+def _own_file(options: argparse.Namespace) -> Any:
+    from rocking.study.workspace import read_own
 
-    return read_own(options.file, Declared(options.unit, options.time_step, options.scale, options.component))
+    return read_own(options.file, options.unit, options.time_step, options.scale, options.component)
 
 
 if __name__ == "__main__":

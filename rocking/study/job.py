@@ -4,7 +4,8 @@ import contextlib
 import fcntl
 import os
 import signal
-from collections.abc import Callable, Iterable, Mapping
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -31,7 +32,7 @@ from rocking.assessment.variations import candidates, ensemble_over_cracks, proc
 from rocking.assessment.verdict import Method
 from rocking.errors import ConfigurationError, RockingError
 from rocking.motion.response import Response
-from rocking.records import Accelerogram, CatalogueRecord, Station, aligned, load_catalogue, open_station
+from rocking.records import Accelerogram, CatalogueRecord, aligned, load_catalogue, open_station
 from rocking.records.processing import process
 from rocking.records.station import station_of
 from rocking.structures import Structure, load_structures
@@ -62,27 +63,21 @@ class Study:
         whole = self.settings.reports or self.settings.histories
         return replace(self.settings, fidelity="full") if whole else self.settings
 
-    def open(self, record: CatalogueRecord) -> Opened:
-        """Return the components of `record`, processed as the settings say.
+    def open(self, record: CatalogueRecord, channels: list[Accelerogram] | None = None) -> Opened:
+        """Return the components of `record`, processed as the settings say. channels: of its files, if they were read.
 
         Raises RecordError naming the record, also when the vertical component does not fit the others.
         """
-        return self._processed(open_station(record, self.settings.mirror))
-
-    def opened(self, channels: list[Accelerogram], record: CatalogueRecord) -> Opened:
-        """Return what open() returns, from the `channels` of the record's file. Raises RecordError."""
-        return self._processed(station_of(channels, record))
-
-    def _processed(self, station: Station) -> Opened:
-        done = [self._process(accelerogram) for accelerogram in station.horizontal]
+        station = station_of(channels, record) if channels else open_station(record, self.settings.mirror)
+        horizontal = [self._processed(accelerogram) for accelerogram in station.horizontal]
         if station.vertical is None or not self.settings.vertical:
-            return done, None
-        vertical = self._process(station.vertical)
-        for accelerogram in done:
+            return horizontal, None
+        vertical = self._processed(station.vertical)
+        for accelerogram in horizontal:
             aligned(vertical, accelerogram)
-        return done, vertical
+        return horizontal, vertical
 
-    def _process(self, accelerogram: Accelerogram) -> Accelerogram:
+    def _processed(self, accelerogram: Accelerogram) -> Accelerogram:
         which = self.settings.processing.apply
         wanted = which == "always" or (which == "raw" and accelerogram.processed is False)
         return process(accelerogram, self.settings.processing) if wanted else accelerogram
@@ -139,15 +134,19 @@ def run_job(
     with written_part(part) as add:
         for record in records:
             assessed = assess_record(record, study)
-            tables, folder = assessed.tables, results / record.id
+            tables, folder, content = assessed.tables, results / record.id, None
             if study.settings.reports:
+                from rocking.reports.explore import record_content  # matplotlib takes a second to import
+
                 write_report(assessed, study, folder)
+                shown = (assessed.accelerograms, study.structures, tables, assessed.responses)
+                content = record_content(record.id, *shown)
             else:
                 remove_copies(folder)
             if study.settings.histories:
                 rows = history_rows(record.id, assessed.responses)
                 write_rows(HistoryRow, rows, folder / HistoryRow.table.file_name)
-            add(tables, _page_content(assessed, study) if study.settings.reports else None)
+            add(tables, content)
             tell(f"{record.id}: {record_line(tables.verdicts, tables.failures)}")
 
 
@@ -157,66 +156,60 @@ def write_report(assessed: Assessed, study: Study, folder: Path) -> None:
 
     tables, record = assessed.tables, assessed.record.id
     tables.write(folder)
-    if not tables.comparison:
-        report = failure_report(record, " ".join(failure.message for failure in tables.failures))
+    if tables.comparison:
+        shown = (study.structures, tables, study.settings.mapping(), assessed.vertical, assessed.responses)
+        report = RecordReport(record, assessed.accelerograms, *shown).pdf()
     else:
-        told = (study.structures, tables, study.settings.mapping(), assessed.vertical, assessed.responses)
-        report = RecordReport(record, assessed.accelerograms, *told).pdf()
+        report = failure_report(record, " ".join(failure.message for failure in tables.failures))
     write_whole(folder / "report.pdf", report)
 
 
-def _page_content(assessed: Assessed, study: Study) -> dict[str, object]:
-    from rocking.reports.explore import record_content  # where a report is made anyway
+def assess_record(record: CatalogueRecord, study: Study, opened: Opened | None = None) -> Assessed:
+    """Read and assess `record`; what fails becomes a row of its failures. opened: its components, if they were read."""
+    durations: dict[str, float] = defaultdict(float)
+    try:
+        with _timed(durations, "read"):
+            assessed = Assessed(record, *(opened or study.open(record)), RecordTables())
+    except RockingError as error:
+        assessed = Assessed(record, [], None, RecordTables())
+        assessed.tables.fail(record.id, "", Failure("read", "", str(error)))
+    else:
+        _assess(assessed, study, durations)
+    for stage, duration in durations.items():
+        assessed.tables.timings.append(TimingRow(record=record.id, stage=stage, duration_s=duration))
+    return assessed
 
-    return record_content(
-        assessed.record.id, assessed.accelerograms, study.structures, assessed.tables, assessed.responses
-    )
 
-
-def assess_record(record: CatalogueRecord, study: Study) -> Assessed:
-    """Read and assess `record`; what fails becomes a row of its failures."""
+@contextlib.contextmanager
+def _timed(durations: dict[str, float], stage: str) -> Iterator[None]:
+    """Add the CPU time of what is done within to that of a stage, s."""
     started = process_time()
     try:
-        opened = study.open(record)
-    except RockingError as error:
-        tables = RecordTables()
-        tables.fail(record.id, "", Failure("read", "", str(error)))
-        tables.timings.append(TimingRow(record=record.id, stage="read", duration_s=process_time() - started))
-        return Assessed(record, [], None, tables)
-    return assess_components(record, opened, study, process_time() - started)
+        yield
+    finally:
+        durations[stage] += process_time() - started
 
 
-def assess_components(
-    record: CatalogueRecord, opened: Opened, study: Study, read_duration: float = 0.0
-) -> Assessed:
-    """Assess the components of `record` that were `opened`. read_duration: CPU time that this took, s."""
-    assessed = Assessed(record, *opened, RecordTables())
-    tables, durations = assessed.tables, {"read": read_duration}
-    started = process_time()
-    motions = horizontal_motions(assessed.accelerograms)
-    if assessed.accelerograms:
-        durations["velocity pulse"] = process_time() - started
+def _assess(assessed: Assessed, study: Study, durations: dict[str, float]) -> None:
+    record, tables, settings = assessed.record, assessed.tables, study.assessment
+    with _timed(durations, "velocity pulse"):
+        motions = horizontal_motions(assessed.accelerograms)
     for accelerogram, motion in zip(assessed.accelerograms, motions, strict=True):
         beside = None if assessed.vertical is None else aligned(assessed.vertical, accelerogram)
-        alone = len(assessed.accelerograms) == 1
-        assessment = assess_structures(accelerogram, study.structures, study.assessment, beside, alone)
+        alone = len(motions) == 1
+        assessment = assess_structures(accelerogram, study.structures, settings, beside, alone)
         identity = identity_of(record.id, accelerogram, study.settings_sha256)
-        tables.add(identity, assessment, study.assessment, record.licence, beside, motion)
+        tables.add(identity, assessment, settings, record.licence, beside, motion)
         for case in assessment.cases:
             if response := case.responses.get(Method.MECHANISM_ON_RECORD):
                 assessed.responses[accelerogram.component, case.structure] = response
-        varied = process_time()
-        _vary(identity, assessment, study, tables, beside)
-        spent = {"variations": process_time() - varied, **assessment.durations}
-        durations |= {stage: durations.get(stage, 0.0) + duration for stage, duration in spent.items()}
-    settings = study.assessment
-    if len(assessed.accelerograms) == 2 and settings.ensemble.members and settings.fidelity == "full":
-        started = process_time()
-        _assess_directions(assessed, study)
-        durations["directions"] = process_time() - started
-    for stage, duration in durations.items():
-        tables.timings.append(TimingRow(record=record.id, stage=stage, duration_s=duration))
-    return assessed
+        with _timed(durations, "variations"):
+            _vary(identity, assessment, study, tables, beside)
+        for stage, duration in assessment.durations.items():
+            durations[stage] += duration
+    if len(motions) == 2 and settings.ensemble.members and settings.fidelity == "full":
+        with _timed(durations, "directions"):
+            _assess_directions(assessed, study)
 
 
 def _assess_directions(assessed: Assessed, study: Study) -> None:

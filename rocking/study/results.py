@@ -94,26 +94,6 @@ def _places(row_class: type[Row], path: Path) -> dict[str, tuple[int, int]]:
     return found
 
 
-def copy_tables(results: Path, record: str, target: Path) -> list[Path]:
-    """Write the tables of one record of a study into `target` and return their paths.
-
-    Raises RockingError where the results hold no such record.
-    """
-    folder = next((each for each in parts_in(results) if record in _places(TimingRow, each / _TIMINGS)), None)
-    if folder is None:
-        raise RockingError(
-            f"{results} holds no tables of {record!r}; name a record of a study that has been run."
-        )
-    with written_together():
-        for each in PER_RECORD:
-            write_whole(target / each.table.file_name, gathered(each, [folder], [record]))
-    return [target / each.table.file_name for each in PER_RECORD]
-
-
-_TIMINGS = TimingRow.table.file_name
-"""Holds every record, also those that could not be read."""
-
-
 def remove_copies(folder: Path) -> None:
     """Remove the tables of one record from its folder: copies of a run before, or tables of an earlier version."""
     if folder.is_dir():
@@ -169,7 +149,18 @@ class Results:
         A copy as the tables are now: the next run that assesses the record removes it from there. Raises RockingError
         where there is no such record.
         """
-        return copy_tables(self.folder, record, self.folder / record if folder is None else Path(folder))
+        timings = TimingRow.table.file_name  # of every record, also of those that could not be read
+        parts = [each for each in parts_in(self.folder) if record in _places(TimingRow, each / timings)]
+        if not parts:
+            raise RockingError(
+                f"{self.folder} holds no tables of {record!r}; name a record of a study that has been run."
+            )
+        target = self.folder / record if folder is None else Path(folder)
+        paths = {each: target / each.table.file_name for each in PER_RECORD}
+        with written_together():
+            for each, path in paths.items():
+                write_whole(path, gathered(each, parts[:1], [record]))
+        return list(paths.values())
 
     def __getattr__(self, name: str) -> "DataFrame":
         if name not in _TABLES:

@@ -1,12 +1,26 @@
-"""What stands over all records of a study: its tables, report, figure and page, from the parts of its jobs."""
+"""What stands over all records of a study: tables, report, figure and page, from its jobs; and their fragility."""
 
 import json
 import platform
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from rocking.assessment.fragility.rows import FragilitySummaryRow, IdaRow
+from rocking.assessment.fragility import incremental_dynamic_analysis
+from rocking.assessment.fragility.hazard import read_hazard
+from rocking.assessment.fragility.rows import (
+    FRAGILITY_TABLES,
+    ROTATION_RATIOS,
+    FragilityRow,
+    FragilitySummaryRow,
+    IdaRow,
+    IntensityMeasureRow,
+    fragility_rows,
+    fragility_summary_row,
+    ida_rows,
+    intensity_measure_rows,
+)
+from rocking.assessment.intensity import intensity_measure
 from rocking.assessment.rows.of_record import ComparisonRow, MaximumRow
 from rocking.assessment.rows.of_study import (
     AGREEMENT_COLUMNS,
@@ -18,10 +32,12 @@ from rocking.assessment.rows.of_study import (
     capacity_rows,
     structure_rows,
 )
+from rocking.errors import ConfigurationError, RockingError
+from rocking.records.catalogue import CatalogueRecord
 from rocking.structures import Structure
 from rocking.study.job import Study
 from rocking.study.results import IN_PARTS, gathered, page_contents, part, remove_other_parts
-from rocking.tables import data_package, frame, write_tables, write_whole
+from rocking.tables import Row, data_package, frame, write_tables, write_whole
 
 _GATHERED = [each for each in SUMMARY_TABLES if each in IN_PARTS]
 _GOVERNING = ("structure", "record", "level", "overturning_share")
@@ -116,3 +132,56 @@ def _report(folder: Path, study: Study, fragility: Path) -> None:
     write_whole(folder / "summary.pdf", summary_report(tables, study.settings.mapping(), trade))
     scatter = svg(prediction_scatter(tables["comparison"])).encode()
     write_whole(folder / "prediction_against_integration.svg", scatter)
+
+
+def write_fragility(
+    records: Iterable[CatalogueRecord],
+    study: Study,
+    folder: Path,
+    tell: Callable[[str], None] = lambda _: None,
+) -> list[str]:
+    """Write the fragility tables of `study` and their description into `folder`; return what could not be used.
+
+    A record that cannot be read, or lacks the intensity measure, costs no other. tell: takes a line for each structure.
+    Raises ConfigurationError, before anything is written, where the records that are left come from fewer than two
+    stations, or the hazard curve is none.
+    """
+    settings = study.settings.fragility
+    hazard = read_hazard(Path(settings.hazard)) if settings.hazard else None
+    measure = intensity_measure(settings.intensity_measure)
+    mechanism = next(iter(study.structures.values())).mechanism()
+    names, accelerograms, unused = [], [], []
+    for record in records:
+        try:
+            opened, _ = study.open(record)
+            for accelerogram in opened:
+                measure.of(accelerogram, mechanism)
+        except RockingError as error:
+            unused.append(f"{record.id}: {error}")
+            continue
+        names += [f"{record.id} {accelerogram.component}".strip() for accelerogram in opened]
+        accelerograms += opened
+    if not accelerograms:
+        raise ConfigurationError(
+            "no record of the catalogue can be used, but a fragility needs two stations; the log says why."
+        )
+    tables: dict[type[Row], list[Row]] = {each: [] for each in FRAGILITY_TABLES.values()}
+    for count, (name, structure) in enumerate(study.structures.items(), start=1):
+        analysis = incremental_dynamic_analysis(
+            accelerograms,
+            structure,
+            intensity_measure=settings.intensity_measure,
+            ensemble=study.assessment.ensemble if settings.members else None,
+            tolerance=study.assessment.tolerance,
+        )
+        tables[IdaRow] += ida_rows(name, names, analysis)
+        for threshold in ROTATION_RATIOS:
+            curve = analysis.fragility(threshold)
+            tables[FragilityRow] += fragility_rows(name, curve)
+            tables[FragilitySummaryRow].append(fragility_summary_row(name, curve, hazard))
+        tables[IntensityMeasureRow] += intensity_measure_rows(
+            name, structure.mechanism(), accelerograms, analysis
+        )
+        tell(f"{count} of {len(study.structures)}: {name}")
+    write_tables(tables, folder, "rocking-fragility")
+    return unused

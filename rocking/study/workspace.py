@@ -1,14 +1,23 @@
-"""A study in a folder of the user's own, apart from this package: start it, and catalogue its records."""
+"""A folder or a file of the user's own, apart from this package: start a study, catalogue records, assess one file."""
 
-from collections.abc import Mapping
+import math
+import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from rocking.assessment.rows.of_record import ComparisonRow
+from rocking.assessment.rows.of_study import CapacityRow, StructureRow, capacity_rows, structure_rows
 from rocking.errors import ConfigurationError, RecordError
-from rocking.records.catalogue import COLUMNS, catalogue_text, read_rows
+from rocking.records import Accelerogram
+from rocking.records.catalogue import COLUMNS, CatalogueRecord, catalogue_text, read_rows
 from rocking.records.folder import ListedFile, list_folder
+from rocking.records.read import read
+from rocking.structures import Outcome, load_structures
+from rocking.study.job import Study, assess_record, write_report
+from rocking.study.plan import settings_sha256
 from rocking.study.settings import Settings, commented_yaml
-from rocking.tables import write_whole
+from rocking.tables import write_tables, write_whole
 
 
 def workflow_folder() -> Path:
@@ -22,23 +31,18 @@ def start(folder: Path) -> list[Path]:
 
     Raises ConfigurationError, before anything is written, when one of the files stands there already.
     """
-    contents = _starting_files()
-    for name in contents:
-        if (folder / name).exists():
-            raise ConfigurationError(
-                f"{folder / name} exists already; choose another folder or remove it first."
-            )
-    for name, content in contents.items():
-        write_whole(folder / name, content)
-    (folder / "records").mkdir(exist_ok=True)
-    return [folder / name for name in contents]
-
-
-def _starting_files() -> Mapping[str, bytes]:
-    return {
+    contents = {
         "config.yaml": commented_yaml(Settings()).encode(),
         "structures.yaml": (workflow_folder() / "workflow" / "structures.yaml").read_bytes(),
     }
+    paths = [folder / name for name in contents]
+    for path in paths:
+        if path.exists():
+            raise ConfigurationError(f"{path} exists already; choose another folder or remove it first.")
+    for path, content in zip(paths, contents.values(), strict=True):
+        write_whole(path, content)
+    (folder / "records").mkdir(exist_ok=True)
+    return paths
 
 
 @dataclass(frozen=True)
@@ -75,3 +79,73 @@ def write_catalogue(
     }
     gone = tuple(row["id"] for row in standing if row["id"] not in there | remote)
     return WrittenCatalogue(listed, len(standing) + len(rows), len(rows), gone)
+
+
+def read_own(
+    path: Path, unit: str | None, time_step: float | None, scale_factor: float, component: str
+) -> tuple[CatalogueRecord, list[Accelerogram]]:
+    """Read a single file and return the row that a catalogue would hold for it, and every channel of it.
+
+    unit and time_step [s]: where the file does not say them. component: channels to use (";" between).
+    Raises RecordError.
+    """
+    channels = read(path, unit=unit, time_step=time_step)
+    name = re.sub(r"[^A-Za-z0-9._-]+", "_", path.stem).strip("._-")[:70]
+    record = CatalogueRecord(
+        id=f"{name}_record" if name.lower() in ("", "summary") else name,
+        file=path.resolve().name,
+        sha256=channels[0].source.sha256,
+        component=component,
+        unit=unit or "",
+        time_step=time_step,
+        scale_factor=scale_factor,
+        folder=path.resolve().parent,
+    )
+    return record, channels
+
+
+def assess_file(
+    record: CatalogueRecord,
+    channels: list[Accelerogram],
+    structures: Path,
+    name: str | None,
+    output: Path | None,
+) -> list[str]:
+    """Assess the structure `name` (None: all) of a list under one record and return lines of text.
+
+    output: a folder for the tables and report.pdf of the record, laid out like the results of a study.
+    Raises RecordError or ConfigurationError, before anything is written, when the list cannot be read or the
+    record does not hold what is asked of it.
+    """
+    listed = load_structures(structures)
+    if name not in (None, *listed):
+        names = ", ".join(listed)
+        raise ConfigurationError(f"structure is {name!r}, but must be one of those in {structures}: {names}.")
+    chosen = {each: listed[each] for each in listed if name in (None, each)}
+    study = Study(chosen, Settings(), settings_sha256(Settings(), listed))
+    assessed = assess_record(record, study, study.open(record, channels))
+    if output is not None:
+        write_report(assessed, study, output / record.id)
+        rows = {StructureRow: structure_rows(chosen), CapacityRow: capacity_rows(chosen)}
+        write_tables(rows, output / "summary")
+    failures = assessed.tables.failures
+    return [
+        *("; ".join(_facts(row)) for row in assessed.tables.comparison),
+        *(f"not assessed: {each.structure or each.stage}: {each.message}" for each in failures),
+    ]
+
+
+def _facts(row: ComparisonRow) -> Iterator[str]:
+    """What became of a structure under a component."""
+    outcome = str(row.answer_outcome)
+    if row.spared:
+        settled = "overturns" if row.answer_outcome is Outcome.OVERTURNS else "does not overturn"
+        outcome = f"{settled} ({row.answer_reason})"
+    yield f"{row.component or 'component not named'}, {row.structure}: {outcome}"
+    if math.isfinite(row.integrated_rotation_ratio):  # overturning stands in the outcome
+        yield f"largest rotation {row.integrated_rotation_ratio:.4g} of the critical one"
+    if not math.isnan(predicted := row.predicted_rotation_ratio):
+        words = "overturning" if math.isinf(predicted) else f"{predicted:.4g}"
+        yield f"one pulse predicts {words} ({row.regime})"
+    if row.scale_factor != 1:
+        yield f"the accelerations of the file were multiplied by {row.scale_factor:g}"

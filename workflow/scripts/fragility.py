@@ -1,10 +1,10 @@
-"""Measure the fragility of a study: snakemake.* onto rocking.study.fragility."""
+"""Measure the fragility of a study: snakemake.* onto rocking.study.summary."""
 
 from pathlib import Path
 
 from rocking.reports.fragility import write_fragility_report
-from rocking.study.fragility import write_fragility
 from rocking.study.job import planned
+from rocking.study.summary import write_fragility
 from rocking.study.terminal import line_writer
 
 if __name__ == "__main__":

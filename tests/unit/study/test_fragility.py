@@ -18,9 +18,9 @@ from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.reports.fragility import write_fragility_report
 from rocking.structures import Block
-from rocking.study.fragility import write_fragility
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
+from rocking.study.summary import write_fragility
 from rocking.tables import read_rows
 
 STRUCTURES = {"slender": Block.of_size(0.5, 3.0), "stout": Block.of_size(1.0, 3.0)}

@@ -20,7 +20,7 @@ from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.structures import Block
 from rocking.study.job import Study, assess_record, run_job
-from rocking.study.results import IN_PARTS, PAGE, copy_tables, page_contents, part, remove_other_parts
+from rocking.study.results import IN_PARTS, PAGE, Results, page_contents, part, remove_other_parts
 from rocking.study.settings import Settings
 from rocking.study.summary import write_summary
 from rocking.tables import csv_lines, frame, read_rows
@@ -159,14 +159,14 @@ def test_the_summary_holds_every_row_of_every_record_in_its_order(in_two_jobs) -
 def test_the_tables_of_one_record_are_those_that_it_has_alone(in_two_jobs, tmp_path: Path) -> None:
     results, records = in_two_jobs
     for record in records:
-        written = copy_tables(results, record.id, tmp_path / "copy" / record.id)
+        written = Results(results).write_record(record.id, tmp_path / "copy" / record.id)
         assert [path.name for path in written] == [each.table.file_name for each in PER_RECORD]
         _assessed(record, _study(), tmp_path / "alone")
         for path in written:
             if path.name != "timings.csv":
                 assert path.read_bytes() == (tmp_path / "alone" / path.name).read_bytes()
     with pytest.raises(RockingError, match="holds no tables of 'four'"):
-        copy_tables(results, "four", tmp_path)
+        Results(results).write_record("four", tmp_path)
 
 
 def test_a_job_that_breaks_off_leaves_nothing(tmp_path: Path) -> None:
