@@ -16,7 +16,7 @@ import math
 
 from rocking.records import Accelerogram
 from rocking.structures import Structure
-from rocking.structures.bodies import UnknownContacts
+from rocking.structures.contacts import UnknownContacts
 from rocking.structures.structure import largest_so_far
 
 
@@ -157,7 +157,7 @@ def check_model(
     lift = 0.0 if vertical is None else _at(vertical, times[rocks])
     try:
         so_far = largest_so_far(turned)[rocks]
-        contacts = structure.contact_history(turned[rocks], velocity[rocks], ground, lift, so_far)
+        contacts = structure.contact_forces(turned[rocks], velocity[rocks], None, ground, lift, so_far)
     except UnknownContacts as why:
         return unknown(str(why))
     largest = min(float(rotation.max()), structure.mechanism().positive.end_rotation)

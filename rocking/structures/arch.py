@@ -15,7 +15,7 @@ import numpy as np
 
 from rocking.errors import StructureError, StructureWarning
 from rocking.structures.arch_mechanism import (
-    Linkage,
+    FourBar,
     NoMechanism,
     Onset,
     TooThin,
@@ -27,20 +27,10 @@ from rocking.structures.arch_mechanism import (
     static_onset,
     thrust_line,
 )
-from rocking.structures.arch_ring import FOOT, PATTERN, Fill, PierRing, Ring
-from rocking.structures.bodies import (
-    Bodies,
-    Contacts,
-    MotionState,
-    Restitution,
-    cross,
-    dalembert,
-    resolve_restitution,
-    resolved,
-)
+from rocking.structures.arch_ring import FOOT, PATTERN, Bars, Fill, PierRing, Ring
 from rocking.structures.drawing import Path, plane, span, swept
 from rocking.structures.fields import Value, count, length, restitution_value
-from rocking.structures.mechanism import Mechanism, Side
+from rocking.structures.linkage import STILL, Restitution
 from rocking.structures.structure import Candidate, Crackable
 
 UNSAFE_MOMENTUM = "unsafe momentum"
@@ -66,6 +56,7 @@ class Arch(Crackable):
 
     type_name: ClassVar[str] = "arch"
     crack_name: ClassVar[str] = "hinges"
+    usual_restitution: ClassVar[float | str] = 0.9
     described_as: ClassVar[dict[str, str]] = {
         "": "Circular arch with radial joints; radius of the centreline"
     }
@@ -186,34 +177,31 @@ class Arch(Crackable):
             f"{self.embrace_angle:.6g} rad ({np.degrees(self.embrace_angle):.6g}°){joints}"
         )
 
-    @cached_property
-    def linkage(self) -> Linkage:
-        """The four-bar linkage on the side of positive rotation, with a centreline radius of 1."""
+    def _linkage(self, mirrored: bool) -> FourBar:
+        """The four-bar linkage; it ends where A, B and C come into line.
+
+        There the left half of the mechanism has snapped through, far below the unstable equilibrium, and the
+        bar CD turns back. All functions are smooth up to that rotation.
+        """
         sections = self._hinge_sections
-        return Linkage(self.ring.contact_points(sections, PATTERN), self.ring.bars(sections), self.radius)
+        points = self.radius * self.ring.contact_points(sections, PATTERN)
+        linkage = FourBar(points, self._bars(sections), self.radius, self.ring.mass, self._joint_angles())
+        if not linkage.gravity(linkage.end_rotation) < 0:
+            raise StructureError(
+                f"{self._sentence} finds no unstable equilibrium before its hinges come into line."
+            )
+        return linkage
+
+    def _bars(self, sections: np.ndarray) -> Bars:
+        """What lies between successive sections, in m."""
+        bars = self.ring.bars(sections)
+        return Bars(bars.masses, self.radius * bars.centroids, self.radius**2 * bars.inertias)
 
     @property
     def _hinge_sections(self) -> np.ndarray:
         return self.onset.hinges - self.embrace_angle / 2
 
-    def _build(self) -> Mechanism:
-        """The linkage divided by its mass per t·r and by r; it ends where A, B and C come into line.
-
-        There the left half of the mechanism has snapped through, far below the unstable equilibrium, and the
-        bar CD turns back. All functions are smooth up to that rotation.
-        """
-        from scipy.optimize import brentq  # slow to import, and needed by arches only
-
-        linkage = self.linkage
-        end = linkage.last_rotation()
-        if not linkage.gravity(end) < 0:
-            raise StructureError(
-                f"{self._sentence} finds no unstable equilibrium before its hinges come into line."
-            )
-        critical = float(brentq(linkage.gravity, 0.0, end, xtol=1e-16, rtol=1e-15))
-        return Mechanism(Side.of(linkage, critical, end, self._resolve_restitution()))
-
-    def _resolve_restitution(self) -> float:
+    def _impact(self, mirrored: bool) -> float:
         if self.restitution == UNSAFE_MOMENTUM:
             warnings.warn(
                 "restitution of the arch by momentum balance rests on an impulse line that leaves the ring; "
@@ -221,60 +209,31 @@ class Arch(Crackable):
                 StructureWarning,
                 stacklevel=4,
             )
-        return resolve_restitution(self.restitution, 0.9, self.momentum_balance)
+        return super()._impact(mirrored)
 
-    def momentum_balance(self) -> float:
-        """η = −⟨u, u_m⟩/⟨u_m, u_m⟩ of the two velocity fields of φ' = 1, the mechanism's and its mirror image's."""
-        return mirror_balance(self.ring, self.linkage, self._hinge_sections)
+    def _momentum_balance(self, mirrored: bool) -> float:
+        """That of the velocity fields of the mechanism and of its mirror image, whose bars are others."""
+        edges = self._split(-self._hinge_sections)
+        middles = (edges[1:] + edges[:-1]) / 2
+        return mirror_balance(self._bars(edges), middles, self.linkage, self._hinge_sections)  # type: ignore[arg-type]
 
-    def bodies(self, rotation: float | np.ndarray) -> Bodies:
-        bars, motion = self.linkage.bars, self.linkage.motion(rotation)
-        return Bodies(
-            bars.masses, bars.inertias * self.radius**2, motion.centroids * self.radius, motion.angles
-        )
-
-    def contacts(self, state: MotionState) -> Contacts:
-        """The thrust at B follows from the moments of AB about A and of BC about C; it runs from left to right."""
-        bars, motion = self.linkage.bars, self.linkage.motion(state.rotation)
-        forces, couples = dalembert(
-            bars, motion, state, state.pull / self.radius
-        )  # the linkage has a radius of 1
-        a, b, c, _ = motion.hinges
-        first = cross(motion.centroids[0] - a, forces[0]) + couples[0]
-        second = cross(motion.centroids[1] - c, forces[1]) + couples[1]
-        # (b − a) × T = first and (b − c) × T = −second
-        at_b = ((b - c) * first + (b - a) * second) / cross(b - a, b - c)
-        thrusts = np.stack([at_b - forces[0], at_b, at_b + forces[1], at_b + forces[1] + forces[2]])
-        fixed = np.zeros_like(motion.angles[:1])
-        faces = np.concatenate([fixed, motion.angles, fixed])
-        tangents = np.exp(1j * ((faces[1:] + faces[:-1]) / 2 + self._joint_angles()[:, None]))
-        mass = self.ring.mass / self.radius
-        return resolved(("A", "B", "C", "D"), thrusts / mass, tangents)
+    def _split(self, more: np.ndarray) -> np.ndarray:
+        """The ends of the arch, its hinges and `more` sections in order, each once."""
+        edges = np.concatenate([self._ends, self._hinge_sections, more])
+        edges = np.unique(np.clip(edges, *self._ends))
+        return edges[np.append(True, np.diff(edges) > 1e-9)]  # type: ignore[no-any-return]
 
     def _joint_angles(self) -> np.ndarray:
         """(4,) angles [rad] at which the thrust runs square through the joints of the hinges, from left to right."""
         return -self._hinge_sections
 
-    def _outline(self, rotation: float) -> list[np.ndarray]:
+    def _parts(self) -> list[tuple[int, np.ndarray]]:
         """What stays at the springings, the bars, or the voussoirs of both; about the centre of the arch."""
-        motion, hinges = self.linkage.motion(rotation), self._hinge_sections
-        joints = self.ring.sections() if self.voussoirs else self._ends
-        edges = np.unique(np.clip(np.concatenate([joints, hinges]), *self._ends))
-        edges = edges[np.append(True, np.diff(edges) > 1e-9)]
-        drawn = []
-        for first, last in pairwise(edges):
-            part = self.ring.sector(first, last)
-            bar = int(np.searchsorted(hinges, (first + last) / 2)) - 1
-            if 0 <= bar <= 2:
-                part = motion.centroids[bar] + np.exp(1j * motion.angles[bar]) * (
-                    part - self.linkage.bars.centroids[bar]
-                )
-            drawn.append(self.radius * plane(part))
-        return drawn
-
-    def _hinges(self, rotation: float) -> np.ndarray:
-        """A, B, C and D."""
-        return self.radius * plane(self.linkage.motion(rotation).hinges)
+        parts = []
+        for ends in pairwise(self._split(self.ring.sections() if self.voussoirs else np.empty(0))):
+            bar = int(np.searchsorted(self._hinge_sections, sum(ends) / 2)) - 1
+            parts.append((bar if 0 <= bar <= 2 else STILL, self.radius * self.ring.sector(*ends)))
+        return parts
 
     @property
     def _ends(self) -> tuple[float, float]:
@@ -396,16 +355,14 @@ class ArchOnPiers(Arch):
         share = at_inner / (at_inner + at_outer)
         return complex(inner + share * (outer - inner))
 
-    def _outline(self, rotation: float) -> list[np.ndarray]:
+    def _parts(self) -> list[tuple[int, np.ndarray]]:
         """The piers, then the parts of the arch."""
-        piers, motion = [], self.linkage.motion(rotation)
-        for side, hinge, bar in ((-1.0, 0, 0), (1.0, -1, 2)):
-            corners = self.ring.pier(side)
-            if abs(self._hinge_sections[hinge]) > self.embrace_angle / 2 + FOOT / 2:
-                turn = np.exp(1j * motion.angles[bar])
-                corners = motion.centroids[bar] + turn * (corners - self.linkage.bars.centroids[bar])
-            piers.append(self.radius * plane(corners))
-        return piers + super()._outline(rotation)
+        feet = np.abs(self._hinge_sections) > self.embrace_angle / 2 + FOOT / 2
+        piers = [
+            (bar if feet[hinge] else STILL, self.radius * self.ring.pier(side))
+            for side, hinge, bar in ((-1.0, 0, 0), (1.0, -1, 2))
+        ]
+        return piers + super()._parts()
 
     def _joint_angles(self) -> np.ndarray:
         """Up through the left foot and down through the right one; along the arch elsewhere."""

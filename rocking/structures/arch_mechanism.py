@@ -16,17 +16,24 @@ from itertools import combinations
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Fill, Ring
-from rocking.structures.bodies import Bars, LinkedBars, Motion, cross, keeps_last, momentum_balance
+from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Bars, Fill, Ring
+from rocking.structures.contacts import Contacts, MotionState
+from rocking.structures.linkage import Linkage, Motion, cross, keeps_last, momentum_balance
 
 
-@dataclass(frozen=True, eq=False)
-class Linkage(LinkedBars):
-    """hinges: A, B, C, D at rest, (4,) complex. bars: what they carry. unit: of both, m."""
+class FourBar(Linkage):
+    """hinges: A, B, C, D at rest, (4,) complex, m, with the bars between them.
 
-    hinges: np.ndarray
-    bars: Bars
-    unit: float = 1.0
+    mass: of the structure, in the unit of the bars. radius: that divides I, G and B, m. joints: (4,) angles [rad] at
+    which the thrust runs square through the joints of the hinges, from left to right.
+    """
+
+    def __init__(
+        self, hinges: np.ndarray, bars: Bars, radius: float, mass: float, joints: np.ndarray
+    ) -> None:
+        self.hinges, self.masses, self._mass, self._joints = hinges, bars.masses, mass, joints
+        self.rest, self.inertias, self.unit = bars.centroids, bars.inertias, radius
+        self.end_rotation = self.last_rotation()
 
     @keeps_last
     def motion(self, rotation: np.ndarray) -> Motion:
@@ -44,7 +51,7 @@ class Linkage(LinkedBars):
 
     def _carried(self, turned: np.ndarray, ab: np.ndarray, spins: np.ndarray, slopes: np.ndarray) -> Motion:
         """Centroids carried by bars turned by the unit numbers `turned`: AB about A, BC about B, CD about D."""
-        arms = turned * (self.bars.centroids - self.hinges[[0, 1, 3]]).reshape(3, *[1] * (turned.ndim - 1))
+        arms = turned * (self.rest - self.hinges[[0, 1, 3]]).reshape(3, *[1] * (turned.ndim - 1))
         zero = np.zeros_like(ab)
         pivots = np.stack([self.hinges[0] + zero, self.hinges[0] + ab, self.hinges[3] + zero])
         pivot_velocity = np.stack([zero, -1j * ab, zero])
@@ -79,6 +86,21 @@ class Linkage(LinkedBars):
         diagonal = self.hinges[3] - self.hinges[1]
         return float(np.sign(cross(diagonal, self._at_rest[1])))
 
+    def contacts(self, state: MotionState) -> Contacts:
+        """The thrust at B follows from the moments of AB about A and of BC about C; it runs from left to right."""
+        motion = self.motion(state.rotation)
+        forces, couples = self.dalembert(state)
+        a, b, c, _ = motion.hinges
+        first = cross(motion.centroids[0] - a, forces[0]) + couples[0]
+        second = cross(motion.centroids[1] - c, forces[1]) + couples[1]
+        # (b − a) × T = first and (b − c) × T = −second
+        at_b = ((b - c) * first + (b - a) * second) / cross(b - a, b - c)
+        thrusts = np.stack([at_b - forces[0], at_b, at_b + forces[1], at_b + forces[1] + forces[2]])
+        fixed = np.zeros_like(motion.angles[:1])
+        faces = np.concatenate([fixed, motion.angles, fixed])
+        tangents = np.exp(1j * ((faces[1:] + faces[:-1]) / 2 + self._joints[:, None]))
+        return Contacts.resolved(("A", "B", "C", "D"), thrusts / self._mass, tangents)
+
     def last_rotation(self) -> float:
         """The rotation [rad] up to which the motion is followed: A, B and C in line, or just before the bars lock."""
         end = self.straightening()
@@ -103,29 +125,24 @@ class Linkage(LinkedBars):
             return float(np.angle(self._at_rest[0] / base) - np.arccos(cosine))
 
 
-def mirror_balance(ring: Ring, linkage: Linkage, hinges: np.ndarray) -> float:
-    """Return η = −⟨u, u_m⟩/⟨u_m, u_m⟩ of the velocity fields for φ' = 1 at φ = 0 of a ring and of its mirror image.
+def mirror_balance(bars: Bars, middles: np.ndarray, linkage: FourBar, hinges: np.ndarray) -> float:
+    """Return η = −⟨u, u_m⟩/⟨u_m, u_m⟩ of the velocity fields for φ' = 1 at φ = 0 of an arch and of its mirror image.
 
-    hinges: (4,) sections, rad.
+    bars: the parts between the hinges (4,) of both, `middles` (k,) the sections [rad] in the middle of each.
     """
-    edges = np.unique(np.concatenate([hinges, -hinges, [-ring.embrace_angle / 2, ring.embrace_angle / 2]]))
-    edges = edges[np.append(True, np.diff(edges) > 1e-12)]
-    parts = ring.bars(edges)
-    middles = (edges[1:] + edges[:-1]) / 2
-    arriving = _velocities(linkage, hinges, middles, parts.centroids)
-    mirrored = _velocities(linkage, hinges, -middles, -parts.centroids.conj()) * [-1.0, 1.0, -1.0]
-    return momentum_balance(parts.masses, parts.inertias, -arriving, mirrored)
 
+    def velocities(sections: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        motion = linkage.motion(0.0)
+        bar = np.searchsorted(hinges, sections) - 1
+        moving = (bar >= 0) & (bar <= 2)
+        bar = np.clip(bar, 0, 2)
+        speeds = motion.velocities[bar] + 1j * motion.spins[bar] * (points - motion.centroids[bar])
+        return speeds * moving, motion.spins[bar] * moving
 
-def _velocities(linkage: Linkage, hinges: np.ndarray, sections: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """(k, 3) velocities (vx, vy, ω) at φ = 0, φ' = 1 of the parts at `sections` with centroids `points`."""
-    motion = linkage.motion(0.0)
-    bar = np.searchsorted(hinges, sections) - 1
-    moving = (bar >= 0) & (bar <= 2)
-    bar = np.clip(bar, 0, 2)
-    spins = motion.spins[bar]
-    speed = motion.velocities[bar] + 1j * spins * (points - motion.centroids[bar])
-    return np.stack([speed.real, speed.imag, spins], axis=1) * moving[:, None]
+    arriving = velocities(middles, bars.centroids)
+    return momentum_balance(
+        bars.masses, bars.inertias, arriving, velocities(-middles, -bars.centroids.conj())
+    )
 
 
 _DOWN = np.array([0.0, 0.0, 0.0, -1.0])

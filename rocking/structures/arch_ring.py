@@ -14,8 +14,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.structures.bodies import Bars
-
 Moments = tuple[np.ndarray, np.ndarray, np.ndarray]
 """Weight, ∫ x and ∫ y of it."""
 
@@ -66,6 +64,14 @@ PATTERN = np.array([INTRADOS, EXTRADOS, INTRADOS, EXTRADOS])
 
 CONTINUOUS_SECTIONS = 49
 """Sections at which a continuous ring is first tried; the tangent sections between them are found exactly."""
+
+
+class Bars(NamedTuple):
+    """Masses, centroids (complex, at rest) and inertias about the centroids of some rigid parts: (k,) each."""
+
+    masses: np.ndarray
+    centroids: np.ndarray
+    inertias: np.ndarray
 
 
 class Load(NamedTuple):

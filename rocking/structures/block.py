@@ -1,44 +1,14 @@
 """Rigid bodies that rock about a corner: the rectangular block (Housner 1963), and any other (theory: section 2)."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 import numpy as np
 
-from rocking.structures.bodies import (
-    Bodies,
-    Contacts,
-    MotionState,
-    Restitution,
-    body_about,
-    corner,
-    momentum_balance,
-    resolve_restitution,
-)
-from rocking.structures.drawing import Path, rectangle, span, swept, turned
+from rocking.structures.drawing import Path, rectangle, span, swept
 from rocking.structures.fields import OneSided, Value, length, restitution_value
-from rocking.structures.mechanism import Mechanism, Side
+from rocking.structures.linkage import Restitution, Turning
 from rocking.structures.structure import Structure
-
-
-def corner_side(slenderness: float, inertia_length: float, end_rotation: float, restitution: float) -> Side:
-    """Return the Side of a body whose centre of mass lies at a distance R from the corner.
-
-    slenderness: α, angle between the vertical and the line from the corner to the centre of mass, rad.
-    inertia_length: I_O/(mR), m; 4R/3 for a rectangular block.
-    I = I_O/(mR), G = sin(α − φ), B = cos(α − φ), φ_cr = α (Eq. 1).
-    """
-    return Side(
-        inertia=lambda rotation: np.full_like(rotation, inertia_length, dtype=float),
-        inertia_slope=lambda rotation: np.zeros_like(rotation, dtype=float),
-        gravity=lambda rotation: np.sin(slenderness - rotation),
-        gravity_slope=lambda rotation: -np.cos(slenderness - rotation),
-        ground=lambda rotation: np.cos(slenderness - rotation),
-        critical_rotation=slenderness,
-        end_rotation=end_rotation,
-        restitution=restitution,
-    )
-
 
 Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
 
@@ -97,29 +67,12 @@ class Block(Structure):
         """2R cos α, m."""
         return 2 * self.semi_diagonal * np.cos(self.slenderness)
 
-    def _build(self) -> Mechanism:
-        side = corner_side(
-            self.slenderness,
-            inertia_length=4 * self.semi_diagonal / 3,
-            end_rotation=np.pi / 2,  # it lies on its side
-            restitution=resolve_restitution(self.restitution, "housner", self._momentum_balance),
-        )
-        return Mechanism(side, one_sided=self.one_sided)
+    def _linkage(self, mirrored: bool) -> Turning:
+        inertia = (self.breadth**2 + self.height**2) / 12
+        return Turning(self.breadth / 2, [1.0], [0.5j * self.height], [inertia], slenderness=self.slenderness)
 
-    def bodies(self, rotation: float | np.ndarray) -> Bodies:
-        return body_about(
-            self.breadth / 2, 0.5j * self.height, (self.breadth**2 + self.height**2) / 12, rotation
-        )
-
-    def contacts(self, state: MotionState) -> Contacts:
-        return corner(self.breadth / 2, self.height / 2, state)
-
-    def _outline(self, rotation: float) -> list[np.ndarray]:
-        half = self.breadth / 2
-        return [turned(rectangle(-half, half, 0.0, self.height), self._hinges(rotation)[0], rotation)]
-
-    def _hinges(self, rotation: float) -> np.ndarray:
-        return np.array([[self.breadth / 2, 0.0]])
+    def _parts(self) -> list[tuple[int, np.ndarray]]:
+        return [(0, rectangle(-self.breadth / 2, self.breadth / 2, 0.0, self.height))]
 
     def _dimensions(self) -> dict[str, Path]:
         half, height, apart = self.breadth / 2, self.height, 0.06 * self.height
@@ -130,10 +83,6 @@ class Block(Structure):
             "semi_diagonal": span(foot, [0.0, height / 2]),
             "slenderness": swept(foot, 0.7 * self.semi_diagonal, -self.slenderness, 0.0),
         }
-
-    def _momentum_balance(self) -> float:
-        across, up = np.sin(self.slenderness), np.cos(self.slenderness)
-        return momentum_balance([1.0], [1 / 3], [[up, across, -1.0]], [[up, -across, -1.0]])
 
 
 @dataclass(frozen=True)
@@ -174,42 +123,21 @@ class RigidBody(Structure):
     restitution: Balanced = None
     one_sided: OneSided = False
 
-    def _build(self) -> Mechanism:
-        positive_side = self.side(self.right, self.left)
-        if self.one_sided or self.left == self.right:
-            return Mechanism(positive_side, one_sided=self.one_sided)
-        return Mechanism(positive_side, self.side(self.left, self.right))
+    @property
+    def symmetric(self) -> bool:
+        """Whether the centre of mass is in the middle."""
+        return self.left == self.right
 
-    def side(self, corner: float, other: float, end_rotation: float | None = None) -> Side:
-        """Return the Side of rocking about the corner at distance `corner` [m], landing on the one at `other`."""
-        slenderness = float(np.arctan2(corner, self.centre_height))
-        semi_diagonal = float(np.hypot(corner, self.centre_height))
-        return corner_side(
-            slenderness,
-            inertia_length=(self.inertia + semi_diagonal**2) / semi_diagonal,
-            end_rotation=slenderness + np.pi / 2 if end_rotation is None else end_rotation,
-            restitution=resolve_restitution(
-                self.restitution, "momentum", lambda: self._momentum_balance(corner, other)
-            ),
-        )
+    def _linkage(self, mirrored: bool) -> Turning:
+        """Until the centre of mass is level with the corner."""
+        corner, centre = self.left if mirrored else self.right, 1j * self.centre_height
+        end = np.arctan2(corner, self.centre_height) + np.pi / 2
+        return Turning(corner, [1.0], [centre], [self.inertia], end_rotation=float(end))
 
-    def _mirrored(self) -> "RigidBody":
-        return replace(self, left=self.right, right=self.left)
-
-    def bodies(self, rotation: float | np.ndarray) -> Bodies:
-        return body_about(self.right, 1j * self.centre_height, self.inertia, rotation)
-
-    def contacts(self, state: MotionState) -> Contacts:
-        return corner(np.where(state.sign > 0, self.right, self.left), self.centre_height, state)
-
-    def _outline(self, rotation: float) -> list[np.ndarray]:
+    def _parts(self) -> list[tuple[int, np.ndarray]]:
         """The parallelogram with these corners and this centre of mass, for want of the true outline."""
-        top = 2 * self.centre_height
-        corners = [[-self.left, 0.0], [self.right, 0.0], [self.left, top], [-self.right, top]]
-        return [turned(corners, self._hinges(rotation)[0], rotation)]
-
-    def _hinges(self, rotation: float) -> np.ndarray:
-        return np.array([[self.right, 0.0]])
+        top = 2j * self.centre_height
+        return [(0, np.array([-self.left, self.right, self.left + top, -self.right + top]))]
 
     def _dimensions(self) -> dict[str, Path]:
         apart, centre = np.array([0.0, -0.12 * self.centre_height]), [0.0, self.centre_height]
@@ -218,7 +146,3 @@ class RigidBody(Structure):
             "right": span([0.0, 0.0], [self.right, 0.0], 2 * apart),
             "centre_height": span([0.0, 0.0], centre),
         }
-
-    def _momentum_balance(self, corner: float, other: float) -> float:
-        up = self.centre_height
-        return momentum_balance([1.0], [self.inertia], [[up, corner, -1.0]], [[up, -other, -1.0]])

@@ -1,4 +1,4 @@
-"""Pieces of a drawing: points turned, and dimension lines."""
+"""Pieces of a drawing: dimension lines, and what acts on a structure."""
 
 from dataclasses import dataclass, field
 from typing import Literal
@@ -21,9 +21,6 @@ class Dimension:
     feet: np.ndarray = field(repr=False)
 
 
-Kind = Literal["load", "thrust", "tie"]
-
-
 @dataclass(frozen=True, eq=False)
 class Mark:
     """What acts on a structure, as a drawing shows it, in m.
@@ -32,7 +29,7 @@ class Mark:
     line: (2, 2), its second point is where it acts.
     """
 
-    kind: Kind
+    kind: Literal["load", "thrust", "tie"]
     text: str
     line: np.ndarray = field(repr=False)
 
@@ -41,17 +38,9 @@ Path = tuple[np.ndarray, np.ndarray]
 """The line and the feet of a dimension."""
 
 
-def plane(points: np.ndarray) -> np.ndarray:
-    """Return complex `points` (k,) as (k, 2)."""
-    return np.stack([points.real, points.imag], axis=-1)
-
-
-def turned(points: ArrayLike, pivot: ArrayLike, rotation: float) -> np.ndarray:
-    """Return `points` (k, 2) turned clockwise by `rotation` [rad] about `pivot` (2,)."""
-    cosine, sine = np.cos(rotation), np.sin(rotation)
-    return (np.asarray(points, dtype=float) - pivot) @ np.array(
-        [[cosine, -sine], [sine, cosine]]
-    ) + np.asarray(pivot)
+def plane(points: np.ndarray, mirrored: bool = False) -> np.ndarray:
+    """Return complex `points` (k,) as (k, 2), or their mirror image."""
+    return np.stack([-points.real if mirrored else points.real, points.imag], axis=-1)
 
 
 def span(first: ArrayLike, last: ArrayLike, offset: ArrayLike = (0.0, 0.0)) -> Path:
@@ -68,5 +57,5 @@ def swept(centre: ArrayLike, radius: float, start: float, end: float) -> Path:
 
 
 def rectangle(left: float, right: float, bottom: float, top: float) -> np.ndarray:
-    """Return the corners (4, 2) of an upright rectangle, counterclockwise."""
-    return np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
+    """Return the corners (4,), complex, of an upright rectangle, counterclockwise."""
+    return np.array([left + 1j * bottom, right + 1j * bottom, right + 1j * top, left + 1j * top])

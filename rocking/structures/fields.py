@@ -6,6 +6,7 @@ loader, the checks at birth, the JSON schema and the documentation follow from t
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from inspect import Parameter, signature
 from types import NoneType
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
@@ -188,6 +189,12 @@ class Form:
     def required(self) -> tuple[str, ...]:
         """The keys that must be given."""
         return tuple(each.key for each in self.fields if each.required)
+
+
+@cache
+def constructor(kind: Any) -> Form:
+    """Return the form of the constructor of a structure's class, whether or not a file may use it."""
+    return Form.of(kind, "", "")
 
 
 def _said(hint: Any) -> Value | None:

@@ -6,19 +6,11 @@ from typing import Annotated, ClassVar
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.structures.block import Block, corner_side
-from rocking.structures.bodies import (
-    Bodies,
-    Contacts,
-    MotionState,
-    Restitution,
-    UnknownContacts,
-    momentum_balance,
-    resolve_restitution,
-)
-from rocking.structures.drawing import Path, rectangle, span, turned
+from rocking.structures.block import Block
+from rocking.structures.contacts import Contacts, MotionState, UnknownContacts
+from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, count, length, restitution_value
-from rocking.structures.mechanism import Mechanism
+from rocking.structures.linkage import Linkage, Motion, PointMotion, Restitution, Turning, keeps_last
 from rocking.structures.structure import Structure
 
 Columns = Annotated[int, count("How many columns", 4, 2, 1000)]
@@ -79,56 +71,19 @@ class Frame(Structure):
         """Height of a column, m."""
         return self.column.height
 
-    def _build(self) -> Mechanism:
-        """I, G and B of one column and its share of the beam, divided by m R (1 + 2γ)."""
-        share = (1 + 3 * self.beam_mass_ratio) / (1 + 2 * self.beam_mass_ratio)
-        return Mechanism(
-            corner_side(
-                self.column.slenderness,
-                inertia_length=4 * self.column.semi_diagonal / 3 * share,
-                end_rotation=np.pi / 2,
-                restitution=resolve_restitution(self.restitution, "momentum", self._momentum_balance),
-            )
-        )
+    def _linkage(self, mirrored: bool) -> "FrameLinkage":
+        return FrameLinkage(self.column, self._axes, self.beam_mass_ratio)
 
-    def bodies(self, rotation: float | np.ndarray) -> Bodies:
-        """All columns, and the beam, whose centre is taken on its lower edge: it does not turn."""
-        one = self.column.bodies(rotation)
-        shape = (-1, *[1] * np.ndim(rotation))
-        axes = self._axes.reshape(shape)
-        top = self.column.breadth / 2 + 2 * self.column.semi_diagonal * 1j * np.exp(
-            1j * (self.column.slenderness - np.asarray(rotation, dtype=float))
-        )
-        return Bodies(
-            np.append(np.ones(self.columns), self.columns * self.beam_mass_ratio),
-            np.append(np.full(self.columns, one.inertias[0]), 0.0),
-            np.concatenate([axes + one.centres, top[None]]),
-            np.concatenate([0 * axes + one.turns, 0 * one.turns]),
-        )
-
-    def contacts(self, state: MotionState) -> Contacts:
-        """Not known: each column stands between two contacts that share its load as they like."""
-        raise UnknownContacts("contact forces of a frame are statically indeterminate")
-
-    def _outline(self, rotation: float) -> list[np.ndarray]:
+    def _parts(self) -> list[tuple[int, np.ndarray]]:
         """Columns 0.6 of their height apart, and a beam of their material and breadth as deep as its mass asks."""
         half, height = self.column.breadth / 2, self.column.height
         column = rectangle(-half, half, 0.0, height)
-        drawn = [turned(column + np.array([x, 0.0]), [x + half, 0.0], rotation) for x in self._axes]
-        if self.beam_mass_ratio == 0:
-            return drawn
+        drawn = [(n, column + x) for n, x in enumerate(self._axes)]
         left, right = self._axes[0] - half, self._axes[-1] + half
         depth = self.beam_mass_ratio * self.columns * 2 * half * height / (right - left)
-        beam = rectangle(left, right, height, height + depth)
-        return [*drawn, beam + self._hinges(rotation)[-1] - [right - 2 * half, height]]
-
-    def _hinges(self, rotation: float) -> np.ndarray:
-        """The right bottom corner and the left top corner of every column, in two runs."""
-        angle = self.column.slenderness - rotation
-        bottom = np.stack([self._axes + self.column.breadth / 2, np.zeros(self.columns)], axis=1)
-        return np.concatenate(
-            [bottom, bottom + 2 * self.column.semi_diagonal * np.array([-np.sin(angle), np.cos(angle)])]
-        )
+        if self.beam_mass_ratio:
+            drawn.append((self.columns, rectangle(left, right, height, height + depth)))
+        return drawn
 
     def _dimensions(self) -> dict[str, Path]:
         first, half, height = self._axes[0], self.column.breadth / 2, self.column.height
@@ -143,8 +98,49 @@ class Frame(Structure):
         spacing = max(0.6 * self.column.height, 2 * self.column.breadth)
         return spacing * (np.arange(self.columns) - (self.columns - 1) / 2)
 
-    def _momentum_balance(self) -> float:
-        """One column (R = 1) and its share of the beam, which moves with the tops and does not turn."""
-        across, up = np.sin(self.column.slenderness), np.cos(self.column.slenderness)
-        before = np.array([[up, across, -1.0], [2 * up, 2 * across, 0.0]])
-        return momentum_balance([1.0, self.beam_mass_ratio], [1 / 3, 0.0], before, before * [1.0, -1.0, 1.0])
+
+class FrameLinkage(Turning):
+    """Columns of mass 1 that all turn by the same φ, and the beam on them, which does not turn.
+
+    The centre of the beam is taken on its lower edge, at the left top corner of the first column.
+    """
+
+    def __init__(self, column: Block, axes: np.ndarray, beam_mass_ratio: float) -> None:
+        half, height = column.breadth / 2, column.height
+        self._feet, self._diagonal = axes + half, -2 * half + 1j * height
+        beam = axes.size * beam_mass_ratio
+        self.masses = np.append(np.ones(axes.size), beam)
+        self.inertias = np.append(np.full(axes.size, (4 * half**2 + height**2) / 12), 0.0)
+        self.rest = np.append(self._feet + self._diagonal / 2, self._feet[0] + self._diagonal)
+        self.unit = (axes.size + 2 * beam) * column.semi_diagonal
+        self.critical = self.slenderness = column.slenderness
+        self.end_rotation = np.pi / 2
+        share = (1 + 3 * beam_mass_ratio) / (1 + 2 * beam_mass_ratio)
+        self.inertia_length = 4 * column.semi_diagonal / 3 * share
+
+    @keeps_last
+    def motion(self, rotation: np.ndarray) -> Motion:
+        """Return columns and beam at `rotation`; hinges at the feet and the heads of all columns, in two runs."""
+        feet = np.multiply.outer(self._feet, np.ones(rotation.shape))
+        diagonal = self._diagonal * np.exp(-1j * rotation)
+        turning = np.multiply.outer(np.append(np.ones(self._feet.size), 0.0), np.ones(rotation.shape))
+        arms = (
+            1 - turning / 2
+        ) * diagonal  # of a column to its middle, of the beam to the head that bears it
+        return Motion(
+            hinges=np.concatenate([feet, feet + diagonal]),
+            angles=-turning * rotation,
+            spins=-turning,
+            spin_slopes=0 * turning,
+            centroids=np.concatenate([feet, feet[:1]]) + arms,
+            velocities=-1j * arms,
+            accelerations=-arms,
+        )
+
+    def carried(self, part: int, start: complex | np.ndarray, motion: Motion) -> PointMotion:
+        """Return how points of one column or of the beam have moved."""
+        return Linkage.carried(self, part, start, motion)
+
+    def contacts(self, state: MotionState) -> Contacts:
+        """Raise UnknownContacts: each column stands between two contacts that share its load as they like."""
+        raise UnknownContacts("contact forces of a frame are statically indeterminate")

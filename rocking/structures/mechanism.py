@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
 from operator import methodcaller
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -39,16 +39,6 @@ _ARC_ACCURACY, _MAP_ACCURACY = 2e-14, 1e-14
 CUTS = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.4)
 """Shares that may be cut off beyond φ_cr, where a mechanism locks and its inertia has no bound."""
 _DEFECT_SAMPLES = 401
-
-
-class StandardForm(Protocol):
-    """Whatever has I, I', G, G' and B as methods of the rotation [rad], any shape."""
-
-    def inertia(self, rotation: np.ndarray, /) -> np.ndarray: ...
-    def inertia_slope(self, rotation: np.ndarray, /) -> np.ndarray: ...
-    def gravity(self, rotation: np.ndarray, /) -> np.ndarray: ...
-    def gravity_slope(self, rotation: np.ndarray, /) -> np.ndarray: ...
-    def ground(self, rotation: np.ndarray, /) -> np.ndarray: ...
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -100,20 +90,6 @@ class Side:
                 raise StructureError(
                     f"{name} is {value!r} at a rotation of {at!r} rad, but must be positive there."
                 )
-
-    @classmethod
-    def of(
-        cls,
-        form: StandardForm,
-        critical_rotation: float,
-        end_rotation: float,
-        restitution: float,
-        ties: tuple[SideTie, ...] = (),
-        untied_gravity: Function | None = None,
-    ) -> "Side":
-        """Return the side whose five functions are the methods of `form`."""
-        functions = form.inertia, form.inertia_slope, form.gravity, form.gravity_slope, form.ground
-        return cls(*functions, critical_rotation, end_rotation, restitution, ties, untied_gravity)
 
     def __repr__(self) -> str:
         return f"Side({self.described})"

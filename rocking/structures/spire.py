@@ -1,17 +1,14 @@
 """The masonry spire, a cone or pyramid, that cracks at some height and rocks above the crack (theory: section 2)."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.structures.block import RigidBody
-from rocking.structures.bodies import Bodies, Contacts, MotionState, Restitution, body_about
-from rocking.structures.drawing import Path, span, turned
+from rocking.structures.drawing import Path, span
 from rocking.structures.fields import OneSided, Value, length, restitution_value
-from rocking.structures.mechanism import Mechanism
+from rocking.structures.linkage import STILL, Restitution, Turning
 from rocking.structures.structure import HIGHEST_SHARE, Crackable
 
 _SPREAD = {"circular": 3 / 20, "square": 1 / 5}
@@ -68,9 +65,8 @@ class Spire(Crackable):
         """Half the width at the crack, m."""
         return self.width / 2 * (1 - self.crack_height / self.height)
 
-    @cached_property
-    def body(self) -> RigidBody:
-        """What rocks: all above the crack, the outer solid less the similar inner one."""
+    def _linkage(self, mirrored: bool) -> Turning:
+        """All above the crack, the outer solid less the similar inner one, until the flank lies on the ground."""
         mass, first, second, across = self._solid(self.half_width)
         if self.wall_thickness is not None:
             inner = self._solid(max(self.half_width - self.wall_thickness, 0.0))
@@ -78,8 +74,13 @@ class Spire(Crackable):
                 whole - hole for whole, hole in zip((mass, first, second, across), inner, strict=True)
             )
         centre = first / mass
-        inertia = (second + across) / mass - centre**2
-        return RigidBody(self.half_width, self.half_width, centre, inertia, self.restitution, self.one_sided)
+        return Turning(
+            self.half_width + 1j * self.crack_height,
+            [1.0],
+            [1j * (self.crack_height + centre)],
+            [(second + across) / mass - centre**2],
+            end_rotation=float(np.pi - np.arctan2(2 * self.height, self.width)),
+        )
 
     def _solid(self, half_width: float) -> tuple[float, float, float, float]:
         """Volume and integrals of z, z² and x² of a solid of that half width and this spire's slope, up to a factor."""
@@ -92,22 +93,6 @@ class Spire(Crackable):
             volume * _SPREAD[self.plan] * half_width**2,
         )
 
-    @property
-    def end_rotation(self) -> float:
-        """Rotation at which the flank lies on the ground, π − atan(2 height/width), rad."""
-        return float(np.pi - np.arctan2(2 * self.height, self.width))
-
-    def _build(self) -> Mechanism:
-        side = self.body.side(self.half_width, self.half_width, self.end_rotation)
-        return Mechanism(side, one_sided=self.one_sided)
-
-    def bodies(self, rotation: float | np.ndarray) -> Bodies:
-        centre = 1j * (self.crack_height + self.body.centre_height)
-        return body_about(self.half_width + 1j * self.crack_height, centre, self.body.inertia, rotation)
-
-    def contacts(self, state: MotionState) -> Contacts:
-        return self.body.contacts(state)
-
     def _crack_heights(self, count: int) -> np.ndarray:
         """From the base to a share of the height."""
         return self.height * np.linspace(0, HIGHEST_SHARE, count)
@@ -115,15 +100,11 @@ class Spire(Crackable):
     def cracked_at(self, height: float) -> "Spire":
         return replace(self, crack_height=height)
 
-    def _outline(self, rotation: float) -> list[np.ndarray]:
-        half, crack = self.half_width, self.crack_height
-        top = turned([[-half, crack], [half, crack], [0.0, self.height]], self._hinges(rotation)[0], rotation)
-        if crack == 0:
-            return [top]
-        return [np.array([[-self.width / 2, 0.0], [self.width / 2, 0.0], [half, crack], [-half, crack]]), top]
-
-    def _hinges(self, rotation: float) -> np.ndarray:
-        return np.array([[self.half_width, self.crack_height]])
+    def _parts(self) -> list[tuple[int, np.ndarray]]:
+        base, half, crack = self.width / 2, self.half_width, 1j * self.crack_height
+        top = np.array([-half + crack, half + crack, 1j * self.height])
+        still = np.array([-base, base, half + crack, -half + crack])
+        return [(STILL, still), (0, top)][0 if self.crack_height else 1 :]
 
     def _dimensions(self) -> dict[str, Path]:
         half, apart = self.width / 2, 0.06 * self.height

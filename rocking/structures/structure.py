@@ -12,9 +12,18 @@ from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import within
-from rocking.structures.bodies import Bodies, Contacts, MotionState
-from rocking.structures.drawing import Dimension, Mark, Path
-from rocking.structures.fields import Field, Form, Value
+from rocking.structures.contacts import Contacts, MotionState
+from rocking.structures.drawing import Dimension, Mark, Path, plane
+from rocking.structures.fields import Field, Form, Value, constructor
+from rocking.structures.linkage import (
+    STILL,
+    Bodies,
+    Linkage,
+    Motion,
+    Restitution,
+    momentum_balance,
+    resolve_restitution,
+)
 from rocking.structures.mechanism import Mechanism
 
 if TYPE_CHECKING:
@@ -65,13 +74,14 @@ class Structure(ABC):
 
     type_name: the `type` in a file. described_as: what each constructor that a file may use describes, by the name of
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
-    draws_both_sides: whether its own drawing takes a negative rotation, instead of being mirrored.
+    usual_restitution: where none is given.
     """
 
     type_name: ClassVar[str] = ""
     described_as: ClassVar[dict[str, str]] = {}
     crack_name: ClassVar[str] = ""
-    draws_both_sides: ClassVar[bool] = False
+    usual_restitution: ClassVar[float | str] = "momentum"
+    one_sided = False
 
     restitution_range: Annotated[
         float | None,
@@ -86,13 +96,12 @@ class Structure(ABC):
 
     def __post_init__(self) -> None:
         """Hold each value that is not the default against what its type says of it."""
-        described = {each.name: each for form in self.forms() for each in form.fields}
-        for own in fields(self):
-            value = getattr(self, own.name)
-            if own.name in described and value is not own.default:
-                object.__setattr__(self, own.name, described[own.name].kept(value))
+        for each in constructor(type(self)).fields:
+            value = getattr(self, each.name)
+            if value is not each.default:
+                object.__setattr__(self, each.name, each.kept(value))
         restitution = getattr(self, "restitution", None)
-        if getattr(self, "one_sided", False) and not isinstance(restitution, float):
+        if self.one_sided and not isinstance(restitution, float):
             raise StructureError(
                 f"restitution is {restitution!r}, but a one-sided body needs its own number between 0 and 1, as what "
                 "it leans on takes part in the impact; give it."
@@ -124,13 +133,43 @@ class Structure(ABC):
         state = {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]
         return state | {name: self.__dict__[name] for name in ("_typed",) if name in self.__dict__}
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether the negative side is the mirror image of the positive one."""
+        return True
+
+    @cached_property
+    def linkages(self) -> tuple[Linkage, ...]:
+        """The moving parts on the positive side; then, seen in the mirror, on the negative one where that differs."""
+        positive = self._linkage(mirrored=False)
+        return (positive,) if self.symmetric or self.one_sided else (positive, self._linkage(mirrored=True))
+
+    @property
+    def linkage(self) -> Linkage:
+        """The moving parts on the side of positive rotation."""
+        return self.linkages[0]
+
     def outline(self, rotation: float = 0.0) -> list[np.ndarray]:
         """Return the rigid parts at a signed `rotation` [rad] as polygons (k, 2) in m, x to the right, y up."""
-        return self._on_side(rotation, "_outline")
+        linkage, motion = self._posed(rotation)
+        mirrored, drawn = rotation < 0, []
+        for part, corners in self._parts():
+            seen = -corners.conj() if mirrored and not self.symmetric else corners
+            moved = seen if part == STILL else seen + linkage.carried(part, seen, motion).moved
+            drawn.append(plane(moved, mirrored))
+        return drawn
 
     def hinges(self, rotation: float = 0.0) -> np.ndarray:
         """Return the contact points (k, 2) in m at a signed `rotation` [rad]; at rest those of the positive side."""
-        return self._on_side(rotation, "_hinges")
+        return plane(self._posed(rotation)[1].hinges, rotation < 0)
+
+    def _posed(self, rotation: float) -> tuple[Linkage, Motion]:
+        """The moving parts of the side of a signed `rotation` [rad], and where they are."""
+        sides = self.mechanism().sides
+        lowest = 0.0 if self.one_sided else -sides[-1].end_rotation
+        rotation = within(StructureError, "rotation", rotation, lowest, sides[0].end_rotation, "rad")
+        linkage = self.linkages[-1 if rotation < 0 else 0]
+        return linkage, linkage.motion(abs(rotation))
 
     def plot(self, rotation: float = 0.0, axes: "Axes | None" = None, *, dimensions: bool = False) -> "Axes":
         """Draw the parts to scale at a signed `rotation` [rad], on `axes` or on new ones, and return the axes.
@@ -169,10 +208,9 @@ class Structure(ABC):
         control_speed = float(2 * once - twice / 2) / _STEP
 
         # a mass that something else holds sideways, as that of a load that only rises, has no part
-        masses = self.bodies(0.0).masses
-        at_rest = self.bodies(np.array([-_STEP, _STEP])).centres.real
-        across = (at_rest[:, 1] - at_rest[:, 0]) / (2 * _STEP)
-        masses = np.where(across == 0, 0.0, masses)
+        linkage = self.linkages[0 if side > 0 else -1]
+        across = linkage.motion(0.0).velocities.real
+        masses = np.where(across == 0, 0.0, linkage.masses)
         first = masses @ across
         second = masses @ across**2
         x, y = places[0, control]
@@ -189,59 +227,44 @@ class Structure(ABC):
         self,
         rotation: ArrayLike,
         angular_velocity: ArrayLike,
-        angular_acceleration: ArrayLike,
+        angular_acceleration: ArrayLike | None = None,
         ground: ArrayLike = 0.0,
         vertical: ArrayLike = 0.0,
-        largest: ArrayLike = 0.0,
+        largest: ArrayLike | None = None,
     ) -> Contacts:
         """Return the contact forces in motion.
 
         rotation, angular_velocity, angular_acceleration: signed, (k,). ground, vertical: ü_g and ü_v, (k,) m/s².
-        largest: the largest rotation on that side so far [rad], where it was beyond `rotation`, (k,).
+        largest: the largest rotation on that side so far [rad], (k,); None: within the states given.
         At rotation 0 the side is that of the velocity. Tangential forces are positive towards the side it rocks to.
+        angular_acceleration None: that of its own mechanism. At rest a single body then carries the ground's whole
+        acceleration; the joints of a wall or an arch are statically indeterminate and their forces nan.
         Raises UnknownContacts, in words, where they are not known (a frame's are indeterminate).
         """
-        given = np.broadcast_arrays(
-            rotation, angular_velocity, angular_acceleration, ground, vertical, largest
+        given = np.broadcast_arrays(rotation, angular_velocity, ground, vertical)
+        phi, velocity, push, lift = (np.atleast_1d(np.asarray(values, dtype=float)) for values in given)
+        so_far = largest_so_far(phi) if largest is None else np.maximum(np.abs(phi), largest)
+        free = angular_acceleration is None
+        resting = free & (phi == 0) & (velocity == 0)
+        if free:
+            moving = self.mechanism().angular_acceleration(phi, velocity, push, lift, so_far)
+            angular_acceleration = np.where(resting, 0.0, moving)
+        sign = self.mechanism().side_of(phi, velocity)
+        turn = np.broadcast_to(np.asarray(angular_acceleration, dtype=float), phi.shape)
+        state = MotionState(sign, phi * sign, velocity * sign, turn * sign, push * sign, lift, so_far)
+        positive, *_, negative = (each.contacts(state) for each in (self.linkages * 2)[:2])
+        names, there = positive.names, sign > 0
+        unknown = np.where(resting & (len(names) > 1), np.nan, 0.0)
+        return Contacts(
+            names,
+            np.where(there, positive.normal, negative.normal) + unknown,
+            np.where(there, positive.tangential, negative.tangential) + unknown,
         )
-        state = [np.atleast_1d(np.asarray(values, dtype=float)) for values in given]
-        sign = self.mechanism().side_of(state[0], state[1])
-        phi, velocity, acceleration, push = (values * sign for values in state[:4])
-        so_far = np.maximum(phi, state[5])
-        return self.contacts(MotionState(sign, phi, velocity, acceleration, push, state[4], so_far))
 
-    def contact_history(
-        self,
-        rotation: ArrayLike,
-        angular_velocity: ArrayLike,
-        ground: ArrayLike,
-        vertical: ArrayLike = 0.0,
-        largest: ArrayLike | None = None,
-    ) -> Contacts:
-        """Return the contact forces along a response, (k,) each, with φ'' from its own mechanism.
-
-        largest: the largest rotation on that side so far [rad], (k,); None: within the states given.
-        At rest a single body carries the ground's whole acceleration; the joints of a wall or an arch are then
-        statically indeterminate and their forces nan.
-        """
-        state = np.broadcast_arrays(rotation, angular_velocity, ground, vertical)
-        phi, velocity, push, lift = (np.atleast_1d(np.asarray(values, dtype=float)) for values in state)
-        resting = (phi == 0) & (velocity == 0)
-        so_far = largest_so_far(phi) if largest is None else np.broadcast_to(largest, phi.shape)
-        moving = self.mechanism().angular_acceleration(phi, velocity, push, lift, so_far)
-        found = self.contact_forces(phi, velocity, np.where(resting, 0.0, moving), push, lift, so_far)
-        if len(found.names) == 1:
-            return found
-        unknown = np.where(resting, np.nan, 0.0)
-        return Contacts(found.names, found.normal + unknown, found.tangential + unknown)
-
-    @abstractmethod
     def bodies(self, rotation: float | np.ndarray) -> Bodies:
         """Return the moving masses at `rotation` ≥ 0 [rad], any shape, on the positive side, up to a factor of mass."""
-
-    @abstractmethod
-    def contacts(self, state: MotionState) -> Contacts:
-        """Return the contact forces in a state on its side; raises UnknownContacts, which says why, without them."""
+        motion = self.linkage.motion(rotation)
+        return Bodies(self.linkage.masses, self.linkage.inertias, motion.centroids, motion.angles)
 
     def dimensions(self) -> tuple[Dimension, ...]:
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
@@ -277,7 +300,7 @@ class Structure(ABC):
 
         Over g, in the factor of mass of `bodies`: constant loads, thrusts and ties.
         """
-        return np.zeros(np.shape(rotation))
+        return self.linkage.held_work(rotation)
 
     def candidates(self, count: int = 11) -> "tuple[Candidate, ...]":
         """Return the mechanisms that may form, `count` or one more; first the one that statics chooses, of least λ.
@@ -364,31 +387,34 @@ class Structure(ABC):
             return given[each.key][1]
         return typed_text(self._values[each.key], "{:.6g}")
 
-    def _on_side(self, rotation: float, drawing: str) -> Any:
-        """The drawing of the positive side, or the mirror image of the mirrored structure's for a negative rotation."""
-        sides = self.mechanism().sides
-        lowest = 0.0 if self.mechanism().one_sided else -sides[-1].end_rotation
-        rotation = within(StructureError, "rotation", rotation, lowest, sides[0].end_rotation, "rad")
-        if rotation >= 0 or self.draws_both_sides:
-            return getattr(self, drawing)(rotation)
-        drawn = getattr(self._mirrored(), drawing)(-rotation)
-        mirror = np.array([-1.0, 1.0])
-        return [part * mirror for part in drawn] if isinstance(drawn, list) else drawn * mirror
-
-    def _mirrored(self) -> "Structure":
-        return self
-
-    @abstractmethod
     def _build(self) -> Mechanism:
-        """Reduce the geometry to I, J, G, B."""
+        """Reduce the moving parts to I, J, G, B."""
+        positive, *others = (each.side(self._impact(bool(n))) for n, each in enumerate(self.linkages))
+        return Mechanism(positive, others[0] if others else None, self.one_sided)
+
+    def _impact(self, mirrored: bool) -> float:
+        """η of the impact that ends rocking on one side."""
+        given: Restitution = getattr(self, "restitution", None)
+        chosen = self.usual_restitution if given is None else given
+        return resolve_restitution(chosen, lambda: self._momentum_balance(mirrored))
+
+    def _momentum_balance(self, mirrored: bool) -> float:
+        arriving, leaving = (self.linkages * 2)[:2][:: -1 if mirrored else 1]
+        before, after = arriving.motion(0.0), leaving.motion(0.0)
+        return momentum_balance(
+            arriving.masses,
+            arriving.inertias,
+            (before.velocities, before.spins),
+            (after.velocities, after.spins),
+        )
 
     @abstractmethod
-    def _outline(self, rotation: float) -> list[np.ndarray]:
-        """The parts at a rotation ≥ 0 on the positive side."""
+    def _linkage(self, mirrored: bool) -> Linkage:
+        """The moving parts on the positive side, or, as the mirror image shows them, on the negative one."""
 
     @abstractmethod
-    def _hinges(self, rotation: float) -> np.ndarray:
-        """The contacts at a rotation ≥ 0 on the positive side."""
+    def _parts(self) -> list[tuple[int, np.ndarray]]:
+        """The outlines (k,), complex, at rest, each with the number of the part of the linkage, or STILL."""
 
     def _dimensions(self) -> Mapping[str, Path | list[Path]]:
         """The dimension of each parameter that a drawing can show, or of each value of a list."""

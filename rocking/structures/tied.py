@@ -1,57 +1,18 @@
 """Structures that carry loads and a row of ties: how a file describes these, how they must be, what is said of them."""
 
 from abc import abstractmethod
-from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Annotated, Literal
 
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.structures.equivalent_block import Function
+from rocking.structures.drawing import Mark, plane
 from rocking.structures.fields import OneSided, Value
-from rocking.structures.mechanism import Side
+from rocking.structures.linkage import STILL, Hung
 from rocking.structures.structure import Crackable
-from rocking.structures.ties import LoadedForm, Tie
-
-
-def loaded_side(form: LoadedForm, end_rotation: float, restitution: float) -> Side:
-    """Return the side of rocking with the functions of `form`, up to `end_rotation` [rad]."""
-    bends = [bend for tie in form.ties for bend in tie.bends(end_rotation)]
-    critical = critical_rotation(form.gravity, end_rotation, bends)
-    return Side.of(form, critical, end_rotation, restitution, form.ties, form.untied.gravity)
-
-
-def critical_rotation(gravity: Function, end_rotation: float, bends: Sequence[float] = ()) -> float:
-    """Return where G first vanishes on (0, end_rotation), or falls below zero at one of its `bends`, rad.
-
-    Raises StructureError when G does not restore at rest, or does not vanish.
-    """
-    from scipy.optimize import brentq  # slow to import, and needed by loaded structures only
-
-    places = np.linspace(0.0, end_rotation, 513)
-    if bends:
-        places = np.unique(np.concatenate([places, bends, np.nextafter(bends, np.inf)]))
-    falls = np.flatnonzero(gravity(places) <= 0)
-    if not falls.size:
-        raise StructureError(
-            f"the structure has no unstable equilibrium up to a rotation of {end_rotation:.6g} rad: "
-            "what holds it never lets go; make it weaker."
-        )
-    if falls[0] == 0:
-        raise StructureError("the structure does not stand: what acts on it at rest turns it over.")
-    before, after = places[falls[0] - 1], places[falls[0]]
-
-    def restoring(phi: float) -> float:
-        return float(gravity(np.asarray(phi)))
-
-    while bends and restoring(after) > 0:
-        after = np.nextafter(after, np.inf)  # rounded otherwise alone than in a row
-    found = float(brentq(restoring, before, after, xtol=1e-16, rtol=1e-15))
-    while bends and found < after and restoring(found) > 0:
-        found = float(np.nextafter(found, np.inf))  # where a tie breaks, the far side of the fall
-    return found
-
+from rocking.structures.ties import Tie
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"gt": 0})]
 Eccentricity = Annotated[
@@ -124,31 +85,50 @@ class Tied(Crackable):
     ] = field(default=0.0, kw_only=True)
     one_sided: OneSided = field(default=False, kw_only=True)
 
+    @property
     @abstractmethod
-    def tie_stretches(self, rotation: float) -> dict[float, float]:
-        """Return by how much each tie that moves is stretched [m], by height, at a signed `rotation` [rad]."""
+    def height(self) -> float:
+        """Of the wall, m."""
+
+    @abstractmethod
+    def _hung(self, mirrored: bool) -> list[Hung]:
+        """What hangs on it, as seen from one side."""
+
+    @staticmethod
+    def _load(start: complex, part: int, load: float, held: bool) -> Hung:
+        """A load [N/m], whose mass something else holds or which moves along."""
+        return Hung("load", start, part, -1j * load) if held else Hung("load", start, part, mass=load)
 
     def tie_events(self, rotation: float) -> str:
-        tie, said = self._tie(), []
-        for height, stretch in self.tie_stretches(rotation).items():
+        tie, events = self._tie, []
+        for height, stretch in self.linkage.tie_stretches(max(rotation, 0.0)).items():
             if stretch > tie.rupture_stretch:
-                said.append(f"the tie at {height:.6g} m breaks")
+                events.append(f"the tie at {height:.6g} m breaks")
             elif stretch > tie.yield_stretch:
-                said.append(
+                events.append(
                     f"the tie at {height:.6g} m yields by {stretch - tie.yield_stretch:.3g} m of "
                     f"{tie.plastic_elongation:.6g} m"
                 )
-        return "; ".join(said)
+        return "; ".join(events)
 
-    def _tie(self, unit: float = 1.0) -> Tie:
-        """Each tie, its forces in `unit` [N/m]."""
+    def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
+        linkage, motion = self._posed(rotation)
+        mirrored, size, drawn = rotation < 0, 0.15 * self.height, []
+        anchorage = float(np.vstack(self.outline())[:, 0].min()) - 2 * size
+        for each in self._hung(mirrored):
+            moved = 0j if each.part == STILL else linkage.carried(each.part, each.start, motion).moved
+            head = plane(np.asarray(each.start + moved), mirrored)
+            tail = {"load": [0.0, size], "thrust": [-size, 0.0], "tie": [anchorage - head[0], 0.0]}[each.kind]
+            force = 0.0 if isinstance(each.force, Tie) else abs(each.force) + each.mass
+            text = self._tie_text if each.kind == "tie" else f"{force / 1e3:.6g} kN/m"
+            drawn.append(Mark(each.kind, text, np.array([head + tail, head])))
+        return tuple(drawn)
+
+    @cached_property
+    def _tie(self) -> Tie:
+        """Each tie."""
         strength = np.inf if self.tie_strength is None else self.tie_strength
-        return Tie(
-            self.tie_stiffness / unit,
-            self.tie_pretension / unit,
-            strength / unit,
-            self.tie_plastic_elongation,
-        )
+        return Tie(self.tie_stiffness, self.tie_pretension, strength, self.tie_plastic_elongation)
 
     @property
     def _tie_text(self) -> str:
@@ -159,11 +139,11 @@ class Tied(Crackable):
         does = "yields" if self.tie_plastic_elongation else "breaks"
         return f"{text}, {does} at {self.tie_strength / 1e3:.6g} kN/m"
 
-    def _check_ties(self, top: float) -> None:
-        """Refuse ties that do not hang together. top: of the wall, m."""
+    def _check_ties(self) -> None:
+        """Refuse ties that do not hang together."""
         stiffness, pretension, strength = self.tie_stiffness, self.tie_pretension, self.tie_strength
         for height in self.tie_heights:
-            check_inside("tie_heights", height, top)
+            check_inside("tie_heights", height, self.height)
         if strength is not None and strength < pretension:
             raise StructureError(
                 f"tie_strength is {strength!r} N/m, but must be at least the pretension of {pretension!r} N/m."

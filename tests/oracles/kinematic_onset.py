@@ -10,7 +10,7 @@ from scipy.optimize import minimize
 
 from rocking.structures.arch_mechanism import NoMechanism, Onset
 from rocking.structures.arch_ring import PATTERN, Ring
-from rocking.structures.bodies import cross
+from rocking.structures.linkage import cross
 
 
 def kinematic_onset(ring: Ring) -> Onset:

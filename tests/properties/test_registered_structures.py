@@ -18,7 +18,7 @@ from rocking.errors import StructureError
 from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
-from rocking.structures.bodies import UnknownContacts
+from rocking.structures.contacts import UnknownContacts
 from rocking.structures.structure_list import TYPES, load_structures, structure_from_config, structures_schema
 
 FEW = settings(
@@ -211,7 +211,7 @@ def test_contacts_are_finite_or_refused_in_words(structure):
     mechanism = structure.mechanism()
     rotation = mechanism.critical_rotation * np.array([0.2, 0.6])
     try:
-        found = structure.contact_history(rotation, np.array([0.1, -0.1]), np.array([0.5, -0.5]))
+        found = structure.contact_forces(rotation, [0.1, -0.1], ground=[0.5, -0.5])
     except UnknownContacts as why:
         assert len(str(why).split()) > 4
     else:

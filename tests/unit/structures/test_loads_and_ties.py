@@ -261,8 +261,8 @@ def test_the_lower_block_is_in_balance_under_the_force_at_the_hinge(case):
     rotation, speed, ground = 0.04, 0.25, 1.3
     turn = float(wall.mechanism().angular_acceleration(rotation, speed, ground))
     found = wall.contact_forces(rotation, speed, turn, ground)
-    motion = wall.wall.linkage.motion(rotation)
-    thrust = complex(found.normal[1, 0], found.tangential[1, 0]) * 1j * np.exp(0.5j * motion.angles.sum())
+    motion = wall.linkage.motion(rotation)
+    thrust = complex(found.normal[1, 0], found.tangential[1, 0]) * 1j * np.exp(0.5j * motion.angles[:2].sum())
     base, hinge = motion.hinges[:2]
     mass, radius = wall.lower_height / wall.height, np.hypot(wall.lower_height, wall.thickness) / 2
     arm = motion.centroids[0] - base
@@ -279,5 +279,5 @@ def test_the_lower_block_is_in_balance_under_the_force_at_the_hinge(case):
         if height <= wall.lower_height:
             point = base + 1j * height * np.exp(-1j * rotation)
             force = wall.tie_pretension + wall.tie_stiffness * (point.real - wall.thickness / 2)
-            total += moment(point, complex(-force * GRAVITY / wall.weight))
+            total += moment(point, complex(-force * GRAVITY / wall.linkage.unit))
     assert abs(total) < 1e-10 * GRAVITY * radius

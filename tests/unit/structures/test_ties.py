@@ -200,8 +200,8 @@ def test_energy_and_the_loop_of_the_tie_are_kept_over_a_hundred_cycles(structure
 def structure_unit(structure):
     """N/m (times m) in the unit of G: the façade's is its static moment over g, the wall's its weight."""
     if isinstance(structure, Facade):
-        return structure.outward.form.divisor
-    return structure.weight
+        return structure.linkage.unit
+    return structure.unit_weight * structure.height * structure.thickness
 
 
 def loop(tie, u):
@@ -311,8 +311,7 @@ def test_acceleration_and_capacity_know_the_ties(structure):
 
 def test_contacts_remember_what_yielded():
     """Horizontal force at the toe, which carries what the ties do not: less of it once they are broken."""
-    state = {"rotation": [0.006, 0.006], "angular_velocity": [0.0, 0.0], "ground": [0.0, 0.0]}
-    found = FACADE.contact_history(**state, largest=[0.006, 0.3])
+    found = FACADE.contact_forces([0.006, 0.006], [0.0, 0.0], largest=[0.006, 0.3])
     assert found.tangential[0, 0] < found.tangential[0, 1] - 0.01 * GRAVITY
     record = Accelerogram(-3.2 * np.sin(np.arange(400) / 20), 0.01)
     response = integrate(FACADE, record, history=True)

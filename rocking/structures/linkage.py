@@ -1,0 +1,403 @@
+"""Rigid parts that move with one rotation φ ≥ 0 to one side, and what hangs on them: all of a side follows from these.
+
+Points are complex, x + iy, x towards the side of rocking; the negative side is seen in the mirror. A constant force and
+an elastic tie have a potential, so they add to G(φ); a mass that moves along adds to I, G and B. Masses and forces are
+in one unit (weights in N per metre of wall, say), which cancels.
+
+Every momentum balance is one equation. Just before the impact at φ = 0 the parts move with the velocity field u of one
+side, just after with η times the field v of the other; the impulses act where the new mechanism turns and do no work on
+it, so ⟨η v − u, v⟩ = 0 in the mass inner product and η = ⟨u, v⟩ / ⟨v, v⟩. For a block this is Housner's
+1 − 1.5 sin²α, for the mid-height wall (1 − 4.5 sin²α)/(1 + 3 sin²α), for the frame Makris and Vassiliou's value.
+"""
+
+import warnings
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property, wraps
+from typing import Literal, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rocking.errors import StructureError, StructureWarning
+from rocking.quantities import GRAVITY
+from rocking.structures.contacts import Contacts, MotionState
+from rocking.structures.mechanism import Side
+from rocking.structures.ties import SideTie, Tie
+
+Owner = TypeVar("Owner")
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """k parts at some rotations of the mechanism, and their first and second derivatives with φ.
+
+    hinges: (h, ...) complex contact points. angles: (k, ...) counterclockwise turn of each part from rest, rad; spins
+    and spin_slopes: its derivatives. centroids, velocities, accelerations: (k, ...) complex, with their derivatives.
+    """
+
+    hinges: np.ndarray = field(repr=False)
+    angles: np.ndarray = field(repr=False)
+    spins: np.ndarray = field(repr=False)
+    spin_slopes: np.ndarray = field(repr=False)
+    centroids: np.ndarray = field(repr=False)
+    velocities: np.ndarray = field(repr=False)
+    accelerations: np.ndarray = field(repr=False)
+
+
+class Bodies(NamedTuple):
+    """Moving masses at a rotation (any shape, ...), up to one factor of mass; points complex, m.
+
+    masses, inertias (about each centre of mass): (k,). centres: (k, ...). turns: (k, ...) counterclockwise, rad.
+    """
+
+    masses: np.ndarray
+    inertias: np.ndarray
+    centres: np.ndarray
+    turns: np.ndarray
+
+
+class PointMotion(NamedTuple):
+    """Points at rotations of any shape: how far they moved from rest, and the derivatives with φ; complex, m."""
+
+    moved: np.ndarray
+    velocity: np.ndarray
+    acceleration: np.ndarray
+
+
+STILL = -1
+"""The number of a part that does not move."""
+
+
+class Hung(NamedTuple):
+    """What hangs on a part at a point: a constant force, a tie, or a mass that moves along.
+
+    start: the point at rest. part: its number, or STILL. force: towards the side of rocking and
+    upwards, growing and falling with g + ü_v, or a tie; 0 where it does not act on this side.
+    """
+
+    kind: Literal["load", "thrust", "tie"]
+    start: complex
+    part: int
+    force: complex | Tie = 0j
+    mass: float = 0.0
+
+    @property
+    def acts(self) -> bool:
+        """Whether it does anything on this side."""
+        return self.part != STILL and bool(self.force or self.mass)
+
+
+def keeps_last(method: Callable[[Owner, np.ndarray], Motion]) -> Callable[[Owner, ArrayLike], Motion]:
+    """Let `motion` keep what it returned last: I, G and B of the same places are asked for in turn."""
+
+    @wraps(method)
+    def keeping(self: Owner, rotation: ArrayLike) -> Motion:
+        asked = np.asarray(rotation, dtype=float)
+        last: tuple[np.ndarray, Motion] | None = self.__dict__.get("_last")
+        if last is None or not np.array_equal(last[0], asked):
+            last = self.__dict__["_last"] = asked.copy(), method(self, asked)
+        return last[1]
+
+    return keeping
+
+
+def cross(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Return the cross product of plane vectors given as complex numbers."""
+    return one.real * other.imag - one.imag * other.real
+
+
+def _sum(weights: np.ndarray, terms: np.ndarray) -> np.ndarray:
+    return np.tensordot(weights, terms, axes=1)
+
+
+class Linkage(ABC):
+    """Parts that move as one mechanism on one side; a subclass gives their motion and the force at their hinges.
+
+    masses, inertias (about the centroids): (k,), those of `hung` masses last. rest: (k,) centroids at rest, m. unit:
+    what I, I', G, G' and B are divided by. end_rotation: where the geometry ends, rad. critical: φ_cr where it has a
+    formula, rad; None: where G first vanishes.
+    """
+
+    masses: np.ndarray
+    inertias: np.ndarray
+    rest: np.ndarray
+    end_rotation: float
+    unit: float = 1.0
+    critical: float | None = None
+    hung: tuple[Hung, ...] = ()
+
+    @abstractmethod
+    def motion(self, rotation: ArrayLike) -> Motion:
+        """Return the parts at `rotation` ≥ 0 [rad], any shape."""
+
+    @abstractmethod
+    def contacts(self, state: MotionState) -> Contacts:
+        """Return the contact forces in a state on this side; raises UnknownContacts, which says why, without them."""
+
+    def carried(self, part: int, start: complex | np.ndarray, motion: Motion) -> PointMotion:
+        """Return how points fixed to a part have moved from `start`, where they are at rest."""
+        arm = (start - self.rest[part]) * np.exp(1j * motion.angles[part])
+        spin = motion.spins[part]
+        return PointMotion(
+            motion.centroids[part] + arm - start,
+            motion.velocities[part] + 1j * spin * arm,
+            motion.accelerations[part] + (1j * motion.spin_slopes[part] - spin**2) * arm,
+        )
+
+    def inertia(self, rotation: ArrayLike) -> np.ndarray:
+        """I = Σ m|r'|² + I_c ω², shape of `rotation`."""
+        motion = self.motion(rotation)
+        moving = _sum(self.masses, np.abs(motion.velocities) ** 2)
+        return (moving + _sum(self.inertias, motion.spins**2)) / self.unit
+
+    def inertia_slope(self, rotation: ArrayLike) -> np.ndarray:
+        """dI/dφ = 2 Σ m r'·r'' + I_c ω ω'."""
+        motion = self.motion(rotation)
+        turning = _sum(self.inertias, motion.spins * motion.spin_slopes)
+        moving = _sum(self.masses, (motion.velocities.conj() * motion.accelerations).real)
+        return 2 * (moving + turning) / self.unit
+
+    def weight(self, rotation: ArrayLike) -> np.ndarray:
+        """Σ m y', the part of G that is the weight of the masses."""
+        return _sum(self.masses, self.motion(rotation).velocities.imag) / self.unit
+
+    def weight_slope(self, rotation: ArrayLike) -> np.ndarray:
+        """Σ m y''."""
+        return _sum(self.masses, self.motion(rotation).accelerations.imag) / self.unit
+
+    def ground(self, rotation: ArrayLike) -> np.ndarray:
+        """B = Σ m x'."""
+        return _sum(self.masses, self.motion(rotation).velocities.real) / self.unit
+
+    def gravity(self, rotation: ArrayLike) -> np.ndarray:
+        """G: what masses, forces and ties restore, where the rotation was never larger."""
+        at = np.asarray(rotation, dtype=float)
+        return sum((tie.moment(at, at) for tie in self.ties), self.untied_gravity(at))
+
+    def untied_gravity(self, rotation: ArrayLike) -> np.ndarray:
+        """G without the ties."""
+        powers = [
+            (force.conjugate() * point.velocity).real for force, point in self._pushed(self.motion(rotation))
+        ]
+        return self.weight(rotation) - sum(powers, np.zeros(())) / self.unit
+
+    def gravity_slope(self, rotation: ArrayLike) -> np.ndarray:
+        """dG/dφ; of a tie between yield and rupture that of the force it keeps."""
+        motion = self.motion(rotation)
+        slopes = [-(force.conjugate() * point.acceleration).real for force, point in self._pushed(motion)]
+        slopes += [tie.slope(*(each.real for each in point)) for tie, point in self._tied(motion)]
+        return self.weight_slope(rotation) + sum(slopes, np.zeros(())) / self.unit
+
+    def held_work(self, rotation: ArrayLike) -> np.ndarray:
+        """Return the work over g done since rest against constant forces and ties, on the way out."""
+        motion = self.motion(rotation)
+        works = [-(force.conjugate() * point.moved).real for force, point in self._pushed(motion)]
+        works += [tie.work(point.moved.real) for tie, point in self._tied(motion)]
+        return sum(works, np.zeros(np.shape(rotation)))
+
+    def _pushed(self, motion: Motion) -> Iterator[tuple[complex, PointMotion]]:
+        """The constant forces and the motions of their points."""
+        for each in self.hung:
+            if not isinstance(each.force, Tie):
+                yield each.force, self.carried(each.part, each.start, motion)
+
+    def _tied(self, motion: Motion) -> Iterator[tuple[Tie, PointMotion]]:
+        """The ties and the motions of their points."""
+        for each in self.hung:
+            if isinstance(each.force, Tie):
+                yield each.force, self.carried(each.part, each.start, motion)
+
+    def tie_stretches(self, rotation: float) -> dict[float, float]:
+        """Return how far the point of each tie has moved outwards [m] at `rotation` ≥ 0 [rad], by its height."""
+        heights = [each.start.imag for each in self.hung if isinstance(each.force, Tie)]
+        points = [point for _, point in self._tied(self.motion(rotation))]
+        return {z: float(point.moved.real) for z, point in zip(heights, points, strict=True)}
+
+    @cached_property
+    def ties(self) -> tuple[SideTie, ...]:
+        """The ties as the side has them, in the unit of G per m."""
+
+        def side_tie(number: int, tie: Tie) -> SideTie:
+            def point(rotation: np.ndarray) -> PointMotion:
+                return list(self._tied(self.motion(rotation)))[number][1]
+
+            return SideTie(
+                tie.over(self.unit), lambda phi: point(phi).moved.real, lambda phi: point(phi).velocity.real
+            )
+
+        still = self.motion(0.0)
+        return tuple(side_tie(number, tie) for number, (tie, _) in enumerate(self._tied(still)))
+
+    def side(self, restitution: float) -> Side:
+        """Return the side of rocking."""
+        ties = self.ties
+        bends = [bend for tie in ties for bend in tie.bends(self.end_rotation)]
+        critical = self._first_zero(bends) if self.critical is None else self.critical
+        functions = self.inertia, self.inertia_slope, self.gravity, self.gravity_slope, self.ground
+        return Side(*functions, critical, self.end_rotation, restitution, ties, self.untied_gravity)
+
+    def _first_zero(self, bends: Sequence[float]) -> float:
+        """Where G first vanishes on (0, end_rotation), or falls below zero at one of the `bends` of its ties, rad.
+
+        Raises StructureError when G does not restore at rest, or does not vanish.
+        """
+        from scipy.optimize import brentq  # slow to import, and not needed by what has a formula
+
+        places = np.linspace(0.0, self.end_rotation, 513)
+        if bends:
+            places = np.unique(np.concatenate([places, bends, np.nextafter(bends, np.inf)]))
+        falls = np.flatnonzero(self.gravity(places) <= 0)
+        if not falls.size:
+            raise StructureError(
+                f"the structure has no unstable equilibrium up to a rotation of {self.end_rotation:.6g} rad: "
+                "what holds it never lets go; make it weaker."
+            )
+        if falls[0] == 0:
+            raise StructureError("the structure does not stand: what acts on it at rest turns it over.")
+        before, after = places[falls[0] - 1], places[falls[0]]
+        while bends and self.gravity(after) > 0:
+            after = np.nextafter(after, np.inf)  # rounded otherwise alone than in a row
+        critical = float(brentq(self.gravity, before, after, xtol=1e-16, rtol=1e-15))
+        while bends and critical < after and self.gravity(critical) > 0:
+            critical = float(np.nextafter(critical, np.inf))  # where a tie breaks, the far side of the fall
+        return critical
+
+    def dalembert(self, state: MotionState) -> tuple[np.ndarray, np.ndarray]:
+        """Return weight, inertia and what hangs on each part in motion: forces (k, n), complex, and couples (k, n)."""
+        motion, furthest = self.motion(state.rotation), self.motion(state.largest)
+        centre = motion.accelerations * state.velocity**2 + motion.velocities * state.acceleration
+        spin = motion.spin_slopes * state.velocity**2 + motion.spins * state.acceleration
+        forces, couples = -self.masses[:, None] * (centre + state.pull), -self.inertias[:, None] * spin
+        for each in self.hung:
+            moved = self.carried(each.part, each.start, motion).moved
+            if isinstance(each.force, Tie):
+                largest = self.carried(each.part, each.start, furthest).moved
+                force = -each.force.tension(moved.real, largest.real) * GRAVITY + 0j
+            else:
+                force = each.force * state.pull.imag
+            forces[each.part] += force
+            couples[each.part] += cross(each.start + moved - motion.centroids[each.part], force)
+        return forces, couples
+
+
+class Turning(Linkage):
+    """Parts that turn together about a `corner` to the right of their centre of mass, clockwise, until they lie.
+
+    slenderness: of that centre, rad, where it is given rather than the centre; end_rotation: where they lie, rad.
+    inertia_length: I_O over the static moment, m.
+    """
+
+    def __init__(
+        self,
+        corner: complex,
+        masses: ArrayLike,
+        centres: ArrayLike,
+        inertias: ArrayLike,
+        hung: Sequence[Hung] = (),
+        *,
+        slenderness: float | None = None,
+        end_rotation: float = np.pi / 2,
+    ) -> None:
+        self.corner, self.end_rotation = corner, end_rotation
+        self.hung = tuple(each for each in hung if each.acts)
+        moving = [each for each in self.hung if each.mass]
+        self.masses = np.append(masses, [each.mass for each in moving])
+        self.rest = np.append(centres, [each.start for each in moving])
+        self.inertias = np.append(inertias, np.zeros(len(moving)))
+        moment = complex(self.masses @ (self.rest - corner))
+        self.unit = abs(moment)
+        self.slenderness = (
+            float(np.arctan2(-moment.real, moment.imag)) if slenderness is None else slenderness
+        )
+        self.critical = None if any(each.force for each in self.hung) else self.slenderness
+        inertia = self.inertias.sum() + self.masses @ np.abs(self.rest - corner) ** 2
+        self.inertia_length = float(inertia / self.unit)
+
+    @keeps_last
+    def motion(self, rotation: np.ndarray) -> Motion:
+        """Return the parts at `rotation` ≥ 0, any shape; the corner is the hinge."""
+        arms = np.multiply.outer(self.rest - self.corner, np.exp(-1j * rotation))
+        spins = -np.ones(arms.shape)
+        return Motion(
+            hinges=np.full((1, *rotation.shape), self.corner),
+            angles=spins * rotation,
+            spins=spins,
+            spin_slopes=0 * spins,
+            centroids=self.corner + arms,
+            velocities=-1j * arms,
+            accelerations=-arms,
+        )
+
+    def carried(self, part: int, start: complex | np.ndarray, motion: Motion) -> PointMotion:
+        """Return how points have moved; small rotations keep their relative accuracy."""
+        arm, angle = start - self.corner, motion.angles[part]
+        turn = np.exp(1j * angle)
+        return PointMotion(2j * arm * np.sin(angle / 2) * np.exp(0.5j * angle), -1j * arm * turn, -arm * turn)
+
+    def inertia(self, rotation: ArrayLike) -> np.ndarray:
+        """I_O over the static moment; 4R/3 for a rectangular block (Eq. 1)."""
+        return np.full(np.shape(rotation), self.inertia_length)
+
+    def inertia_slope(self, rotation: ArrayLike) -> np.ndarray:
+        """0."""
+        return np.zeros(np.shape(rotation))
+
+    def weight(self, rotation: ArrayLike) -> np.ndarray:
+        """sin(α − φ)."""
+        return np.sin(self.slenderness - np.asarray(rotation))
+
+    def weight_slope(self, rotation: ArrayLike) -> np.ndarray:
+        """−cos(α − φ)."""
+        return -np.cos(self.slenderness - np.asarray(rotation))
+
+    def ground(self, rotation: ArrayLike) -> np.ndarray:
+        """cos(α − φ)."""
+        return np.cos(self.slenderness - np.asarray(rotation))
+
+    def contacts(self, state: MotionState) -> Contacts:
+        """Return the force at the corner, per mass of all that moves."""
+        forces, _ = self.dalembert(state)
+        total = -forces.sum(axis=0, keepdims=True) / self.masses.sum()
+        return Contacts(("corner",), total.imag, total.real)
+
+
+Restitution = float | str | None
+"""η in [0, 1], the name of a balance, or None for the structure's default."""
+
+
+def momentum_balance(
+    masses: np.ndarray,
+    inertias: np.ndarray,
+    arriving: tuple[np.ndarray, np.ndarray],
+    leaving: tuple[np.ndarray, np.ndarray],
+) -> float:
+    """Return η = ⟨u, v⟩ / ⟨v, v⟩, which may be negative.
+
+    masses, inertias (about each centre of mass): (k,). arriving, leaving: complex velocities of the centres and spins
+    (k,) each for φ' = 1 on the one side and, seen in the mirror, on the other.
+    """
+    (u, turn), (v, turn_after) = arriving, leaving
+    shared = masses @ (u * v).real + inertias @ (turn * turn_after)
+    return float(shared / (masses @ np.abs(v) ** 2 + inertias @ turn_after**2))
+
+
+def resolve_restitution(value: float | str, balance: Callable[[], float]) -> float:
+    """Return η in [0, 1]: `value`, or what the `balance` gives where it is a name.
+
+    A balance below zero is not physical (the body would not reach the other side): η becomes 0 and a
+    StructureWarning says so.
+    """
+    if not isinstance(value, str):
+        return float(value)
+    ratio = balance()
+    if ratio >= 0:
+        return min(ratio, 1.0)
+    warnings.warn(
+        f"restitution by {value} balance is {ratio:.4g} for this geometry, which is not physical; 0 is "
+        "used instead (the structure is too squat to rock from side to side), so give a measured value.",
+        StructureWarning,
+        stacklevel=4,
+    )
+    return 0.0
