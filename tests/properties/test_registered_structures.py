@@ -95,8 +95,10 @@ def smooth(side, at, reach):
 def test_the_standard_form_is_that_of_its_moving_masses(structure):
     """I, G and B by virtual work of the bodies' own positions, differentiated numerically, up to one factor of mass."""
     side = structure.mechanism().positive
-    step = 1e-2 * side.critical_rotation
-    at = smooth(side, side.critical_rotation * np.linspace(0.05, 0.95, 9), 4 * step)
+    # near the end of its geometry a linkage locks, and differences say little
+    last = min(side.critical_rotation, 0.8 * side.end_rotation)
+    step = 1e-2 * last
+    at = smooth(side, last * np.linspace(0.05, 0.95, 9), 4 * step)
     assume(at.size)
     masses, inertias = structure.bodies(at)[:2]
     velocity = differentiated(lambda phi: structure.bodies(phi).centres, at, step)
