@@ -60,7 +60,16 @@ def paper_figures(record: Accelerogram, instead: str = "") -> list[PaperFigure]:
 @cache
 def equivalence_figures() -> list[PaperFigure]:
     """Return Figs. 3, 4, 6 and 7: what is lost by an equivalent block, the paper's and the one exact at rest."""
-    return [_figure_3(), _figure_4(), _figure_6(), _figure_7()]
+    walls, arches = curves.wall_sides(), curves.arch_sides()
+    period = "Errors of the equivalent block"
+    time = "Error of the equivalent block in the time to overturn under constant acceleration"
+    wall, arch = "wall hinged at mid-height", "semicircular arch"
+    return [
+        _periods("figure_3", f"Fig. 3. {period}, {wall}", walls, curves.wall_uplift_curve("b")),
+        _overturning("figure_4", f"Fig. 4. {time}, {wall}", walls),
+        _periods("figure_6", f"Fig. 6. {period}, {arch}", arches, curves.arch_uplift_curve("b")),
+        _overturning("figure_7", f"Fig. 7. {time}, {arch}", arches),
+    ]
 
 
 def paper_report(figures: Sequence[PaperFigure], equations: Sequence[EquationRow]) -> bytes:
@@ -76,21 +85,15 @@ def paper_report(figures: Sequence[PaperFigure], equations: Sequence[EquationRow
 def equation_table(rows: Sequence[EquationRow]) -> dict[str, object]:
     """Return the equations as the template sets them."""
     columns = [
-        ("Eq.", "0.45", "l"),
-        ("Printed", "1.2", "l"),
-        ("Corrected", "1.3", "l"),
-        ("What decides", "1.8", "l"),
-        ("Printed gives", "0.7", "r"),
-        ("Corrected gives", "0.75", "r"),
-        ("Decided", "0.7", "r"),
-    ]
-    return printing.table(columns, [_equation_cells(row) for row in rows])
-
-
-def _equation_cells(row: EquationRow) -> list[printing.Cell]:
-    numbers = (row.printed_number, row.corrected_number, row.deciding_number)
-    texts = (row.equation, row.printed, row.corrected, row.quantity)
-    return [*texts, *(printing.number(number, 6) for number in numbers)]
+        ("Eq.", "0.45", "l"), ("Printed", "1.2", "l"), ("Corrected", "1.3", "l"), ("What decides", "1.8", "l"),
+        ("Printed gives", "0.7", "r"), ("Corrected gives", "0.75", "r"), ("Decided", "0.7", "r"),
+    ]  # fmt: skip
+    cells = []
+    for each in rows:
+        numbers = (each.printed_number, each.corrected_number, each.deciding_number)
+        texts = (each.equation, each.printed, each.corrected, each.quantity)
+        cells.append([*texts, *(printing.number(number, 6) for number in numbers)])
+    return printing.table(columns, cells)
 
 
 def _made(
@@ -99,31 +102,22 @@ def _made(
     return PaperFigure(name, caption, figure or panels(lines), curves.CurveRow, curves.rows_of(lines))
 
 
-def _figure_3() -> PaperFigure:
-    caption = (
-        "Fig. 3. Errors of the equivalent block, wall hinged at mid-height: (a) natural period, linearised as in the "
-        "paper, (b) uplift, linearised; (c) natural period of the block exact at rest, whose uplift has no error."
-    )
-    return _periods("figure_3", caption, curves.wall_sides(), curves.wall_uplift_curve("b"))
-
-
 def _periods(name: str, caption: str, sides: Sides, uplift: curves.Curve) -> PaperFigure:
+    """Errors in the natural period and in uplift."""
+    caption += (
+        ": (a) natural period, linearised as in the paper, (b) uplift, linearised; (c) natural period of the block "
+        "exact at rest, whose uplift has no error."
+    )
     lines = [*curves.period_curves(sides, "a"), uplift, *curves.period_curves(sides, "c", "rest")]
     return _made(name, caption, lines)
 
 
 def _overturning(name: str, caption: str, sides: Sides) -> PaperFigure:
+    """Errors in the time to overturn."""
+    caption += ": (a) with a_sc and (b) with a_sc,alt as in the paper, (c) exact at rest."
     scales: tuple[tuple[Scale, str], ...] = (("linearised", "a"), ("uplift", "b"), ("rest", "c"))
     lines = [curve for scale, panel in scales for curve in curves.overturning_curves(sides, scale, panel)]
     return _made(name, caption, lines)
-
-
-def _figure_4() -> PaperFigure:
-    caption = (
-        "Fig. 4. Error of the equivalent block in the time to overturn under constant acceleration, wall hinged at "
-        "mid-height: (a) with a_sc and (b) with a_sc,alt as in the paper, (c) exact at rest."
-    )
-    return _overturning("figure_4", caption, curves.wall_sides())
 
 
 def _figures_as_printed() -> PaperFigure:
@@ -146,22 +140,6 @@ def _hinge_heights() -> PaperFigure:
     return _made("equation_14", caption, lines, panels(lines, columns=1))
 
 
-def _figure_6() -> PaperFigure:
-    caption = (
-        "Fig. 6. Errors of the equivalent block, semicircular arch: (a) natural period, linearised as in the paper, "
-        "(b) uplift, linearised; (c) natural period of the block exact at rest, whose uplift has no error."
-    )
-    return _periods("figure_6", caption, curves.arch_sides(), curves.arch_uplift_curve("b"))
-
-
-def _figure_7() -> PaperFigure:
-    caption = (
-        "Fig. 7. Error of the equivalent block in the time to overturn under constant acceleration, semicircular arch: "
-        "(a) with a_sc and (b) with a_sc,alt as in the paper, (c) exact at rest."
-    )
-    return _overturning("figure_7", caption, curves.arch_sides())
-
-
 def _pulse_spectrum() -> PaperFigure:
     caption = (
         "Spectrum of one full sine pulse, η = 0.9: largest rotation over critical rotation of the equivalent block "
@@ -170,11 +148,9 @@ def _pulse_spectrum() -> PaperFigure:
     frequencies, amplitudes = np.geomspace(0.5, 12, 90), np.geomspace(1.01, 20, 90)
     ratios = pulse_spectrum(frequencies, amplitudes, 0.9)
     rows = [
-        PulseSpectrumRow(
-            frequency_ratio=float(omega), amplitude_ratio=float(a), rotation_ratio=float(ratios[i, j])
-        )
-        for i, omega in enumerate(frequencies)
-        for j, a in enumerate(amplitudes)
+        PulseSpectrumRow(frequency_ratio=omega, amplitude_ratio=a, rotation_ratio=float(ratios[i, j]))
+        for i, omega in enumerate(frequencies.tolist())
+        for j, a in enumerate(amplitudes.tolist())
     ]
     figure = pulse_map(frequencies, amplitudes, ratios)
     return PaperFigure("pulse_spectrum", caption, figure, PulseSpectrumRow, rows)

@@ -29,8 +29,3 @@ def drawing(kind: str, form: Form) -> Figure:
     for axes in (rest, displaced):
         axes.axis("off")
     return figure
-
-
-def drawings() -> dict[str, Figure]:
-    """Return every drawing by its name."""
-    return {name: drawing(kind, form) for name, kind, form in forms()}

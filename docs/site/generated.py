@@ -1,110 +1,93 @@
-"""The parts of the pages that the code itself knows: formats, settings, structures, tables, equations."""
+"""The parts of the pages that the code itself says: formats, settings, structures, tables, equations, names."""
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from pathlib import Path
+from functools import partial
 from typing import Any
 
-import yaml
-
 import rocking
+from docs.paper.report import equation_rows, equivalence_figures
 from docs.site.drawings import forms
 from rocking.assessment.rows.of_folder import PER_RECORD
 from rocking.assessment.rows.of_record import HistoryRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES, SpectrumRow
+from rocking.described import described_values, parts_of
+from rocking.pulses import PULSE_METHODS
 from rocking.quantities import ACCELERATION_UNITS
 from rocking.records.formats import FORMATS
+from rocking.sine_pulse import Regime
 from rocking.structures.fields import Form
+from rocking.study.settings import Settings
 from rocking.tables import Table
 
 
-def formats(_: Path) -> str:
+def formats() -> str:
     """The formats that are read, where each comes from, and what it is recognised by."""
     rows = ((form.name, form.origin, form.sought, "yes" if form.plugin else "") for form in FORMATS)
     return table(("format", "origin", "recognised by", "offered to obspy"), rows)
 
 
-def units(_: Path) -> str:
+def units() -> str:
     """The units that may be declared."""
     return ", ".join(f"`{unit}`" for unit in ACCELERATION_UNITS) + "."
 
 
-def settings(workflow: Path) -> str:
+def settings() -> str:
     """Every setting with its meaning, what is allowed, and its default."""
-    schema = _yaml(workflow / "schemas" / "config.schema.yaml")
-    defaults = _yaml(workflow / "config.yaml")
-    rows = _setting_rows(schema["properties"], defaults)
-    return table(("setting", "meaning", "allowed", "default"), rows)
+    return table(("setting", "meaning", "allowed", "default"), _setting_rows(Settings()))
 
 
-def structures(_: Path) -> str:
+def structures() -> str:
     """The drawing and the keys of every form of every type of structure."""
     return "\n\n".join(_structure(*form) for form in forms())
 
 
-def tables(_: Path) -> str:
+def tables() -> str:
     """Every column of every table."""
     known = dict.fromkeys((*PER_RECORD, HistoryRow, *SUMMARY_TABLES, SpectrumRow))
     return "\n\n".join(_table_section(described.table) for described in known)
 
 
-def equations(_: Path) -> str:
+def equations() -> str:
     """The equations that the paper prints with a slip, with the numbers that decide."""
-    from docs.paper.equations import (
-        equation_rows,  # compiles the integration, which only this needs
-    )
-
     head = ("Eq.", "quantity", "by the printed form", "by the corrected form", "decides")
-    body = (
-        (
-            row.equation,
-            row.quantity,
-            *map(_figure, (row.printed_number, row.corrected_number, row.deciding_number)),
-        )
-        for row in equation_rows()
-    )
+    body = []
+    for row in equation_rows():
+        numbers = (row.printed_number, row.corrected_number, row.deciding_number)
+        shown = (f"{number:.5g}".replace("inf", "overturns") for number in numbers)
+        body.append((row.equation, row.quantity, *shown))
     return table(head, body)
 
 
-def pulse_methods(_: Path) -> str:
+def pulse_methods() -> str:
     """The pulse methods of the registry, the default first."""
-    from rocking.pulses import PULSE_METHODS
-
-    return table(
-        ("choice", "the pulse that predicts"), ((m.name, m.description) for m in PULSE_METHODS.values())
-    )
+    methods = ((method.name, method.description) for method in PULSE_METHODS.values())
+    return table(("choice", "the pulse that predicts"), methods)
 
 
-def blocks(_: Path) -> str:
-    """The largest error of each equivalent block over a figure of the paper."""
-    from docs.paper.report import equivalence_figures
-
-    head = ("figure", "structure", "quantity", "block", "largest error")
+def blocks() -> str:
+    """The largest error of each equivalent block over a figure of the paper, for few of its curves."""
     shown: dict[tuple[str, ...], float] = {}
     for figure in equivalence_figures():
         for row in figure.rows:
             block = _BLOCKS[figure.name[-1]].get(row.panel)
-            if block:
+            if block and row.curve in _CURVES:
                 key = (figure.name[-1], row.curve, row.y_quantity.partition(",")[0], block)
                 shown[key] = max(shown.get(key, 0.0), abs(row.y - 1))
-    return table(head, ((*key, f"{100 * error:.1f} %") for key, error in shown.items() if _shown(key[1])))
+    head = ("figure", "structure", "quantity", "block", "largest error")
+    return table(head, ((*key, f"{100 * error:.1f} %") for key, error in shown.items()))
 
 
 _PERIODS = {"a": "linearised", "c": "exact at rest"}
 _TIMES = {"a": "a_sc", "b": "a_sc,alt", "c": "exact at rest"}
 _BLOCKS = {"3": _PERIODS, "6": _PERIODS, "4": _TIMES, "7": _TIMES}
 """Block of each panel, by the figure of the paper."""
+_CURVES = ("α = 0.1 rad", "α = 0.3 rad", "t/r = 0.13", "t/r = 0.25")
+"""The slender and the stocky structures; the figures show all."""
 
 
-def _shown(curve: str) -> bool:
-    """The curves of the slender, the usual and the stocky structure; the figures show all."""
-    return curve in ("α = 0.1 rad", "α = 0.3 rad", "t/r = 0.13", "t/r = 0.25")
-
-
-def regimes(_: Path) -> str:
+def regimes() -> str:
     """The regimes of the closed form."""
-    from rocking.sine_pulse import Regime
-
     return table(("regime", "meaning"), ((regime.value, regime.sentence) for regime in Regime))
 
 
@@ -127,20 +110,10 @@ def api(topic: str) -> str:
     )
 
 
-GENERATED: Mapping[str, Callable[[Path], str]] = {
+GENERATED: Mapping[str, Callable[[], str]] = {
     part.__name__: part
-    for part in (
-        formats,
-        units,
-        settings,
-        structures,
-        tables,
-        equations,
-        pulse_methods,
-        blocks,
-        regimes,
-    )
-} | {f"api_{topic}": lambda _, topic=topic: api(topic) for topic in TOPICS}
+    for part in (formats, units, settings, structures, tables, equations, pulse_methods, blocks, regimes)
+} | {f"api_{topic}": partial(api, topic) for topic in TOPICS}
 """What may stand behind `generated:` in a page."""
 
 
@@ -152,64 +125,25 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     )
 
 
-def _figure(value: float) -> str:
-    return f"{value:.5g}".replace("inf", "overturns")
-
-
-def _yaml(path: Path) -> dict[str, Any]:
-    return yaml.safe_load(path.read_text(encoding="utf-8"))
-
-
-def _setting_rows(
-    properties: Mapping[str, Any], defaults: Mapping[str, Any], above: str = ""
-) -> Iterator[Sequence[str]]:
-    for name, schema in properties.items():
-        if "properties" in schema:
-            yield from _setting_rows(schema["properties"], defaults[name], f"{above}{name}.")
-        else:
-            default = json.dumps(defaults[name]).strip('"')
-            yield f"`{above}{name}`", schema.get("description", ""), allowed(schema), f"`{default}`"
-
-
-def allowed(schema: Mapping[str, Any]) -> str:
-    """Return in words what a JSON schema allows of one value."""
-    if "oneOf" in schema:
-        return " or ".join(allowed(choice) for choice in schema["oneOf"])
-    if "enum" in schema:
-        return ", ".join(f"`{value}`" for value in schema["enum"])
-    kinds = schema.get("type", "any")
-    first, *others = [kinds] if isinstance(kinds, str) else kinds
-    words = f"{_KINDS.get(first, first)} {_bounds(schema)}".strip()
-    return ", or ".join([words, *(f"`{other}`" for other in others)])
-
-
-_KINDS = {"boolean": "`true` or `false`", "string": "text", "integer": "whole number"}
-
-
-def _bounds(schema: Mapping[str, Any]) -> str:
-    if "minimum" in schema and "maximum" in schema:
-        return f"from {schema['minimum']:g} to {schema['maximum']:g}"
-    signs = {"minimum": "≥", "exclusiveMinimum": ">", "maximum": "≤", "exclusiveMaximum": "<"}
-    return " and ".join(f"{sign} {schema[name]:g}" for name, sign in signs.items() if name in schema)
+def _setting_rows(section: Any, above: str = "") -> Iterator[Sequence[str]]:
+    for name in parts_of(type(section)):
+        yield from _setting_rows(getattr(section, name), f"{above}{name}.")
+    for each in described_values(type(section)).values():
+        meaning = f"{each.meaning}, {each.unit}" if each.unit else each.meaning
+        default = json.dumps(each.default).strip('"')
+        yield f"`{above}{each.key}`", meaning, each.must, f"`{default}`"
 
 
 def _structure(drawing: str, kind: str, form: Form) -> str:
-    head = ("key", "letter", "meaning", "allowed", "usual", "")
-    rows = (
-        (
-            f"`{key}`",
-            field.said.letter,
-            field.meaning,
-            field.must,
-            ""
-            if field.said.usual is None
-            else f"{field.said.usual[0]:g} to {field.said.usual[1]:g}{field.suffix}",
-            "required" if field.required else "",
-        )
-        for key, field in form.keys.items()
-    )
+    rows = []
+    for key, field in form.keys.items():
+        low, high = field.said.usual or (None, None)
+        usual = "" if low is None else f"{low:g} to {high:g}{field.suffix}"
+        required = "required" if field.required else ""
+        rows.append((f"`{key}`", field.said.letter, field.meaning, field.must, usual, required))
     picture = f"![{form.meaning}](figures/{drawing}.svg)"
-    return f"### `type: {kind}` — {form.meaning}\n\n{picture}\n\n{table(head, rows)}"
+    keys = table(("key", "letter", "meaning", "allowed", "usual", ""), rows)
+    return f"### `type: {kind}` — {form.meaning}\n\n{picture}\n\n{keys}"
 
 
 def _table_section(described: Table) -> str:

@@ -1,4 +1,4 @@
-"""The pages as they are written, and as they read with what the code knows and draws in place.
+"""From the pages to a site that opens without a network: filled and illustrated by the code, then set by MkDocs.
 
 `<!-- generated: NAME -->` stands for what the function NAME of `generated` returns, `<!-- file: PATH -->` for a file
 of the repository, `<!-- figure: NAME. CAPTION -->` for the figure of the axes that the examples above left in `axes`.
@@ -7,6 +7,7 @@ of the repository, `<!-- figure: NAME. CAPTION -->` for the figure of the axes t
 import io
 import os
 import re
+import shutil
 import tempfile
 from contextlib import redirect_stdout
 from pathlib import Path
@@ -14,11 +15,14 @@ from pathlib import Path
 import matplotlib
 from matplotlib.figure import Figure
 
+from docs.paper.report import equivalence_figures
+from docs.site.drawings import drawing, forms
 from docs.site.generated import GENERATED
 from rocking.errors import ConfigurationError
 
 FOLDER = Path(__file__).parents[1] / "pages"
 ROOT = FOLDER.parents[1]
+CONFIGURATION = FOLDER.parent / "mkdocs.yml"
 _RC: dict[str, object] = {
     "backend": "agg",
     "figure.figsize": (7.0, 3.6),
@@ -27,6 +31,47 @@ _RC: dict[str, object] = {
 }
 _MARK = re.compile(r"^<!-- (generated|file): (\S+) -->$", re.M)
 _EXAMPLE = re.compile(r"^```python\n(.*?)^```$|^<!-- figure: (\w+)\. (.*?) -->$", re.M | re.S)
+
+
+def write_site(target: Path) -> list[Path]:
+    """Write the site into the folder `target` and return its pages.
+
+    Raises ConfigurationError when a package of the extra docs is missing, or when MkDocs finds a defect, such as a link
+    that leads nowhere.
+    """
+    try:
+        import latex2mathml  # noqa: F401
+        import material  # noqa: F401
+        import mkdocstrings_handlers.python  # noqa: F401
+        from mkdocs.commands.build import build
+        from mkdocs.config import load_config
+        from mkdocs.exceptions import Abort
+    except ImportError as error:
+        raise ConfigurationError(
+            f"the package {error.name} is missing, but the documentation needs it; make documentation installs it."
+        ) from None
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder) / "pages"
+        write_pages(source)
+        try:
+            build(load_config(str(CONFIGURATION), docs_dir=str(source), site_dir=str(target.resolve())))
+        except Abort as error:
+            raise ConfigurationError(f"{CONFIGURATION}: {error}; its warnings say what to mend.") from None
+    return sorted(target.glob("*.html"))
+
+
+def write_pages(target: Path) -> None:
+    """Write the pages, complete, with their figures and assets, into the folder `target`."""
+    shutil.copytree(FOLDER / "assets", target / "assets")
+    (target / "figures").mkdir()
+    figures = {f"{name}.svg": outlined(drawing(kind, form)) for name, kind, form in forms()}
+    figures |= {f"paper_{each.name}.svg": outlined(each.figure) for each in equivalence_figures()}
+    for page in written_pages():
+        text, made = illustrated(page.read_text(encoding="utf-8"), page.name)
+        (target / page.name).write_text(filled(text, page.name), encoding="utf-8")
+        figures |= made
+    for name, content in figures.items():
+        (target / "figures" / name).write_text(content, encoding="utf-8")
 
 
 def written_pages() -> list[Path]:
@@ -39,8 +84,8 @@ def python_blocks(text: str) -> list[str]:
     return [match[1] for match in _EXAMPLE.finditer(text) if match[1]]
 
 
-def filled(text: str, name: str, workflow: Path) -> str:
-    """Return a page with its generated parts and files in place. workflow: the folder with the schemas.
+def filled(text: str, name: str) -> str:
+    """Return a page with its generated parts and files in place.
 
     Raises ConfigurationError for a part that nothing generates.
     """
@@ -52,7 +97,7 @@ def filled(text: str, name: str, workflow: Path) -> str:
         if part not in GENERATED:
             names = ", ".join(GENERATED)
             raise ConfigurationError(f"{name}: generated part is {part!r}, but must be one of {names}.")
-        return GENERATED[part](workflow)
+        return GENERATED[part]()
 
     return _MARK.sub(made, text)
 

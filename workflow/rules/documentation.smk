@@ -1,4 +1,4 @@
-"""Set the documentation, filled from the code it describes: snakemake documentation."""
+"""Set the documentation, filled from the code that it describes: snakemake documentation."""
 
 
 rule documentation:
@@ -8,10 +8,6 @@ rule documentation:
             for path in Path(workflow.basedir, "docs").rglob("*")
             if path.suffix in (".css", ".js", ".md", ".py", ".yml") and "research" not in path.parts
         ),
-        schemas=[
-            f"{workflow.basedir}/workflow/schemas/{name}.schema.yaml" for name in ("config", "structures")
-        ],
-        settings=f"{workflow.basedir}/workflow/config.yaml",
     output:
         directory(f"{RESULTS}/documentation"),
     log:

@@ -5,8 +5,7 @@ from pathlib import Path
 
 if __name__ == "__main__":
     sys.path.append(str(Path(snakemake.scriptdir).parents[1]))  # docs/ lies beside workflow/
-    from docs.site import write_site
+    from docs.site.pages import write_site
 
-    workflow_folder = Path(snakemake.input.settings).parent
-    written = write_site(Path(snakemake.output[0]), workflow_folder)
+    written = write_site(Path(snakemake.output[0]))
     Path(snakemake.log[0]).write_text("\n".join(map(str, written)) + "\n", encoding="utf-8")

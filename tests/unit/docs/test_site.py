@@ -16,9 +16,8 @@ import pytest
 import yaml
 
 import rocking
-from docs.site import filled, python_blocks, written_pages
 from docs.site.drawings import drawing, forms
-from docs.site.pages import FOLDER
+from docs.site.pages import FOLDER, filled, python_blocks, written_pages
 from rocking.assessment.rows.of_folder import RECORD_TABLES
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
 from rocking.errors import ConfigurationError
@@ -27,7 +26,6 @@ from rocking.study.cli import _parser
 from tests.workflow.conftest import new_study
 
 ROOT = Path(rocking.__file__).parents[1]
-WORKFLOW = ROOT / "workflow"
 PAGES = written_pages()
 WRITTEN = [*PAGES, ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
 
@@ -198,7 +196,7 @@ def test_the_site_leaves_nothing_of_the_code_out(site):
     for each in (*RECORD_TABLES, *SUMMARY_TABLES):
         for column in each.table.columns:
             assert f"<code>{column.name}</code>" in site["tables.html"]
-    settings = yaml.safe_load(written(WORKFLOW / "config.yaml"))
+    settings = yaml.safe_load(written(ROOT / "workflow" / "config.yaml"))
     for name, value in settings.items():
         names = [f"{name}.{inner}" for inner in value] if isinstance(value, dict) else [name]
         assert all(f"<code>{known}</code>" in site["settings.html"] for known in names)
@@ -219,7 +217,7 @@ def test_a_drawing_shows_the_letter_of_every_size(name, kind, form):
 
 def test_an_unknown_generated_part_is_refused():
     with pytest.raises(ConfigurationError, match=r"^strange.md: .*'nonsense'"):
-        filled("<!-- generated: nonsense -->\n", "strange.md", WORKFLOW)
+        filled("<!-- generated: nonsense -->\n", "strange.md")
 
 
 @pytest.mark.slow
