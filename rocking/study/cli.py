@@ -10,7 +10,7 @@ from shlex import quote
 from typing import Any
 
 from rocking.errors import CatalogueError, ConfigurationError, RockingError, UnknownFormatError
-from rocking.quantities import GRAVITY, counted
+from rocking.quantities import GRAVITY
 from rocking.study import close_doors
 
 
@@ -102,17 +102,10 @@ def _start(options: argparse.Namespace) -> None:
 
 
 def _catalogue(options: argparse.Namespace) -> None:
-    from rocking.records.folder import listing_text
     from rocking.study.workspace import write_catalogue
 
     target = options.output or options.folder / "catalogue.csv"
-    written = write_catalogue(options.folder, target, unit=options.unit, time_step=options.time_step)
-    print(listing_text(written.files), end="")
-    for gone in written.gone:
-        print(
-            f"{gone}: its row stays in the catalogue, but its file is not there; remove the row or add the file."
-        )
-    print(f"{target}: {counted(written.records, 'record')}, {written.new} of them new")
+    print(write_catalogue(options.folder, target, options.unit, options.time_step))
 
 
 def _run(options: argparse.Namespace) -> int:

@@ -1,10 +1,12 @@
 """The results of a study: each job writes the rows of its records into tables of its own, gathered and read here."""
 
+import csv
 import json
 import re
 import shutil
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +16,8 @@ from rocking.assessment.rows.of_record import TimingRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
 from rocking.assessment.trade import TradeRow
 from rocking.errors import RockingError
-from rocking.tables import Row, frame, head, rows_written, whole, write_whole, written_together
+from rocking.tables import Row, csv_lines, frame, rows_written, whole, write_whole, written_together
+from rocking.tables.csv_rows import check_columns, readable
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -58,40 +61,36 @@ def written_part(folder: Path) -> Iterator[Callable[[RecordTables, Mapping[str, 
 def page_contents(folders: Iterable[Path], records: Iterable[str]) -> list[dict[str, Any]]:
     """Return what the page to explore shows of `records`, in their order, from the `folders` of all jobs."""
     lines = (line for folder in folders for line in (folder / PAGE).read_bytes().splitlines())
-    known = {content["id"]: content for content in map(json.loads, lines)}
-    return [known[record] for record in records if record in known]
+    contents = {content["id"]: content for content in map(json.loads, lines)}
+    return [contents[record] for record in records if record in contents]
 
 
-def gathered(row_class: type[Row], folders: Iterable[Path], records: Iterable[str]) -> Iterator[bytes]:
-    """Yield a table of all parts in `folders`, head first, as its lines stand there, in the order of `records`."""
-    yield head(row_class)
-    places: dict[str, tuple[Path, int, int]] = {}
+def gathered(row_class: type[Row], folders: Iterable[Path], records: Collection[str]) -> Iterator[bytes]:
+    """Yield a table of `records` in their order, head first, from the parts in `folders`, which keep that order."""
+    yield from (line.encode() for line in csv_lines(row_class, ()))
+    wanted = set(records)
+    waiting: dict[str, tuple[Iterator[str], Iterator[Any]]] = {}
+
+    def advance(part: Iterator[tuple[str, Iterator[str]]]) -> None:
+        for record, lines in part:
+            if record in wanted:
+                waiting[record] = lines, part
+                break
+
     for folder in folders:
-        path = folder / row_class.table.file_name
-        places |= {record: (path, *place) for record, place in _places(row_class, path).items()}
-    for path, start, end in (places[record] for record in records if record in places):
-        with path.open("rb") as stream:
-            stream.seek(start)
-            yield stream.read(end - start)
+        advance(_by_record(row_class, folder / row_class.table.file_name))
+    for record in records:
+        if record in waiting:
+            lines, part = waiting.pop(record)
+            yield from (line.encode() for line in lines)
+            advance(part)
 
 
-def _places(row_class: type[Row], path: Path) -> dict[str, tuple[int, int]]:
-    """Where the rows of each record begin and end, in bytes: each is one line, which begins with its identifier."""
-    found: dict[str, tuple[int, int]] = {}
-    try:
-        with path.open("rb") as stream:
-            first = stream.readline()
-            if first != head(row_class):
-                name = row_class.table.name
-                raise RockingError(f"{path}: the columns are not those of {name}; make the table again.")
-            end = len(first)
-            for line in stream:
-                record = line.partition(b",")[0].decode()
-                found[record] = found.get(record, (end, 0))[0], end + len(line)
-                end += len(line)
-    except OSError as error:
-        raise RockingError(f"{path} cannot be read: {error.strerror}; make the table again.") from error
-    return found
+def _by_record(row_class: type[Row], path: Path) -> Iterator[tuple[str, Iterator[str]]]:
+    """Each record of a table with its lines: a row is one line, and begins with the identifier."""
+    with readable(path) as stream:
+        check_columns(row_class.table, next(csv.reader(stream), []), path)
+        yield from groupby(stream, key=lambda line: line.partition(",")[0])
 
 
 def remove_copies(folder: Path) -> None:
@@ -134,14 +133,14 @@ class Results:
         row_class = _TABLES[name]
         file = row_class.table.file_name
         kept = list(row_class.table.column_names if columns is None else columns)
-        if (self.folder / "summary" / file).exists():
-            return frame(row_class, self.folder / "summary" / file, kept)
-        own = sorted(self.folder.glob(f"*/{file}"))  # of records that were assessed one by one
-        paths = [path for part in parts_in(self.folder) if (path := part / file).exists()] or own
+        if (summary := self.folder / "summary" / file).exists():
+            return frame(row_class, summary, kept)
+        parts = [path for part in parts_in(self.folder) if (path := part / file).exists()]
+        paths = parts or sorted(self.folder.glob(f"*/{file}"))  # of records that were assessed one by one
         if not paths:
             raise RockingError(f"{self.folder} holds no {file}; name the folder of a study's results.")
-        found = pd.concat([frame(row_class, path, ["record", *kept]) for path in paths])
-        return found.sort_values("record", kind="stable", ignore_index=True)[kept]
+        table = pd.concat([frame(row_class, path, ["record", *kept]) for path in paths])
+        return table.sort_values("record", kind="stable", ignore_index=True)[kept]
 
     def write_record(self, record: str, folder: Path | str | None = None) -> list[Path]:
         """Write the tables of one record as CSV into `folder`, else beside its report, and return their paths.
@@ -149,18 +148,17 @@ class Results:
         A copy as the tables are now: the next run that assesses the record removes it from there. Raises RockingError
         where there is no such record.
         """
-        timings = TimingRow.table.file_name  # of every record, also of those that could not be read
-        parts = [each for each in parts_in(self.folder) if record in _places(TimingRow, each / timings)]
-        if not parts:
+        target = self.folder / record if folder is None else Path(folder)
+        parts = parts_in(self.folder)
+        tables = {each: list(gathered(each, parts, [record])) for each in PER_RECORD}
+        if len(tables[TimingRow]) == 1:  # which every record has, also one that could not be read
             raise RockingError(
                 f"{self.folder} holds no tables of {record!r}; name a record of a study that has been run."
             )
-        target = self.folder / record if folder is None else Path(folder)
-        paths = {each: target / each.table.file_name for each in PER_RECORD}
         with written_together():
-            for each, path in paths.items():
-                write_whole(path, gathered(each, parts[:1], [record]))
-        return list(paths.values())
+            for each, lines in tables.items():
+                write_whole(target / each.table.file_name, lines)
+        return [target / each.table.file_name for each in PER_RECORD]
 
     def __getattr__(self, name: str) -> "DataFrame":
         if name not in _TABLES:

@@ -3,15 +3,15 @@
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 from rocking.assessment.rows.of_record import ComparisonRow
 from rocking.assessment.rows.of_study import CapacityRow, StructureRow, capacity_rows, structure_rows
 from rocking.errors import ConfigurationError, RecordError
+from rocking.quantities import counted
 from rocking.records import Accelerogram
 from rocking.records.catalogue import COLUMNS, CatalogueRecord, catalogue_text, read_rows
-from rocking.records.folder import ListedFile, list_folder
+from rocking.records.folder import list_folder, listing_text
 from rocking.records.read import read
 from rocking.structures import Outcome, load_structures
 from rocking.study.job import Study, assess_record, write_report
@@ -45,20 +45,8 @@ def start(folder: Path) -> list[Path]:
     return paths
 
 
-@dataclass(frozen=True)
-class WrittenCatalogue:
-    """A catalogue as it was written: the files as they were read, its rows, the new ones, ids whose file is gone."""
-
-    files: list[ListedFile]
-    records: int
-    new: int
-    gone: tuple[str, ...]
-
-
-def write_catalogue(
-    folder: Path, target: Path, *, unit: str | None = None, time_step: float | None = None
-) -> WrittenCatalogue:
-    """Write a catalogue of the accelerograms in `folder` to `target`, or add to the one that stands there.
+def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: float | None) -> str:
+    """Write a catalogue of the accelerograms in `folder` to `target`, or add to the one that stands there; say what.
 
     Its rows stay as they are, to the letter; files that none of them names get rows below them. unit and time_step [s]
     are for the files that do not declare them. Raises RecordError, and writes nothing, when no file could be read, and
@@ -67,18 +55,22 @@ def write_catalogue(
     standing = [row for _, row in read_rows(target)] if target.exists() else []
     listed, rows = list_folder(folder, unit=unit, time_step=time_step, known=standing)
     if not rows and not standing:
-        reasons = "; ".join(f"{found.file}: {found.unread}" for found in listed) or "it holds no file"
+        reasons = "; ".join(f"{file.file}: {file.unread}" for file in listed) or "it holds no file"
         raise RecordError(f"{folder}: no accelerogram was read ({reasons}).")
     if rows:
         used = (name for row in rows for name in row)
         columns = dict.fromkeys([*(standing[0] if standing else COLUMNS), *used])
         write_whole(target, catalogue_text([*standing, *rows], list(columns)).encode())
-    there = {found.record for found in listed}
-    remote = {
-        row["id"] for row in standing if row.get("source_repository") or row["file"].startswith("obspy:")
-    }
-    gone = tuple(row["id"] for row in standing if row["id"] not in there | remote)
-    return WrittenCatalogue(listed, len(standing) + len(rows), len(rows), gone)
+    there = {file.record for file in listed}
+    gone = (
+        f"{row['id']}: its row stays in the catalogue, but its file is not there; remove the row or add the file.\n"
+        for row in standing
+        if row["id"] not in there
+        and not row.get("source_repository")
+        and not row["file"].startswith("obspy:")
+    )
+    count = counted(len(standing) + len(rows), "record")
+    return f"{listing_text(listed)}{''.join(gone)}{target}: {count}, {len(rows)} of them new"
 
 
 def read_own(
