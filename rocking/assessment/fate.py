@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TypeVar, final
+from typing import TypeVar
 
 from rocking.assessment.rows import of_record as rows
 from rocking.assessment.rows.of_record import (
@@ -24,12 +24,12 @@ ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, Verdict.UNKNOWN, Verdict.STANDS)
 """The worst verdict first; what could not be computed may overturn."""
 
 
-@row(
-    "verdicts", "One row per record and structure: the verdict over all components, its count and its reason"
-)
-@final
+@row("verdicts")
 class Fate(CaseRow):
-    """What became of one structure under one record. The component is that of the governing case."""
+    """One row per record and structure: the verdict over all components, its count and its reason.
+
+    The component is that of the governing case.
+    """
 
     verdict: Verdict = column("stands, overturns, undecided, or unknown where a component gave no result")
     overturning_members: int = column("Members of the governing ensemble that overturn")

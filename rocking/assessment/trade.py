@@ -37,9 +37,12 @@ class TradeMethod(StrEnum):
     """The mechanism with all that is not known of a case; its rotation is the median."""
 
 
-@row("trade", "One row per method and structure, and one of all structures: error and time of one response")
+@row("trade")
 class TradeRow(Row):
-    """The trade of one method. The reference is the mechanism at a tolerance of 1e-12."""
+    """One row per method and structure, and one of all structures: error and time of one response.
+
+    The reference is the mechanism at a tolerance of 1e-12.
+    """
 
     method: TradeMethod = column("Method")
     structure: str = column("Name of the structure; empty: all structures together")

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.assessment.fragility.rows import FragilityRow, FragilitySummaryRow, IdaRow
 from rocking.assessment.intensity import INTENSITY_MEASURES
+from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow, IdaRow
 from rocking.quantities import counted
 from rocking.reports.document import compile_document
 from rocking.reports.panels import draw_probability

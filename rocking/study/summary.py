@@ -7,8 +7,8 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from rocking.assessment.fragility import incremental_dynamic_analysis
-from rocking.assessment.fragility.hazard import read_hazard
-from rocking.assessment.fragility.rows import (
+from rocking.assessment.intensity import intensity_measure
+from rocking.assessment.rows.of_fragility import (
     FRAGILITY_TABLES,
     ROTATION_RATIOS,
     FragilityRow,
@@ -19,8 +19,8 @@ from rocking.assessment.fragility.rows import (
     fragility_summary_row,
     ida_rows,
     intensity_measure_rows,
+    read_hazard,
 )
-from rocking.assessment.intensity import intensity_measure
 from rocking.assessment.rows.of_record import ComparisonRow, MaximumRow
 from rocking.assessment.rows.of_study import (
     AGREEMENT_COLUMNS,

@@ -95,12 +95,16 @@ def column(
 
 @dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(column,))
 def row(name: str = "", description: str = "") -> Callable[[type[R]], type[R]]:
-    """Make the decorated class a row of the table `name`; without a name, the common part of several rows."""
+    """Make the decorated class a row of the table `name`; without a name, the common part of several rows.
+
+    description: of the table, by default the first line of the docstring of the class.
+    """
 
     def made(cls: type[R]) -> type[R]:
         row_class: Any = dataclass(frozen=True, slots=True, kw_only=True)(cls)
         columns = sorted(described_values(row_class).values(), key=lambda each: each.more["last"])
-        row_class.table = Table(name, description, tuple(map(_with_unit, columns)))
+        said = description or (cls.__doc__ or "").partition("\n")[0].rstrip(".")
+        row_class.table = Table(name, said, tuple(map(_with_unit, columns)))
         return row_class
 
     return made

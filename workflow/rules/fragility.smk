@@ -1,6 +1,6 @@
 """Measure the fragility of every structure under all records of the study."""
 
-from rocking.assessment.fragility.rows import FRAGILITY_TABLES
+from rocking.assessment.rows.of_fragility import FRAGILITY_TABLES
 
 
 rule fragility:

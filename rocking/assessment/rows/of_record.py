@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import final
 
 from rocking.assessment.assess import Case
 from rocking.assessment.ensemble import CAUSES, Ensemble
@@ -71,9 +70,9 @@ class CaseRow(ComponentRow):
         return self.component, self.structure
 
 
-@row("record", "One row per component: what was read and what was done to it before use")
+@row("record")
 class RecordRow(ComponentRow):
-    """One component of a record as it was used."""
+    """One row per component: what was read and what was done to it before use."""
 
     event: str = column("Earthquake")
     magnitude: float | None = column("Magnitude of the earthquake, where file or catalogue know it")
@@ -125,10 +124,9 @@ class RecordRow(ComponentRow):
     warnings: tuple[str, ...] = column("What the reader noticed")
 
 
-@row("pulses", "One row per sine pulse of acceleration; rank 1 of kind alternative is the dominant pulse")
-@final
+@row("pulses")
 class PulseRow(ComponentRow):
-    """One sine pulse that was found in a component."""
+    """One row per sine pulse of acceleration; rank 1 of kind alternative is the dominant pulse."""
 
     kind: str = column(
         "alternative: ranked on the record; sequence: pursued on the residual of the pulses before it; "
@@ -156,10 +154,9 @@ class PulseRow(ComponentRow):
         return Pulse(self.amplitude_m_s2, self.circular_frequency_rad_s, self.start_time_s)
 
 
-@row("maxima", "One row per structure and method, closed form or integration: the largest rotation")
-@final
+@row("maxima")
 class MaximumRow(CaseRow):
-    """The largest rotation of one case by one method."""
+    """One row per structure and method, closed form or integration: the largest rotation."""
 
     method: Method = column("How the number was computed")
     processing: str = column("What else was done to the record; empty as it is used")
@@ -193,13 +190,9 @@ class MaximumRow(CaseRow):
     reason: str = column("Why it failed, if it did")
 
 
-@row(
-    "comparison",
-    "One row per structure: the closed form under the dominant pulse beside the integration of the whole record",
-)
-@final
+@row("comparison")
 class ComparisonRow(CaseRow):
-    """One case: the prediction beside the integration, and what answered."""
+    """One row per structure: the closed form under the dominant pulse beside the integration of the whole record."""
 
     predicted_rotation_ratio: float = column("Exact maximum of the equivalent block under the dominant pulse")
     integrated_rotation_ratio: float = column(
@@ -228,13 +221,9 @@ class ComparisonRow(CaseRow):
         return self.answer_method is not Method.MECHANISM_ON_RECORD
 
 
-@row(
-    "ensemble",
-    "One row per structure: what becomes of it when what is not known varies; component 'both' for all directions",
-)
-@final
+@row("ensemble")
 class EnsembleRow(CaseRow):
-    """The ensemble of one case."""
+    """One row per structure: what becomes of it when what is not known varies; component 'both' for all directions."""
 
     verdict: Verdict = column("stands, overturns or undecided, from the share and the risk beside it")
     overturning_share: float = column("Share of the members that overturn")
@@ -265,13 +254,9 @@ class EnsembleRow(CaseRow):
     worst_processing: str = column("Processing under which it rotates most on average; empty with one")
 
 
-@row(
-    "candidates",
-    "One row per crack that may form, as a hinge of a wall at another height: the governing one is marked",
-)
-@final
+@row("candidates")
 class CandidateRow(CaseRow):
-    """One crack that may form."""
+    """One row per crack that may form, as a hinge of a wall at another height: the governing one is marked."""
 
     description: str = column("What opens, and where")
     position_m: float = column("Height of the hinge or crack above the base; empty where none tells it")
@@ -283,12 +268,9 @@ class CandidateRow(CaseRow):
     )
 
 
-@row(
-    "histories",
-    "One row per component, structure and step: the rotation as it was integrated, until it overturns",
-)
+@row("histories")
 class HistoryRow(Row):
-    """One step of one response."""
+    """One row per component, structure and step: the rotation as it was integrated, until it overturns."""
 
     record: str = column(RECORD)
     component: str = column(COMPONENT)
@@ -298,9 +280,9 @@ class HistoryRow(Row):
     angular_velocity_rad_s: float = column("Its derivative, after the impact where there is one")
 
 
-@row("failures", "One row per record or structure that gave no result, and why")
+@row("failures")
 class FailureRow(Row):
-    """Something that gave no result."""
+    """One row per record or structure that gave no result, and why."""
 
     record: str = column(RECORD)
     component: str = column(COMPONENT)
@@ -309,9 +291,9 @@ class FailureRow(Row):
     message: str = column("What is wrong, what is allowed and what to do")
 
 
-@row("timings", "One row per record and stage; differs between runs of the same input")
+@row("timings")
 class TimingRow(Row):
-    """CPU time of one stage."""
+    """One row per record and stage; differs between runs of the same input."""
 
     record: str = column(RECORD)
     stage: str = column("Stage, or a method, whose time is part of that of the stage responses")

@@ -31,9 +31,9 @@ CAPACITY_POINTS = 21
 """Rotations of a capacity curve, from rest to the critical one."""
 
 
-@row("structures", "One row per structure: its mechanism and its equivalent block")
+@row("structures")
 class StructureRow(Row):
-    """One structure of the structure list."""
+    """One row per structure: its mechanism and its equivalent block."""
 
     structure: str = column(rows.STRUCTURE)
     type: str = column("Type of the structure, as in the structure list")
@@ -59,9 +59,9 @@ class StructureRow(Row):
     )
 
 
-@row("capacity", "One row per structure, side and rotation: the static load multiplier against displacement")
+@row("capacity")
 class CapacityRow(Row):
-    """One point of the capacity curve of one side of one structure."""
+    """One row per structure, side and rotation: the static load multiplier against displacement."""
 
     structure: str = column(rows.STRUCTURE)
     side: str = column("positive or negative: the side to which it rocks")
@@ -80,12 +80,9 @@ class CapacityRow(Row):
     )
 
 
-@row(
-    "agreement",
-    "One row per structure and one for all: the closed form under the dominant pulse against the full integration",
-)
+@row("agreement")
 class AgreementRow(Row):
-    """How often the closed form was right for one structure."""
+    """One row per structure and one for all: the closed form under the dominant pulse against the full integration."""
 
     structure: str = column("Name of the structure in the structure list; empty for all together")
     records: int = column("Records behind the row")
@@ -99,12 +96,9 @@ class AgreementRow(Row):
     overturning_false: int = column("Cases in which the closed form alone overturns")
 
 
-@row(
-    "spectrum",
-    "One row per component and equivalent block under the whole record; written by rocking spectrum",
-)
+@row("spectrum")
 class SpectrumRow(Row):
-    """One block under one component."""
+    """One row per component and equivalent block under the whole record; written by rocking spectrum."""
 
     component: str = column(rows.COMPONENT)
     frequency_parameter_rad_s: float = column(_P, equation="Eq. 11")

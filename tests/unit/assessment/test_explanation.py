@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from rocking.assessment.fragility.explanation import dependence, efficiency
+from rocking.assessment.fragility import dependence, efficiency
 
 LEVELS = np.log(np.geomspace(0.05, 20.0, 60))
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import norm
 
 from rocking.assessment.fragility import fragility_of
-from rocking.assessment.fragility.hazard import HazardRow, annual_rate, read_hazard
+from rocking.assessment.rows.of_fragility import HazardRow, annual_rate, read_hazard
 from rocking.errors import ConfigurationError, RockingError
 
 LEVELS = np.geomspace(0.02, 50.0, 400)

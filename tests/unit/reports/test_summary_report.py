@@ -6,8 +6,8 @@ import pandas
 import pytest
 
 from rocking.assessment.fate import BOTH_COMPONENTS, Fate, fates
-from rocking.assessment.fragility.rows import FragilityRow, FragilitySummaryRow
 from rocking.assessment.intensity import INTENSITY_MEASURES
+from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow
 from rocking.assessment.rows.of_record import (
     ComparisonRow,
     EnsembleRow,

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rocking.assessment.fragility.rows import (
+from rocking.assessment.rows.of_fragility import (
     FRAGILITY_TABLES,
     FragilityRow,
     FragilitySummaryRow,

@@ -1,34 +1,118 @@
-"""Rows about fragility: the responses at every level, the curves, and what each comes down to."""
+"""The rows of a study's fragility: responses at every level, curves, what each comes down to, and the hazard."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 
-from rocking.assessment.fragility.analysis import IncrementalDynamicAnalysis
-from rocking.assessment.fragility.curve import CURVES, Fragility
-from rocking.assessment.fragility.explanation import dependence, efficiency
-from rocking.assessment.fragility.hazard import HazardRow, annual_rate
+from rocking.assessment.fragility import CURVES, Fragility, IncrementalDynamicAnalysis, dependence, efficiency
 from rocking.assessment.intensity import INTENSITY_MEASURES, MEASURES_IN_WORDS, IntensityMeasure
-from rocking.assessment.rows import of_record as meanings
+from rocking.assessment.rows.of_record import RECORD, STRUCTURE
 from rocking.errors import ConfigurationError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism
-from rocking.tables import Row, column, row
+from rocking.tables import Row, column, read_rows, row
 
+_STEPS = 400
+"""Steps of the integral over the hazard curve, in equal parts of the logarithm of the level."""
 ROTATION_RATIOS = (0.1, 0.3, 0.5, math.inf)
 """Largest rotations over the critical one whose exceedance has a curve; inf: overturning."""
 _THRESHOLD = "Rotation over critical rotation that is exceeded; INF: overturning"
 _MEASURE = f"Intensity measure: {MEASURES_IN_WORDS}"
 
 
-@row("ida", "One row per structure, record and level: incremental dynamic analysis")
-class IdaRow(Row):
-    """One record at one level."""
+@row("hazard")
+class HazardRow(Row):
+    """One row per level of the intensity measure, ascending."""
 
-    structure: str = column(meanings.STRUCTURE)
-    record: str = column(meanings.RECORD)
+    intensity: float = column("Level, in the unit of the intensity measure")
+    annual_rate: float = column("Annual rate at which it is exceeded", unit="1/year")
+
+
+@dataclass(frozen=True)
+class AnnualRate:
+    """Annual rate of exceedance, 1/year. low, high: from the ends of the curve's 90 % interval at every level at once,
+    which is wider than 90 % of the rate. left_out: most that the rate may lack, because the curve ends below a
+    probability of 1, or has not fallen to 0 where the hazard curve begins."""
+
+    rate: float
+    low: float
+    high: float
+    left_out: float
+
+
+def read_hazard(path: Path) -> list[HazardRow]:
+    """Return the points of a hazard curve from a CSV with the columns intensity and annual_rate.
+
+    Raises ConfigurationError for fewer than two points, levels that do not ascend, or a rate that rises.
+    """
+    points = list(read_rows(HazardRow, path))
+    check_hazard(points, str(path))
+    return points
+
+
+def check_hazard(points: Sequence[HazardRow], where: str = "the hazard curve") -> None:
+    """Raise ConfigurationError unless the levels ascend and the rates fall."""
+    if len(points) < 2:
+        raise ConfigurationError(f"{where} holds {len(points)} points, but must hold at least 2.")
+    for point in points:
+        if not (point.intensity > 0 and point.annual_rate > 0):
+            raise ConfigurationError(
+                f"{where} holds {point.intensity:g} at {point.annual_rate:g} a year, but both must be above 0."
+            )
+    for before, after in pairwise(points):
+        if after.intensity <= before.intensity:
+            raise ConfigurationError(
+                f"{where} holds {after.intensity:g} after {before.intensity:g}, but intensity must ascend; sort it."
+            )
+        if after.annual_rate > before.annual_rate:
+            raise ConfigurationError(
+                f"{where} says {after.annual_rate:g} a year at {after.intensity:g}, more than "
+                f"{before.annual_rate:g} at {before.intensity:g}, but annual_rate must not rise."
+            )
+
+
+def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> AnnualRate:
+    """Return ∫ P dν over the hazard curve ν, both linear in the logarithm of the level between their points.
+
+    Below its levels the fragility counts as 0, above them as its last value; beyond the last point of the hazard curve
+    all is counted there. Levels below the first point of the hazard curve are left out, as their rates are not given:
+    left_out counts them as often as the hazard curve, continued by its first slope, says. Raises ConfigurationError.
+    """
+    check_hazard(points)
+    levels, probability = np.log(fragility.levels), fragility.probability
+    logs, log_rates = np.log([[point.intensity, point.annual_rate] for point in points]).T
+    edges = np.linspace(logs[0], logs[-1], _STEPS + 1)
+    rates = np.exp(np.interp(edges, logs, log_rates))
+    occurring = np.append(rates[:-1] - rates[1:], rates[-1])
+    middles = np.append((edges[1:] + edges[:-1]) / 2, edges[-1])
+
+    def total(curve: np.ndarray) -> float:
+        return float(np.interp(middles, levels, curve, left=0.0) @ occurring)
+
+    above = (1 - probability[-1]) * occurring[middles > levels[-1]].sum()
+    slope = (log_rates[0] - log_rates[1]) / (logs[1] - logs[0])
+    lower = np.linspace(min(levels[0], logs[0]), logs[0], _STEPS + 1)
+    continued = np.exp(log_rates[0] + slope * (logs[0] - lower))
+    below = np.interp((lower[1:] + lower[:-1]) / 2, levels, probability, left=0.0) @ -np.diff(continued)
+    return AnnualRate(
+        total(probability),
+        total(fragility.probability_low),
+        total(fragility.probability_high),
+        float(above + below),
+    )
+
+
+@row("ida")
+class IdaRow(Row):
+    """One row per structure, record and level: incremental dynamic analysis."""
+
+    structure: str = column(STRUCTURE)
+    record: str = column(RECORD)
     station: str = column("Event and station; what counts as one independent record")
     intensity_measure: str = column(_MEASURE)
     level: float = column("Level to which the record is scaled")
@@ -38,13 +122,11 @@ class IdaRow(Row):
     overturning_share: float = column("Share of them that overturn")
 
 
-@row(
-    "fragility", "One row per structure, rotation that is exceeded and level: the curves with 90 % intervals"
-)
+@row("fragility")
 class FragilityRow(Row):
-    """One point of one curve."""
+    """One row per structure, rotation that is exceeded and level: the curves with 90 % intervals."""
 
-    structure: str = column(meanings.STRUCTURE)
+    structure: str = column(STRUCTURE)
     intensity_measure: str = column(_MEASURE)
     rotation_ratio: float = column(_THRESHOLD)
     level: float = column("Level of the intensity measure")
@@ -58,11 +140,11 @@ class FragilityRow(Row):
     )
 
 
-@row("fragility_summary", "One row per structure and rotation that is exceeded: what its curve comes down to")
+@row("fragility_summary")
 class FragilitySummaryRow(Row):
-    """One curve."""
+    """One row per structure and rotation that is exceeded: what its curve comes down to."""
 
-    structure: str = column(meanings.STRUCTURE)
+    structure: str = column(STRUCTURE)
     intensity_measure: str = column(_MEASURE)
     rotation_ratio: float = column(_THRESHOLD)
     records: int = column("Records behind it")
@@ -84,18 +166,13 @@ class FragilitySummaryRow(Row):
     )
 
 
-@row(
-    "intensity_measures",
-    "One row per structure, intensity measure and other figure of the record: what explains overturning",
-)
+@row("intensity_measures")
 class IntensityMeasureRow(Row):
-    """One measure beside one figure."""
+    """One row per structure, intensity measure and other figure of the record: what explains overturning."""
 
-    structure: str = column(meanings.STRUCTURE)
+    structure: str = column(STRUCTURE)
     intensity_measure: str = column(_MEASURE)
-    efficiency: float = column(
-        "Standard deviation of the logarithm of the level that overturns; less is better"
-    )
+    efficiency: float = column("Dispersion of the level that overturns: standard deviation of its logarithm")
     figure: str = column("Figure of the record that may say more: PGV/PGA, magnitude or ln of the distance")
     records: int = column("Records that have the measure and the figure")
     stations: int = column("Their stations")
@@ -133,7 +210,7 @@ def ida_rows(structure: str, records: Sequence[str], found: IncrementalDynamicAn
 def fragility_rows(structure: str, curve: Fragility) -> Iterator[FragilityRow]:
     """Yield a row for each level."""
     for place, level in enumerate(curve.levels.tolist()):
-        yield FragilityRow(
+        yield FragilityRow.of(
             structure=structure,
             intensity_measure=curve.measure,
             rotation_ratio=curve.threshold,
@@ -147,23 +224,20 @@ def fragility_summary_row(
 ) -> FragilitySummaryRow:
     """Return what the curve comes down to. hazard: in the unit of its measure."""
     rate = annual_rate(curve, hazard) if hazard else None
-    return FragilitySummaryRow(
+    return FragilitySummaryRow.of(
+        curve,
         structure=structure,
         intensity_measure=curve.measure,
         rotation_ratio=curve.threshold,
         records=len(curve.stations),
         stations=curve.independent,
-        median=curve.median,
         median_low=curve.interval[0],
         median_high=curve.interval[1],
-        lognormal_median=curve.lognormal_median,
-        dispersion=curve.dispersion,
-        misfit=curve.misfit,
         reversals=int((curve.reversals > 0).sum()),
-        annual_rate=rate.rate if rate else math.nan,
-        annual_rate_low=rate.low if rate else math.nan,
-        annual_rate_high=rate.high if rate else math.nan,
-        annual_rate_left_out=rate.left_out if rate else math.nan,
+        annual_rate=rate and rate.rate,
+        annual_rate_low=rate and rate.low,
+        annual_rate_high=rate and rate.high,
+        annual_rate_left_out=rate and rate.left_out,
     )
 
 
@@ -185,17 +259,14 @@ def intensity_measure_rows(
             if len(set(names)) < 2:
                 continue
             levels, outcomes = logs[kept, None] + factors[kept], falls[kept]
-            beside = dependence(levels, outcomes, values[kept], names)
-            yield IntensityMeasureRow(
+            yield IntensityMeasureRow.of(
+                dependence(levels, outcomes, values[kept], names),
                 structure=structure,
                 intensity_measure=measure.name,
                 efficiency=efficiency(levels, outcomes, names),
                 figure=figure,
                 records=int(kept.sum()),
                 stations=len(set(names)),
-                slope=beside.slope,
-                p_value=beside.p_value,
-                power=beside.power,
             )
 
 

@@ -1,0 +1,542 @@
+"""Fragility: the probability that a structure overturns, or turns far, at a level of shaking.
+
+From records scaled to common levels (incremental dynamic analysis) or left as recorded (cloud): the empirical curve and
+the lognormal one, with intervals by station; and how well an intensity measure explains which record overturns when.
+"""
+
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from scipy.optimize import isotonic_regression
+from scipy.special import betaincinv, erfcx, ndtr, stdtr, stdtrit
+
+from rocking.assessment.ensemble import EnsembleSettings, GroundMotions, drawn, lattice
+from rocking.assessment.intensity import INTENSITY_MEASURES, IntensityMeasure, per_velocity
+from rocking.assessment.intensity import intensity_measure as measure_named
+from rocking.assessment.variations import cracks
+from rocking.errors import ConfigurationError
+from rocking.motion.batch import integrate_batch
+from rocking.motion.integration import Rocking, reduce
+from rocking.quantities import GRAVITY
+from rocking.records import Accelerogram
+from rocking.structures import EquivalentBlock, Mechanism, Structure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+LEVELS, COARSE, MOST_SPREAD = 40, 20, 30
+"""Levels in all; those spread evenly over the range of the curve, at first and where it reaches farther. The others are
+put where it moves."""
+SEVERE = 3.0
+"""p PGV/(gλ) from which nearly every structure overturns under nearly every record."""
+NEARLY_ALL = 0.95
+"""Share that overturns at the highest level."""
+MEMBERS = 16
+"""Of each ensemble, where a case is not taken as it is."""
+REPLICATES = 1000
+"""Samples of the stations behind the interval of a median."""
+CURVES = tuple(f"{law}{end}" for law in ("probability", "lognormal") for end in ("", "_low", "_high"))
+"""What stands at every level, by the names of fields and of columns."""
+DISPERSIONS = (0.02, 3.0)
+"""Between which a dispersion is kept: outcomes that a level parts cleanly would fit ever smaller ones."""
+_FARTHEST = 8.0
+"""Standard deviations beyond which a probability is 0 or 1 to double precision."""
+_RIDGE = 1e-9
+"""Penalty on standardised slopes per case: keeps those finite that no case contradicts."""
+_LEAST = 4
+"""Stations below which a slope and its scatter say nothing."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Fragility:
+    """P(rotation ratio > threshold | intensity) of one structure; the threshold inf is overturning.
+
+    measure, unit: of the intensity. levels: (k,). probability, probability_low, probability_high: (k,) the empirical
+    curve, each station with the same weight, and its 90 % interval, point by point; nan where nothing was tried.
+    median, interval: level at which the rising curve next to the empirical one crosses one half, and its 90 % interval;
+    inf where it does not reach one half. exceedance: (r, k) share of each record's members above the threshold.
+    stations: (r,) what counts as one independent record. lognormal_median, dispersion: the two parameters of the
+    lognormal curve, by maximum likelihood. lognormal, lognormal_low, lognormal_high: (k,) that curve and its 90 %
+    interval, which is too narrow: on real stations it covers 82 to 87 %, as fragilities are not lognormal.
+    misfit: largest distance of the lognormal from the empirical curve.
+
+    >>> records = rocking.read("records/20161113_110259_WTMC_20.V2A")[:2]
+    >>> curve = rocking.fragility(records, rocking.Block(2.0, 0.2), stations=["a", "b"], levels=[0.2, 0.6, 1.0])
+    >>> (curve.measure, curve.levels.tolist(), curve.probability.tolist())
+    ('pgv', [0.2, 0.6, 1.0], [0.0, 0.0, 1.0])
+    """
+
+    measure: str
+    unit: str
+    threshold: float
+    levels: np.ndarray
+    probability: np.ndarray
+    probability_low: np.ndarray
+    probability_high: np.ndarray
+    median: float
+    interval: tuple[float, float]
+    lognormal: np.ndarray
+    lognormal_low: np.ndarray
+    lognormal_high: np.ndarray
+    lognormal_median: float
+    dispersion: float
+    misfit: float
+    exceedance: np.ndarray
+    stations: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        low, high = self.interval
+        unit = f" {self.unit}" if self.unit else ""
+        return (
+            f"<Fragility: median {self.measure} {self.median:.3g}{unit} (90 %: {low:.3g} to {high:.3g}), "
+            f"{len(self.stations)} records of {self.independent} stations>"
+        )
+
+    @property
+    def independent(self) -> int:
+        """Number of stations."""
+        return len(set(self.stations))
+
+    @property
+    def reversals(self) -> np.ndarray:
+        """How often each record, scaled up, lets stand again what it had overturned, (r,)."""
+        return np.asarray((np.diff((self.exceedance > 0.5).astype(int), axis=1) < 0).sum(axis=1))
+
+    def plot(self, axes: "Axes | None" = None) -> "Axes":
+        """Draw the empirical curve with its interval and the lognormal one; return the axes."""
+        from rocking import plot  # the drawing stands above everything
+
+        return plot(self, axes)
+
+
+def fragility_of(
+    levels: np.ndarray,
+    exceedance: np.ndarray,
+    stations: Sequence[str],
+    *,
+    tried: np.ndarray | None = None,
+    measure: str = "",
+    unit: str = "",
+    threshold: float = np.inf,
+) -> Fragility:
+    """Return the curve of outcomes at `levels` (k,) > 0, ascending.
+
+    exceedance: (r, k) shares in [0, 1], one row a record. tried: (r, k) 1 where a record was tried, all by default.
+    stations: (r,) names; the records of one are resampled together and weigh as much as one.
+
+    >>> outcomes = np.array([[0, 0, 1, 1], [0, 1, 1, 1], [0, 0, 0, 1]])
+    >>> round(fragility_of(np.array([0.1, 0.2, 0.4, 0.8]), outcomes, ["A", "B", "C"]).median, 3)
+    0.283
+    """
+    tried = np.ones_like(exceedance, dtype=float) if tried is None else tried
+    over, trials = _by_station(exceedance * tried, stations), _by_station(tried, stations)
+    count = len(over)
+    probability, low, high = _empirical(over, trials)
+    resampled = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
+    crossings = [_crossing(levels, weights @ over, weights @ trials) for weights in resampled]
+    fit = fit_lognormal(levels, over, trials)
+    deviates, errors = fit.deviates(levels)
+    reach = stdtrit(count - 1, 0.95) * errors
+    return Fragility(
+        measure=measure,
+        unit=unit,
+        threshold=threshold,
+        levels=levels,
+        probability=probability,
+        probability_low=low,
+        probability_high=high,
+        median=_crossing(levels, over.sum(axis=0), trials.sum(axis=0)),
+        interval=_interval(crossings, count),
+        lognormal=ndtr(deviates),
+        lognormal_low=ndtr(deviates - reach),
+        lognormal_high=ndtr(deviates + reach),
+        lognormal_median=fit.median,
+        dispersion=fit.dispersion,
+        misfit=float(np.nanmax(np.abs(probability - ndtr(deviates)))),
+        exceedance=exceedance,
+        stations=tuple(stations),
+    )
+
+
+def _by_station(values: np.ndarray, stations: Sequence[str]) -> np.ndarray:
+    """The mean over the records of each station, (s, k)."""
+    names, place, records = np.unique(np.asarray(stations), return_inverse=True, return_counts=True)
+    summed = np.zeros((names.size, values.shape[1]))
+    np.add.at(summed, place, values)
+    return summed / records[:, None]
+
+
+def _empirical(over: np.ndarray, trials: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Share and its 90 % interval after Jeffreys, for as many independent records as the scatter of stations allows."""
+    total, count = trials.sum(axis=0), (trials > 0).sum(axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = np.clip(over.sum(axis=0) / total, 0.0, 1.0)
+        scatter = ((over - share * trials) ** 2).sum(axis=0) * count / np.maximum(count - 1, 1) / total**2
+        effective = share * (1 - share) / scatter
+    unanimous = ~np.isfinite(effective) | (share == 0) | (share == 1)
+    effective = np.where(unanimous, count, np.clip(effective, count / 2, 2 * count))
+    yes, no = share * effective + 0.5, (1 - share) * effective + 0.5
+    low = np.where(share == 0, 0.0, betaincinv(yes, no, 0.05))
+    return share, low, np.where(share == 1, 1.0, betaincinv(yes, no, 0.95))
+
+
+def _interval(replicates: Sequence[float], count: int) -> tuple[float, float]:
+    """The 90 % interval from replicates over `count` stations.
+
+    Its ends lie farther out than 5 and 95 %, by what the scatter of few stations hides: the expanded percentile
+    interval of Hesterberg (2015), What teachers should know about the bootstrap, Am. Stat. 69, 371-386.
+    """
+    tail = ndtr(-((count / (count - 1)) ** 0.5) * stdtrit(count - 1, 0.95))
+    ordered = np.sort(replicates)
+    outer = int(np.floor(tail * (len(ordered) - 1)))
+    return float(ordered[outer]), float(ordered[-1 - outer])
+
+
+def _crossing(levels: np.ndarray, over: np.ndarray, trials: np.ndarray) -> float:
+    """The level at which the rising curve nearest to over/trials (k,) crosses one half, linear in the logarithm.
+
+    Where the curve is one half over a range, the middle of it; the first level where all lie above, inf where all lie
+    below.
+    """
+    tried = trials > 0
+    logs = np.log(levels[tried])
+    rising = isotonic_regression(over[tried] / trials[tried], weights=trials[tried]).x
+    rising[np.abs(rising - 0.5) < 1e-12] = 0.5  # but for rounding
+    places = []
+    for above in (int(np.searchsorted(rising, 0.5, side)) for side in ("left", "right")):
+        if above == rising.size:
+            return float("inf")
+        below = max(above - 1, 0)
+        rise = rising[above] - rising[below]
+        part = (0.5 - rising[below]) / rise if rise > 0 else 0.0
+        places.append(logs[below] + part * (logs[above] - logs[below]))
+    return float(np.exp(np.mean(places)))
+
+
+@dataclass(frozen=True)
+class LognormalFit:
+    """P = Φ(ln(IM/median)/dispersion). middle: ln IM about which coefficients (2,) and covariance (2, 2) are."""
+
+    median: float
+    dispersion: float
+    middle: float
+    covariance: np.ndarray
+
+    def deviates(self, levels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the argument of Φ at levels (k,), and its standard error by the scatter between stations."""
+        terms = np.column_stack([np.ones(levels.size), np.log(levels) - self.middle])
+        variance = np.einsum("ki,ij,kj->k", terms, self.covariance, terms)
+        return np.log(levels / self.median) / self.dispersion, np.sqrt(np.maximum(variance, 0.0))
+
+
+def fit_lognormal(levels: np.ndarray, over: np.ndarray, tried: np.ndarray) -> LognormalFit:
+    """Fit a lognormal curve by maximum likelihood.
+
+    levels: (k,) > 0, at least two. over, tried: (s, k) how many overturned, fractions allowed, of how many tried at
+    each station. Where all or none overturn the median lies at the edge of what the levels can tell.
+    """
+    logs, middle = np.log(levels), float(np.log(levels).mean())
+    terms = np.column_stack([np.ones(levels.size), logs - middle])
+    stations = np.arange(len(over)).repeat(levels.size)
+    design = np.tile(terms, (len(over), 1))
+    (offset, slope), covariance = _probit(design, over.ravel(), tried.ravel(), stations)
+    dispersion = float(np.clip(1 / slope if slope > 0 else np.inf, *DISPERSIONS))
+    return LognormalFit(float(np.exp(middle - offset * dispersion)), dispersion, middle, covariance)
+
+
+def _probit(
+    design: np.ndarray, over: np.ndarray, tried: np.ndarray, stations: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients (q,) of Φ(design (n, q) · coefficients) by Fisher scoring, and their covariance by the scatter
+    between the stations (n,), counted from 0 (Liang & Zeger 1986).
+    """
+    scale = np.where(design.std(axis=0) > 0, design.std(axis=0), 1.0)
+    rows = design / scale
+    penalty = _RIDGE * tried.sum() * (design.std(axis=0) > 0)
+    found = np.zeros(rows.shape[1])
+    for _ in range(100):
+        eta = np.clip(rows @ found, -_FARTHEST, _FARTHEST)
+        # The normal density over Φ(η) and over Φ(−η).
+        above, below = (np.sqrt(2 / np.pi) / erfcx(sign * eta / np.sqrt(2)) for sign in (-1, 1))
+        scores = rows * (over * above - (tried - over) * below)[:, None]
+        curvature = (rows * (tried * above * below)[:, None]).T @ rows + np.diag(
+            penalty + 1e-12 * tried.sum()
+        )
+        step = np.linalg.solve(curvature, scores.sum(axis=0) - penalty * found)
+        found = found + step * min(1.0, 2.0 / max(np.abs(step).sum(), 1e-300))
+        if np.abs(step).sum() < 1e-10:
+            break
+    count, inverse = stations.max() + 1, np.linalg.inv(curvature)
+    together = np.zeros((count, rows.shape[1]))
+    np.add.at(together, stations, scores)
+    covariance = inverse @ (together.T @ together) @ inverse * count / max(count - rows.shape[1], 1)
+    return found / scale, covariance / np.outer(scale, scale)
+
+
+@dataclass(frozen=True)
+class Dependence:
+    """How the level that overturns depends on another figure of the record, at equal intensity.
+
+    slope: change of the logarithm of the level for one standard deviation of the figure. p_value: of no slope.
+    power: share of samples of as many stations that would show a slope of this size at 5 %.
+    """
+
+    slope: float = float("nan")
+    p_value: float = float("nan")
+    power: float = float("nan")
+
+
+def efficiency(log_levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[str]) -> float:
+    """Return the dispersion of the level that overturns about its median; less is better.
+
+    log_levels, exceedance: (r, k) of each record at each of its levels. Every outcome counts, also of records that
+    never overturn or that stand again above the level that overturned them.
+    """
+    (_, slope), _ = _explained([log_levels], exceedance, stations)
+    return float(1 / slope) if slope > 0 else float("nan")
+
+
+def dependence(
+    log_levels: np.ndarray, exceedance: np.ndarray, figures: np.ndarray, stations: Sequence[str]
+) -> Dependence:
+    """Return how the outcomes (r, k) depend on `figures` (r,) beside the levels (r, k); nan for too few stations.
+
+    The error of the slope is that between stations, so that two components of one are no two observations, and the
+    slope over it is held against Student's law for the number of stations less three.
+    """
+    many = len(set(stations))
+    if many < _LEAST or np.ptp(figures) == 0:
+        return Dependence()
+    scaled = (figures - figures.mean()) / figures.std()
+    beside = np.broadcast_to(scaled[:, None], log_levels.shape)
+    (_, level, figure), covariance = _explained([log_levels, beside], exceedance, stations)
+    freedom, t = many - 3, abs(figure) / np.sqrt(covariance[2, 2])
+    limit = stdtrit(freedom, 0.975)
+    power = ndtr(t - limit) + ndtr(-t - limit)
+    return Dependence(float(-figure / level), float(2 * stdtr(freedom, -t)), float(power))
+
+
+def _explained(
+    terms: Sequence[np.ndarray], outcomes: np.ndarray, stations: Sequence[str]
+) -> tuple[np.ndarray, np.ndarray]:
+    """The regression of shares (r, k) on an intercept and terms (r, k), each station with the same weight."""
+    _, place, records = np.unique(np.asarray(stations), return_inverse=True, return_counts=True)
+    design = np.stack([np.ones(outcomes.shape), *terms], axis=-1)
+    known = np.isfinite(outcomes)
+    station, weight = (
+        np.broadcast_to(each[:, None], outcomes.shape)[known] for each in (place, 1 / records[place])
+    )
+    return _probit(design[known], outcomes[known] * weight, weight, station)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class IncrementalDynamicAnalysis:
+    """The largest rotations of one mechanism under records at levels of an intensity measure.
+
+    measure: of the levels. levels: (k,) ascending. rotation_ratios: (r, k, m) of every record, level and member;
+    inf overturns, nan where a cloud holds no such case. intensities: (r,) of the records as they are.
+    stations: (r,) what counts as one independent record.
+    """
+
+    measure: IntensityMeasure
+    levels: np.ndarray
+    rotation_ratios: np.ndarray
+    intensities: np.ndarray
+    stations: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        records, levels, members = self.rotation_ratios.shape
+        shape = f"{records} records at {levels} levels of {self.measure.name}, {members} members each"
+        return f"<IncrementalDynamicAnalysis: {shape}>"
+
+    def fragility(self, threshold: float = np.inf) -> Fragility:
+        """Return the curve of exceeding a rotation ratio; inf: of overturning."""
+        known = np.isfinite(self.rotation_ratios) | np.isinf(self.rotation_ratios)
+        ratios = np.where(known, self.rotation_ratios, 0.0)
+        above = np.isinf(ratios) if np.isinf(threshold) else ratios > threshold
+        return fragility_of(
+            self.levels,
+            above.mean(axis=2),
+            self.stations,
+            tried=known.all(axis=2).astype(float),
+            measure=self.measure.name,
+            unit=self.measure.unit,
+            threshold=threshold,
+        )
+
+
+def incremental_dynamic_analysis(
+    records: Sequence[Accelerogram],
+    structure: Rocking,
+    *,
+    intensity_measure: str = "pgv",
+    levels: Sequence[float] | np.ndarray | None = None,
+    stations: Sequence[str] | None = None,
+    method: Literal["scaling", "cloud"] = "scaling",
+    ensemble: EnsembleSettings | None = None,
+    over_cracks: bool = False,
+    tolerance: float = 1e-6,
+) -> IncrementalDynamicAnalysis:
+    """Follow `structure` through `records` at levels of an intensity measure.
+
+    intensity_measure: a name of INTENSITY_MEASURES. method: scaling takes every record to every level; cloud leaves it
+    as recorded, and the levels are then those of the records. levels: ascending, in the unit of the measure; by default
+    40 that lie where the probability of overturning moves. stations: what counts as one independent record, by default
+    event and station. ensemble: what is not known of a case, which then has MEMBERS members instead of itself.
+    over_cracks: whether each member counts with the worst of the cracks that may form, instead of with the one that
+    statics chooses.
+    Raises ConfigurationError for fewer than two stations, levels out of order, a measure that a record lacks, or a
+    record that cannot be followed.
+    """
+    if method == "cloud" and levels is not None:
+        raise ConfigurationError("levels are given, but a cloud has those of its records; leave them out.")
+    reduced, measure = reduce(structure), measure_named(intensity_measure)
+    if isinstance(reduced, EquivalentBlock):
+        raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
+    names = _checked_stations(records, stations)
+    (_, mechanism), *others = cracks(structure) if isinstance(structure, Structure) else [("", reduced)]
+    intensities = np.array([measure.of(record, mechanism) for record in records])
+    cases = _Cases(records, mechanism, intensities, ensemble, tolerance)
+    chosen, ratios = cases.cloud() if method == "cloud" else cases.at(levels)
+    for _, other in others if over_cracks else ():
+        cracked = replace(cases, mechanism=other)
+        more = cracked.cloud()[1] if method == "cloud" else cracked.at_levels(chosen)
+        ratios = np.maximum(ratios, more)
+    return IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, names)
+
+
+def fragility(
+    records: Sequence[Accelerogram], structure: Rocking, *, threshold: float = np.inf, **how: Any
+) -> Fragility:
+    """Return the fragility of `structure` under `records`: of the mechanism that statics chooses where cracks may form.
+
+    threshold: rotation ratio that is exceeded; inf: overturning. how: what else `incremental_dynamic_analysis` takes,
+    intensity_measure, levels, stations, method, ensemble, over_cracks, tolerance; its errors are raised too.
+
+    >>> pulses = [rocking.Pulse(1.0, frequency, 0.5) for frequency in (4.0, 6.0, 9.0)]
+    >>> times = np.arange(400) * 0.01
+    >>> records = [rocking.Accelerogram(pulse.acceleration(times), 0.01) for pulse in pulses]
+    >>> rocking.fragility(records, rocking.Block(2.0, 0.2), levels=[0.2, 0.4, 0.8, 1.6]).probability.tolist()
+    [0.0, 0.0, 0.0, 1.0]
+    """
+    return incremental_dynamic_analysis(records, structure, **how).fragility(threshold)
+
+
+def _checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> tuple[str, ...]:
+    """The stations, those of the records by default. Raises ConfigurationError for fewer than two."""
+    if stations is None:
+        stations = [
+            f"{record.event}; {record.station}" if record.event or record.station else f"record {place}"
+            for place, record in enumerate(records)
+        ]
+    if len(stations) != len(records):
+        raise ConfigurationError(
+            f"stations names {len(stations)}, but must name one for each of {len(records)} records."
+        )
+    if len(set(stations)) < 2:
+        raise ConfigurationError(
+            f"the records come from {len(set(stations))} station, but a fragility needs at least 2; add records."
+        )
+    return tuple(map(str, stations))
+
+
+@dataclass(frozen=True, eq=False)
+class _Cases:
+    """One mechanism under each record at any scale. intensities: (r,) of the records as they are."""
+
+    records: Sequence[Accelerogram]
+    mechanism: Mechanism
+    intensities: np.ndarray
+    ensemble: EnsembleSettings | None
+    tolerance: float
+
+    def cloud(self) -> tuple[np.ndarray, np.ndarray]:
+        """The levels of the records, and (r, r, m) with each record at its own level alone."""
+        order = np.argsort(self.intensities, kind="stable")
+        alone = np.array([self._ratios(k, np.ones(1))[0] for k in range(order.size)])
+        ratios = np.full((order.size, *alone.shape), np.nan)
+        ratios[order, np.arange(order.size)] = alone[order]
+        # Equal intensities are moved apart by rounding size, so that each stays a level of its own.
+        return self.intensities[order] * (1 + 1e-12 * np.arange(order.size)), ratios
+
+    def at(self, levels: Sequence[float] | np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
+        """Return levels (k,), those that adapt if none are given, and (r, k, m) there. Raises ConfigurationError."""
+        if levels is None:
+            return self._at_adapted_levels()
+        checked = _checked_levels(levels)
+        return checked, self.at_levels(checked)
+
+    def at_levels(self, levels: np.ndarray) -> np.ndarray:
+        """(r, k, m) for every record scaled to every level. Raises ConfigurationError where one cannot be followed."""
+
+        def follow(record: int) -> np.ndarray:
+            ratios = self._ratios(record, levels / self.intensities[record])
+            if np.isnan(ratios).any():
+                named = self.records[record].source.path or self.records[record].station or "a record"
+                raise ConfigurationError(f"{named} cannot be followed at every level; leave it out.")
+            return ratios
+
+        with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+            return np.array(list(pool.map(follow, range(len(self.records)))))
+
+    def _at_adapted_levels(self) -> tuple[np.ndarray, np.ndarray]:
+        """LEVELS: spread from the first uplift to where nearly all overturn, and the rest where the share moves."""
+        levels, ratios = self._spread_levels()
+        between = _where_it_moves(levels, np.isinf(ratios).mean(axis=(0, 2)), LEVELS - levels.size)
+        levels, ratios = np.concatenate([levels, between]), np.hstack([ratios, self.at_levels(between)])
+        order = np.argsort(levels)
+        return levels[order], ratios[:, order]
+
+    def _spread_levels(self) -> tuple[np.ndarray, np.ndarray]:
+        peaks = np.array([record.peak_acceleration for record in self.records])
+        uplift = self.intensities * self.mechanism.uplift_multiplier * GRAVITY / peaks
+        lowest = float(uplift.min())
+        levels = np.geomspace(lowest, max(float(self._likely_overturning().max()), 2 * lowest), COARSE)
+        ratios = self.at_levels(levels)
+        while np.isinf(ratios[:, -1]).mean() < NEARLY_ALL and levels.size < MOST_SPREAD:
+            more = levels[-1] * np.array([1.5, 2.25])
+            levels, ratios = np.concatenate([levels, more]), np.hstack([ratios, self.at_levels(more)])
+        return levels, ratios
+
+    def _likely_overturning(self) -> np.ndarray:
+        """(r,) level at which p PGV/(gλ) reaches SEVERE, up to which levels are spread at first."""
+        block = self.mechanism.equivalent_block("rest")
+        velocities = np.array([INTENSITY_MEASURES["pgv"].of_record(record) for record in self.records])
+        return np.asarray(self.intensities * SEVERE / (per_velocity(block) * velocities))
+
+    def _ratios(self, record: int, factors: np.ndarray) -> np.ndarray:
+        """(k, m) at each scale factor."""
+        if self.ensemble is None:
+            motion = self.records[record]
+            ratios = integrate_batch([self.mechanism], motion, factors, tolerance=self.tolerance, workers=1)
+            return ratios[0][:, None]
+        points = lattice(MEMBERS)
+        motions = [GroundMotions.of(self.records[record].scaled(float(factor))) for factor in factors]
+        made = [
+            drawn(self.mechanism, each, points, self.ensemble, tolerance=self.tolerance) for each in motions
+        ]
+        return np.array([each.rotation_ratios for each in made])
+
+
+def _where_it_moves(levels: np.ndarray, share: np.ndarray, count: int) -> np.ndarray:
+    """`count` levels at equal steps of how far the curve has moved, up or down."""
+    moved = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(share)) + 1e-3)])
+    places = (np.arange(count) + 0.5) / count * moved[-1]
+    return np.asarray(np.exp(np.interp(places, moved, np.log(levels))))
+
+
+def _checked_levels(levels: Sequence[float] | np.ndarray) -> np.ndarray:
+    """The levels as an array. Raises ConfigurationError unless they ascend and are greater than 0."""
+    array = np.asarray(levels, dtype=float)
+    if array.ndim != 1 or array.size < 2 or not np.all(np.isfinite(array)) or not np.all(array > 0):
+        raise ConfigurationError("levels must be at least two finite numbers greater than 0.")
+    if np.any(np.diff(array) <= 0):
+        place = int(np.flatnonzero(np.diff(array) <= 0)[0])
+        raise ConfigurationError(
+            f"levels hold {array[place + 1]:g} after {array[place]:g}, but must ascend; sort them."
+        )
+    return array
