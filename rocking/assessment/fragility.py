@@ -61,7 +61,7 @@ class Fragility:
     inf where it does not reach one half. exceedance: (r, k) share of each record's members above the threshold.
     stations: (r,) what counts as one independent record. lognormal_median, dispersion: the two parameters of the
     lognormal curve, by maximum likelihood. lognormal, lognormal_low, lognormal_high: (k,) that curve and its 90 %
-    interval, which is too narrow: on real stations it covers 82 to 87 %, as fragilities are not lognormal.
+    interval by the scatter between stations, too narrow where the fragility is no lognormal, as on real stations.
     misfit: largest distance of the lognormal from the empirical curve.
 
     >>> records = rocking.read("records/20161113_110259_WTMC_20.V2A")[:2]

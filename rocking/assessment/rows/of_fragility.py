@@ -134,10 +134,8 @@ class FragilityRow(Row):
     probability_low: float = column("Lower end of its 90 % interval, by stations")
     probability_high: float = column("Upper end of its 90 % interval, by stations")
     lognormal: float = column("Lognormal curve fitted by maximum likelihood")
-    lognormal_low: float = column("Lower end of its 90 % interval, which is too narrow: it covers 82 to 87 %")
-    lognormal_high: float = column(
-        "Upper end of its 90 % interval, which is too narrow: it covers 82 to 87 %"
-    )
+    lognormal_low: float = column("Lower end of its 90 % interval, too narrow where no lognormal holds")
+    lognormal_high: float = column("Upper end of its 90 % interval, too narrow where no lognormal holds")
 
 
 @row("fragility_summary")
