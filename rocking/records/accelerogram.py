@@ -5,14 +5,14 @@ import re
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, TypedDict, Unpack
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from rocking.errors import RecordError, about
 from rocking.quantities import GRAVITY, acceleration_factor, finite, positive, shown
-from rocking.records.instrument import azimuth, is_vertical
-from rocking.records.traces import calibrated, joined, site
+from rocking.records.instrument import directed
+from rocking.records.traces import calibrated, joined, names, site
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,26 +34,11 @@ _UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\
 """Control characters, marks that turn the direction of writing, halves of characters."""
 
 
-_FACTS = (
-    "magnitude",
-    "magnitude_type",
-    "event_time",
-    "latitude",
-    "longitude",
-    "elevation",
-    "epicentral_distance",
-)
-"""What a file may say of earthquake and station beside their names."""
-
-
-class Changes(TypedDict, total=False):
-    """What a processing step may change beside the samples, as the fields of an Accelerogram."""
-
-    component: str
-    time_step: float
-    azimuth: float | None
-    high_pass_frequency: float | None
-    start_time: str
+_KEPT = (
+    "component", "event", "azimuth", "vertical", "processed", "processing", "warnings", "magnitude", "magnitude_type",
+    "event_time", "latitude", "longitude", "elevation", "epicentral_distance",
+)  # fmt: skip
+"""What a trace of obspy has no place for."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -123,6 +108,11 @@ class Accelerogram:
         return f"Accelerogram({', '.join([*names, size, peak])})"
 
     @property
+    def is_horizontal(self) -> bool:
+        """Whether it is a horizontal component at the surface."""
+        return not self.vertical and not self.borehole
+
+    @property
     def times(self) -> np.ndarray:
         """(n,) s, from 0."""
         return np.arange(self.acceleration.size) * self.time_step
@@ -147,7 +137,7 @@ class Accelerogram:
         factor = finite(RecordError, "factor", factor)
         return replace(self, acceleration=self.acceleration * factor, scale_factor=self.scale_factor * factor)
 
-    def processed_by(self, acceleration: np.ndarray, step: str, **changes: Unpack[Changes]) -> "Accelerogram":
+    def processed_by(self, acceleration: np.ndarray, step: str, **changes: Any) -> "Accelerogram":
         """Return a copy with new samples and one more processing sentence."""
         return replace(self, acceleration=acceleration, processing=(*self.processing, step), **changes)
 
@@ -170,45 +160,24 @@ class Accelerogram:
             raise RecordError("the stream holds no trace; give one with acceleration.")
         records = []
         for trace in joined(stream):
-            stats = trace.stats
-            own = dict(stats.get("rocking", {}))
-            by_response = inventory is not None or "response" in stats
-            known = unit or (None if by_response else own.get("unit"))
-            if (known is None) != by_response:
+            own = dict(trace.stats.get("rocking", {}))
+            by_response = inventory is not None or "response" in trace.stats
+            declared = unit or (None if by_response else own.get("unit"))
+            if (declared is None) != by_response:
                 state = "both a unit and a response" if by_response else "neither a unit nor a response"
                 raise RecordError(
                     f"{trace.id} has {state}; give unit= where the samples are acceleration, inventory= for counts."
                 )
+            fields: dict[str, Any] = {"processed": False if by_response else None} | names(trace)
+            fields |= {name: own[name] for name in _KEPT if name in own} | site(trace, inventory)
             with about(trace.id):
                 if by_response:
-                    samples, *steps = calibrated(trace, inventory)
+                    samples, step = calibrated(trace, inventory)
+                    fields["processing"] = (*fields.get("processing", ()), step)
                 else:
-                    samples, steps = trace.data * acceleration_factor(str(known)), []
-                component = own.get("component", stats.channel)
-                vertical = own.get("vertical", is_vertical(component))
-                facts = {name: own[name] for name in ("azimuth", *_FACTS) if name in own} | site(
-                    trace, inventory
-                )
-                if vertical or facts.get("azimuth") is None:
-                    facts["azimuth"] = None if vertical else azimuth(component)
-                records.append(
-                    cls(
-                        samples,
-                        float(stats.delta),
-                        component=component,
-                        station=stats.station,
-                        network=stats.network,
-                        location=stats.location,
-                        event=own.get("event", ""),
-                        start_time=str(stats.starttime) if stats.starttime.timestamp else "",
-                        processing=(*own.get("processing", ()), *steps),
-                        warnings=tuple(own.get("warnings", ())),
-                        processed=own.get("processed", False if by_response else None),
-                        vertical=vertical,
-                        source=Source(format="obspy", unit=known or "m/s2"),
-                        **facts,
-                    )
-                )
+                    samples = trace.data * acceleration_factor(str(declared))
+                source = Source(format="obspy", unit=declared or "m/s2")
+                records.append(cls(samples, float(trace.stats.delta), source=source, **directed(fields)))
         return records
 
     def to_obspy(self):
@@ -218,8 +187,7 @@ class Accelerogram:
         """
         from obspy import Trace, UTCDateTime  # which takes a second to import
 
-        names = ("component", "event", "azimuth", "vertical", "processed", "processing", "warnings", *_FACTS)
-        more = {name: getattr(self, name) for name in names}
+        more = {name: getattr(self, name) for name in _KEPT}
         header = {"delta": self.time_step, "rocking": more | {"unit": "m/s2", "format": self.source.format}}
         header |= {name: getattr(self, name) for name in ("network", "station", "location")}
         if self.start_time:

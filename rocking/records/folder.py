@@ -1,10 +1,9 @@
 """A catalogue from a folder of files: each is listed with what was read, and those of one station share a row."""
 
 import re
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from itertools import islice
 from pathlib import Path
@@ -15,6 +14,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import is_safe_id, read_rows, stays_inside
 from rocking.records.processing import process, velocity
 from rocking.records.read import bytes_of, is_unnamed, plain, printable, read, recognise, undressed, unpacked
+from rocking.records.station import why_apart
 
 Row = dict[str, str]
 
@@ -32,44 +32,28 @@ _SQUARE = 5.0
 
 @dataclass(frozen=True)
 class ListedChannel:
-    """One channel as it was read, without its samples: format, number of samples, and what an Accelerogram says of it.
+    """One channel as it was read: what it says of itself, with two samples only, so that many fit into memory.
 
-    time_step: s. peak_acceleration: m/s². peak_velocity: m/s, as a study clears the record by default. None if unknown.
+    peak_acceleration: m/s². peak_velocity: m/s, as a study clears the record by default. Both None where the unit or
+    the time step is unknown.
     """
 
-    component: str
-    time_step: float
-    azimuth: float | None
-    vertical: bool
-    borehole: bool
-    network: str
-    station: str
-    location: str
-    event: str
-    start_time: str
-    format: str
-    sha256: str
+    record: Accelerogram
     samples: int
-    peak_acceleration: float | None
-    peak_velocity: float | None
+    peak_acceleration: float | None = None
+    peak_velocity: float | None = None
 
     @classmethod
     def of(cls, record: Accelerogram, is_declared: bool) -> "ListedChannel":
         """Return what is listed of `record`; is_declared: whether its unit and its time step are known."""
-        speed = None
-        if is_declared:
-            with suppress(RecordError):  # it is too short to be processed
-                speed = float(abs(velocity(process(record))).max())
-        own = {each.name: getattr(record, each.name) for each in fields(cls)[:10]}
-        source = record.source
-        peak = record.peak_acceleration if is_declared else None
-        return cls(**own, format=source.format, sha256=source.sha256, samples=record.acceleration.size,
-                   peak_acceleration=peak, peak_velocity=speed)  # fmt: skip
-
-    @property
-    def is_horizontal(self) -> bool:
-        """Whether it is a horizontal component at the surface."""
-        return not self.vertical and not self.borehole
+        own = replace(record, acceleration=record.acceleration[:2])
+        listed = cls(own, record.acceleration.size)
+        if not is_declared:
+            return listed
+        listed = replace(listed, peak_acceleration=record.peak_acceleration)
+        with suppress(RecordError):  # it is too short to be processed
+            listed = replace(listed, peak_velocity=float(abs(velocity(process(record))).max()))
+        return listed
 
 
 @dataclass
@@ -82,7 +66,7 @@ class ListedFile:
     """
 
     file: str
-    channels: Sequence[ListedChannel] = ()
+    listed: Sequence[ListedChannel] = ()
     unread: str = ""
     doubts: tuple[str, ...] = ()
     declared: Row = field(default_factory=dict)
@@ -95,14 +79,19 @@ class ListedFile:
     """Whether it has the content of an earlier file."""
 
     @property
+    def channels(self) -> list[Accelerogram]:
+        """What its channels say of themselves."""
+        return [each.record for each in self.listed]
+
+    @property
     def status(self) -> str:
         """What there is to say of the file, in one line."""
         if self.unread:
             return f"not read: {self.unread}"
-        said = [f"to fill: {', '.join(self.to_fill)}"] if self.to_fill else list(self.doubts)
+        parts = [f"to fill: {', '.join(self.to_fill)}"] if self.to_fill else list(self.doubts)
         if self.beside:
-            said.append(f"Joined with {self.beside} more as {self.record}.")
-        return " ".join([*said, *([self.apart] if self.apart else [])]) or "read"
+            parts.append(f"Joined with {self.beside} more as {self.record}.")
+        return " ".join(filter(None, [*parts, self.apart])) or "read"
 
 
 def list_folder(
@@ -131,7 +120,7 @@ def list_folder(
     for file in listed:
         file.record = names.get(file.file, "") or names.get(f"./{file.file}", "")
         if file.channels and not file.unread:
-            earlier = first.setdefault(file.channels[0].sha256, file.file)
+            earlier = first.setdefault(file.channels[0].source.sha256, file.file)
             if earlier != file.file:
                 file.is_again = True
                 file.doubts += (f"Its content is that of {earlier}: as two records it would count twice.",)
@@ -180,7 +169,7 @@ def _station_key(file: ListedFile) -> object:
     if len(file.channels) > 1 or not is_named or first.borehole:
         return None
     of_header = (first.network, first.station, first.location, first.event)
-    return folder, first.format, number[1] if number else of_header, file.to_fill
+    return folder, first.source.format, number[1] if number else of_header, file.to_fill
 
 
 def _simultaneous(files: list[ListedFile]) -> list[list[ListedFile]]:
@@ -192,7 +181,7 @@ def _simultaneous(files: list[ListedFile]) -> list[list[ListedFile]]:
     for start, file in sorted(((_start(file), file) for file in files), key=lambda pair: pair[0]):
         if not parts or start >= end:
             parts.append([])
-            end = start + file.channels[0].samples * file.channels[0].time_step
+            end = start + file.listed[0].samples * file.channels[0].time_step
         parts[-1].append(file)
     return [sorted(part, key=files.index) for part in parts]
 
@@ -206,22 +195,14 @@ def _why_apart(group: Sequence[ListedFile]) -> str:
     if len(group) == 1:
         return ""
     channels = [channel for file in group for channel in file.channels]
-    names = Counter(channel.component for channel in channels)
     level = [channel for channel in channels if not channel.vertical]
-    steps = {f"{channel.time_step:g}" for channel in channels}
-    sizes = {channel.samples for channel in channels}
-    if unnamed := next(
-        (file.file for file in group if any(is_unnamed(c.component) for c in file.channels)), ""
-    ):
-        return f"{unnamed} does not name its component"
-    if twice := next((name for name, n in names.items() if n > 1), ""):
-        return f"component {twice} comes {names[twice]} times"
+    for file in group:
+        if any(is_unnamed(channel.component) for channel in file.channels):
+            return f"{file.file} does not name its component"
+    if why := why_apart(channels, [each.samples for file in group for each in file.listed]):
+        return why
     if len(level) > 2 or len(channels) - len(level) > 1:
         return f"it has {len(level)} horizontal and {len(channels) - len(level)} vertical components"
-    if len(steps) > 1:
-        return f"their time steps are {' and '.join(sorted(steps))} s"
-    if len(sizes) > 1 and not all(channel.start_time for channel in channels):
-        return f"they hold {min(sizes)} and {max(sizes)} samples and do not say when they begin"
     if any(file.declared != group[0].declared for file in group):
         return "not all of them declare unit and time step"
     if (angle := _angle(level)) is not None and min(angle, 180 - angle) < _SQUARE:
@@ -229,7 +210,7 @@ def _why_apart(group: Sequence[ListedFile]) -> str:
     return ""
 
 
-def _angle(level: Sequence[ListedChannel]) -> float | None:
+def _angle(level: Sequence[Accelerogram]) -> float | None:
     """Return the angle between two horizontal components, degrees in [0, 180), None where it is unknown."""
     if len(level) != 2 or level[0].azimuth is None or level[1].azimuth is None:
         return None
@@ -309,15 +290,15 @@ def _row(group: Sequence[ListedFile], taken: set[str]) -> Row:
             f"Components {level[0].component} and {level[1].component} are {min(angle, 180 - angle):g}° apart, "
             "not at right angles."
         )
-    note = [f"{first.format}.", *([f"Fill in {' and '.join(fill)}."] if fill else []), *told]
+    note = [f"{first.source.format}.", *([f"Fill in {' and '.join(fill)}."] if fill else []), *told]
     return {
         "id": _id(group, taken),
         "file": ";".join(f"./{file.file}" if file.file[0] in _FORMULA else file.file for file in group),
         "event": _no_formula(first.event),
         "station": _no_formula(first.station),
-        "sha256": ";".join(file.channels[0].sha256 for file in group),
+        "sha256": ";".join(file.channels[0].source.sha256 for file in group),
         **group[0].declared,
-        "note": plain(" ".join([*note, *([group[0].apart] if group[0].apart else [])])),
+        "note": plain(" ".join([*note, group[0].apart])),
     }
 
 
@@ -347,44 +328,33 @@ def _id(group: Sequence[ListedFile], taken: set[str]) -> str:
 
 _HEAD = ("file", "component", "format", "step s", "samples", "PGA g", "PGV m/s", "status")
 _WIDEST = (40, 16, 24, 9, 9, 9, 9, 400)
-_RIGHT = range(3, 7)
+_ALIGNED = "<<<>>>><"
 
 
 def listing_text(listed: Sequence[ListedFile]) -> str:
     """Return one line for each channel of each file: format, step, samples, PGA, PGV, component and status."""
-    rows = [_HEAD, *(line for file in listed for line in _lines(file))]
+    rows = [_HEAD, *(row for file in listed for row in _lines(file))]
     cells = [
         [
-            text if len(text) <= width else text[: width - 1] + "…"
-            for text, width in zip(row, _WIDEST, strict=True)
+            text if len(text) <= widest else f"{text[: widest - 1]}…"
+            for text, widest in zip(row, _WIDEST, strict=True)
         ]
         for row in rows
     ]
-    widths = [max(len(row[i]) for row in cells) for i in range(len(_HEAD))]
-    lines = (
-        [
-            cell.rjust(w) if i in _RIGHT else cell.ljust(w)
-            for i, (cell, w) in enumerate(zip(row, widths, strict=True))
-        ]
-        for row in cells
-    )
-    return "".join("  ".join(line).rstrip() + "\n" for line in lines)
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    forms = [f"{{:{side}{width}}}" for side, width in zip(_ALIGNED, widths, strict=True)]
+    return "".join("  ".join(map(str.format, forms, row)).rstrip() + "\n" for row in cells)
 
 
 def _lines(file: ListedFile) -> list[tuple[str, ...]]:
-    if not file.channels:
-        return [(file.file, "", "", "", "", "", "", file.status)]
-    return [
-        (file.file if i == 0 else "", *_measures(channel, file.to_fill), file.status if i == 0 else "")
-        for i, channel in enumerate(file.channels)
-    ]
-
-
-def _measures(channel: ListedChannel, to_fill: tuple[str, ...]) -> tuple[str, ...]:
-    step = "" if "time_step_s" in to_fill else f"{channel.time_step:g}"
-    peak = "" if channel.peak_acceleration is None else f"{channel.peak_acceleration / GRAVITY:.3g}"
-    speed = "" if channel.peak_velocity is None else f"{channel.peak_velocity:.3g}"
-    return channel.component, channel.format, step, str(channel.samples), peak, speed
+    rows = []
+    for each in file.listed:
+        record, peak, speed = each.record, each.peak_acceleration, each.peak_velocity
+        step = "" if "time_step_s" in file.to_fill else f"{record.time_step:g}"
+        ground = "" if peak is None else f"{peak / GRAVITY:.3g}", "" if speed is None else f"{speed:.3g}"
+        rows.append((record.component, record.source.format, step, str(each.samples), *ground))
+    first, *others = rows or [("",) * 6]
+    return [(file.file, *first, file.status), *(("", *row, "") for row in others)]
 
 
 _LOOKED_AT = 200

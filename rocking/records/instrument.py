@@ -1,6 +1,7 @@
 """The instrument: where a component points, where it stood and what it measured, as far as names and headers say it."""
 
 import re
+from typing import Any
 
 from rocking.errors import RecordError
 
@@ -40,6 +41,15 @@ def azimuth(component: str) -> float | None:
         turn = int(degrees) if (pole == "N") == (side == "E") else -int(degrees)
         return float(((0 if pole == "N" else 180) + turn) % 360)
     return _NAMED.get(name)
+
+
+def directed(fields: dict[str, Any]) -> dict[str, Any]:
+    """Return fields of an Accelerogram, `vertical` and `azimuth` by its component's name where they are blank."""
+    component = fields.get("component", "")
+    vertical = fields.get("vertical", is_vertical(component))
+    given = fields.get("azimuth")
+    along = None if vertical else azimuth(component) if given is None else given
+    return fields | {"vertical": vertical, "azimuth": along}
 
 
 _STRUCTURE = re.compile(

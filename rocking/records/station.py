@@ -96,33 +96,27 @@ def _named(channels: Sequence[Accelerogram], record: CatalogueRecord) -> list[Ac
     ]
 
 
+def why_apart(channels: Sequence[Accelerogram], samples: Collection[int]) -> str:
+    """Return why channels of several files, of so many samples, cannot be one station's, or ""."""
+    names = Counter(channel.component for channel in channels if not channel.borehole)
+    if twice := next((name for name, n in names.items() if n > 1), ""):
+        return f"component {twice} comes {names[twice]} times"
+    steps = [channel.time_step for channel in channels]
+    if max(steps) / min(steps) - 1 > 1e-6:
+        return f"their time steps are {min(steps):g} and {max(steps):g} s"
+    if min(samples) < max(samples) and not all(channel.start_time for channel in channels):
+        return f"they hold {min(samples)} and {max(samples)} samples and do not all say when they begin"
+    return ""
+
+
 def joined(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     """Return the channels of several files on the span that is common to them.
 
     Raises RecordError when two have one name or unlike time steps, or when their lengths differ and a start is unknown.
     """
-    names = Counter(channel.component for channel in channels if not channel.borehole)
-    if twice := [name for name, n in names.items() if n > 1]:
-        files = " and ".join(c.source.path for c in channels if c.component == twice[0])
-        raise RecordError(
-            f"{files} hold a component {twice[0]!r} each, but those of a station must differ; "
-            "give each pair a row of its own."
-        )
-    steps = [channel.time_step for channel in channels]
-    if max(steps) / min(steps) - 1 > 1e-6:
-        raise RecordError(
-            f"the time steps of the files are {min(steps):g} and {max(steps):g} s, but must be one; "
-            "give each file a row of its own."
-        )
-    if all(channel.start_time for channel in channels):
-        return _cut(channels)
-    sizes = {channel.acceleration.size for channel in channels}
-    if len(sizes) > 1:
-        raise RecordError(
-            f"the files hold {min(sizes)} and {max(sizes)} samples and do not all say when they begin, so that it is "
-            "unknown how they lie to one another; give each file a row of its own."
-        )
-    return list(channels)
+    if why := why_apart(channels, [channel.acceleration.size for channel in channels]):
+        raise RecordError(f"its files do not fit together: {why}; give each file a row of its own.")
+    return _cut(channels) if all(channel.start_time for channel in channels) else list(channels)
 
 
 def _cut(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
@@ -159,14 +153,14 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
                 raise RecordError(f"component is {name!r}, but the file holds {held}.")
         upwards = (channel for channel in channels if channel.vertical and not channel.borehole)
         vertical = of[record.vertical_component] if record.vertical_component else next(upwards, None)
-        chosen = [of[name] for name in record.components]
-        if chosen and len(record.files) == 1:
+        horizontal = [of[name] for name in record.components]
+        if horizontal and len(record.files) == 1:
             horizontal = [  # it will shake sideways
                 replace(c, warnings=(*c.warnings, _SIDEWAYS.format(c.component))) if c.vertical else c
-                for c in chosen
+                for c in horizontal
             ]
         else:
-            sideways = chosen or [channel for channel in channels if not channel.borehole]
+            sideways = horizontal or [channel for channel in channels if not channel.borehole]
             horizontal = [channel for channel in sideways if channel is not vertical and not channel.vertical]
         if not horizontal:
             raise RecordError(

@@ -11,7 +11,7 @@ import numpy as np
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_factor, acceleration_unit, positive
 from rocking.records.accelerogram import Accelerogram, Source
-from rocking.records.instrument import azimuth, is_vertical
+from rocking.records.instrument import directed
 from rocking.records.plausibility import LARGEST_PEAK
 
 Response = Literal["sensitivity", "full"]
@@ -87,15 +87,11 @@ class Options:
         the file gives them, and text is cleared of control characters.
         """
         fields = {key: plain(value) if isinstance(value, str) else value for key, value in fields.items()}
-        component = fields.get("component", "")
-        fields.setdefault("vertical", is_vertical(component))
-        if fields["vertical"]:
-            fields["azimuth"] = None
-        elif fields.get("azimuth") is None:
-            fields["azimuth"] = azimuth(component)
         unit = self.unit_of(unit)
         step = self.time_step_of(time_step)
-        return Accelerogram(values * acceleration_factor(unit), step, source=Source(unit=unit), **fields)
+        return Accelerogram(
+            values * acceleration_factor(unit), step, source=Source(unit=unit), **directed(fields)
+        )
 
 
 @dataclass(frozen=True)
