@@ -23,7 +23,7 @@ _RESERVED = re.compile(
     r"(\..*)?",
     re.I,
 )
-_HASH = re.compile(r"[0-9a-f]{64}")
+_HASH, _COMMIT = re.compile(r"[0-9a-f]{64}"), re.compile(r"[0-9a-f]{40}")
 _REPOSITORY = re.compile(r"(?!\.+/)[\w.-]+/(?!\.+$)[\w.-]+", re.ASCII)
 _PROSE = ("event", "station", "licence", "note")
 _LARGEST = 16 * 2**20
@@ -138,45 +138,36 @@ def _defects(record: CatalogueRecord) -> Iterator[str]:
             object.__setattr__(record, name, each.checked(getattr(record, name)))
         except ValueError as error:
             yield f"{each.key} is {error}"
-    if not is_safe_id(record.id):
-        allowed = "a safe file name: letters, digits, . _ -, at most 80, not a reserved name"
-        yield f"id is {record.id!r}, but must be {allowed}."
-    names = _parts(record.file)
-    if not names:
-        yield "file is missing; give a path beside the catalogue or obspy:NAME."
-    for name, value in [
-        *(("file", part) for part in names),
-        *(("inventory", x) for x in [record.inventory] if x),
-    ]:
-        if not stays_inside(value.removeprefix(_OBSPY)):
-            yield f"{name} is {value!r}, but must be a relative path without '..'."
-    hashes = _parts(record.sha256)
-    for value in filter(None, hashes):
-        if not _HASH.fullmatch(value):
-            yield f"sha256 is {value!r}, but must be 64 hexadecimal digits in lower case, or blank to be filled in."
-    if hashes and len(hashes) != len(names):
-        yield f"sha256 holds {len(hashes)} hashes for {len(names)} files; give one for each, separated by ';'."
-    if record.is_remote and not (hashes and all(hashes)):
-        yield "sha256 is missing; a file that is fetched needs it."
-    if any((record.source_repository, record.source_path, record.source_commit)):
-        yield from _source_defects(record, len(names))
-    if record.scale_factor == 0:
-        yield "scale_factor is 0, but must not be; leave the row out instead."
+    names, hashes, paths = _parts(record.file), _parts(record.sha256), _parts(record.source_path)
+    outside = [("file", name) for name in names if not stays_inside(name.removeprefix(_OBSPY))]
+    if record.inventory and not stays_inside(record.inventory):
+        outside.append(("inventory", record.inventory))
+    source = record.source_repository, record.source_path, record.source_commit
+    is_fetched = any(source)
+    checks = [
+        (is_safe_id(record.id), f"id is {record.id!r}, but must be a safe file name: letters, digits, . _ -, at most 80, "
+         "not a reserved name."),
+        (names, "file is missing; give a path beside the catalogue or obspy:NAME."),
+        *((False, f"{name} is {value!r}, but must be a relative path without '..'.") for name, value in outside),
+        *((_HASH.fullmatch(value), f"sha256 is {value!r}, but must be 64 hexadecimal digits in lower case, or blank to be "
+           "filled in.") for value in hashes if value),
+        (len(hashes) in (0, len(names)),
+         f"sha256 holds {len(hashes)} hashes for {len(names)} files; give one for each, separated by ';'."),
+        (not record.is_remote or (hashes and all(hashes)), "sha256 is missing; a file that is fetched needs it."),
+        (not is_fetched or _REPOSITORY.fullmatch(source[0]),
+         f"source_repository is {source[0]!r}, but must be owner/name."),
+        (not is_fetched or (len(paths) == len(names) and all(map(stays_inside, paths))),
+         f"source_path is {source[1]!r}, but must be a relative path without '..' for each file."),
+        (not is_fetched or _COMMIT.fullmatch(source[2]),
+         f"source_commit is {source[2]!r}, but must be 40 hexadecimal digits."),
+        (record.scale_factor != 0, "scale_factor is 0, but must not be; leave the row out instead."),
+    ]  # fmt: skip
+    yield from (sentence for is_right, sentence in checks if not is_right)
     if record.unit:
         try:
             acceleration_factor(record.unit)
         except RockingError as error:
             yield str(error)
-
-
-def _source_defects(record: CatalogueRecord, files: int) -> Iterator[str]:
-    if not _REPOSITORY.fullmatch(record.source_repository):
-        yield f"source_repository is {record.source_repository!r}, but must be owner/name."
-    paths = _parts(record.source_path)
-    if len(paths) != files or not all(map(stays_inside, paths)):
-        yield f"source_path is {record.source_path!r}, but must be a relative path without '..' for each file."
-    if not re.fullmatch(r"[0-9a-f]{40}", record.source_commit):
-        yield f"source_commit is {record.source_commit!r}, but must be 40 hexadecimal digits."
 
 
 def is_safe_id(text: str) -> bool:
@@ -206,19 +197,14 @@ def load_catalogue(path: str | Path, mirror: str | Path | None = None) -> tuple[
             records.append(_record(row, path.parent))
         except RockingError as error:
             defects.append(f"line {line} ({row.get('id') or 'no id'}): {error}")
-    counts = Counter(row.get("id", "").strip().lower() for _, row in rows)
-    defects += [
-        f"id {name!r} stands {n} times (upper and lower case count as one)"
-        for name, n in counts.items()
-        if n > 1 and name
-    ]
+    counts = Counter(row["id"].strip().lower() for _, row in rows if row["id"].strip())
+    twice = [(name, n) for name, n in counts.items() if n > 1]
+    defects += [f"id {name!r} stands {n} times (upper and lower case count as one)" for name, n in twice]
     for record in records if mirror is not None else ():
-        for file in record.files:
-            places = [Path(folder) / file.name for folder in (mirror, record.folder) if folder is not None]
-            if not (record.example_name or record.is_remote or any(place.is_file() for place in places)):
-                defects.append(
-                    f"{record.id}: file {file.name!r} is neither in {mirror} nor in {record.folder}."
-                )
+        is_elsewhere = record.example_name or record.is_remote
+        for name in () if is_elsewhere else (file.name for file in record.files):
+            if not any((Path(place) / name).is_file() for place in (mirror, record.folder) if place):
+                defects.append(f"{record.id}: file {name!r} is neither in {mirror} nor in {record.folder}.")
     if defects:
         raise CatalogueError(f"{path.name} has {len(defects)} defects: " + " | ".join(defects))
     return tuple(records)
@@ -279,18 +265,15 @@ def repeated(records: Iterable[CatalogueRecord]) -> tuple[str, ...]:
     """Return a sentence for each record that is an earlier one again: one content and scale, a component in common."""
     sentences: list[str] = []
     earlier: dict[tuple[str, float], list[CatalogueRecord]] = {}
-    for record in records:
-        for file in record.files:
-            if not file.sha256:
-                continue
-            same = earlier.setdefault((file.sha256, record.scale_factor), [])
-            for other in same:
-                chosen = set(other.components), set(record.components)  # of which none names all
-                if not all(chosen) or chosen[0] & chosen[1]:
-                    sentences.append(
-                        f"{record.id} ({file.name}): its content is that of {other.id} ({other.file}), "
-                        "so that one motion counts twice; leave one of them out."
-                    )
-                    break
-            same.append(record)
+    for record, file in ((record, file) for record in records for file in record.files if file.sha256):
+        same = earlier.setdefault((file.sha256, record.scale_factor), [])
+        for other in same:
+            chosen = set(other.components), set(record.components)  # of which none names all
+            if not all(chosen) or chosen[0] & chosen[1]:
+                sentences.append(
+                    f"{record.id} ({file.name}): its content is that of {other.id} ({other.file}), "
+                    "so that one motion counts twice; leave one of them out."
+                )
+                break
+        same.append(record)
     return tuple(sentences)

@@ -9,6 +9,7 @@ from urllib.parse import quote
 
 from rocking.errors import RecordError, about
 from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
+from rocking.records.formats.binary import MINISEED
 from rocking.records.read import LARGEST_FILE, hash_of
 from rocking.tables import write_whole
 
@@ -48,12 +49,13 @@ def path_of(
 
 def inventory_of(record: CatalogueRecord, mirror: str | Path | None = None) -> Path | None:
     """Return the path of the record's StationXML, or None when the row names none."""
-    if not record.inventory:
-        return None
     with about(record.id):
-        if path := _beside(record, record.inventory, mirror):
-            return path
-        raise RecordError(f"inventory {record.inventory!r} is not there; mend the catalogue or add the file.")
+        path = _beside(record, record.inventory, mirror) if record.inventory else None
+        if record.inventory and path is None:
+            raise RecordError(
+                f"inventory {record.inventory!r} is not there; mend the catalogue or add the file."
+            )
+        return path
 
 
 def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> list[Path]:
@@ -73,8 +75,6 @@ def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> li
 
 def _may_hold_counts(path: Path) -> bool:
     """Whether a file is miniSEED, or packed so that it may be."""
-    from rocking.records.formats.binary import MINISEED
-
     with suppress(OSError), path.open("rb") as stream:
         head = stream.read(256)
         return head.startswith(b"\x1f\x8b") or MINISEED.recognise(head)

@@ -29,6 +29,8 @@ _ROUNDING = 1e-3
 _NEAR = 0.02
 """How close a ratio must come to a factor between units to be explained by it."""
 _PLAUSIBLE = (0.005, 1.5)
+_NEIGHBOURS = 3
+"""Samples by which the stated time of a peak may be off: it is printed with few digits, and counts from 0 or from 1."""
 
 
 def agree_with_header(
@@ -50,39 +52,32 @@ def agree_with_header(
     if not peak:
         return record
     magnitudes = np.abs(record.acceleration if samples is None else samples)
-    found, stated = float(magnitudes.max()), abs(peak) * acceleration_factor(unit)
+    peak_read, stated = float(magnitudes.max()), abs(peak) * acceleration_factor(unit)
     allowed = max(0.01 * stated, half_digit * acceleration_factor(unit))
-    if abs(found - stated) > allowed:
-        ratio = found / stated
+    if abs(peak_read - stated) > allowed:
+        ratio = peak_read / stated
         nearest = min(_FACTORS, key=lambda factor: min(abs(ratio / factor - 1), abs(ratio * factor - 1)))
         is_near = min(abs(ratio / nearest - 1), abs(ratio * nearest - 1)) < _NEAR
         factor = f"{nearest:g} ({_FACTORS[nearest]})" if is_near else f"{ratio:.4g} that no unit explains"
         raise RecordError(
             f"peak acceleration of {record.component or 'the samples'} is "
-            f"{found:.6g} m/s², but the file's header states {stated:.6g} m/s²"
+            f"{peak_read:.6g} m/s², but the file's header states {stated:.6g} m/s²"
             f", a factor {factor}; the two must agree within 1 %."
         )
-    if abs(found - stated) > max(_ROUNDING * stated, half_digit * acceleration_factor(unit)):
+    if abs(peak_read - stated) > max(_ROUNDING * stated, half_digit * acceleration_factor(unit)):
         sentence = (
-            f"The peak is {found:.6g} m/s², but the header states {stated:.6g} m/s², which is more than rounding: "
+            f"The peak is {peak_read:.6g} m/s², but the header states {stated:.6g} m/s², which is more than rounding: "
             "a number or a factor is damaged."
         )
         record = replace(record, warnings=(*record.warnings, sentence))
-    return record if at is None else _peak_in_place(record, magnitudes, at)
-
-
-_NEIGHBOURS = 3
-"""Samples by which the stated time of a peak may be off: it is printed with few digits, and counts from 0 or from 1."""
-
-
-def _peak_in_place(record: Accelerogram, magnitudes: np.ndarray, at: float) -> Accelerogram:
-    place = round(at / record.time_step) if abs(at) < 1e9 * record.time_step else magnitudes.size
-    near = magnitudes[max(0, place - _NEIGHBOURS) : max(0, place + _NEIGHBOURS + 1)]
-    if near.size and near.max() >= 0.98 * magnitudes.max():
+    if at is None:
         return record
-    found = int(magnitudes.argmax()) * record.time_step
+    place = round(at / record.time_step)
+    near = magnitudes[max(0, place - _NEIGHBOURS) : max(0, place + _NEIGHBOURS + 1)]
+    if near.size and near.max() >= 0.98 * peak_read:
+        return record
     sentence = (
-        f"The header puts the peak at {at:g} s, but it stands at {found:g} s: "
+        f"The header puts the peak at {at:g} s, but it stands at {magnitudes.argmax() * record.time_step:g} s: "
         "lines may be missing, repeated or out of order before it, or the time step is another."
     )
     return replace(record, warnings=(*record.warnings, sentence))
