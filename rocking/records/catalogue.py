@@ -145,12 +145,13 @@ def _defects(record: CatalogueRecord) -> Iterator[str]:
     source = record.source_repository, record.source_path, record.source_commit
     is_fetched = any(source)
     checks = [
-        (is_safe_id(record.id), f"id is {record.id!r}, but must be a safe file name: letters, digits, . _ -, at most 80, "
-         "not a reserved name."),
+        (is_safe_id(record.id),
+         f"id is {record.id!r}, but must be a safe file name: letters, digits, . _ -, at most 80, not reserved."),
         (names, "file is missing; give a path beside the catalogue or obspy:NAME."),
         *((False, f"{name} is {value!r}, but must be a relative path without '..'.") for name, value in outside),
-        *((_HASH.fullmatch(value), f"sha256 is {value!r}, but must be 64 hexadecimal digits in lower case, or blank to be "
-           "filled in.") for value in hashes if value),
+        *((_HASH.fullmatch(value),
+           f"sha256 is {value!r}, but must be 64 hexadecimal digits in lower case, or blank to be filled in.")
+          for value in hashes if value),
         (len(hashes) in (0, len(names)),
          f"sha256 holds {len(hashes)} hashes for {len(names)} files; give one for each, separated by ';'."),
         (not record.is_remote or (hashes and all(hashes)), "sha256 is missing; a file that is fetched needs it."),
@@ -265,7 +266,7 @@ def repeated(records: Iterable[CatalogueRecord]) -> tuple[str, ...]:
     """Return a sentence for each record that is an earlier one again: one content and scale, a component in common."""
     sentences: list[str] = []
     earlier: dict[tuple[str, float], list[CatalogueRecord]] = {}
-    for record, file in ((record, file) for record in records for file in record.files if file.sha256):
+    for record, file in [(row, file) for row in records for file in row.files if file.sha256]:
         same = earlier.setdefault((file.sha256, record.scale_factor), [])
         for other in same:
             chosen = set(other.components), set(record.components)  # of which none names all

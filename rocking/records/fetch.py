@@ -1,5 +1,6 @@
 """Fetch: the files of a catalogue row, from mirror, catalogue folder, obspy or network."""
 
+import hashlib
 import time
 import urllib.request
 from contextlib import suppress
@@ -10,7 +11,7 @@ from urllib.parse import quote
 from rocking.errors import RecordError, about
 from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
 from rocking.records.formats.binary import MINISEED
-from rocking.records.read import LARGEST_FILE, hash_of
+from rocking.records.read import LARGEST_FILE, bytes_of
 from rocking.tables import write_whole
 
 _RETRIES = 3
@@ -182,6 +183,6 @@ def filled(record: CatalogueRecord, mirror: str | Path | None = None) -> Catalog
         sha256 = file.sha256
         if not sha256:
             with suppress(RecordError):
-                sha256 = hash_of(path_of(record, file, mirror))
+                sha256 = hashlib.sha256(bytes_of(path_of(record, file, mirror))).hexdigest()
         hashes.append(sha256)
     return replace(record, sha256=";".join(hashes)) if any(hashes) else record

@@ -1,5 +1,6 @@
 """Processing: what turns recorded numbers into ground acceleration, each step optional and recorded in the result."""
 
+import operator
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -60,7 +61,7 @@ def process(record: Accelerogram, processing: Processing | None = None) -> Accel
     """
     if processing is None:
         processing = UNPROCESSED_DEFAULT if record.processed is False else Processing()
-    for step in (_without_pre_event_mean, _on_baseline, _filtered, _resampled):
+    for step in (_levelled, _filtered, _resampled):
         record = step(record, processing)
     return record
 
@@ -97,20 +98,16 @@ def integral(values: np.ndarray, time_step: float) -> np.ndarray:
     return time_step * (np.cumsum(values) - (values + values[0]) / 2)
 
 
-def _without_pre_event_mean(record: Accelerogram, processing: Processing) -> Accelerogram:
-    if processing.pre_event is None:
-        return record
-    samples = round(processing.pre_event / record.time_step)
-    if not 1 <= samples < record.acceleration.size:
-        raise RecordError(
-            f"pre_event is {processing.pre_event!r} s, but must hold a sample and end within the record."
-        )
-    mean = record.acceleration[:samples].mean()
-    sentence = f"Mean of the first {processing.pre_event:g} s removed, {mean:.6g} m/s²."
-    return record.processed_by(record.acceleration - mean, sentence)
-
-
-def _on_baseline(record: Accelerogram, processing: Processing) -> Accelerogram:
+def _levelled(record: Accelerogram, processing: Processing) -> Accelerogram:
+    if processing.pre_event is not None:
+        samples = round(processing.pre_event / record.time_step)
+        if not 1 <= samples < record.acceleration.size:
+            raise RecordError(
+                f"pre_event is {processing.pre_event!r} s, but must hold a sample and end within the record."
+            )
+        mean = record.acceleration[:samples].mean()
+        sentence = f"Mean of the first {processing.pre_event:g} s removed, {mean:.6g} m/s²."
+        record = record.processed_by(record.acceleration - mean, sentence)
     if processing.baseline == "adaptive":
         return record.processed_by(*adaptive_baseline(record.acceleration, record.time_step))
     if processing.baseline == "none":
@@ -122,37 +119,39 @@ def _on_baseline(record: Accelerogram, processing: Processing) -> Accelerogram:
 
 
 def _filtered(record: Accelerogram, processing: Processing) -> Accelerogram:
-    values, told = record.acceleration, []
+    values, steps = record.acceleration, []
     if processing.taper:
-        values = values * _cosine_taper(values.size, processing.taper)
-        told.append(f"Cosine taper over {processing.taper:.3g} of the record at each end.")
+        length = max(1, int(processing.taper * values.size))
+        ramp = 0.5 * (1 - np.cos(np.pi * np.arange(length) / length))
+        window = np.ones(values.size)
+        window[:length] = ramp
+        window[-length:] = np.minimum(window[-length:], ramp[::-1])
+        values = values * window
+        steps.append(f"Cosine taper over {processing.taper:.3g} of the record at each end.")
     corners = {"highpass": processing.high_pass, "lowpass": processing.low_pass}
     lowest = processing.high_pass or processing.low_pass
-    padded = processing.padding and lowest is not None
-    pad = _room(processing.order, lowest or 1.0, record.duration, record.time_step) if padded else 0
-    held = 0
+    pad = _room(processing.order, lowest, record) if processing.padding and lowest else 0
     if pad:
         values = np.pad(values, pad)
-        told.append(f"{pad} zeros before and after{'' if processing.keep_padding else ' while filtering'}.")
+        steps.append(f"{pad} zeros before and after{'' if processing.keep_padding else ' while filtering'}.")
     for kind, corner in corners.items():
         if corner is not None:
-            if not pad:
-                held = _room(processing.order, corner, record.duration, record.time_step)
+            held = 0 if pad else _room(processing.order, corner, record)
             values = _butterworth(values, record.time_step, kind, corner, processing.order, held)
-            told.append(
+            steps.append(
                 f"Acausal Butterworth {kind} of order {processing.order}, run both ways, corner {corner:g} Hz."
             )
     if pad and not processing.keep_padding:
         values = values[pad:-pad]
-    if not told:
+    if not steps:
         return record
     highest = max(processing.high_pass or 0, record.high_pass_frequency or 0) or None
-    return record.processed_by(values, " ".join(told), high_pass_frequency=highest)
+    return record.processed_by(values, " ".join(steps), high_pass_frequency=highest)
 
 
-def _room(order: int, corner: float, duration: float, time_step: float) -> int:
+def _room(order: int, corner: float, record: Accelerogram) -> int:
     """Samples over which a filter rings, 1.5 order/corner seconds (Boore 2005), at most ten times the record."""
-    return int(np.ceil(min(1.5 * order / corner, 10 * duration) / time_step))
+    return int(np.ceil(min(1.5 * order / corner, 10 * record.duration) / record.time_step))
 
 
 def _butterworth(
@@ -176,15 +175,6 @@ def _butterworth(
     return signal.sosfiltfilt(sections, whole, padtype=None)[held : held + values.size]
 
 
-def _cosine_taper(samples: int, share: float) -> np.ndarray:
-    length = max(1, int(share * samples))
-    ramp = 0.5 * (1 - np.cos(np.pi * np.arange(length) / length))
-    window = np.ones(samples)
-    window[:length] = ramp
-    window[-length:] = np.minimum(window[-length:], ramp[::-1])
-    return window
-
-
 def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:
     step = processing.time_step
     if step is None or abs(step / record.time_step - 1) < 1e-12:
@@ -192,18 +182,15 @@ def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:
     number = int(record.duration / step * (1 + 1e-12)) + 1
     if not 2 <= number <= 10_000_000:
         raise RecordError(f"time_step is {step!r} s, which makes {number} samples; it must make 2 to 1e7.")
-    values, sentence = (
-        record.acceleration,
-        f"Resampled from {record.time_step:g} to {step:g} s, linear between samples.",
-    )
+    values = record.acceleration
+    sentence = f"Resampled from {record.time_step:g} to {step:g} s, linear between samples."
     if step > record.time_step:
         corner = _LOW_PASS_SHARE * 0.5 / step
-        held = _room(8, corner, record.duration, record.time_step)
+        held = _room(8, corner, record)
         values = _butterworth(values, record.time_step, "lowpass", corner, 8, held)
         sentence = f"Low-passed at {corner:g} Hz against aliasing. {sentence}"
-    return record.processed_by(
-        np.interp(np.arange(number) * step, record.times, values), sentence, time_step=step
-    )
+    even = np.interp(np.arange(number) * step, record.times, values)
+    return record.processed_by(even, sentence, time_step=step)
 
 
 _CANDIDATES = 20
@@ -237,10 +224,12 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
     if strong > acceleration.size - _LEFT:
         return acceleration, "Adaptive baseline left the record as it is: shaking lasts to its end."
     last = min(strong + int(0.85 * (acceleration.size - strong)), acceleration.size - _LEFT)
-    tried = np.unique(np.linspace(strong, last, _CANDIDATES).astype(int)).tolist()
-    end, degree, drift = min(
-        _drifts(velocity, onset, tried), key=lambda each: _wandering(velocity - each[-1], time_step)
-    )
+    ends = np.unique(np.linspace(strong, last, _CANDIDATES).astype(int)).tolist()
+    tried = []
+    for end, degree, drift in _drifts(velocity, onset, ends):
+        course = np.cumsum(velocity - drift)  # which a drift that is left makes larger than the ground's own
+        tried.append((max(course.max(), -course.min()), end, degree, drift))
+    _, end, degree, drift = min(tried, key=operator.itemgetter(0))
     sentence = (
         f"Adaptive baseline: drift of velocity fitted before {onset * time_step:g} s and after {end * time_step:g} s "
         f"(degree {degree}), bridged between, and its acceleration removed."
@@ -276,9 +265,3 @@ def _fitted(values: np.ndarray) -> list[tuple[np.ndarray, float]]:
     line = values.mean() + first * x
     per_sample = 2 / (x.size - 1)
     return [(line, first * per_sample), (line + second * bow, (first - 2 * second) * per_sample)]
-
-
-def _wandering(velocity: np.ndarray, time_step: float) -> float:
-    """Return the largest displacement, m: a drift left in the velocity makes it larger than the ground's own."""
-    course = np.cumsum(velocity)
-    return time_step * max(float(course.max()), -float(course.min()))

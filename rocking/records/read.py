@@ -147,11 +147,6 @@ def bytes_of(path: Path, largest: int = LARGEST_FILE) -> bytes:
     return read_whole(path, largest, RecordError, printable(str(path)))
 
 
-def hash_of(path: Path) -> str:
-    """Return the sha256 of a file as it lies on disk. Raises RecordError as bytes_of."""
-    return hashlib.sha256(bytes_of(path)).hexdigest()
-
-
 def printable(text: str) -> str:
     """Return `text`, a name or a message, as it can be printed and written: on one line, without foreign bytes."""
     return plain(text.encode("utf-8", "backslashreplace").decode()) if not text.isprintable() else text

@@ -46,13 +46,11 @@ def rotate(first: Accelerogram, second: Accelerogram, azimuth: float) -> Acceler
     sentence = (
         f"Rotated from {first.azimuth:g}° and {second.azimuth:g}° to {azimuth:g}° clockwise from north."
     )
-    turned = first.processed_by(motion, sentence, component=f"{azimuth:g}", azimuth=azimuth % 360)
-    warnings = dict.fromkeys((*first.warnings, *second.warnings))
-    sizes = sorted((first.acceleration.size, second.acceleration.size))
-    if sizes[0] != sizes[1]:
-        cut = f"The components hold {sizes[0]} and {sizes[1]} samples; the longer was cut to the shorter."
-        warnings[cut] = None
-    return replace(turned, warnings=tuple(warnings))
+    short, long = sorted((first.acceleration.size, second.acceleration.size))
+    cut = f"The components hold {short} and {long} samples; the longer was cut to the shorter."
+    warnings = dict.fromkeys((*first.warnings, *second.warnings, *([cut] if short < long else [])))
+    turned = {"component": f"{azimuth:g}", "azimuth": azimuth % 360, "warnings": tuple(warnings)}
+    return first.processed_by(motion, sentence, **turned)
 
 
 def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:

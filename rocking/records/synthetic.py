@@ -13,6 +13,8 @@ from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, finite, positive
 from rocking.records.accelerogram import Accelerogram
 
+_EPSILON, _ETA = 0.2, 0.05
+
 
 @dataclass(frozen=True)
 class SyntheticRecord:
@@ -67,33 +69,22 @@ def pulse(recipe: SyntheticRecord, times: np.ndarray) -> np.ndarray:
 def noise(recipe: SyntheticRecord, samples: int) -> np.ndarray:
     """Return stochastic ground acceleration (samples,), m/s², by the method of Boore (2003).
 
-    White noise, windowed (Saragoni & Hart, ε = 0.2, η = 0.05), its spectrum levelled to unit mean power and multiplied
-    by the omega-squared source f²/(1 + (f/f_c)²) and the site's exp(−πκf), then scaled to the peak asked for.
+    White noise, windowed (Saragoni & Hart 1974, ε = 0.2, η = 0.05), its spectrum levelled to unit mean power and
+    multiplied by the omega-squared source f²/(1 + (f/f_c)²) and the site's exp(−πκf), then scaled to the peak asked for.
     """
     if recipe.noise_peak == 0:
         return np.zeros(samples)
-    white = _normals(recipe.seed, samples)
-    spectrum = np.fft.rfft(white * _window(samples))
+    # The legacy generator is the one whose stream numpy promises never to change: the bundled files depend on it.
+    white = np.random.RandomState(recipe.seed).standard_normal(samples)
+    # (t/t_ε)^b exp(b (1 − t/t_ε)) is 1 at the share ε of the duration and η at its end.
+    ratio = np.arange(1, samples + 1) / samples / _EPSILON
+    b = -_EPSILON * np.log(_ETA) / (1 + _EPSILON * (np.log(_EPSILON) - 1))
+    spectrum = np.fft.rfft(white * (ratio**b * np.exp(b * (1 - ratio))))
     spectrum /= np.sqrt(np.mean(np.abs(spectrum) ** 2))
     frequency = np.fft.rfftfreq(samples, recipe.time_step)
     source = frequency**2 / (1 + (frequency / recipe.corner_frequency) ** 2)
     series = np.fft.irfft(spectrum * source * np.exp(-np.pi * recipe.kappa * frequency), samples)
     return series * (recipe.noise_peak / np.abs(series).max())
-
-
-def _normals(seed: int, samples: int) -> np.ndarray:
-    # The legacy generator is the one whose stream numpy promises never to change: the bundled files depend on it.
-    return np.random.RandomState(seed).standard_normal(samples)
-
-
-def _window(samples: int, epsilon: float = 0.2, eta: float = 0.05) -> np.ndarray:
-    """(t/t_ε)^b exp(b (1 − t/t_ε)): 1 at the share ε of the duration and η at its end.
-
-    Saragoni & Hart (1974), as in Boore (2003).
-    """
-    ratio = np.arange(1, samples + 1) / samples / epsilon
-    b = -epsilon * np.log(eta) / (1 + epsilon * (np.log(epsilon) - 1))
-    return ratio**b * np.exp(b * (1 - ratio))
 
 
 SHIPPED = SyntheticRecord("synthetic_strong_pulse", 1, 0.55 * GRAVITY, 1.0, 4.0, 0.15 * GRAVITY, 20.0, 0.005)

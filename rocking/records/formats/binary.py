@@ -4,6 +4,7 @@ import io
 import re
 import struct
 import warnings
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +61,11 @@ def _check_size(content: bytes) -> None:
         warnings.simplefilter("ignore")
         notes = get_record_information(io.BytesIO(content))
         heads = obspy.read(io.BytesIO(content), format="MSEED", check_compression=False, headonly=True)
-    if notes.get("excess_bytes") and not _records_end_well(content):
+    at = 0 if notes.get("excess_bytes") else len(content)
+    with suppress(Exception):  # the records may differ in length, and yet end where the file does
+        while at < len(content):
+            at += get_record_information(io.BytesIO(content), offset=at)["record_length"]
+    if at != len(content):
         raise RecordError(
             f"the last record of {notes['record_length']} bytes is cut after {notes['excess_bytes']}: "
             "the file is truncated; fetch the whole file."
@@ -68,19 +73,6 @@ def _check_size(content: bytes) -> None:
     samples = sum(trace.stats.npts for trace in heads)
     if samples > LARGEST_SERIES:
         raise RecordError(f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.")
-
-
-def _records_end_well(content: bytes) -> bool:
-    """Whether the records, which may differ in length, end where the file does."""
-    from obspy.io.mseed.util import get_record_information
-
-    at = 0
-    try:
-        while at < len(content):
-            at += get_record_information(io.BytesIO(content), offset=at)["record_length"]
-    except Exception:
-        return False
-    return at == len(content)
 
 
 _SAC_HEADER = 632
@@ -91,43 +83,36 @@ _VERSION, _SAMPLES = 304, 316
 
 
 def _is_sac(content: bytes) -> bool:
-    return len(content) > _SAC_HEADER and any(_fits_sac(content, order) for order in "<>")
-
-
-def _fits_sac(content: bytes, order: str) -> bool:
-    (version,) = struct.unpack_from(order + "i", content, _VERSION)
-    (samples,) = struct.unpack_from(order + "i", content, _SAMPLES)
-    body = len(content) - _SAC_HEADER - 4 * samples
-    return version in (6, 7) and samples > 0 and 0 <= body <= 176
+    if len(content) <= _SAC_HEADER:
+        return False
+    heads = [
+        [struct.unpack_from(order + "i", content, at)[0] for at in (_VERSION, _SAMPLES)] for order in "<>"
+    ]
+    rests = [(version, len(content) - _SAC_HEADER - 4 * n) for version, n in heads if n > 0]
+    return any(version in (6, 7) and 0 <= rest <= 176 for version, rest in rests)
 
 
 def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
-    result, warnings = _stream(content, "SAC", checksize=True)
+    traces, warnings = _stream(content, "SAC", checksize=True)
     unit = options.unit_of(None)
-    return [_sac_record(trace, unit, options, warnings) for trace in result]
-
-
-def _sac_record(trace, unit: str, options: Options, warnings: tuple[str, ...]) -> Accelerogram:
-    header = {
-        key: float(value) for key, value in trace.stats.sac.items() if isinstance(value, float | np.floating)
-    }
-    header = {key: value for key, value in header.items() if value != _UNDEFINED}
-    # The step in the file has single precision: 0.02 is stored as 0.0199999996.
-    step = float(f"{trace.stats.delta:.6g}")
-    _check_sac(header, trace.data, step)
-    values, offset = without_offset(trace.data.astype(float) * trace.stats.calib, unit)
-    azimuth = header.get("cmpaz")
-    place = {name: header[key] for name, key in _SAC_PLACE.items() if key in header}
-    return options.accelerogram(
-        unit,
-        values,
-        step,
-        **names(trace),
-        **place,
-        warnings=warnings,
-        processing=(offset,),
-        azimuth=azimuth % 360 if azimuth is not None and -360 <= azimuth <= 360 else None,
-    )
+    records = []
+    for trace in traces:
+        numbers = {
+            key: float(value)
+            for key, value in trace.stats.sac.items()
+            if isinstance(value, np.floating | float)
+        }
+        header = {key: value for key, value in numbers.items() if value != _UNDEFINED}
+        # The step in the file has single precision: 0.02 is stored as 0.0199999996.
+        step = float(f"{trace.stats.delta:.6g}")
+        _check_sac(header, trace.data, step)
+        values, offset = without_offset(trace.data.astype(float) * trace.stats.calib, unit)
+        facts: dict[str, Any] = {name: header[key] for name, key in _SAC_PLACE.items() if key in header}
+        if abs(header.get("cmpaz", _UNDEFINED)) <= 360:
+            facts["azimuth"] = header["cmpaz"] % 360
+        facts |= names(trace) | {"processing": (offset,), "warnings": warnings}
+        records.append(options.accelerogram(unit, values, step, **facts))
+    return records
 
 
 def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
@@ -165,8 +150,20 @@ _FRAME_LENGTH = 100
 def _read_evt(content: bytes, options: Options) -> list[Accelerogram]:
     options.unit_of("m/s2")
     _check_frames(content)
-    result, warnings = _stream(content, "KINEMETRICS_EVT", apply_calib=False)
-    return [_evt_record(trace, i, options, warnings) for i, trace in enumerate(result)]
+    traces, warnings = _stream(content, "KINEMETRICS_EVT", apply_calib=False)
+    records = []
+    for i, trace in enumerate(traces):
+        samples = trace.data.astype(float) * trace.stats.calib * (GRAVITY / _OBSPY_G)
+        values, offset = without_offset(samples, "m/s2")
+        component = str(trace.stats.kinemetrics_evt.get("chan_id", "")).strip() or _COMPONENTS[i % 3]
+        facts: dict[str, Any] = names(trace) | {
+            "component": component,
+            "event": str(trace.stats.starttime)[:10],
+        }
+        facts |= {"processing": (offset,), "warnings": warnings}
+        facts["vertical"] = component.upper() in ("Z", "V", "UP") or i == 2
+        records.append(options.accelerogram("m/s2", values, float(trace.stats.delta), **facts))
+    return records
 
 
 def _check_frames(content: bytes) -> None:
@@ -189,22 +186,6 @@ def _check_frames(content: bytes) -> None:
         at += _TAG.size + head + body
     if content[at:].strip(b"\0"):
         raise RecordError(f"what stands at byte {at} is no frame; the file is damaged, fetch it again.")
-
-
-def _evt_record(trace, index: int, options: Options, warnings: tuple[str, ...]) -> Accelerogram:
-    stats = trace.stats
-    values, offset = without_offset(trace.data.astype(float) * stats.calib * (GRAVITY / _OBSPY_G), "m/s2")
-    component = str(stats.kinemetrics_evt.get("chan_id", "")).strip() or _COMPONENTS[index % 3]
-    return options.accelerogram(
-        "m/s2",
-        values,
-        float(stats.delta),
-        **names(trace) | {"component": component},
-        event=str(stats.starttime)[:10],
-        processing=(offset,),
-        warnings=warnings,
-        vertical=component.upper() in ("Z", "V", "UP") or index == 2,
-    )
 
 
 _FIXED_HEADER = re.compile(rb"[0-9 \0]{6}[DRQM][ \0]")
@@ -238,8 +219,13 @@ def _inventory(stats, options: Options):
         return _parse(options.inventory)
     if options.unit is not None or options.folder is None:
         return None
-    beside = sorted(options.folder.glob("*.xml"))
-    naming = [path for path in beside if _describes(path, stats.network, stats.station)]
+    naming = []
+    for path in sorted(options.folder.glob("*.xml")):
+        is_small = path.is_file() and path.stat().st_size <= _LARGEST_XML
+        text = path.read_bytes().decode("utf-8", "replace") if is_small else ""
+        station = re.search(rf'<(\w+:)?Station\b[^>]*\bcode="{re.escape(stats.station)}"', text)
+        if station and "FDSNStationXML" in text[:2000] and f'code="{stats.network}"' in text:
+            naming.append(path)
     if len(naming) != 1:
         several = f"several do: {', '.join(p.name for p in naming)}" if naming else "none beside it does"
         raise UndeclaredError(
@@ -247,14 +233,6 @@ def _inventory(stats, options: Options):
             "give inventory=, or unit= if the samples are already acceleration."
         )
     return _parse(naming[0])
-
-
-def _describes(path: Path, network: str, station: str) -> bool:
-    if not path.is_file() or path.stat().st_size > _LARGEST_XML:
-        return False
-    text = path.read_bytes().decode("utf-8", "replace")
-    station_code = re.search(rf'<(\w+:)?Station\b[^>]*\bcode="{re.escape(station)}"', text)
-    return "FDSNStationXML" in text[:2000] and f'code="{network}"' in text and station_code is not None
 
 
 def _parse(path: Path):

@@ -1,7 +1,7 @@
 """Bare numbers: columns, or one series wrapped over lines (OpenSees), below names or a title with count and step."""
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -29,16 +29,11 @@ _COMMENTED_FORMAT = b"#Earthquake Information"
 """CWB's header, which looks like comments above columns."""
 
 
-@dataclass(frozen=True)
-class _Table:
-    names: tuple[str, ...]
-    width: int
-    start: int
-    """Number of lines before the first row of numbers."""
+def _table(content: bytes) -> tuple[tuple[str, ...], int, int] | None:
+    """Return names and number of columns, and of the lines above; None where the head is not of that kind.
 
-
-def _table(content: bytes) -> _Table | None:
-    """Return how the columns stand, or None when the head is not comments, at most one row of names, then numbers."""
+    It is comments, at most one row of names, then numbers.
+    """
     names: tuple[str, ...] = ()
     widths: list[int] = []
     start = 0
@@ -56,7 +51,7 @@ def _table(content: bytes) -> _Table | None:
     uneven = len(set(widths[:-1])) > 1 or widths[-1:] > widths[:1]
     if len(widths) < 2 or uneven or (names and len(names) != widths[0]):
         return None
-    return _Table(names, widths[0], start)
+    return names, widths[0], start
 
 
 def _are_columns(content: bytes) -> bool:
@@ -74,20 +69,20 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     table = _table(pointed)
     if table is None:
         raise RecordError("the file does not hold columns of numbers below at most one row of names.")
-    refuse_other_quantity(options.file, "\n".join(lines(pointed, _HEAD)[: table.start]))
-    width = table.width
-    body = after_lines(pointed, table.start)
+    names, width, start = table
+    refuse_other_quantity(options.file, "\n".join(lines(pointed, _HEAD)[:start]))
+    body = after_lines(pointed, start)
     if _EMPTY_CELL.search(body):
         raise RecordError("a cell is empty; every column needs a number on every line.")
     values = numbers(body.replace(b",", b" ").replace(b";", b" "))
-    wrapped = width > 2 and not table.names and not _time_first(values, width)
+    wrapped = width > 2 and not names and not _time_first(values, width)
     _check_rows(body, width, last_may_be_short=wrapped)
     if width == 1 or wrapped:
-        label = table.names[0] if table.names else ""
-        named = "" if _unit(label) else label
-        records = [_column(named, label, values, None, options, warnings=_repeats(values))]
+        label = names[0] if names else ""
+        named: dict[str, Any] = {"component": "" if _unit(label) else label, "warnings": _repeats(values)}
+        records = [options.accelerogram(_unit(label), values, None, processed=None, **named)]
     else:
-        records = _timed_columns(values.reshape(-1, width), table.names, options)
+        records = _timed_columns(values.reshape(-1, width), names, options)
     return [replace(record, warnings=record.warnings + _cut_number(body)) for record in records]
 
 
@@ -146,26 +141,18 @@ def _timed_columns(rows: np.ndarray, names: tuple[str, ...], options: Options) -
             step, even, sentence = resampled(times)
             rows = np.stack([np.interp(even, times, column) for column in rows.T], axis=1)
             processing = warnings = (sentence,)
-    return [
-        _column(_component(label), label, rows[:, i], step, options, processing=processing, warnings=warnings)
-        for i, label in enumerate(labels)
-        if i >= timed and other_quantity(label) is None
-    ]
-
-
-def _column(
-    component: str, label: str, values: np.ndarray, step: float | None, options: Options, **fields: Any
-) -> Accelerogram:
-    return options.accelerogram(_unit(label), values, step, component=component, processed=None, **fields)
+    records = []
+    for label, values in zip(labels[timed:], rows.T[timed:], strict=True):
+        if other_quantity(label) is None:
+            name = re.sub(r"^(acc|acceleration|a)[_\s-]+", "", _UNIT.sub("", label).strip(), flags=re.I)
+            facts: dict[str, Any] = {"component": name, "processing": processing, "warnings": warnings}
+            records.append(options.accelerogram(_unit(label), values, step, processed=None, **facts))
+    return records
 
 
 def _unit(label: str) -> str | None:
     match = _UNIT.search(label)
     return acceleration_unit(match[1]) if match else None
-
-
-def _component(label: str) -> str:
-    return re.sub(r"^(acc|acceleration|a)[_\s-]+", "", _UNIT.sub("", label).strip(), flags=re.I)
 
 
 _WITH_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
@@ -194,16 +181,10 @@ def _points_for_commas(content: bytes) -> bytes | None:
     if decimal and max(map(len, cells)) > 1:
         return re.sub(rb"(?<=\d),(?=\d)|(?<![\d,]),(?=\d)", b".", content)
     named = re.search(r"[A-Za-z]", next(line for line in head if line.strip()))
-    return content if named or _counts(rows) else None
-
-
-def _counts(rows: list[str]) -> bool:
-    """Whether the first numbers count evenly upwards, as times do."""
     first = [row.split(",")[0] for row in rows]
-    if not all(cell.isdecimal() for cell in first):
-        return False
-    steps = {int(b) - int(a) for a, b in pairwise(first)}
-    return len(rows) > 2 and len(steps) == 1 and steps.pop() > 0
+    steps = {int(b) - int(a) for a, b in pairwise(first)} if all(map(str.isdecimal, first)) else set()
+    counts = len(rows) > 2 and len(steps) == 1 and steps.pop() > 0  # evenly upwards, as times do
+    return content if named or counts else None
 
 
 _WORDS = re.compile(r"[A-Za-z=:,;()]+")
@@ -213,26 +194,25 @@ _LONGEST_STEP = 1.0
 """s; of a record, so that a line of two numbers is known for samples and step."""
 
 
-def _announced(line: str) -> tuple[str, str] | None:
-    """Return (samples, step) of a line that holds these two numbers and nothing else but words."""
-    parts = _WORDS.sub(" ", line).split()
-    if len(parts) != 2 or not all(map(is_number, parts)):
+def _title(content: bytes) -> tuple[str, str] | None:
+    """Return (samples, step) of a title and a line of these two and words above numbers, None of another file."""
+    head = [line for line in lines(content, _HEAD) if len(line) < 2000]
+    if len(head) < 4 or all(map(is_number, head[0].split())):
+        return None
+    rows = [row.split() for row in head[2:-1] if row.strip()]
+    if {len(row) for row in rows} == {2} and len(head[0].split()) == 2:
+        return None  # two columns below their names
+    parts = _WORDS.sub(" ", head[1]).split()
+    if (
+        not rows
+        or len(parts) != 2
+        or not all(map(is_number, [*parts, *(cell for row in rows for cell in row)]))
+    ):
         return None
     for samples, step in (parts, parts[::-1]):
         if samples.isdecimal() and int(samples) > 1 and "." in step and 0 < float(step) <= _LONGEST_STEP:
             return samples, step
     return None
-
-
-def _title(content: bytes) -> tuple[str, str] | None:
-    """Return (samples, step) of a title with numbers below, None of another file."""
-    head = [line for line in lines(content, _HEAD) if len(line) < 2000]
-    if len(head) < 4 or all(is_number(cell) for cell in head[0].split()):
-        return None
-    rows = [row.split() for row in head[2:-1] if row.strip()]
-    if {len(row) for row in rows} == {2} and len(head[0].split()) == 2:
-        return None  # two columns below their names
-    return _announced(head[1]) if rows and all(is_number(cell) for row in rows for cell in row) else None
 
 
 def _read_titled(content: bytes, options: Options) -> list[Accelerogram]:

@@ -61,6 +61,7 @@ def _channel(block: list[str], options: Options, held: int) -> Accelerogram | No
     values = _samples(block[at + 1 :], data)
     length, lasts = reals[_LENGTH], values.size * step
     wrong = 0 < length < 1e5 and abs(length - lasts) > 1.5 * step + 5e-4  # not all agencies fill it
+    stated = [None if abs(reals[at] - _UNKNOWN) < 1e-3 else reals[at] for at in (_PEAK, _PEAK_TIME)]
     note = f"The header gives the series a length of {length:g} s, but its samples last {lasts:g} s."
     return _LAYOUT.channel(
         head,
@@ -76,13 +77,9 @@ def _channel(block: list[str], options: Options, held: int) -> Accelerogram | No
         ),
         event=optional(r"(?:Rcrd|Record)?\s*(?:of)?\s*(.*)", block[1]),
         processed=block[0].lower().startswith("corrected"),
-        peak=_stated(reals[_PEAK]),
-        peak_time=_stated(reals[_PEAK_TIME]),
+        peak=stated[0],
+        peak_time=stated[1],
     )
-
-
-def _stated(real: float) -> float | None:
-    return None if abs(real - _UNKNOWN) < 1e-3 else real
 
 
 def _samples(rows: list[str], data: re.Match[str]) -> np.ndarray:

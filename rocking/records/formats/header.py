@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import RecordError
+from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Options
-from rocking.records.formats.text import count, lines, number, period
+from rocking.records.formats.text import count, lines, number
 from rocking.records.plausibility import agree_with_header
 
 NUMBER = r"([+-]?(?:\d+\.?\d*|\.\d+)(?:E[+-]?\d+)?)"
@@ -99,7 +100,8 @@ class Layout:
         """
         if step is None:
             rate = self.rate and self.text("rate", head)
-            step = period("the rate", rate) if rate else number("the step", self.declared("step", head))
+            hertz = positive(RecordError, "the rate", number("the rate", rate), "Hz") if rate else 0.0
+            step = 1 / hertz if rate else number("the step", self.declared("step", head))
         record = options.accelerogram(unit or self.unit, values, step, **self._facts(head) | fields)
         if duration := self.text("duration", head):
             declared = number("the duration", duration)

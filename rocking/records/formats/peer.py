@@ -6,7 +6,7 @@ from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import Layout
-from rocking.records.formats.text import after_lines, count, lines, number, numbers, whole
+from rocking.records.formats.text import after_lines, count, is_number, lines, number, numbers, whole
 
 _STEPS = (
     re.compile(r"NPTS\s*=\s*(?P<npts>[^\s,]+)\s*,?\s*DT\s*=\s*(?P<dt>[0-9.+\-]+(E[+-]?\d+)?)", re.I),
@@ -38,21 +38,16 @@ def _header(content: bytes) -> tuple[list[str], re.Match[str]] | None:
     return None
 
 
-def _quantity(header: list[str]) -> str:
-    """Return the quantity a header names: acceleration unless it says velocity or displacement."""
-    text = " ".join(header).upper()
-    named = re.search(r"\b(VELOCITY|DISPLACEMENT)\b", text)
-    if named and not re.search(r"\bACC(EL|\b)", text):
-        return named[1].lower()
-    return (
-        "velocity" if _VELOCITY_UNIT.search(text) and not re.search(r"\bACC(EL|\b)", text) else "acceleration"
-    )
-
-
 def _kind(content: bytes) -> str:
-    """Return the quantity of a PEER file, "" for another."""
+    """Return the quantity that a PEER header names, acceleration unless it says another; "" for another file."""
     header = _header(content)
-    return _quantity(header[0]) if header else ""
+    if header is None:
+        return ""
+    text = " ".join(header[0]).upper()
+    if re.search(r"\bACC(EL|\b)", text):
+        return "acceleration"
+    named = re.search(r"\b(VELOCITY|DISPLACEMENT)\b", text)
+    return named[1].lower() if named else "velocity" if _VELOCITY_UNIT.search(text) else "acceleration"
 
 
 def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
@@ -70,40 +65,32 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     unit = next((unit for pattern, unit in _UNITS if pattern.search(text)), "")
     declared = count("NPTS", size["npts"])
     values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)
+    title = head[1] if len(head) > 1 else ""
+    parts = [part.strip() for part in title.split(",")]
+    poles, points = _POLES.findall(text), _FILTER_POINTS.search(text)
+    corner = points[1] if points else poles[1][1] if len(poles) > 1 and poles[1][0] != "0" else "0"
     record = _LAYOUT.channel(
         text,
         values,
         options,
         unit=unit,
         step=number("DT", size["dt"]),
-        component=_component(head),
-        station=_field(head, -2),
-        event=_field(head, 0),
+        component=_component(title),
+        station=parts[-2] if len(parts) >= 3 else "",
+        event=parts[0] if len(parts) >= 3 else "",
         warnings=(*warnings, *([_MATCHED] if re.search(r"\bmatched\b", head[0], re.I) else [])),
         processed=True,
-        high_pass_frequency=_high_pass(text),
+        high_pass_frequency=float(corner) or None if is_number(corner) else None,
     )
     return [record]
 
 
-def _field(head: list[str], index: int) -> str:
-    fields = [field.strip() for field in head[1].split(",")] if len(head) > 1 else []
-    return fields[index] if len(fields) >= 3 else ""
-
-
-def _component(head: list[str]) -> str:
-    title = re.sub(r"\([^()]*\)", "", head[1]).strip() if len(head) > 1 else ""
-    spelled = re.search(r"(LONGITUDINAL|TRANSVERSE|VERTICAL)\s+COMP", title)
-    if spelled:
+def _component(title: str) -> str:
+    title = re.sub(r"\([^()]*\)", "", title).strip()
+    if spelled := re.search(r"(LONGITUDINAL|TRANSVERSE|VERTICAL)\s+COMP", title):
         return spelled[1].title()
     last = title.rsplit(",", 1)[-1].strip() if "," in title else ""
     return last if len(last) <= _LONGEST_COMPONENT else ""
-
-
-def _high_pass(text: str) -> float | None:
-    points, poles = _FILTER_POINTS.search(text), _POLES.findall(text)
-    corner = points[1] if points else poles[1][1] if len(poles) > 1 and poles[1][0] != "0" else "0"
-    return float(corner) or None if corner.count(".") <= 1 and corner != "." else None
 
 
 PEER_AT2 = Format("PEER AT2", "PEER (NGA databases), USA",

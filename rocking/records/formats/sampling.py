@@ -66,11 +66,12 @@ def check_no_gap(times: np.ndarray, longest: float) -> None:
 
 def _quantum(times: np.ndarray) -> float:
     """Return the last printed digit's weight, s."""
-    for digits in range(9):
-        scaled = times * 10.0**digits
-        if np.allclose(scaled, np.round(scaled), rtol=0, atol=1e-4):
-            return 10.0**-digits
-    return 1e-9
+    places = (
+        digits
+        for digits in range(9)
+        if np.allclose(times * 10.0**digits, np.round(times * 10.0**digits), 0, 1e-4)
+    )
+    return 10.0 ** -next(places, 9)
 
 
 def _rounded(step: float, uncertainty: float) -> float:

@@ -6,7 +6,6 @@ import warnings
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.quantities import positive
 
 _NUMERIC = b"0123456789+-.eE \t\n\r"
 _LARGEST = 1e100
@@ -38,11 +37,6 @@ def number(field: str, token: str) -> float:
     if value and not 1 / _LARGEST < abs(value) < _LARGEST:
         raise RecordError(f"{field} is {token.strip()[:40]!r}, beyond what any header holds.")
     return value
-
-
-def period(field: str, token: str) -> float:
-    """Return the inverse, s, of the rate `token`, Hz. Raises RecordError naming the field."""
-    return 1 / positive(RecordError, field, number(field, token), "Hz")
 
 
 def count(field: str, token: str) -> int:

@@ -195,8 +195,11 @@ def _csmip(block: list[str], options: Options, held: int) -> Accelerogram:
             "no line announces points of acceleration with their format; the file is truncated, "
             "or holds velocity or displacement only."
         )
-    ends = [i for i, _ in announced[1:]] + [len(block)]
-    parts = [_numbers(block[i + 1 : end], data) for (i, data), end in zip(announced, ends, strict=True)]
+    parts = []
+    for (i, data), end in zip(announced, [*(i for i, _ in announced[1:]), len(block)], strict=True):
+        rows, declared = block[i + 1 : end], count("number of points", data["n"])
+        width = int(data["width"] or column_width(rows[0] if rows else ""))
+        parts.append(filled(rows, declared, max(1, int(data["per_line"] or _PER_LINE)), max(1, width)))
     head, values = "\n".join(block[: announced[0][0]]), parts[0]
     is_corrected = bool(_VOLUME_2.match(head))
     step = number("step", facts["step"]) if "step" in facts else 1 / max(1e-9, number("rate", facts["rate"]))
@@ -211,12 +214,6 @@ def _csmip(block: list[str], options: Options, held: int) -> Accelerogram:
     return layout.channel(
         head, values, options, unit=facts["unit"], step=step, processed=is_corrected, **named
     )
-
-
-def _numbers(rows: list[str], data: re.Match[str]) -> np.ndarray:
-    per_line = int(data["per_line"] or _PER_LINE)
-    width = int(data["width"] or column_width(rows[0] if rows else ""))
-    return filled(rows, count("number of points", data["n"]), max(1, per_line), max(1, width))
 
 
 def _named(head: str, held: int) -> dict[str, Any]:
