@@ -62,24 +62,21 @@ def inventory_of(record: CatalogueRecord, mirror: str | Path | None = None) -> P
 def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> list[Path]:
     """Return the files on this machine that opening `record` would read; none that leads out of its folder.
 
-    Its own files and the StationXML it names; for a miniSEED file that names none and declares no unit, every XML file
-    beside it, among which the reader looks.
+    Its own files and the StationXML it names; for a miniSEED file, packed or not, that names none and declares no unit,
+    every XML file beside it, among which the reader looks.
     """
     own = [] if record.example_name else [file.name for file in record.files]
-    paths = []
+    paths: list[Path] = []
     for name in filter(None, [*own, record.inventory]):
         with suppress(RecordError):
-            paths += [path] if (path := _beside(record, name, mirror)) else []
-    sought = [] if record.inventory or record.unit else [path for path in paths if _may_hold_counts(path)]
-    return [*paths, *(xml for path in sought for xml in sorted(path.parent.glob("*.xml")))]
-
-
-def _may_hold_counts(path: Path) -> bool:
-    """Whether a file is miniSEED, or packed so that it may be."""
-    with suppress(OSError), path.open("rb") as stream:
-        head = stream.read(256)
-        return head.startswith(b"\x1f\x8b") or MINISEED.recognise(head)
-    return False
+            paths += filter(None, [_beside(record, name, mirror)])
+    beside: list[Path] = []
+    for path in () if record.inventory or record.unit else paths:
+        with suppress(OSError), path.open("rb") as stream:
+            head = stream.read(256)
+            if head.startswith(b"\x1f\x8b") or MINISEED.recognise(head):
+                beside += sorted(path.parent.glob("*.xml"))
+    return paths + beside
 
 
 def _beside(record: CatalogueRecord, file: str, mirror: str | Path | None) -> Path | None:
@@ -161,28 +158,20 @@ def fill_hashes(path: str | Path, mirror: str | Path | None = None) -> tuple[str
     when nothing is to be filled. Raises CatalogueError for a catalogue with defects.
     """
     path = Path(path)
-    cells = {
-        record.id: with_hashes.sha256
-        for record in load_catalogue(path)
-        if (with_hashes := filled(record, mirror)) != record
-    }
-    if not cells:
-        return ()
-    rows = [row for _, row in read_rows(path)]
-    names = [*rows[0], *([] if "sha256" in rows[0] else ["sha256"])]
-    given = ({"sha256": cells[name]} if (name := row["id"].strip()) in cells else {} for row in rows)
-    text = catalogue_text((row | cell for row, cell in zip(rows, given, strict=True)), names)
-    write_whole(path, text.encode())
+    records = {record.id: (record, filled(record, mirror)) for record in load_catalogue(path)}
+    cells = {name: {"sha256": new.sha256} for name, (old, new) in records.items() if new != old}
+    if cells:
+        rows = [row for _, row in read_rows(path)]
+        columns = list(dict.fromkeys([*rows[0], "sha256"]))
+        text = catalogue_text((row | cells.get(row["id"].strip(), {}) for row in rows), columns)
+        write_whole(path, text.encode())
     return tuple(cells)
 
 
 def filled(record: CatalogueRecord, mirror: str | Path | None = None) -> CatalogueRecord:
     """Return `record` as it stands in the catalogue once fill_hashes has been there."""
-    hashes = []
-    for file in record.files:
-        sha256 = file.sha256
-        if not sha256:
-            with suppress(RecordError):
-                sha256 = hashlib.sha256(bytes_of(path_of(record, file, mirror))).hexdigest()
-        hashes.append(sha256)
+    hashes = [file.sha256 for file in record.files]
+    for i, file in enumerate(record.files):
+        with suppress(RecordError):
+            hashes[i] = file.sha256 or hashlib.sha256(bytes_of(path_of(record, file, mirror))).hexdigest()
     return replace(record, sha256=";".join(hashes)) if any(hashes) else record

@@ -8,6 +8,8 @@ from datetime import datetime
 from itertools import islice
 from pathlib import Path
 
+import numpy as np
+
 from rocking.errors import CatalogueError, RecordError, UndeclaredError
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
@@ -24,6 +26,7 @@ _STAND_IN_STEP = 0.01
 """s; the same for the time step."""
 _UPWARDS = re.compile(r"(?:^|[-_. ])(UP|UD|DN|DWN|DOWN|VER|VERT|VERTICAL)(?=[-_. ]|$)", re.I)
 _FORMULA = "=+-@"
+"""Signs that make a spreadsheet compute what comes after them."""
 _ENDING = re.compile(r"\.(at2|txt|csv|asc|dat|acc|gz)$", re.I)
 _RSN = re.compile(r"(RSN\d+)_")
 _SQUARE = 5.0
@@ -112,33 +115,27 @@ def list_folder(
     if not folder.is_dir():
         raise RecordError(f"{folder}: this is no folder; give the folder that holds the records.")
     names = {name.strip(): row["id"] for row in known for name in row["file"].split(";")}
-    listed = [
-        _listed(path, folder, unit, time_step)
-        for path in sorted(p for p in folder.rglob("*") if p.is_file() and not _passed_over(p))
-    ]
+    paths = sorted(path for path in folder.rglob("*") if path.is_file() and not _passed_over(path))
+    listed = [_listed(path, folder, unit, time_step) for path in paths]
     first: dict[str, str] = {}
     for file in listed:
         file.record = names.get(file.file, "") or names.get(f"./{file.file}", "")
         if file.channels and not file.unread:
             earlier = first.setdefault(file.channels[0].source.sha256, file.file)
-            if earlier != file.file:
-                file.is_again = True
+            file.is_again = earlier != file.file
+            if file.is_again:
                 file.doubts += (f"Its content is that of {earlier}: as two records it would count twice.",)
     taken = {row["id"].lower() for row in known}
     rows = []
     for group in _stations([file for file in listed if not (file.unread or file.record)]):
-        if not any(channel.is_horizontal for file in group for channel in file.channels):
+        if any(channel.is_horizontal for file in group for channel in file.channels):
+            rows.append(_row(group, taken))
+            taken.add(rows[-1]["id"].lower())
             for file in group:
-                file.unread = " ".join(
-                    filter(None, ("it holds no horizontal component at the surface.", file.apart))
-                )
-            continue
-        row = _row(group, taken)
-        taken.add(row["id"].lower())
-        rows.append(row)
-        for file in group:
-            file.record = row["id"]
-            file.beside = len(group) - 1
+                file.record, file.beside = rows[-1]["id"], len(group) - 1
+        else:
+            for file in group:
+                file.unread = f"it holds no horizontal component at the surface. {file.apart}".strip()
     return listed, rows
 
 
@@ -176,18 +173,16 @@ def _simultaneous(files: list[ListedFile]) -> list[list[ListedFile]]:
     """Return `files` of one station parted where one begins after the end of the first, as far as starts are known."""
     if not all(file.channels[0].start_time for file in files):
         return [files]
+    starts = [datetime.fromisoformat(file.channels[0].start_time).timestamp() for file in files]
     parts: list[list[ListedFile]] = []
     end = 0.0
-    for start, file in sorted(((_start(file), file) for file in files), key=lambda pair: pair[0]):
+    for place in np.argsort(starts, kind="stable"):
+        file, start = files[place], starts[place]
         if not parts or start >= end:
             parts.append([])
             end = start + file.listed[0].samples * file.channels[0].time_step
         parts[-1].append(file)
     return [sorted(part, key=files.index) for part in parts]
-
-
-def _start(file: ListedFile) -> float:
-    return datetime.fromisoformat(file.channels[0].start_time).timestamp()
 
 
 def _why_apart(group: Sequence[ListedFile]) -> str:
@@ -232,8 +227,14 @@ def _listed(path: Path, folder: Path, unit: str | None, time_step: float | None)
     elif not path.resolve().is_relative_to(folder.resolve()):
         reason = "it is a link that leads out of the folder; copy the file instead."
     doubts: dict[str, list[str]] = {}
+    upwards = _UPWARDS.search(path.stem)
     for channel in channels:
-        for sentence in _doubts(channel, name):
+        sentences = list(channel.warnings)
+        if upwards and not channel.vertical:
+            sentences.append(
+                f"The file's name says {upwards[1]}, but {channel.component} is taken as horizontal."
+            )
+        for sentence in sentences:
             doubts.setdefault(sentence, []).append(channel.component)
     told = tuple(s if len(of) == len(channels) else f"{', '.join(of)}: {s}" for s, of in doubts.items())
     listed = tuple(ListedChannel.of(channel, not to_fill) for channel in channels)
@@ -241,14 +242,11 @@ def _listed(path: Path, folder: Path, unit: str | None, time_step: float | None)
 
 
 def _passed_over(path: Path) -> bool:
-    if path.name.startswith("."):
-        return True
-    try:
-        with path.open("rb") as stream:
-            head = stream.read(11).removeprefix(b"\xef\xbb\xbf")
-            return path.suffix.lower() == ".csv" and head.startswith(b"id,file")
-    except OSError:
-        return False
+    """Whether a file is hidden or a catalogue."""
+    head = b""
+    with suppress(OSError), path.open("rb") as stream:
+        head = stream.read(11).removeprefix(b"\xef\xbb\xbf")
+    return path.name.startswith(".") or (path.suffix.lower() == ".csv" and head.startswith(b"id,file"))
 
 
 _CELLS = {"unit": "unit", "time_step": "time_step_s"}
@@ -270,14 +268,6 @@ def _read(
     raise UndeclaredError(f"{printable(path.name)}: neither unit nor time step is declared.")
 
 
-def _doubts(record: Accelerogram, file: str) -> tuple[str, ...]:
-    upwards = _UPWARDS.search(Path(file).stem)
-    if upwards and not record.vertical:
-        name = record.component
-        return (*record.warnings, f"The file's name says {upwards[1]}, but {name} is taken as horizontal.")
-    return record.warnings
-
-
 def _row(group: Sequence[ListedFile], taken: set[str]) -> Row:
     channels = [channel for file in group for channel in file.channels]
     level = [channel for channel in channels if channel.is_horizontal]
@@ -294,17 +284,12 @@ def _row(group: Sequence[ListedFile], taken: set[str]) -> Row:
     return {
         "id": _id(group, taken),
         "file": ";".join(f"./{file.file}" if file.file[0] in _FORMULA else file.file for file in group),
-        "event": _no_formula(first.event),
-        "station": _no_formula(first.station),
+        "event": first.event.lstrip(_FORMULA + " "),
+        "station": first.station.lstrip(_FORMULA + " "),
         "sha256": ";".join(file.channels[0].source.sha256 for file in group),
         **group[0].declared,
         "note": plain(" ".join([*note, group[0].apart])),
     }
-
-
-def _no_formula(text: str) -> str:
-    """Return `text` without the signs that make a spreadsheet compute what comes after them."""
-    return text.lstrip(_FORMULA + " ")
 
 
 def _id(group: Sequence[ListedFile], taken: set[str]) -> str:

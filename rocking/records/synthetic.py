@@ -70,7 +70,7 @@ def noise(recipe: SyntheticRecord, samples: int) -> np.ndarray:
     """Return stochastic ground acceleration (samples,), m/s², by the method of Boore (2003).
 
     White noise, windowed (Saragoni & Hart 1974, ε = 0.2, η = 0.05), its spectrum levelled to unit mean power and
-    multiplied by the omega-squared source f²/(1 + (f/f_c)²) and the site's exp(−πκf), then scaled to the peak asked for.
+    multiplied by the omega-squared source f²/(1 + (f/f_c)²) and the site's exp(−πκf), then scaled to its peak.
     """
     if recipe.noise_peak == 0:
         return np.zeros(samples)
