@@ -142,12 +142,14 @@ class Accelerogram:
         return replace(self, acceleration=acceleration, processing=(*self.processing, step), **changes)
 
     @classmethod
-    def from_obspy(cls, trace_or_stream, inventory=None, unit: str | None = None) -> "list[Accelerogram]":
+    def from_obspy(
+        cls, trace_or_stream, inventory=None, unit: str | None = None, response: str = "sensitivity"
+    ) -> "list[Accelerogram]":
         """Return an accelerogram for each channel of an obspy Trace or Stream, in the order of its channels.
 
         inventory: obspy's, by whose response counts become acceleration; it may be attached to the trace instead. unit:
-        of samples that are acceleration already ("m/s2", "cm/s2", "g", ...). Raises RecordError for a gap, and when
-        neither or both are given.
+        of samples that are acceleration already ("m/s2", "cm/s2", "g", ...). response: as read() takes it. Raises
+        RecordError for a gap, and when neither or both are given.
 
         >>> from obspy import Trace
         >>> rocking.Accelerogram.from_obspy(Trace(np.sin(np.arange(9.0)), {"channel": "HNE"}), unit="m/s2")[0].azimuth
@@ -172,7 +174,7 @@ class Accelerogram:
             fields |= {name: own[name] for name in _KEPT if name in own} | site(trace, inventory)
             with about(trace.id):
                 if by_response:
-                    samples, step = calibrated(trace, inventory)
+                    samples, step = calibrated(trace, inventory, response)
                     fields["processing"] = (*fields.get("processing", ()), step)
                 else:
                     samples = trace.data * acceleration_factor(str(declared))

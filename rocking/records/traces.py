@@ -25,7 +25,7 @@ def joined(result):
     return result
 
 
-def calibrated(trace, inventory, response: str = "sensitivity") -> tuple[np.ndarray, str]:
+def calibrated(trace, inventory, response: str) -> tuple[np.ndarray, str]:
     """Return (acceleration (n,) m/s², the sentence that says how) of a trace of counts.
 
     inventory: obspy's; None where the trace holds its response itself. response: as read() takes it.

@@ -161,15 +161,13 @@ def test_unam_columns_are_ten_wide_where_the_header_names_no_width() -> None:
     assert (plain.acceleration == other.acceleration).all()
 
 
-def test_the_third_of_three_channels_of_a_recorder_is_vertical_by_its_place() -> None:
+def test_the_third_of_three_channels_of_a_recorder_is_vertical_by_its_place(monkeypatch) -> None:
     """A second instrument on the same recorder begins again with X."""
-    found = []
-    for place in range(6):
-        trace = obspy.Trace(np.arange(9.0), {"delta": 0.01, "station": "MADE"})
-        trace.stats.kinemetrics_evt = {}
-        record = binary._evt_record(trace, place, Options(), ())
-        found.append((record.component, record.vertical))
-    assert found == 2 * [("X", False), ("Y", False), ("Z", True)]
+    header = {"delta": 0.01, "station": "MADE", "kinemetrics_evt": {}}
+    traces = [obspy.Trace(np.arange(9.0), header) for _ in range(6)]
+    monkeypatch.setattr(binary, "_stream", lambda *_, **__: (traces, ()))
+    records = binary.EVT.read(b"", Options())
+    assert [(r.component, r.vertical) for r in records] == 2 * [("X", False), ("Y", False), ("Z", True)]
 
 
 @pytest.mark.parametrize(("sampling", "duration"), [("100Hz", "0.4"), ("200Hz", "0.2")])

@@ -5,6 +5,7 @@ import re
 import struct
 import warnings
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.sampling import LARGEST_SERIES
-from rocking.records.traces import calibrated, first_line, joined, names, site
+from rocking.records.traces import first_line, joined, names
 
 _DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be read|corrupt|mismatch", re.I)
 """What libmseed warns of when the numbers are not those that were written."""
@@ -198,19 +199,15 @@ def _is_miniseed(content: bytes) -> bool:
 
 def _read_miniseed(content: bytes, options: Options) -> list[Accelerogram]:
     """The samples are counts, turned into acceleration by the StationXML that describes the instrument."""
-    result, noticed = _stream(content, "MSEED")
-    inventory = _inventory(result[0].stats, options)
-    records = []
-    for trace in result:
-        facts: dict[str, Any] = names(trace) | site(trace, inventory)
-        if inventory is None:
-            values, unit = trace.data.astype(float), options.unit_of(None)
-        else:
-            values, sentence = calibrated(trace, inventory, options.response)
-            unit, facts["processing"] = "m/s2", (sentence,)
-        step = float(f"{trace.stats.delta:.9g}")
-        records.append(options.accelerogram(unit, values, step, warnings=noticed, **facts))
-    return records
+    traces, warnings = _stream(content, "MSEED")
+    inventory = _inventory(traces[0].stats, options)
+    unit = options.unit_of(None) if inventory is None else None
+    records = Accelerogram.from_obspy(traces, inventory, unit, options.response)
+    steps = [options.time_step_of(float(f"{record.time_step:.9g}")) for record in records]
+    return [
+        replace(record, time_step=step, warnings=warnings, processed=False)
+        for record, step in zip(records, steps, strict=True)
+    ]
 
 
 def _inventory(stats, options: Options):

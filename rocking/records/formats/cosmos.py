@@ -14,6 +14,7 @@ from rocking.records.instrument import site_warnings
 
 _LAYOUT = Layout(
     station=r"Code:\s*(\S+)", high_pass=r"filtered below\s+([\d.]+)\s*Hz", half_digit=5e-7,
+    corrected=r"\A(corrected)",
 )  # fmt: skip
 _FIRST = re.compile(r"(Corrected|Uncorrected)\s+(acceleration|velocity|displacement)\s+\(Format v", re.I)
 _DATA = re.compile(
@@ -76,7 +77,6 @@ def _channel(block: list[str], options: Options, held: int) -> Accelerogram | No
             *([note] if wrong else []),
         ),
         event=optional(r"(?:Rcrd|Record)?\s*(?:of)?\s*(.*)", block[1]),
-        processed=block[0].lower().startswith("corrected"),
         peak=stated[0],
         peak_time=stated[1],
     )

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from datetime import datetime, timedelta
 from itertools import pairwise
 from typing import Any
 
@@ -36,7 +37,9 @@ class Layout:
     samples: their number. step: s; rate: Hz. duration: s, right within that many steps and that share of its last digit
     (some agencies count n steps for n samples, others n - 1). magnitude: a text like "6.5 Mw". place: one like
     "40.941N, 123.633W"; latitude, longitude: degrees north and east. elevation: m. distance: from the epicentre, km.
-    high_pass: Hz. peak: in peak_unit, with half a unit of its last digit; peak_time: s after the first sample.
+    high_pass: Hz. corrected: what says that the numbers are processed; where it is "", a high-pass does. start: time of
+    the first sample, hours ahead of universal time. code: of the network, where it is not read. needed: facts that must
+    be there. peak: in peak_unit, with half a unit of its last digit; peak_time: s after the first sample.
     """
 
     unit: str = ""
@@ -58,6 +61,11 @@ class Layout:
     elevation: str = ""
     distance: str = ""
     high_pass: str = ""
+    corrected: str = ""
+    start: str = ""
+    ahead: float = 0.0
+    code: str = ""
+    needed: tuple[str, ...] = ()
     peak: str = ""
     peak_unit: str = ""
     half_digit: float = 0.0
@@ -98,6 +106,8 @@ class Layout:
         Accelerogram, before what the header says. in_file: (n,) m/s² as agree_with_header takes it.
         Raises RecordError when something is missing or contradicts the samples.
         """
+        for name in self.needed:
+            number(f"the {name}", self.declared(name, head))
         if step is None:
             rate = self.rate and self.text("rate", head)
             hertz = positive(RecordError, "the rate", number("the rate", rate), "Hz") if rate else 0.0
@@ -115,13 +125,18 @@ class Layout:
 
     def _facts(self, head: str) -> dict[str, Any]:
         north, east, height = (self.number(name, head) for name in ("latitude", "longitude", "elevation"))
+        high_pass = self.number("high_pass", head)
+        high_pass = high_pass if high_pass is not None and 0 < high_pass < 100 else None  # no 0, no -999
         return {
             **{name: self.text(name, head) for name in _NAMES},
+            **({"network": self.code} if self.code else {}),
             **typed_magnitude(self.text("magnitude", head)),
             **coordinates(self.text("place", head)),
             **site(north, east, height),
+            "start_time": universal(self.text("start", head), self.ahead),
             "epicentral_distance": distance(self.number("distance", head)),
-            "high_pass_frequency": corner(self.number("high_pass", head)),
+            "high_pass_frequency": high_pass,
+            "processed": bool(self.text("corrected", head)) if self.corrected else high_pass is not None,
         }
 
 
@@ -162,9 +177,17 @@ def optional_number(pattern: str, text: str) -> float | None:
         return None
 
 
-def corner(value: float | None) -> float | None:
-    """Return a high-pass corner in Hz, or None where the header says none (0, -999, nothing)."""
-    return value if value is not None and 0 < value < 100 else None
+_TIME = re.compile(r"(\d{4})\D?(\d\d)\D?(\d\d)\D?(\d\d)\D?(\d\d)\D?(\d\d(?:\.\d{1,6})?)\d*")
+
+
+def universal(text: str, ahead: float) -> str:
+    """Return a printed time, `ahead` h of universal time, as ISO 8601 of universal time; "" where it is none."""
+    match = _TIME.fullmatch(text)
+    try:
+        printed = datetime.fromisoformat("{}-{}-{}T{}:{}:{}".format(*match.groups())) if match else None
+        return f"{(printed - timedelta(hours=ahead)).isoformat()}Z" if printed else ""
+    except (ValueError, OverflowError):
+        return ""
 
 
 def distance(kilometres: float | None) -> float | None:

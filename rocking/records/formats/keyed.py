@@ -14,7 +14,6 @@ from rocking.records.formats.header import (
     NUMBER,
     Layout,
     check_equal,
-    corner,
     key,
     keyed,
     optional,
@@ -31,12 +30,11 @@ _DYNA = Layout(peak_unit="cm/s2", half_digit=5e-4, **keyed(
     samples="NDATA", step="SAMPLING_INTERVAL_S", duration="DURATION_S", component="STREAM", station="STATION_CODE",
     network="NETWORK", latitude="STATION_LATITUDE_DEGREE", longitude="STATION_LONGITUDE_DEGREE",
     elevation="STATION_ELEVATION_M", distance="EPICENTRAL_DISTANCE_KM", high_pass="LOW_CUT_FREQUENCY_HZ",
-    peak="PGA_CM/S^2", peak_time="TIME_PGA_S",
+    peak="PGA_CM/S^2", peak_time="TIME_PGA_S", start="DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS",
 ))  # fmt: skip
 _DYNA_KEY = re.compile(r"[A-Z][A-Z0-9_/^]*:")
 _DYNA_HEADER, _AFAD_HEADER, _RESORCE_HEADER, _CWB_HEADER, _UNAM_HEADER = 100, 40, 20, 60, 160
 """Lines of the longest headers."""
-_TIME = re.compile(r"(\d{4})/?(\d\d)/?(\d\d)[_ T](\d\d):?(\d\d):?(\d\d(?:\.\d{1,6})?)\d*")
 _REFILTERED = "AAD_"
 """What the lines begin with that AFAD puts above a header after filtering the samples anew (Kahramanmaraş 2023)."""
 
@@ -60,7 +58,6 @@ def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
     if kind.upper() != "ACCELERATION":
         raise RecordError(f"DATA_TYPE is {kind!r}, but must be ACCELERATION; use the ACC file of the record.")
     values, notes = whole(numbers("\n".join(text[length:])), _DYNA.count(head), per_line=1)
-    start = _TIME.fullmatch(optional(key("DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS"), head))
     date, scale_w, scale_l = (
         optional(key(name), head) for name in ("EVENT_DATE_YYYYMMDD", "MAGNITUDE_W", "MAGNITUDE_L")
     )
@@ -74,14 +71,12 @@ def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
         warnings=notes,
         event=f"{optional(key('EVENT_NAME'), head)} {date}",
         event_time=f"{date} {optional(key('EVENT_TIME_HHMMSS'), head)}",
-        start_time="{}-{}-{}T{}:{}:{}Z".format(*start.groups()) if start else "",
         **typed_magnitude(f"Mw={scale_w} ML={scale_l}"),
-        processed=corner(_DYNA.number("high_pass", head)) is not None,
     )
     return [record]
 
 
-_AFAD = Layout("gal", half_digit=5e-7, **keyed(
+_AFAD = Layout("gal", half_digit=5e-7, code="TK", **keyed(
     samples="NUMBER OF DATA", step="SAMPLING INTERVAL (SEC)", station="STATION ID", event="EARTHQUAKE DATE",
     event_time="EARTHQUAKE DATE", magnitude="EARTHQUAKE MAGNITUDE", place="STATION COORDINATES",
     elevation="STATION ALTITUDE (M)",
@@ -109,7 +104,6 @@ def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
             values,
             options,
             component=component,
-            network="TK",
             warnings=notes,
             processed="RAW" not in peaks,
             peak=optional_number(rf"\({re.escape(component)}\)\s*{NUMBER}", peaks),
@@ -139,11 +133,10 @@ def _read_resorce(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError(f"this RESORCE file holds {kind}, not acceleration; use the .acc file.")
     head = "\n".join(text[:at])
     values, notes = whole(fields(text[at + 1 :], _RESORCE_WIDTH), _RESORCE.count(head), _RESORCE_PER_LINE)
-    is_filtered = bool(_RESORCE.text("high_pass", head))
-    return [_RESORCE.channel(head, values, options, warnings=notes, processed=is_filtered)]
+    return [_RESORCE.channel(head, values, options, warnings=notes)]
 
 
-_CWB = Layout("gal", half_digit=5e-4, duration_digits=0.0, **keyed(
+_CWB = Layout("gal", half_digit=5e-4, duration_digits=0.0, code="TW", needed=("duration",), **keyed(
     duration="RECORDLENGTH(SEC)", rate="SAMPLERATE(HZ)", station="STATIONCODE", event="ORIGIN TIME(GMT+08)",
     event_time="ORIGIN TIME(GMT+08)", latitude="STATIONLATITUDE(N)", longitude="STATIONLONGITUDE(E)",
 ))  # fmt: skip
@@ -173,7 +166,6 @@ def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
             options,
             step=step,
             component=component,
-            network="TW",
             **typed_magnitude(" ".join(scale + value for scale, value in magnitudes)),
             peak=max((abs(float(text)) for text in extremes), default=None),
         )

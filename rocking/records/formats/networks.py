@@ -1,13 +1,12 @@
 """Formats of single networks, whose headers are sentences or places: K-NET, JMA, CSMNC, GeoNet, USGS SMC."""
 
 import re
-from datetime import datetime, timedelta
 
 from rocking.errors import RecordError
 from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, starts, without_offset
-from rocking.records.formats.header import Layout, blocks, corner, optional, required, typed_magnitude
+from rocking.records.formats.header import Layout, blocks, optional, required, typed_magnitude
 from rocking.records.formats.text import (
     after_lines,
     column_width,
@@ -21,19 +20,10 @@ from rocking.records.formats.text import (
     whole,
 )
 
-_JAPAN = timedelta(hours=9)
-_DELAY = timedelta(seconds=15)
-"""Of a K-NET recorder, which its record time carries."""
-
-
-def _universal(text: str, form: str, ahead: timedelta) -> str:
-    """Return a printed time that is `ahead` of universal time as ISO 8601, "" where it is none."""
-    try:
-        return f"{(datetime.strptime(text, form) - ahead).isoformat()}Z"
-    except (ValueError, OverflowError):
-        return ""
-
-
+_JAPAN = 9.0
+"""h ahead of universal time."""
+_DELAY = 15 / 3600
+"""h; of a K-NET recorder, which its record time carries."""
 _KNET_KEYS = (
     "Origin Time", "Lat.", "Long.", "Depth. (km)", "Mag.", "Station Code", "Station Lat.", "Station Long.",
     "Station Height(m)", "Record Time", "Sampling Freq(Hz)", "Duration Time(s)", "Dir.", "Scale Factor",
@@ -44,6 +34,7 @@ _KNET = Layout(
     duration_digits=0.0, component=r"^Dir\.\s*(.*)", station=r"^Station Code\s*(.*)", event_time=r"^Origin Time\s*(.*)",
     magnitude=r"^Mag\.\s*(.*)", latitude=r"^Station Lat\.\s*(.*)", longitude=r"^Station Long\.\s*(.*)",
     elevation=r"^Station Height\(m\)\s*(.*)", peak=r"^Max\. Acc\. \(gal\)\s*(.*)", half_digit=5e-4,
+    start=r"^Record Time\s*(.*)", ahead=_JAPAN + _DELAY, code="BO", needed=("duration", "peak"),
 )  # fmt: skip
 _KIKNET = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
 _BOREHOLE = {"1", "2", "3"}
@@ -63,17 +54,10 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
         )
     head = "\n".join(text)
     options.unit_of("gal")
-    scale = required(
-        "a Scale Factor like 3920(gal)/6182761",
-        r"^Scale Factor\s*([\d.]+)\s*\(gal\)\s*/\s*([\d.]+)\s*$",
-        head,
-    )
-    factor = number("Scale Factor", scale[1]) / positive(
-        RecordError, "Scale Factor", number("Scale Factor", scale[2])
-    )
-    values, offset = without_offset(numbers(after_lines(content, len(_KNET_KEYS))) * factor, "gal")
-    for fact in ("duration", "peak"):
-        number(f"the {fact}", _KNET.declared(fact, head))
+    scale = r"^Scale Factor\s*([\d.]+)\s*\(gal\)\s*/\s*([\d.]+)\s*$"
+    parts = required("a Scale Factor like 3920(gal)/6182761", scale, head)
+    full, counts = (positive(RecordError, "Scale Factor", number("Scale Factor", parts[i])) for i in (1, 2))
+    values, offset = without_offset(numbers(after_lines(content, len(_KNET_KEYS))) * (full / counts), "gal")
     direction = _KNET.text("component", head)
     record = _KNET.channel(
         head,
@@ -81,9 +65,7 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
         options,
         component=_KIKNET.get(direction, direction),
         event=f"{_KNET.text('event_time', head)} M{_KNET.text('magnitude', head)}",
-        start_time=_universal(optional(r"^Record Time\s*(.*)", head), "%Y/%m/%d %H:%M:%S", _JAPAN + _DELAY),
         processing=(offset,),
-        network="BO",
         borehole=direction in _BOREHOLE,
     )
     return [record]
@@ -91,6 +73,7 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
 
 _JMA = Layout(
     rate=r"^\s*SAMPLING RATE\s*=\s*([\d.]+)\s*Hz", station=r"^SITE CODE=\s*([\x21-\x7e]+)",
+    start=r"^\s*INITIAL TIME\s*=\s*([\d ]+)", ahead=_JAPAN, code="JMA",
 )  # fmt: skip
 _JMA_HEADER, _JMA_NAMES = 7, "NS,EW,UD"
 
@@ -109,10 +92,8 @@ def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError(f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.")
     table = in_columns(numbers("\n".join(rows).replace(",", " ")), len(labels))
     unit = required("the unit", r"^\s*UNIT\s*=\s*(\w+)", head)[1]
-    begin = optional(r"^\s*INITIAL TIME\s*=\s*([\d ]+)", head)
-    start = _universal(begin, "%Y %m %d %H %M %S", _JAPAN)
     return [
-        _JMA.channel(head, values, options, unit=unit, component=label, network="JMA", start_time=start)
+        _JMA.channel(head, values, options, unit=unit, component=label)
         for label, values in zip(labels, table.T, strict=True)
     ]
 
@@ -123,6 +104,7 @@ _CSMNC = Layout(
     event_time=r"^\d+ +(\d{4}-\d\d-\d\d [\d:]+ \w+)", magnitude=r"^MAGNITUDE\s+([\d.]+.*)",
     place=r"^STATION:\s*\S+\s+(.*)", peak=r"^PEAK VALUE:\s*(-?[\d.]+)",
     peak_time=r"^PEAK VALUE:.*?\bAT\s+([\d.]+)\s*SEC", half_digit=5e-4,
+    corrected=r"^(CORRECTED) ",
 )  # fmt: skip
 _CSMNC_HEADER, _CSMNC_PER_LINE, _CSMNC_WIDTH = 16, 8, 13
 
@@ -139,9 +121,7 @@ def _read_csmnc(content: bytes, options: Options) -> list[Accelerogram]:
     if kind[1].upper() != "ACCELERATION" or kind[2].upper() not in ("CM/SEC/SEC", "CM/S/S", "GAL"):
         raise RecordError(f"the file holds {kind[1]} in {kind[2]}, but must hold ACCELERATION in CM/SEC/SEC.")
     values, notes = whole(fields(text[_CSMNC_HEADER:], _CSMNC_WIDTH), _CSMNC.count(head), _CSMNC_PER_LINE)
-    is_corrected = kind[0].upper().startswith("CORRECTED")
-    event = text[2].strip()[:60]
-    return [_CSMNC.channel(head, values, options, event=event, warnings=notes, processed=is_corrected)]
+    return [_CSMNC.channel(head, values, options, event=text[2].strip()[:60], warnings=notes)]
 
 
 _GEONET = Layout(
@@ -151,6 +131,7 @@ _GEONET = Layout(
     magnitude=r"^Epicentre\b.*\b(M[A-Za-z]\s+[\d.]+)", distance=r"^Epicentre\b.*\bDist\s+([\d.]+)\s*km",
     high_pass=r"transition bands are\s+([\d.]+)", peak=r"^Acceleration:\s+peak\s+(\S+)\s+mm/s/s",
     peak_time=r"^Acceleration:\s+peak\s+\S+\s+mm/s/s at\s+([\d.]+)\s*s", half_digit=0.05,
+    corrected=r"\A(corrected)", code="NZ", needed=("peak",),
 )  # fmt: skip
 _GEONET_FIRST = re.compile(r"(Un)?corrected accelerogram\s", re.I)
 _TEXT, _HEADER, _PER_LINE, _WIDTH = 16, 26, 10, 8
@@ -174,7 +155,6 @@ def _read_geonet(content: bytes, options: Options) -> list[Accelerogram]:
 
 def _geonet_channel(block: list[str], options: Options, notes: tuple[str, ...]) -> Accelerogram:
     head = "\n".join(block[:_TEXT])
-    _GEONET.declared("peak", head)
     declared = _GEONET.count(head)
     rows = [row for row in block[_HEADER:] if row.strip()]
     wanted = -(-declared // _PER_LINE)
@@ -191,20 +171,14 @@ def _geonet_channel(block: list[str], options: Options, notes: tuple[str, ...]) 
     at = _GEONET.number("peak_time", head)
     if at is not None and len(integers) == 40 and integers[_PREPENDED].isdecimal():
         at += int(integers[_PREPENDED]) * number("the step", _GEONET.declared("step", head))
-    return _GEONET.channel(
-        head,
-        filled(rows[:wanted], declared, _PER_LINE, _WIDTH) * factor,
-        options,
-        network="NZ",
-        warnings=notes,
-        processed=block[0].lower().startswith("corrected"),
-        peak_time=at,
-    )
+    values = filled(rows[:wanted], declared, _PER_LINE, _WIDTH) * factor
+    return _GEONET.channel(head, values, options, warnings=notes, peak_time=at)
 
 
 _SMC = Layout(
     "cm/s2", component=r"component\s*=\s*(\S+)", station=r"station\s*=\s*(.*?)\s*component",
     event=r"^\s+\d{4}\s+\d+\s+\d+\s+\d{4}\s+(.*)$", distance=r"epicentral dist\s*=\s*([\d.]+)",
+    corrected=r"\A(2) ",
 )  # fmt: skip
 _SMC_KINDS = {"0": "unknown", "1": "uncorrected accelerogram", "2": "corrected accelerogram", "3": "velocity",
               "4": "displacement", "5": "response spectrum", "6": "Fourier spectrum"}  # fmt: skip
@@ -259,8 +233,7 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
         step=1 / rate,
         **typed_magnitude(scales),
         warnings=notes,
-        processed=kind == "2",
-        high_pass_frequency=corner(float(reals[_CORNER])),
+        high_pass_frequency=float(reals[_CORNER]) if 0 < reals[_CORNER] < 100 else None,
         peak=peak,
         peak_time=float(at) if 0 < at < _MISSING else None,
     )
