@@ -26,6 +26,8 @@
   }
 
   // Matrix ----------------------------------------------------------------------------------------------
+  const matrix = at("matrix");
+  const SHOWN = "button:not([hidden])";
   function element(name, properties = {}, ...children) {
     const made = Object.assign(document.createElement(name), properties);
     made.append(...children);
@@ -33,7 +35,6 @@
   }
   const caseOf = (record, structure) => record.cases[structure.name];
   const share = (each) => (each && each.share !== null ? Number(each.share) : 0);
-  const peak = (value) => (value === null ? "–" : Number(value.toPrecision(2)).toString());
 
   function described(record, structure) {
     const each = caseOf(record, structure);
@@ -48,110 +49,100 @@
   function cellOf(record, structure) {
     const each = caseOf(record, structure);
     const verdict = each ? each.verdict : "unknown";
-    const shown = each && each.members ? Math.round(100 * share(each)) : each && typeof each.ratio === "number" ? ratio(each.ratio) : "";
-    const button = element("button", { type: "button", className: `cell ${verdict}`, tabIndex: -1, title: described(record, structure) });
+    const single = each && typeof each.ratio === "number" ? ratio(each.ratio) : "";
+    const text = `${SIGNS[verdict]} ${each && each.members ? Math.round(100 * share(each)) : single}`.trim();
+    const button = element("button", { type: "button", className: `cell ${verdict}`, tabIndex: -1, title: described(record, structure) }, text);
     Object.assign(button.dataset, { record: records.indexOf(record), structure: structures.indexOf(structure), verdict });
-    button.textContent = `${SIGNS[verdict]} ${shown}`.trim();
     button.setAttribute("aria-pressed", "false");
     button.setAttribute("aria-label", button.title);
-    return button;
+    return element("td", {}, button);
   }
 
-  // How the rows may be ordered; the worst, the largest, or the first name stands on top
-  const worse = (a, b) => {
-    const place = a.findIndex((value, k) => value !== b[k]);
-    return place < 0 ? 0 : b[place] - a[place];
+  // What the rows may be ordered by, the largest on top; the sum over a row puts the worst record there
+  const names = records.map((each) => each.id).sort((a, b) => b.localeCompare(a, undefined, { numeric: true }));
+  const KEYS = {
+    worst: (record) => [structures.reduce((sum, each) => sum + share(caseOf(record, each)), 0)],
+    record: (record) => [names.indexOf(record.id)],
+    pga: (record) => [record.pga],
+    pgv: (record) => [record.pgv],
   };
-  const severity = (record) => structures.reduce((sum, each) => sum + share(caseOf(record, each)), 0);
-  const NONE = [-9, -9, -9];
-  const ORDERS = {
-    record: (a, b) => a.id.localeCompare(b.id, undefined, { numeric: true }),
-    severity: (a, b) => severity(b) - severity(a),
-    pga: (a, b) => b.pga - a.pga,
-    pgv: (a, b) => b.pgv - a.pgv,
-  };
+  structures.forEach((each) => { KEYS[`structure ${each.name}`] = (record) => (caseOf(record, each) || { severity: [-9] }).severity; });
 
   function order(by) {
-    const compare = ORDERS[by] || ((a, b) => worse((caseOf(a, structures[by]) || { severity: NONE }).severity, (caseOf(b, structures[by]) || { severity: NONE }).severity));
-    const body = at("matrix").querySelector("tbody");
-    const rows = [...body.rows];
-    rows.sort((a, b) => compare(records[a.dataset.record], records[b.dataset.record]));
-    body.append(...rows);
-    at("matrix").querySelectorAll("thead th").forEach((head) => {
-      if (head.dataset.by === String(by)) head.setAttribute("aria-sort", by === "record" ? "ascending" : "descending");
-      else head.removeAttribute("aria-sort");
+    const keys = records.map(KEYS[by]);
+    const rows = [...matrix.tBodies[0].rows].sort((a, b) => {
+      const [first, second] = [keys[a.dataset.record], keys[b.dataset.record]];
+      const place = first.findIndex((value, k) => value !== second[k]);
+      return place < 0 ? 0 : second[place] - first[place];
     });
+    matrix.tBodies[0].append(...rows);
+    for (const head of matrix.tHead.rows[0].cells) {
+      if (head.dataset.by === by) head.setAttribute("aria-sort", by === "record" ? "ascending" : "descending");
+      else head.removeAttribute("aria-sort");
+    }
   }
 
   function fill() {
-    const heading = (by, text, title) => {
-      const head = element("th", { scope: "col", title }, element("button", { type: "button" }, text));
-      head.dataset.by = by;
-      return head;
-    };
-    const heads = [
-      heading("record", "Record", "order by name"), heading("pga", "PGA [g]", "order by peak acceleration"),
-      heading("pgv", "PGV [m/s]", "order by peak velocity"), ...structures.map((each, s) => heading(s, each.name, `${each.type}: ${each.size}`)),
-    ];
+    const head = element("tr");
     const body = element("tbody");
+    const heading = (by, text, title) => {
+      const cell = element("th", { scope: "col", title }, element("button", { type: "button" }, text));
+      cell.dataset.by = by;
+      head.append(cell);
+    };
+    heading("record", "Record", "order by name");
+    heading("pga", "PGA [g]", "order by peak acceleration");
+    heading("pgv", "PGV [m/s]", "order by peak velocity");
+    structures.forEach((each) => heading(`structure ${each.name}`, each.name, `${each.type}: ${each.size}`));
     records.forEach((record, r) => {
-      const peaks = [record.pga, record.pgv].map((value) => element("td", { className: "peak" }, peak(value)));
-      const row = element("tr", {}, element("th", { scope: "row" }, record.id), ...peaks);
+      const peaks = [record.pga, record.pgv].map((value) => (value === null ? "–" : String(Number(value.toPrecision(2)))));
+      const row = element("tr", {}, element("th", { scope: "row" }, record.id), ...peaks.map((text) => element("td", { className: "peak" }, text)));
       row.dataset.record = r;
-      structures.forEach((each) => row.append(element("td", {}, cellOf(record, each))));
+      row.append(...structures.map((each) => cellOf(record, each)));
       body.append(row);
     });
-    at("matrix").append(element("thead", {}, element("tr", {}, ...heads)), body);
-    order("severity");
-    const first = at("matrix").querySelector("tbody button");
-    if (first) first.tabIndex = 0;
+    matrix.append(element("thead", {}, head), body);
+    order("worst");
   }
 
   function filter() {
     const text = at("text").value.trim().toLowerCase();
     const verdict = at("verdict").value;
-    const named = structures.map((each) => each.name.toLowerCase().includes(text));
-    let count = 0;
-    const used = new Set();
-    const rows = [...at("matrix").querySelectorAll("tbody tr")];
-    rows.forEach((row) => {
-      const isNamed = records[row.dataset.record].id.toLowerCase().includes(text);
-      let any = false;
-      row.querySelectorAll("button").forEach((button, s) => {
-        const kept = (text === "" || isNamed || named[s]) && (!verdict || button.dataset.verdict === verdict);
-        button.style.visibility = kept ? "" : "hidden";
-        if (kept) { any = true; count += 1; used.add(s); }
-      });
-      row.hidden = !any;
-    });
-    const columns = [...at("matrix").querySelectorAll("thead th")].slice(3);
-    columns.forEach((head, s) => { head.hidden = !used.has(s); });
-    rows.forEach((row) => [...row.cells].slice(3).forEach((cell, s) => { cell.hidden = !used.has(s); }));
-    at("shown").textContent = `${count} of ${records.length * structures.length} cells`;
-    const open = visible();
-    if (open.length && !open.some((each) => each.tabIndex === 0)) roam(open[0], false);
+    const isNamed = (name) => name.toLowerCase().includes(text);
+    for (const button of matrix.querySelectorAll("tbody button")) {
+      const { record, structure } = button.dataset;
+      const kept = isNamed(records[record].id) || isNamed(structures[structure].name);
+      button.hidden = !kept || (verdict && button.dataset.verdict !== verdict);
+    }
+    const used = structures.map((_, s) => matrix.querySelector(`${SHOWN}[data-structure="${s}"]`));
+    for (const row of matrix.tBodies[0].rows) row.hidden = !row.querySelector(SHOWN);
+    for (const row of matrix.rows) used.forEach((some, s) => { row.cells[s + 3].hidden = !some; });
+    const shown = matrix.querySelectorAll(`tbody ${SHOWN}`);
+    at("shown").textContent = `${shown.length} of ${records.length * structures.length} cells`;
+    if (shown.length && !matrix.querySelector(`${SHOWN}[tabindex="0"]`)) roam(shown[0]);
   }
 
-  const visible = () => [...at("matrix").querySelectorAll("tbody button")].filter((each) => each.offsetParent && each.style.visibility !== "hidden");
-
-  function roam(button, focus = true) {
-    at("matrix").querySelectorAll("tbody button[tabindex='0']").forEach((each) => { each.tabIndex = -1; });
+  // One cell is in the order of the tabulator; arrows go on to the next one that is shown
+  function roam(button) {
+    matrix.querySelectorAll("tbody [tabindex='0']").forEach((each) => { each.tabIndex = -1; });
     button.tabIndex = 0;
-    if (focus) button.focus();
   }
 
   function onArrow(event) {
-    const step = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] }[event.key];
-    const from = event.target.closest("tbody button");
-    if (!step || !from) return;
+    const inRow = (cell, row) => row && row.cells[cell.cellIndex];
+    const step = {
+      ArrowLeft: (cell) => cell.previousElementSibling,
+      ArrowRight: (cell) => cell.nextElementSibling,
+      ArrowUp: (cell) => inRow(cell, cell.parentElement.previousElementSibling),
+      ArrowDown: (cell) => inRow(cell, cell.parentElement.nextElementSibling),
+    }[event.key];
+    let cell = event.target.closest("tbody td");
+    if (!step || !cell) return;
     event.preventDefault();
-    const [down, right] = step;
-    const place = (button) => [button.closest("tr").rowIndex, Number(button.dataset.structure)];
-    const [r, s] = place(from);
-    const ahead = visible().map((each) => [each, place(each)[0] - r, place(each)[1] - s]);
-    const along = ahead.filter(([, dr, ds]) => (down ? ds === 0 && dr * down > 0 : dr === 0 && ds * right > 0));
-    along.sort((a, b) => Math.abs(a[1]) + Math.abs(a[2]) - Math.abs(b[1]) - Math.abs(b[2]));
-    if (along.length) roam(along[0][0]);
+    do { cell = step(cell); } while (cell && !cell.querySelector(SHOWN));
+    if (!cell) return;
+    roam(cell.firstChild);
+    cell.firstChild.focus();
   }
 
   // Histories -------------------------------------------------------------------------------------------
@@ -229,44 +220,37 @@
   }
 
   // Mechanism -------------------------------------------------------------------------------------------
-  function framesOf(drawings) {
-    if (drawings.frames) return drawings.frames;
-    const flat = unpacked(drawings.points);
+  function framesOf(structure) {
+    const points = unpacked(structure.points);
     let from = 0;
-    const take = (count) => flat.subarray(2 * from, 2 * (from += count));
-    drawings.frames = drawings.rotations.map((rotation, k) => ({
-      rotation, parts: drawings.parts[k].map(take), hinges: take(drawings.hinges[k]),
-      marks: drawings.marks[k].map((kind) => ({ kind, ends: take(2) })),
-    }));
-    return drawings.frames;
+    structure.frames.forEach((each) => {
+      const count = each.parts.reduce((sum, many) => sum + many, each.hinges + 2 * each.marks.length);
+      each.points = points.subarray(from, from += 2 * count);
+    });
+    return structure.frames;
   }
 
-  function mixed(a, b, share) {
-    return a.length === b.length ? a.map((value, k) => value * (1 - share) + b[k] * share) : share < 0.5 ? a : b;
-  }
-
-  // The drawing at a rotation: between two frames of its side, no farther than the last
-  function poseAt(frames, rotation) {
+  // The frame at a rotation: between two of its side, no farther than the last
+  function frameAt(frames, rotation) {
     const own = frames.filter((each) => each.rotation < 0 === rotation < 0);
     const side = own.length ? own : frames;
     const size = Math.abs(rotation);
     const above = side.findIndex((each) => Math.abs(each.rotation) >= size);
     if (above <= 0) return above === 0 ? side[0] : side[side.length - 1];
     const [a, b] = [side[above - 1], side[above]];
-    if (a.parts.length !== b.parts.length) return a;
+    if (a.points.length !== b.points.length) return a;
     const share = (size - Math.abs(a.rotation)) / (Math.abs(b.rotation) - Math.abs(a.rotation));
-    const marks = a.marks.length === b.marks.length ? a.marks.map(({ kind, ends }, k) => ({ kind, ends: mixed(ends, b.marks[k].ends, share) })) : a.marks;
-    return { parts: a.parts.map((part, k) => mixed(part, b.parts[k], share)), hinges: mixed(a.hinges, b.hinges, share), marks };
+    return { ...a, points: a.points.map((value, k) => value * (1 - share) + b.points[k] * share) };
   }
 
   // Metres in the drawing, whose groups turn y upwards and move with the ground
   function paintWith(structure, motion, reach) {
-    const frames = framesOf(structure.drawings);
+    const frames = framesOf(structure);
     const moves = motion ? unpacked(motion.displacement) : null;
     const travel = moves ? largest(moves) : 0;
     const near = frames.filter((each) => Math.abs(each.rotation) <= reach || Math.abs(each.rotation) < 1e-3);
     const [left, right, low, high] = [0, 1].flatMap((axis) => {
-      const values = near.flatMap((each) => [...each.parts, ...each.marks.map((mark) => mark.ends)].flatMap((points) => [...points.filter((_, k) => k % 2 === axis)]));
+      const values = near.flatMap((each) => [...each.points.filter((_, k) => k % 2 === axis)]);
       return [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))];
     });
     const margin = 0.06 * Math.max(right - left, high - low);
@@ -275,20 +259,24 @@
     const foot = Math.max(low, Math.min(0, high));
     const ground = { x1: left - 9 * wide, x2: right + 9 * wide };
     return (rotation, time) => {
-      const shift = moves ? valueAt(moves, [0, motion.duration], time) : 0;
-      const pose = poseAt(frames, rotation);
+      const { parts, hinges, marks, points } = frameAt(frames, rotation);
+      let from = 0;
+      const take = (count) => points.subarray(from, from += 2 * count);
       const group = at("moving");
       group.replaceChildren();
-      group.setAttribute("transform", `translate(${shift} 0) scale(1 -1)`);
+      group.setAttribute("transform", `translate(${moves ? valueAt(moves, [0, motion.duration], time) : 0} 0) scale(1 -1)`);
       drawn("line", { ...ground, y1: foot, y2: foot }, "", group);
       drawn("line", { ...ground, y1: foot - margin / 4, y2: foot - margin / 4, "stroke-width": margin / 2, "stroke-dasharray": margin / 5, class: "ground" }, "", group);
-      for (const points of pose.parts) drawn("polygon", { points: points.join(" ") }, "", group);
-      for (const { kind, ends: [x1, y1, x2, y2] } of pose.marks) {
+      for (const count of parts) drawn("polygon", { points: take(count).join(" ") }, "", group);
+      for (let k = 0; k < hinges; k += 1) {
+        const [cx, cy] = take(1);
+        drawn("circle", { cx, cy, r: margin / 5, class: "hinge" }, "", group);
+      }
+      for (const kind of marks) {
+        const [x1, y1, x2, y2] = take(2);
         drawn("line", { x1, y1, x2, y2, class: kind }, "", group);
         drawn("circle", { cx: x2, cy: y2, r: margin / 6, class: kind }, "", group);
       }
-      for (let k = 0; k < pose.hinges.length; k += 2)
-        drawn("circle", { cx: pose.hinges[k], cy: pose.hinges[k + 1], r: margin / 5 }, "", group);
     };
   }
 
@@ -308,8 +296,10 @@
   function choose(r, s) {
     stop();
     const [record, structure] = [records[r], structures[s]];
-    at("matrix").querySelectorAll("[aria-pressed='true']").forEach((each) => each.setAttribute("aria-pressed", "false"));
-    at("matrix").querySelector(`button[data-record="${r}"][data-structure="${s}"]`).setAttribute("aria-pressed", "true");
+    matrix.querySelectorAll("[aria-pressed='true']").forEach((each) => each.setAttribute("aria-pressed", "false"));
+    const button = matrix.querySelector(`button[data-record="${r}"][data-structure="${s}"]`);
+    button.setAttribute("aria-pressed", "true");
+    roam(button);
     history.replaceState(null, "", `#${encodeURIComponent(record.id)}/${encodeURIComponent(structure.name)}`);
     const each = caseOf(record, structure);
     at("case").hidden = false;
@@ -379,22 +369,20 @@
   at("text").addEventListener("input", filter);
   at("verdict").addEventListener("change", filter);
   at("filters").addEventListener("submit", (event) => event.preventDefault());
-  at("matrix").addEventListener("keydown", onArrow);
-  at("matrix").addEventListener("click", (event) => {
-    const head = event.target.closest("thead th");
-    if (head) { order(head.dataset.by); return; }
-    const button = event.target.closest("tbody button");
-    if (!button) return;
-    roam(button);
-    choose(Number(button.dataset.record), Number(button.dataset.structure));
+  matrix.addEventListener("keydown", onArrow);
+  matrix.addEventListener("click", ({ target }) => {
+    const head = target.closest("thead th");
+    const button = target.closest("tbody button");
+    if (head) order(head.dataset.by);
+    else if (button) choose(button.dataset.record, button.dataset.structure);
   });
   at("play").addEventListener("click", play);
   at("scrub").addEventListener("input", () => { stop(); show(); });
   addEventListener("hashchange", follow);
   if (!follow()) {
-    const cells = visible();
-    const moving = cells.filter((each) => (caseOf(records[each.dataset.record], structures[each.dataset.structure]) || {}).history);
+    const cells = [...matrix.querySelectorAll("tbody button")];
+    const moving = cells.filter(({ dataset }) => (caseOf(records[dataset.record], structures[dataset.structure]) || {}).history);
     const first = moving.find((each) => each.dataset.verdict === "overturns") || moving[0] || cells[0];
-    if (first) { roam(first, false); choose(Number(first.dataset.record), Number(first.dataset.structure)); }
+    if (first) choose(first.dataset.record, first.dataset.structure);
   }
 })();

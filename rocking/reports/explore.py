@@ -20,6 +20,7 @@ from rocking.motion.response import Response
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import displacement
+from rocking.reports.record import worst_cases
 from rocking.structures import Mechanism, Structure
 
 Content = dict[str, Any]
@@ -51,7 +52,7 @@ def record_content(
     accelerograms: the components that could be opened. responses: of the mechanism under the record with histories, by
     component and structure; a case without one is shown without its motion.
     """
-    worst = {name: _worst(name, tables) for name in dict.fromkeys(row.structure for row in tables.comparison)}
+    worst = worst_cases(tables.comparison)
     fates = {fate.structure: fate for fate in tables.verdicts}
     components = {row.component for row in worst.values()}
     return {
@@ -83,7 +84,7 @@ def explore_page(
     """
     shown = list(records)
     drawn = [
-        {"name": name, "size": structure.size, "type": structure.type_name, "drawings": drawings(structure)}
+        {"name": name, "size": structure.size, "type": structure.type_name} | drawings(structure)
         for name, structure in structures.items()
     ]
     content = json.dumps(
@@ -103,12 +104,6 @@ def explore_page(
         name, _, text = part.partition("}}")
         filled += [pieces[name.strip()], text]
     return "".join(filled).encode()
-
-
-def _worst(structure: str, tables: RecordTables) -> Any:
-    """The row of the component that turns a structure farthest."""
-    rows = [row for row in tables.comparison if row.structure == structure]
-    return max(rows, key=lambda row: np.nan_to_num(row.integrated_rotation_ratio, nan=-1.0))
 
 
 def _case(
@@ -172,29 +167,25 @@ def _history(response: Response, mechanism: Mechanism) -> Content | None:
 def drawings(structure: Structure) -> Content:
     """Return outline, hinges, loads and ties of `structure` at FRAMES rotations of each side that it has.
 
-    rotations: rad, signed. parts: points of each part, by frame. hinges: their number, by frame. marks: kind of each
-    load, thrust or tie, two points each, by frame. points: x and y [m] of all of them in this order, frame by frame.
+    frames: of each rotation [rad, signed] the points of each part, the number of hinges, and the kinds of the marks, of
+    two points each. points: x and y [m] of all of them in this order, frame by frame.
     """
     mechanism = structure.mechanism()
-    sides = [(1, mechanism.sides[0])] + ([] if mechanism.one_sided else [(-1, mechanism.sides[-1])])
-    rotations = [
-        sign * float(share) * min(0.98 * side.end_rotation, _BEYOND * side.critical_rotation, _FARTHEST)
-        for sign, side in sides
-        for share in np.linspace(1e-6, 1.0, FRAMES)
-    ]
-    frames = [(structure.outline(each), structure.hinges(each), structure.marks(each)) for each in rotations]
-    points = [
-        np.asarray(part).reshape(-1, 2)
-        for outline, hinges, marks in frames
-        for part in (*outline, hinges, *(mark.line for mark in marks))
-    ]
-    return {
-        "rotations": rotations,
-        "parts": [[len(part) for part in outline] for outline, _, _ in frames],
-        "hinges": [len(hinges) for _, hinges, _ in frames],
-        "marks": [[mark.kind for mark in marks] for _, _, marks in frames],
-        "points": packed(np.vstack(points)),
-    }
+    frames, points = [], []
+    sides = (
+        {1: mechanism.sides[0]} if mechanism.one_sided else {1: mechanism.sides[0], -1: mechanism.sides[-1]}
+    )
+    for sign, side in sides.items():
+        end = min(0.98 * side.end_rotation, _BEYOND * side.critical_rotation, _FARTHEST)
+        for rotation in sign * end * np.linspace(1e-6, 1.0, FRAMES):
+            outline, hinges = structure.outline(rotation), structure.hinges(rotation)
+            marks = structure.marks(rotation)
+            parts = {"parts": [len(part) for part in outline], "hinges": len(hinges)}
+            frames.append({"rotation": rotation} | parts | {"marks": [mark.kind for mark in marks]})
+            points += [
+                np.reshape(part, (-1, 2)) for part in (*outline, hinges, *(mark.line for mark in marks))
+            ]
+    return {"frames": frames, "points": packed(np.vstack(points))}
 
 
 def packed(values: ArrayLike) -> Content:

@@ -89,14 +89,12 @@ def test_a_trace_keeps_its_peaks_and_its_places():
 
 def test_drawings_are_those_of_the_structure(study):
     for structure in study[1].structures.values():
-        said = drawings(structure)
-        points = unpacked(said["points"]).reshape(-1, 2)
-        assert len(points) == sum(map(sum, said["parts"])) + sum(said["hinges"]) + 2 * sum(
-            map(len, said["marks"])
-        )
-        place = 17
-        begin = sum(map(sum, said["parts"][:place])) + sum(said["hinges"][:place])
-        expected = np.vstack(structure.outline(said["rotations"][place]))
+        drawn = drawings(structure)
+        points = unpacked(drawn["points"]).reshape(-1, 2)
+        counts = [sum(each["parts"]) + each["hinges"] + 2 * len(each["marks"]) for each in drawn["frames"]]
+        begin, frame = sum(counts[:17]), drawn["frames"][17]
+        expected = np.vstack(structure.outline(frame["rotation"]))
+        assert len(points) == sum(counts)
         assert np.allclose(points[begin : begin + len(expected)], expected, atol=np.abs(points).max() / 32767)
 
 
