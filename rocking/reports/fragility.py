@@ -1,11 +1,9 @@
 """The document of a study's fragility: curves with intervals, their medians, and which records govern them."""
 
 import math
-from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rocking.assessment.intensity import INTENSITY_MEASURES
@@ -46,48 +44,52 @@ def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") 
     """Return what the template is given. The tables are fragility, fragility_summary and ida."""
     falls = summary[summary["rotation_ratio"] == math.inf]
     stations = int(summary["stations"].max()) if len(summary) else 0
-    said = (
+    scaled = (
         "Each record of the study is scaled up until the structure overturns; a level counts by its stations."
     )
-    if stations < FEW_STATIONS:
-        said += f" With {counted(stations, 'station')} the curves are rough and their intervals too narrow: take more."
+    few = f" With {counted(stations, 'station')} the curves are rough and their intervals too narrow: take more."
     caption = (
         "Level that half of the stations overturn each structure at, with its 90 % interval by stations; dispersion of "
         "the lognormal curve; records under which it overturns first, with the level of each: they govern the lower "
         "end of its curve; and how many records, scaled up, let it stand again."
     )
-    records = ida["record"].nunique()
+    of_curves = (
+        "Share of the stations that exceed a rotation (overturns, or a share of the critical rotation φcr), its 90 % "
+        "interval by stations for overturning (shaded) and the lognormal curve (dashed)."
+    )
+    parts = [
+        {"text": scaled + few * (stations < FEW_STATIONS)},
+        fragility_table(falls, ida) | {"caption": caption},
+    ]
+    names = list(dict.fromkeys(curves["structure"]))
+    for first in range(0, len(names), ON_A_PAGE):
+        page = names[first : first + ON_A_PAGE]
+        drawn = fragility_figure(*(table[table["structure"].isin(page)] for table in (curves, summary)))
+        alt = f"Fragility curves of {counted(len(page), 'structure')} with 90 % intervals."
+        parts.append(picture(drawn, alt) | {"caption": of_curves})
+    records = f"{counted(ida['record'].nunique(), 'record')} of {counted(stations, 'station')}"
     return {
         "title": "Fragility",
-        "subtitle": f"{counted(records, 'record')} of {counted(stations, 'station')}; "
-        f"{counted(len(falls), 'structure')}.",
-        "parts": [
-            {"text": said},
-            {**fragility_table(falls, ida), "caption": caption},
-            *_figures(curves, summary),
-        ],
+        "subtitle": f"{records}; {counted(len(falls), 'structure')}.",
+        "parts": parts,
     }
 
 
 def fragility_table(falls: "DataFrame", ida: "DataFrame") -> dict[str, object]:
     """Return one row per structure: its median and what overturns it first."""
     governing = governing_records(ida)
-    columns: list[Column] = [
+    first = "First to overturn it, and at what level"
+    rate: Column = ("Annual rate [1/year]", "0.7", "r", lambda row: number(row.annual_rate, 2))
+    return table_of(
+        rows_of(FragilitySummaryRow, falls),
         ("Structure", "1.3", "l", lambda row: row.structure),
         ("Median and its 90 % interval", "1.3", "l", _median),
         ("Disper\u00adsion [-]", "0.6", "r", lambda row: number(row.dispersion, 2)),
         ("Sta\u00adtions", "auto", "r", lambda row: given(row.stations)),
-        (
-            "First to overturn it, and at what level",
-            "2.2",
-            "l",
-            lambda row: words(governing.get(row.structure)),
-        ),
+        (first, "2.2", "l", lambda row: words(governing.get(row.structure))),
         ("Stand again, scaled up", "0.6", "r", lambda row: given(row.reversals)),
-    ]
-    if falls["annual_rate"].notna().any():
-        columns.append(("Annual rate [1/year]", "0.7", "r", lambda row: number(row.annual_rate, 2)))
-    return table_of(rows_of(FragilitySummaryRow, falls), *columns)
+        *([rate] if falls["annual_rate"].notna().any() else []),
+    )
 
 
 def _median(row: FragilitySummaryRow) -> str:
@@ -110,19 +112,6 @@ def governing_records(ida: "DataFrame") -> dict[str, str]:
     return {structure: ", ".join(records[:_GOVERNING]) for structure, records in named.items()}
 
 
-def _figures(curves: "DataFrame", summary: "DataFrame") -> Iterator[Mapping[str, str]]:
-    names = list(dict.fromkeys(curves["structure"]))
-    for first in range(0, len(names), ON_A_PAGE):
-        shown = names[first : first + ON_A_PAGE]
-        parts = (table[table["structure"].isin(shown)] for table in (curves, summary))
-        caption = (
-            "Share of the stations that exceed a rotation (overturns, or a share of the critical rotation φcr), its "
-            "90 % interval by stations for overturning (shaded) and the lognormal curve (dashed)."
-        )
-        alt = f"Fragility curves of {counted(len(shown), 'structure')} with 90 % intervals."
-        yield picture(fragility_figure(*parts), alt) | {"caption": caption}
-
-
 @styled
 def fragility_figure(curves: "DataFrame", summary: "DataFrame") -> Figure:
     """Draw the curves of each structure from the tables fragility and fragility_summary."""
@@ -133,26 +122,24 @@ def fragility_figure(curves: "DataFrame", summary: "DataFrame") -> Figure:
     panels = figure.subplots(rows, _COLUMNS, squeeze=False, sharey=True, gridspec_kw=spaced)
     for panel in panels.flat[len(names) :]:
         panel.set_axis_off()
-    for name, panel in zip(names, panels.flat, strict=False):
-        _draw(panel, name, curves[curves["structure"] == name], summary[summary["structure"] == name])
     for panel in panels[:, 0]:
         panel.set_ylabel("probability [-]")
+    for name, panel in zip(names, panels.flat, strict=False):
+        of_structure = curves[curves["structure"] == name]
+        for place, (threshold, curve) in enumerate(of_structure.groupby("rotation_ratio")):
+            overturns = math.isinf(float(threshold))  # type: ignore[arg-type]
+            draw_probability(
+                panel,
+                curve["level"].to_numpy(),
+                curve["probability"].to_numpy(),
+                (curve["probability_low"], curve["probability_high"]) if overturns else None,
+                curve["lognormal"].to_numpy() if overturns else None,
+                "overturns" if overturns else f"φ > {threshold:g} φcr",
+                "black" if overturns else _COLOURS[place % len(_COLOURS)],
+            )
+        own = summary[(summary["structure"] == name) & (summary["rotation_ratio"] == math.inf)]
+        falls = next(rows_of(FragilitySummaryRow, own))
+        panel.set_title(f"{elided(name, 60)}\nmedian {_median(falls)}", fontsize=8)
+        panel.set_xlabel(f"{falls.intensity_measure} [{_unit(falls.intensity_measure)}]")
+        panel.legend(loc="upper left", fontsize=7)
     return figure
-
-
-def _draw(panel: Axes, name: str, curves: "DataFrame", summary: "DataFrame") -> None:
-    falls = next(rows_of(FragilitySummaryRow, summary[summary["rotation_ratio"] == math.inf]))
-    for place, (threshold, curve) in enumerate(curves.groupby("rotation_ratio")):
-        overturns = math.isinf(float(threshold))  # type: ignore[arg-type]
-        draw_probability(
-            panel,
-            curve["level"].to_numpy(),
-            curve["probability"].to_numpy(),
-            (curve["probability_low"], curve["probability_high"]) if overturns else None,
-            curve["lognormal"].to_numpy() if overturns else None,
-            "overturns" if overturns else f"φ > {threshold:g} φcr",
-            "black" if overturns else _COLOURS[place % len(_COLOURS)],
-        )
-    panel.set_title(f"{elided(name, 60)}\nmedian {_median(falls)}", fontsize=8)
-    panel.set_xlabel(f"{falls.intensity_measure} [{_unit(falls.intensity_measure)}]")
-    panel.legend(loc="upper left", fontsize=7)

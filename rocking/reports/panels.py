@@ -22,12 +22,13 @@ if TYPE_CHECKING:
     from rocking.pulses import Pulse, PulseAnalysis
     from rocking.records.accelerogram import Accelerogram
     from rocking.records.response_spectrum import ResponseSpectrum
-    from rocking.structures import Mechanism, Side, Structure
+    from rocking.structures import Mechanism, Structure
     from rocking.structures.structure import CapacityCurve
 
 TIME = "time [s]"
 ACCELERATION = "ground acceleration [m/s²]"
 RATIO = "rotation / critical rotation [-]"
+ZERO: dict[str, Any] = {"color": "0.8", "linewidth": 0.6, "zorder": 0}
 _POINTS = 400
 _SMALLEST, _FALLEN = 1e-3, 1.6
 """Rotation ratio below which a point is set on the edge of a scatter, and where overturning is set."""
@@ -91,7 +92,7 @@ def draw_rotation(
     largest, a bar at the right. level,
     scale: where rest stands and what a ratio of 1 measures in the units of the axes, for several in one panel.
     """
-    axes.axhline(level, color="0.8", linewidth=0.5, zorder=0)
+    axes.axhline(level, **ZERO)
     low, high = (min(value, 1.0) * scale for value in band or (0.0, 0.0))
     for sign in (1, -1):
         if high > 0:
@@ -122,7 +123,7 @@ def draw_levels(
     if np.nanmax(shown, initial=0) > levels[0] and np.nanmin(shown, initial=np.inf) < levels[-1]:
         lines = axes.contour(across, up, shown, levels=levels, colors="black", linewidths=0.7)
         axes.clabel(lines, fmt="%g", fontsize=7)
-    _draw_placed(axes, [(number, p, multiplier) for number, p, multiplier in placed])
+    _draw_placed(axes, placed)
     axes.set_xlabel("frequency parameter p [rad/s]")
     axes.set_ylabel("uplift multiplier λ [-]")
 
@@ -259,7 +260,7 @@ def _plot_analysis(analysis: "PulseAnalysis", axes: Axes) -> None:
 def _plot_response(response: "Response", axes: Axes) -> None:
     times, rotation = _history(response, "integrate with history=True to plot it")
     axes.plot(*thinned(times, rotation), linewidth=0.9, label="rotation")
-    axes.axhline(0, color="0.8", linewidth=0.7, zorder=0)
+    axes.axhline(0, **ZERO)
     if 0 < response.rotation_ratio < math.inf:
         place = int(np.abs(rotation).argmax())
         axes.plot(times[place], rotation[place], "o", fillstyle="none", color="black")
@@ -290,37 +291,32 @@ def _plot_fragility(fragility: "Fragility", axes: Axes) -> None:
 
 def _plot_spectrum(spectrum: "RockingSpectrum", axes: Axes) -> None:
     """Raises MotionError for fewer than two values on either axis, or for a part of a spectrum."""
-    if spectrum.shape != (spectrum.frequency_parameters.size, spectrum.uplift_multipliers.size):
+    whole = spectrum.frequency_parameters.size, spectrum.uplift_multipliers.size
+    if spectrum.shape != whole or min(whole) < 2:
         raise MotionError(
-            f"the spectrum has shape {spectrum.shape}, which is a part of one; plot the whole of it."
+            f"the spectrum has shape {spectrum.shape}, but lines need the whole of it, {whole}, and at least (2, 2)."
         )
-    if min(spectrum.shape) < 2:
-        raise MotionError(f"the spectrum has shape {spectrum.shape}, but lines need at least (2, 2).")
     draw_levels(axes, spectrum.frequency_parameters, spectrum.uplift_multipliers, np.asarray(spectrum))
     axes.set_title("largest rotation / critical rotation; hatched: overturns")
 
 
 def _plot_mechanism(mechanism: "Mechanism", axes: Axes) -> None:
     """I, G and B over their values at rest, up to the critical rotation of each side."""
-    for side, sign in zip(mechanism.sides, (1, -1), strict=False):
-        _plot_side(axes, side, sign)
-    axes.axhline(0, color="0.8", linewidth=0.7, zorder=0)
+    for side, sign, line in zip(mechanism.sides, (1, -1), ("-", "--"), strict=False):
+        rotations = np.linspace(0, side.critical_rotation, _POINTS)
+        for colour, (letter, name) in enumerate({"I": "inertia", "G": "gravity", "B": "ground"}.items()):
+            values = np.array([side.at(name, rotation) for rotation in rotations])
+            label = letter if sign > 0 else None
+            axes.plot(sign * rotations, values / values[0], line, color=f"C{colour}", label=label)
+    axes.axhline(0, **ZERO)
     axes.set(xlabel="rotation [rad]", ylabel="over the value at rest [-]")
     axes.legend()
-
-
-def _plot_side(axes: Axes, side: "Side", sign: int) -> None:
-    rotations = np.linspace(0, side.critical_rotation, _POINTS)
-    for letter, name in (("I", "inertia"), ("G", "gravity"), ("B", "ground")):
-        values = np.array([side.at(name, rotation) for rotation in rotations])
-        colour, label = f"C{'IGB'.index(letter)}", letter if sign > 0 else None
-        axes.plot(sign * rotations, values / values[0], "-" if sign > 0 else "--", color=colour, label=label)
 
 
 def _plot_capacity(curve: "CapacityCurve", axes: Axes) -> None:
     x, y = curve.control_point
     axes.plot(curve.displacement, curve.multiplier, label=f"control point ({x:.3g}, {y:.3g}) m")
-    axes.axhline(0, color="0.8", linewidth=0.7, zorder=0)
+    axes.axhline(0, **ZERO)
     axes.margins(x=0)
     axes.set(xlabel="horizontal displacement of the control point [m]", ylabel="load multiplier G/B [g]")
     axes.legend()

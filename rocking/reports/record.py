@@ -463,10 +463,16 @@ def _appendix(report: RecordReport) -> dict[str, object]:
         "variations": _variation_table(report),
         "tolerance": printing.given(float(report.settings["tolerance"])),
         "acceleration-scale": str(report.settings["acceleration_scale"]),
-        "friction": _friction(report.settings),
-        "vertical": _vertical(record),
+        "friction": printing.given(report.settings.get("friction_coefficient")),
+        "vertical": ", ".join(dict.fromkeys(row.vertical_component for row in record)),
         "arch": any("arch" in row.type for row in report.structure_rows),
-        "origin": _origin(record),
+        # the time of the run is left out
+        "times": ", ".join(dict.fromkeys(row.start_time for row in record if row.start_time)),
+        "files": "; ".join(
+            dict.fromkeys(f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in record)
+        ),
+        "settings": ", ".join(dict.fromkeys(f"{row.settings_sha256[:16]}…" for row in record)),
+        "version": version("rocking"),
     }
 
 
@@ -641,30 +647,3 @@ def _variation_table(report: RecordReport) -> dict[str, object]:
         ),
         *((name, "1", "r", lambda case, name=name: ratio(varied.get((case, name)))) for name in processings),
     )
-
-
-def _vertical(rows: Sequence[RecordRow]) -> str:
-    component = ", ".join(dict.fromkeys(row.vertical_component for row in rows if row.vertical_component))
-    if not component:
-        return "The vertical ground acceleration is left out."
-    return f"The vertical component {component} acts on the integrations, not on the closed form and the spectrum."
-
-
-def _friction(settings: Mapping[str, Any]) -> str:
-    if "friction_coefficient" not in settings:
-        return "Sliding is not checked."
-    coefficient = printing.given(float(settings["friction_coefficient"]))
-    return f"A contact slides where it needs a friction coefficient above {coefficient}."
-
-
-def _origin(rows: Sequence[RecordRow]) -> str:
-    """Say which version made the report of which file of which time. The time of the run is left out."""
-    files = dict.fromkeys(
-        f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in rows if row.record_sha256
-    )
-    times = dict.fromkeys(row.start_time for row in rows if row.start_time)
-    settings = dict.fromkeys(row.settings_sha256[:16] for row in rows if row.settings_sha256)
-    first = f"First sample at {', '.join(times)}. " if times else ""
-    read = f"File: {'; '.join(files)}. " if files else ""
-    end = f", settings and structures {', '.join(settings)}…." if settings else "."
-    return f"{first}{read}rocking {version('rocking')}{end}"

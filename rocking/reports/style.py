@@ -3,9 +3,9 @@
 import io
 import math
 from collections.abc import Callable, Sequence
-from functools import cache, wraps
+from functools import cache
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -35,25 +35,10 @@ MARGINS: Margins = (14.0, 2.0, 8.5, 4.0)
 """Left, right, bottom, top, mm: room for tick labels and one line of axis label."""
 _MILLIMETRES_PER_INCH = 25.4
 
-P = ParamSpec("P")
-R = TypeVar("R")
-
-
-@cache
-def _style() -> matplotlib.RcParams:
-    path = Path(__file__).with_name("rocking.mplstyle")
-    return matplotlib.rc_params_from_file(path, use_default_template=False)
-
-
-def styled(function: Callable[P, R]) -> Callable[P, R]:
-    """Draw inside the package's style, whatever the caller's own settings are."""
-
-    @wraps(function)
-    def inside(*args: P.args, **kwargs: P.kwargs) -> R:
-        with matplotlib.rc_context(_style()):
-            return function(*args, **kwargs)
-
-    return inside
+styled = matplotlib.rc_context(
+    matplotlib.rc_params_from_file(Path(__file__).with_name("rocking.mplstyle"), use_default_template=False)
+)
+"""Decorator: draw inside the package's style, whatever the caller's own settings are."""
 
 
 def new_figure(height: float, width: float = TEXT_WIDTH, margins: Margins = MARGINS) -> Figure:

@@ -23,11 +23,10 @@ def write_trade_report(folder: Path, pdf: Path, image: Path) -> None:
         rows,
         ("Method", "1.4", "l", lambda row: row.method),
         ("Structure", "1.6", "l", lambda row: row.structure or "all"),
-        ("Cases", "0.5", "r", lambda row: printing.given(row.cases)),
+        *printing.columns_of(TradeRow, "cases", "0.5"),
         ("Median error (%)", "0.8", "r", lambda row: printing.number(100 * row.error, 2)),
         ("95 % quantile (%)", "0.8", "r", lambda row: printing.number(100 * row.error_high, 2)),
-        ("Wrong verdicts", "0.7", "r", lambda row: printing.given(row.wrong_verdicts)),
-        ("unsafe", "0.6", "r", lambda row: printing.given(row.unsafe_verdicts)),
+        *printing.columns_of(TradeRow, "wrong_verdicts unsafe_verdicts", "0.7"),
         ("A response (ms)", "0.8", "r", lambda row: printing.number(1e3 * row.cpu_s, 2)),
         ("A record (ms)", "0.7", "r", lambda row: printing.number(1e3 * row.preparation_record_s, 2)),
     )

@@ -95,7 +95,7 @@ def test_what_cannot_be_drawn_is_said():
         rocking.integrate(BLOCK, RECORD).plot()
     with pytest.raises(rocking.MotionError, match="history=True"):
         rocking.integrate(BLOCK, RECORD).frame()
-    with pytest.raises(rocking.MotionError, match="a part of one"):
+    with pytest.raises(rocking.MotionError, match="the whole of it"):
         SPECTRUM[3:].plot()
     with pytest.raises(rocking.MotionError, match="at least"):
         rocking.rocking_spectrum(RECORD, FREQUENCIES[:1], MULTIPLIERS, 0.9).plot()
