@@ -5,9 +5,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from importlib.metadata import version
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from matplotlib.transforms import Affine2D
 
 from rocking.assessment.fate import Fate
 from rocking.assessment.rows.of_folder import RecordTables
@@ -22,11 +27,30 @@ from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.rotation import aligned
 from rocking.reports import printing
-from rocking.reports import record_figures as figures
 from rocking.reports.document import compile_document
-from rocking.reports.panels import Placed
+from rocking.reports.drawings import draw_structure, fallen_rotation, round_length
+from rocking.reports.ground import (
+    POINTS,
+    Motion,
+    draw_ground,
+    ground_figure,
+    measures_figure,
+    pulses_figure,
+    spectra_figure,
+)
+from rocking.reports.panels import Placed, draw_rotation
 from rocking.reports.printing import Cell, columns_of, number, ratio, short, strong, table, table_of, words
-from rocking.reports.style import Picture, picture, pictures
+from rocking.reports.style import (
+    PREDICTED,
+    TEXT_WIDTH,
+    Picture,
+    elided,
+    new_figure,
+    panel_at,
+    picture,
+    pictures,
+    styled,
+)
 from rocking.structures import Structure
 
 ABOUT = ("study", "client", "author", "date")
@@ -39,6 +63,21 @@ MOST_COMPARED = 24
 """Cases whose comparison is drawn, those with the largest rotations."""
 _LETTERS = 24
 """Of a line below a drawing."""
+LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
+    Verdict.OVERTURNS: ("▲", "#7a2400", "white", "xxxx"),
+    Verdict.UNDECIDED: ("?", "#f0a030", "black", "///"),
+    Verdict.UNKNOWN: ("–", "white", "black", ""),
+    Verdict.STANDS: ("●", "#dceaf7", "black", ""),
+}
+"""Sign, colour, colour of letters on it, and pattern of each verdict: in print without colour the others tell it."""
+_COLUMNS, _CELL, _DRAWN = 5, (34.0, 67.0), (30.0, 27.0)
+"""Structures of a row of page one; width and height of each, and the room for its drawing, mm."""
+_HISTORIES, _HIGHEST_ROW = 160.0, 30.0
+"""Height of all histories together, and of one at most, mm."""
+_STILL, _HIGHEST = 0.01, 1.25
+"""Share of the largest rotation below which a history is cut; rotation ratio beyond which it is not drawn."""
+_SMALLEST, _FALLEN = 1e-3, 2.2
+"""Rotation ratios at the left end of the comparison, and where overturning stands."""
 SPECTRUM_POINTS = 36
 NO_BLOCK = 1.0
 """Defect from which on the block means nothing: it is as large as what is described."""
@@ -100,12 +139,12 @@ class RecordReport:
         return {name: str(place) for place, name in enumerate(names, start=1)}
 
     @cached_property
-    def motions(self) -> list[figures.Motion]:
+    def motions(self) -> list[Motion]:
         """The components that were assessed, with their ranked pulses."""
         assessed = {row.component for row in self.tables.record}
         ranked = sorted((row for row in self.tables.pulses if row.ranked), key=lambda row: row.rank)
         return [
-            figures.Motion(each, [row.pulse for row in ranked if row.component == each.component])
+            Motion(each, [row.pulse for row in ranked if row.component == each.component])
             for each in self.accelerograms
             if each.component in assessed
         ]
@@ -183,12 +222,10 @@ def _page_one(report: RecordReport) -> dict[str, object]:
         "subtitle": _subtitle(report.tables.record),
         "key": [_key_numbers(row) for row in report.tables.record],
         "ground": pictures(
-            figures.ground_figure, report.motions, "Acceleration of the ground and its dominant pulse."
+            ground_figure, report.motions, "Acceleration of the ground and its dominant pulse."
         ),
         "strip": pictures(
-            figures.strip_figure,
-            [_state(report, fate) for fate in shown],
-            f"Drawings of the structures in their state: {names}.",
+            strip_figure, shown, f"Drawings of the structures in their state: {names}.", report
         ),
         "strip-note": _left_out(len(report.fates) - len(shown), "other structure", "verdicts"),
         "headlines": headlines(report.fates),
@@ -201,15 +238,70 @@ def _left_out(many: int, noun: str, table: str) -> str:
     return f" {counted(many, noun)} in the table of {table}." if many else ""
 
 
-def _state(report: RecordReport, fate: Fate) -> figures.State:
-    """A structure as page one draws it: with the crack that statics chooses, and what is said below it."""
-    structure = given = report.structures[fate.structure]
-    for row in report.tables.candidates:
-        chosen = row.structure == fate.structure and row.description == fate.crack
-        if chosen and math.isfinite(row.position_m):
-            structure = given.cracked_at(row.position_m)
-            break
-    multiplier = given.mechanism().uplift_multiplier
+@styled
+def strip_figure(fates: Sequence[Fate], report: RecordReport) -> Figure:
+    """Draw each structure in its state, to one scale each: standing, rocking to its largest rotation, or fallen."""
+    rows = math.ceil(len(fates) / _COLUMNS)
+    width, height = _CELL
+    figure = new_figure(rows * height, margins=(0, 0, 0, 0))
+    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, TEXT_WIDTH), ylim=(-rows * height, 0))
+    axes.set_axis_off()
+    for place, fate in enumerate(fates):
+        row, column = divmod(place, _COLUMNS)
+        _draw_state(axes, report, fate, (column + 0.5) * width, -row * height)
+    return figure
+
+
+def _draw_state(axes: Axes, report: RecordReport, fate: Fate, middle: float, top: float) -> None:
+    sign, colour, ink, hatch = LOOKS[fate.verdict]
+    structure = _cracked(report, fate)
+    rotation = drawn_rotation(structure, fate)
+    points = np.vstack([*structure.outline(), *structure.outline(rotation)])
+    low, high = points.min(axis=0), points.max(axis=0)
+    scale = float(min(np.array(_DRAWN) / (high - low)))
+    foot = np.array([middle, top - 7 - _DRAWN[1]])
+    origin = np.array([(low[0] + high[0]) / 2, min(low[1], 0.0)])
+    place = Affine2D().translate(*-origin).scale(scale).translate(*foot)
+    look = {"facecolor": colour, "hatch": hatch, "edgecolor": "0.25", "linewidth": 0.6}
+    draw_structure(axes, structure, rotation, look=look, place=place)
+    axes.plot([middle - 15, middle + 15], [foot[1]] * 2, color="0.5", linewidth=0.6, zorder=0)
+    label = elided(f"{report.numbers[fate.structure]} {fate.structure}", 23)
+    axes.text(middle, top - 1, label, ha="center", va="top", fontweight="bold")
+    bar = round_length(0.5 * _DRAWN[0] / scale)
+    axes.plot([middle - bar * scale / 2, middle + bar * scale / 2], [foot[1] - 2.0] * 2, "k", linewidth=1.5)
+    axes.text(middle + bar * scale / 2 + 1, foot[1] - 2.0, f"{bar:g} m", va="center", fontsize=7)
+    frame = Rectangle(
+        (middle - 16, foot[1] - 8.5), 32, 4.5, facecolor=colour, edgecolor="0.25", linewidth=0.5
+    )
+    axes.add_patch(frame)
+    word = f"{sign} {fate.verdict}"
+    axes.text(middle, foot[1] - 6.3, word, ha="center", va="center", color=ink, fontweight="bold")
+    below = "\n".join(_lines(report, fate))
+    axes.text(middle, foot[1] - 9.5, below, ha="center", va="top", fontsize=7, linespacing=1.25)
+
+
+def _cracked(report: RecordReport, fate: Fate) -> Structure:
+    """The structure with the crack that statics chooses."""
+    structure = report.structures[fate.structure]
+    of_structure = (row for row in report.tables.candidates if row.structure == fate.structure)
+    chosen = next((row.position_m for row in of_structure if row.description == fate.crack), math.nan)
+    return structure.cracked_at(chosen) if math.isfinite(chosen) else structure
+
+
+def drawn_rotation(structure: Structure, fate: Fate) -> float:
+    """Return the signed rotation of a structure on page one, rad: fallen, at its largest rotation or at rest."""
+    side = -1 if fate.peak_side == -1 else 1
+    if math.isinf(fate.rotation_ratio) or fate.verdict is Verdict.OVERTURNS:
+        return fallen_rotation(structure, side)
+    if not fate.rotation_ratio > NEGLIGIBLE:
+        return 0.0
+    sides = structure.mechanism().sides
+    return side * fate.rotation_ratio * sides[0 if side > 0 else -1].critical_rotation
+
+
+def _lines(report: RecordReport, fate: Fate) -> list[str]:
+    """What stands below a drawing: members, rotation, statics, and what opens."""
+    multiplier = report.structures[fate.structure].mechanism().uplift_multiplier
     peak = max((row.peak_acceleration_m_s2 for row in report.tables.record), default=math.nan) / GRAVITY
     lines = [
         f"{fate.count} overturn" if fate.members else "one run",
@@ -219,10 +311,10 @@ def _state(report: RecordReport, fate: Fate) -> figures.State:
         low, high = (_printed(each, fate) for each in (fate.rotation_ratio_low, fate.rotation_ratio_high))
         lines.append(f"5–95 %: {low} to {'falling' if high == 'overturns' else high}")
     lines.append(f"static {number(multiplier, 2)} g, PGA {number(peak / multiplier, 2)} ×")
-    lines += [short(crack, _LETTERS) for crack in (fate.crack, fate.elsewhere_crack) if crack]
+    lines += [*wrap(fate.crack, _LETTERS), *wrap(fate.elsewhere_crack, _LETTERS)]
     if fate.elsewhere_crack and fate.elsewhere_members:
         lines.append(f"there {fate.elsewhere_overturning_members} of {fate.elsewhere_members} overturn")
-    return figures.State(f"{report.numbers[fate.structure]} {fate.structure}", structure, fate, tuple(lines))
+    return lines
 
 
 def _printed(value: float, fate: Fate) -> str:
@@ -325,15 +417,26 @@ def _page_two(report: RecordReport) -> dict[str, object]:
     left = len(report.fates) - len(shown)
     alt = f"Rotation histories of {counted(len(shown), 'structure')} above the acceleration of the ground."
     return {
-        "histories": pictures(figures.histories_figure, shown, alt, report.motions),
+        "histories": pictures(histories_figure, shown, alt, report),
         "histories-note": f" {counted(left, 'structure')} not drawn: at rest, or less demanding."
         if left
         else "",
     }
 
 
-def _history(report: RecordReport, fate: Fate) -> figures.History | None:
-    """The history of a structure under the component that turns it farthest; None where it rests."""
+@dataclass(frozen=True, eq=False)
+class History:
+    """How a structure moves under the component that turns it farthest: rotation ratio (k,) over time (k,) s."""
+
+    fate: Fate
+    row: ComparisonRow
+    times: np.ndarray
+    ratio: np.ndarray
+    impacts: int
+
+
+def _history(report: RecordReport, fate: Fate) -> History | None:
+    """The history of a structure; None where it rests."""
     row = report.worst.get(fate.structure)
     if (
         row is None
@@ -349,17 +452,61 @@ def _history(report: RecordReport, fate: Fate) -> figures.History | None:
         response = integrate(mechanism, accelerogram, tolerance, history=True, vertical=beside)
     if response.times is None or response.rotation is None or response.times.size < 2:
         return None
-    sides = mechanism.sides
-    critical = np.where(response.rotation < 0, sides[-1].critical_rotation, sides[0].critical_rotation)
-    component = f", {elided_component(row.component)}" if len(report.motions) > 1 else ""
+    first, last = mechanism.sides[0].critical_rotation, mechanism.sides[-1].critical_rotation
+    ratio = response.rotation / np.where(response.rotation < 0, last, first)
+    return History(fate, row, response.times, ratio, response.impacts)
+
+
+@styled
+def histories_figure(histories: Sequence[History], report: RecordReport) -> Figure:
+    """Draw the rotation of each structure, one below the other, and beneath them the ground, on one time axis.
+
+    Each row has a scale of its own, which stands below its name.
+    """
+    row = min(_HIGHEST_ROW, _HISTORIES / len(histories))
+    below, left, width = 20.0, 38.0, TEXT_WIDTH - 77
+    figure = new_figure(row * len(histories) + below * len(report.motions) + 9)
+    panel = panel_at(figure, left, 1, width, row * len(histories))
+    for place, history in enumerate(histories):
+        _draw_history(panel, report, history, -place)
+    # the time in which anything moves
+    sizes = [np.abs(history.ratio) for history in histories]
+    moving = [each.times[size > _STILL * size.max()] for each, size in zip(histories, sizes, strict=True)]
+    begin, end = (float(extreme(np.concatenate(moving))) for extreme in (np.min, np.max))
+    span = max(0.0, begin - 0.05 * (end - begin)), end + 0.05 * (end - begin) + 1e-3
+    panel.set(xlim=span, ylim=(0.5 - len(histories), 0.5), xticks=[], yticks=[])
+    panel.spines[["left", "bottom"]].set_visible(False)
+    for place, motion in enumerate(report.motions):
+        top = 2 + row * len(histories) + place * below
+        draw_ground(panel_at(figure, left, top, width, below - 3), motion, span, motion is report.motions[-1])
+    return figure
+
+
+def _draw_history(panel: Axes, report: RecordReport, history: History, level: int) -> None:
+    fate, row = history.fate, history.row
     predicted = row.predicted_rotation_ratio
+    largest = (each for each in (float(np.abs(history.ratio).max()), predicted) if 0 < each < math.inf)
+    reach = min(1.25 * max(largest, default=1.0), _HIGHEST)
+    low, high = (min(each, reach) for each in (fate.rotation_ratio_low, fate.rotation_ratio_high))
+    draw_rotation(
+        panel,
+        history.times,
+        np.clip(history.ratio, -reach, reach),
+        predicted if predicted <= reach else math.inf,
+        (low, high) if fate.members else None,
+        level=level,
+        scale=0.45 / reach,
+        most=POINTS,
+    )
+    component = f", {elided_component(row.component)}" if len(report.motions) > 1 else ""
+    label = f"{elided(f'{report.numbers[fate.structure]} {fate.structure}', 22)}\n± {reach:.2g}"
     remark = (
-        f"{ratio(row.integrated_rotation_ratio, 2)}{component}, {counted(response.impacts, 'impact')}\n"
+        f"{ratio(row.integrated_rotation_ratio, 2)}{component}, {counted(history.impacts, 'impact')}\n"
         f"closed form: {ratio(predicted, 2)}"
     )
-    band = (fate.rotation_ratio_low, fate.rotation_ratio_high) if fate.members else None
-    label = f"{report.numbers[fate.structure]} {fate.structure}"
-    return figures.History(label, response.times, response.rotation / critical, predicted, band, remark)
+    beside: dict[str, Any] = {"transform": panel.get_yaxis_transform(), "va": "center", "fontsize": 7}
+    panel.text(-0.02, level, label, ha="right", linespacing=1.3, **beside)
+    panel.text(1.01, level, remark, ha="left", linespacing=1.3, **beside)
 
 
 def elided_component(name: str) -> str:
@@ -377,29 +524,56 @@ def _page_three(report: RecordReport) -> dict[str, object]:
     )
     drawn = [row for row in rows if row in demanding[-MOST_COMPARED:]]
     with_pulse = [motion for motion in report.motions if motion.pulses]
+    alt = f"Closed form beside integration of {counted(len(drawn), 'case')}."
     return {
-        "pulse-figures": pictures(figures.pulses_figure, with_pulse, "The dominant pulse and its evidence."),
-        "comparison": pictures(
-            figures.comparison_figure,
-            [_compared(report, row) for row in drawn],
-            f"Closed form beside integration of {counted(len(drawn), 'case')}.",
-        ),
+        "pulse-figures": pictures(pulses_figure, with_pulse, "The dominant pulse and its evidence."),
+        "comparison": pictures(comparison_figure, drawn, alt, report),
         "comparison-note": _left_out(len(rows) - len(drawn), "other case", "every method"),
         "pulse-sentences": [_pulse_sentence(report, motion) for motion in with_pulse],
         "doubts": _doubts(report, rows),
     }
 
 
-def _compared(report: RecordReport, row: ComparisonRow) -> figures.Compared:
-    name = f"{report.numbers[row.structure]} {row.structure}"
-    if len(report.motions) > 1:
-        name = f"{short(name, 20)}, {elided_component(row.component)}"
-    block = report.ratio(row.case, Method.BLOCK_ON_RECORD)
-    ratios = (row.predicted_rotation_ratio, block, row.integrated_rotation_ratio)
-    return figures.Compared(name, ratios, row.agreement, row.prediction_in_words)
+@styled
+def comparison_figure(cases: Sequence[ComparisonRow], report: RecordReport) -> Figure:
+    """Draw closed form, block and mechanism of each case on one line, bold where the closed form is unsafe."""
+    height = 4.3 * len(cases)
+    figure = new_figure(height + 16)
+    panel = panel_at(figure, 46, 6, TEXT_WIDTH - 46 - 40, height)
+    rows = np.arange(len(cases))
+    blocks = [report.ratio(case.case, Method.BLOCK_ON_RECORD) for case in cases]
+    ratios = np.array(
+        [
+            [case.predicted_rotation_ratio, block, case.integrated_rotation_ratio]
+            for case, block in zip(cases, blocks, strict=True)
+        ]
+    )
+    form, block, whole = np.where(np.isinf(ratios), _FALLEN, np.maximum(ratios, _SMALLEST)).T
+    unsafe = np.array([case.agreement is Agreement.TOO_LOW for case in cases])
+    panel.hlines(rows[~unsafe], form[~unsafe], whole[~unsafe], color="0.6", linewidth=0.8)
+    panel.hlines(rows[unsafe], form[unsafe], whole[unsafe], color="#D55E00", linewidth=2.0)
+    panel.plot(form, rows, "D", color=PREDICTED, fillstyle="none", markersize=5, label="closed form, pulse")
+    panel.plot(block, rows, "s", color="0.45", fillstyle="none", markersize=4, label="block, whole record")
+    panel.plot(whole, rows, "o", color="black", markersize=3.5, label="mechanism, whole record")
+    labels = []
+    for place, case in enumerate(cases):
+        name = f"{report.numbers[case.structure]} {case.structure}"
+        several = len(report.motions) > 1
+        labels.append(f"{short(name, 20)}, {elided_component(case.component)}" if several else name)
+        remark = case.prediction_in_words
+        panel.text(1.02, place, remark, transform=panel.get_yaxis_transform(), va="center", fontsize=7)
+    panel.set(xscale="log", xlim=(0.7 * _SMALLEST, 1.5 * _FALLEN), ylim=(len(cases) - 0.5, -0.5))
+    panel.set_yticks(rows, [elided(label, 30) for label in labels])
+    ticks = {_SMALLEST: "rests", 0.01: "0.01", 0.1: "0.1", 0.3: "0.3", 1.0: "1", _FALLEN: "overturns"}
+    panel.set_xticks(list(ticks), list(ticks.values()))
+    panel.set_xticks([], minor=True)
+    panel.axvline(1.0, color="0.5", linewidth=0.5)
+    panel.set_xlabel("largest rotation / critical rotation [-]")
+    figure.legend(loc="upper center", ncols=3)
+    return figure
 
 
-def _pulse_sentence(report: RecordReport, motion: figures.Motion) -> str:
+def _pulse_sentence(report: RecordReport, motion: Motion) -> str:
     """Say what the dominant pulse of a component is, and what makes it doubtful."""
     component = motion.accelerogram.component
     of_component = report.tables.of_component(component)
@@ -453,7 +627,7 @@ def _appendix(report: RecordReport) -> dict[str, object]:
     tables, record = report.tables, report.tables.record
     alt = "Response spectrum with the structures on it, velocity and displacement of the ground."
     return {
-        "measures": pictures(figures.measures_figure, report.motions, alt, report.placed),
+        "measures": pictures(measures_figure, report.motions, alt, report.placed),
         "spectra": _spectra(report),
         "facts": facts_table(record),
         "verdicts": _verdict_table(report),
@@ -491,7 +665,7 @@ def _spectra(report: RecordReport) -> list[Picture]:
     }
     if not any(levels[2].any() for levels in spectra.values()):
         return []
-    drawn = figures.spectra_figure(spectra, report.placed)
+    drawn = spectra_figure(spectra, report.placed)
     shown = picture(drawn, "Rocking spectra with the structures on them.")
     return [shown | {"restitution": number(restitution, 2)}]
 

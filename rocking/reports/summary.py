@@ -19,8 +19,7 @@ from rocking.reports.document import compile_document
 from rocking.reports.fragility import fragility_table
 from rocking.reports.panels import draw_agreement
 from rocking.reports.printing import NOTHING, Cell, columns_of, given, number, ratio, strong, table_of, words
-from rocking.reports.record import ABOUT, METHODS
-from rocking.reports.record_figures import LOOKS
+from rocking.reports.record import ABOUT, LOOKS, METHODS
 from rocking.reports.style import new_figure, pictures, styled
 from rocking.tables import rows_of
 

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from rocking.assessment.verdict import Verdict
 from rocking.reports.drawings import draw_structure, fallen_rotation, round_length, seen_rotation
-from rocking.reports.record_figures import State, drawn_rotation, strip_figure
+from rocking.reports.record import drawn_rotation, strip_figure
 from rocking.reports.style import MOST_POINTS, fixed_ticks, svg, thinned
 from rocking.structures import Arch, Block, Wall
 
@@ -46,14 +46,14 @@ def test_page_one_draws_a_structure_as_it_fell_rocked_or_stands():
     assert drawn_rotation(block, fate(Verdict.UNDECIDED, math.inf, peak_side=-1)) < -critical
 
 
-def test_a_strip_names_every_structure_its_verdict_and_its_lines():
-    states = tuple(
-        State(f"{place} $x^$", structure, fate(verdict, 0.1), ("said",))
-        for place, (structure, verdict) in enumerate(zip(STRUCTURES, Verdict, strict=False))
-    )
-    drawn = svg(strip_figure(states))
-    assert all(f">{state.label}</text>" in drawn and state.fate.verdict in drawn for state in states)
-    assert drawn.count(">said</text>") == len(states) and drawn == svg(strip_figure(states))
+def test_a_strip_names_every_structure_its_verdict_and_its_lines(example):
+    drawn = svg(strip_figure(example.fates, example))
+    assert drawn == svg(strip_figure(example.fates, example))
+    for each in example.fates:
+        assert (
+            f">{example.numbers[each.structure]} {each.structure}</text>" in drawn and each.verdict in drawn
+        )
+        assert f">{each.count} overturn</text>" in drawn
 
 
 def test_a_thinned_trace_keeps_its_peaks_and_few_points():
