@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from docs.research import scores
-from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, properties
+from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, properties, rectangle
 from docs.research.comparison.codes import ask
 from docs.research.report import publish
 from docs.research.sites import independent, lifting_factor, one_of_each
@@ -80,20 +80,18 @@ class Member:
     def mechanisms(self) -> dict[int, Mechanism]:
         """The mechanism of each joint that may open, by the number of courses beneath it."""
         with warnings.catch_warnings():
-            warnings.simplefilter(
-                "ignore", StructureWarning
-            )  # a course wider than high keeps nothing, as meant
+            # A course wider than high keeps nothing of an impact, which is meant here.
+            warnings.simplefilter("ignore", StructureWarning)
             if self.slab is None:
                 return {joint: self._above(joint).mechanism() for joint in range(self.courses)}
-            return {joint: self._hinged(joint).mechanism() for joint in range(1, self.courses)}
+            return {joint: self._hinged(joint, self.slab).mechanism() for joint in range(1, self.courses)}
 
-    def _hinged(self, joint: int) -> LoadedWall:
+    def _hinged(self, joint: int, slab: float) -> LoadedWall:
         """The wall under its slab, hinged at a joint."""
-        thickness, hinge = float(np.ptp(self.sections[0])), self.height * joint / self.courses
-        load = (self.slab or 0.0) * UNIT_WEIGHT * self.height * thickness
-        return LoadedWall.hinged_at(
-            self.height, hinge, thickness, UNIT_WEIGHT, top_load=load, top_slab="flat"
-        )
+        height, thickness = self.height, float(np.ptp(self.sections[0]))
+        load = slab * UNIT_WEIGHT * height * thickness
+        hinge = height * joint / self.courses
+        return LoadedWall.hinged_at(height, hinge, thickness, UNIT_WEIGHT, top_load=load, top_slab="flat")
 
     def _above(self, joint: int) -> RigidBody:
         """All courses above a joint as one body."""
@@ -108,17 +106,14 @@ class Member:
 
     def bodies(self) -> RigidBodies:
         """Return the courses on what moves with the ground, and the slab."""
-        (left, right), top = self.sections[0], self.sections[-1]
-        ground = _box(left - 3.0, right + 3.0, -BASE_DEPTH, 0.0)
+        left, right = self.sections[0]
+        stack = (rectangle(left - 3.0, right + 3.0, -BASE_DEPTH, 0.0), *self.polygons)
         if self.slab is None:
-            return RigidBodies((ground, *self.polygons), (0,), depths=(1.0, *self.depths))
-        thickness = right - left
-        slab = _box(
-            top[0] - thickness, top[1] + thickness, self.height, self.height + self.slab * self.height / 3
-        )
-        return RigidBodies(
-            (ground, *self.polygons, slab), (0,), guided=(self.courses + 1,), depths=(1.0, *self.depths, 1.0)
-        )
+            return RigidBodies(stack, (0,), depths=(1.0, *self.depths))
+        wide, top = right - left, self.height * (1 + self.slab / 3)
+        slab = rectangle(left - wide, right + wide, self.height, top)
+        depths = (1.0, *self.depths, 1.0)
+        return RigidBodies((*stack, slab), (0,), guided=(self.courses + 1,), depths=depths)
 
 
 @cache
@@ -275,15 +270,12 @@ def crack_scores(rows: Sequence[CrackRow]) -> Iterator[scores.Score]:
         own = [each for each in answered if kind in ("all", each.kind)]
         falls = np.array([float(bool(each.falls)) for each in own])
         verdicts = np.array([each.verdict for each in own])
-        at_static = np.array(
-            [float(each.opened == each.static_joint) if each.falls else np.nan for each in own]
-        )
+        at_static = [each.opened == each.static_joint if each.falls else np.nan for each in own]
+        stands, overturns = verdicts == Verdict.STANDS, verdicts == Verdict.OVERTURNS
         measures = {
-            'falls among "stands"': scores.mean(np.where(verdicts == Verdict.STANDS, falls, np.nan)),
-            'survivals among "overturns"': scores.mean(
-                np.where(verdicts == Verdict.OVERTURNS, 1 - falls, np.nan)
-            ),
-            "undecided": scores.mean((verdicts == Verdict.UNDECIDED).astype(float)),
+            'falls among "stands"': scores.mean(np.where(stands, falls, np.nan)),
+            'survivals among "overturns"': scores.mean(np.where(overturns, 1 - falls, np.nan)),
+            "undecided": scores.mean(verdicts == Verdict.UNDECIDED),
             "falls at the joint of least λ": scores.mean(at_static),
         }
         if own:
@@ -293,10 +285,6 @@ def crack_scores(rows: Sequence[CrackRow]) -> Iterator[scores.Score]:
 def _faces(base: float, top: float, courses: int) -> np.ndarray:
     half = np.linspace(base, top, courses + 1) / 2
     return np.column_stack([-half, half])
-
-
-def _box(left: float, right: float, low: float, high: float) -> np.ndarray:
-    return np.array([[left, low], [right, low], [right, high], [left, high]])
 
 
 def main() -> None:

@@ -9,7 +9,6 @@ import zlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -27,6 +26,7 @@ from rocking.assessment.ensemble import (
     lattice,
 )
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
+from rocking.pulses import rotated
 from rocking.records import Accelerogram
 from rocking.structures import Structure
 from rocking.tables import Row, column, row
@@ -43,7 +43,9 @@ EDGES = (0.0, 0.02, 0.2, 0.4, 0.6, 0.8, 0.98, 1.0)
 """Of the classes of a reliability diagram."""
 BEYOND = 0.03
 """By how much the share of the opposite may exceed the risk of a verdict."""
-CHOSEN, LEFT_OUT = "chosen", "left out"
+CHOSEN, LEFT_OUT, PAIRS = "chosen", "left out", "pairs, all directions"
+ALL_DIRECTIONS = 24
+"""Between which the draws of a pair choose."""
 
 
 @row(
@@ -54,7 +56,7 @@ class EnsembleTrial(Row):
 
     record: str = column("Identifier of the record in the catalogue")
     site: str = column("Event and station")
-    half: str = column("chosen: of the sites on which the allowance was chosen; left out: of the others")
+    half: str = column("chosen: a site on which the allowance was chosen; left out: another; or a pair")
     structure: str = column("Name of the structure")
     scale_factor: float = column("What the record was multiplied by")
     verdict: Verdict = column("Verdict of the ensemble")
@@ -75,43 +77,57 @@ def try_ensembles(
     structures: Mapping[str, Structure],
     draws: int = DRAWS,
 ) -> Iterator[EnsembleTrial]:
-    """Yield trials of the components that count, at scales that spread from uplift to overturning.
+    """Yield trials of the components that count, and of the pairs, at scales that spread from uplift to overturning.
 
-    others: records that took no part in any choice. Each component is tried with some of `structures`.
+    others: records that took no part in any choice. Each component and each pair is tried with some of `structures`.
     """
     first, names = list(near_fault), list(structures)
     near = {site_of(record) for _, record in first}
-    for place, (name, site, record) in enumerate(independent(chain(first, others))):
-        rng = np.random.default_rng(zlib.crc32(name.encode()))
+    alone: list[tuple[str, str, str, list[Accelerogram]]] = []
+    pairs: dict[str, tuple[str, str, str, list[Accelerogram]]] = {}
+    for name, site, record in independent(chain(first, others)):
         odd = zlib.crc32(f"{record.event}; {record.station}".encode()) % 2  # how the halves were once drawn
-        half = CHOSEN if odd and site in near else LEFT_OUT
-        for k in range(STRUCTURES_PER_RECORD):
-            structure = names[(place * STRUCTURES_PER_RECORD + k) % len(names)]
-            trial = _trial(structures[structure], record, rng, draws)
-            yield EnsembleTrial(record=name, site=site, half=half, structure=structure, **trial)
+        alone.append((name, site, CHOSEN if odd and site in near else LEFT_OUT, [record]))
+        pairs.setdefault(site, (name, site, PAIRS, []))[-1].append(record)
+    for group in (alone, [each for each in pairs.values() if len(each[-1]) > 1]):
+        for place, (name, site, half, components) in enumerate(group):
+            rng = np.random.default_rng(zlib.crc32(name.encode()))
+            for k in range(STRUCTURES_PER_RECORD):
+                structure = names[(place * STRUCTURES_PER_RECORD + k) % len(names)]
+                about = {"record": name, "site": site, "half": half, "structure": structure}
+                yield _trial(about, structures[structure], components, rng, draws)
 
 
 def _trial(
-    structure: Structure, record: Accelerogram, rng: np.random.Generator, draws: int
-) -> dict[str, Any]:
-    """The columns of one trial, but those that name it."""
+    about: Mapping[str, str],
+    structure: Structure,
+    components: Sequence[Accelerogram],
+    rng: np.random.Generator,
+    draws: int,
+) -> EnsembleTrial:
+    """Return the trial of a structure under one component, or two. about: what names it."""
     mechanism, settings = structure.mechanism(), EnsembleSettings()
-    factor = lifting_factor(record, mechanism.uplift_multiplier, UPLIFTS, rng)
-    motions = GroundMotions.of(record.scaled(factor))
+    factor = lifting_factor(components[0], mechanism.uplift_multiplier, UPLIFTS, rng)
+    scaled = [each.scaled(factor) for each in components]
+    motions = GroundMotions.of_pair(*scaled) if len(scaled) > 1 else GroundMotions.of(*scaled)
+    everywhere = _all_directions(*scaled) if len(scaled) > 1 else motions
     few, more = (drawn(mechanism, motions, lattice(size), settings) for size in ALLOWED)
-    many = drawn(mechanism, motions, rng.random((draws, len(CAUSES))), settings)
+    many = drawn(mechanism, everywhere, rng.random((draws, len(CAUSES))), settings)
     whole = ensemble(mechanism, motions, settings)
-    return {
-        "scale_factor": factor,
-        "verdict": whole.verdict,
-        "members": whole.members,
-        "share": whole.overturning_share,
-        "share_64": few.overturning_share,
-        "share_256": more.overturning_share,
-        "share_drawn": many.overturning_share,
-        "draws": many.members,
-        "inside_band": _inside(whole, many),
-    }
+    shares = {"share": whole, "share_64": few, "share_256": more, "share_drawn": many}
+    return EnsembleTrial.of(
+        about,
+        whole,
+        {name: each.overturning_share for name, each in shares.items()},
+        scale_factor=factor,
+        draws=many.members,
+        inside_band=_inside(whole, many),
+    )
+
+
+def _all_directions(first: Accelerogram, second: Accelerogram) -> GroundMotions:
+    turned = [rotated(first, second, np.pi * k / ALL_DIRECTIONS) for k in range(ALL_DIRECTIONS)]
+    return GroundMotions({(str(k), ""): motion for k, motion in enumerate(turned)})
 
 
 def _inside(whole: Ensemble, many: Ensemble) -> float:
@@ -145,7 +161,9 @@ def _measures(trials: Sequence[EnsembleTrial]) -> Mapping[str, scores.Measure]:
     verdicts = [trial.verdict for trial in trials]
     excluded = {Verdict.STANDS: truth, Verdict.OVERTURNS: 1 - truth}
     against = np.array([excluded[each][k] if each in excluded else np.nan for k, each in enumerate(verdicts)])
-    too_sure = np.where(np.isnan(against), np.nan, against > EnsembleSettings().risk + BEYOND)
+    beyond, too_sure = (
+        np.where(np.isnan(against), np.nan, against > EnsembleSettings().risk + more) for more in (0, BEYOND)
+    )
     measures: dict[str, scores.Measure] = {}
     for size, allowed in ALLOWED.items():
         few = np.array([getattr(trial, f"share_{size}") for trial in trials])
@@ -154,6 +172,8 @@ def _measures(trials: Sequence[EnsembleTrial]) -> Mapping[str, scores.Measure]:
     return measures | {
         "share of draws inside the 5-95 % band (0.87 to 0.93 is asked)": scores.mean(inside),
         f"share of verdicts beyond their risk by more than {BEYOND} (0 is asked)": scores.mean(too_sure),
+        "share of verdicts beyond their risk": scores.mean(beyond),
+        "verdicts": lambda rows: float((~np.isnan(against[rows])).sum()),
         "share of cases decided": scores.mean(
             np.array([float(v is not Verdict.UNDECIDED) for v in verdicts])
         ),

@@ -36,17 +36,10 @@ def publish(
 def _score_table(scores: Sequence[Score], part: str) -> dict[str, object]:
     """A line for each measure and subject of one part of the cases."""
     own = sorted((each for each in scores if each.part == part), key=lambda each: each.measure)
-    number = printing.number
-    table = printing.table_of(
-        own,
-        ("Measure", "2", "l", lambda row: row.measure),
-        ("Subject", "1.6", "l", lambda row: row.subject),
-        ("Value", "0.6", "r", lambda row: number(row.value)),
-        ("90 % interval", "1.1", "r", lambda row: f"{number(row.value_low)} to {number(row.value_high)}"),
-        ("Cases", "0.5", "r", lambda row: printing.given(row.cases)),
-        ("Sites", "0.5", "r", lambda row: printing.given(row.sites)),
-    )
-    return {**table, "caption": f"{printing.sentence(part)}; intervals by resampling sites."}
+    names = "measure subject value value_low value_high cases sites"
+    columns = printing.columns_of(Score, names, "0.6", measure="2", subject="1.6")
+    caption = f"{printing.sentence(part)}; 90 % intervals by resampling sites."
+    return {**printing.table_of(own, *columns), "caption": caption}
 
 
 @styled

@@ -3,6 +3,7 @@
 import hashlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -44,23 +45,34 @@ class TierCase:
 
 @dataclass(frozen=True, eq=False)
 class TierCases:
-    """All cases as arrays. shares: (n,) of the members that overturn. sites: (n,). frequencies: range of p, rad/s."""
+    """All cases, and what they are as arrays."""
 
     cases: Sequence[TierCase]
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "shares", np.array([case.share for case in self.cases]))
-        own = [case.measures["frequency_parameter"] for case in self.cases]
-        object.__setattr__(self, "frequencies", (min(own), max(own)))
-        object.__setattr__(self, "sites", np.array([case.site for case in self.cases]))
+    @cached_property
+    def shares(self) -> np.ndarray:
+        """(n,) share of the members that overturn."""
+        return np.array([case.share for case in self.cases])
 
-    def fit(self, tier: Tier, kept: np.ndarray | slice = slice(None)) -> TierFit:
-        """Return `tier` fitted to the cases `kept`."""
-        return fit_tier(tier, self.terms(tier)[kept], self.shares[kept], self.sites[kept], self.frequencies)
+    @cached_property
+    def sites(self) -> np.ndarray:
+        """(n,) site of each."""
+        return np.array([case.site for case in self.cases])
 
     def terms(self, tier: Tier) -> np.ndarray:
         """Return (n, k) of the terms that `tier` takes."""
         return np.array([[case.measures[term] for term in tier.terms] for case in self.cases])
+
+    def fit(self, tier: Tier, kept: np.ndarray | slice = slice(None)) -> TierFit:
+        """Return `tier` fitted to the cases `kept`, one of which weighs as much as another."""
+        terms = self.terms(tier)[kept]
+        centre, spread = terms.mean(axis=0), terms.std(axis=0)
+        spread = np.where(spread > 0, spread, 1.0)
+        design = np.column_stack([np.ones(len(terms)), (terms - centre) / spread])
+        fitted = scores.logistic(design, self.shares[kept], self.sites[kept])
+        frequencies = [case.measures["frequency_parameter"] for case in self.cases]
+        ends = min(frequencies), max(frequencies)
+        return TierFit(tier, centre, spread, terms.min(axis=0), terms.max(axis=0), *fitted, ends)
 
 
 def tier_cases(
@@ -78,26 +90,12 @@ def tier_cases(
                 motion = record.scaled(factor)
                 if stays_at_rest(mechanism, motion):
                     continue
-                motions, points = GroundMotions.of(motion), lattice(MEMBERS)
-                members = drawn(mechanism, motions, points, EnsembleSettings())
+                points = lattice(MEMBERS)
+                members = drawn(mechanism, GroundMotions.of(motion), points, EnsembleSettings())
                 if not members.failed_members:
-                    measures = fidelity.of_velocity(motion, blocks[k]) | fidelity.from_nudged(on_block[k, i])
+                    measures = fidelity.of_velocity(motion, blocks[k])
+                    measures |= fidelity.from_nudged(on_block[k, i])
                     yield TierCase(name, site, structure, factor, own | measures, members.overturning_share)
-
-
-def fit_tier(
-    tier: Tier, terms: np.ndarray, shares: np.ndarray, sites: np.ndarray, frequencies: tuple[float, float]
-) -> TierFit:
-    """Fit one tier to terms (n, k), shares (n,) of the members of each case that overturn, and sites (n,).
-
-    One case weighs as much as another. frequencies: least and largest frequency parameter behind the fit, rad/s.
-    """
-    centre, spread = terms.mean(axis=0), terms.std(axis=0)
-    spread = np.where(spread > 0, spread, 1.0)
-    design = np.column_stack([np.ones(len(terms)), (terms - centre) / spread])
-    coefficients, covariance = scores.logistic(design, shares, sites)
-    bounds = terms.min(axis=0), terms.max(axis=0)
-    return TierFit(tier, centre, spread, *bounds, coefficients, covariance, frequencies)
 
 
 def left_out(tier: Tier, cases: TierCases) -> np.ndarray:

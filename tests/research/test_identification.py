@@ -99,15 +99,6 @@ def test_scattered_outcomes_ask_for_fewer_steps_than_clear_ones():
     assert clear.log_score > chance.log_score
 
 
-def test_probability_is_the_weighted_share_with_its_log_odds_multiplied():
-    share = np.array([0.0, 0.25, 0.75, 1.0])
-    said = 0.9 * share + 0.05
-    table = np.array([[False, False], [True, False], [False, True], [True, True]])
-    found = mixture.Mixture(np.array([0.25, 0.75]), 0.1, 10, 2.0, -0.1)
-    odds = said / (1 - said)
-    assert found.probability(table) == pytest.approx(odds**2 / (1 + odds**2))
-
-
 def test_probabilities_that_are_too_careful_are_sharpened_and_bold_ones_blunted():
     """Outcomes drawn with the log odds multiplied by b give b back."""
     draw = np.random.default_rng(8)

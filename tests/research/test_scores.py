@@ -10,8 +10,10 @@ from docs.research import scores
 from docs.research.answers import AnswerTrial, answer_scores
 from docs.research.scores import HAPPENED, logistic, logit_slope
 from docs.research.sites import independent
+from rocking.assessment.ensemble import Ensemble, EnsembleSettings
 from rocking.assessment.fidelity import Answer
-from rocking.assessment.verdict import Method, Verdict
+from rocking.assessment.verdict import Method
+from rocking.motion.response import Response
 from rocking.records import Accelerogram
 from rocking.structures import Outcome
 
@@ -96,21 +98,25 @@ def test_a_site_under_two_names_counts_once():
     assert [name for name, _, _ in found] == ["a", "b", "e", "f"]
 
 
-def trial(site: str, method: Method, said: bool, falls: bool, share: float, verdict: Verdict) -> AnswerTrial:
+def trial(site: str, method: Method, falls: bool, share: float) -> AnswerTrial:
     """An answer that costs a tenth of the mechanism where it settles the case, and a tenth more where it does not."""
-    outcome = Outcome.OVERTURNS if said else Outcome.ROCKS
-    answer = Answer(method, math.inf if said else 0.4, outcome, None)
+    outcome = Outcome.OVERTURNS if share == 1 else Outcome.ROCKS
+    answer = Answer(method, math.inf if share == 1 else 0.4, outcome, None)
     spent = 1.1 if method is Method.MECHANISM_ON_RECORD else 0.1
-    return AnswerTrial(site, answer, answer, falls, share, verdict, verdict, spent, spent, 1.0, 40.0, 10.0)
+    truth = Response(math.inf, Outcome.OVERTURNS) if falls else Response(0.4, Outcome.ROCKS)
+    ratios = np.where(np.arange(100) < 100 * share, np.inf, 0.4)
+    whole = Ensemble(ratios, {}, EnsembleSettings())
+    seconds = {"alone": spent, "beside": spent, "mechanism": 1.0, "whole": 40.0, "quick": 10.0}
+    return AnswerTrial(site, answer, answer, truth, whole, whole, seconds)
 
 
 def test_each_measure_of_the_cheapest_answers_counts_what_it_names():
     trials = [
-        trial("a", Method.NOTHING_TO_INTEGRATE, False, False, 0.0, Verdict.STANDS),
-        trial("a", Method.PEAK_VELOCITY, False, False, 0.02, Verdict.STANDS),
-        trial("b", Method.BLOCK_ON_RECORD, True, True, 1.0, Verdict.OVERTURNS),
-        trial("b", Method.BLOCK_ON_RECORD, False, True, 0.5, Verdict.UNDECIDED),
-        trial("b", Method.MECHANISM_ON_RECORD, False, False, 0.3, Verdict.UNDECIDED),
+        trial("a", Method.NOTHING_TO_INTEGRATE, False, 0.0),
+        trial("a", Method.PEAK_VELOCITY, False, 0.0),
+        trial("b", Method.BLOCK_ON_RECORD, True, 1.0),
+        trial("b", Method.BLOCK_ON_RECORD, True, 0.5),
+        trial("b", Method.MECHANISM_ON_RECORD, False, 0.3),
     ]
     found = answer_scores(trials, replicates=20)
     assert {(score.cases, score.sites) for score in found} == {(5, 2)}
@@ -119,7 +125,7 @@ def test_each_measure_of_the_cheapest_answers_counts_what_it_names():
             "share at rest": 1 / 5,
             "share settled by the peak velocity": 1 / 5,
             "share settled by the block": 2 / 5,
-            "members against the verdict of the peak velocity": 0.02,
+            "members against the verdict of the peak velocity": 0.0,
             "members against the verdict of the block": 0.25,
             "wrong verdicts among all without an ensemble": 1 / 5,
             "wrong verdicts among those settled": 1 / 3,

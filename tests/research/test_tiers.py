@@ -2,16 +2,14 @@
 
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from docs.research.sites import independent, structures_tried
-from docs.research.tiers import TierCases, left_out, tier_cases, tier_scores
+from docs.research.tiers import TierCases, left_out, tier_cases
 from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.fidelity import Tier
-from rocking.records import Accelerogram, load_catalogue, open_record
+from rocking.records import Accelerogram
 from rocking.structures import Block
 
 STRUCTURES = {"low": Block(1.0, 0.2), "high": Block(2.0, 0.12)}
@@ -49,15 +47,3 @@ def test_a_site_left_out_took_no_part(cases):
     own = cases.sites == site
     before, after = (left_out(Tier.BLOCK_AT_FIVE_SCALES, each) for each in (cases, TierCases(turned)))
     assert np.array_equal(before[own], after[own]) and not np.array_equal(before[~own], after[~own])
-
-
-@pytest.mark.real_records
-def test_the_block_is_worth_what_is_said_on_real_records_left_out(real_records):
-    """Every other component under a third of the structures; a cut-down calibration, so less is asked of it."""
-    catalogue = load_catalogue(Path(__file__).parents[2] / "records" / "near_fault.csv")
-    opened = [(r.id, a) for r in catalogue for a in open_record(r, mirror=real_records)]
-    structures = dict(list(structures_tried().items())[::4])
-    found = tier_scores(TierCases(list(tier_cases(list(independent(opened))[::2], structures))), 50)
-    values = {s.measure: s.value for s in found if s.subject == Tier.BLOCK_AT_FIVE_SCALES}
-    assert values["Brier skill"] > 0.85 * values["Brier skill of the shares themselves"]
-    assert values["calibration slope"] == pytest.approx(1.0, abs=0.2)

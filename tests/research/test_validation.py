@@ -1,7 +1,5 @@
 """Validation: the campaign read as measured, scores and baselines against what is known, no test sees its motion."""
 
-import json
-import os
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,34 +7,19 @@ import numpy as np
 import pytest
 from made_campaign import made_motion, write_campaign
 
-from docs.research import scores, shake_table
-from docs.research.scores import Score
+from docs.research import shake_table
 from docs.research.shake_table import Campaign
 from docs.research.validation import (
     IDENTIFIED,
     PRIOR,
     Measured,
-    PredictionRow,
     left_out,
     measure,
-    write_validation,
 )
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
-from rocking.tables import read_table
 
 CATALOGUE = Path(__file__).parents[2] / "records" / "shake_table.csv"
-
-
-@pytest.fixture(scope="module")
-def real_campaign() -> Campaign:
-    """The real campaign beside the folder of real records, or a skip that says what to set."""
-    records = os.environ.get("ROCKING_RECORDS")
-    if not records or not (Path(records).parent / "shake_table" / shake_table.TESTS).is_file():
-        pytest.skip(
-            "there is no folder shake_table beside ROCKING_RECORDS; put the campaign there to run this test"
-        )
-    return Campaign.open(CATALOGUE, Path(records))
 
 
 @pytest.fixture(scope="module")
@@ -111,30 +94,3 @@ def test_no_prediction_sees_the_outcomes_of_its_motion(measured):
     for method in before:
         assert np.array_equal(before[method][inside], after[method][inside]), method
     assert not np.array_equal(before[IDENTIFIED][~inside], after[IDENTIFIED][~inside])
-
-
-def test_the_tables_are_written_whole(made, tmp_path):
-    told: list[str] = []
-    write_validation(made[0], made[1], tmp_path, replace(PRIOR, size=64), told.append)
-    assert told[0].startswith("1 of 32: test ") and told[31].startswith("32 of 32: ")
-    package = json.loads((tmp_path / "datapackage.json").read_text())
-    assert {each["path"] for each in package["resources"]} == {path.name for path in tmp_path.glob("*.csv")}
-    first = read_table(Score, tmp_path)[0]
-    assert (first.measure, first.cases, first.sites) == ("accuracy", 32, 8)
-    own = [row for row in read_table(PredictionRow, tmp_path) if row.method == first.subject]
-    right = [(row.probability > 0.5) == row.overturned for row in own if row.specimen == 1]
-    assert first.value == np.mean(right) > 0.85
-    assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF")
-
-
-@pytest.mark.real_records
-def test_a_few_real_motions_left_out_beat_chance(real_campaign):
-    """Five motions and 128 candidates: the machinery end to end, not the figures of the report."""
-    assert len(real_campaign.tests) >= 384
-    assert set(real_campaign.catalogue) <= {test.number for test in real_campaign.tests}
-    kept = sorted({test.motion for test in real_campaign.tests})[::9]
-    few = replace(real_campaign, tests=tuple(test for test in real_campaign.tests if test.motion in kept))
-    seen = measure(few, replace(PRIOR, size=128))
-    probability, outcomes = left_out(seen, 1)[IDENTIFIED], seen.outcomes(1)
-    share = outcomes.mean()
-    assert scores.brier(probability, outcomes) < 0.6 * share * (1 - share)

@@ -6,6 +6,7 @@ from functools import singledispatch
 from itertools import pairwise
 
 import numpy as np
+from scipy.optimize import brentq
 
 from rocking.structures import Arch, Block, Frame, Structure
 
@@ -70,8 +71,8 @@ def rigid_bodies(structure: Structure) -> RigidBodies:
 @rigid_bodies.register
 def _block(structure: Block) -> RigidBodies:
     half = structure.breadth / 2
-    body = _rectangle(-half, half, 0.0, structure.height)
-    return RigidBodies((_rectangle(-10 * half, 10 * half, -BASE_DEPTH, 0.0), body), (0,), (1, 1))
+    body = rectangle(-half, half, 0.0, structure.height)
+    return RigidBodies((rectangle(-10 * half, 10 * half, -BASE_DEPTH, 0.0), body), (0,), (1, 1))
 
 
 @rigid_bodies.register
@@ -81,11 +82,11 @@ def _frame(structure: Frame) -> RigidBodies:
     axes = 0.6 * height * (np.arange(structure.columns) - (structure.columns - 1) / 2)
     edge = axes[-1] + half
     depth = structure.beam_mass_ratio * structure.columns * half * height / edge
-    columns = (_rectangle(axis - half, axis + half, 0.0, height) for axis in axes)
+    columns = (rectangle(axis - half, axis + half, 0.0, height) for axis in axes)
     bodies = (
-        _rectangle(-2 * edge, 2 * edge, -BASE_DEPTH, 0.0),
+        rectangle(-2 * edge, 2 * edge, -BASE_DEPTH, 0.0),
         *columns,
-        _rectangle(-edge, edge, height, height + depth),
+        rectangle(-edge, edge, height, height + depth),
     )
     return RigidBodies(bodies, (0,), (1, 1))
 
@@ -120,7 +121,6 @@ def _arch(structure: Arch) -> RigidBodies:
 
 def _voussoir(inner: float, outer: float, angle: float) -> np.ndarray:
     """The voussoir about the crown; its peak puts its centroid where that of the sector is."""
-    from scipy.optimize import brentq
 
     def with_peak(peak: float) -> np.ndarray:
         edges = np.array([[inner, -1], [inner, 1], [outer, 1], [peak, 0], [outer, -1]])
@@ -135,7 +135,8 @@ def _voussoir(inner: float, outer: float, angle: float) -> np.ndarray:
     )
 
 
-def _rectangle(left: float, right: float, low: float, high: float) -> np.ndarray:
+def rectangle(left: float, right: float, low: float, high: float) -> np.ndarray:
+    """Return the corners (4, 2) of an upright rectangle, counterclockwise, m."""
     return np.array([[left, low], [right, low], [right, high], [left, high]])
 
 

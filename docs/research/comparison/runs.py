@@ -25,7 +25,7 @@ class Answer:
 
     rotation_ratio: float
     duration: float = math.nan
-    error_bar: float = math.nan
+    rotation_ratio_error: float = math.nan
     landings: np.ndarray | None = None
     reason: str = ""
     restitution: float = math.nan
@@ -72,7 +72,12 @@ def limit_of_runs(runs: Sequence[Answer], reason: str) -> Answer:
     ratio = runs[-1].rotation_ratio if ratio < 0 else ratio
     kept, kept_bar = limit_of([run.restitution for run in runs])
     told = {"reason": reason, "landings": None} if math.isnan(ratio) else {}
-    limits = {"rotation_ratio": ratio, "error_bar": bar, "restitution": kept, "restitution_error": kept_bar}
+    limits = {
+        "rotation_ratio": ratio,
+        "rotation_ratio_error": bar,
+        "restitution": kept,
+        "restitution_error": kept_bar,
+    }
     return replace(runs[-1], **limits, **told)
 
 

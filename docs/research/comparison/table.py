@@ -151,39 +151,31 @@ def slow_cases(cases: Sequence[CodeCase], share: float = 1.0) -> Mapping[str, Ma
 
 
 def _row(case: CodeCase, code: str, answer: Answer, truth: float, expected: np.ndarray) -> CodeRow:
-    ratio, other, side = (
+    ratio, side, other = (
         answer.rotation_ratio,
-        (case.structure, code) in ANOTHER_MODEL,
         case.mechanism.positive,
+        (case.structure, code) in ANOTHER_MODEL,
     )
     agrees = None if math.isnan(ratio) or math.isnan(truth) else _kind(ratio) == _kind(truth)
     error = abs(ratio / truth - 1) if agrees and 0 < truth < math.inf else 0.0 if agrees else math.nan
     landings = None if other else answer.landings
-    same = math.nan
+    same, within = math.nan, 0.02 / side.frequency_parameter
     if 0 <= answer.restitution <= 1:
         same = integrate(Mechanism(replace(side, restitution=answer.restitution)), case.motion).rotation_ratio
-    return CodeRow(
+    return CodeRow.of(
+        answer,
         case=case.name,
         structure=case.structure,
         motion=case.kind,
         code=code,
         another_model=other,
-        rotation_ratio=ratio,
-        rotation_ratio_error=answer.error_bar,
         reference_rotation_ratio=truth,
         error=math.nan if other else error,
         verdict_agrees=agrees,
-        duration_s=answer.duration,
         reference_impacts=expected.size,
-        missed_impacts=None
-        if landings is None
-        else missed(landings, expected, 0.02 / side.frequency_parameter),
+        missed_impacts=None if landings is None else missed(landings, expected, within),
         reference_restitution=side.restitution,
-        restitution=answer.restitution,
-        restitution_error=answer.restitution_error,
         same_restitution_rotation_ratio=same,
-        outside_hinges=answer.outside_hinges,
-        reason=answer.reason,
     )
 
 
