@@ -1,7 +1,7 @@
 """Rigid bodies that rock about a corner: the rectangular block (Housner 1963), and any other (theory: section 2)."""
 
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -50,12 +50,12 @@ class Block(Structure):
         cls,
         breadth: Annotated[float, length("Breadth", 0.6, (0.02, 20), "b")],
         height: Annotated[float, length("Height", 4.0, (0.1, 100), "h")],
-        restitution: Balanced = None,
-        one_sided: OneSided = False,
+        *values: Any,
+        **options: Any,
     ) -> "Block":
-        """Return the block of that breadth and height [m]."""
+        """Return the block of that breadth and height [m]; values and options as for the class."""
         cls.check_values("of_size", breadth=breadth, height=height)
-        return cls(np.hypot(breadth, height) / 2, np.arctan2(breadth, height), restitution, one_sided)
+        return cls(np.hypot(breadth, height) / 2, np.arctan2(breadth, height), *values, **options)
 
     @property
     def breadth(self) -> float:

@@ -45,7 +45,7 @@ class Arc:
         if self.rigid:
             return rotation
         piece, x = _placed(rotation / self.last, self.starts.size - 1)
-        arc = self.starts[piece] + _clenshaw(self.integrals[:, piece], x)
+        arc = self.starts[piece] + _clenshaw(self.integrals, piece, x)
         first = piece == 0
         if np.any(first):
             small = rotation[first]
@@ -97,11 +97,7 @@ class RotationMap:
         """Return the rotation [rad] at `arc`, any shape; inf beyond the end."""
         arc = np.asarray(arc, dtype=float)
         piece, x = _placed(arc / self.end, self.coefficients.shape[1])
-        later = latest = np.zeros_like(x)
-        # row by row: the coefficients of all places at once would fill memory
-        for row in self.coefficients[:0:-1]:
-            later, latest = row[piece] + 2 * x * later - latest, later
-        ratio = self.coefficients[0][piece] + x * later - latest
+        ratio = _clenshaw(self.coefficients, piece, x)
         return np.where(arc > self.end, np.inf, np.minimum(arc, self.end) * ratio)
 
     def rotation_at(self, arc: float) -> float:
@@ -122,10 +118,9 @@ class RotationMap:
         arc = np.clip(np.asarray(arc, dtype=float), 0.0, self.end)
         count = self.coefficients.shape[1]
         piece, x = _placed(arc / self.end, count)
-        ratio = _clenshaw(self.coefficients[:, piece], x)
-        return (
-            ratio + arc * _clenshaw(chebyshev.chebder(self.coefficients)[:, piece], x) * 2 * count / self.end
-        )
+        ratio = _clenshaw(self.coefficients, piece, x)
+        slope = _clenshaw(chebyshev.chebder(self.coefficients), piece, x)
+        return ratio + arc * slope * 2 * count / self.end
 
     def arc(self, rotation: float) -> float:
         """Return the arc at one rotation [rad], up to the end, by Newton's method."""
@@ -178,11 +173,12 @@ def _placed(share: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
     return piece, 2 * (place - piece) - 1
 
 
-def _clenshaw(coefficients: np.ndarray, x: np.ndarray) -> np.ndarray:
+def _clenshaw(coefficients: np.ndarray, piece: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """The sum of each place's piece; row by row, as the coefficients of all places at once would fill memory."""
     twice, later, latest = 2 * x, np.zeros_like(x), np.zeros_like(x)
-    for c in coefficients[:0:-1]:
-        later, latest = c + twice * later - latest, later
-    return coefficients[0] + x * later - latest
+    for row in coefficients[:0:-1]:
+        later, latest = row[piece] + twice * later - latest, later
+    return coefficients[0][piece] + x * later - latest
 
 
 Scale = Literal["rest", "linearised", "uplift", "mean"]

@@ -6,8 +6,9 @@ loader, the checks at birth, the JSON schema and the documentation follow from t
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, reduce
 from inspect import Parameter, signature
+from operator import or_
 from types import NoneType
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
@@ -150,35 +151,30 @@ class Form:
     """One way to describe a structure in a file.
 
     meaning: for the documentation. make: name of the class method that takes the parameters as keywords; the class
-    itself when "". fields: its keys. late: names of values that the class method does not take; they are set after.
+    itself when "". fields: its keys.
     """
 
     meaning: str
     make: str
     fields: tuple[Field, ...]
-    late: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, kind: Any, make: str, meaning: str) -> "Form":
-        """Return the form of a structure's class `kind` that its class method `make` takes, or its constructor."""
-        own = dict(signature(kind).parameters)
-        late: tuple[str, ...] = ()
-        taken, hints = dict(own), get_type_hints(kind, include_extras=True)
+        """Return the form of a structure's class `kind` that its constructor takes, or its class method `make`.
+
+        Such a method hands on, besides, the options of the constructor.
+        """
+        taken, hints = dict(signature(kind).parameters), get_type_hints(kind, include_extras=True)
         if make:
-            taken = dict(signature(getattr(kind, make)).parameters)
-            hints |= get_type_hints(getattr(kind, make), include_extras=True)
-            options = any(each.kind is Parameter.VAR_KEYWORD for each in taken.values())
-            own = {
-                n: each for n, each in own.items() if n not in taken and each.default is not Parameter.empty
-            }
-            more = {n: each for n, each in own.items() if options or each.kind is Parameter.KEYWORD_ONLY}
-            taken |= more
-            late = () if options else tuple(more)
+            method = getattr(kind, make)
+            hints |= get_type_hints(method, include_extras=True)
+            options = {n: each for n, each in taken.items() if each.default is not Parameter.empty}
+            taken = dict(signature(method).parameters) | options
         taken["restitution_range"] = taken.pop("restitution_range")  # said last
         described = [
             _field(name, hints[name], taken[name].default) for name in taken if _said(hints.get(name))
         ]
-        return cls(meaning, make, tuple(described), late)
+        return cls(meaning, make, tuple(described))
 
     @property
     def keys(self) -> dict[str, Field]:
@@ -218,9 +214,7 @@ def _field(name: str, hint: Any, default: Any) -> Field:
 
     options = get_args(hint.__origin__) if NoneType in get_args(hint.__origin__) else (hint.__origin__,)
     kinds = [kind_of(each) for each in options if each is not NoneType]
-    kind: Any = kinds[0]
-    for each in kinds[1:]:
-        kind = kind if each is None else kind | each
+    kind: Any = reduce(or_, [each for each in kinds if each is not None])
     return Field(name, kind, said.meaning, said.unit, default=... if required else default, said=said)
 
 

@@ -1,7 +1,7 @@
 """The symmetric rocking frame of equal columns under a rigid beam (Makris and Vassiliou 2013; theory: section 3)."""
 
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
@@ -56,10 +56,12 @@ class Frame(Structure):
         column_height: Annotated[float, length("Height of a column", 8.0, (0.5, 60), "h")],
         columns: Columns,
         beam_mass_ratio: BeamMassRatio,
-        restitution: Balanced = None,
+        *values: Any,
+        **options: Any,
     ) -> "Frame":
-        """Return the frame whose columns have that breadth and height [m]."""
-        return cls(Block.of_size(column_breadth, column_height), columns, beam_mass_ratio, restitution)
+        """Return the frame whose columns have that breadth and height [m]; values and options as for the class."""
+        column = Block.of_size(column_breadth, column_height)
+        return cls(column, columns, beam_mass_ratio, *values, **options)
 
     @property
     def column_breadth(self) -> float:

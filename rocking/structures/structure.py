@@ -269,15 +269,15 @@ class Structure(ABC):
     def dimensions(self) -> tuple[Dimension, ...]:
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
         drawn, paths = [], self._dimensions()
-        for each in self._described():
-            shown = paths.get(each.name, ())
-            texts = self._text(each).split(", ")
+        for each, _, text in self._given:
+            letter, shown = each.said.letter, paths.get(each.name, ())
             if isinstance(shown, list):
-                for number, (text, path) in enumerate(zip(texts, shown, strict=True), start=1):
-                    letter = each.said.letter + str(number).translate(_SUBSCRIPTS)
-                    drawn.append(Dimension(letter, text + each.suffix, *path))
+                for number, (one, path) in enumerate(zip(text.split(", "), shown, strict=True), start=1):
+                    drawn.append(
+                        Dimension(letter + str(number).translate(_SUBSCRIPTS), one + each.suffix, *path)
+                    )
             elif shown:
-                drawn.append(Dimension(each.said.letter, texts[0] + each.suffix, *shown))
+                drawn.append(Dimension(letter, text + each.suffix, *shown))
         return tuple(drawn)
 
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
@@ -327,30 +327,26 @@ class Structure(ABC):
     @property
     def description(self) -> str:
         """What it was described by, in words with units: "breadth 0.6 m, height 6.0 m"."""
-        values = self._values
-        return ", ".join(
-            each.phrased(self._text(each)) for each in self._described() if values[each.key] is not False
-        )
+        return ", ".join(each.phrased(text) for each, value, text in self._given if value is not False)
 
     @property
     def size(self) -> str:
         """Its sizes in short, as they were typed: "0.6 × 6.0 m", "10 × 1.5 m, 157.5°"."""
         parts: dict[str, list[str]] = {}
-        for each in self._described():
+        for each, _, text in self._given:
             if each.required and each.unit:
-                parts.setdefault(each.suffix, []).append(self._text(each))
+                parts.setdefault(each.suffix, []).append(text)
         return ", ".join(" × ".join(texts) + suffix for suffix, texts in parts.items())
 
     @property
     def remarks(self) -> tuple[str, ...]:
         """A sentence for each size beyond its plausible range."""
-        values = self._values
-        found = (each.remark(self.type_name, values[each.key]) for each in self._described())
-        return tuple(sentence for sentence in found if sentence)
+        sentences = (each.remark(self.type_name, value) for each, value, _ in self._given)
+        return tuple(filter(None, sentences))
 
     def as_config(self) -> dict[str, object]:
         """Return the mapping of a structure list that describes it, without a name."""
-        return {"type": self.type_name, **self._values}
+        return {"type": self.type_name, **{each.key: value for each, value, _ in self._given}}
 
     def typed(self, values: dict[str, object], texts: dict[str, str]) -> None:
         """Remember the `values` of a file by key, and their `texts` as they were typed; for the loader only."""
@@ -364,28 +360,19 @@ class Structure(ABC):
         return built
 
     @property
-    def _values(self) -> dict[str, object]:
-        """The values of its form in the units of a file; options that were not given are left out."""
-        given = self.__dict__.get("_typed")
-        if given is not None:
-            return {key: value for key, (value, _) in given.items()}
+    def _given(self) -> list[tuple[Field, Any, str]]:
+        """The values of its form in the units of a file and as texts; options that were not given are left out."""
+        typed = self.__dict__.get("_typed")
+        if typed is not None:
+            return [(each, *typed[each.key]) for each in self.form.fields if each.key in typed]
+        defaults = {each.name: each.default for each in constructor(type(self)).fields}
         values = [(each, getattr(self, each.name)) for each in self.form.fields]
-        defaults = {each.name: each.default for each in fields(self)}  # type: ignore[arg-type]
-        return {
-            each.key: each.outward(value)
+        given = [
+            (each, each.outward(value))
             for each, value in values
             if each.required or (value is not None and value != defaults.get(each.name))
-        }
-
-    def _described(self) -> list[Field]:
-        values = self._values
-        return [each for each in self.form.fields if each.key in values]
-
-    def _text(self, each: Field) -> str:
-        given = self.__dict__.get("_typed", {})
-        if each.key in given:
-            return given[each.key][1]
-        return typed_text(self._values[each.key], "{:.6g}")
+        ]
+        return [(each, value, typed_text(value, "{:.6g}")) for each, value in given]
 
     def _build(self) -> Mechanism:
         """Reduce the moving parts to I, J, G, B."""

@@ -6,7 +6,6 @@ message, and each size is remembered as it was typed. The JSON schema follows fr
 
 import warnings
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
 from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
@@ -67,11 +66,8 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
     arguments: dict[str, Any] = {
         form.keys[key].name: form.keys[key].inward(value) for key, value in given.items()
     }
-    late = {name: arguments.pop(name) for name in form.late if name in arguments}
     make: Callable[..., Structure] = getattr(TYPES[kind], form.make) if form.make else TYPES[kind]
     structure = make(**arguments)
-    if late:
-        structure = replace(structure, **late)
     structure.typed(given, {key: typed_text(value) for key, value in given.items()} | dict(texts or {}))
     return structure
 
