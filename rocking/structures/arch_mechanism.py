@@ -33,7 +33,7 @@ class FourBar(Linkage):
     ) -> None:
         self.hinges, self.masses, self._mass, self._joints = hinges, bars.masses, mass, joints
         self.rest, self.inertias, self.unit = bars.centroids, bars.inertias, radius
-        self.end_rotation = self.last_rotation()
+        self.end_rotation = self._last_rotation()
 
     @keeps_last
     def motion(self, rotation: np.ndarray) -> Motion:
@@ -47,24 +47,18 @@ class FourBar(Linkage):
             [np.zeros_like(closing), cross(residual, cd) / closing, cross(residual, bc) / -closing]
         )
         turned = np.stack([ab, bc, cd]) / self._at_rest.reshape(3, *[1] * np.ndim(rotation))
-        return self._carried(turned, ab, spins, slopes)
-
-    def _carried(self, turned: np.ndarray, ab: np.ndarray, spins: np.ndarray, slopes: np.ndarray) -> Motion:
-        """Centroids carried by bars turned by the unit numbers `turned`: AB about A, BC about B, CD about D."""
-        arms = turned * (self.rest - self.hinges[[0, 1, 3]]).reshape(3, *[1] * (turned.ndim - 1))
+        # AB is carried by A, BC by B, CD by D
+        arms = turned * (self.rest - self.hinges[[0, 1, 3]]).reshape(3, *[1] * np.ndim(rotation))
         zero = np.zeros_like(ab)
         pivots = np.stack([self.hinges[0] + zero, self.hinges[0] + ab, self.hinges[3] + zero])
-        pivot_velocity = np.stack([zero, -1j * ab, zero])
-        pivot_acceleration = np.stack([zero, -ab, zero])
-        end = self.hinges[3] + zero
         return Motion(
-            hinges=np.stack([pivots[0], pivots[1], end - turned[2] * self._at_rest[2], end]),
+            hinges=np.stack([pivots[0], pivots[1], pivots[2] - turned[2] * self._at_rest[2], pivots[2]]),
             angles=np.angle(turned),
             spins=spins,
             spin_slopes=slopes,
             centroids=pivots + arms,
-            velocities=pivot_velocity + 1j * spins * arms,
-            accelerations=pivot_acceleration + (1j * slopes - spins**2) * arms,
+            velocities=np.stack([zero, -1j * ab, zero]) + 1j * spins * arms,
+            accelerations=np.stack([zero, -ab, zero]) + (1j * slopes - spins**2) * arms,
         )
 
     def _directions(self, rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -101,28 +95,19 @@ class FourBar(Linkage):
         tangents = np.exp(1j * ((faces[1:] + faces[:-1]) / 2 + self._joints[:, None]))
         return Contacts.resolved(("A", "B", "C", "D"), thrusts / self._mass, tangents)
 
-    def last_rotation(self) -> float:
+    def _last_rotation(self) -> float:
         """The rotation [rad] up to which the motion is followed: A, B and C in line, or just before the bars lock."""
-        end = self.straightening()
-        places = np.linspace(0.0, end if np.isfinite(end) else np.pi / 2, 513)
-        with np.errstate(all="ignore"):
-            inertia = self.inertia(places)
-        moves = np.isfinite(inertia) & (inertia > 0)
-        if moves.all():
-            return float(places[-1])
-        return float(0.98 * places[int(np.argmin(moves)) - 1])
-
-    def straightening(self) -> float:
-        """The rotation [rad] at which A, B and C come into line: the linkage snaps through and CD turns back.
-
-        The triangle A-C-D then has the sides |AB| + |BC|, |CD| and |AD|; nan where no such triangle closes.
-        """
+        # with A, B and C in line the triangle A-C-D has the sides |AB| + |BC|, |CD| and |AD|; nan where none closes
         base = self.hinges[3] - self.hinges[0]
         first, second, third = np.abs(self._at_rest)
         side = first + second
         cosine = (abs(base) ** 2 + side**2 - third**2) / (2 * abs(base) * side)
-        with np.errstate(invalid="ignore"):
-            return float(np.angle(self._at_rest[0] / base) - np.arccos(cosine))
+        with np.errstate(all="ignore"):
+            in_line = float(np.angle(self._at_rest[0] / base) - np.arccos(cosine))
+            places = np.linspace(0.0, in_line if np.isfinite(in_line) else np.pi / 2, 513)
+            inertia = self.inertia(places)
+        moves = np.isfinite(inertia) & (inertia > 0)
+        return float(places[-1] if moves.all() else 0.98 * places[int(np.argmin(moves)) - 1])
 
 
 def mirror_balance(bars: Bars, middles: np.ndarray, linkage: FourBar, hinges: np.ndarray) -> float:

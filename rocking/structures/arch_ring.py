@@ -160,46 +160,32 @@ class Ring:
         left of the section; it is the normal force times the distance from the thrust to that point, so it
         may not be negative.
         """
-        load, *_ = self.loads(section)
-        point = self.contact_radius(contact) * (np.sin(section) + 1j * np.cos(section))
-        return self.gap_rows(point, contact, load)
-
-    @staticmethod
-    def gap_rows(point: np.ndarray, contact: np.ndarray, load: Load) -> np.ndarray:
-        """The rows of `gaps` for contact points (k,), complex, and the loads left of them."""
-        x, y = point.real, point.imag
-        moment = np.stack(
-            [np.ones_like(x), -x, y, y * load.weight - load.y, x * load.weight - load.x], axis=-1
-        )
-        return -contact[..., None] * moment
+        point = self.contact_points(section, contact)
+        return -contact[..., None] * _moment(1.0, point, self.loads(section)[0])
 
     def gap_slopes(self, section: np.ndarray, contact: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """First and second derivatives of `gaps` with the section, each (k, 5)."""
         load, rate, change = self.loads(section)
-        x = self.contact_radius(contact) * np.sin(section)
-        y = self.contact_radius(contact) * np.cos(section)
-        zero = np.zeros_like(x)
-        first = [
-            zero,
-            -y,
-            -x,
-            -x * load.weight + y * rate.weight - rate.y,
-            y * load.weight + x * rate.weight - rate.x,
-        ]
-        second = [
-            zero,
-            x,
-            -y,
-            -y * load.weight - 2 * x * rate.weight + y * change.weight - change.y,
-            -x * load.weight + 2 * y * rate.weight + x * change.weight - change.x,
-        ]
+        point = self.contact_points(section, contact)
+        loaded = np.array([0.0, 0.0, 0.0, 1.0, 1.0])  # what the loads have a part in
+        first = _moment(0.0, -1j * point, load) + loaded * _moment(1.0, point, rate)
+        second = _moment(0.0, -point, load) + loaded * (
+            2 * _moment(0.0, -1j * point, rate) + _moment(1.0, point, change)
+        )
         sign = -contact[..., None]
-        return sign * np.stack(first, axis=-1), sign * np.stack(second, axis=-1)
+        return sign * first, sign * second
 
     def kept(self, hinges: np.ndarray) -> np.ndarray:
         """Sections moved back onto the ring."""
         edge = self.embrace_angle / 2
         return np.clip(hinges, -edge, edge)
+
+
+def _moment(one: float, point: np.ndarray, load: Load) -> np.ndarray:
+    """(k, 5) moments about points of M₀, V, H, of the loads times λ and of the loads; one: 0 for derivatives."""
+    x, y = point.real, point.imag
+    of_loads = [y * load.weight - one * load.y, x * load.weight - one * load.x]
+    return np.stack([np.full_like(x, one), -x, y, *of_loads], axis=-1)
 
 
 def _added(load: Load, more: Iterable[np.ndarray]) -> Load:
@@ -279,10 +265,6 @@ class PierRing(Ring):
         mass, still = foot * self.pier_mass, foot == 0
         added = Load(total.weight + mass, total.x + mass * centre.real, total.y + mass * centre.imag)
         return added, Load(*(still * value for value in rate)), Load(*(still * value for value in change))
-
-    def gaps(self, section: np.ndarray, contact: np.ndarray) -> np.ndarray:
-        """As for a ring; at a foot about its corners."""
-        return self.gap_rows(self.contact_points(section, contact), contact, self.loads(section)[0])
 
     def gap_slopes(self, section: np.ndarray, contact: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As for a ring; a foot does not move: no slope, and a curvature to divide by."""
