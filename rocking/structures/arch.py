@@ -257,10 +257,6 @@ class Arch(Crackable):
         return self.radius * plane(thrust_line(self.ring, self.onset, np.linspace(*self._ends, count)))
 
 
-MECHANISMS = ("arch alone", "arch with one pier", "arch with both piers")
-"""By the number of piers that rock."""
-
-
 @dataclass(frozen=True)
 class ArchOnPiers(Arch):
     """A circular arch on equal rectangular piers, flush with its intrados at the springings.
@@ -332,11 +328,6 @@ class ArchOnPiers(Arch):
         if 0 <= angle <= self.embrace_angle * (1 + 1e-9):
             return super()._hinge_text(angle)
         return "the left foot" if angle < 0 else "the right foot"
-
-    @property
-    def governing(self) -> str:
-        """The mechanism that governs, one of MECHANISMS."""
-        return MECHANISMS[int((np.abs(self._hinge_sections) > self.embrace_angle / 2 + FOOT / 2).sum())]
 
     def thrust_line(self, count: int = 200) -> np.ndarray:
         """Return the line of thrust at the onset: (count + 2,) points in m, from foot to foot."""
