@@ -3,6 +3,7 @@
 import json
 import platform
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -39,7 +40,6 @@ from rocking.study.job import Study
 from rocking.study.results import IN_PARTS, gathered, page_contents, part, remove_other_parts
 from rocking.tables import Row, data_package, frame, write_tables, write_whole
 
-_GATHERED = [each for each in SUMMARY_TABLES if each in IN_PARTS]
 _GOVERNING = ("structure", "record", "level", "overturning_share")
 _SHOWN = ("record", "pulses", "comparison", "verdicts", "structures", "agreement", "failures", "timings")
 _OF_METHODS = ("record", "component", "structure", "method", "processing", "rotation_ratio")
@@ -53,10 +53,23 @@ def summarise(
     records: sha256 by identifier, in the order in which their rows are to stand. hashes: of settings and package.
     """
     results = Path(study.settings.results)
-    target, parts = results / "summary", [part(results, job) for job in jobs]
+    target = results / "summary"
+    parts = [part(results, job) for job in jobs]
     write_summary(parts, list(records), study.structures, target)
-    _describe(jobs, results)
-    _write_provenance(study, records, hashes, target)
+    # Two descriptions of every column, because a data package may not name files outside its own folder.
+    of_summary = {each: each.table.file_name for each in SUMMARY_TABLES}
+    folders = [each.relative_to(results).as_posix() for each in parts]
+    of_jobs = {each: [f"{folder}/{each.table.file_name}" for folder in folders] for each in IN_PARTS}
+    write_whole(target / "datapackage.json", data_package("rocking-study-summary", of_summary))
+    write_whole(results / "datapackage.json", data_package("rocking-study", of_jobs))
+    provenance = {
+        "versions": _versions(),
+        "settings": study.settings.mapping(),
+        "hashes": dict(hashes),
+        "records": dict(records),
+    }
+    text = json.dumps(provenance, indent=1, sort_keys=True, default=str)
+    write_whole(target / "provenance.json", (text + "\n").encode())
     if study.settings.reports:
         from rocking.reports.explore import explore_page  # where matplotlib is imported anyway
 
@@ -74,45 +87,24 @@ def write_summary(
 
     records: the identifiers in the order in which their rows are to stand.
     """
-    for each in _GATHERED:
-        write_whole(target / each.table.file_name, gathered(each, parts, records))
-    of_structures = {StructureRow: structure_rows, CapacityRow: capacity_rows}
-    write_tables({each: rows(structures) for each, rows in of_structures.items()}, target)  # type: ignore[operator]
+    for each in SUMMARY_TABLES:
+        if each in IN_PARTS:
+            write_whole(target / each.table.file_name, gathered(each, parts, records))
     cases = frame(ComparisonRow, target / ComparisonRow.table.file_name, AGREEMENT_COLUMNS)
-    write_tables({AgreementRow: agreement_rows(cases)}, target)
+    tables: dict[type[Row], Iterable[Row]] = {
+        StructureRow: structure_rows(structures),
+        CapacityRow: capacity_rows(structures),
+        AgreementRow: agreement_rows(cases),
+    }
+    write_tables(tables, target)
 
 
-def _describe(jobs: Sequence[str], results: Path) -> None:
-    """Describe every column: datapackage.json beside the summary tables, and one in `results` for those of the jobs.
-
-    Two, because a data package may not name files outside its own folder.
-    """
-    folders = [part(Path(), job).as_posix() for job in jobs]
-    of_study, of_jobs = ([each.table for each in many] for many in (SUMMARY_TABLES, IN_PARTS))
-    summary = {table.name: (table, table.file_name) for table in of_study}
-    parts = {table.name: (table, [f"{folder}/{table.file_name}" for folder in folders]) for table in of_jobs}
-    write_whole(results / "summary" / "datapackage.json", data_package("rocking-study-summary", summary))
-    write_whole(results / "datapackage.json", data_package("rocking-study", parts))
-
-
-def _write_provenance(
-    study: Study, records: Mapping[str, str], hashes: Mapping[str, str], target: Path
-) -> None:
-    """Write provenance.json: versions, the hash of every record, the settings and the hash of the code."""
+def _versions() -> dict[str, str]:
     versions = {"python": platform.python_version()}
     for name in ("rocking", "obspy", "numpy", "scipy", "pandas", "matplotlib", "numba", "snakemake", "typst"):
-        try:
+        with suppress(PackageNotFoundError):
             versions[name] = version(name)
-        except PackageNotFoundError:
-            continue
-    content = {
-        "versions": versions,
-        "settings": study.settings.mapping(),
-        "hashes": dict(hashes),
-        "records": dict(records),
-    }
-    text = json.dumps(content, indent=1, sort_keys=True, default=str)
-    write_whole(target / "provenance.json", (text + "\n").encode())
+    return versions
 
 
 def _report(folder: Path, study: Study, fragility: Path) -> None:

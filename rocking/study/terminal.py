@@ -28,27 +28,48 @@ def record_line(verdicts: Iterable[Fate], failures: Iterable[FailureRow]) -> str
     The numbers are members of the ensemble that overturn, or the largest rotation over the critical one of the worst
     component. What could not be assessed comes first.
     """
-    parts: dict[str, list[str]] = {word: [] for word in ORDER}
+    parts: dict[str, list[str]] = {word: [] for word in ("failed", *ORDER)}
+    for failure in failures:
+        of = f"{failure.structure}: " if failure.structure else ""
+        parts["failed"].append(of + failure.message.removeprefix(f"{failure.record}: "))
     for fate in sorted(verdicts, key=lambda fate: fate.severity, reverse=True):
         number = f" {fate.rotation_ratio:.2g}" if rocks(fate.rotation_ratio) else ""
         parts[fate.verdict].append(fate.structure + (f" ({fate.leaning})" if fate.leaning else number))
-    verdicts_line = [f"{word}: {', '.join(names)}" for word, names in parts.items() if names]
-    failed = " ".join(_sentence(failure) for failure in failures)
-    return "; ".join([f"failed: {failed}", *verdicts_line] if failed else verdicts_line)
+    parts["failed"] = [" ".join(parts["failed"])] if parts["failed"] else []
+    return "; ".join(f"{word}: {', '.join(names)}" for word, names in parts.items() if names)
 
 
-def closing_lines(verdicts: Iterable[Fate], failures: Sequence[FailureRow]) -> list[str]:
-    """Return the table of what overturns, is undecided or unknown under how many records, and which records failed."""
-    under: dict[str, list[Fate]] = {}
-    records = set()
-    for fate in verdicts:
-        records.add(fate.record)
-        of_structure = under.setdefault(fate.structure, [])
+def closing_lines(verdicts: Sequence[Fate], failures: Iterable[FailureRow]) -> Iterator[str]:
+    """Yield a table of the structures that do not stand everywhere: two counts, and the names of the records.
+
+    Below it stand the records that failed.
+    """
+    of_structure: dict[str, list[Fate]] = {}
+    for fate in sorted(verdicts, key=lambda fate: fate.severity, reverse=True):
         if fate.verdict is not Verdict.STANDS:
-            of_structure.append(fate)
-    failed = sorted({failure.record for failure in failures})
-    told = f"{counted(len(failed), 'record')} failed, wholly or in part: {', '.join(failed)}"
-    return [*_table(under, len(records)), *([told] if failed else [])]
+            of_structure.setdefault(fate.structure, []).append(fate)
+
+    def count(name: str, verdict: Verdict) -> int:
+        return sum(fate.verdict is verdict for fate in of_structure[name])
+
+    ordered = sorted(
+        of_structure, key=lambda name: (-count(name, Verdict.OVERTURNS), -len(of_structure[name]))
+    )
+    records = counted(len({fate.record for fate in verdicts}), "record")
+    if ordered:
+        width = max(9, *map(len, ordered[:_MOST]))
+        yield f"Of {records}:"
+        yield f"  {'':<{width}}  overturns  undecided  records (?: undecided, –: unknown)"
+        for name in ordered[:_MOST]:
+            names = ", ".join(fate.record + _MARKS.get(fate.verdict, "") for fate in of_structure[name])
+            counts = (count(name, Verdict.OVERTURNS), count(name, Verdict.UNDECIDED))
+            yield f"  {name:<{width}}  {counts[0]:>9}  {counts[1]:>9}  {names}"
+        if len(ordered) > _MOST:
+            yield f"  and {counted(len(ordered) - _MOST, 'more structure')}, in {Fate.table.file_name}"
+    elif verdicts:
+        yield f"Every structure stands under {records}."
+    if failed := sorted({failure.record for failure in failures}):
+        yield f"{counted(len(failed), 'record')} failed, wholly or in part: {', '.join(failed)}"
 
 
 def check_any_read(summary: str | Path, records: Collection[str]) -> None:
@@ -74,34 +95,6 @@ def paths_to_read(results: Path, verdicts: Iterable[Fate]) -> Iterator[str]:
     worst = max(verdicts, key=lambda fate: fate.severity, default=None)
     if worst and (report := results / worst.record / "report.pdf").is_file():
         yield f"Report of the worst record: {report}"
-
-
-def _table(under: dict[str, list[Fate]], records: int) -> Iterator[str]:
-    """A row for each structure that does not stand everywhere: two counts, and the names of the records."""
-    worst = {name: fates for name, fates in under.items() if fates}
-    if not records:
-        return
-    if not worst:
-        yield f"Every structure stands under {counted(records, 'record')}."
-        return
-    overturning = {name: sum(fate.verdict is Verdict.OVERTURNS for fate in worst[name]) for name in worst}
-    ordered = sorted(worst, key=lambda name: (-overturning[name], -len(worst[name])))
-    shown = ordered[:_MOST]
-    width = max(9, *map(len, shown))
-    yield f"Of {counted(records, 'record')}:"
-    yield f"  {'':<{width}}  overturns  undecided  records (?: undecided, –: unknown)"
-    for name in shown:
-        fates = sorted(worst[name], key=lambda fate: fate.severity, reverse=True)
-        undecided = sum(fate.verdict is Verdict.UNDECIDED for fate in fates)
-        names = ", ".join(fate.record + _MARKS.get(fate.verdict, "") for fate in fates)
-        yield f"  {name:<{width}}  {overturning[name]:>9}  {undecided:>9}  {names}"
-    if len(ordered) > _MOST:
-        yield f"  and {counted(len(ordered) - _MOST, 'more structure')}, in {Fate.table.file_name}"
-
-
-def _sentence(failure: FailureRow) -> str:
-    of = f"{failure.structure}: " if failure.structure else ""
-    return of + failure.message.removeprefix(f"{failure.record}: ")
 
 
 PIPE = "ROCKING_PROGRESS"

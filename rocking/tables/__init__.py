@@ -13,9 +13,10 @@ takes both back.
 
 from rocking.tables.csv_rows import csv_lines as csv_lines
 from rocking.tables.csv_rows import data_package as data_package
-from rocking.tables.csv_rows import head as head
+from rocking.tables.csv_rows import frame as frame
 from rocking.tables.csv_rows import read_rows as read_rows
 from rocking.tables.csv_rows import read_table as read_table
+from rocking.tables.csv_rows import rows_of as rows_of
 from rocking.tables.csv_rows import rows_written as rows_written
 from rocking.tables.csv_rows import write_rows as write_rows
 from rocking.tables.csv_rows import write_tables as write_tables
@@ -23,8 +24,6 @@ from rocking.tables.files import read_whole as read_whole
 from rocking.tables.files import whole as whole
 from rocking.tables.files import write_whole as write_whole
 from rocking.tables.files import written_together as written_together
-from rocking.tables.frames import frame as frame
-from rocking.tables.frames import rows_of as rows_of
 from rocking.tables.row import R as R
 from rocking.tables.row import Row as Row
 from rocking.tables.row import Table as Table

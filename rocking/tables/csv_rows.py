@@ -1,18 +1,23 @@
-"""Rows as CSV: written row by row with their description, and read back as typed objects."""
+"""Rows as CSV: written row by row with their description, and read back as typed objects or as a data frame."""
 
 import csv
-import io
 import json
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from enum import Enum, StrEnum
 from itertools import islice
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
 
 from rocking.described import Described
 from rocking.errors import RockingError
 from rocking.tables.files import whole, write_whole
-from rocking.tables.row import R, Row, Table, cell, value_of
+from rocking.tables.row import R, Row, Table, cell, unguarded, value_of
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 
 def write_rows(row_class: type[R], rows: Iterable[R], path: Path) -> None:
@@ -25,39 +30,27 @@ def write_rows(row_class: type[R], rows: Iterable[R], path: Path) -> None:
 def rows_written(row_class: type[R], path: Path) -> Iterator[Callable[[Iterable[R]], None]]:
     """Yield what adds rows to the CSV file at `path`, which appears whole at the end, or not at all."""
     with whole(path) as stream:
-        stream.write(head(row_class))
+        stream.writelines(line.encode() for line in csv_lines(row_class, ()))
 
         def write(rows: Iterable[R]) -> None:
-            for line in islice(csv_lines(row_class, rows), 1, None):
-                stream.write(line.encode())
+            stream.writelines(line.encode() for line in islice(csv_lines(row_class, rows), 1, None))
 
         yield write
-
-
-def head(row_class: type[Row]) -> bytes:
-    """Return the first line of the CSV file of a table."""
-    return next(csv_lines(row_class, ())).encode()
 
 
 def csv_lines(row_class: type[R], rows: Iterable[R]) -> Iterator[str]:
     """Yield the CSV lines of `rows`, below the names of the columns. Raises RockingError for a row of another class."""
     names = row_class.table.column_names
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-
-    def line(texts: Iterable[str]) -> str:
-        stream.seek(0)
-        stream.truncate()
-        writer.writerow(texts)
-        return stream.getvalue()
-
-    yield line(names)
+    line: list[str] = []
+    writer = csv.writer(SimpleNamespace(write=line.append), lineterminator="\n")
+    writer.writerow(names)
+    yield line.pop()
     for each in rows:
         if type(each) is not row_class:
-            raise RockingError(
-                f"{row_class.table.file_name}: {type(each).__name__} is not {row_class.__name__}."
-            )
-        yield line([cell(getattr(each, name)) for name in names])
+            kind = type(each).__name__
+            raise RockingError(f"{row_class.table.file_name}: {kind} is not {row_class.__name__}.")
+        writer.writerow([cell(getattr(each, name)) for name in names])
+        yield line.pop()
 
 
 def read_rows(row_class: type[R], path: Path) -> Iterator[R]:
@@ -110,8 +103,8 @@ def write_tables(
     for kind, rows in tables.items():
         write_rows(kind, rows, folder / kind.table.file_name)
     if package:
-        described = {kind.table.name: (kind.table, kind.table.file_name) for kind in tables}
-        write_whole(folder / description, data_package(package, described))
+        paths = {kind: kind.table.file_name for kind in tables}
+        write_whole(folder / description, data_package(package, paths))
 
 
 def read_table(row_class: type[R], folder: Path) -> list[R]:
@@ -119,24 +112,100 @@ def read_table(row_class: type[R], folder: Path) -> list[R]:
     return list(read_rows(row_class, folder / row_class.table.file_name))
 
 
-def data_package(name: str, resources: Mapping[str, tuple[Table, str | list[str]]]) -> bytes:
-    """Return a Frictionless datapackage.json: for each resource its table and the file, or files, that hold it."""
-    described = [_resource(resource, table, path) for resource, (table, path) in resources.items()]
-    content = {"profile": "tabular-data-package", "name": name, "resources": described}
+def data_package(name: str, paths: Mapping[type[Row], str | list[str]]) -> bytes:
+    """Return a Frictionless datapackage.json: each table with the file, or files, that hold it."""
+    resources = [
+        {
+            "name": kind.table.name,
+            "path": path,
+            "profile": "tabular-data-resource",
+            "description": kind.table.description,
+            "schema": {"fields": [_field(each) for each in kind.table.columns], "missingValues": ["", "nan"]},
+        }
+        for kind, path in paths.items()
+    ]
+    content = {"profile": "tabular-data-package", "name": name, "resources": resources}
     return (json.dumps(content, indent=1) + "\n").encode()
 
 
-def _resource(name: str, table: Table, path: str | list[str]) -> dict[str, object]:
-    return {
-        "name": name,
-        "path": path,
-        "profile": "tabular-data-resource",
-        "description": table.description,
-        "schema": {"fields": [_field(each) for each in table.columns], "missingValues": ["", "nan"]},
-    }
+def _field(column: Described) -> dict[str, str]:
+    facts = {"name": column.name, "type": column.type, "description": column.meaning}
+    more = {"unit": column.unit, "equation": column.more["equation"]}
+    return facts | {key: value for key, value in more.items() if value}
 
 
-def _field(each: Described) -> dict[str, str]:
-    said = {"name": each.name, "type": each.type, "description": each.meaning}
-    more = {"unit": each.unit, "equation": each.more["equation"]}
-    return said | {key: value for key, value in more.items() if value}
+def frame(
+    row_class: type[Row], source: Path | str | Iterable[Row], columns: Iterable[str] | None = None
+) -> "DataFrame":
+    """Return a table as a pandas DataFrame, from its CSV file or from rows; `columns`: only these.
+
+    Numbers are float64 (INF is inf, an empty cell nan), int64, or Int64 where a count may be missing; truths are
+    boolean, choices categories, texts str. Raises RockingError like `read_rows`.
+    """
+    import pandas as pd  # here, because half the commands make no data frame and it takes half a second to import
+
+    table = row_class.table
+    kept = [each for each in table.columns if columns is None or each.name in set(columns)]
+    if not isinstance(source, Path | str):
+        rows = list(source)
+        values = {each.name: [_plain(getattr(one, each.name)) for one in rows] for each in kept}
+        return pd.DataFrame({each.name: pd.Series(values[each.name], dtype=_dtype(each)) for each in kept})
+    path = Path(source)
+    with readable(path) as stream:
+        check_columns(table, next(csv.reader(stream), []), path)
+    texts = [each for each in kept if each.holds is str or each.holds is tuple]
+    chosen = [each for each in kept if issubclass(each.holds, StrEnum)]
+    try:
+        made = pd.read_csv(
+            path,
+            usecols=[each.name for each in kept],
+            dtype={each.name: "category" if each in chosen else _dtype(each) for each in kept},
+            keep_default_na=False,
+            na_values={each.name: ["", "nan"] for each in kept if each not in texts},
+        )
+        for each in chosen:
+            made[each.name] = _checked(made[each.name], each)
+    except ValueError:
+        for _ in read_rows(row_class, path):  # says where
+            pass
+        raise
+    for each in texts:
+        made[each.name] = made[each.name].map(unguarded)
+    return made
+
+
+def _dtype(each: Described) -> Any:
+    import pandas as pd
+
+    if issubclass(each.holds, StrEnum):
+        return pd.CategoricalDtype([one.value for one in each.holds])
+    known = {float: "float64", bool: "boolean", int: "Int64" if each.optional else "int64"}
+    return known.get(each.holds, "str")
+
+
+def _checked(found: Any, each: Described) -> Any:
+    unknown = set(found.cat.categories) - set(each.holds)
+    if unknown or (found.isna().any() and not each.optional):
+        raise ValueError(each.name)
+    return found.cat.set_categories([one.value for one in each.holds])
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, Enum):
+        return value.value
+    return "; ".join(value) if isinstance(value, tuple) else value
+
+
+def rows_of(row_class: type[R], table: "DataFrame") -> Iterator[R]:
+    """Yield the rows of a whole data frame that `frame` gave as objects again."""
+    columns = row_class.table.columns
+    for found in table.astype(object).where(table.notna(), None).itertuples(index=False):
+        yield row_class(**{each.name: _restored(each, getattr(found, each.name)) for each in columns})
+
+
+def _restored(each: Described, value: Any) -> Any:
+    if value is None or value != value:
+        return None if each.optional else math.nan if each.holds is float else ""
+    if each.holds is tuple:
+        return tuple(value.split("; ")) if value else ()
+    return each.holds(value)

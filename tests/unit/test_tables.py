@@ -270,7 +270,7 @@ except RockingError as error:
 
 
 def test_a_data_package_describes_each_column_once() -> None:
-    package = json.loads(data_package("study", {"made": (MadeRow.table, ["x/made.csv", "y/made.csv"])}))
+    package = json.loads(data_package("study", {MadeRow: ["x/made.csv", "y/made.csv"]}))
     (resource,) = package["resources"]
     assert resource["path"] == ["x/made.csv", "y/made.csv"]
     assert resource["description"] == "Made for a test"

@@ -90,19 +90,21 @@ def test_the_table_at_the_end_counts_what_overturns_and_what_is_undecided_apart(
         *(_case("a", "wall", math.inf), _case("b", "wall", 0.1), _case("b", "arch", 0.1)),
     ]
     doubts = [_ensemble("a", "pier", Verdict.UNDECIDED, 60)]
-    lines = closing_lines(fates(cases, doubts), [_failure("c", "", "not read.")])
+    lines = list(closing_lines(fates(cases, doubts), [_failure("c", "", "not read.")]))
     assert [line.split() for line in lines[2:4]] == [["pier", "1", "1", "b,", "a?"], ["wall", "1", "0", "a"]]
     assert lines[4:] == ["1 record failed, wholly or in part: c"]
 
 
 def test_nothing_overturns() -> None:
-    assert closing_lines(fates([_case("a", "pier", 0.1)]), []) == ["Every structure stands under 1 record."]
-    assert closing_lines(fates([_case("a", "pier", math.nan)]), [])[2].endswith("a–")
+    assert list(closing_lines(fates([_case("a", "pier", 0.1)]), [])) == [
+        "Every structure stands under 1 record."
+    ]
+    assert list(closing_lines(fates([_case("a", "pier", math.nan)]), []))[2].endswith("a–")
 
 
 def test_of_many_structures_those_that_overturn_most_are_listed() -> None:
     cases = [_case(f"r{j}", f"s{i}", math.inf) for i in range(9) for j in range(i + 1)]
-    lines = closing_lines(fates(cases), [])
+    lines = list(closing_lines(fates(cases), []))
     assert len(lines) == 2 + 6 + 1 and lines[-1] == "  and 3 more structures, in verdicts.csv"
     assert [line.split()[0] for line in lines[2:-1]] == ["s8", "s7", "s6", "s5", "s4", "s3"]
 
