@@ -12,14 +12,15 @@ OTHER = at2_text(SyntheticRecord("other", 9, 4.0, 0.7, 1.0, 1.0, 6.0, 0.01)).enc
 LONG_AGO, IN_TEN_YEARS = 1e9, time.time() + 3e8
 
 
-def _planned(study) -> list[str]:
-    done = study.run("--dry-run")
+def _planned(study, *options: str) -> list[str]:
+    done = study.run("--dry-run", *options)
     assert done.returncode == 0, done.stdout
     table = done.stdout.partition("Job stats:")[2].partition("\ntotal ")[0]
     return sorted(re.findall(r"(?m)^(assess|summarise|report)(?:_\w+)? +\d+ *$", table))
 
 
-def test_a_record_that_changed_is_seen_whatever_its_date_and_costs_no_table(finished, tmp_path: Path) -> None:
+def test_a_record_that_changed_and_one_more_compute_their_own_jobs_only(finished, tmp_path: Path) -> None:
+    """Whatever the date of the file; and what a folder of a record copied of its old tables goes."""
     study = finished.copy_to(tmp_path / "study")
     assert study.rocking("tables", str(study.results), "good_1").returncode == 0
     file, rows = study.folder / "records" / "good_1.txt", study.rows()
@@ -29,19 +30,24 @@ def test_a_record_that_changed_is_seen_whatever_its_date_and_costs_no_table(fini
     os.utime(file, (IN_TEN_YEARS, IN_TEN_YEARS))
     rows[0]["sha256"] = hashlib.sha256(OTHER).hexdigest()
     study.write_catalogue(rows)
+    study.add_synthetic("good_4", 4)
     done = study.run()
     assert done.returncode == 0, done.stdout
+    assert sum(map(int, re.findall(r"(?m)^assess\w* +(\d+) *$", done.stdout))) == 2, done.stdout
     assert study.rows_of("good_1")["record.csv"] != finished.rows_of("good_1")["record.csv"]
-    assert study.rows_of("good_2") == finished.rows_of("good_2")
+    for name in ("good_2", "good_3"):
+        assert finished.rows_of(name)["maxima.csv"] and study.rows_of(name) == finished.rows_of(name)
+    assert b"good_4" in study.tables()["summary/maxima.csv"]
     assert not list((study.results / "good_1").iterdir()), "a copy of its tables would say something else"
     assert _planned(study) == [], "the second run has nothing to do, in ten years as now"
 
 
-def test_a_dry_run_leaves_the_study_as_it_is_and_a_run_fills_in_the_hash(start, tmp_path: Path) -> None:
-    study = start.copy_to(tmp_path / "study")
-    study.keep("good_1")
+def test_a_dry_run_changes_nothing_and_a_run_in_other_jobs_fills_in_the_hash(
+    finished, tmp_path: Path
+) -> None:
+    """Jobs of another size leave no row twice."""
+    study = finished.copy_to(tmp_path / "study")
     rows = study.rows()
-    hashes = [row["sha256"] for row in rows]
     study.write_catalogue([row | {"sha256": ""} for row in rows])
 
     def contents() -> dict[Path, bytes]:
@@ -50,14 +56,18 @@ def test_a_dry_run_leaves_the_study_as_it_is_and_a_run_fills_in_the_hash(start, 
         return {path: path.read_bytes() for path in own if path.is_file()}
 
     before = contents()
-    assert "summarise" in _planned(study)
     told = study.rocking("run", str(study.folder), "--", "--dry-run")
     assert told.returncode == 0, told.stderr
     assert contents() == before
-    done = study.run()
+    done = study.run("--config", "records_per_job=3")
     assert done.returncode == 0, done.stdout
-    assert [row["sha256"] for row in study.rows()] == hashes
-    assert _planned(study) == []
+    assert study.rows() == rows
+    assert [path.name for path in (study.results / "summary" / "jobs").iterdir()] == ["00000_of_00001"]
+    for name in ("good_1", "good_2", "good_3"):
+        assert study.rows_of(name) == finished.rows_of(name)
+    for path in ("summary/comparison.csv", "summary/maxima.csv"):
+        assert study.tables()[path] == finished.tables()[path], "in the order of the catalogue"
+    assert _planned(study, "--config", "records_per_job=3") == []
 
 
 def test_a_date_or_a_comment_computes_nothing_and_a_number_everything(finished, tmp_path: Path) -> None:

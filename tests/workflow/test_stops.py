@@ -44,10 +44,17 @@ def _kill_all(process: subprocess.Popen[str]) -> None:
     process.stdout.close()
 
 
+ON_DEMAND = pytest.mark.slow
+
+
 @pytest.mark.parametrize(
     ("number", "everybody"),
-    [(signal.SIGINT, True), (signal.SIGINT, False), (signal.SIGTERM, False), (signal.SIGHUP, True)],
-    ids=["Ctrl-C", "interrupt", "request", "terminal closed"],
+    [
+        pytest.param(signal.SIGINT, True, id="Ctrl-C"),
+        pytest.param(signal.SIGTERM, False, id="request"),
+        pytest.param(signal.SIGINT, False, id="interrupt", marks=ON_DEMAND),
+        pytest.param(signal.SIGHUP, True, id="terminal closed", marks=ON_DEMAND),
+    ],
 )
 def test_one_request_to_stop_ends_in_order(start, tmp_path: Path, number: int, everybody: bool) -> None:
     study = start.copy_to(tmp_path / "study")
@@ -106,7 +113,9 @@ def test_a_run_waits_for_the_jobs_of_one_whose_scheduler_alone_was_killed(start,
     assert not study.unfinished()
 
 
-@pytest.mark.parametrize("otherwise", [False, True], ids=["rocking run", "snakemake"])
+@pytest.mark.parametrize(
+    "otherwise", [False, pytest.param(True, marks=ON_DEMAND)], ids=["rocking run", "snakemake"]
+)
 def test_a_second_run_is_locked_out_and_harms_nothing(finished, tmp_path: Path, otherwise: bool) -> None:
     study = finished.copy_to(tmp_path / "study")
     study.forget("good_3")
@@ -123,15 +132,3 @@ def test_a_second_run_is_locked_out_and_harms_nothing(finished, tmp_path: Path, 
         _kill_all(first)
     assert first.returncode == 0
     assert study.tables() == finished.tables()
-
-
-def test_nothing_is_imported_from_the_folder_of_the_study(finished, tmp_path: Path) -> None:
-    study = finished.copy_to(tmp_path / "study")
-    for name in ("yaml", "psutil", "numpy"):
-        (study.folder / f"{name}.py").write_text("open('imported', 'w')\nraise SystemExit(7)\n")
-    study.add_synthetic("good_4", 4)
-    rocking = Path(sys.executable).with_name("rocking")
-    command = [str(rocking) if rocking.exists() else "rocking", "run", "."]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, **study.surroundings)
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert not (study.folder / "imported").exists()

@@ -56,10 +56,13 @@ def test_a_wrong_setting_ends_in_status_2_before_anything_runs(start, tmp_path: 
 
 
 def test_a_terminal_shows_how_far_a_run_has_come_below_lines_that_fit(finished, tmp_path: Path) -> None:
+    """And nothing is imported from the folder of the study."""
     study = finished.copy_to(tmp_path / "study")
+    for name in ("yaml", "psutil", "numpy"):
+        (study.folder / f"{name}.py").write_text("open('imported', 'w')\nraise SystemExit(7)\n")
     study.add("broken_record_with_a_name_that_is_long_enough_to_fill_the_line", b"no record")
     ours, theirs = pty.openpty()
-    command = [sys.executable, "-m", "rocking.study.cli", "run", str(study.folder)]
+    command = [str(Path(sys.executable).with_name("rocking")), "run", "."]
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 60, 0, 0))
     process = subprocess.Popen(command, stdout=theirs, stderr=theirs, **study.surroundings)
     os.close(theirs)
@@ -70,6 +73,7 @@ def test_a_terminal_shows_how_far_a_run_has_come_below_lines_that_fit(finished, 
     except OSError:  # how Linux says that the other end was closed
         pass
     assert process.wait() == 1
+    assert not (study.folder / "imported").exists()
     text = shown.decode()
     assert re.search(r"0 of \d records?", text), "how far the run has come"
     cut = [line for line in text.splitlines() if line.endswith("…")]
