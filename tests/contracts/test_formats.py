@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rocking.errors import RecordError, UndeclaredError
+from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import read
 from rocking.records.formats import FORMATS, Options
@@ -129,27 +129,6 @@ def test_no_real_file_is_warned_of_without_reason(real_records: Path, manifest: 
         assert all(known and re.search(known, sentence) for sentence in told), (file, told)
 
 
-@pytest.mark.parametrize(("file", "defect"), [
-    ("broken_samples/RSN960_LOS270_one_extra.AT2", "declares 1999 samples, but the file holds 2000"),
-    ("broken_samples/ARL360_odd_header.at2", "CR CR LF"),
-    ("formats_peer_at2/RSN175_IMPVALL.H_H-E12140_ASCE7_Matched.AT2", "artificial"),
-    ("formats_peer_at2/RSN10591_ComalTX11-10-20_IU.CCM.BH1.10.AT2", "below 1e-5 g"),
-    ("formats_usc/017m30cc.y0a", "unevenly spaced"),
-])  # fmt: skip
-def test_traps_are_warned_of(real_records: Path, file: str, defect: str) -> None:
-    (record,) = read(real_records / file)
-    assert any(defect in sentence for sentence in record.warnings)
-
-
-def test_a_lost_header_is_not_guessed(real_records: Path) -> None:
-    path = real_records / "broken_samples" / "RSN4083_header_lost.AT2"
-    with pytest.raises(UndeclaredError, match="unit"):
-        read(path)
-    with pytest.raises(UndeclaredError, match="time_step"):
-        read(path, unit="g")
-    assert read(path, unit="g", time_step=0.005)[0].acceleration.size == 16384
-
-
 def test_units_declared_wrongly_are_stopped_with_the_factor(real_records: Path) -> None:
     path = real_records / "broken_samples" / "RSN4083_header_lost.AT2"
     gal = [
@@ -165,19 +144,6 @@ def _read_text(text: str, **declared):
     from rocking.records.read import read_content
 
     return read_content(text.encode(), "made.txt", Options(**declared))
-
-
-def test_surface_and_borehole_are_told_apart(real_records: Path) -> None:
-    surface = real_records / "formats_knet" / "NGNH311106302345.EW2"
-    content = surface.read_bytes()
-    assert not read(surface)[0].borehole
-    from rocking.records.formats import Options
-    from rocking.records.read import read_content
-
-    (deep,) = read_content(
-        content.replace(b"Dir.              5", b"Dir.              2"), "NGNH31.EW1", Options()
-    )
-    assert deep.borehole and deep.component == "EW" and deep.azimuth == 90
 
 
 def test_rinaldi_velocity_is_peers_own(real_records: Path) -> None:

@@ -8,10 +8,8 @@ import obspy
 import pytest
 from made_files import MADE, MADE_BINARY, format_of, knet, peer, table
 
-from rocking.errors import RecordError
 from rocking.records import Accelerogram
 from rocking.records.formats import FORMATS, Options, binary
-from rocking.records.formats.header import typed_magnitude
 from rocking.records.read import read_content
 
 
@@ -116,11 +114,6 @@ def test_the_earthquake_that_a_header_tells_of(name: str) -> None:
     assert {(record.magnitude, record.epicentral_distance) for record in records} == {(size, distance)}
 
 
-@pytest.mark.parametrize(("text", "found"), [("10", 10.0), ("10.1", None), ("0.1", 0.1)])
-def test_a_magnitude_lies_between_0_and_10(text: str, found: float | None) -> None:
-    assert typed_magnitude(text)["magnitude"] == found
-
-
 @pytest.mark.parametrize(("line", "corner"), [
     ("PGA= 0.1 G, HP=0.13 HZ, LP=40.0 HZ", 0.13), ("HP= 1 HZ", 1.0), ("HP= 0.0 HZ", None), ("HP=0.1.2 HZ", None),
     ("FILTER POINTS: HP=. HZ", None), ("4 POLE @ 30. HZ LOW, 4 POLE @ .15 HZ HIGH", 0.15),
@@ -130,17 +123,6 @@ def test_the_corner_that_a_peer_header_tells(line: str, corner: float | None) ->
     line = line.replace("PGA= 0.1 G, ", "")
     (record,) = read_text(peer().replace("NPTS=", f"{line}\nNPTS=" if line else "NPTS="))
     assert record.high_pass_frequency == corner
-
-
-def test_the_title_of_two_headers_may_give_the_step_first() -> None:
-    text = MADE["titled column"][0]()
-    (record,), (turned,) = (read_text(t, unit="m/s2") for t in (text, text.replace("40 0.01", "0.01 40")))
-    assert turned.time_step == record.time_step == 0.01 and turned.acceleration.size == 40
-
-
-def test_a_single_row_of_numbers_is_no_table() -> None:
-    with pytest.raises(RecordError, match="no reader recognises"):
-        read_text("0.01 0.5 0.7\n")
 
 
 @pytest.mark.parametrize(("rows", "warned"), [(4, True), (3, False)])

@@ -7,7 +7,7 @@ import pytest
 
 from rocking.errors import CatalogueError
 from rocking.records import load_catalogue, open_record, read
-from rocking.records.formats.header import distance, typed_magnitude
+from rocking.records.formats.header import typed_magnitude
 
 TABLE = b"time,NS\n0.00,0.1\n0.01,0.3\n0.02,0.2\n0.03,0.1\n"
 SHA = hashlib.sha256(TABLE).hexdigest()
@@ -60,13 +60,6 @@ def test_what_a_header_says(real_records, file):
 )
 def test_a_moment_magnitude_comes_before_one_of_body_waves(text, found):
     assert tuple(typed_magnitude(text).values()) == found
-
-
-@pytest.mark.parametrize(
-    ("kilometres", "metres"), [(88.1, 88100.0), (-999.0, None), (32767.0, None), (None, None)]
-)
-def test_a_distance_is_one_on_this_earth(kilometres, metres):
-    assert distance(kilometres) == metres
 
 
 def catalogue(folder: Path, cells: str) -> Path:

@@ -12,7 +12,6 @@ from rocking.records import read
 from rocking.records.formats import FORMATS
 from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.obspy_plugin import PLUGINS
-from rocking.records.synthetic import SHIPPED, at2_text, synthetic_record
 
 XML = """<?xml version="1.0" encoding="UTF-8"?>
 <FDSNStationXML xmlns="http://www.fdsn.org/xml/station/1" schemaVersion="1.1"><Source>made</Source>
@@ -73,21 +72,6 @@ def test_the_full_response_is_removed_to_acceleration(miniseed: Path) -> None:
     assert np.abs(differentiated.acceleration - expected)[middle].max() < 0.02 * np.abs(expected).max()
 
 
-@pytest.mark.parametrize(("frequency", "kept"), [(0.1, 1.0), (37.0, 1.0), (48.5, 0.0)])
-def test_the_full_response_keeps_up_to_four_fifths_of_the_nyquist_frequency(
-    miniseed: Path, frequency: float, kept: float
-) -> None:
-    """From 0.05 to 40 Hz of 50 all of it, beyond 47.5 Hz nothing."""
-    wave = np.round(1e6 * np.sin(2 * np.pi * frequency * np.arange(8000) / 100) * np.hanning(8000))
-    trace(counts=wave.astype(np.int32)).write(str(miniseed), format="MSEED")
-    (miniseed.parent / "station.xml").write_text(XML.format(units="M/S**2"))
-    (full,) = read(miniseed, response="full")
-    middle = slice(1000, 7000)
-    assert (
-        np.abs(full.acceleration - kept * wave / 200000)[middle].max() < 0.05
-    )  # of 5 m/s²: the taper of the ends
-
-
 def test_counts_without_an_instrument_are_refused(miniseed: Path) -> None:
     trace(counts=COUNTS // 1000).write(str(miniseed), format="MSEED")
     with pytest.raises(RecordError, match=r"no single StationXML describes XX\.MADE"):
@@ -109,14 +93,6 @@ def test_inventories_that_do_not_serve(miniseed: Path, xml: str, message: str) -
     path.write_text(xml)
     with pytest.raises(RecordError, match=message):
         read(miniseed, inventory=path)
-
-
-def test_a_gap_is_refused_with_its_place(miniseed: Path) -> None:
-    obspy = pytest.importorskip("obspy")
-    stream = obspy.Stream([trace(), trace("2020-01-01T00:01:00")])
-    stream.write(str(miniseed), format="MSEED")
-    with pytest.raises(RecordError, match="has a gap at 40 s"):
-        read(miniseed, unit="gal")
 
 
 def test_sac_needs_a_unit_and_loses_its_offset(tmp_path: Path) -> None:
@@ -155,17 +131,6 @@ def test_obspys_own_records() -> None:
 ])  # fmt: skip
 def test_directions(name: str, degrees: float | None, vertical: bool) -> None:
     assert (azimuth(name), is_vertical(name)) == (degrees, vertical)
-
-
-def test_obspy_finds_our_plug_ins(tmp_path: Path) -> None:
-    obspy = pytest.importorskip("obspy")
-    path = tmp_path / "record.at2"
-    path.write_text(at2_text(SHIPPED))
-    (found,) = obspy.read(str(path))
-    assert found.stats._format == "PEER_AT2" and found.stats.delta == 0.005
-    assert np.abs(found.data - synthetic_record(SHIPPED).acceleration).max() < 1e-6
-    (again,) = obspy.read(str(path), format="PEER_AT2")
-    assert np.array_equal(again.data, found.data)
 
 
 def test_every_plug_in_is_declared_and_refuses_quietly(tmp_path: Path) -> None:

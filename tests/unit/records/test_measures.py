@@ -32,22 +32,6 @@ def test_steady_shaking_lasts_nine_tenths_of_it():
     assert found.significant_duration == pytest.approx(9.0)
 
 
-def test_scale_and_delay():
-    rng = np.random.default_rng(3)
-    samples = rng.standard_normal(1000) * np.hanning(1000)
-    one = record_measures(Accelerogram(samples, STEP))
-    two = record_measures(Accelerogram(-3 * np.pad(samples, (200, 0)), STEP))
-    assert two.arias_intensity == pytest.approx(9 * one.arias_intensity)
-    assert two.significant_times == pytest.approx(np.array(one.significant_times) + 200 * STEP)
-    assert two.peak_velocity == pytest.approx(3 * one.peak_velocity)
-
-
-def test_a_still_record_spends_nothing():
-    found = record_measures(Accelerogram(np.zeros(100), STEP))
-    assert (found.arias_intensity, found.significant_duration) == (0, 0)
-    assert not found.husid.any()
-
-
 @pytest.mark.real_records
 def test_peak_velocities_of_real_records(real_records, manifest):
     # printed by the source for NGA-West2 files, whose velocity starts from rest at the first sample

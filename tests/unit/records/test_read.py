@@ -151,15 +151,6 @@ def test_bad_tables(tmp_path: Path, text: str, message: str) -> None:
         read(written(tmp_path, text, "r.csv"), time_step=None if "," in text and "time" in text else 0.01)
 
 
-def test_several_named_channels_with_their_units(tmp_path: Path) -> None:
-    text = "t;NS [gal];UD [g]\n" + "".join(f"{0.02 * i:.2f};{i};{i / 1000}\n" for i in range(10))
-    north, vertical = read(written(tmp_path, text, "r.csv"))
-    assert (north.component, north.azimuth, vertical.vertical) == ("NS", 0.0, True)
-    assert north.acceleration[-1] == pytest.approx(0.09) and vertical.acceleration[-1] == pytest.approx(
-        0.009 * 9.80665
-    )
-
-
 def test_wrapped_series_and_single_column(tmp_path: Path) -> None:
     values = 0.1 * np.sin(np.arange(23))
     wrapped = "\n".join(" ".join(f"{v:.7E}" for v in values[i : i + 5]) for i in range(0, 23, 5))
@@ -180,11 +171,6 @@ def test_declarations_are_checked(tmp_path: Path) -> None:
     with pytest.raises(RecordError, match="response is 'partly'"):
         read(path, response="partly")  # type: ignore[arg-type]
     assert read(path, unit="G", time_step=0.01)[0].time_step == 0.01
-
-
-def test_a_table_with_its_own_time_step_uses_it() -> None:
-    content = "\n".join(f"{i / 50:.2f} {i % 7}" for i in range(30)).encode()
-    assert read_content(content, "r", Options(unit="gal"))[0].time_step == 0.02
 
 
 def test_reading_at2_needs_no_heavy_library(tmp_path: Path) -> None:

@@ -56,10 +56,3 @@ def test_peaks_over_directions() -> None:
 def test_pairs_that_do_not_fit(first: Accelerogram, second: Accelerogram, message: str) -> None:
     with pytest.raises(RecordError, match=message):
         rotate(first, second, 30)
-
-
-def test_a_direction_must_be_a_number() -> None:
-    with pytest.raises(RecordError, match="azimuth is nan"):
-        rotate(component(0), component(90), float("nan"))
-    with pytest.raises(RecordError, match="step is 0"):
-        rotd(component(0), component(90), step=0)

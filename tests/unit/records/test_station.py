@@ -141,8 +141,3 @@ def test_it_is_still_after_its_end_and_cut_at_the_end_of_the_other():
     short, long = Accelerogram(np.ones(5), 0.01), Accelerogram(np.zeros(8), 0.01)
     assert aligned(short, long).acceleration.tolist() == [1.0] * 5 + [0.0] * 3
     assert aligned(long, short).acceleration.tolist() == [0.0] * 5
-
-
-def test_another_time_step_is_refused():
-    with pytest.raises(RecordError, match="time_step"):
-        aligned(Accelerogram(np.ones(5), 0.02), Accelerogram(np.zeros(8), 0.01))
