@@ -2,7 +2,7 @@
 
 import operator
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -66,21 +66,13 @@ def process(record: Accelerogram, processing: Processing | None = None) -> Accel
     return record
 
 
-def variants(high_pass: float = 0.1, pre_event: float | None = None) -> dict[str, Processing]:
-    """Return named settings that differ in baseline and corner, to see how much an answer owes to them.
-
-    high_pass: Hz, tried at half and twice its value too. pre_event: s, for a record known to start before the shaking;
-    its mean is then removed in all of them but the first. A processed record has no such window left.
-    """
-    settled = Processing(pre_event=pre_event)
-    corners = {f"high-pass {f * high_pass:g} Hz": f * high_pass for f in (0.5, 1.0, 2.0)}
-    return {
-        "unchanged": Processing(),
-        **({"pre-event mean": settled} if pre_event else {}),
-        "linear baseline": replace(settled, baseline="linear"),
-        "adaptive baseline": replace(settled, baseline="adaptive"),
-        **{name: replace(settled, taper=0.02, high_pass=corner) for name, corner in corners.items()},
+def variants() -> dict[str, Processing]:
+    """Return named settings that differ in baseline and corner, to see how much an answer owes to them."""
+    corners = {
+        f"high-pass {corner:g} Hz": Processing(taper=0.02, high_pass=corner) for corner in (0.05, 0.1, 0.2)
     }
+    baselines = {f"{kind} baseline": Processing(baseline=kind) for kind in ("linear", "adaptive")}
+    return {"unchanged": Processing(), **baselines, **corners}
 
 
 def velocity(record: Accelerogram) -> np.ndarray:
