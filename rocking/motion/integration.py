@@ -12,8 +12,7 @@ from rocking.motion import linear_kernel, nonlinear_kernel
 from rocking.motion.compiled import IMPACT_LIMIT, OVERTURNS, ROCKS, TOO_MANY_IMPACTS
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.response import Response
-from rocking.motion.side_table import SideTable
-from rocking.motion.table import Table, linear_table, table_of
+from rocking.motion.table import SideTable, Table, linear_table, table_of
 from rocking.quantities import GRAVITY, finite, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Outcome

@@ -20,8 +20,7 @@ from rocking.motion.integration import (
     reduce,
     solvable_exactly,
 )
-from rocking.motion.side_table import SideTable
-from rocking.motion.table import Table, linear_table, table_of
+from rocking.motion.table import SideTable, Table, linear_table, table_of
 from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
@@ -184,14 +183,14 @@ def _stepped(
     tolerance: float,
 ) -> MemberResponses:
     """By the kernel that integrates to a tolerance."""
-    results = _room(horizontal.size)
-    sides = table.kernel_of(forcing)
+    count, sides = horizontal.size, table.kernel_of(forcing)
+    results = np.zeros(count, dtype=np.int64), np.zeros((count, 2)), np.zeros(count, dtype=np.int64)
     nonlinear_kernel.rock_members(
         sides,
         forcing.ground,
         horizontal,
         vertical,
-        _restitutions(restitution, table.restitution, horizontal.size),
+        np.full((count, 2), table.restitution if restitution is None else restitution),
         STEP_SHARE * tolerance,
         nonlinear_kernel.memory(sides.ties),
         np.zeros((2, 2)),
@@ -205,16 +204,17 @@ def _exact(
     block: EquivalentBlock, forcing: Forcing, horizontal: np.ndarray, restitution: np.ndarray | None
 ) -> MemberResponses:
     """By the kernel that is exact."""
-    sides, results = block.sides, _room(horizontal.size)
-    own, ground = blocks_of(block), forcing.ground
+    sides, count, own, ground = block.sides, horizontal.size, blocks_of(block), forcing.ground
+    results = np.zeros(count, dtype=np.int64), np.zeros((count, 2)), np.zeros(count, dtype=np.int64)
+    eta = (sides[0].restitution, sides[-1].restitution) if restitution is None else restitution
     takeable = np.empty((len(sides), 2, forcing.samples))
     takeable[..., -1] = -1.0
     linear_kernel.rock_linear_members(
-        *(np.tile(values, (horizontal.size, 1)) for values in (own.frequency, own.push, own.span)),
+        *(np.tile(values, (count, 1)) for values in (own.frequency, own.push, own.span)),
         own.one_sided,
         linear_kernel.Samples(ground.horizontal, ground.time_step, takeable),
         horizontal,
-        _restitutions(restitution, (sides[0].restitution, sides[-1].restitution), horizontal.size),
+        np.full((count, 2), eta),
         np.zeros((2, 2)),
         NO_LOG,
         *results,
@@ -241,14 +241,6 @@ def _concluded(
     ratio[failed], side[failed] = np.nan, 0
     reasons = {int(k): str(failure(int(status[k]), int(impacts[k]))) for k in failed}
     return MemberResponses(ratio, side, reasons)
-
-
-def _room(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    return np.zeros(count, dtype=np.int64), np.zeros((count, 2)), np.zeros(count, dtype=np.int64)
-
-
-def _restitutions(given: np.ndarray | None, own: tuple[float, float], count: int) -> np.ndarray:
-    return np.full((count, 2), own if given is None else given, dtype=float)
 
 
 def _by_side(restitution: np.ndarray) -> np.ndarray:

@@ -395,16 +395,8 @@ def _with_ties(ties, phase, slot, k, j, e):
         c, s = phase[slot, FIRST + EACH * n], phase[slot, FIRST + EACH * n + 1]
         if c != 0 or s != 0:
             a0, a1, a2, a3, a4, a5, a6, a7 = _polynomial(ties.pieces, k * count + n, j, c, s)
-            e0, e1, e2, e3, e4, e5, e6, e7 = (
-                e0 + a0,
-                e1 + a1,
-                e2 + a2,
-                e3 + a3,
-                e4 + a4,
-                e5 + a5,
-                e6 + a6,
-                e7 + a7,
-            )
+            e0, e1, e2, e3 = e0 + a0, e1 + a1, e2 + a2, e3 + a3
+            e4, e5, e6, e7 = e4 + a4, e5 + a5, e6 + a6, e7 + a7
     return e0, e1, e2, e3, e4, e5, e6, e7
 
 

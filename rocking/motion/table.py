@@ -1,17 +1,373 @@
-"""A Mechanism as the kernel sees it: the tables of its sides, stacked and remembered."""
+"""A Mechanism as the kernel sees it: its sides as piecewise polynomials of the arc, stacked and remembered.
 
-from collections.abc import Sequence
+In the arc q the term J φ'² drops out of the equation of motion (J = I'/2), and what is left of it is
+G̃ = G/√(I I(0)) and B̃ = B/√(I I(0)). For a rigid body I is constant and q = φ.
+"""
+
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from rocking.errors import MotionError
 from rocking.motion.compiled import REST_ENERGY
 from rocking.motion.forcing import Forcing
 from rocking.motion.nonlinear_kernel import Sides, Ties
-from rocking.motion.side_table import DEGREE, SideTable, linear_side, side_table
-from rocking.structures.mechanism import EquivalentBlock, Mechanism
+from rocking.quantities import GRAVITY
+from rocking.structures.equivalent_block import Arc, Function, RotationMap, arc_of
+from rocking.structures.mechanism import CUTS, EquivalentBlock, Mechanism, Side
+from rocking.structures.ties import SideTie
+
+_NEAR = 1 / 64
+"""Share of the arc of φ_cr within which a chain of impacts is looked at as a whole."""
+
+_STILL = 0.1
+"""A tie whose point moves less, in m, is as accurate as one that moves so far: its motion is a difference of lengths,
+rounded as they are, and nothing is left of it where the point stands still, as the top of a wall that a floor holds."""
+
+_GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(40)
+
+
+@dataclass(frozen=True, eq=False)
+class SideTable:
+    """One side, in two zones of equal pieces: an inner one up to 2 φ_cr, and an outer one up to the end.
+
+    kernel: what the kernel takes of it, an array of one side each. ratios: (m, 8) φ/q by power of the distance from the
+    centre of each piece. arc and stretch: q and dq/dφ at a rotation. rotation_map: that of an equivalent block, which
+    stands for ratios and stretch. Ties that are kept apart are not in G̃, nor in what follows from it.
+    """
+
+    kernel: Sides
+    ratios: np.ndarray
+    restitution: float
+    critical_rotation: float
+    arc: Function
+    stretch: Function
+    rotation_map: RotationMap | None = None
+
+    @property
+    def end(self) -> float:
+        """The arc at which the table ends."""
+        return float(self.kernel.end[0])
+
+    def rotation(self, arc: np.ndarray | float) -> np.ndarray:
+        """Return the rotation [rad] at `arc`, any shape, within the table; inf beyond the end of a rotation_map."""
+        arc = np.asarray(arc, dtype=float)
+        if self.rotation_map is not None:
+            return self.rotation_map.rotation(arc)
+        split, inner, inner_count, _, outer, outer_count, *_ = self.kernel.grid[0].tolist()
+        within = np.minimum((arc / inner).astype(int), int(inner_count) - 1)
+        beyond = np.minimum(np.maximum((arc - split) / outer, 0.0).astype(int), int(outer_count) - 1)
+        inside = arc < split
+        centre = np.where(inside, (within + 0.5) * inner, split + (beyond + 0.5) * outer)
+        row = self.ratios[np.where(inside, within, int(inner_count) + beyond)]
+        ratio = row[..., -1]
+        for power in range(DEGREE - 1, -1, -1):
+            ratio = row[..., power] + (arc - centre) * ratio
+        return arc * ratio
+
+    def rotation_at(self, arc: float) -> float:
+        """The same of one arc, to the last bit, in a few microseconds."""
+        if self.rotation_map is not None:
+            return self.rotation_map.rotation_at(arc)
+        split, inner, inner_count, _, outer, outer_count, *_ = self.kernel.grid[0].tolist()
+        if arc < split:
+            row = min(int(arc / inner), int(inner_count) - 1)
+            centre = (row + 0.5) * inner
+        else:
+            beyond = min(int((arc - split) / outer), int(outer_count) - 1)
+            row, centre = int(inner_count) + beyond, split + (beyond + 0.5) * outer
+        ratio = 0.0
+        for coefficient in self.ratios[row].tolist()[::-1]:
+            ratio = coefficient + (arc - centre) * ratio
+        return float(arc * ratio)
+
+    def rotation_ratio(self, arc: float) -> float:
+        """Return φ/φ_cr of one arc; 0 for none."""
+        return self.rotation_at(arc) / self.critical_rotation if arc > 0 else 0.0
+
+    def rotation_ratios(self, arcs: np.ndarray) -> np.ndarray:
+        """The same of many, any shape."""
+        return self.rotation(arcs) / self.critical_rotation
+
+    def slope(self, arc: np.ndarray | float, rotation: np.ndarray | None = None) -> np.ndarray:
+        """Return dφ/dq at `arc`, any shape; `rotation` there, where it is known, spares finding it."""
+        if self.rotation_map is not None:
+            return self.rotation_map.slope(np.asarray(arc))
+        return 1 / self.stretch(self.rotation(arc) if rotation is None else rotation)
+
+
+def linear_side(block: EquivalentBlock) -> SideTable:
+    """Return the table of one side of an equivalent block: exact, and endless unless its rotation_map ends."""
+    square = block.frequency_parameter**2 / GRAVITY
+    critical = block.critical_arc
+    scale = critical / block.uplift_multiplier
+    width, count = critical / 8, 513  # the last one is the outer zone, which has no end
+    starts = np.arange(count) * width
+    pieces, ratios = np.zeros((count, 2 * DEGREE + 2)), np.zeros((count, DEGREE + 1))
+    pieces[:, 0] = square * (critical - starts - width / 2)
+    pieces[:, 1], pieces[:, 2], ratios[:, 0] = square * scale, -square, 1.0
+    near = np.array([[critical, (1 - _NEAR) * critical], [scale, scale]]) * square
+    kernel = _kernel(
+        pieces=pieces,
+        grid=(starts[-1], width, count - 1, np.inf, width, 1, np.inf, 1 / width, 1 / width),
+        lift=(square * critical, square * scale),
+        hold=(starts - critical) / scale,
+        critical=critical,
+        end=np.inf if block.rotation_map is None else block.rotation_map.end,
+        rest_speed=block.velocity_scale * REST_ENERGY**0.5,
+        longest_step=1 / block.frequency_parameter,
+        near=_near_rest(critical * _NEAR, near),
+    )
+    arc = np.asarray if block.rotation_map is None else np.vectorize(block.rotation_map.arc)
+    return SideTable(
+        kernel, ratios, block.restitution, block.critical_rotation, arc, np.ones_like, block.rotation_map
+    )
+
+
+def _kernel(ties: Ties | None = None, **values: np.ndarray | float | tuple[float, ...]) -> Sides:
+    """The Sides of one side."""
+    arrays = {name: np.array([value], dtype=float) for name, value in values.items()}
+    return Sides(**arrays, one_sided=False, ties=ties)
+
+
+def side_table(side: Side, apart: bool = False) -> SideTable:
+    """Return the table of a side, up to where it can be tabulated. apart: keep its ties apart from G.
+
+    Raises MotionError when it cannot be.
+    """
+    for cut in CUTS:
+        last = side.end_rotation - cut * (side.end_rotation - side.critical_rotation)
+        with np.errstate(all="ignore"):
+            found = _tabulated(side, last, apart)
+        if found is not None:
+            return found
+    raise MotionError(
+        f"the mechanism's functions cannot be tabulated to {ACCURACY:g} of their maximum up to a rotation of "
+        f"{last!r} rad; they must be smooth up to there."
+    )
+
+
+def _functions(
+    side: Side, arc: Arc, gravity: Function, ties: Sequence[SideTie]
+) -> Callable[[np.ndarray], np.ndarray]:
+    """Return (3 + 3 n, ...) G̃, B̃, φ/q, and D̃, u D̃ and u of the n `ties`, as functions of the arc."""
+    rest = side.at("inertia", 0.0)
+
+    def functions(arcs: np.ndarray) -> np.ndarray:
+        rotation = arc.rotation(arcs)
+        scale = np.sqrt(side.inertia(rotation) * rest)
+        found = [gravity(rotation) / scale, side.ground(rotation) / scale, rotation / arcs]
+        for tie in ties:
+            stretch, pull = tie.stretch(rotation), tie.stretch_slope(rotation) / scale
+            found += [pull, stretch * pull, stretch]
+        return np.stack(found)
+
+    return functions
+
+
+def _tabulated(side: Side, last: float, apart: bool) -> SideTable | None:
+    """The table over the rotations up to `last`, ties apart or not, or None where it does not reach ACCURACY."""
+    arc = arc_of(side.inertia, last, AIM)
+    if arc is None:
+        return None
+    gravity = side.untied_gravity if apart and side.untied_gravity is not None else side.gravity
+    ties = side.ties if apart else ()
+    functions = _functions(side, arc, gravity, ties)
+    end, critical = float(arc.at(last)), float(arc.at(side.critical_rotation))
+    split = min(2 * critical, (critical + end) / 2)
+    largest = np.abs(functions(np.linspace(end / 1000, end, 1000))).max(axis=1)
+    rest = side.at("inertia", 0.0)
+    least = np.array([0.0] * 3 + [_STILL / rest, _STILL**2 / rest, _STILL] * len(ties))
+    inner = fitted(functions, 0.0, split, largest, least)
+    outer = fitted(functions, split, end, largest, least)
+    if inner is None or outer is None:
+        return None
+    powers = np.concatenate([inner, outer], axis=1)
+    grid, starts = _grid(split, end, inner.shape[1], outer.shape[1])
+    lift = float(gravity(np.asarray(0.0))) / rest, side.at("ground", 0.0) / rest
+    near = np.column_stack([lift, functions(np.linspace(0, critical * _NEAR, 65)[1:])[:2]])
+    slope = max(_steepest(side, functions, critical, apart), lift[0] / critical)
+    kernel = _kernel(
+        ties=_ties(side, arc, powers[3:], critical * _NEAR) if ties else None,
+        pieces=powers[:2].transpose(1, 2, 0).reshape(powers.shape[1], -1),
+        grid=grid,
+        lift=lift,
+        hold=_hold(gravity, side.ground, arc.rotation, starts),
+        critical=_standing(gravity, arc.rotation, critical) if apart else critical,
+        end=end,
+        rest_speed=_reaching_speed(side, rest) * REST_ENERGY**0.5,
+        longest_step=1 / np.sqrt(GRAVITY * slope),
+        near=_near_rest(critical * _NEAR, near),
+    )
+    ratios = np.ascontiguousarray(powers[2])
+    return SideTable(kernel, ratios, side.restitution, side.critical_rotation, arc.at, arc.stretch)
+
+
+def _steepest(side: Side, functions: Function, critical: float, apart: bool) -> float:
+    """−dG̃/dq at φ_cr; the largest |dG̃/dq| up to there where ties are apart."""
+    if apart:
+        slopes = np.gradient(functions(np.linspace(critical / 512, critical, 512))[0])
+        return float(np.abs(slopes).max() * 512 / critical)
+    return -side.at("gravity_slope", side.critical_rotation) / side.at("inertia", side.critical_rotation)
+
+
+def _ties(side: Side, arc: Arc, powers: np.ndarray, reach: float) -> Ties:
+    """The ties of one side, from the polynomials (3 n, m, 8) of D̃, u D̃ and u of each."""
+    count, pieces = powers.shape[0] // 3, powers.shape[1]
+    pulls, stretch = np.split(powers.reshape(count, 3, pieces, DEGREE + 1), [2], axis=1)
+    pulls = pulls.transpose(0, 2, 3, 1).reshape(count, pieces, -1)
+    laws = [tie_law(side, tie, arc, reach) for tie in side.ties]
+    return Ties(np.concatenate([pulls, stretch[:, 0]], axis=2), np.array(laws)[None])
+
+
+def _standing(gravity: Function, rotation: Function, critical: float) -> float:
+    """An arc up to `critical` below which `gravity` restores."""
+    arcs = np.linspace(0.0, critical, 513)
+    falls = np.flatnonzero(gravity(rotation(arcs)) <= 0)
+    return float(arcs[max(falls[0] - 1, 0)]) if falls.size else critical
+
+
+def _grid(split: float, end: float, inner: int, outer: int) -> tuple[tuple[float, ...], np.ndarray]:
+    """The grid of a SideTable with so many pieces in its zones, and where its pieces start (with the end)."""
+    width, further = split / inner, (end - split) / outer
+    starts = np.concatenate([np.arange(inner) * width, split + np.arange(outer + 1) * further])
+    zones = (width, inner, ROOM * width, further, outer, ROOM * further)
+    return (split, *zones, 1 / width, 1 / further), starts
+
+
+def _reaching_speed(side: Side, rest_inertia: float) -> float:
+    """√(2 g ∫ G dφ / I(0)) from 0 to φ_cr, on the way out."""
+    ends = [bend for bend in side.bends if 0 < bend < side.critical_rotation] if side.remembers else []
+    work = np.zeros(())
+    for start, end in pairwise([0.0, *ends, side.critical_rotation]):
+        half = (end - start) / 2
+        work = work + 2 * GRAVITY * half * (_WEIGHTS @ side.gravity(start + half * (_GAUSS + 1)))
+    return float(np.sqrt(work / rest_inertia))
+
+
+def _near_rest(reach: float, values: np.ndarray) -> tuple[float, ...]:
+    """Bounds of G̃ and B̃ (2, n), taken at equal distances over the arcs [0, reach]; see `Sides`.
+
+    Widened by the largest change between neighbouring samples, and slopes by half, for what lies between samples.
+    """
+    changes = np.abs(np.diff(values, axis=1)).max(axis=1)
+    slopes = 1.5 * changes * (values.shape[1] - 1) / reach
+    least, most = values[0].min() - changes[0], values[0].max() + changes[0]
+    drive = np.abs(values[1]).max() + changes[1]
+    speed = np.sqrt(2 * GRAVITY * max(least, 0.0) * reach)
+    return tuple(float(each) for each in (reach, least, most, drive, *slopes, speed))
+
+
+def _hold(gravity: Function, ground: Function, rotation: Function, starts: np.ndarray) -> np.ndarray:
+    """(m,) smallest −G/|B| from each piece on, lowered by the largest change between neighbouring samples."""
+    arcs = starts[:-1, None] + np.diff(starts)[:, None] * np.linspace(0, 1, 9)
+    rotations = rotation(arcs)
+    balance = -gravity(rotations) / np.maximum(np.abs(ground(rotations)), 1e-300)
+    steps = np.abs(np.diff(balance, axis=1)).max(axis=1)
+    lowest = balance.min(axis=1) - steps
+    return np.minimum.accumulate(lowest[::-1])[::-1]
+
+
+def tie_law(side: Side, tie: SideTie, arc: Arc, reach: float) -> tuple[float, ...]:
+    """Return the law (9,) of a tie as `Ties` has it; reach: the arc that is near rest."""
+    law, rotations = tie.tie, np.linspace(0.0, arc.last, 129)
+    yields, breaks = (
+        float(arc.at(rotation)) if (rotation := tie.rotation(stretch, arc.last)) < np.inf else np.inf
+        for stretch in (law.yield_stretch, law.rupture_stretch)
+    )
+    stiffest = np.max(tie.stretch_slope(rotations) ** 2 / side.inertia(rotations))
+    return (
+        GRAVITY * law.stiffness,
+        GRAVITY * law.pretension,
+        GRAVITY * law.strength,
+        law.yield_stretch,
+        yields,
+        breaks,
+        GRAVITY * law.stiffness * float(stiffest),
+        float(tie.stretch_slope(np.asarray(0.0))) / side.at("inertia", 0.0),
+        _slope_near_rest(side, tie, arc.rotation(np.linspace(0.0, reach, 65)), reach),
+    )
+
+
+def _slope_near_rest(side: Side, tie: SideTie, rotations: np.ndarray, reach: float) -> float:
+    """Return a bound of |d(T D̃)/dq| over `rotations` (n,) at equal arcs up to `reach`, widened for those between."""
+    rest = side.at("inertia", 0.0)
+    pull = tie.stretch_slope(rotations) / np.sqrt(side.inertia(rotations) * rest)
+    stretch = tie.stretch(rotations)
+    force = tie.tie.pretension + tie.tie.stiffness * stretch[-1]
+    steepest = np.abs(np.diff(stretch)).max() * (rotations.size - 1) / reach
+    bends = np.abs(np.diff(pull)).max() * (rotations.size - 1) / reach
+    return float(1.5 * GRAVITY * (tie.tie.stiffness * steepest * np.abs(pull).max() + force * bends))
+
+
+DEGREE = 7
+ACCURACY = 1e-12
+"""Largest error of a table, relative to the largest magnitude of the quantity."""
+
+ROOM = 0.25
+"""A piece is accurate up to this share of its width beyond its ends; a step goes no further."""
+
+AIM = 2e-14
+"""Error at which no more pieces are made, relative likewise."""
+
+_MOST_PIECES = 4096
+_NODES = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
+_PROBES = np.linspace(-0.99, 0.99, 16)
+
+
+def fitted(
+    functions: Callable[[np.ndarray], np.ndarray],
+    start: float,
+    end: float,
+    largest: np.ndarray,
+    least: np.ndarray | float = 0.0,
+) -> np.ndarray | None:
+    """Polynomials (f, m, 8) of f functions on m equal pieces of [start, end], good to ROOM beyond its ends, or None.
+
+    Pieces are halved, as often at once as the order of the error, DEGREE + 1, says is surely needed, until the error is
+    AIM of the zone's own maximum, or no longer falls because it is the rounding of the functions themselves; it must
+    then be within ACCURACY of `largest` (f,), the maxima over the whole side. Maxima below `least` (f,) count as that.
+    """
+    best, best_error, good, count = None, np.inf, False, 2
+    while count <= _MOST_PIECES:
+        powers, errors, zone = _fit(functions, start, end, count)
+        if not np.all(np.isfinite(errors)):
+            return None
+        error = (errors / np.maximum(zone, least)).max()
+        if error < best_error:
+            best, best_error, good = (
+                powers,
+                error,
+                bool(np.all(errors <= ACCURACY * np.maximum(largest, least))),
+            )
+        elif good:
+            break
+        if best_error <= AIM:
+            break
+        count <<= max(1, int(np.log2(error / AIM) / (DEGREE + 1)))
+    return best if good else None
+
+
+def _fit(
+    functions: Callable[[np.ndarray], np.ndarray], start: float, end: float, count: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Interpolate on `count` pieces; also the largest error between the nodes, and the largest value, (f,) each."""
+    half = (end - start) / count / 2
+    centres = start + (2 * np.arange(count)[:, None] + 1) * half
+    low = np.maximum(start - centres, -(1 + 2 * ROOM) * half) / half
+    high = np.minimum(end - centres, (1 + 2 * ROOM) * half) / half
+    places, probes = ((low + high) / 2 + (high - low) / 2 * each for each in (_NODES, _PROBES))
+    found = functions(centres + half * np.concatenate([places, probes], axis=1))
+    values, between = found[..., : _NODES.size], found[..., _NODES.size :]
+    powers = np.linalg.solve(places[..., None] ** np.arange(DEGREE + 1), np.moveaxis(values, 0, -1))
+    powers = np.moveaxis(powers, -1, 0)
+    fit = np.einsum("fmp,mqp->fmq", powers, probes[..., None] ** np.arange(DEGREE + 1))
+    errors = np.abs(fit - between).max(axis=(1, 2))
+    return powers / half ** np.arange(DEGREE + 1), errors, np.abs(values).max(axis=(1, 2))
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,15 +419,18 @@ def linear_table(block: EquivalentBlock) -> Table:
 
 
 def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
-    most = max(side.pieces.shape[0] for side in sides)
-    pieces, hold = np.zeros((len(sides), most, 2 * DEGREE + 2)), np.zeros((len(sides), most))
-    for k, side in enumerate(sides):
-        pieces[k, : side.hold.size], hold[k, : side.hold.size] = side.pieces, side.hold
-    names = ("grid", "lift", "critical", "end", "reaching_speed", "longest_step", "near")
-    stacked = {name: np.array([getattr(side, name) for side in sides], dtype=float) for name in names}
-    stacked["rest_speed"] = stacked.pop("reaching_speed") * REST_ENERGY**0.5
-    ties = stacked_ties([side.ties for side in sides], most)
-    kernel = Sides(pieces=pieces, hold=hold, one_sided=one_sided, ties=ties, **stacked)
+    most = max(side.kernel.hold.shape[1] for side in sides)
+    arrays = {}
+    for name in set(Sides._fields) - {"one_sided", "ties"}:
+        rows = [getattr(side.kernel, name) for side in sides]
+        if name in ("pieces", "hold"):  # the shorter table is filled up with zeros
+            rows = [
+                np.pad(row, [(0, 0), (0, most - row.shape[1])] + [(0, 0)] * (row.ndim - 2)) for row in rows
+            ]
+        arrays[name] = np.concatenate(rows)
+    kernel = Sides(
+        **arrays, one_sided=one_sided, ties=stacked_ties([side.kernel.ties for side in sides], most)
+    )
     return Table(sides, one_sided, kernel, (sides[0].restitution, sides[-1].restitution))
 
 

@@ -5,6 +5,7 @@ The compiled scan is imported where it is called: it loads numba, and who only n
 
 import math
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -113,8 +114,7 @@ def evidence_of(pulse: Pulse, accelerogram: Accelerogram) -> PulseEvidence:
     return PulseEvidence(pulse, gain * step, gain / energy, phase)
 
 
-@dataclass(frozen=True, eq=False)
-class Band:
+class Band(NamedTuple):
     """The frequencies that can be sought in a record: (m,) Hz, ascending, and why the band was narrowed."""
 
     frequencies: np.ndarray
@@ -128,15 +128,8 @@ class Band:
 
 def searched_band(accelerogram: Accelerogram, settings: PulseSettings) -> Band:
     """Return the frequencies that `settings` asks for and the record can hold. Raises PulseError when none is left."""
-    low, high = settings.lowest_frequency, settings.highest_frequency
-    flags: list[Flag] = []
-    if 1 / accelerogram.duration > low:
-        low = 1 / accelerogram.duration
-        flags.append(Flag.SHORT_RECORD)
-    finest = 1 / (settings.samples_per_cycle * accelerogram.time_step)
-    if finest < high:
-        high = finest
-        flags.append(Flag.COARSE_SAMPLING)
+    longest, finest = 1 / accelerogram.duration, 1 / (settings.samples_per_cycle * accelerogram.time_step)
+    low, high = max(settings.lowest_frequency, longest), min(settings.highest_frequency, finest)
     if low >= high:
         raise PulseError(
             f"{accelerogram.source.path or 'The accelerogram'} lasts {accelerogram.duration:g} s at a time step of "
@@ -147,11 +140,14 @@ def searched_band(accelerogram: Accelerogram, settings: PulseSettings) -> Band:
     steps = math.ceil(settings.frequencies_per_octave * math.log2(high / low) - 1e-9)
     frequencies = low * 2.0 ** (np.arange(steps + 1) / settings.frequencies_per_octave)
     frequencies[-1] = high
-    return Band(frequencies, tuple(flags))
+    narrowed = {
+        Flag.SHORT_RECORD: low > settings.lowest_frequency,
+        Flag.COARSE_SAMPLING: high < settings.highest_frequency,
+    }
+    return Band(frequencies, tuple(flag for flag, holds in narrowed.items() if holds))
 
 
-@dataclass(frozen=True, eq=False)
-class Maxima:
+class Maxima(NamedTuple):
     """Local maxima of the energy gain on the grid: onsets (k,) samples, columns (k,) of the frequency, gains (k,)."""
 
     onsets: np.ndarray
@@ -193,27 +189,19 @@ class PulseSearch:
         last = math.ceil(changed.end_time / self.time_step) + 2
         onsets = slice(max(first, 0), min(last, samples.size))
         kept = (maxima.onsets < onsets.start) | (maxima.onsets >= onsets.stop)
-        new = self.maxima(samples, onsets)
-        return Maxima(
-            np.concatenate((maxima.onsets[kept], new.onsets)),
-            np.concatenate((maxima.columns[kept], new.columns)),
-            np.concatenate((maxima.gains[kept], new.gains)),
-        )
+        old = (values[kept] for values in maxima)
+        return Maxima(*map(np.concatenate, zip(old, self.maxima(samples, onsets), strict=True)))
 
     def ranked(self, samples: np.ndarray, maxima: Maxima) -> tuple[PulseEvidence, ...]:
         """Return the best pulses that do not cover one another, by refined gain."""
         kept: list[PulseEvidence] = []
-        for evidence in self._refined_candidates(samples, maxima, self.settings.candidates):
+        for evidence in self.refined_maxima(samples, maxima, self.settings.candidates):
             if all(shared_time(evidence.pulse, other.pulse) < self.settings.overlap for other in kept):
                 kept.append(evidence)
         return tuple(kept[: self.settings.alternatives])
 
-    def best(self, samples: np.ndarray, maxima: Maxima) -> PulseEvidence | None:
-        """Return the pulse of largest refined gain; None where nothing is left to find."""
-        return next(iter(self._refined_candidates(samples, maxima, 2)), None)
-
-    def _refined_candidates(self, samples: np.ndarray, maxima: Maxima, count: int) -> list[PulseEvidence]:
-        """The best maxima that do not cover one another, refined, by refined gain."""
+    def refined_maxima(self, samples: np.ndarray, maxima: Maxima, count: int) -> list[PulseEvidence]:
+        """Return the best `count` maxima that do not cover one another, refined, by refined gain."""
         order = np.argsort(-maxima.gains, kind="stable")
         onsets, frequencies = maxima.onsets[order], self.band.frequencies[maxima.columns[order]]
         starts, free = onsets * self.time_step, np.ones(order.size, bool)
@@ -285,10 +273,10 @@ def _pursued(
         if search.energy(residual) <= NOTHING_LEFT * search.energy(samples):
             break
         maxima = search.renewed(maxima, residual, sequence[-1].pulse)
-        following = search.best(residual, maxima)
-        if following is None:
+        refined = search.refined_maxima(residual, maxima, 2)
+        if not refined:
             break
-        sequence.append(following)
+        sequence.append(refined[0])
     return tuple(sequence)
 
 
@@ -309,13 +297,16 @@ def _raised(
         accelerogram.time_step,
     )
     frequency = pulse.circular_frequency / (2 * math.pi)
+    rooms = pulse.start_time / pulse.period, ((samples.size - 1) * step - pulse.end_time) / pulse.period
+    loud = np.abs(samples[[0, -1]]) > EDGE_ACCELERATION * abs(pulse.amplitude)
+    changes = np.flatnonzero(np.diff(samples))  # a run of identical samples at an end is padding, no gap
     raised = {
         Flag.UNSTABLE: equal or more_cycles,
-        Flag.EDGE: at_edge(pulse, samples, step),
+        Flag.EDGE: np.any(rooms < np.where(loud, 1.0, EDGE_DISTANCE)),
         Flag.FILTERED: high_pass is not None and pulse.period > FILTERED_CYCLES / high_pass,
         Flag.SYMMETRIC: equal and second is not None and _twin(pulse, second.pulse),
         Flag.BAND_LIMIT: not band.limits[0] * (1 + 1e-9) < frequency < band.limits[1] * (1 - 1e-9),
-        Flag.GAP: holds_gap(samples, step),
+        Flag.GAP: (np.diff(changes).max(initial=1) - 1) * step > GAP_DURATION,
     }
     return tuple(flag for flag, holds in raised.items() if holds)
 
@@ -341,16 +332,3 @@ def _twin(pulse: Pulse, rival: Pulse) -> bool:
         and abs(rival.period / pulse.period - 1) <= ADJOINING_PERIOD_CHANGE
         and abs(distance / pulse.period - 0.5) <= ADJOINING_GAP / 2
     )
-
-
-def at_edge(pulse: Pulse, samples: np.ndarray, time_step: float) -> bool:
-    """Whether the cycle lies within a tenth of a period of an end, or within one of an end that is not quiet."""
-    rooms = pulse.start_time / pulse.period, ((samples.size - 1) * time_step - pulse.end_time) / pulse.period
-    cut = np.abs(samples[[0, -1]]) > EDGE_ACCELERATION * abs(pulse.amplitude)
-    return any(room < (1.0 if loud else EDGE_DISTANCE) for room, loud in zip(rooms, cut, strict=True))
-
-
-def holds_gap(samples: np.ndarray, time_step: float) -> bool:
-    """Whether other samples enclose a run of identical ones longer than a second; padding at the ends is no gap."""
-    changes = np.flatnonzero(np.diff(samples))
-    return bool((np.diff(changes).max(initial=1) - 1) * time_step > GAP_DURATION)

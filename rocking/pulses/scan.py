@@ -93,12 +93,8 @@ def _fill_rows(rows, begin, end, first, padded, counts, last_onsets, turning, we
     turn_re, turn_im, enter_re, enter_im = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
     for i in range(m):
         lengths[i], weight[i] = counts[i], weights[i]
-        turn_re[i], turn_im[i], enter_re[i], enter_im[i] = (
-            turning[0, i],
-            turning[1, i],
-            turning[2, i],
-            turning[3, i],
-        )
+        turn_re[i], turn_im[i] = turning[0, i], turning[1, i]
+        enter_re[i], enter_im[i] = turning[2, i], turning[3, i]
     for c in range(padded.shape[0]):
         for i in range(m):
             real[i], imaginary[i] = sums[c, 0, i], sums[c, 1, i]
@@ -115,9 +111,8 @@ def _fill_rows(rows, begin, end, first, padded, counts, last_onsets, turning, we
             sums[c, 0, i], sums[c, 1, i] = real[i], imaginary[i]
     for b in range(begin, end):
         for i in range(m):
-            if (
-                first + b - begin <= last_onsets[i]
-            ):  # frequencies ascend: the longest cycles stop fitting first
+            # frequencies ascend: the longest cycles stop fitting first
+            if first + b - begin <= last_onsets[i]:
                 break
             rows[b, i] = 0.0
 

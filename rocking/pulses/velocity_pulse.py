@@ -8,7 +8,7 @@ the largest coefficient over all orientations; the five largest are pulses that 
 import math
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from itertools import pairwise
+from itertools import chain
 
 import numpy as np
 
@@ -121,14 +121,10 @@ def velocity_pulse(first: Accelerogram, second: Accelerogram | None = None) -> V
     pair = first.acceleration[np.newaxis] if second is None else same_sampling(first, second)
     velocities = _velocities(pair, step)
     scales = searched_scales(step, velocities.shape[1])
-    largest = None
-    for row, column in _largest(velocities, scales):
-        pulse = _judged(velocities, step, scales, row, column)
-        if pulse.pulse_like:
-            return pulse
-        largest = largest or pulse
-    assert largest is not None  # there is always a largest coefficient
-    return largest
+    places = _largest(velocities, scales)
+    pulses = (_judged(velocities, step, scales, row, column) for row, column in places)
+    largest = next(pulses)
+    return next((pulse for pulse in chain([largest], pulses) if pulse.pulse_like), largest)
 
 
 def largest_velocity_pulse(accelerogram: Accelerogram) -> tuple[float, float]:
@@ -184,60 +180,39 @@ def _largest(
     velocities: np.ndarray, scales: np.ndarray, count: int = POTENTIAL_PULSES
 ) -> list[tuple[int, int]]:
     """(scale index, sample) of the largest coefficients over all orientations, c₁² + c₂², each keeping its room."""
-    # one complex transform serves two components
+    # One complex transform serves two components; more samples than the wavelet resolves are averaged.
     both = velocities[0] if len(velocities) == 1 else velocities[0] + 1j * velocities[1]
-    means = {together: _means(both, together) for together in {_together(int(scale)) for scale in scales}}
-    squares = [_squares(means[_together(int(scale))], int(scale)) for scale in scales]
-    whole = np.concatenate(squares)
-    starts = np.cumsum([0, *(values.size for values in squares)])
-    rows = [whole[start:end] for start, end in pairwise(starts)]
-    found = []
+    widths = [max(1, scale // RESOLUTION) for scale in scales.tolist()]
+    means = {n: both[: both.size // n * n].reshape(-1, n).mean(axis=1) for n in set(widths)}
+    squares = [
+        n * np.square(np.abs(transform(means[n], scale / n)))
+        for n, scale in zip(widths, scales.tolist(), strict=True)
+    ]
+    places = []
     for _ in range(count):
-        place = int(np.argmax(whole))
-        row = int(np.searchsorted(starts, place, side="right")) - 1
-        scale = int(scales[row])
-        column = _settled(both, scale, (place - int(starts[row])) * _together(scale))
-        found.append((row, column))
-        for values, each in zip(rows, scales, strict=True):
-            _clear(values, _together(int(each)), column, NEIGHBOURHOOD * scale)
-    return found
+        row = int(np.argmax([values.max() for values in squares]))
+        column = _settled(both, int(scales[row]), int(np.argmax(squares[row])), widths[row])
+        places.append((row, column))
+        room = NEIGHBOURHOOD * int(scales[row])
+        for values, n in zip(squares, widths, strict=True):
+            middle = column - (n - 1) / 2
+            values[max(0, math.ceil((middle - room) / n)) : max(0, math.floor((middle + room) / n) + 1)] = 0
+    return places
 
 
-def _means(both: np.ndarray, together: int) -> np.ndarray:
-    whole = both.size // together * together
-    return both[:whole].reshape(-1, together).mean(axis=1) if together > 1 else both
-
-
-def _squares(means: np.ndarray, scale: int) -> np.ndarray:
-    """Squared coefficients of one scale, of means over as many samples as the wavelet does not resolve."""
-    together = _together(scale)
-    return together * np.square(np.abs(transform(means, scale / together)))
-
-
-def _clear(squares: np.ndarray, together: int, column: int, room: float) -> None:
-    """Set to zero what stands within `room` samples of `column`, of values of `together` samples each."""
-    middle = column - (together - 1) / 2
-    low, high = math.ceil((middle - room) / together), math.floor((middle + room) / together)
-    squares[max(0, low) : max(0, high + 1)] = 0
-
-
-def _together(scale: int) -> int:
-    return max(1, scale // RESOLUTION)
-
-
-def _settled(both: np.ndarray, scale: int, column: int) -> int:
-    """Sample of the largest coefficient among those that were averaged at `column`, and their neighbours."""
-    together = _together(scale)
-    if together == 1:
-        return column
-    low, high = max(0, column - together), min(column + 2 * together, both.size)
+def _settled(both: np.ndarray, scale: int, place: int, width: int) -> int:
+    """Sample of the largest coefficient among the `width` that were averaged at `place`, and their neighbours."""
+    if width == 1:
+        return place
+    low, high = max(0, (place - 1) * width), min((place + 2) * width, both.size)
     return low + int(np.argmax(np.abs(coefficients(both, scale, low, high))))
 
 
 def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, column: int) -> VelocityPulse:
     """Extract the pulse at one coefficient in its own orientation and judge it."""
     amplitudes = [coefficient_at(velocity, int(scales[row]), column) for velocity in velocities]
-    orientation = _orientation(*amplitudes)
+    first, second = amplitudes[0], amplitudes[1] if len(amplitudes) == 2 else 0.0
+    orientation = (math.atan(second / first) if first else math.pi / 2) if second else 0.0
     axis = (math.cos(orientation), math.sin(orientation))
     velocity = sum(share * part for share, part in zip(axis, velocities, strict=False))
     scale = _refined_scale(velocity, scales, row, column)
@@ -252,12 +227,6 @@ def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, c
         late=_late(velocity, pulse),
         centre_time=centre * step,
     )
-
-
-def _orientation(first: float, second: float = 0.0) -> float:
-    if not second:
-        return 0.0
-    return math.atan(second / first) if first else math.pi / 2
 
 
 def _refined_scale(velocity: np.ndarray, scales: np.ndarray, row: int, column: int) -> int:
@@ -301,28 +270,25 @@ def _table() -> tuple[np.ndarray, np.ndarray]:
     return places, wavelet
 
 
-def _half_length(scale: float) -> int:
-    return math.floor(SUPPORT / 2 * scale)
-
-
 def _wavelet(scale: float) -> np.ndarray:
     """db4 stretched to `scale` samples per unit and of unit energy, centred on the middle sample (odd count)."""
-    half = _half_length(scale)
+    half = math.floor(SUPPORT / 2 * scale)
     places, wavelet = _table()
     return np.interp(np.arange(-half, half + 1) / scale + SUPPORT / 2, places, wavelet) / math.sqrt(scale)
 
 
 def coefficients(velocities: np.ndarray, scale: int, low: int, high: int) -> np.ndarray:
     """Coefficients of one scale centred at the samples [low, high); only what they see is transformed."""
-    begin = max(0, low - _half_length(scale))
-    return transform(velocities[begin : high + _half_length(scale)], scale)[low - begin : high - begin]
+    half = math.floor(SUPPORT / 2 * scale)
+    begin = max(0, low - half)
+    return transform(velocities[begin : high + half], scale)[low - begin : high - begin]
 
 
 def transform(velocities: np.ndarray, scale: float) -> np.ndarray:
     """Coefficient of the wavelet of one scale centred at each sample of (n,) velocities, real or complex."""
     from scipy import fft
 
-    half = _half_length(scale)
+    half = math.floor(SUPPORT / 2 * scale)
     size = fft.next_fast_len(velocities.size + 2 * half)
     spectrum = _kept_spectrum(scale, size) if size <= LARGEST_KEPT else _spectrum(scale, size)
     if np.iscomplexobj(velocities):

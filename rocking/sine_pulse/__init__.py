@@ -6,6 +6,6 @@ from rocking.sine_pulse.maximum import overturning_amplitudes as overturning_amp
 from rocking.sine_pulse.maximum import overturning_margins as overturning_margins
 from rocking.sine_pulse.maximum import predict_maxima as predict_maxima
 from rocking.sine_pulse.maximum import predict_maximum as predict_maximum
+from rocking.sine_pulse.maximum import printed_maximum as printed_maximum
+from rocking.sine_pulse.maximum import pulse_end_energy as pulse_end_energy
 from rocking.sine_pulse.maximum import pulse_spectrum as pulse_spectrum
-from rocking.sine_pulse.printed import printed_maximum as printed_maximum
-from rocking.sine_pulse.printed import pulse_end_energy as pulse_end_energy

@@ -430,22 +430,29 @@ def course(first, second):
 
 
 @entry
-def courses(positive, negative, signs, frequencies, amplitudes, peaks, margins):
+def courses(rows, signs, frequencies, amplitudes, peaks, margins):
     """`course` of every block (m,) under every pulse (n,): fill peaks (m, n, 2), positive side first, and margins.
 
-    positive, negative: (m, 6) p, gλ, η, velocity scale, end and existence of each side. signs: (n,) +1 where the
-    pulse's first half lifts the positive side, else −1. frequencies, amplitudes: (n,) ω_g, |a_g|. nan: unresolved.
+    rows: (m, 2, 6) p, gλ, η, velocity scale, end and existence of the positive and of the negative side. signs: (n,) +1
+    where the pulse's first half lifts the positive side, else −1. frequencies, amplitudes: (n,) ω_g, |a_g|. nan:
+    unresolved.
     """
-    for i in range(positive.shape[0]):
+    for i in range(rows.shape[0]):
         for j in range(frequencies.size):
-            one = _side_of(positive[i], frequencies[j], amplitudes[j])
-            other = _side_of(negative[i], frequencies[j], amplitudes[j])
-            found = course(one, other) if signs[j] > 0 else course(other, one)
             first = 0 if signs[j] > 0 else 1
-            peaks[i, j, first], peaks[i, j, 1 - first] = found.peaks
-            margins[i, j] = found.margin
-            if found.unresolved:
+            result = _course_of(rows[i], first, frequencies[j], amplitudes[j])
+            peaks[i, j, first], peaks[i, j, 1 - first] = result.peaks
+            margins[i, j] = result.margin
+            if result.unresolved:
                 peaks[i, j, 0] = peaks[i, j, 1] = math.nan
+
+
+@compiled
+def _course_of(rows, first, frequency, amplitude):
+    """The `course` of the block of two rows under one pulse, whose first half lifts the side of row `first`."""
+    return course(
+        _side_of(rows[first], frequency, amplitude), _side_of(rows[1 - first], frequency, amplitude)
+    )
 
 
 @compiled
@@ -455,22 +462,22 @@ def _side_of(row, frequency, amplitude):
 
 
 @entry
-def thresholds(positive, negative, sign, frequencies, amplitudes):
+def thresholds(rows, sign, frequencies, amplitudes):
     """Fill amplitudes (m, n) with the smallest one at which each block (m,) overturns under a sine of each frequency.
 
-    positive, negative, sign: as `courses` takes them. In steps of 2 % from the uplift acceleration, then by halving.
+    rows, sign: as `courses` takes them. In steps of 2 % from the uplift acceleration, then by halving.
     """
-    for i in range(positive.shape[0]):
-        one, other = (positive[i], negative[i]) if sign > 0 else (negative[i], positive[i])
-        lift = min(one[1] if one[5] != 0 else math.inf, other[1] if other[5] != 0 else math.inf)
+    first = 0 if sign > 0 else 1
+    for i in range(rows.shape[0]):
+        positive, negative = rows[i, 0], rows[i, 1]
+        lift = min(positive[1], negative[1]) if negative[5] != 0 else positive[1]
         for j in range(frequencies.size):
-            high = lift
-            while high <= 1000 * lift and not _overturns(one, other, frequencies[j], high):
-                high *= 1.02
-            low = high / 1.02
+            low, high = lift / 1.02, lift
+            while high <= 1000 * lift and not _overturns(rows[i], first, frequencies[j], high):
+                low, high = high, high * 1.02
             while high <= 1000 * lift and high - low > 1e-9 * high:
                 middle = 0.5 * (low + high)
-                if _overturns(one, other, frequencies[j], middle):
+                if _overturns(rows[i], first, frequencies[j], middle):
                     high = middle
                 else:
                     low = middle
@@ -478,7 +485,6 @@ def thresholds(positive, negative, sign, frequencies, amplitudes):
 
 
 @compiled
-def _overturns(one, other, frequency, amplitude):
-    """Whether a block overturns; one: the row of the side that the pulse's first half lifts."""
-    found = course(_side_of(one, frequency, amplitude), _side_of(other, frequency, amplitude))
-    return max(found.peaks) == math.inf
+def _overturns(rows, first, frequency, amplitude):
+    """Whether a block overturns under a sine."""
+    return max(_course_of(rows, first, frequency, amplitude).peaks) == math.inf

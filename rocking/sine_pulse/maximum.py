@@ -1,4 +1,4 @@
-"""The exact largest rotation of an equivalent block under one full sine pulse, in every regime: of one or of many.
+"""The largest rotation of an equivalent block under one full sine pulse: exact in every regime, and as printed.
 
 The block is followed flight by flight: closed form between impacts, one scalar root per impact. After the pulse the
 energy (x − 1)² − x'² is conserved in each flight, so what is left is algebra. Nothing is assumed monotone, and a
@@ -14,7 +14,7 @@ import numpy as np
 
 from rocking.errors import PulseError, StructureError
 from rocking.pulses.pulse import Pulse
-from rocking.quantities import GRAVITY, within
+from rocking.quantities import GRAVITY, finite, positive, within
 from rocking.sine_pulse import kernel
 from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock
@@ -23,6 +23,8 @@ LARGEST_RATIO = 1e12
 """Beyond this a frequency or amplitude ratio is a mistake of units, and its square leaves no digits for the block."""
 _EQUAL = 1 + 1e-12
 """Of rotations that are equal to within this the first counts."""
+_LARGEST_EXPONENT = 709.0
+"""exp of more than this leaves the range of doubles."""
 
 
 class Regime(StrEnum):
@@ -105,12 +107,40 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     >>> predict_maximum(block, Pulse(amplitude=3.0, circular_frequency=9.0)).regime
     <Regime.CONTACT_DURING_PULSE: 'contact during the pulse'>
     """
-    first, second = sides_under(equivalent_block, pulse)
-    blocks = equivalent_block.sides[0], equivalent_block.sides[-1]
-    if pulse.amplitude > 0:
-        blocks = blocks[1], blocks[0]
-    one_shape = equivalent_block.other_side is None and first.exists
-    return _maximum(kernel.course(first, second), blocks, 1 if pulse.amplitude < 0 else -1, one_shape)
+    sides = sides_under(equivalent_block, pulse)
+    course = kernel.course(*sides)
+    then = course.peak_impacts
+    if course.unresolved:
+        return Maximum(math.nan, Outcome.FAILED, Regime.UNRESOLVED, course.impacts, 0, math.nan)
+    if max(then) < 0:
+        return Maximum(0.0, Outcome.NO_UPLIFT, Regime.NO_UPLIFT)
+    # Of the two sides the one whose peak came first counts, unless the other's is larger.
+    first_sign = 1 if pulse.amplitude < 0 else -1
+    ratios = [
+        equivalent_block.sides[0 if sign > 0 else -1].rotation_ratio(peak)
+        for sign, peak in zip((first_sign, -first_sign), course.peaks, strict=True)
+    ]
+    early = 0 if then[1] < 0 or 0 <= then[0] <= then[1] else 1
+    index = 1 - early if then[1 - early] >= 0 and ratios[1 - early] > ratios[early] * _EQUAL else early
+    overturns, impacts = ratios[index] == math.inf, then[index]
+    if overturns:
+        regime = Regime.OVERTURNS_AFTER_IMPACTS if impacts else Regime.OVERTURNS_WITHOUT_IMPACT
+    elif course.contacts:
+        regime = Regime.CONTACT_DURING_PULSE
+    elif not impacts:
+        regime = Regime.BEFORE_FIRST_IMPACT
+    else:
+        # Eq. 15 takes for granted that the first half lifts the block and that what it lands on next is the same.
+        as_printed = equivalent_block.other_side is None and sides[0].exists
+        regime = Regime.PRINTED_EXACT if as_printed else Regime.AFTER_FIRST_IMPACT
+    return Maximum(
+        rotation_ratio=ratios[index],
+        outcome=Outcome.OVERTURNS if overturns else Outcome.ROCKS,
+        regime=regime,
+        impacts=impacts,
+        peak_side=first_sign if index == 0 else -first_sign,
+        overturning_margin=course.margin,
+    )
 
 
 def sides_under(block: EquivalentBlock, pulse: Pulse) -> tuple[kernel.Side, kernel.Side]:
@@ -128,20 +158,27 @@ def sides_under(block: EquivalentBlock, pulse: Pulse) -> tuple[kernel.Side, kern
             f"pulse is a {type(pulse).__name__}, but must be a Pulse; that of a record is "
             "extract_pulses(record).dominant."
         )
-    positive, negative = (
-        kernel.Side(
-            pulse.circular_frequency / side.frequency_parameter,
-            abs(pulse.amplitude) / (GRAVITY * side.uplift_multiplier),
+    sides = []
+    for frequency, uplift, restitution, scale, end, exists in _rows_of(block):
+        ratios = pulse.circular_frequency / frequency, abs(pulse.amplitude) / uplift
+        check_ratios(*ratios)
+        sides.append(kernel.Side(*ratios, restitution, scale, end, exists))
+    return (sides[1], sides[0]) if pulse.amplitude > 0 else (sides[0], sides[1])
+
+
+def _rows_of(block: EquivalentBlock) -> list[tuple[float, float, float, float, float, bool]]:
+    """p, gλ, η, velocity scale, end and existence of the positive and of the negative side."""
+    return [
+        (
+            side.frequency_parameter,
+            GRAVITY * side.uplift_multiplier,
             side.restitution,
             side.velocity_scale,
             side.end,
             exists,
         )
         for side, exists in ((block.sides[0], True), (block.sides[-1], not block.one_sided))
-    )
-    for side in (positive, negative):
-        check_ratios(side.frequency_ratio, side.amplitude_ratio)
-    return (negative, positive) if pulse.amplitude > 0 else (positive, negative)
+    ]
 
 
 def check_ratios(frequency_ratio: float, amplitude_ratio: float) -> None:
@@ -156,47 +193,6 @@ def check_ratios(frequency_ratio: float, amplitude_ratio: float) -> None:
             f"a_g/(gλ), the pulse's amplitude over the block's uplift acceleration, is {amplitude_ratio!r}, "
             f"but must be at most {LARGEST_RATIO:g}."
         )
-
-
-def _maximum(
-    course: kernel.Course, blocks: tuple[EquivalentBlock, EquivalentBlock], first_side: int, one_shape: bool
-) -> Maximum:
-    """blocks: of the side that the pulse's first half lifts, and of the other. first_side: the sign of the former.
-
-    one_shape: whether the pulse's first half lifts the block and what it lands on next is the same again, as Eq. 15
-    takes for granted.
-    """
-    if course.unresolved:
-        return Maximum(math.nan, Outcome.FAILED, Regime.UNRESOLVED, course.impacts, 0, math.nan)
-    then = course.peak_impacts
-    if max(then) < 0:
-        return Maximum(0.0, Outcome.NO_UPLIFT, Regime.NO_UPLIFT)
-    early = 0 if then[1] < 0 or 0 <= then[0] <= then[1] else 1
-    late = 1 - early
-    sizes = course.peaks
-    if blocks[0] is not blocks[1]:
-        sizes = blocks[0].rotation_ratio(sizes[0]), blocks[1].rotation_ratio(sizes[1])
-    index = late if then[late] >= 0 and sizes[late] > sizes[early] * _EQUAL else early
-    ratio = sizes[index] if blocks[0] is not blocks[1] else blocks[0].rotation_ratio(sizes[index])
-    overturns = ratio == math.inf
-    return Maximum(
-        rotation_ratio=ratio,
-        outcome=Outcome.OVERTURNS if overturns else Outcome.ROCKS,
-        regime=_regime(overturns, then[index], course.contacts, one_shape),
-        impacts=then[index],
-        peak_side=first_side if index == 0 else -first_side,
-        overturning_margin=course.margin,
-    )
-
-
-def _regime(overturns: bool, impacts: int, contacts: int, one_shape: bool) -> Regime:
-    if overturns:
-        return Regime.OVERTURNS_AFTER_IMPACTS if impacts else Regime.OVERTURNS_WITHOUT_IMPACT
-    if contacts:
-        return Regime.CONTACT_DURING_PULSE
-    if not impacts:
-        return Regime.BEFORE_FIRST_IMPACT
-    return Regime.PRINTED_EXACT if one_shape else Regime.AFTER_FIRST_IMPACT
 
 
 def predict_maxima(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -> np.ndarray:
@@ -252,53 +248,32 @@ def overturning_amplitudes(
         )
     if polarity not in (1, -1):
         raise PulseError(f"polarity is {polarity!r}, but must be 1 or -1.")
-    positive, negative = _rows(blocks)
-    _check(positive, negative, frequencies, np.zeros(1))
+    rows = _rows(blocks, frequencies, np.zeros(1))
     amplitudes = np.empty((len(blocks), frequencies.size))
-    kernel.thresholds(positive, negative, -polarity, frequencies, amplitudes)
+    kernel.thresholds(rows, -polarity, frequencies, amplitudes)
     return amplitudes
 
 
 def _followed(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -> tuple[np.ndarray, np.ndarray]:
     """The largest x of both sides, (m, n, 2), positive first, and the margins (m, n)."""
-    positive, negative = _rows(blocks)
     frequencies = np.array([pulse.circular_frequency for pulse in pulses])
     amplitudes = np.array([pulse.amplitude for pulse in pulses])
-    _check(positive, negative, frequencies, np.abs(amplitudes))
-    shape = len(blocks), len(pulses)
-    peaks, margins = np.empty((*shape, 2)), np.empty(shape)
+    rows = _rows(blocks, frequencies, np.abs(amplitudes))
+    peaks, margins = np.empty((len(blocks), len(pulses), 2)), np.empty((len(blocks), len(pulses)))
     # A positive ground acceleration rocks the block to its negative side.
     signs = np.where(amplitudes < 0, 1, -1)
-    kernel.courses(positive, negative, signs, frequencies, np.abs(amplitudes), peaks, margins)
+    kernel.courses(rows, signs, frequencies, np.abs(amplitudes), peaks, margins)
     return peaks, margins
 
 
-def _rows(blocks: Sequence[EquivalentBlock]) -> tuple[np.ndarray, np.ndarray]:
-    """(m, 6) p, gλ, η, velocity scale, end and existence, of the positive and of the negative side of each block."""
-    rows = [
-        (
-            side.frequency_parameter,
-            GRAVITY * side.uplift_multiplier,
-            side.restitution,
-            side.velocity_scale,
-            side.end,
-            float(exists),
-        )
-        for block in blocks
-        for side, exists in ((block.sides[0], True), (block.sides[-1], not block.one_sided))
-    ]
-    both = np.array(rows).reshape(-1, 2, 6)
-    return both[:, 0].copy(), both[:, 1].copy()
-
-
-def _check(
-    positive: np.ndarray, negative: np.ndarray, frequencies: np.ndarray, amplitudes: np.ndarray
-) -> None:
-    rows = np.concatenate([positive, negative])
+def _rows(blocks: Sequence[EquivalentBlock], frequencies: np.ndarray, amplitudes: np.ndarray) -> np.ndarray:
+    """(m, 2, 6) `_rows_of` each block, checked under all pulses."""
+    rows = np.array([_rows_of(block) for block in blocks], dtype=float).reshape(-1, 2, 6)
     if rows.size and frequencies.size:
-        largest = float(amplitudes.max() / rows[:, 1].min())
-        check_ratios(float(frequencies.min() / rows[:, 0].max()), largest)
-        check_ratios(float(frequencies.max() / rows[:, 0].min()), largest)
+        largest = float(amplitudes.max() / rows[..., 1].min())
+        check_ratios(float(frequencies.min() / rows[..., 0].max()), largest)
+        check_ratios(float(frequencies.max() / rows[..., 0].min()), largest)
+    return rows
 
 
 def pulse_spectrum(
@@ -314,10 +289,10 @@ def pulse_spectrum(
     frequencies = _axis("frequency_ratios", frequency_ratios, 1 / LARGEST_RATIO)
     amplitudes = _axis("amplitude_ratios", amplitude_ratios, 0.0)
     eta = within(StructureError, "restitution", restitution, 0, 1)
-    side = np.array([[1.0, 1.0, eta, 1.0, math.inf, 1.0]])  # p = gλ = 1
+    rows = np.tile([1.0, 1.0, eta, 1.0, math.inf, 1.0], (1, 2, 1))  # p = gλ = 1
     omegas, strengths = (each.ravel() for each in np.meshgrid(frequencies, amplitudes, indexing="ij"))
     peaks, margins = np.empty((1, omegas.size, 2)), np.empty((1, omegas.size))
-    kernel.courses(side, side, np.ones(omegas.size, dtype=int), omegas, strengths, peaks, margins)
+    kernel.courses(rows, np.ones(omegas.size, dtype=int), omegas, strengths, peaks, margins)
     return peaks[0].max(axis=1).reshape(frequencies.size, amplitudes.size)
 
 
@@ -331,3 +306,69 @@ def _axis(field: str, values: np.ndarray, lowest: float) -> np.ndarray:
             f"{field} holds {wrong[0]!s}, but every value must lie between {lowest:g} and {LARGEST_RATIO:g}."
         )
     return array
+
+
+def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
+    """Return φ_max/φ_cr by Eq. 15 exactly as the paper prints it: 1 − √(1 − η² (1 − D₀)).
+
+    For a block that measures the rotation otherwise, a positive value is read back as φ/φ_cr.
+    nan where the radicand is negative, which the paper reads as overturning; 0.0 where the pulse lifts nothing
+    (a ≤ 1), where Eq. 16 is not defined. It may be negative, and it is wrong outside the regime
+    `Regime.PRINTED_EXACT`; `predict_maximum` is not. For a block with two different sides it takes
+    the side that the pulse lifts first, as if the other were the same; for a one-sided block its only side, as if the
+    pulse's first half lifted it.
+
+    >>> from rocking import EquivalentBlock, Pulse, predict_maximum, printed_maximum
+    >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
+    >>> pulse = Pulse(amplitude=4.0, circular_frequency=12.0)
+    >>> round(printed_maximum(block, pulse), 3), round(predict_maximum(block, pulse).rotation_ratio, 3)
+    (0.329, 0.323)
+    """
+    first, second = sides_under(equivalent_block, pulse)
+    side = first if first.exists else second
+    if side.amplitude_ratio <= 1:
+        return 0.0
+    eta = side.restitution
+    drop = 0.0 if eta == 0 else eta**2 * pulse_end_energy(side.frequency_ratio, side.amplitude_ratio)
+    if drop > 1:
+        return math.nan
+    root = math.sqrt(1 - drop)
+    maximum = drop / (1 + root) if drop > -1 else 1 - root
+    own = equivalent_block.sides[-1 if first.exists and pulse.amplitude >= 0 else 0]
+    return own.rotation_ratio(maximum) if maximum > 0 else maximum
+
+
+def pulse_end_energy(frequency_ratio: float, amplitude_ratio: float) -> float:
+    """Return 1 − D₀: the squared velocity x'² with which a block that rocks at the pulse's end will land.
+
+    D₀ = (x − 1)² − x'² at the end of the pulse, for x = φ/φ_cr and time p t (Eq. 16).
+    frequency_ratio: ω = ω_g/p > 0. amplitude_ratio: a = a_g/(gλ) > 1. ± inf where the value leaves the range of doubles
+    (ω < 0.009). The relative error stays below 1e-11 for ω from 1e-3 to 1e6 and a from 1 + 1e-12 to 1e6, except beside
+    the zeros of 1 − D₀ and of √(a² − 1) − ω, where terms cancel: it grows as 1e-15 times the largest term over the sum.
+    Raises PulseError for an argument that is not finite or out of range.
+    """
+    omega = positive(PulseError, "frequency_ratio", frequency_ratio)
+    a = finite(PulseError, "amplitude_ratio", amplitude_ratio)
+    if not a > 1:
+        raise PulseError(
+            f"amplitude_ratio is {amplitude_ratio!r}, but must exceed 1 for the pulse to lift the block."
+        )
+    check_ratios(omega, a)
+    # s = √(a² − 1), the slope of a sin θ where it reaches 1, and asin(1/a) written so that it keeps its digits
+    s = math.sqrt((a - 1) * (a + 1))
+    exponent = (2 * math.pi - math.atan2(1.0, s)) / omega
+    if exponent < 1:
+        # a − s cosh T + ω sinh T freed of its cancellations: a − s = 1/(a + s)
+        bracket = 1 / (a + s) - 2 * s * math.sinh(exponent / 2) ** 2 + omega * math.sinh(exponent)
+    else:
+        bracket = a + _times_exponential((omega - s) / 2, exponent) - (omega + s) / 2 * math.exp(-exponent)
+    return 1 / (omega**2 + 1) + 2 * a * (omega / (omega**2 + 1)) ** 2 * bracket
+
+
+def _times_exponential(factor: float, exponent: float) -> float:
+    if factor == 0:
+        return 0.0
+    if exponent + math.log(abs(factor)) > _LARGEST_EXPONENT:
+        return math.copysign(math.inf, factor)
+    half = math.exp(exponent / 2)
+    return factor * half * half

@@ -1,20 +1,16 @@
 """The integration against an independent one, and its error against the tolerance asked for."""
 
-import mpmath
 import numpy as np
 import pytest
 from motion_cases import MECHANISMS, noise, random_case
 from oracle import Oracle
 from scipy.constants import g
 
-from rocking.motion import integrate, nonlinear_kernel
+from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
-from rocking.structures import Block, Outcome
+from rocking.structures import Outcome
 from rocking.structures.mechanism import Mechanism
-from tests.parts import callable_parts
-
-kernel = callable_parts(nonlinear_kernel)
 
 
 def lifting(mechanism, times):
@@ -139,42 +135,3 @@ def test_error_within_three_tolerances_of_ten_thousand_cases():
     errors, wrong = errors_of(10_000, 11, 1e-6)
     assert np.mean(errors <= 3) >= 0.99
     assert wrong <= 10  # a chaotic case may overturn in one run and stand in the other: 0.1 % of them
-
-
-@pytest.mark.parametrize("square", [0.0, 6.25])
-def test_order_of_one_step(square):
-    """Taylor to degree 8: over one step the arc errs as h^9 and the speed as h^8, which is global order 7.
-
-    Reference: 30-digit Taylor integration of the same polynomial right-hand side by mpmath.
-    """
-    rng = np.random.default_rng(5)
-    piece = rng.normal(size=16) / np.repeat(1 + np.arange(8), 2)
-    u, v, side, a0, a1, g0, g1 = 0.1, 0.7, -1, 1.3, -2.0, 9.8, 3.0
-    frequency = np.sqrt(square)
-
-    def slope(t, y):
-        sine = a0 * mpmath.cos(frequency * t) + a1 / (frequency or 1.0) * mpmath.sin(frequency * t)
-        ground = sine if square else a0 + a1 * t
-        gravity, push = (sum(c * y[0] ** n for n, c in enumerate(piece[k::2])) for k in (0, 1))
-        return [y[1], -gravity * (g0 + g1 * t) - side * push * ground]
-
-    series = kernel._series(piece[None, None], 0, 0, u, v, side, a0, a1, g0, g1, square, None, None)
-    steps = np.array([0.2, 0.1, 0.05])
-    with mpmath.workdps(30):
-        exact = mpmath.odefun(slope, 0, [mpmath.mpf(u), mpmath.mpf(v)])
-        truth = [exact(mpmath.mpf(h)) for h in steps]
-    arc = [abs(float(y[0] - u - kernel._displacement(series, h))) for h, y in zip(steps, truth, strict=True)]
-    speed = [abs(float(y[1] - kernel._speed(series, h))) for h, y in zip(steps, truth, strict=True)]
-    assert -np.diff(np.log2(arc)) == pytest.approx([9, 9], abs=0.6)
-    assert -np.diff(np.log2(speed)) == pytest.approx([8, 8], abs=0.6)
-
-
-def test_the_oracle_itself_conserves_energy():
-    """With η = 1 and still ground, the block keeps φ'²/2 + p² cos(α − φ)."""
-    mechanism = Block(1.0, 0.2, restitution=1.0).mechanism()
-    oracle = Oracle(mechanism)
-    state = oracle.interval((1, 0.1, 0.0), 2.0, (0.0, 0.0), (0.0, 0.0))
-    square = 3 * g / 4
-    energy = state[2] ** 2 / 2 + square * np.cos(0.2 - state[1])
-    assert oracle.impacts > 0
-    assert energy == pytest.approx(square * np.cos(0.1), rel=1e-11)

@@ -39,13 +39,6 @@ def test_slenderness_down_to_one_in_ten_thousand():
     assert nonlinear.rotation_ratio == pytest.approx(linear.rotation_ratio, rel=1e-6)  # α² = 1e-8, amplified
 
 
-def test_slenderness_up_to_1_3():
-    """λ = tan 1.3 = 3.6: it needs 3.6 g to lift, and with η = 0.5 it comes to rest."""
-    response = shaken(Block(1.0, 1.3, restitution=0.5).mechanism(), 1.05)
-    assert response.outcome is Outcome.ROCKS
-    assert 0 < response.rotation_ratio < 1
-
-
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
 def test_size_from_a_millimetre_to_a_kilometre(size):
     """Similarity: lengths times k, times times √k, give the same φ/φ_cr."""
@@ -54,19 +47,6 @@ def test_size_from_a_millimetre_to_a_kilometre(size):
     assert 0 < reference.rotation_ratio < np.inf
     assert scaled.rotation_ratio == pytest.approx(reference.rotation_ratio, rel=1e-8)
     assert scaled.impacts == pytest.approx(reference.impacts, abs=3)
-
-
-@pytest.mark.parametrize("size", [1e-3, 1e3])
-def test_size_far_from_the_record(size):
-    """R = 1 mm (p = 86 rad/s) is shaken slowly and falls; R = 1 km (p = 0.09 rad/s) hardly notices."""
-    response = shaken(Block(size, 0.2, restitution=0.8).mechanism(), 2.0, step=0.2 if size < 1 else 0.001)
-    assert response.outcome is (Outcome.OVERTURNS if size < 1 else Outcome.ROCKS)
-    assert size < 1 or response.rotation_ratio < 1e-3
-
-
-def test_tiny_restitution_tends_to_none():
-    without, tiny = (shaken(Block(1.0, 0.2, restitution=eta).mechanism(), 1.5) for eta in (0.0, 1e-9))
-    assert tiny.rotation_ratio == pytest.approx(without.rotation_ratio, rel=1e-6)
 
 
 @BOTH
@@ -124,19 +104,15 @@ def test_alternating_ten_g(structure):
     assert response.impacts > 100
 
 
-def test_arch_just_above_its_minimum_thickness():
-    """λ is nearly nothing, so the weakest motion lifts it; φ_cr is 6e-6 rad, and it is still followed relatively."""
-    mechanism = Arch(10.0, 1.07478038 * 1.0001, np.pi, restitution=0.9).mechanism()
-    assert mechanism.critical_rotation < 1e-5
-    response, tight = (shaken(mechanism, 1.3, tolerance=tolerance) for tolerance in (1e-8, 1e-12))
-    assert response.outcome is tight.outcome
-    assert response.rotation_ratio == pytest.approx(tight.rotation_ratio, rel=1e-7)
-
-
-@pytest.mark.parametrize("ratio", [0.01, 0.1, 1.0, 10.0, 100.0])
-def test_hinge_from_low_to_high(ratio):
-    lower = 3.0 / (1 + ratio)
-    mechanism = Wall(lower, 3.0 - lower, 0.2, restitution=0.8).mechanism()
+@pytest.mark.parametrize(
+    "structure",
+    [
+        Arch(10.0, 1.07478038 * 1.0001, np.pi, restitution=0.9),  # λ is nearly nothing, φ_cr 6e-6 rad
+        *(Wall(3 / (1 + k), 3 * k / (1 + k), 0.2, restitution=0.8) for k in (0.01, 0.1, 1.0, 10.0, 100.0)),
+    ],
+)
+def test_thin_arch_and_hinge_from_low_to_high_keep_the_tolerance(structure):
+    mechanism = structure.mechanism()
     response, tight = (shaken(mechanism, 1.2, tolerance=tolerance) for tolerance in (1e-8, 1e-12))
     assert response.outcome is tight.outcome
     assert response.rotation_ratio == pytest.approx(tight.rotation_ratio, rel=1e-7)

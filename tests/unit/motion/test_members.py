@@ -9,9 +9,10 @@ from scipy.constants import g
 
 from rocking.errors import MotionError
 from rocking.motion import Members, integrate, integrate_batch, integrate_members
+from rocking.motion.batch import rocking_spectrum
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
-from rocking.structures import Block
+from rocking.structures import Block, EquivalentBlock
 from rocking.structures.mechanism import Mechanism
 
 RECORD, VERTICAL = noise(5, 600, 0.01, 4.0), noise(6, 600, 0.01, 2.0)
@@ -129,8 +130,6 @@ def test_a_structure_that_fails_is_nan_and_the_others_go_on():
     ratios = integrate_batch(["a block", MECHANISMS["block"]], RECORD, (1.0, 1.2))
     assert np.isnan(ratios[0]).all()
     assert np.isfinite(ratios[1]).all()
-    with pytest.raises(MotionError, match="the structure is a str"):
-        integrate("a block", RECORD)
 
 
 def test_a_member_that_fails_says_why():
@@ -159,3 +158,41 @@ def test_a_member_that_fails_says_why():
 def test_members_are_checked_at_birth(fields, words):
     with pytest.raises(MotionError, match=words):
         Members(**fields)
+
+
+SHAKING = noise(3, 800, 0.01, 4.0)
+
+
+def test_spectrum_equals_the_responses():
+    """Each cell is the equivalent block of that p and λ; φ_cr itself does not matter, so 0.7 is as good as any.
+
+    The two round 1/(gλ) differently, and by the end of the record some cells answer a change of the amplitude ten
+    million times over. So the difference is held against what a change of 16 roundings does to the response itself.
+    """
+    frequencies, multipliers = np.linspace(0.5, 6, 7), np.linspace(0.05, 0.5, 9)
+    ratios = rocking_spectrum(SHAKING, frequencies, multipliers, 0.85)
+    assert ratios.shape == (7, 9)
+    nudged = [SHAKING.scaled(1 + sign * 16 * np.finfo(float).eps) for sign in (-1, 1)]
+    for i, p in enumerate(frequencies):
+        for j, multiplier in enumerate(multipliers):
+            block = EquivalentBlock(p, 0.7, 0.7 / multiplier, 0.85)
+            alone = integrate(block, SHAKING).rotation_ratio
+            around = [integrate(block, record).rotation_ratio for record in nudged]
+            spread = max(abs(each - alone) for each in around) if np.isfinite(alone) else 0.0
+            assert ratios[i, j] == pytest.approx(alone, rel=1e-12, abs=spread)
+    assert np.isinf(ratios).any() and (ratios == 0).any() and ((ratios > 0) & (ratios < 1)).any()
+
+
+@pytest.mark.parametrize(
+    "settings, words",
+    [
+        (([0.0], [0.2], 0.9), "frequency_parameters must be"),
+        (([[1.0]], [0.2], 0.9), "frequency_parameters must be"),
+        (([2.0], [np.nan], 0.9), "uplift_multipliers must be"),
+        (([2.0], [0.2], 1.5), r"restitution is 1\.5, but must lie between 0 and 1"),
+        (([6000.0], [0.2], 0.9), "must stay below 5000"),
+    ],
+)
+def test_a_spectrum_refuses_what_has_none(settings, words):
+    with pytest.raises(MotionError, match=words):
+        rocking_spectrum(SHAKING, *settings)

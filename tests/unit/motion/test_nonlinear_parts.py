@@ -50,14 +50,6 @@ def test_the_series_of_a_step_solves_the_equation_of_motion(side: int, square: f
             assert (np.abs(np.array(short) - expected[:6]) <= scale[:6]).all()
 
 
-def test_displacement_speed_and_acceleration_are_one_polynomial() -> None:
-    for _ in range(20):
-        x, t = tuple(RNG.normal(size=8).tolist()), float(RNG.uniform(0, 1.5))
-        way = Polynomial([0.0, *x])
-        for function, degree in ((kernel._displacement, 0), (kernel._speed, 1), (kernel._acceleration, 2)):
-            assert function(x, t) == pytest.approx(way.deriv(degree)(t) if degree else way(t), rel=1e-11)
-
-
 def steps(count: int):
     """Random steps whose terms shrink: series, length, and the real zeros of the speed within."""
     for _ in range(count):

