@@ -40,28 +40,20 @@ class EnsembleSettings:
 
     members: int = described(
         64,
-        "members of an ensemble, taken up to the next of 16, 64, 256, 1024 and 4096; 0: none",
+        "members, up to the next of 16, 64, 256, 1024 and 4096; 0: none",
         ge=0,
         le=4096,
     )
-    amplitude_range: float = described(
-        0.05, "the ground motion is known to plus or minus this share", ge=0, le=0.9
-    )
+    amplitude_range: float = described(0.05, "share plus or minus to which the motion is known", ge=0, le=0.9)
     restitution_range: float = described(
         0.05,
-        "the restitution is known to plus or minus this much, where a structure does not say its own",
+        "plus or minus of the restitution, where a structure says none",
         ge=0,
         le=1,
     )
-    polarity: bool = described(
-        True, "whether the sign of the motion is unknown to a structure with unlike sides"
-    )
-    processing: bool = described(
-        True, "whether baseline and corner frequency of a record are unknown whose file says that it is raw"
-    )
-    risk: float = described(
-        0.05, "largest probability of the opposite under which a structure stands or overturns", gt=0, le=0.45
-    )
+    polarity: bool = described(True, "whether the sign of the motion is unknown, of unlike sides")
+    processing: bool = described(True, "whether the processing of a raw record is unknown")
+    risk: float = described(0.05, "largest probability of the opposite of a verdict", gt=0, le=0.45)
 
     def __post_init__(self) -> None:
         check_described(ConfigurationError, self)

@@ -37,10 +37,8 @@ from rocking.tables import write_whole
 
 NUDGES = (0.75, 0.875, 1.0, 1.125, 1.25)
 """Factors on the ground motion at which the block is tried around the motion as given."""
-_SMALLEST, _LARGEST = math.log(1e-3), math.log(1e3)
-"""Logs of ratios are kept between these."""
-_TURNED = math.log(2.0)
-"""Largest log of a rotation ratio: a block that stays up hardly turns beyond its critical rotation."""
+_SMALLEST, _LARGEST, _TURNED = 1e-3, 1e3, 2.0
+"""Between which ratios are kept; a block that stays up hardly turns beyond its critical rotation."""
 STRUCTURE = ("restitution", "restoring_defect", "forcing_defect")
 """Terms of the structure, which every tier has last."""
 NORMAL_95 = 1.6449
@@ -100,33 +98,25 @@ class TierFit:
     covariance: np.ndarray
     frequencies: tuple[float, float]
 
-    def unlike(self, measures: Mapping[str, float]) -> str:
-        """Say which property of a structure lies beyond those behind the fit; "" where none does."""
-        ranges = {"frequency_parameter": self.frequencies}
-        for place, name in enumerate(STRUCTURE, start=-len(STRUCTURE)):
-            ranges[name] = float(self.least[place]), float(self.largest[place])
-        for name, (least, largest) in ranges.items():
-            slack, value = _SLACK * (largest - least), measures[name]
-            if not least - slack <= value <= largest + slack:
-                shown, low, high = (f"{float(f'{each:.2g}'):g}" for each in (value, least, largest))
-                return f"{name.replace('_', ' ')} is {shown}, beyond the {low} to {high} of the calibration"
-        return ""
-
-    def design(self, terms: np.ndarray) -> np.ndarray:
-        """(n, k + 1) of the terms (n, k): an intercept, and what is centred and scaled."""
-        return np.column_stack([np.ones(len(terms)), (terms - self.centre) / self.spread])
+    def unlike(self, measures: Mapping[str, float]) -> bool:
+        """Whether a property of a structure lies beyond those behind the fit."""
+        own = [measures[name] for name in ("frequency_parameter", *STRUCTURE)]
+        ends = zip(
+            (self.frequencies[0], *self.least[-3:]), (self.frequencies[1], *self.largest[-3:]), strict=True
+        )
+        return any(
+            not least - _SLACK * (largest - least) <= value <= largest + _SLACK * (largest - least)
+            for value, (least, largest) in zip(own, ends, strict=True)
+        )
 
     def log_odds(self, terms: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Log odds of overturning (n,) of terms (n, k), and their standard error."""
-        design = self.design(terms)
+        design = np.column_stack([np.ones(len(terms)), (terms - self.centre) / self.spread])
         variance = np.einsum("ij,jk,ik->i", design, self.covariance, design)
         return design @ self.coefficients, np.sqrt(np.maximum(variance, 0.0))
 
     def estimate(self, measures: Mapping[str, float]) -> Estimate | None:
-        """Return what the tier says of a case; None of a structure unlike all behind it.
-
-        Raises KeyError where a measure is missing.
-        """
+        """Return what the tier says of a case; None of a structure unlike all behind it."""
         if self.unlike(measures):
             return None
         odds, error = self.log_odds(np.array([[measures[term] for term in self.tier.terms]]))
@@ -172,7 +162,11 @@ def of_structure(mechanism: Mechanism) -> dict[str, float]:
 
 def of_velocity(record: Accelerogram, block: EquivalentBlock) -> dict[str, float]:
     """Return ln of p PGV/(gλ)."""
-    return {"peak_velocity": _log(per_velocity(block) * peak_velocity(record))}
+    return {
+        "peak_velocity": float(
+            np.log(np.clip(per_velocity(block) * peak_velocity(record), _SMALLEST, _LARGEST))
+        )
+    }
 
 
 def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
@@ -182,10 +176,7 @@ def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
     """
     overturns = ~(rotation_ratios < math.inf)
     share = float(overturns.mean())
-    logs = [
-        0.0 if falls else _log(ratio, _TURNED)
-        for ratio, falls in zip(rotation_ratios, overturns, strict=True)
-    ]
+    logs = np.log(np.clip(np.where(overturns, 1.0, rotation_ratios), _SMALLEST, _TURNED)).tolist()
     return {
         "block": logs[len(NUDGES) // 2],
         "block_overturns": float(overturns[len(NUDGES) // 2]),
@@ -194,10 +185,6 @@ def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
         "block_never_overturns": float(share == 0),
         "block_always_overturns": float(share == 1),
     }
-
-
-def _log(ratio: float, largest: float = _LARGEST) -> float:
-    return min(max(math.log(ratio), _SMALLEST), largest) if ratio > 0 else _SMALLEST
 
 
 @dataclass(frozen=True)

@@ -118,29 +118,35 @@ def fragility_of(
     exceedance: np.ndarray,
     stations: Sequence[str],
     *,
-    tried: np.ndarray | None = None,
     measure: str = "",
     unit: str = "",
     threshold: float = np.inf,
 ) -> Fragility:
     """Return the curve of outcomes at `levels` (k,) > 0, ascending.
 
-    exceedance: (r, k) shares in [0, 1], one row a record. tried: (r, k) 1 where a record was tried, all by default.
-    stations: (r,) names; the records of one are resampled together and weigh as much as one.
+    exceedance: (r, k) shares in [0, 1], one row a record, nan where it was not tried. stations: (r,) names; the records
+    of one are resampled together and weigh as much as one. Where all or none overturn the median of the lognormal lies
+    at the edge of what the levels can tell.
 
     >>> outcomes = np.array([[0, 0, 1, 1], [0, 1, 1, 1], [0, 0, 0, 1]])
     >>> round(fragility_of(np.array([0.1, 0.2, 0.4, 0.8]), outcomes, ["A", "B", "C"]).median, 3)
     0.283
     """
-    tried = np.ones_like(exceedance, dtype=float) if tried is None else tried
-    over, trials = _by_station(exceedance * tried, stations), _by_station(tried, stations)
+    tried = np.isfinite(exceedance)
+    over, trials = (_by_station(each, stations) for each in (np.where(tried, exceedance, 0.0), tried))
     count = len(over)
     probability, low, high = _empirical(over, trials)
     resampled = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
     crossings = [_crossing(levels, weights @ over, weights @ trials) for weights in resampled]
-    fit = fit_lognormal(levels, over, trials)
-    deviates, errors = fit.deviates(levels)
-    reach = stdtrit(count - 1, 0.95) * errors
+    logs, middle = np.log(levels), np.log(levels).mean()
+    terms = np.column_stack([np.ones(levels.size), logs - middle])
+    (offset, slope), covariance = _probit(
+        [np.broadcast_to(terms[:, 1], exceedance.shape)], exceedance, stations
+    )
+    dispersion = float(np.clip(1 / slope if slope > 0 else np.inf, *DISPERSIONS))
+    deviates = (logs - middle) / dispersion + offset
+    variance = np.einsum("ki,ij,kj->k", terms, covariance, terms)
+    reach = stdtrit(count - 1, 0.95) * np.sqrt(np.maximum(variance, 0.0))
     return Fragility(
         measure=measure,
         unit=unit,
@@ -154,8 +160,8 @@ def fragility_of(
         lognormal=ndtr(deviates),
         lognormal_low=ndtr(deviates - reach),
         lognormal_high=ndtr(deviates + reach),
-        lognormal_median=fit.median,
-        dispersion=fit.dispersion,
+        lognormal_median=float(np.exp(middle - offset * dispersion)),
+        dispersion=dispersion,
         misfit=float(np.nanmax(np.abs(probability - ndtr(deviates)))),
         exceedance=exceedance,
         stations=tuple(stations),
@@ -217,64 +223,41 @@ def _crossing(levels: np.ndarray, over: np.ndarray, trials: np.ndarray) -> float
     return float(np.exp(np.mean(places)))
 
 
-@dataclass(frozen=True)
-class LognormalFit:
-    """P = Φ(ln(IM/median)/dispersion). middle: ln IM about which coefficients (2,) and covariance (2, 2) are."""
-
-    median: float
-    dispersion: float
-    middle: float
-    covariance: np.ndarray
-
-    def deviates(self, levels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the argument of Φ at levels (k,), and its standard error by the scatter between stations."""
-        terms = np.column_stack([np.ones(levels.size), np.log(levels) - self.middle])
-        variance = np.einsum("ki,ij,kj->k", terms, self.covariance, terms)
-        return np.log(levels / self.median) / self.dispersion, np.sqrt(np.maximum(variance, 0.0))
-
-
-def fit_lognormal(levels: np.ndarray, over: np.ndarray, tried: np.ndarray) -> LognormalFit:
-    """Fit a lognormal curve by maximum likelihood.
-
-    levels: (k,) > 0, at least two. over, tried: (s, k) how many overturned, fractions allowed, of how many tried at
-    each station. Where all or none overturn the median lies at the edge of what the levels can tell.
-    """
-    logs, middle = np.log(levels), float(np.log(levels).mean())
-    terms = np.column_stack([np.ones(levels.size), logs - middle])
-    stations = np.arange(len(over)).repeat(levels.size)
-    design = np.tile(terms, (len(over), 1))
-    (offset, slope), covariance = _probit(design, over.ravel(), tried.ravel(), stations)
-    dispersion = float(np.clip(1 / slope if slope > 0 else np.inf, *DISPERSIONS))
-    return LognormalFit(float(np.exp(middle - offset * dispersion)), dispersion, middle, covariance)
-
-
 def _probit(
-    design: np.ndarray, over: np.ndarray, tried: np.ndarray, stations: np.ndarray
+    terms: Sequence[np.ndarray], outcomes: np.ndarray, stations: Sequence[str]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Coefficients (q,) of Φ(design (n, q) · coefficients) by Fisher scoring, and their covariance by the scatter
-    between the stations (n,), counted from 0 (Liang & Zeger 1986).
+    """Coefficients (q,) of the shares (r, k) as Φ of an intercept and terms (r, k), each station with the same weight,
+    by Fisher scoring; and their covariance by the scatter between the stations (Liang & Zeger 1986).
+
+    outcomes: nan where there is none.
     """
-    scale = np.where(design.std(axis=0) > 0, design.std(axis=0), 1.0)
-    rows = design / scale
-    penalty = _RIDGE * tried.sum() * (design.std(axis=0) > 0)
-    found = np.zeros(rows.shape[1])
+    _, place, records = np.unique(np.asarray(stations), return_inverse=True, return_counts=True)
+    tried = np.isfinite(outcomes)
+    station, weight = (
+        np.broadcast_to(each[:, None], outcomes.shape)[tried] for each in (place, 1 / records[place])
+    )
+    design = np.stack([np.ones(outcomes.shape), *terms], axis=-1)[tried]
+    varies = design.std(axis=0) > 0
+    scale = np.where(varies, design.std(axis=0), 1.0)
+    rows, over = design / scale, outcomes[tried] * weight
+    penalty = weight.sum() * np.where(varies, _RIDGE, 0.0)
+    coefficients = np.zeros(scale.size)
     for _ in range(100):
-        eta = np.clip(rows @ found, -_FARTHEST, _FARTHEST)
+        eta = np.clip(rows @ coefficients, -_FARTHEST, _FARTHEST)
         # The normal density over Φ(η) and over Φ(−η).
         above, below = (np.sqrt(2 / np.pi) / erfcx(sign * eta / np.sqrt(2)) for sign in (-1, 1))
-        scores = rows * (over * above - (tried - over) * below)[:, None]
-        curvature = (rows * (tried * above * below)[:, None]).T @ rows + np.diag(
-            penalty + 1e-12 * tried.sum()
-        )
-        step = np.linalg.solve(curvature, scores.sum(axis=0) - penalty * found)
-        found = found + step * min(1.0, 2.0 / max(np.abs(step).sum(), 1e-300))
+        scores = rows * (over * above - (weight - over) * below)[:, None]
+        curvature = (rows * (weight * above * below)[:, None]).T @ rows
+        curvature += np.diag(penalty + 1e-12 * weight.sum())
+        step = np.linalg.solve(curvature, scores.sum(axis=0) - penalty * coefficients)
+        coefficients = coefficients + step * min(1.0, 2.0 / max(np.abs(step).sum(), 1e-300))
         if np.abs(step).sum() < 1e-10:
             break
-    count, inverse = stations.max() + 1, np.linalg.inv(curvature)
-    together = np.zeros((count, rows.shape[1]))
-    np.add.at(together, stations, scores)
-    covariance = inverse @ (together.T @ together) @ inverse * count / max(count - rows.shape[1], 1)
-    return found / scale, covariance / np.outer(scale, scale)
+    inverse, count = np.linalg.inv(curvature), records.size
+    together = np.zeros((count, scale.size))
+    np.add.at(together, station, scores)
+    covariance = inverse @ (together.T @ together) @ inverse * count / max(count - scale.size, 1)
+    return coefficients / scale, covariance / np.outer(scale, scale)
 
 
 @dataclass(frozen=True)
@@ -296,7 +279,7 @@ def efficiency(log_levels: np.ndarray, exceedance: np.ndarray, stations: Sequenc
     log_levels, exceedance: (r, k) of each record at each of its levels. Every outcome counts, also of records that
     never overturn or that stand again above the level that overturned them.
     """
-    (_, slope), _ = _explained([log_levels], exceedance, stations)
+    (_, slope), _ = _probit([log_levels], exceedance, stations)
     return float(1 / slope) if slope > 0 else float("nan")
 
 
@@ -313,24 +296,11 @@ def dependence(
         return Dependence()
     scaled = (figures - figures.mean()) / figures.std()
     beside = np.broadcast_to(scaled[:, None], log_levels.shape)
-    (_, level, figure), covariance = _explained([log_levels, beside], exceedance, stations)
+    (_, level, figure), covariance = _probit([log_levels, beside], exceedance, stations)
     freedom, t = many - 3, abs(figure) / np.sqrt(covariance[2, 2])
     limit = stdtrit(freedom, 0.975)
     power = ndtr(t - limit) + ndtr(-t - limit)
     return Dependence(float(-figure / level), float(2 * stdtr(freedom, -t)), float(power))
-
-
-def _explained(
-    terms: Sequence[np.ndarray], outcomes: np.ndarray, stations: Sequence[str]
-) -> tuple[np.ndarray, np.ndarray]:
-    """The regression of shares (r, k) on an intercept and terms (r, k), each station with the same weight."""
-    _, place, records = np.unique(np.asarray(stations), return_inverse=True, return_counts=True)
-    design = np.stack([np.ones(outcomes.shape), *terms], axis=-1)
-    known = np.isfinite(outcomes)
-    station, weight = (
-        np.broadcast_to(each[:, None], outcomes.shape)[known] for each in (place, 1 / records[place])
-    )
-    return _probit(design[known], outcomes[known] * weight, weight, station)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -355,18 +325,11 @@ class IncrementalDynamicAnalysis:
 
     def fragility(self, threshold: float = np.inf) -> Fragility:
         """Return the curve of exceeding a rotation ratio; inf: of overturning."""
-        known = np.isfinite(self.rotation_ratios) | np.isinf(self.rotation_ratios)
-        ratios = np.where(known, self.rotation_ratios, 0.0)
+        ratios, measure = self.rotation_ratios, self.measure
         above = np.isinf(ratios) if np.isinf(threshold) else ratios > threshold
-        return fragility_of(
-            self.levels,
-            above.mean(axis=2),
-            self.stations,
-            tried=known.all(axis=2).astype(float),
-            measure=self.measure.name,
-            unit=self.measure.unit,
-            threshold=threshold,
-        )
+        exceedance = np.where(np.isnan(ratios), np.nan, above).mean(axis=2)
+        said = {"measure": measure.name, "unit": measure.unit, "threshold": threshold}
+        return fragility_of(self.levels, exceedance, self.stations, **said)  # type: ignore[arg-type]
 
 
 def incremental_dynamic_analysis(
@@ -401,7 +364,13 @@ def incremental_dynamic_analysis(
     (_, mechanism), *others = cracks(structure) if isinstance(structure, Structure) else [("", reduced)]
     intensities = np.array([measure.of(record, mechanism) for record in records])
     cases = _Cases(records, mechanism, intensities, ensemble, tolerance)
-    chosen, ratios = cases.cloud() if method == "cloud" else cases.at(levels)
+    if method == "cloud":
+        chosen, ratios = cases.cloud()
+    elif levels is None:
+        chosen, ratios = cases.at_adapted_levels()
+    else:
+        chosen = _checked_levels(levels)
+        ratios = cases.at_levels(chosen)
     for _, other in others if over_cracks else ():
         cracked = replace(cases, mechanism=other)
         more = cracked.cloud()[1] if method == "cloud" else cracked.at_levels(chosen)
@@ -463,13 +432,6 @@ class _Cases:
         # Equal intensities are moved apart by rounding size, so that each stays a level of its own.
         return self.intensities[order] * (1 + 1e-12 * np.arange(order.size)), ratios
 
-    def at(self, levels: Sequence[float] | np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
-        """Return levels (k,), those that adapt if none are given, and (r, k, m) there. Raises ConfigurationError."""
-        if levels is None:
-            return self._at_adapted_levels()
-        checked = _checked_levels(levels)
-        return checked, self.at_levels(checked)
-
     def at_levels(self, levels: np.ndarray) -> np.ndarray:
         """(r, k, m) for every record scaled to every level. Raises ConfigurationError where one cannot be followed."""
 
@@ -483,30 +445,23 @@ class _Cases:
         with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
             return np.array(list(pool.map(follow, range(len(self.records)))))
 
-    def _at_adapted_levels(self) -> tuple[np.ndarray, np.ndarray]:
+    def at_adapted_levels(self) -> tuple[np.ndarray, np.ndarray]:
         """LEVELS: spread from the first uplift to where nearly all overturn, and the rest where the share moves."""
-        levels, ratios = self._spread_levels()
-        between = _where_it_moves(levels, np.isinf(ratios).mean(axis=(0, 2)), LEVELS - levels.size)
-        levels, ratios = np.concatenate([levels, between]), np.hstack([ratios, self.at_levels(between)])
-        order = np.argsort(levels)
-        return levels[order], ratios[:, order]
-
-    def _spread_levels(self) -> tuple[np.ndarray, np.ndarray]:
         peaks = np.array([record.peak_acceleration for record in self.records])
-        uplift = self.intensities * self.mechanism.uplift_multiplier * GRAVITY / peaks
-        lowest = float(uplift.min())
-        levels = np.geomspace(lowest, max(float(self._likely_overturning().max()), 2 * lowest), COARSE)
+        lowest = float((self.intensities * self.mechanism.uplift_multiplier * GRAVITY / peaks).min())
+        severities = per_velocity(self.mechanism.equivalent_block("rest")) * np.array(
+            [INTENSITY_MEASURES["pgv"].of_record(record) for record in self.records]
+        )
+        highest = float((self.intensities * SEVERE / severities).max())
+        levels = np.geomspace(lowest, max(highest, 2 * lowest), COARSE)
         ratios = self.at_levels(levels)
         while np.isinf(ratios[:, -1]).mean() < NEARLY_ALL and levels.size < MOST_SPREAD:
             more = levels[-1] * np.array([1.5, 2.25])
             levels, ratios = np.concatenate([levels, more]), np.hstack([ratios, self.at_levels(more)])
-        return levels, ratios
-
-    def _likely_overturning(self) -> np.ndarray:
-        """(r,) level at which p PGV/(gλ) reaches SEVERE, up to which levels are spread at first."""
-        block = self.mechanism.equivalent_block("rest")
-        velocities = np.array([INTENSITY_MEASURES["pgv"].of_record(record) for record in self.records])
-        return np.asarray(self.intensities * SEVERE / (per_velocity(block) * velocities))
+        between = _where_it_moves(levels, np.isinf(ratios).mean(axis=(0, 2)), LEVELS - levels.size)
+        levels, ratios = np.concatenate([levels, between]), np.hstack([ratios, self.at_levels(between)])
+        order = np.argsort(levels)
+        return levels[order], ratios[:, order]
 
     def _ratios(self, record: int, factors: np.ndarray) -> np.ndarray:
         """(k, m) at each scale factor."""

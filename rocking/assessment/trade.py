@@ -6,7 +6,7 @@ from enum import StrEnum
 from functools import partial
 from statistics import median
 from time import process_time
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -63,17 +63,6 @@ REPEATS = 3
 T = TypeVar("T")
 
 
-class _Answer(NamedTuple):
-    """The rotation ratio that one method gives in one case, that of the reference, and the processor times, s."""
-
-    method: TradeMethod
-    structure: str
-    rotation_ratio: float
-    reference: float
-    cpu_s: float
-    record_s: float
-
-
 def trade(
     records: Iterable[Accelerogram],
     structures: Mapping[str, Structure],
@@ -93,7 +82,8 @@ def trade(
     """
     chosen = settings or AssessmentSettings()
     mechanisms = {name: structure.mechanism() for name, structure in structures.items()}
-    answers: list[_Answer] = []
+    # (method, structure), and of each case rotation ratio, that of the reference, processor times of case and record
+    answers: dict[tuple[TradeMethod, str], list[tuple[float, float, float, float]]] = {}
     for number, record in enumerate(records, start=1):
         sines, searched_s = _timed(partial(best_sines, record, chosen))
         for name, mechanism in mechanisms.items():
@@ -102,15 +92,17 @@ def trade(
                 for method, run in _runs(mechanism, record, sines, chosen).items():
                     rotation_ratio, cpu_s = _timed(run, 0 if method is TradeMethod.ENSEMBLE else REPEATS)
                     record_s = searched_s if method in (TradeMethod.ONE_SINE, TradeMethod.SINES) else 0.0
-                    answers.append(_Answer(method, name, rotation_ratio, reference, cpu_s, record_s))
+                    for whose in ("", name):
+                        case = rotation_ratio, reference, cpu_s, record_s
+                        answers.setdefault((method, whose), []).append(case)
             except RockingError as error:
                 tell(f"record {number}, {name}: {error}")
         tell(f"record {number}: {len(mechanisms)} structures")
     return [
-        _row(method, structure, own)
+        _row(method, structure, answers[method, structure])
         for structure in ("", *mechanisms)
         for method in TradeMethod
-        if (own := [each for each in answers if each.method is method and structure in ("", each.structure)])
+        if (method, structure) in answers
     ]
 
 
@@ -135,21 +127,22 @@ def _runs(
     return closed | {TradeMethod.BLOCK: rotation(block, 1e-6)} | followed | {TradeMethod.ENSEMBLE: middle}
 
 
-def _row(method: TradeMethod, structure: str, answers: Sequence[_Answer]) -> TradeRow:
-    moving = [each for each in answers if not (rests(each.rotation_ratio) and rests(each.reference))]
-    verdicts = [agreement(each.rotation_ratio, each.reference) for each in moving]
-    errors = [abs(ratio(each.rotation_ratio, each.reference) - 1) for each in moving]
-    rocking = [error for error in errors if not math.isnan(error)]
-    return TradeRow(
+def _row(
+    method: TradeMethod, structure: str, answers: Sequence[tuple[float, float, float, float]]
+) -> TradeRow:
+    pairs = [(own, true) for own, true, *_ in answers if not (rests(own) and rests(true))]
+    verdicts = [agreement(own, true) for own, true in pairs]
+    errors = [abs(ratio(own, true) - 1) for own, true in pairs if not math.isnan(ratio(own, true))]
+    return TradeRow.of(
         method=method,
         structure=structure,
-        cases=len(moving),
-        error=median(rocking) if rocking else math.nan,
-        error_high=float(np.quantile(rocking, 0.95)) if rocking else math.nan,
+        cases=len(pairs),
+        error=median(errors) if errors else None,
+        error_high=float(np.quantile(errors, 0.95)) if errors else None,
         wrong_verdicts=sum(each is not Agreement.SAME for each in verdicts),
-        unsafe_verdicts=sum(each is Agreement.TOO_LOW for each in verdicts),
-        cpu_s=median(each.cpu_s for each in answers),
-        preparation_record_s=median(each.record_s for each in answers),
+        unsafe_verdicts=verdicts.count(Agreement.TOO_LOW),
+        cpu_s=median(cpu_s for *_, cpu_s, _ in answers),
+        preparation_record_s=median(record_s for *_, record_s in answers),
     )
 
 
@@ -167,6 +160,6 @@ def _timed(run: Callable[[], T], repeats: int = 0) -> tuple[T, float]:
     spent: list[float] = []
     for _ in range(1 + repeats):
         started = process_time()
-        found = run()
+        answer = run()
         spent.append(process_time() - started)
-    return found, median(spent[1:] or spent)
+    return answer, median(spent[1:] or spent)

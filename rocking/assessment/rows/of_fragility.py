@@ -2,8 +2,6 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +10,6 @@ from rocking.assessment.fragility import CURVES, Fragility, IncrementalDynamicAn
 from rocking.assessment.intensity import INTENSITY_MEASURES, MEASURES_IN_WORDS, IntensityMeasure
 from rocking.assessment.rows.of_record import RECORD, STRUCTURE
 from rocking.errors import ConfigurationError
-from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism
 from rocking.tables import Row, column, read_rows, row
@@ -33,57 +30,40 @@ class HazardRow(Row):
     annual_rate: float = column("Annual rate at which it is exceeded", unit="1/year")
 
 
-@dataclass(frozen=True)
-class AnnualRate:
-    """Annual rate of exceedance, 1/year. low, high: from the ends of the curve's 90 % interval at every level at once,
-    which is wider than 90 % of the rate. left_out: most that the rate may lack, because the curve ends below a
-    probability of 1, or has not fallen to 0 where the hazard curve begins."""
-
-    rate: float
-    low: float
-    high: float
-    left_out: float
-
-
 def read_hazard(path: Path) -> list[HazardRow]:
     """Return the points of a hazard curve from a CSV with the columns intensity and annual_rate.
 
     Raises ConfigurationError for fewer than two points, levels that do not ascend, or a rate that rises.
     """
     points = list(read_rows(HazardRow, path))
-    check_hazard(points, str(path))
+    if len(points) < 2:
+        raise ConfigurationError(f"{path} holds {len(points)} points, but must hold at least 2.")
+    for before, point in zip([None, *points], points, strict=False):
+        at = f"{point.annual_rate:g} a year at {point.intensity:g}"
+        if not (point.intensity > 0 and point.annual_rate > 0):
+            raise ConfigurationError(f"{path} holds {at}, but both must be above 0.")
+        if before and point.intensity <= before.intensity:
+            raise ConfigurationError(
+                f"{path} holds {point.intensity:g} after {before.intensity:g}, but intensity must ascend; sort it."
+            )
+        if before and point.annual_rate > before.annual_rate:
+            raise ConfigurationError(
+                f"{path} says {at}, more than {before.annual_rate:g} at {before.intensity:g}, but annual_rate must "
+                "not rise."
+            )
     return points
 
 
-def check_hazard(points: Sequence[HazardRow], where: str = "the hazard curve") -> None:
-    """Raise ConfigurationError unless the levels ascend and the rates fall."""
-    if len(points) < 2:
-        raise ConfigurationError(f"{where} holds {len(points)} points, but must hold at least 2.")
-    for point in points:
-        if not (point.intensity > 0 and point.annual_rate > 0):
-            raise ConfigurationError(
-                f"{where} holds {point.intensity:g} at {point.annual_rate:g} a year, but both must be above 0."
-            )
-    for before, after in pairwise(points):
-        if after.intensity <= before.intensity:
-            raise ConfigurationError(
-                f"{where} holds {after.intensity:g} after {before.intensity:g}, but intensity must ascend; sort it."
-            )
-        if after.annual_rate > before.annual_rate:
-            raise ConfigurationError(
-                f"{where} says {after.annual_rate:g} a year at {after.intensity:g}, more than "
-                f"{before.annual_rate:g} at {before.intensity:g}, but annual_rate must not rise."
-            )
-
-
-def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> AnnualRate:
-    """Return ∫ P dν over the hazard curve ν, both linear in the logarithm of the level between their points.
+def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> dict[str, float]:
+    """Return ∫ P dν [1/year] over the hazard curve ν, by column of the summary; both are linear in the logarithm of the
+    level between their points.
 
     Below its levels the fragility counts as 0, above them as its last value; beyond the last point of the hazard curve
-    all is counted there. Levels below the first point of the hazard curve are left out, as their rates are not given:
-    left_out counts them as often as the hazard curve, continued by its first slope, says. Raises ConfigurationError.
+    all is counted there. The low and the high rate come from the ends of the curve's 90 % interval at every level at
+    once, which is wider than 90 % of the rate. annual_rate_left_out is the most that the rate may lack: because the
+    curve ends below a probability of 1, and because levels below the first point of the hazard curve are left out,
+    which occur as often as the hazard curve, continued by its first slope, says.
     """
-    check_hazard(points)
     levels, probability = np.log(fragility.levels), fragility.probability
     logs, log_rates = np.log([[point.intensity, point.annual_rate] for point in points]).T
     edges = np.linspace(logs[0], logs[-1], _STEPS + 1)
@@ -99,12 +79,9 @@ def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> AnnualRate
     lower = np.linspace(min(levels[0], logs[0]), logs[0], _STEPS + 1)
     continued = np.exp(log_rates[0] + slope * (logs[0] - lower))
     below = np.interp((lower[1:] + lower[:-1]) / 2, levels, probability, left=0.0) @ -np.diff(continued)
-    return AnnualRate(
-        total(probability),
-        total(fragility.probability_low),
-        total(fragility.probability_high),
-        float(above + below),
-    )
+    ends = {"": probability, "_low": fragility.probability_low, "_high": fragility.probability_high}
+    rates_by_end = {f"annual_rate{end}": total(curve) for end, curve in ends.items()}
+    return rates_by_end | {"annual_rate_left_out": float(above + below)}
 
 
 @row("ida")
@@ -221,9 +198,9 @@ def fragility_summary_row(
     structure: str, curve: Fragility, hazard: Sequence[HazardRow] | None
 ) -> FragilitySummaryRow:
     """Return what the curve comes down to. hazard: in the unit of its measure."""
-    rate = annual_rate(curve, hazard) if hazard else None
     return FragilitySummaryRow.of(
         curve,
+        annual_rate(curve, hazard) if hazard else {},
         structure=structure,
         intensity_measure=curve.measure,
         rotation_ratio=curve.threshold,
@@ -232,10 +209,6 @@ def fragility_summary_row(
         median_low=curve.interval[0],
         median_high=curve.interval[1],
         reversals=int((curve.reversals > 0).sum()),
-        annual_rate=rate and rate.rate,
-        annual_rate_low=rate and rate.low,
-        annual_rate_high=rate and rate.high,
-        annual_rate_left_out=rate and rate.left_out,
     )
 
 
@@ -270,16 +243,13 @@ def intensity_measure_rows(
 
 def _figures(records: Sequence[Accelerogram]) -> dict[str, np.ndarray]:
     """Figures of each record that the level of overturning may depend on beside its intensity; nan where not known."""
-    velocity, acceleration = (INTENSITY_MEASURES[name] for name in ("pgv", "pga"))
-    shapes = [
-        each.peak_acceleration and velocity.remembered(each) / acceleration.remembered(each)
-        for each in records
-    ]
-    distances = [each.epicentral_distance or math.nan for each in records]
+    velocities = np.array([INTENSITY_MEASURES["pgv"].remembered(each) for each in records])
+    accelerations = np.array([each.peak_acceleration for each in records])
+    magnitudes = [each.magnitude for each in records]
     return {
-        "PGV/PGA": np.log(np.array(shapes) / GRAVITY),
-        "magnitude": np.array([math.nan if each.magnitude is None else each.magnitude for each in records]),
-        "ln distance": np.log(distances),
+        "PGV/PGA": np.log(velocities / accelerations),
+        "magnitude": np.array(magnitudes, dtype=float),
+        "ln distance": np.log([each.epicentral_distance or math.nan for each in records]),
     }
 
 

@@ -48,7 +48,7 @@ class ComponentRow(Row):
     scale_factor: float = column(SCALE_FACTOR, last=True)
     record_sha256: str = column(RECORD_SHA256, last=True)
     settings_sha256: str = column(
-        "SHA-256 of the settings, the structure list and the package that made this row", last=True
+        "SHA-256 of settings, structure list and package behind this row", last=True
     )
 
 
@@ -98,23 +98,13 @@ class RecordRow(ComponentRow):
     peak_displacement_m: float = column("Largest magnitude of the displacement by trapezoid")
     arias_intensity_m_s: float = column("Arias intensity", equation="π/(2g) ∫a² dt")
     significant_duration_s: float = column("Time between 5 and 95 % of the Arias intensity (D5–95)")
-    rotd50_peak_acceleration_m_s2: float = column(
-        "Median peak acceleration of the pair over all directions; empty for one alone"
-    )
-    rotd100_peak_acceleration_m_s2: float = column(
-        "Largest peak acceleration of the pair in any direction; empty for one alone"
-    )
-    velocity_pulse_period_s: float = column(
-        "Period T_p of the velocity pulse (Shahi & Baker 2014) of the pair, or of one alone"
-    )
+    rotd50_peak_acceleration_m_s2: float = column("Median over all directions of the pair's peak")
+    rotd100_peak_acceleration_m_s2: float = column("Largest peak of the pair in any direction")
+    velocity_pulse_period_s: float = column("Period T_p of the velocity pulse (Shahi & Baker 2014)")
     velocity_pulse_centre_time_s: float = column("Middle of the velocity pulse after the first sample")
     velocity_pulse_peak_velocity_m_s: float = column("Peak velocity along the axis of the velocity pulse")
-    velocity_pulse_orientation_rad: float = column(
-        "Axis of the velocity pulse, from the first of the pair towards the second"
-    )
-    velocity_pulse_azimuth_deg: float = column(
-        "The same axis clockwise from north, where the components know theirs"
-    )
+    velocity_pulse_orientation_rad: float = column("Its axis, from the first of the pair to the second")
+    velocity_pulse_azimuth_deg: float = column("The same clockwise from north, where that is known")
     velocity_pulse_indicator: float = column("Pulse indicator of Shahi & Baker (2014)")
     velocity_pulse_like: bool | None = column("Whether their criterion calls the motion pulse-like")
     pulse_period_ratio: float = column("Period of the dominant sine pulse over T_p")
@@ -167,9 +157,7 @@ class MaximumRow(CaseRow):
     regime: Regime | None = column(_REGIME)
     impacts: int | None = column("Number of impacts")
     pulse_rank: int | None = column("Of a closed form: rank of its pulse among those of the method")
-    amplitude_ratio: float = column(
-        "Of a closed form: a = a_g / (g times uplift multiplier)", equation="Eq. 16"
-    )
+    amplitude_ratio: float = column("Of a closed form: a = a_g/(gλ)", equation="Eq. 16")
     frequency_ratio: float = column(
         "Of a closed form: circular frequency of the pulse over p",
         equation="Eq. 16",
@@ -179,9 +167,7 @@ class MaximumRow(CaseRow):
     uplift_time_s: float = column("Time of the first uplift after the first sample")
     tolerance: float = column("Relative tolerance of the integration; 0 for an exact solution")
     steps: int | None = column("Steps taken")
-    friction_needed: float = column(
-        "Largest friction coefficient a contact needs; INF where one is not pressed"
-    )
+    friction_needed: float = column("Largest friction a contact needs; INF where it is not pressed")
     slides: bool | None = column("Whether that exceeds the friction of the settings: the model does not hold")
     bounces: bool | None = column("Whether a contact would have to pull: the model does not hold")
     contacts_unknown: str = column("Why nothing is known of the contacts; empty where something is")
@@ -195,22 +181,17 @@ class ComparisonRow(CaseRow):
     """One row per structure: the closed form under the dominant pulse beside the integration of the whole record."""
 
     predicted_rotation_ratio: float = column("Exact maximum of the equivalent block under the dominant pulse")
-    integrated_rotation_ratio: float = column(
-        "Mechanism under the whole record; empty where something cheaper settled it"
-    )
+    integrated_rotation_ratio: float = column("Mechanism on the record; empty where less settled it")
     prediction_over_integration: float = column("Predicted over integrated rotation ratio, where both rock")
     prediction_in_words: str = column("How the prediction stands to the integration, in words")
     within_factor_two: bool | None = column("Whether that ratio lies between 1/2 and 2, where both rock")
-    agreement: Agreement = column(
-        "Rest, rocking or overturning in the closed form and in the integration: same outcome, too low or too high"
-    )
+    agreement: Agreement = column("Closed form against integration: same outcome, too low or too high")
     regime: Regime | None = column(_REGIME)
     answer_method: Method = column("What settled the verdict: the mechanism on the record, or with auto less")
     answer_outcome: Outcome = column("What that says: no uplift, rocks, overturns or failed")
     answer_reason: str = column("Why that one settled it, where fidelity: auto chose it")
     overturning_estimate: float = column(
-        "Estimate of the share of members that overturn, from p PGV/(gλ), calibrated on real records; empty where an "
-        "ensemble ran or the structure is unlike those of the calibration"
+        "Share of members that overturn, estimated from p PGV/(gλ) where no ensemble ran"
     )
     overturning_estimate_low: float = column("Lower end of its 90 % interval")
     overturning_estimate_high: float = column("Upper end of its 90 % interval")
@@ -248,9 +229,7 @@ class EnsembleRow(CaseRow):
     processing_share: float = column(_SHARE.format("the processing of the record"))
     vertical_share: float = column(_SHARE.format("the vertical motion"))
     worst_direction: str = column("Direction in which it rotates most on average; empty with one direction")
-    worst_polarity: str = column(
-        "Sign of the motion with which it rotates most on average: as recorded, reversed"
-    )
+    worst_polarity: str = column("Sign with which it rotates most on average: as recorded, reversed")
     worst_processing: str = column("Processing under which it rotates most on average; empty with one")
 
 
@@ -263,9 +242,7 @@ class CandidateRow(CaseRow):
     predicted_rotation_ratio: float = column("Exact maximum of its equivalent block under the dominant pulse")
     integrated_rotation_ratio: float = column("Its mechanism under the whole record")
     governs_pulse: bool = column("Whether it rotates most under the pulse; the lowest of those that overturn")
-    governs_record: bool = column(
-        "Whether it rotates most under the record, the lowest of those that overturn"
-    )
+    governs_record: bool = column("Whether it rotates most under the record; the lowest that overturns")
 
 
 @row("histories")

@@ -42,21 +42,15 @@ class StructureRow(Row):
     frequency_parameter_rad_s: float = column(_P, equation="Eq. 11")
     critical_rotation_rad: float = column("Critical rotation")
     uplift_multiplier: float = column("Uplift acceleration in g", equation="Eq. 7")
-    static_multiplier: float = column(
-        "Least of those of the cracks that may form: static limit analysis lets it fall at this acceleration in g"
-    )
+    static_multiplier: float = column("Least of all cracks: static limit analysis lets it fall at this g")
     acceleration_scale_linearised: float = column("a_sc", equation="Eq. 11")
     acceleration_scale_uplift: float = column("a_sc,alt", equation="Eq. 13")
     linearised_over_true_uplift: float = column(
-        "Uplift acceleration of the linearised block over the true one", equation="Eq. 12"
+        "Uplift of the linearised block over the true one", equation="Eq. 12"
     )
     restitution: float = column(_ETA, equation="Eq. 2")
-    restoring_defect: float = column(
-        "Largest error of the restoring acceleration of the block exact at rest up to φ_cr, over that at rest"
-    )
-    forcing_defect: float = column(
-        "Growth of the true forcing at φ_cr over that at rest, which that block leaves out; above 0 is unsafe"
-    )
+    restoring_defect: float = column("Largest restoring error of the block exact at rest, over that at rest")
+    forcing_defect: float = column("Growth of the forcing up to φ_cr that it leaves out; above 0 is unsafe")
 
 
 @row("capacity")
@@ -66,18 +60,10 @@ class CapacityRow(Row):
     structure: str = column(rows.STRUCTURE)
     side: str = column("positive or negative: the side to which it rocks")
     rotation_rad: float = column("Rotation")
-    multiplier: float = column(
-        "Horizontal acceleration in g that just holds the structure there", equation="G/B"
-    )
-    displacement_m: float = column(
-        "Horizontal displacement of the control point, the corner of the drawing that moves furthest sideways"
-    )
-    effective_displacement_m: float = column(
-        "d* = d_k Σ P δ²/(δ_k Σ P δ), displacement of the equivalent system"
-    )
-    participating_mass_ratio: float = column(
-        "e* = (Σ P δ)²/(Σ P · Σ P δ²), mass of the equivalent system over all"
-    )
+    multiplier: float = column("Horizontal acceleration in g that just holds it there", equation="G/B")
+    displacement_m: float = column("Of the control point, the corner that moves furthest sideways")
+    effective_displacement_m: float = column("d* = d_k Σ P δ²/(δ_k Σ P δ), of the equivalent system")
+    participating_mass_ratio: float = column("e* = (Σ P δ)²/(Σ P · Σ P δ²), mass that takes part")
 
 
 @row("agreement")
@@ -137,15 +123,16 @@ def capacity_rows(structures: Mapping[str, Structure]) -> Iterator[CapacityRow]:
         signs = (1,) if len(structure.mechanism().sides) == 1 else (1, -1)
         for sign in signs:
             curve = structure.capacity_curve(sign, CAPACITY_POINTS)
-            columns = (curve.rotation, curve.multiplier, curve.displacement, curve.effective_displacement)
-            for point in np.column_stack(columns).tolist():
-                names = ("rotation_rad", "multiplier", "displacement_m", "effective_displacement_m")
-                yield CapacityRow.of(
-                    curve,
-                    structure=name,
-                    side="positive" if sign > 0 else "negative",
-                    **dict(zip(names, point, strict=True)),
-                )
+            columns = {
+                "rotation_rad": curve.rotation,
+                "multiplier": curve.multiplier,
+                "displacement_m": curve.displacement,
+                "effective_displacement_m": curve.effective_displacement,
+            }
+            for place in range(CAPACITY_POINTS):
+                point = {name: float(values[place]) for name, values in columns.items()}
+                side = "positive" if sign > 0 else "negative"
+                yield CapacityRow.of(curve, structure=name, side=side, **point)
 
 
 AGREEMENT_COLUMNS = (
@@ -163,26 +150,20 @@ def agreement_rows(comparison: "DataFrame") -> Iterator[AgreementRow]:
     """Yield the counts of all and of each structure, from the comparison table as a data frame."""
     ratios = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]]
     known = comparison[ratios.notna().all(axis="columns")]
-    yield _agreement_row("", known)
-    for structure, cases in known.groupby("structure", sort=False):
-        yield _agreement_row(str(structure), cases)
-
-
-def _agreement_row(structure: str, cases: "DataFrame") -> AgreementRow:
-    predicted = np.isinf(cases["predicted_rotation_ratio"])
-    integrated = np.isinf(cases["integrated_rotation_ratio"])
-    return AgreementRow(
-        structure=structure,
-        records=cases["record"].nunique(),
-        cases=len(cases),
-        both_rock=int(cases["prediction_over_integration"].count()),
-        within_factor_two=int(cases["within_factor_two"].sum()),
-        median_ratio=float(cases["prediction_over_integration"].median()),
-        overturning=int(integrated.sum()),
-        overturning_found=int((predicted & integrated).sum()),
-        overturning_missed=int((integrated & ~predicted).sum()),
-        overturning_false=int((predicted & ~integrated).sum()),
-    )
+    for structure, cases in [("", known), *known.groupby("structure", sort=False)]:
+        predicted, integrated = np.isinf(cases[list(ratios)].to_numpy()).T
+        yield AgreementRow(
+            structure=str(structure),
+            records=cases["record"].nunique(),
+            cases=len(cases),
+            both_rock=int(cases["prediction_over_integration"].count()),
+            within_factor_two=int(cases["within_factor_two"].sum()),
+            median_ratio=float(cases["prediction_over_integration"].median()),
+            overturning=int(integrated.sum()),
+            overturning_found=int((predicted & integrated).sum()),
+            overturning_missed=int((integrated & ~predicted).sum()),
+            overturning_false=int((predicted & ~integrated).sum()),
+        )
 
 
 def spectrum_rows(

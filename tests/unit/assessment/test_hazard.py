@@ -25,8 +25,8 @@ def test_the_rate_is_that_of_the_closed_form():
     found = annual_rate(curve, _points(LEVELS[[0, -1]], scale * LEVELS[[0, -1]] ** -slope))
     exact = scale * median**-slope * math.exp(slope**2 * dispersion**2 / 2)
     # Steps of 2 % in the level, half a step of lag in a curve that is counted: 2.5 x 1 % of the rate.
-    assert found.rate == pytest.approx(exact, rel=0.03)
-    assert found.low < found.rate < found.high
+    assert found["annual_rate"] == pytest.approx(exact, rel=0.03)
+    assert found["annual_rate_low"] < found["annual_rate"] < found["annual_rate_high"]
 
 
 def test_what_curve_and_hazard_leave_out_is_said():
@@ -36,10 +36,10 @@ def test_what_curve_and_hazard_leave_out_is_said():
     points = _points([0.5, 8.0], [0.16, 0.01])  # rate 0.08/x
     found = annual_rate(curve, points)
     # above 2.0 there occurs 0.04 a year, of which the curve counts a half; the steps of the integral are 0.7 %
-    assert found.left_out == pytest.approx(0.02, rel=0.02)
+    assert found["annual_rate_left_out"] == pytest.approx(0.02, rel=0.02)
     falling = fragility_of(np.array([0.1, 0.2]), np.ones((4, 2)), list("abcd"))
     # between 0.1 and 0.5, which the hazard curve does not reach, there occurs 0.8 − 0.16
-    assert annual_rate(falling, points).left_out == pytest.approx(0.64, rel=0.02)
+    assert annual_rate(falling, points)["annual_rate_left_out"] == pytest.approx(0.64, rel=0.02)
 
 
 @pytest.mark.parametrize(

@@ -54,7 +54,7 @@ def test_an_estimate_grows_with_the_motion_and_lies_in_its_interval(tier):
 def test_nothing_is_said_of_a_structure_unlike_those_behind_it(odd):
     fit = shipped_tiers()[Tier.PEAK_VELOCITY]
     assert fit.estimate(measured()) is not None and fit.estimate(measured() | odd) is None
-    assert next(iter(odd)).replace("_", " ") in fit.unlike(measured() | odd)
+    assert fit.unlike(measured() | odd)
 
 
 def test_every_tier_is_shipped_with_its_terms():
