@@ -3,7 +3,6 @@
   const content = JSON.parse(document.getElementById("content").textContent);
   const { records, structures, reports } = content;
   const at = (id) => document.getElementById(id);
-  const SIGNS = { overturns: "▲", undecided: "?", stands: "●", unknown: "–" };
 
   // Numbers ---------------------------------------------------------------------------------------------
   function unpacked(packed) {
@@ -14,8 +13,6 @@
     }
     return packed.values;
   }
-  const ratio = (value) => (value === null ? "not known" : value === "inf" ? "overturns" : Number(value.toPrecision(3)).toString());
-
   // Value of a trace of equal stretches of [begin, end] at a time; 0 outside
   function valueAt(values, [begin, end], time) {
     const place = ((time - begin) / (end - begin)) * values.length - 0.5;
@@ -36,25 +33,13 @@
   const caseOf = (record, structure) => record.cases[structure.name];
   const share = (each) => (each && each.share !== null ? Number(each.share) : 0);
 
-  function described(record, structure) {
-    const each = caseOf(record, structure);
-    if (!each) return `${structure.name} under ${record.id}: no result. ${record.failure}`;
-    return [
-      `${structure.name} under ${record.id}, component ${each.component || "–"}`,
-      `${each.verdict}: ${each.why}`,
-      `as given ${ratio(each.ratio)}, closed form ${ratio(each.predicted)}`,
-    ].join("\n");
-  }
-
   function cellOf(record, structure) {
-    const each = caseOf(record, structure);
-    const verdict = each ? each.verdict : "unknown";
-    const single = each && typeof each.ratio === "number" ? ratio(each.ratio) : "";
-    const text = `${SIGNS[verdict]} ${each && each.members ? Math.round(100 * share(each)) : single}`.trim();
-    const button = element("button", { type: "button", className: `cell ${verdict}`, tabIndex: -1, title: described(record, structure) }, text);
-    Object.assign(button.dataset, { record: records.indexOf(record), structure: structures.indexOf(structure), verdict });
+    const each = caseOf(record, structure) || { verdict: "unknown", cell: "–", told: `no result. ${record.failure}` };
+    const title = `${structure.name} under ${record.id}: ${each.told}`;
+    const button = element("button", { type: "button", className: `cell ${each.verdict}`, tabIndex: -1, title }, each.cell);
+    Object.assign(button.dataset, { record: records.indexOf(record), structure: structures.indexOf(structure), verdict: each.verdict });
     button.setAttribute("aria-pressed", "false");
-    button.setAttribute("aria-label", button.title);
+    button.setAttribute("aria-label", title);
     return element("td", {}, button);
   }
 
@@ -206,13 +191,13 @@
       drawn("text", { x: RIGHT - 8, y: PANELS[0].top + 16, "text-anchor": "end" }, "grey: record; orange: dominant pulse");
     }
     const values = each.history ? unpacked(each.history.ratio) : new Float64Array(2);
-    const predicted = typeof each.predicted === "number" ? each.predicted : 0;
+    const predicted = each.predicted < 1e9 ? each.predicted || 0 : 0;
     const reach = Math.min(3.1, 1.15 * Math.max(largest(values), predicted) || 1);
     const axes = panel(PANELS[1], span, reach, "rotation ratio [-]");
     if (each.history) trace(values, each.history.span, span, axes, { stroke: "#000", "stroke-width": 1.1, id: "rotation" });
     for (const level of predicted > 0 ? [predicted, -predicted] : [])
       drawn("line", { x1: LEFT, x2: RIGHT, y1: axes.y(level), y2: axes.y(level), stroke: "#0072b2", "stroke-dasharray": "8 3 2 3" });
-    const said = predicted > 0 ? "dash-dot: largest by the closed form" : "closed form: " + (each.predicted === "inf" ? "overturns" : each.predicted === null ? "not known" : "no uplift");
+    const said = predicted > 0 ? "dash-dot: largest by the closed form" : `closed form: ${each.closed}`;
     drawn("text", { x: RIGHT - 8, y: PANELS[1].top + 16, "text-anchor": "end" }, said);
     drawn("text", { x: (LEFT + RIGHT) / 2, y: 292, "text-anchor": "middle" }, "time after the first sample [s]");
     const cursor = drawn("line", { y1: PANELS[0].top, y2: PANELS[1].bottom, stroke: "#009e73", "stroke-width": 1.5, id: "cursor" });
@@ -284,14 +269,6 @@
   let show = () => {};
   let playing = 0;
 
-  function facts(each) {
-    const said = [`${each.verdict}: ${each.why}.`];
-    const band = each.members && each.high !== "inf" ? ` (5 to 95 % of the members: ${ratio(each.low)} to ${ratio(each.high)})` : "";
-    said.push(`Largest rotation over critical rotation: ${ratio(each.ratio)} as given${band}, ${ratio(each.predicted)} by the closed form.`);
-    if (!each.history) said.push("It does not lift enough to be drawn, or its motion was not kept.");
-    return `${said.join(" ")} `;
-  }
-  const warned = (record) => record.warnings.map((each) => `${each} `).join("");
 
   function choose(r, s) {
     stop();
@@ -305,7 +282,8 @@
     at("case").hidden = false;
     at("title").textContent = `${structure.name} (${structure.size}) under ${record.id}${each && each.component ? ", component " + each.component : ""}`;
     at("moves").hidden = !each;
-    at("facts").textContent = (each ? facts(each) : `No result. ${record.failure} `) + warned(record);
+    const still = each && !each.history ? "It does not lift enough to be drawn, or its motion was not kept." : "";
+    at("facts").textContent = [each ? each.told : `No result. ${record.failure}`, still, ...record.warnings, ""].join(" ");
     if (reports) at("facts").append(element("a", { href: `../${encodeURIComponent(record.id)}/report.pdf` }, "report.pdf"));
     if (!each) return;
     const motion = record.motions[each.component];

@@ -20,7 +20,8 @@ from rocking.motion.response import Response
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import displacement
-from rocking.reports.record import worst_cases
+from rocking.reports import printing
+from rocking.reports.record import cell_text, worst_cases
 from rocking.structures import Mechanism, Structure
 
 Content = dict[str, Any]
@@ -109,17 +110,22 @@ def explore_page(
 def _case(
     fate: Fate, row: Any, mechanism: Mechanism, responses: Mapping[tuple[str, str], Response]
 ) -> Content:
+    predicted = row.predicted_rotation_ratio if row else math.nan
+    given, low, high, closed = (
+        printing.ratio(each)
+        for each in (fate.rotation_ratio, fate.rotation_ratio_low, fate.rotation_ratio_high, predicted)
+    )
+    band = f" (5 to 95 % of the members: {low} to {high})" if fate.members else ""
     case: Content = {
         "verdict": str(fate.verdict),
-        "why": fate.leaning or fate.why,
-        "members": fate.members,
+        "cell": cell_text(fate),
+        "told": f"{fate.verdict}: {fate.leaning or fate.why}. Largest rotation over critical rotation: {given} as "
+        f"given{band}, {closed} by the closed form.",
         "share": _number(fate.overturning_share),
-        "ratio": _number(fate.rotation_ratio),
-        "low": _number(fate.rotation_ratio_low),
-        "high": _number(fate.rotation_ratio_high),
         "severity": [_number(min(each, 1e9)) for each in fate.severity],
         "component": row.component if row else "",
-        "predicted": _number(row.predicted_rotation_ratio if row else math.nan),
+        "predicted": _number(min(predicted, 1e9)),
+        "closed": closed,
     }
     response = responses.get(row.case) if row else None
     if response is not None and response.rotation_ratio > NEGLIGIBLE:
@@ -215,8 +221,6 @@ def extremes(times: np.ndarray, values: np.ndarray, begin: float, end: float) ->
     return np.where(np.isnan(full), shown, full)
 
 
-def _number(value: float) -> float | str | None:
-    """Return `value` as JSON can hold it: null for nan, "inf" for infinity, else six digits."""
-    if math.isnan(value):
-        return None
-    return "inf" if math.isinf(value) else float(f"{value:.6g}")
+def _number(value: float) -> float | None:
+    """Return `value` as JSON can hold it: null for nan, else six digits."""
+    return None if math.isnan(value) else float(f"{value:.6g}")

@@ -61,7 +61,7 @@ MOST_PULSES = 3
 """Ranks of pulses that are shown."""
 MOST_COMPARED = 24
 """Cases whose comparison is drawn, those with the largest rotations."""
-_LETTERS = 24
+_LETTERS = 27
 """Of a line below a drawing."""
 LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
     Verdict.OVERTURNS: ("▲", "#7a2400", "white", "xxxx"),
@@ -70,8 +70,8 @@ LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
     Verdict.STANDS: ("●", "#dceaf7", "black", ""),
 }
 """Sign, colour, colour of letters on it, and pattern of each verdict: in print without colour the others tell it."""
-_COLUMNS, _CELL, _DRAWN = 5, (34.0, 67.0), (30.0, 27.0)
-"""Structures of a row of page one; width and height of each, and the room for its drawing, mm."""
+_COLUMNS, _DRAWN, _LINE = 5, (30.0, 27.0), 3.2
+"""Structures of a row of page one; width and height of each drawing, and height of a line below it, mm."""
 _HISTORIES, _HIGHEST_ROW = 160.0, 30.0
 """Height of all histories together, and of one at most, mm."""
 _STILL, _HIGHEST = 0.01, 1.25
@@ -189,6 +189,14 @@ class RecordReport:
         return getattr(self.methods.get((case, method)), column, otherwise)
 
 
+def cell_text(fate: Fate | None) -> str:
+    """Return a case in a map: sign and share of members that overturn, in %, or the rotation ratio of a single run."""
+    sign = LOOKS[fate.verdict if fate else Verdict.UNKNOWN][0]
+    if fate is not None and fate.members:
+        return f"{sign} {printing.percent(fate.overturning_share)}"
+    return f"{sign} {number(fate.rotation_ratio, 2)}" if fate and fate.rotation_ratio < math.inf else sign
+
+
 def worst_cases(rows: Iterable[ComparisonRow]) -> dict[str, ComparisonRow]:
     """Return by structure the row of the component that turns it farthest, the first of several that overturn it."""
     farthest = sorted(
@@ -241,14 +249,19 @@ def _left_out(many: int, noun: str, table: str) -> str:
 @styled
 def strip_figure(fates: Sequence[Fate], report: RecordReport) -> Figure:
     """Draw each structure in its state, to one scale each: standing, rocking to its largest rotation, or fallen."""
-    rows = math.ceil(len(fates) / _COLUMNS)
-    width, height = _CELL
-    figure = new_figure(rows * height, margins=(0, 0, 0, 0))
-    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, TEXT_WIDTH), ylim=(-rows * height, 0))
+    lines = [_lines(report, fate) for fate in fates]
+    rows = [range(first, min(first + _COLUMNS, len(fates))) for first in range(0, len(fates), _COLUMNS)]
+    heights = [_DRAWN[1] + 19 + _LINE * max(len(lines[place]) for place in row) for row in rows]
+    figure = new_figure(sum(heights), margins=(0, 0, 0, 0))
+    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, TEXT_WIDTH), ylim=(-sum(heights), 0))
     axes.set_axis_off()
-    for place, fate in enumerate(fates):
-        row, column = divmod(place, _COLUMNS)
-        _draw_state(axes, report, fate, (column + 0.5) * width, -row * height)
+    for number_of_row, row in enumerate(rows):
+        top = -sum(heights[:number_of_row])
+        for column, place in enumerate(row):
+            middle = (column + 0.5) * TEXT_WIDTH / _COLUMNS
+            _draw_state(axes, report, fates[place], middle, top)
+            below = middle, top - _DRAWN[1] - 16.5, "\n".join(lines[place])
+            axes.text(*below, ha="center", va="top", fontsize=7, linespacing=1.25)
     return figure
 
 
@@ -276,8 +289,6 @@ def _draw_state(axes: Axes, report: RecordReport, fate: Fate, middle: float, top
     axes.add_patch(frame)
     word = f"{sign} {fate.verdict}"
     axes.text(middle, foot[1] - 6.3, word, ha="center", va="center", color=ink, fontweight="bold")
-    below = "\n".join(_lines(report, fate))
-    axes.text(middle, foot[1] - 9.5, below, ha="center", va="top", fontsize=7, linespacing=1.25)
 
 
 def _cracked(report: RecordReport, fate: Fate) -> Structure:
@@ -311,7 +322,8 @@ def _lines(report: RecordReport, fate: Fate) -> list[str]:
         low, high = (_printed(each, fate) for each in (fate.rotation_ratio_low, fate.rotation_ratio_high))
         lines.append(f"5–95 %: {low} to {'falling' if high == 'overturns' else high}")
     lines.append(f"static {number(multiplier, 2)} g, PGA {number(peak / multiplier, 2)} ×")
-    lines += [*wrap(fate.crack, _LETTERS), *wrap(fate.elsewhere_crack, _LETTERS)]
+    for crack in (fate.crack, fate.elsewhere_crack):
+        lines += wrap(crack.replace("hinges at", "hinges"), _LETTERS)
     if fate.elsewhere_crack and fate.elsewhere_members:
         lines.append(f"there {fate.elsewhere_overturning_members} of {fate.elsewhere_members} overturn")
     return lines

@@ -19,7 +19,7 @@ from rocking.reports.document import compile_document
 from rocking.reports.fragility import fragility_table
 from rocking.reports.panels import draw_agreement
 from rocking.reports.printing import NOTHING, Cell, columns_of, given, number, ratio, strong, table_of, words
-from rocking.reports.record import ABOUT, LOOKS, METHODS
+from rocking.reports.record import ABOUT, LOOKS, METHODS, cell_text
 from rocking.reports.style import new_figure, pictures, styled
 from rocking.tables import rows_of
 
@@ -180,14 +180,8 @@ def _worst_first(fates: Iterable[tuple[str, Fate]]) -> list[str]:
 
 
 def _cell(fate: Fate | None) -> dict[str, str]:
-    """Sign and share of a cell in the look of its verdict: in %, or with a single run its rotation ratio."""
-    sign, colour, ink, _ = LOOKS[fate.verdict if fate else Verdict.UNKNOWN]
-    text = ""
-    if fate is not None and fate.members:
-        text = printing.percent(fate.overturning_share)
-    elif fate is not None and fate.rotation_ratio < math.inf:
-        text = number(fate.rotation_ratio, 2)
-    return {"text": f"{sign} {text}".strip(), "fill": colour, "ink": ink}
+    _, colour, ink, _ = LOOKS[fate.verdict if fate else Verdict.UNKNOWN]
+    return {"text": cell_text(fate), "fill": colour, "ink": ink}
 
 
 def structure_table(fates: Sequence[Fate]) -> dict[str, object]:
@@ -204,14 +198,13 @@ def structure_table(fates: Sequence[Fate]) -> dict[str, object]:
         ("Worst record", "1.6", "l", lambda row: row[-1].record),
         ("Overturns there in", "0.8", "l", lambda row: words(row[-1].count)),
         ("As given", "0.7", "r", lambda row: ratio(row[-1].rotation_ratio, 2)),
-        ("5–95 % of the members", "1.1", "r", lambda row: _band(row[-1])),
+        ("5–95 % of the members", "1.3", "r", lambda row: _band(row[-1])),
     )
 
 
 def _band(fate: Fate) -> str:
-    if not fate.members:
-        return NOTHING
-    return f"{ratio(fate.rotation_ratio_low, 2)} – {ratio(fate.rotation_ratio_high, 2)}"
+    low, high = ratio(fate.rotation_ratio_low, 2), ratio(fate.rotation_ratio_high, 2)
+    return low if low == high else f"{low} – {high}"
 
 
 # What the methods are worth --------------------------------------------------------------------------------
@@ -269,7 +262,7 @@ def _time(seconds: float) -> str:
 @styled
 def prediction_scatter(comparison: "DataFrame") -> Figure:
     """Draw predicted against integrated rotation ratio, from the comparison table."""
-    figure = new_figure(90, 115, margins=(20, 3, 13, 3))
+    figure = new_figure(80, 105, margins=(20, 3, 13, 3))
     columns = comparison[["integrated_rotation_ratio", "predicted_rotation_ratio"]]
     draw_agreement(figure.subplots(), *columns.to_numpy(dtype=float).T)
     return figure
@@ -297,8 +290,8 @@ def case_table(cases: Iterable[ComparisonRow]) -> dict[str, object]:
         ),
         ("Closed form", "auto", "r", lambda row: ratio(row.predicted_rotation_ratio)),
         ("Full integration", "auto", "r", lambda row: strong(ratio(row.integrated_rotation_ratio))),
-        ("Regime of the closed form", "1.4", "l", lambda row: words(row.regime)),
-        ("The closed form is", "1.2", "l", lambda row: words(row.prediction_in_words)),
+        ("Its regime", "0.9", "l", lambda row: words(row.regime)),
+        ("The closed form", "1.6", "l", lambda row: words(row.prediction_in_words)),
     )
 
 

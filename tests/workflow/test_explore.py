@@ -101,15 +101,15 @@ def test_drawings_are_those_of_the_structure(study):
 def test_the_page_carries_the_rotation_that_was_integrated(content, study):
     """The history that moves the drawing has the largest rotation of an integration done here."""
     _, done, records = study
-    cases = content["records"][0]["cases"]
-    rocking = {name: each for name, each in cases.items() if each["ratio"] != "inf" and "history" in each}
-    assert rocking
+    drawn = {name: each for name, each in content["records"][0]["cases"].items() if "history" in each}
     accelerograms, _ = done.open(records[0])
-    for name, each in rocking.items():
-        found = integrate(done.structures[name].mechanism(), accelerograms[0], done.assessment.tolerance)
+    for name, each in drawn.items():
+        response = integrate(done.structures[name].mechanism(), accelerograms[0], done.assessment.tolerance)
         largest = np.abs(unpacked(each["history"]["ratio"])).max()
-        # between the steps of a history the peak may lie a little higher
-        assert math.isclose(largest, found.rotation_ratio, rel_tol=0.01)
+        # between the steps of a history the peak may lie a little higher; a fall is followed farther
+        expected = response.rotation_ratio
+        assert largest > 1 if math.isinf(expected) else math.isclose(largest, expected, rel_tol=0.01)
+    assert drawn
 
 
 def test_every_case_and_every_failure_is_on_the_page(content, study):
