@@ -1,7 +1,5 @@
 """One assessed record for the tests of the reports: synthetic motion, real computation, rows as CSV files hold."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -42,12 +40,8 @@ HOSTILE = ("$x^$", "#panic(1)", "<b>bold</b>", "W" * 80, "Жёлтый Ω 中文
 
 def fate(verdict: Verdict, rotation_ratio: float, **more) -> Fate:
     """What became of a structure, by its verdict and the rotation ratio as given."""
-    blank = dict.fromkeys(Fate.table.column_names, math.nan) | {"record": "one", "component": "EW"}
-    texts = dict.fromkeys(
-        ("structure", "direction", "polarity", "why", "record_sha256", "settings_sha256"), ""
-    )
-    counts = {"overturning_members": 0, "members": 0, "peak_side": 1}
-    return Fate(**blank | texts | counts | {"verdict": verdict, "rotation_ratio": rotation_ratio} | more)
+    values = {"record": "one", "component": "EW", "overturning_members": 0, "members": 0, "peak_side": 1}
+    return Fate.of(verdict=verdict, rotation_ratio=rotation_ratio, **values | more)
 
 
 def shaken(component: str = "EW", scale_factor: float = 1.0, **identity) -> Accelerogram:
@@ -71,8 +65,8 @@ def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[st
         records = processed(accelerogram)
         pulse = computed.analysis.dominant if computed.analysis else None
         for name, structure in structures.items():
-            found = candidates(structure, accelerogram, pulse, 7, ASSESSMENT)
-            tables.candidates.extend(candidate_rows(identity, name, found))
+            others = candidates(structure, accelerogram, pulse, 7, ASSESSMENT)
+            tables.candidates.extend(candidate_rows(identity, name, others))
             variants = processed_variants({name: structure}, records, ASSESSMENT)
             tables.maxima.extend(processing_rows(identity, name, variants[name]))
     return RecordReport(record, accelerograms, structures, tables, SETTINGS)
