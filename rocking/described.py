@@ -5,6 +5,7 @@ the JSON schema, from which the sentences of an error are made. It is imported o
 """
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from difflib import get_close_matches
 from functools import cache, cached_property
@@ -108,14 +109,6 @@ class Described:
         unit = f" {self.unit}" if self.unit and type(value) in (int, float) else ""
         return f"{value!r}{unit}, but must be {self.must}."
 
-    def allows(self, value: object) -> bool:
-        """Whether `value` is of the type and within the bounds."""
-        try:
-            self.checked(value)
-        except ValueError:
-            return False
-        return True
-
 
 def described(
     default: Any,
@@ -193,10 +186,11 @@ def read_described(
             hint = f"did you mean {near[0]}?" if near else f"the names are {', '.join(names)}."
             defects.append(f"{above}{key} is {value!r}, but nothing has this name; {hint}")
         else:
-            said = value if known[key].allows(value) or not isinstance(value, str) else heard(value)
-            try:
-                values[known[key].name] = known[key].checked(said)
-            except ValueError:
+            for meant in [value, heard(value)] if isinstance(value, str) else [value]:
+                with suppress(ValueError):
+                    values[known[key].name] = known[key].checked(meant)
+                    break
+            else:
                 defects.append(f"{above}{key} is {known[key].refusal(value)}")
     if len(defects) == before:
         try:

@@ -1,11 +1,11 @@
 """Rows as CSV: written row by row with their description, and read back as typed objects or as a data frame."""
 
 import csv
+import io
 import json
-import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from enum import Enum, StrEnum
+from enum import StrEnum
 from itertools import islice
 from pathlib import Path
 from types import SimpleNamespace
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from rocking.described import Described
 from rocking.errors import RockingError
 from rocking.tables.files import whole, write_whole
-from rocking.tables.row import R, Row, Table, cell, unguarded, value_of
+from rocking.tables.row import R, Row, Table, cell, empty, unguarded, value_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -144,20 +144,18 @@ def frame(
     """
     import pandas as pd  # here, because half the commands make no data frame and it takes half a second to import
 
-    table = row_class.table
-    kept = [each for each in table.columns if columns is None or each.name in set(columns)]
-    if not isinstance(source, Path | str):
-        rows = list(source)
-        values = {each.name: [_plain(getattr(one, each.name)) for one in rows] for each in kept}
-        return pd.DataFrame({each.name: pd.Series(values[each.name], dtype=_dtype(each)) for each in kept})
-    path = Path(source)
-    with readable(path) as stream:
-        check_columns(table, next(csv.reader(stream), []), path)
+    kept = [each for each in row_class.table.columns if columns is None or each.name in set(columns)]
+    content: Any = source
+    if isinstance(source, Path | str):
+        with readable(Path(source)) as stream:
+            check_columns(row_class.table, next(csv.reader(stream), []), Path(source))
+    else:
+        content = io.StringIO("".join(csv_lines(row_class, source)))
     texts = [each for each in kept if each.holds is str or each.holds is tuple]
     chosen = [each for each in kept if issubclass(each.holds, StrEnum)]
     try:
         made = pd.read_csv(
-            path,
+            content,
             usecols=[each.name for each in kept],
             dtype={each.name: "category" if each in chosen else _dtype(each) for each in kept},
             keep_default_na=False,
@@ -166,8 +164,8 @@ def frame(
         for each in chosen:
             made[each.name] = _checked(made[each.name], each)
     except ValueError:
-        for _ in read_rows(row_class, path):  # says where
-            pass
+        if isinstance(source, Path | str):
+            list(read_rows(row_class, Path(source)))  # says where
         raise
     for each in texts:
         made[each.name] = made[each.name].map(unguarded)
@@ -190,12 +188,6 @@ def _checked(found: Any, each: Described) -> Any:
     return found.cat.set_categories([one.value for one in each.holds])
 
 
-def _plain(value: object) -> object:
-    if isinstance(value, Enum):
-        return value.value
-    return "; ".join(value) if isinstance(value, tuple) else value
-
-
 def rows_of(row_class: type[R], table: "DataFrame") -> Iterator[R]:
     """Yield the rows of a whole data frame that `frame` gave as objects again."""
     columns = row_class.table.columns
@@ -205,7 +197,7 @@ def rows_of(row_class: type[R], table: "DataFrame") -> Iterator[R]:
 
 def _restored(each: Described, value: Any) -> Any:
     if value is None or value != value:
-        return None if each.optional else math.nan if each.holds is float else ""
+        return empty(each)
     if each.holds is tuple:
         return tuple(value.split("; ")) if value else ()
     return each.holds(value)

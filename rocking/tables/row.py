@@ -60,12 +60,13 @@ class Row:
                 offers = (_offer(source, name) for source in sources for name in (each.name, each.attribute))
                 values[each.name] = next((offer for offer in offers if offer is not MISSING), None)
             if values[each.name] is None:
-                values[each.name] = None if each.optional else _EMPTY.get(each.holds)
+                values[each.name] = empty(each)
         return cls(**values)
 
 
-_EMPTY = {float: math.nan, str: "", tuple: ()}
-"""What stands for no value, by type; None for every other."""
+def empty(column: Described) -> Any:
+    """Return what stands for no value."""
+    return None if column.optional else {float: math.nan, str: "", tuple: ()}.get(column.holds)
 
 
 def _offer(source: object, name: str) -> Any:
