@@ -6,7 +6,6 @@ import os
 import shutil
 import subprocess
 import sys
-from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -66,12 +65,6 @@ def rows(path):
         return list(csv.DictReader(stream))
 
 
-def test_the_version_is_told(capsys):
-    with pytest.raises(SystemExit, match="0"):
-        main(["--version"])
-    assert capsys.readouterr().out == f"rocking {version('rocking')}\n"
-
-
 @pytest.mark.parametrize(("scale", "warned"), [("5.9", False), ("6.1", True), ("-80", True), ("1", False)])
 def test_a_factor_that_takes_the_peak_above_three_g_is_told(record, capsys, scale, warned):
     """The file reaches 0.5 g: six times that is the limit."""
@@ -91,11 +84,6 @@ def test_pulse_recovers_the_sine_in_the_file(record, capsys):
     assert main(["pulse", str(record), "--unit", "g"]) == 0
     text = capsys.readouterr().out
     assert "= 0.5 g, period 1 s, start 3.000 s, explains 100%" in text
-
-
-def test_scale_multiplies_the_record(record, capsys):
-    assert main(["pulse", str(record), "--unit", "g", "--scale", "-2"]) == 0
-    assert "= -1 g, period 1 s" in capsys.readouterr().out
 
 
 def test_a_raw_record_is_processed_as_in_a_study_and_says_so(capsys):
@@ -184,13 +172,6 @@ def test_start_writes_the_shipped_settings_and_points_to_its_own_structures(tmp_
     assert (tmp_path / own["structures"]).exists()
 
 
-def test_start_leaves_a_folder_with_a_study_alone(tmp_path, capsys):
-    (tmp_path / "structures.yaml").write_text("mine", encoding="utf-8")
-    assert main(["start", str(tmp_path)]) == 2
-    assert "exists already" in capsys.readouterr().err
-    assert files(tmp_path) == {Path("structures.yaml")}
-
-
 def test_run_plans_a_study_in_its_own_folder(study, monkeypatch, capfd):
     monkeypatch.chdir(study.parent)
     assert main(["run", study.name, "--", "--dry-run"]) == 0
@@ -217,6 +198,7 @@ def _bad_inputs():
     yield "a restitution above 1", ["spectrum", "record", "--unit", "g", "--restitution", "2"], "restitution"
     yield "a folder without records", ["catalogue", "nothing"], "no accelerogram was read"
     yield "no folder", ["catalogue", "absent"], "this is no folder"
+    yield "a folder with a study", ["start", "started"], "exists already"
     yield "no study", ["run", "nothing"], "config.yaml"
     yield "no catalogue", ["run", "started"], "there is no catalogue yet"
     yield "settings that are no mapping", ["run", "broken"], "must hold settings"

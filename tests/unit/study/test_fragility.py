@@ -110,19 +110,6 @@ def test_a_hazard_that_is_none_is_refused_before_anything_is_written(tmp_path, h
     assert not (tmp_path / "out").exists()
 
 
-def test_a_record_that_lacks_the_measure_costs_no_other(tmp_path):
-    still = (
-        b"made\nACCELERATION IN UNITS OF G\nmade\nNPTS= 200, DT= .0100 SEC\n" + b"0.0 0.0 0.0 0.0 0.0\n" * 40
-    )
-    (tmp_path / "still.AT2").write_bytes(still)
-    said = {"unit": "g", "event": "made", "station": "still", "folder": tmp_path}
-    record = CatalogueRecord("still", "still.AT2", sha256=hashlib.sha256(still).hexdigest(), **said)
-    (unused,) = write_fragility([record, *_records(tmp_path, 2)], _study(), tmp_path / "out")
-    assert unused.startswith("still: ")
-    rows = list(read_rows(FragilitySummaryRow, tmp_path / "out" / "fragility_summary.csv"))
-    assert {row.records for row in rows} == {2}
-
-
 def test_a_hazard_curve_gives_annual_rates(tmp_path):
     hazard = tmp_path / "hazard.csv"
     hazard.write_text("intensity,annual_rate\n0.01,0.1\n10,0.00001\n")
