@@ -1,7 +1,6 @@
 """A record against structures: what is compared with what, and what a failure costs."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -9,11 +8,10 @@ import pytest
 from rocking.assessment.assess import AssessmentSettings, Method, assess_structures, predict
 from rocking.assessment.settings import PredictingPulse
 from rocking.assessment.verdict import NEGLIGIBLE, agreement, ratio, rests, within_factor_two
-from rocking.errors import ConfigurationError, PulseError, StructureError
+from rocking.errors import StructureError
 from rocking.pulses import PULSE_METHODS, Pulse, extract_pulses
 from rocking.records import Accelerogram
-from rocking.structures import Block, Outcome, Wall
-from rocking.structures.structure import Structure
+from rocking.structures import Block, Outcome
 
 STEP = 0.01
 PULSE = Pulse(3.0, 2 * np.pi / 0.8, 2.0)
@@ -22,24 +20,11 @@ BLOCK = Block(2.0, 0.2)
 SETTINGS = AssessmentSettings()
 
 
-@dataclass(frozen=True)
-class Impossible(Structure):
+class Impossible(Block):
     """A structure whose mechanism cannot be made."""
 
-    def _build(self):
+    def mechanism(self):
         raise StructureError("thickness is 0.1 m, but must be at least 0.2 m.")
-
-    def bodies(self, rotation):
-        raise NotImplementedError
-
-    def contacts(self, state):
-        raise NotImplementedError
-
-    def _outline(self, rotation):
-        return []
-
-    def _hinges(self, rotation):
-        return np.empty((0, 2))
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +45,7 @@ def test_block_on_pulse_is_the_closed_form(case):
 
 
 def test_a_structure_that_fails_costs_no_other_its_result():
-    found = assess_structures(RECORD, {"bad": Impossible(), "block": BLOCK}, SETTINGS)
+    found = assess_structures(RECORD, {"bad": Impossible(2.0, 0.2), "block": BLOCK}, SETTINGS)
     assert [case.structure for case in found.cases] == ["block"]
     assert [(f.stage, f.structure) for f in found.failures] == [("responses", "bad")]
     assert "0.2 m" in found.failures[0].message
@@ -85,15 +70,6 @@ def test_choice_by_demand_never_asks_less_than_choice_by_energy():
     assert by_demand.maximum.rotation_ratio >= by_energy.maximum.rotation_ratio
 
 
-@pytest.mark.parametrize("name", PULSE_METHODS)
-def test_every_pulse_method_predicts(name):
-    found = assess_structures(
-        RECORD, {"block": BLOCK}, AssessmentSettings(pulse=PredictingPulse(choice=name))
-    )
-    assert not found.failures
-    assert found.cases[0].prediction.pulse == found.candidates[found.cases[0].prediction.pulse_rank - 1].pulse
-
-
 def test_a_pulse_method_that_finds_nothing_costs_no_integration():
     # 1.1 s of record hold a sine of 0.5 s, but no wavelet of T_p = 0.24 s, which is 1.19 s long
     short = Accelerogram(Pulse(3.0, 4 * np.pi, 0.3).acceleration(np.arange(110) * STEP), STEP)
@@ -105,23 +81,14 @@ def test_a_pulse_method_that_finds_nothing_costs_no_integration():
     assert found.cases[0].responses[Method.MECHANISM_ON_RECORD].rotation_ratio > 0
 
 
-def test_an_unknown_pulse_method_is_refused_with_those_there_are():
-    with pytest.raises(PulseError, match="'best', but must be energy or demand or velocity"):
-        PredictingPulse(choice="best")
-
-
 def test_a_steady_vertical_acceleration_scales_gravity():
     # −0.2 g for the whole record: λ and p² fall by a fifth, so what 0.8 of the motion does to a block of 0.8 g is done.
     vertical = Accelerogram(np.full(1000, -0.2 * 9.80665), STEP)
-    lifted = (
-        assess_structures(RECORD, {"block": BLOCK}, SETTINGS, vertical)
-        .cases[0]
-        .responses[Method.MECHANISM_ON_RECORD]
+    lifted, plain = (
+        assess_structures(RECORD, {"block": BLOCK}, SETTINGS, *more).cases[0] for more in ((vertical,), ())
     )
-    plain = (
-        assess_structures(RECORD, {"block": BLOCK}, SETTINGS).cases[0].responses[Method.MECHANISM_ON_RECORD]
-    )
-    assert lifted.rotation_ratio > plain.rotation_ratio
+    largest = lifted.responses[Method.MECHANISM_ON_RECORD].rotation_ratio
+    assert largest > plain.responses[Method.MECHANISM_ON_RECORD].rotation_ratio
 
 
 @pytest.mark.parametrize(
@@ -158,20 +125,3 @@ def test_ratio_is_known_only_where_both_are_lifted_and_stay_up():
     assert ratio(0.2, 0.4) == 0.5
     assert math.isnan(ratio(math.inf, 0.4))
     assert math.isnan(ratio(0.2, 0.0))
-
-
-@pytest.mark.parametrize("field", ["tolerance", "friction_coefficient"])
-def test_settings_are_checked_at_birth(field):
-    with pytest.raises(ConfigurationError, match=field):
-        AssessmentSettings(**{field: -1.0})
-
-
-def test_the_wall_rocks_where_its_uplift_multiplier_says():
-    wall = Wall(1.5, 1.5, 0.3)
-    multiplier = wall.mechanism().uplift_multiplier
-    for factor, outcome in ((0.999, Outcome.NO_UPLIFT), (1.001, Outcome.ROCKS)):
-        record = RECORD.scaled(factor * multiplier * 9.80665 / RECORD.peak_acceleration)
-        response = (
-            assess_structures(record, {"wall": wall}, SETTINGS).cases[0].responses[Method.MECHANISM_ON_RECORD]
-        )
-        assert response.outcome is outcome

@@ -1,6 +1,5 @@
 """Cracks that may form: every one is followed where the mechanism of statics stands, and one that falls is named."""
 
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -49,13 +48,6 @@ def test_stands_means_that_every_crack_stands_and_a_crack_that_does_not_is_named
             assert found.governing.description in repr(found)
         seen.add(found.verdict)
     assert expected <= seen
-
-
-def test_a_known_crack_has_no_other():
-    known = replace(WALL, crack="known")
-    found = rocking.assess(record(3.0), known)
-    assert len(cracks(known)) == 1 and found.crack == "" and found.elsewhere is None
-    assert found.static_multiplier == known.mechanism().uplift_multiplier
 
 
 def test_auto_rests_only_where_every_crack_does():

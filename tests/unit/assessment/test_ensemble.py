@@ -24,7 +24,6 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import Verdict, ratio_in_words, verdict
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
-from rocking.pulses import rotated
 from rocking.records import Accelerogram
 from rocking.records.accelerogram import Source
 from rocking.records.processing import Processing, process
@@ -81,34 +80,13 @@ def test_the_generator_is_what_its_criterion_asks_for():
     assert steps[place].tolist() == generator
 
 
-@pytest.mark.parametrize("one", range(len(CAUSES)))
-def test_no_cause_follows_another(one):
-    """Of 64 points on a line through the square, a quarter of it holds 32, and of independent ones 16."""
-    points = lattice(64)
-    for other in set(range(len(CAUSES))) - {one}:
-        for turned in (points[:, other], 1 - points[:, other]):
-            assert 8 <= np.sum((points[:, one] < 0.5) & (turned < 0.5)) <= 24
-
-
 def test_members_are_what_integrate_says_of_each():
     motions, points = GroundMotions.of(_record(5.0)), lattice(16)
     found = drawn(BLOCK, motions, points, EnsembleSettings())
-    for ratio, factor, offset in zip(
-        found.rotation_ratios, found.causes["amplitude"], found.causes["restitution"], strict=True
-    ):
+    causes = found.causes["amplitude"], found.causes["restitution"]
+    for ratio, factor, offset in zip(found.rotation_ratios, *causes, strict=True):
         alone = integrate(Block(2.0, 0.2, restitution=0.9 + offset), _record(5.0 * factor))
         assert ratio == pytest.approx(alone.rotation_ratio, rel=1e-6)
-
-
-def test_nothing_unknown_leaves_every_member_as_the_case_itself():
-    found = ensemble(BLOCK, GroundMotions.of(_record(5.0)), FIXED)
-    assert np.unique(found.rotation_ratios).size == 1 and found.causes == {}
-    assert (
-        found.rotation_ratio_low
-        == found.rotation_ratio_median
-        == found.rotation_ratio_high
-        == found.rotation_ratios[0]
-    )
 
 
 def test_the_probability_is_the_share_of_the_range_that_overturns():
@@ -118,21 +96,19 @@ def test_the_probability_is_the_share_of_the_range_that_overturns():
     factors = np.linspace(0.8, 1.2, 801)[1::2]
     falls = np.isinf(rocking.integrate_batch([BLOCK], record, factors)[0]).mean()
     assert 0.02 < falls < 0.98
-    assert found.overturning_share == pytest.approx(falls, abs=2 / 64), (
-        "two strata may be cut by the boundary"
-    )
+    # two strata may be cut by the boundary
+    assert found.overturning_share == pytest.approx(falls, abs=2 / 64)
 
 
 def test_the_sign_of_the_motion_is_a_cause_for_unlike_sides_alone():
-    one_pulse = Accelerogram(
-        np.where(TIMES < 0.5, -3.0, 0.0) * np.sin(2 * np.pi * np.minimum(TIMES, 0.5)), STEP
-    )
+    wave = np.where(TIMES < 0.5, -3.0, 0.0) * np.sin(2 * np.pi * np.minimum(TIMES, 0.5))
+    one_pulse = Accelerogram(wave, STEP)
     found = ensemble(FACADE, GroundMotions.of(one_pulse), EnsembleSettings())
     assert set(np.unique(found.causes["polarity"])) == {-1.0, 1.0}
-    lifts = {
-        sign: (found.rotation_ratios[found.causes["polarity"] == sign] > 0).all() for sign in (-1.0, 1.0)
-    }
-    assert lifts == {-1.0: False, 1.0: True}
+    lifted = found.rotation_ratios > 0
+    assert (
+        lifted[found.causes["polarity"] == 1.0].all() and not lifted[found.causes["polarity"] == -1.0].any()
+    )
     assert found.shares["polarity"] > 0.8
     assert "polarity" not in ensemble(BLOCK, GroundMotions.of(one_pulse), EnsembleSettings()).causes
 
@@ -172,19 +148,6 @@ def test_the_processing_of_another_record_is_none(record, settings):
     assert "processing" not in found.causes
 
 
-def test_two_raw_components_vary_in_direction_and_processing():
-    first, second = _raw(3.0, "first"), _raw(4.0, "second")
-    motions = GroundMotions.of_pair(first, second, processing=True)
-    assert len(motions.horizontal) == len(motions.directions) * len(motions.processings) == 8 * 6
-    turned = motions.directions[3]
-    azimuth = np.radians(67.5)
-    both = [processed(each)["linear baseline"] for each in (first, second)]
-    expected = rotated(*both, azimuth).acceleration
-    assert np.array_equal(motions.horizontal[turned, "linear baseline"].acceleration, expected)
-    found = assess([first, second], BLOCK)
-    assert {"direction", "processing"} <= set(found.causes)
-
-
 def test_a_structure_may_say_how_well_its_restitution_is_known():
     motions, points = GroundMotions.of(_record(5.0)), lattice(64)
     for known in (0.0, 0.15):
@@ -204,13 +167,6 @@ def test_shares_of_an_additive_answer_are_those_of_its_variance():
     made = type(found)(answer, found.causes, found.settings)
     assert made.shares["amplitude"] == pytest.approx(0.8, abs=0.03), "eight strata explain 63/64 of it"
     assert made.shares["restitution"] == pytest.approx(0.2, abs=0.03)
-
-
-def test_an_ensemble_at_rest_ends_early_and_one_in_doubt_goes_on():
-    assert ensemble(BLOCK, GroundMotions.of(_record(0.5))).members == 16
-    assert ensemble(BLOCK, GroundMotions.of(_record(4.0))).members == 64
-    doubtful = [ensemble(BLOCK, GroundMotions.of(_record(a))).members for a in np.arange(4.5, 8, 0.1)]
-    assert set(doubtful) <= {64, 256} and 256 in doubtful
 
 
 def test_where_the_verdict_alone_is_asked_it_ends_early_far_from_overturning_only():
@@ -287,36 +243,14 @@ def test_assess_says_in_one_call_what_its_parts_say():
     assert found.plot().get_ylabel() == "rotation / critical rotation [-]"
 
 
-def test_settings_out_of_range_are_refused():
-    with pytest.raises(ConfigurationError, match="members is 5000, but must be"):
-        EnsembleSettings(members=5000)
-    assert [EnsembleSettings(members=members).size for members in (0, 1, 16, 50, 65)] == [0, 16, 16, 64, 256]
-    with pytest.raises(ConfigurationError, match="record holds 0 accelerograms"):
-        assess([], BLOCK)
-
-
 @pytest.mark.real_records
 def test_the_slender_block_under_rinaldi_is_undecided(real_records):
     """It stands at 0.994 and 0.9985 of the record, and overturns at 0.99 and 1.01."""
     (record,) = rocking.read(real_records / "northridge1994_rinaldi" / "NGA_no_1063_RRS228.AT2")
     block = Block.of_size(0.5, 3.0)
-    assert [
-        math.isinf(r) for r in rocking.integrate_batch([block], record, (0.99, 0.994, 0.9985, 1.01))[0]
-    ] == [
-        True,
-        False,
-        False,
-        True,
-    ]
+    ratios = rocking.integrate_batch([block], record, (0.99, 0.994, 0.9985, 1.01))[0]
+    assert np.isinf(ratios).tolist() == [True, False, False, True]
     assert rocking.assess(record, block).verdict is Verdict.UNDECIDED
-
-
-def test_components_of_the_same_name_are_told_apart_by_position():
-    first, second = _record(3.0, "x"), _record(8.0, "x")
-    found = assess([first, second], BLOCK, members=16)
-    assert list(found.cases) == ["component 1", "component 2"]
-    assert found.rotation_ratio == integrate(BLOCK, second).rotation_ratio
-    assert assess([second, first], BLOCK, members=16).rotation_ratio == found.rotation_ratio
 
 
 def test_a_mechanism_is_assessed_as_its_structure_and_members_are_those_asked_for():
@@ -363,6 +297,7 @@ def test_an_assessment_goes_to_another_process_and_back(structure):
 
 def test_an_ensemble_grows_where_more_members_may_decide():
     """Undecided with 64, a share within its error 4/64 of a limit of 5 %: 7/64 may still be 5 %, 8/64 not."""
+    assert ensemble(BLOCK, GroundMotions.of(_record(0.5))).members == 16, "at rest it ends early"
     grown = {}
     for amplitude in np.arange(4.5, 8, 0.1):
         motions = GroundMotions.of(_record(amplitude))

@@ -113,13 +113,6 @@ def test_levels_of_their_own_reach_from_rest_to_overturning():
     assert found.plot().get_xlabel() == "pgv [m/s]"
 
 
-def test_a_rotation_is_exceeded_sooner_than_overturning():
-    levels = np.geomspace(0.2, 2, 12)
-    falls = fragility(RECORDS, BLOCK, levels=levels)
-    turns = fragility(RECORDS, BLOCK, levels=levels, threshold=0.2)
-    assert np.all(turns.exceedance >= falls.exceedance) and turns.median < falls.median
-
-
 def test_members_make_shares_of_the_outcomes():
     levels = np.geomspace(0.2, 2, 12)
     plain = fragility(RECORDS, BLOCK, levels=levels)

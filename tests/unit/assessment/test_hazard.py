@@ -8,7 +8,7 @@ from scipy.stats import norm
 
 from rocking.assessment.fragility import fragility_of
 from rocking.assessment.rows.of_fragility import HazardRow, annual_rate, read_hazard
-from rocking.errors import ConfigurationError, RockingError
+from rocking.errors import ConfigurationError
 
 LEVELS = np.geomspace(0.02, 50.0, 400)
 
@@ -20,8 +20,8 @@ def _points(levels, rates) -> list[HazardRow]:
 def test_the_rate_is_that_of_the_closed_form():
     """ν = k₀ x⁻ᵏ and a lognormal of median m and dispersion β: rate = k₀ m⁻ᵏ exp(k²β²/2) (Cornell 1996)."""
     slope, scale, median, dispersion = 2.5, 1e-3, 1.2, 0.4
-    thresholds = median * np.exp(dispersion * norm.ppf((np.arange(2000) + 0.5) / 2000))
-    curve = fragility_of(LEVELS, (thresholds[:, None] < LEVELS).astype(float), [str(k) for k in range(2000)])
+    thresholds = median * np.exp(dispersion * norm.ppf((np.arange(300) + 0.5) / 300))
+    curve = fragility_of(LEVELS, (thresholds[:, None] < LEVELS).astype(float), [str(k) for k in range(300)])
     found = annual_rate(curve, _points(LEVELS[[0, -1]], scale * LEVELS[[0, -1]] ** -slope))
     exact = scale * median**-slope * math.exp(slope**2 * dispersion**2 / 2)
     # Steps of 2 % in the level, half a step of lag in a curve that is counted: 2.5 x 1 % of the rate.
@@ -61,9 +61,3 @@ def test_a_hazard_that_is_none_is_one_sentence(tmp_path, levels, rates, sentence
     path.write_text("\n".join(["intensity,annual_rate", *lines]) + "\n")
     with pytest.raises(ConfigurationError, match=sentence):
         read_hazard(path)
-
-
-def test_a_file_with_other_columns_is_refused(tmp_path):
-    (tmp_path / "hazard.csv").write_text("im,rate\n0.1,0.01\n")
-    with pytest.raises(RockingError, match=r"hazard\.csv"):
-        read_hazard(tmp_path / "hazard.csv")

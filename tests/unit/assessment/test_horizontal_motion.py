@@ -27,11 +27,6 @@ def test_a_pair_has_one_motion_and_its_axis_from_north():
     assert one.rotd.rotd100 == pytest.approx(3.0, rel=1e-3)
 
 
-def test_an_axis_west_of_north_is_named_by_its_other_end():
-    north, east = component(math.cos(-0.3), "N", 0.0), component(math.sin(-0.3), "E", 90.0)
-    assert horizontal_motions([north, east])[0].azimuth == pytest.approx(180 - math.degrees(0.3))
-
-
 @pytest.mark.parametrize(
     "others",
     [[], [component(1, "E", time_step=0.02)], [component(1, "a"), component(1, "b")]],

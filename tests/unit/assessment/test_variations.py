@@ -11,7 +11,7 @@ from rocking.assessment.variations import candidates, governing, processed_varia
 from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
-from rocking.structures import Block, Spire, Wall
+from rocking.structures import Block, Wall
 
 STEP = 0.01
 PULSE = Pulse(2.5, 2 * np.pi / 0.9, 3.0)
@@ -35,15 +35,6 @@ def test_a_higher_hinge_lifts_earlier():
     assert lifted == sorted(lifted)
     assert lifted[-1]
     assert not lifted[0]
-
-
-def test_without_a_pulse_nothing_is_predicted():
-    assert all(math.isnan(c.predicted_rotation_ratio) for c in candidates(WALL, RECORD, None, 3, SETTINGS))
-
-
-def test_a_spire_is_moved_and_a_block_is_not():
-    assert len(candidates(Spire(2.0, 10.0), RECORD, PULSE, 4, SETTINGS)) == 4
-    assert candidates(Block(2.0, 0.2), RECORD, PULSE, 4, SETTINGS) == []
 
 
 @pytest.mark.parametrize(
