@@ -51,33 +51,22 @@ def integrate_batch(
         raise MotionError(
             f"structures is a {type(structures).__name__}, but must be a list of structures; integrate follows one."
         )
-    factors, forcing = _factors(scale_factors), forcing_of(record, vertical)
+    factors, forcing = Members(scale_factors).scale_factor, forcing_of(record, vertical)
     ratios = np.full((len(structures), factors.size), math.nan)
     workers = workers or os.cpu_count() or 1
 
     def run(job: Sequence[tuple[int, slice]]) -> None:
         for index, some in job:
             with suppress(RockingError):
-                vertical = factors[some] if forcing.vertical else None
+                lift = factors[some] if forcing.vertical else None
                 reduced = reduce(structures[index])
-                found = follow_factors(reduced, forcing, factors[some], vertical, None, tolerance)
-                ratios[index, some] = found.rotation_ratio
+                responses = follow_factors(reduced, forcing, factors[some], lift, None, tolerance)
+                ratios[index, some] = responses.rotation_ratio
 
     jobs = _shared_out(len(structures), factors.size, workers)
-    if workers == 1 or len(jobs) == 1:
-        for job in jobs:
-            run(job)
-    else:
-        with ThreadPoolExecutor(workers) as pool:
-            list(pool.map(run, jobs))
+    with ThreadPoolExecutor(workers) as pool:
+        list((map if workers == 1 or len(jobs) == 1 else pool.map)(run, jobs))
     return ratios
-
-
-def _factors(given: Sequence[float] | np.ndarray) -> np.ndarray:
-    factors = np.array(given, dtype=float, ndmin=1)
-    if factors.ndim == 1 and factors.size and factors.min() > 0 and factors.max() < math.inf:
-        return factors
-    return Members(given).scale_factor  # says what is wrong
 
 
 def _shared_out(structures: int, factors: int, workers: int) -> list[list[tuple[int, slice]]]:

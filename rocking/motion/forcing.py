@@ -66,12 +66,19 @@ def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Fo
 
 @lru_cache(maxsize=4)
 def _forcing(motion: GroundMotion, vertical: Accelerogram | None) -> Forcing:
-    if isinstance(motion, Pulse):
-        ground = _ground(np.array([motion.amplitude]), np.zeros(1), motion.period, motion.circular_frequency)
-        return Forcing(ground, motion.start_time)
-    horizontal = motion.acceleration
-    lift = np.zeros(horizontal.size) if vertical is None else vertical.acceleration
-    return Forcing(_ground(horizontal, lift, motion.time_step), vertical=vertical is not None)
+    # Copies, because a record's own arrays are read-only, for which the kernel would compile anew.
+    horizontal = np.array([motion.amplitude] if isinstance(motion, Pulse) else motion.acceleration)
+    lift = np.zeros(horizontal.size) if vertical is None else vertical.acceleration.copy()
+    ground = Ground(
+        horizontal=horizontal,
+        vertical=lift,
+        strongest=np.maximum.accumulate(np.abs(horizontal[::-1]))[::-1].copy(),
+        lightest=np.minimum.accumulate(lift[::-1])[::-1].copy(),
+        time_step=motion.period if isinstance(motion, Pulse) else motion.time_step,
+        circular_frequency=motion.circular_frequency if isinstance(motion, Pulse) else 0.0,
+        gravity=GRAVITY,
+    )
+    return Forcing(ground, motion.start_time if isinstance(motion, Pulse) else 0.0, vertical is not None)
 
 
 def _check_fit(vertical: Accelerogram, motion: GroundMotion) -> None:
@@ -91,18 +98,3 @@ def _check_fit(vertical: Accelerogram, motion: GroundMotion) -> None:
             f"vertical has a time step of {vertical.time_step!r} s, but must have the {motion.time_step!r} s of the "
             "horizontal component; resample it first."
         )
-
-
-def _ground(
-    horizontal: np.ndarray, vertical: np.ndarray, time_step: float, circular_frequency: float = 0.0
-) -> Ground:
-    return Ground(
-        # Copies, because a record's own arrays are read-only, for which the kernel would compile anew.
-        horizontal=horizontal.copy(),
-        vertical=vertical.copy(),
-        strongest=np.ascontiguousarray(np.maximum.accumulate(np.abs(horizontal[::-1]))[::-1]),
-        lightest=np.ascontiguousarray(np.minimum.accumulate(vertical[::-1])[::-1]),
-        time_step=time_step,
-        circular_frequency=circular_frequency,
-        gravity=GRAVITY,
-    )

@@ -43,9 +43,8 @@ class Ties(NamedTuple):
     """n ties on each side k of a mechanism, as functions of the arc on the pieces of its table.
 
     pieces: (k n, m, 24) D̃ = u'/√(I I(0)) and u D̃ alternating, then u, which is how far the tie's point has moved; a
-    tension T pulls back with T D̃. law: (k, n, 9) stiffness, pretension, strength, u where it yields, the arcs where it
-    yields and breaks, the largest stiffness · u'²/I, D̃ at rest, and a bound of the slope of T D̃ near rest. The forces
-    are times g, and in the unit of G per m.
+    tension T pulls back with T D̃. law: (k, n, 8) stiffness, pretension, strength, u where it yields, the arcs where it
+    yields and breaks, the largest stiffness · u'²/I, and D̃ at rest. The forces are times g, and in the unit of G per m.
     """
 
     pieces: np.ndarray
@@ -59,8 +58,8 @@ class Sides(NamedTuple):
     the inner zone, then width, count and room of the pieces of the inner and of the outer zone, then the inverse
     widths. lift: (k, 2) G̃(0), B̃(0). hold: (k, m) the ground acceleration in units of gravity that cannot bring the
     side back from that piece or beyond. critical, end: (k,) arc of φ_cr and of the end. rest_speed: (k,) the speed at
-    which rocking rests. longest_step: (k,) s. near: (k, 7) an arc near rest; up to it the least and the largest G̃, the
-    largest |B̃|, the largest |dG̃/dq| and |dB̃/dq|; and the speed that reaches it over still ground.
+    which rocking rests. longest_step: (k,) s. near: (k, 8) an arc near rest; up to it the least and the largest G̃, the
+    largest |B̃|, the largest |dG̃/dq| and |dB̃/dq|, the speed that reaches it over still ground, the slope of ties.
     """
 
     pieces: np.ndarray
@@ -153,15 +152,6 @@ def _over(ground, i):
 
 
 @compiled
-def _excitation(ground, member, i):
-    """The largest |ü_g|/(g + ü_v) from a sample on; infinite where gravity may vanish."""
-    if _over(ground, i):
-        return 0.0
-    least = ground.gravity + member.vertical * ground.lightest[i]
-    return abs(member.horizontal) * ground.strongest[i] / least if least > 0 else np.inf
-
-
-@compiled
 def _uplift(sides, ground, member, i, tau, held):
     """First instant from (interval i, offset tau) on that lifts: interval, offset, side (0 if none does)."""
     count = ground.horizontal.size - 1
@@ -209,7 +199,7 @@ def _uplift_sine(sides, amplitude, omega, gravity, tau, held):
 @part
 def _next_uplift(sides, phase, ground, member, i, tau):
     """First instant from (interval i, offset tau) on that lifts, of a record or of a sine."""
-    held = _held_at_rest(sides.ties, phase)
+    held = phase[0, HELD], phase[1, HELD]
     if ground.circular_frequency == 0:
         return _uplift(sides, ground, member, i, tau, held)
     if i > 0:
@@ -286,18 +276,19 @@ def memory(ties: Ties | None) -> np.ndarray:
     return np.empty((2, FIRST + (0 if ties is None else EACH * ties.law.shape[1])))
 
 
-STIFFNESS, PRETENSION, STRENGTH, YIELD_STRETCH, YIELD_ARC, RUPTURE_ARC, SQUARE, AT_REST, BEND = range(9)
+STIFFNESS, PRETENSION, STRENGTH, YIELD_STRETCH, YIELD_ARC, RUPTURE_ARC, SQUARE, AT_REST = range(8)
 """Places in the law of a tie."""
 
 
 @compiled
 def _forget(ties, phase):
     """Begin the memory of the ties, a row for the positive and one for the negative side."""
-    if ties is None:
-        return
     for slot in range(2):
         for place in range(phase.shape[1]):
             phase[slot, place] = 0.0
+    if ties is None:
+        return
+    for slot in range(2):
         for n in range(ties.law.shape[1]):
             law, at = ties.law[min(slot, ties.law.shape[0] - 1), n], FIRST + EACH * n
             phase[slot, at + 4] = -np.inf
@@ -401,30 +392,11 @@ def _with_ties(ties, phase, slot, k, j, e):
 
 
 @compiled
-def _held_at_rest(ties, phase):
-    """What the ties of the positive and of the negative side pull back with at rest."""
-    if ties is None:
-        return 0.0, 0.0
-    return phase[0, HELD], phase[1, HELD]
-
-
-@compiled
 def _beyond(ties, phase, slot, arc):
     """1 where an arc is above the present phase, −1 below it, 0 within."""
     if ties is None:
         return 0
     return 1 if arc > phase[slot, HIGH] else -1 if arc < phase[slot, LOW] else 0
-
-
-@compiled
-def _slope_near_rest(ties, k):
-    """The largest slope of what ties pull back with, near rest."""
-    slope = 0.0
-    if ties is None:
-        return slope
-    for n in range(ties.law.shape[1]):
-        slope += ties.law[k, n, BEND]
-    return slope
 
 
 @compiled
@@ -550,12 +522,6 @@ def _monotone(x, h):
 
 
 @compiled
-def _travel(x, h):
-    """Bound of the way within the step."""
-    return h * (abs(x[0]) + h * (abs(x[1]) + h * (abs(x[2]) + h * abs(x[3]))))
-
-
-@compiled
 def _accurate(x, h, arc, farthest, fastest, tolerance):
     """Whether the last two terms of the series, which bound its remainder, are within the tolerance.
 
@@ -574,21 +540,14 @@ def _accurate(x, h, arc, farthest, fastest, tolerance):
 def _stride(x, h, room, arc, farthest, fastest, tolerance):
     """Largest step up to h that is accurate, stays within reach of its piece, and turns at most once."""
     for _ in range(200):
-        if _travel(x, h) <= room and _accurate(x, h, arc, farthest, fastest, tolerance):
+        travel = h * (abs(x[0]) + h * (abs(x[1]) + h * (abs(x[2]) + h * abs(x[3]))))
+        if travel <= room and _accurate(x, h, arc, farthest, fastest, tolerance):
             break
         h *= 0.8
     least = 1e-6 * h
     while h > least and not _monotone(x, h):
         h *= 0.5
     return h
-
-
-@compiled
-def _lifted(x, arc, speed):
-    """The series of an uplift where the acceleration is zero to rounding, without a fall below the ground."""
-    if arc == 0 and speed == 0 and x[1] < 0:
-        return x[0], 0.0, x[2], x[3], x[4], x[5], x[6], x[7]
-    return x
 
 
 @part
@@ -719,16 +678,6 @@ def _leaves(ties, phase, slot, x, h, arc, speed, new, turn, landing):
 
 
 @compiled
-def _boundary(ties, phase, slot, leaves, arc):
-    """The arc at which a phase ends."""
-    if ties is None:
-        return arc
-    if leaves == 2:
-        return arc
-    return phase[slot, HIGH if leaves > 0 else LOW]
-
-
-@compiled
 def _back(x):
     """The series of the motion reversed in sign."""
     return -x[0], -x[1], -x[2], -x[3], -x[4], -x[5], -x[6], -x[7]
@@ -771,9 +720,7 @@ def _spread(sides, changes, heaviest, strongest, rise):
         if rise > sides.near[k, 0]:
             return np.inf
         in_time = sides.near[k, 2] * changes[0] + sides.near[k, 3] * changes[1]
-        in_place = (
-            sides.near[k, 4] * heaviest + sides.near[k, 5] * strongest + _slope_near_rest(sides.ties, k)
-        )
+        in_place = sides.near[k, 4] * heaviest + sides.near[k, 5] * strongest + sides.near[k, 7]
         spread = max(spread, in_time + in_place * rise)
     return spread
 
@@ -827,10 +774,16 @@ def _lost(sides, phase, ground, member, k, motion):
         return False
     if arc >= sides.end[k]:
         return True
-    if sides.ties is not None and phase[0 if motion.side > 0 else 1, LEFT] > 0:
+    if phase[0 if motion.side > 0 else 1, LEFT] > 0:
         return False
+    if _over(ground, motion.interval):
+        excitation = 0.0
+    else:
+        least = ground.gravity + member.vertical * ground.lightest[motion.interval]
+        strongest = abs(member.horizontal) * ground.strongest[motion.interval]
+        excitation = strongest / least if least > 0 else np.inf
     j, _, _ = _place(sides.grid, k, arc)
-    return sides.hold[k, j] > _excitation(ground, member, motion.interval)
+    return sides.hold[k, j] > excitation
 
 
 @part
@@ -872,7 +825,10 @@ def _step(sides, phase, ground, member, k, motion, tolerance, left):
     a0, a1, g0, g1, square = _drive(ground, member, i, tau)
     j, centre, room = _place(sides.grid, k, arc)
     x = _series(sides.pieces, k, j, arc - centre, speed, side, a0, a1, g0, g1, square, sides.ties, phase)
-    x = _lifted(x, arc, speed)
+    if (
+        arc == 0 and speed == 0 and x[1] < 0
+    ):  # an uplift where the acceleration is zero to rounding does not fall
+        x = x[0], 0.0, x[2], x[3], x[4], x[5], x[6], x[7]
     longest = min(left, _longest_step(sides.ties, phase, slot, sides.longest_step[k]))
     h = _stride(x, longest, room, arc, farthest, fastest, tolerance)
     new, pull = arc + _displacement(x, h), _speed(x, h)
@@ -906,8 +862,8 @@ def _carry_on(sides, phase, ground, member, k, motion, step, left, log):
     if not arc > 0 and not abs(arc) < np.inf:
         return motion, NOT_FINITE
     now = i * ground.time_step + tau
-    if leaves != 0:
-        arc = _boundary(sides.ties, phase, slot, leaves, arc)
+    if leaves == 1 or leaves == -1:
+        arc = phase[slot, HIGH if leaves > 0 else LOW]
     if leaves != 0 or _beyond(sides.ties, phase, slot, arc) != 0:
         speed = min(speed, 0.0) if leaves == 2 else speed
         way = 1.0 if leaves == 1 or (leaves == 0 and speed > 0) else -1.0

@@ -1,5 +1,6 @@
 """Response: what an integration says. ModelCheck: whether the model held along it."""
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -7,17 +8,14 @@ import numpy as np
 
 from rocking.errors import MotionError
 from rocking.quantities import counted, shown
-from rocking.structures import Outcome
+from rocking.records import Accelerogram
+from rocking.structures import Outcome, Structure
+from rocking.structures.contacts import UnknownContacts
+from rocking.structures.structure import largest_so_far
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from pandas import DataFrame
-import math
-
-from rocking.records import Accelerogram
-from rocking.structures import Structure
-from rocking.structures.contacts import UnknownContacts
-from rocking.structures.structure import largest_so_far
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -111,8 +109,8 @@ class ModelCheck:
     rotation to the positive side, in words; "" where none does.
     """
 
-    friction_needed: float
-    bounces: bool | None
+    friction_needed: float = math.nan
+    bounces: bool | None = None
     reason: str = ""
     ties: str = ""
 
@@ -121,14 +119,7 @@ class ModelCheck:
         return None if math.isnan(self.friction_needed) else self.friction_needed > friction_coefficient
 
 
-def unknown(reason: str) -> ModelCheck:
-    """Return the check of which nothing is known, for a `reason`."""
-    return ModelCheck(math.nan, None, reason)
-
-
-UNKNOWN = unknown("contact forces are found along the mechanism on the record only")
-_NO_HISTORY = unknown("the response keeps no history")
-_NO_MOTION = unknown("nothing rocks below the critical rotation")
+UNKNOWN = ModelCheck(reason="contact forces are found along the mechanism on the record only")
 
 
 def check_model(
@@ -147,19 +138,19 @@ def check_model(
     """
     times, rotation, velocity = response.times, response.rotation, response.angular_velocity
     if times is None or rotation is None or velocity is None:
-        return _NO_HISTORY
+        return ModelCheck(reason="the response keeps no history")
     critical = structure.mechanism().critical_rotation
     turned = _lifted(rotation, 1e-12 * critical)
     rocks = (turned != 0) & (np.abs(turned) <= critical)
     if not rocks.any():
-        return _NO_MOTION
+        return ModelCheck(reason="nothing rocks below the critical rotation")
     ground = _at(accelerogram, times[rocks])
     lift = 0.0 if vertical is None else _at(vertical, times[rocks])
     try:
         so_far = largest_so_far(turned)[rocks]
         contacts = structure.contact_forces(turned[rocks], velocity[rocks], None, ground, lift, so_far)
     except UnknownContacts as why:
-        return unknown(str(why))
+        return ModelCheck(reason=str(why))
     largest = min(float(rotation.max()), structure.mechanism().positive.end_rotation)
     return ModelCheck(
         float(np.max(contacts.friction_needed)),
@@ -170,14 +161,9 @@ def check_model(
 
 def _lifted(rotation: np.ndarray, least: float) -> np.ndarray:
     """`rotation`, where it is 0 before it rocks on: `least` to the side to which it does."""
-    rocking = np.flatnonzero(rotation)
-    following = np.searchsorted(rocking, np.arange(rotation.size))
-    goes_on = following < rocking.size
-    lifted = rotation.copy()
-    lifted[goes_on] = np.where(
-        rotation[goes_on] == 0, np.copysign(least, rotation[rocking[following[goes_on]]]), rotation[goes_on]
-    )
-    return lifted
+    places = np.where(rotation == 0, rotation.size - 1, np.arange(rotation.size))
+    following = rotation[np.minimum.accumulate(places[::-1])[::-1]]
+    return np.where(rotation == 0, least * np.sign(following), rotation)
 
 
 def _at(accelerogram: Accelerogram, times: np.ndarray) -> np.ndarray:

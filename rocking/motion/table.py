@@ -120,7 +120,7 @@ def linear_side(block: EquivalentBlock) -> SideTable:
         end=np.inf if block.rotation_map is None else block.rotation_map.end,
         rest_speed=block.velocity_scale * REST_ENERGY**0.5,
         longest_step=1 / block.frequency_parameter,
-        near=_near_rest(critical * _NEAR, near),
+        near=(*_near_rest(critical * _NEAR, near), 0.0),
     )
     arc = np.asarray if block.rotation_map is None else np.vectorize(block.rotation_map.arc)
     return SideTable(
@@ -192,7 +192,7 @@ def _tabulated(side: Side, last: float, apart: bool) -> SideTable | None:
     near = np.column_stack([lift, functions(np.linspace(0, critical * _NEAR, 65)[1:])[:2]])
     slope = max(_steepest(side, functions, critical, apart), lift[0] / critical)
     kernel = _kernel(
-        ties=_ties(side, arc, powers[3:], critical * _NEAR) if ties else None,
+        ties=_ties(side, arc, powers[3:]) if ties else None,
         pieces=powers[:2].transpose(1, 2, 0).reshape(powers.shape[1], -1),
         grid=grid,
         lift=lift,
@@ -201,7 +201,10 @@ def _tabulated(side: Side, last: float, apart: bool) -> SideTable | None:
         end=end,
         rest_speed=_reaching_speed(side, rest) * REST_ENERGY**0.5,
         longest_step=1 / np.sqrt(GRAVITY * slope),
-        near=_near_rest(critical * _NEAR, near),
+        near=(
+            *_near_rest(critical * _NEAR, near),
+            sum(_slope_near_rest(side, tie, arc, critical * _NEAR) for tie in ties),
+        ),
     )
     ratios = np.ascontiguousarray(powers[2])
     return SideTable(kernel, ratios, side.restitution, side.critical_rotation, arc.at, arc.stretch)
@@ -215,12 +218,12 @@ def _steepest(side: Side, functions: Function, critical: float, apart: bool) -> 
     return -side.at("gravity_slope", side.critical_rotation) / side.at("inertia", side.critical_rotation)
 
 
-def _ties(side: Side, arc: Arc, powers: np.ndarray, reach: float) -> Ties:
+def _ties(side: Side, arc: Arc, powers: np.ndarray) -> Ties:
     """The ties of one side, from the polynomials (3 n, m, 8) of D̃, u D̃ and u of each."""
     count, pieces = powers.shape[0] // 3, powers.shape[1]
     pulls, stretch = np.split(powers.reshape(count, 3, pieces, DEGREE + 1), [2], axis=1)
     pulls = pulls.transpose(0, 2, 3, 1).reshape(count, pieces, -1)
-    laws = [tie_law(side, tie, arc, reach) for tie in side.ties]
+    laws = [tie_law(side, tie, arc) for tie in side.ties]
     return Ties(np.concatenate([pulls, stretch[:, 0]], axis=2), np.array(laws)[None])
 
 
@@ -272,8 +275,8 @@ def _hold(gravity: Function, ground: Function, rotation: Function, starts: np.nd
     return np.minimum.accumulate(lowest[::-1])[::-1]
 
 
-def tie_law(side: Side, tie: SideTie, arc: Arc, reach: float) -> tuple[float, ...]:
-    """Return the law (9,) of a tie as `Ties` has it; reach: the arc that is near rest."""
+def tie_law(side: Side, tie: SideTie, arc: Arc) -> tuple[float, ...]:
+    """Return the law (8,) of a tie as `Ties` has it."""
     law, rotations = tie.tie, np.linspace(0.0, arc.last, 129)
     yields, breaks = (
         float(arc.at(rotation)) if (rotation := tie.rotation(stretch, arc.last)) < np.inf else np.inf
@@ -289,13 +292,12 @@ def tie_law(side: Side, tie: SideTie, arc: Arc, reach: float) -> tuple[float, ..
         breaks,
         GRAVITY * law.stiffness * float(stiffest),
         float(tie.stretch_slope(np.asarray(0.0))) / side.at("inertia", 0.0),
-        _slope_near_rest(side, tie, arc.rotation(np.linspace(0.0, reach, 65)), reach),
     )
 
 
-def _slope_near_rest(side: Side, tie: SideTie, rotations: np.ndarray, reach: float) -> float:
-    """Return a bound of |d(T D̃)/dq| over `rotations` (n,) at equal arcs up to `reach`, widened for those between."""
-    rest = side.at("inertia", 0.0)
+def _slope_near_rest(side: Side, tie: SideTie, arc: Arc, reach: float) -> float:
+    """Return a bound of |d(T D̃)/dq| at arcs up to `reach`, from equal steps and widened for those between."""
+    rest, rotations = side.at("inertia", 0.0), arc.rotation(np.linspace(0.0, reach, 65))
     pull = tie.stretch_slope(rotations) / np.sqrt(side.inertia(rotations) * rest)
     stretch = tie.stretch(rotations)
     force = tie.tie.pretension + tie.tie.stiffness * stretch[-1]
@@ -339,11 +341,8 @@ def fitted(
             return None
         error = (errors / np.maximum(zone, least)).max()
         if error < best_error:
-            best, best_error, good = (
-                powers,
-                error,
-                bool(np.all(errors <= ACCURACY * np.maximum(largest, least))),
-            )
+            best, best_error = powers, error
+            good = bool(np.all(errors <= ACCURACY * np.maximum(largest, least)))
         elif good:
             break
         if best_error <= AIM:
@@ -439,7 +438,7 @@ def stacked_ties(sides: Sequence[Ties | None], pieces: int) -> Ties | None:
     count = max((each.law.shape[1] for each in sides if each is not None), default=0)
     if not count:
         return None
-    pieces_of, law = np.zeros((len(sides) * count, pieces, 24)), np.zeros((len(sides), count, 9))
+    pieces_of, law = np.zeros((len(sides) * count, pieces, 24)), np.zeros((len(sides), count, 8))
     law[:, :, 2:6] = np.inf
     for k, each in enumerate(sides):
         if each is not None:

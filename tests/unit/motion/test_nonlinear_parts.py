@@ -97,7 +97,7 @@ def test_turns_and_landings_are_the_zeros() -> None:
 def plain_sides(one_sided: bool = False, **changes) -> Sides:
     """Sides that need no table: G̃(0) = 0.2 and 0.3, B̃(0) = 0.8 and 1.1."""
     zero = np.zeros((2, 1))
-    near = np.tile([1.0, 1.0, 1.0, 1.0, 0.0, 0.0, np.inf], (2, 1))
+    near = np.tile([1.0, 1.0, 1.0, 1.0, 0.0, 0.0, np.inf, 0.0], (2, 1))
     known = {
         "pieces": np.zeros((2, 1, 16)), "grid": np.zeros((2, 9)), "lift": np.array([[0.2, 0.8], [0.3, 1.1]]),
         "hold": zero, "critical": zero[:, 0], "end": zero[:, 0], "rest_speed": zero[:, 0],
@@ -120,7 +120,7 @@ MEMBER = Member(1.0, 1.0, (0.9, 0.8))
 def dies(speed: float, samples=(0.0, 2.0), tau=0.0, best=np.inf, **near) -> bool:
     """Whether a chain is proved to end: g = 10, G̃ = B̃ = 1 near rest, η = 0.8."""
     values = {"arc": 1.0, "least": 1.0, "largest": 1.0, "push": 1.0, "bend": 0.0, "push_bend": 0.0} | near
-    sides = plain_sides(near=np.tile([*values.values(), np.inf], (2, 1)))
+    sides = plain_sides(near=np.tile([*values.values(), np.inf, 0.0], (2, 1)))
     member = Member(1.0, 1.0, (0.7, 0.8))
     return bool(kernel._dies_out(sides, ground(samples), member, 0, tau, speed, np.array([best, best])))
 
@@ -161,7 +161,7 @@ def test_overturning_is_proved_where_nothing_to_come_can_hold_it(k: int) -> None
         motion = ground([0.0, -strength * factor, 1.0])
         for arc, speed, lost in ((0.5, 0.1, proved), (1.0, 0.1, True), (0.5, -0.1, False)):
             outward = kernel.Motion(0, 0.0, arc, speed, 1, arc, 0.1)
-            assert kernel._lost(sides, kernel.memory(None), motion, MEMBER, k, outward) == lost
+            assert kernel._lost(sides, np.zeros((2, 8)), motion, MEMBER, k, outward) == lost
 
 
 def test_a_short_step_keeps_its_promises() -> None:
