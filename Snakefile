@@ -4,11 +4,6 @@ from snakemake.utils import min_version
 
 min_version("9.0")
 
-# The shipped example, unless a study is named: what a study leaves out has the default of rocking.study.settings.
-if not workflow.overwrite_configfiles:
-
-    configfile: workflow.source_path("workflow/config.yaml")
-
 
 report: "workflow/report/study.rst"
 

@@ -76,7 +76,7 @@ class Described:
         from pydantic import ConfigDict, Field, TypeAdapter  # takes 0.1 s, and defaults need no check
 
         kind: Any = Literal[self.one_of()] if self.one_of else self.kind
-        text = {"min_length": 1} if str in (kind, *get_args(kind)) else {}
+        text = {"min_length": 1} if self.default != "" and str in (kind, *get_args(kind)) else {}
         limits: Any = {**self.bounds, **text}
         return TypeAdapter(
             Annotated[kind, Field(**limits)], config=ConfigDict(strict=True, allow_inf_nan=False)
@@ -186,7 +186,8 @@ def read_described(
             hint = f"did you mean {near[0]}?" if near else f"the names are {', '.join(names)}."
             defects.append(f"{above}{key} is {value!r}, but nothing has this name; {hint}")
         else:
-            for meant in [value, heard(value)] if isinstance(value, str) else [value]:
+            blank = value is None and known[key].default == ""
+            for meant in [value, heard(value)] if isinstance(value, str) else ["" if blank else value]:
                 with suppress(ValueError):
                     values[known[key].name] = known[key].checked(meant)
                     break
@@ -211,14 +212,14 @@ def _words(schema: Mapping[str, Any]) -> str:
     low, high = schema.get("minimum"), schema.get("maximum")
     limits = [f"{words} {schema[name]:g}" for name, words in _LIMITS.items() if name in schema]
     limit = f" from {low:g} to {high:g}" if None not in (low, high) else "".join([" ", *" and ".join(limits)])
-    return _TYPES[schema["type"]] + limit.rstrip()
+    return _TYPES[schema["type"]] + " that is not empty" * ("minLength" in schema) + limit.rstrip()
 
 
 _TYPES = {
     "integer": "a whole number",
     "number": "a number",
     "boolean": "true or false",
-    "string": "a text that is not empty",
+    "string": "a text",
     "null": "null",
 }
 _LIMITS = {

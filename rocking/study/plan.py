@@ -101,9 +101,15 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     )
 
 
+def config_file(folder: Path) -> Path | None:
+    """Return the path of the settings of a study, in a clone of the shipped example; None where there are none."""
+    paths = (folder / "config.yaml", folder / "workflow" / "config.yaml")
+    return next((path for path in paths if os.path.lexists(path)), None)
+
+
 def check_config_file(path: Path) -> dict[str, Any]:
     """Return what a config.yaml says. Raises ConfigurationError, also where snakemake would be silent or hang."""
-    content, _ = read_yaml(path, ConfigurationError, "file of settings")
+    content, _ = read_yaml(path, ConfigurationError, "file of settings", 100_000)
     if not isinstance(content or {}, dict):
         kind = type(content).__name__
         raise ConfigurationError(f"{path}: the file holds {kind}, but must hold settings; mend it.")

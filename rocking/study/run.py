@@ -18,7 +18,7 @@ from rocking.assessment.rows.of_record import FailureRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted
 from rocking.study import close_doors
-from rocking.study.plan import JOBS, Plan, check_config_file, make_plan
+from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan
 from rocking.study.settings import named_files
 from rocking.study.terminal import Progress, closing_lines, fitting, paths_to_read
 from rocking.study.workspace import workflow_folder
@@ -45,8 +45,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
     The status is 0, or 1 when a record or a job failed. Raises ConfigurationError, before snakemake starts, when the
     folder holds no study or the study has defects; RockingError when another run works in it.
     """
-    places = (folder / "config.yaml", folder / "workflow" / "config.yaml")  # in a clone the shipped example
-    config = next((path for path in places if os.path.lexists(path)), None)
+    config = config_file(folder)
     if config is None:
         raise ConfigurationError(
             f"{folder} holds no config.yaml; start a study there first: rocking start {folder}"
@@ -57,7 +56,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
     arguments = [
         *("--snakefile", str(home / "Snakefile")),
         *("--workflow-profile", str(home / "workflow" / "profiles" / "default")),
-        *("--directory", str(folder), "--configfile", str(config.resolve()), "--logger", "rocking"),
+        *("--directory", str(folder), "--logger", "rocking"),
         *options,
     ]
     if any(_ANSWERS.fullmatch(option) for option in options):

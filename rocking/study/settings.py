@@ -57,6 +57,10 @@ class StudyTrade:
 class Settings(AssessmentSettings):
     """What a study is made with; the names and their units are the keys of config.yaml."""
 
+    study: str = described("", "title of the study")
+    client: str = described("", "for whom it is made")
+    author: str = described("", "who makes it")
+    date: str = described("", "of the reports, as it is to stand there")
     catalogue: str = described("records/catalogue.csv", "which accelerograms, one row each")
     structures: str = described("structures.yaml", "which structures, SI units and degrees")
     results: str = described("results", "folder of the results")
@@ -87,14 +91,21 @@ class Settings(AssessmentSettings):
         """All settings by their names."""
         return asdict(self)
 
+    @property
+    def about(self) -> tuple[str, ...]:
+        """What every report tells of the study."""
+        return tuple(getattr(self, name) for name in _ABOUT)
 
-_NO_NUMBER = {"catalogue", "structures", "results", "mirror", "fragility", "trade", "reports"}
+
+_ABOUT = ("study", "client", "author", "date")
+_NO_NUMBER = {*_ABOUT, "catalogue", "structures", "results", "mirror", "fragility", "trade", "reports"}
 _NO_NUMBER |= {"histories", "records_per_job"}
 
 EXAMPLE = Settings(structures="workflow/structures.yaml")
 """The settings of the shipped example, whose structures stand beside its rules."""
 
 LAYOUT = {
+    "Told on the first page of every report; each may stay blank": _ABOUT,
     "Records and structures": ("catalogue", "structures", "results", "mirror"),
     "Processing, told in every report": ("processing",),
     "Method": (

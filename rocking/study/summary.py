@@ -74,8 +74,7 @@ def summarise(
         from rocking.reports.explore import explore_page  # where matplotlib is imported anyway
 
         _report(target, study, results / "fragility")
-        title = str(study.settings.mapping().get("study") or "")
-        page = explore_page(page_contents(parts, records), study.structures, title)
+        page = explore_page(page_contents(parts, records), study.structures, study.settings.study)
         write_whole(target / "study.html", page)
     remove_other_parts(results, jobs)
 

@@ -16,13 +16,15 @@ _DEEPEST = 8
 """Levels of nesting; a list of mappings has three."""
 
 
-def read_yaml(path: Path, error: type[RockingError], what: str) -> tuple[Any, Any]:
+def read_yaml(
+    path: Path, error: type[RockingError], what: str, largest: int = LARGEST_YAML
+) -> tuple[Any, Any]:
     """Return what the YAML file at `path` holds, and its node, None for an empty file. what: "structure list".
 
     1:30 and 011 are texts, and so are yes and no; 1e-6 is a number. Raises `error` for what no such file needs: another
-    kind of file, more than LARGEST_YAML bytes, anchors and aliases, deep nesting, a key given twice, tags.
+    kind of file, more than `largest` bytes, anchors and aliases, deep nesting, a key given twice, tags.
     """
-    content = read_whole(path, LARGEST_YAML, error)
+    content = read_whole(path, largest, error)
     try:
         loader = _StrictLoader(content.decode("utf-8-sig"))
         node = loader.get_single_node()

@@ -25,7 +25,7 @@ for JOB, RECORDS in PLAN.jobs.items():
             f"{SUMMARY}/benchmarks/assess_{JOB}.tsv"
         params:
             **PLAN.params(JOB),
-            reports=SETTINGS.reports,
+            reports=SETTINGS.reports and SETTINGS.about,
         message:
             f"Assess {len(RECORDS)} records (job {JOB})"
         script:

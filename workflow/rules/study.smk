@@ -7,15 +7,22 @@ from rocking.study import close_doors
 close_doors()  # before the imports that open them
 
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
-from rocking.study.plan import check_config_file, make_plan
+from rocking.study.plan import check_config_file, config_file, make_plan
 from rocking.study.results import IN_PARTS, PAGE, part
 from rocking.study.run import begin
 from rocking.study.terminal import check_any_read
+from snakemake.utils import update_config
 
 # What the user writes (catalogue, records, StationXML, structures) is watched by its content, in params, not as input:
 # snakemake goes by dates, and behind a file that is dated in the future it removes what a job wrote.
 for FILE in workflow.overwrite_configfiles:
     check_config_file(Path(FILE))
+if not workflow.overwrite_configfiles:
+    # Not by `configfile:`, which an alias bomb or a pipe of that name would keep for ever. Else the shipped example.
+    FILE = config_file(Path()) or Path(workflow.basedir, "workflow", "config.yaml")
+    CONFIG = check_config_file(FILE)
+    update_config(CONFIG, config)  # what --config says
+    config.update(CONFIG)
 PLAN = make_plan(config)
 SETTINGS = PLAN.settings
 PACKAGE = PLAN.package_sha256
