@@ -11,9 +11,8 @@ from docs.research import scores
 from docs.research.report import publish
 from docs.research.scores import Score
 from docs.research.sites import timed
-from rocking.assessment.ensemble import EnsembleSettings
 from rocking.assessment.fragility import incremental_dynamic_analysis
-from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.trade import TradeMethod, best_sines
 from rocking.motion import integrate_batch
 from rocking.pulses import Pulse

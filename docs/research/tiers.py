@@ -14,9 +14,10 @@ from docs.research.report import publish
 from docs.research.scores import Score
 from docs.research.sites import independent, structures_tried
 from rocking.assessment import fidelity
-from rocking.assessment.ensemble import EnsembleSettings, GroundMotions, drawn, lattice
+from rocking.assessment.ensemble import GroundMotions, drawn, lattice
 from rocking.assessment.fidelity import NUDGES, Tier, TierFit, stays_at_rest
 from rocking.assessment.fidelity import write_tiers as write_fits
+from rocking.assessment.settings import EnsembleSettings
 from rocking.motion import integrate_batch
 from rocking.records import Accelerogram
 from rocking.structures import Structure

@@ -8,9 +8,9 @@ from time import process_time
 from types import NoneType
 from typing import TYPE_CHECKING, Any
 
-from rocking.assessment.ensemble import Ensemble, EnsembleSettings, GroundMotions
+from rocking.assessment.ensemble import Ensemble, GroundMotions
 from rocking.assessment.fidelity import Answer, Estimate, Tier, cheapest_answer, estimated
-from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import cracks, ensemble_over_cracks
 from rocking.assessment.verdict import Method, ratio_in_words
 from rocking.errors import ConfigurationError, PulseError, RockingError

@@ -14,9 +14,10 @@ import numpy as np
 from scipy.optimize import isotonic_regression
 from scipy.special import betaincinv, erfcx, ndtr, stdtr, stdtrit
 
-from rocking.assessment.ensemble import EnsembleSettings, GroundMotions, drawn, lattice
+from rocking.assessment.ensemble import GroundMotions, drawn, lattice
 from rocking.assessment.intensity import INTENSITY_MEASURES, IntensityMeasure, per_velocity
 from rocking.assessment.intensity import intensity_measure as measure_named
+from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.variations import cracks
 from rocking.errors import ConfigurationError
 from rocking.motion.batch import integrate_batch

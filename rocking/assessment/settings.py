@@ -3,12 +3,44 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from rocking.assessment.ensemble import EnsembleSettings
 from rocking.assessment.intensity import INTENSITY_MEASURES, MEASURES_IN_WORDS
 from rocking.described import check_described, described
 from rocking.errors import ConfigurationError
 from rocking.pulses import PULSE_METHODS, PulseSettings
 from rocking.structures.mechanism import Scale
+
+SIZES = (16, 64, 256, 1024, 4096)
+"""Numbers of points that a design may have; each is contained in the next."""
+
+
+@dataclass(frozen=True)
+class EnsembleSettings:
+    """What is not known of a case, and how much of it a verdict bears. Raises ConfigurationError."""
+
+    members: int = described(
+        64,
+        "members, up to the next of 16, 64, 256, 1024 and 4096; 0: none",
+        ge=0,
+        le=4096,
+    )
+    amplitude_range: float = described(0.05, "share plus or minus to which the motion is known", ge=0, le=0.9)
+    restitution_range: float = described(
+        0.05,
+        "plus or minus of the restitution, where a structure says none",
+        ge=0,
+        le=1,
+    )
+    polarity: bool = described(True, "whether the sign of the motion is unknown, of unlike sides")
+    processing: bool = described(True, "whether the processing of a raw record is unknown")
+    risk: float = described(0.05, "largest probability of the opposite of a verdict", gt=0, le=0.45)
+
+    def __post_init__(self) -> None:
+        check_described(ConfigurationError, self)
+
+    @property
+    def size(self) -> int:
+        """Members of the design that is used; 0 for none."""
+        return next(size for size in (0, *SIZES) if size >= self.members)
 
 
 @dataclass(frozen=True)

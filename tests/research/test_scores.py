@@ -10,8 +10,9 @@ from docs.research import scores
 from docs.research.answers import AnswerTrial, answer_scores
 from docs.research.scores import HAPPENED, logistic, logit_slope
 from docs.research.sites import independent
-from rocking.assessment.ensemble import Ensemble, EnsembleSettings
+from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer
+from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import Method
 from rocking.motion.response import Response
 from rocking.records import Accelerogram

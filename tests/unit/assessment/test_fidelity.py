@@ -5,8 +5,9 @@ import pytest
 from scipy.constants import g
 
 from rocking.assessment.assess import AssessmentSettings, Method, assess_structures
-from rocking.assessment.ensemble import EnsembleSettings, GroundMotions, ensemble
+from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.fidelity import cheapest_answer, stays_at_rest
+from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import Verdict
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram

@@ -8,9 +8,9 @@ from scipy.optimize import minimize
 from scipy.stats import norm
 
 import rocking
-from rocking.assessment.ensemble import EnsembleSettings
 from rocking.assessment.fragility import fragility, fragility_of
 from rocking.assessment.intensity import INTENSITY_MEASURES
+from rocking.assessment.settings import EnsembleSettings
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
