@@ -45,13 +45,8 @@ class SmallStudy:
         """Add a file of `content` and its row of the catalogue, of which `cells` change what is not as usual."""
         file = f"{identifier}.txt"
         (self.folder / "records" / file).write_bytes(content)
-        row = {
-            "id": identifier,
-            "file": file,
-            "sha256": hashlib.sha256(content).hexdigest(),
-            "unit": "g",
-        } | cells
-        self.write_catalogue([*self.rows(), row])
+        row = {"id": identifier, "file": file, "sha256": hashlib.sha256(content).hexdigest(), "unit": "g"}
+        self.write_catalogue([*self.rows(), row | cells])
 
     def add_synthetic(self, identifier: str, seed: int) -> None:
         """Add a short synthetic record."""
@@ -88,10 +83,11 @@ class SmallStudy:
 
     def run(self, *options: str) -> subprocess.CompletedProcess[str]:
         """Run snakemake on this study; its output and errors as one text."""
-        streams: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
         return subprocess.run(
-            self.command(*options), timeout=900, check=False, **streams, **self.surroundings
-        )
+            self.command(*options),
+            timeout=900, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+            **self.surroundings,
+        )  # fmt: skip
 
     def rocking(self, *arguments: str) -> subprocess.CompletedProcess[str]:
         """Run the command rocking of this tree, from a folder that is not the study's."""
@@ -129,11 +125,8 @@ class SmallStudy:
 
     def forget(self, record: str) -> None:
         """Remove what the job of one record made, and the last table of all, as a run that was stopped leaves it."""
-        (job,) = {
-            each.parent
-            for each in self.results.glob("summary/jobs/*/record.csv")
-            if record in each.read_text()
-        }
+        tables = self.results.glob("summary/jobs/*/record.csv")
+        (job,) = {table.parent for table in tables if record in table.read_text()}
         shutil.rmtree(job)
         (self.results / "summary" / "provenance.json").unlink()
 
@@ -186,10 +179,7 @@ def small_disk() -> Callable[[Path, str], AbstractContextManager[Callable[[str],
     @contextmanager
     def mounted(folder: Path, size: str) -> Iterator[Callable[[str], None]]:
         mount = ["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(folder)]
-        if (
-            shutil.which("mount") is None
-            or subprocess.run(mount, capture_output=True, check=False).returncode
-        ):
+        if not shutil.which("mount") or subprocess.run(mount, capture_output=True, check=False).returncode:
             pytest.skip("a disk can only be mounted by root")
         try:
             yield lambda size: subprocess.run(

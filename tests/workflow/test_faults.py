@@ -13,6 +13,7 @@ def _at2(line: str, values: str) -> bytes:
 
 
 GOOD_VALUES = "0.01 -0.02 0.03 -0.01 0.0 " * 20
+GOOD = _at2("NPTS=   100, DT= 0.01 SEC", GOOD_VALUES)
 BROKEN = {
     "unknown_format": ({"content": b"Dear colleague,\nhere is the record you asked for.\n"}, "format"),
     "empty_file": ({"content": b""}, "empty"),
@@ -20,15 +21,9 @@ BROKEN = {
     "not_a_number": ({"content": _at2("NPTS=   100, DT= 0.01 SEC", "NaN " + GOOD_VALUES[5:])}, "NaN"),
     "time_stands_still": ({"content": _at2("NPTS=   100, DT= 0.00 SEC", GOOD_VALUES)}, "time_step is 0"),
     "no_unit": ({"content": b"0.00 0.1\n0.01 0.2\n0.02 -0.1\n" * 1 + b"0.03 0.1\n", "unit": ""}, "unit"),
-    "another_version": (
-        {"content": _at2("NPTS=   100, DT= 0.01 SEC", GOOD_VALUES), "sha256": "0" * 64},
-        "sha256",
-    ),
+    "another_version": ({"content": GOOD, "sha256": "0" * 64}, "sha256"),
     "lost_file": ({"content": b"", "file": "nobody_has_it.AT2"}, "nobody_has_it"),
-    "no_such_component": (
-        {"content": _at2("NPTS=   100, DT= 0.01 SEC", GOOD_VALUES), "component": "X;Y"},
-        "component",
-    ),
+    "no_such_component": ({"content": GOOD, "component": "X;Y"}, "component"),
     "pickle": (
         {"content": b"\x80\x04\x95\x1b\x00\x00\x00obspy.core.stream\x94\x8c\x06Stream"},
         "never opened",
@@ -99,6 +94,4 @@ def test_a_full_disk_is_said_and_leaves_nothing_half_written(
         done = study.run()
         assert done.returncode == 0, done.stdout
         assert study.rows_of("good_1") == expected
-        assert (study.results / "summary" / "record.csv").read_text().count("\n") == 2, (
-            "a head and one record"
-        )
+        assert (study.results / "summary" / "record.csv").read_text().count("\n") == 2, "head and one record"

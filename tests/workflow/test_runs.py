@@ -52,9 +52,7 @@ def test_a_second_run_does_nothing(finished) -> None:
     [("motion/nonlinear_kernel.py", ["assess"] * 2 + ["summarise"]), ("reports/record.py", [])],
     ids=["numbers", "appearance"],
 )
-def test_an_edit_of_the_package_runs_again_what_depends_on_it(
-    finished, edited: str, again: list[str]
-) -> None:
+def test_an_edit_of_the_package_runs_again_what_depends_on_it(finished, edited, again) -> None:
     path = finished.tree / "rocking" / edited
     source = path.read_bytes()
     try:
