@@ -186,8 +186,7 @@ def read_described(
             hint = f"did you mean {near[0]}?" if near else f"the names are {', '.join(names)}."
             defects.append(f"{above}{key} is {value!r}, but nothing has this name; {hint}")
         else:
-            blank = value is None and known[key].default == ""
-            for meant in [value, heard(value)] if isinstance(value, str) else ["" if blank else value]:
+            for meant in [value, heard(value)] if isinstance(value, str) else [value]:
                 with suppress(ValueError):
                     values[known[key].name] = known[key].checked(meant)
                     break

@@ -57,10 +57,10 @@ class StudyTrade:
 class Settings(AssessmentSettings):
     """What a study is made with; the names and their units are the keys of config.yaml."""
 
-    study: str = described("", "title of the study")
-    client: str = described("", "for whom it is made")
-    author: str = described("", "who makes it")
-    date: str = described("", "of the reports, as it is to stand there")
+    study: str | None = described("", "title of the study")
+    client: str | None = described("", "for whom it is made")
+    author: str | None = described("", "who makes it")
+    date: str | None = described("", "of the reports, as it is to stand there")
     catalogue: str = described("records/catalogue.csv", "which accelerograms, one row each")
     structures: str = described("structures.yaml", "which structures, SI units and degrees")
     results: str = described("results", "folder of the results")
@@ -92,7 +92,7 @@ class Settings(AssessmentSettings):
         return asdict(self)
 
     @property
-    def about(self) -> tuple[str, ...]:
+    def about(self) -> tuple[str | None, ...]:
         """What every report tells of the study."""
         return tuple(getattr(self, name) for name in _ABOUT)
 
@@ -179,7 +179,7 @@ def _entries(section: Any) -> Iterator[tuple[str, Described | None, Any]]:
 
 def _yaml_lines(key: str, said: Described | None, value: Any, indent: str = "") -> Iterator[str]:
     if said is not None:
-        null = ", or null" if "or null" in said.must and "null" not in said.meaning else ""
+        null = ", or null" if "or null" in said.must and "null" not in said.meaning and value != "" else ""
         yield f"{indent}{key}: {_scalar(value)} ".ljust(48) + f"# {_meaning(said)}{null}"
     else:
         yield f"{indent}{key}:"

@@ -74,7 +74,7 @@ def summarise(
         from rocking.reports.explore import explore_page  # where matplotlib is imported anyway
 
         _report(target, study, results / "fragility")
-        page = explore_page(page_contents(parts, records), study.structures, study.settings.study)
+        page = explore_page(page_contents(parts, records), study.structures, study.settings.study or "")
         write_whole(target / "study.html", page)
     remove_other_parts(results, jobs)
 
