@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from pandas import DataFrame
 
+    from rocking.records.measures import RecordMeasures, ResponseSpectrum
+
 
 @dataclass(frozen=True)
 class Source:
@@ -87,6 +89,9 @@ class Accelerogram:
     """m; None where neither the file nor the catalogue gives it."""
     processed: bool | None = False
     """Whether the file says that its numbers are already corrected; None where it cannot say."""
+    initial_velocity: float = 0.0
+    initial_displacement: float = 0.0
+    """Of the ground at the first sample, m/s and m: not zero where what a filter put before the record was cut off."""
 
     def __post_init__(self) -> None:
         with about(self.source.path) if self.source.path else nullcontext():
@@ -128,6 +133,24 @@ class Accelerogram:
         return float(np.abs(self.acceleration).max())
 
     @cached_property
+    def measures(self) -> "RecordMeasures":
+        """Peak acceleration, velocity and displacement, Arias intensity and D5–95, as record_measures returns them.
+
+        >>> record = rocking.read("records/20161113_110259_WTMC_20.V2A")[0]
+        >>> round(record.measures.peak_velocity, 2)
+        1.02
+        """
+        from rocking.records.measures import record_measures  # which stands above this
+
+        return record_measures(self)
+
+    def spectrum(self, periods: np.ndarray | None = None, damping: float = 0.05) -> "ResponseSpectrum":
+        """Return the response spectrum at undamped `periods`, s, as response_spectrum does; None: at its own."""
+        from rocking.records.measures import PERIODS, response_spectrum
+
+        return response_spectrum(self, PERIODS if periods is None else periods, damping)
+
+    @cached_property
     def sha256(self) -> str:
         """Hash of the time step and the samples as they stand here (not of the file)."""
         return hashlib.sha256(np.float64(self.time_step).tobytes() + self.acceleration.tobytes()).hexdigest()
@@ -135,7 +158,8 @@ class Accelerogram:
     def scaled(self, factor: float) -> "Accelerogram":
         """Return this accelerogram with its acceleration multiplied by `factor`, remembered in scale_factor."""
         factor = finite(RecordError, "factor", factor)
-        return replace(self, acceleration=self.acceleration * factor, scale_factor=self.scale_factor * factor)
+        names = "acceleration", "scale_factor", "initial_velocity", "initial_displacement"
+        return replace(self, **{name: getattr(self, name) * factor for name in names})
 
     def processed_by(self, acceleration: np.ndarray, step: str, **changes: Any) -> "Accelerogram":
         """Return a copy with new samples and one more processing sentence."""

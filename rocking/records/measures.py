@@ -23,7 +23,7 @@ class RecordMeasures:
     """What a record is known by.
 
     peak_acceleration, peak_velocity, peak_displacement: largest magnitudes, m/s², m/s, m; velocity and displacement by
-    the trapezoidal rule from rest, as the record stands. arias_intensity: π/(2g) ∫a² dt, m/s (Arias 1970). husid:
+    the trapezoidal rule from the record's initial motion. arias_intensity: π/(2g) ∫a² dt, m/s (Arias 1970). husid:
     (n,) share of it that has been spent at each sample, from 0 to 1. significant_times: s, at which 5 and 95 % have.
     """
 

@@ -7,6 +7,7 @@ no unit, and claiming every file of bare numbers would take other programs' file
 from functools import partial
 from pathlib import Path
 
+from rocking.errors import RecordError
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.read import LARGEST_FILE, read_content, undressed, unpacked
 
@@ -40,6 +41,8 @@ def read_format(form: Format, source, **options):
 def _bytes(source, limit: int) -> bytes:
     if hasattr(source, "read"):
         return source.read(limit)
+    if not Path(source).is_file():
+        raise RecordError(f"{source} is no file; give the path of one.")
     with Path(source).open("rb") as stream:
         return stream.read(limit)
 

@@ -7,6 +7,7 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, acceleration_factor
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.processing import integral
 
 LARGEST_PEAK = 5 * GRAVITY
 """m/s²; the largest recorded so far is 4.4 g (Iwate-Miyagi 2008, IWTH25), so what is above is a wrong unit."""
@@ -112,6 +113,44 @@ def pass_limits(record: Accelerogram) -> tuple[str, ...]:
         return ()
     hint = _candidates(peak, divide=False)
     return (f"The peak acceleration is {peak:.3g} g, below 1e-5 g: noise, or a wrong unit{hint}.",)
+
+
+def agree_with_mean_square(record: Accelerogram, stated: float, unit: str, digit: float) -> Accelerogram:
+    """Return `record`, with a warning where its root mean square is not the one stated in `unit`, to its last digit.
+
+    Real headers agree with their samples to that digit. Nothing is checked when zero or less is stated.
+    """
+    factor = acceleration_factor(unit)
+    in_samples = float(np.sqrt(np.mean(np.square(record.acceleration)))) / factor
+    if stated <= 0 or abs(in_samples - stated) <= digit + _ROUNDING * stated:
+        return record
+    sentence = (
+        f"The root mean square of the samples is {in_samples:.6g} {unit}, but the header states {stated:.6g} {unit}: "
+        "numbers are damaged, missing or repeated, or a factor is wrong."
+    )
+    return replace(record, warnings=(*record.warnings, sentence))
+
+
+_VELOCITY_OFF = 0.25
+"""Share of a file's own velocity, root mean square, by which the integral of its acceleration may differ from it.
+
+A processed file is off by a line at most, which is taken out; real ones agree within 6 %.
+"""
+
+
+def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogram:
+    """Return `record`, with a warning where the velocity in its file, (n,) m/s, is not the integral of its numbers."""
+    if stated.size != record.acceleration.size:
+        return record
+    times = np.linspace(-1, 1, stated.size)
+    differing = stated - integral(record.acceleration, record.time_step)
+    differing = differing - differing.mean() - times * (times @ differing) / (times @ times)
+    if differing.std() <= _VELOCITY_OFF * stated.std():
+        return record
+    sentence = (
+        "The file's own velocity is not the integral of its acceleration: numbers or a factor are damaged."
+    )
+    return replace(record, warnings=(*record.warnings, sentence))
 
 
 _ALONE = 3.0, 2.0

@@ -76,13 +76,13 @@ def variants() -> dict[str, Processing]:
 
 
 def velocity(record: Accelerogram) -> np.ndarray:
-    """Return the velocity (n,) in m/s by the trapezoidal rule, starting from rest."""
-    return integral(record.acceleration, record.time_step)
+    """Return the velocity (n,) in m/s by the trapezoidal rule, from the record's initial one, mostly rest."""
+    return record.initial_velocity + integral(record.acceleration, record.time_step)
 
 
 def displacement(record: Accelerogram) -> np.ndarray:
-    """Return the displacement (n,) in m by the trapezoidal rule twice, starting from rest."""
-    return integral(velocity(record), record.time_step)
+    """Return the displacement (n,) in m by the trapezoidal rule twice, from the record's initial motion."""
+    return record.initial_displacement + integral(velocity(record), record.time_step)
 
 
 def integral(values: np.ndarray, time_step: float) -> np.ndarray:
@@ -133,12 +133,17 @@ def _filtered(record: Accelerogram, processing: Processing) -> Accelerogram:
             steps.append(
                 f"Acausal Butterworth {kind} of order {processing.order}, run both ways, corner {corner:g} Hz."
             )
+    initial: dict[str, float] = {}
     if pad and not processing.keep_padding:
+        # A filter that is run both ways moves the ground before the record; without that, displacement would drift.
+        speed = integral(values, record.time_step)
+        course = integral(speed, record.time_step)
+        initial = {"initial_velocity": float(speed[pad]), "initial_displacement": float(course[pad])}
         values = values[pad:-pad]
     if not steps:
         return record
     highest = max(processing.high_pass or 0, record.high_pass_frequency or 0) or None
-    return record.processed_by(values, " ".join(steps), high_pass_frequency=highest)
+    return record.processed_by(values, " ".join(steps), high_pass_frequency=highest, **initial)
 
 
 def _room(order: int, corner: float, record: Accelerogram) -> int:

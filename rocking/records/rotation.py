@@ -42,7 +42,8 @@ def rotate(first: Accelerogram, second: Accelerogram, azimuth: float) -> Acceler
         raise RecordError(
             f"the azimuths are {first.azimuth:g}° and {second.azimuth:g}°, but must differ by 30° or more."
         )
-    motion = (a * np.sin(two - wanted) + b * np.sin(wanted - one)) / base
+    shares = np.sin(two - wanted) / base, np.sin(wanted - one) / base
+    motion = shares[0] * a + shares[1] * b
     sentence = (
         f"Rotated from {first.azimuth:g}° and {second.azimuth:g}° to {azimuth:g}° clockwise from north."
     )
@@ -50,6 +51,8 @@ def rotate(first: Accelerogram, second: Accelerogram, azimuth: float) -> Acceler
     cut = f"The components hold {short} and {long} samples; the longer was cut to the shorter."
     warnings = dict.fromkeys((*first.warnings, *second.warnings, *([cut] if short < long else [])))
     turned = {"component": f"{azimuth:g}", "azimuth": azimuth % 360, "warnings": tuple(warnings)}
+    for name in ("initial_velocity", "initial_displacement"):
+        turned[name] = shares[0] * getattr(first, name) + shares[1] * getattr(second, name)
     return first.processed_by(motion, sentence, **turned)
 
 

@@ -261,9 +261,11 @@ def csmip_of_1983(stated: float = 1.0) -> str:
     gal = 100 * TRUE
     peak, at = stated * np.abs(gal).max(), np.abs(gal).argmax() * STEP
 
-    def block(quantity: str, unit: str) -> str:
+    def block(quantity: str, unit: str, values: np.ndarray) -> str:
         announced = f" {N} POINTS OF {quantity} DATA EQUALLY SPACED AT  {STEP:.3f} SEC.  (UNITS: {unit})\n"
-        return announced + columns(gal, 8, "10.3f")
+        return announced + columns(values, 8, "10.3f")
+
+    speed = STEP * (np.cumsum(gal) - (gal + gal[0]) / 2)
 
     return (
         "CORRECTED ACCELEROGRAM   36456-S4384-83123.01       CHAN  1:  45 DEG     FROM\n"
@@ -274,7 +276,7 @@ def csmip_of_1983(stated: float = 1.0) -> str:
         f"AT EQUALLY-SPACED INTERVALS OF    {STEP:.3f}  SEC.\n"
         f"PEAK ACCELERATION =  {peak:.3f}    CM/SEC/SEC  AT   {at:.3f}   SEC.\n"
         + columns(np.zeros(100, int), 16, "5d") + columns(np.zeros(100), 8, "10.3f")
-        + block("ACCEL", "CM/SEC/SEC") + block("VELOC", "CM/SEC") + block("DISPL", "CM")
+        + block("ACCEL", "CM/SEC/SEC", gal) + block("VELOC", "CM/SEC", speed) + block("DISPL", "CM", speed)
         + "/&  ----------  END OF DATA FOR CHANNEL  1  ----------\n"
     )  # fmt: skip
 

@@ -17,6 +17,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.sampling import LARGEST_SERIES
 from rocking.records.traces import first_line, joined, names
+from rocking.tables import read_whole
 
 _DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be read|corrupt|mismatch", re.I)
 """What libmseed warns of when the numbers are not those that were written."""
@@ -32,8 +33,7 @@ def _stream(content: bytes, form: str, **options: Any):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
-            if form == "MSEED":
-                _check_size(content)
+            notes = _check_blocks(content) if form == "MSEED" else set()
             result = obspy.read(io.BytesIO(content), format=form, check_compression=False, **options)
         except RecordError:
             raise
@@ -44,7 +44,7 @@ def _stream(content: bytes, form: str, **options: Any):
         raise RecordError(f"damaged {form} file, {damage[0]}; fetch it again.")
     if not any(trace.stats.npts for trace in result):
         raise RecordError(f"the {form} file holds no samples.")
-    notes = {f"obspy: {text}." for text in told}
+    notes |= {f"obspy: {text}." for text in told}
     for _, station, _, channel, _, begin, seconds, _ in result.get_gaps():
         if seconds < 0:
             notes.add(
@@ -53,8 +53,11 @@ def _stream(content: bytes, form: str, **options: Any):
     return joined(result), tuple(sorted(notes))
 
 
-def _check_size(content: bytes) -> None:
-    """Check, from the heads of its records, that a miniSEED file is whole and not too large unpacked."""
+def _check_blocks(content: bytes) -> set[str]:
+    """Check, from the heads of its blocks, that a miniSEED file is whole and not too large unpacked.
+
+    Return a sentence where their sequence numbers, which count in all other places, leap.
+    """
     import obspy
     from obspy.io.mseed.util import get_record_information
 
@@ -74,6 +77,13 @@ def _check_size(content: bytes) -> None:
     samples = sum(trace.stats.npts for trace in heads)
     if samples > LARGEST_SERIES:
         raise RecordError(f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.")
+    marks = (content[place : place + 6] for place in range(0, len(content), notes["record_length"]))
+    numbers = np.array([int(mark) for mark in marks if mark.isdigit()])
+    leaps = np.flatnonzero((np.diff(numbers) != 1) & (numbers[1:] != 1))
+    if not 0 < 2 * leaps.size < numbers.size - 1:
+        return set()
+    before, after = numbers[leaps[0]], numbers[leaps[0] + 1]
+    return {f"Block number {after} follows number {before}: blocks are missing, repeated or overwritten."}
 
 
 _SAC_HEADER = 632
@@ -218,11 +228,11 @@ def _inventory(stats, options: Options):
         return None
     naming = []
     for path in sorted(options.folder.glob("*.xml")):
-        is_small = path.is_file() and path.stat().st_size <= _LARGEST_XML
-        text = path.read_bytes().decode("utf-8", "replace") if is_small else ""
-        station = re.search(rf'<(\w+:)?Station\b[^>]*\bcode="{re.escape(stats.station)}"', text)
-        if station and "FDSNStationXML" in text[:2000] and f'code="{stats.network}"' in text:
-            naming.append(path)
+        with suppress(RecordError):
+            text = read_whole(path, _LARGEST_XML, RecordError).decode("utf-8", "replace")
+            station = re.search(rf'<(\w+:)?Station\b[^>]*\bcode="{re.escape(stats.station)}"', text)
+            if station and "FDSNStationXML" in text[:2000] and f'code="{stats.network}"' in text:
+                naming.append(path)
     if len(naming) != 1:
         several = f"several do: {', '.join(p.name for p in naming)}" if naming else "none beside it does"
         raise UndeclaredError(
@@ -235,12 +245,9 @@ def _inventory(stats, options: Options):
 def _parse(path: Path):
     from obspy import read_inventory
 
-    try:
-        content = path.read_bytes() if path.stat().st_size <= _LARGEST_XML else b""
-    except OSError as error:
-        raise RecordError(f"the StationXML {path.name} cannot be opened, {error.strerror}.") from error
+    content = read_whole(path, _LARGEST_XML, RecordError, path.name)
     if b"FDSNStationXML" not in content[:2000] or b"<!DOCTYPE" in content:
-        raise RecordError(f"{path.name} is not a plain StationXML file of less than 32 MB; give one.")
+        raise RecordError(f"{path.name} is not a plain StationXML file; give one.")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

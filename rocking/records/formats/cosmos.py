@@ -8,13 +8,21 @@ from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
-from rocking.records.formats.header import Layout, blocks, check_nothing_left, missing_channels, optional
+from rocking.records.formats.header import (
+    Layout,
+    blocks,
+    check_nothing_left,
+    distance,
+    missing_channels,
+    optional,
+)
 from rocking.records.formats.text import count, fields, filled
-from rocking.records.instrument import site_warnings
+from rocking.records.plausibility import agree_with_mean_square
 
 _LAYOUT = Layout(
     station=r"Code:\s*(\S+)", high_pass=r"filtered below\s+([\d.]+)\s*Hz", half_digit=5e-7,
-    corrected=r"\A(corrected)",
+    corrected=r"\A(corrected)", location=r"\bLocation:\s*(.*?)\s*$", event_time=r"^Origin:\s*(\d.*?)\s*(?:\(.*)?$",
+    magnitude=r"^Hypocenter:.*?(M\w=.*)", latitude=r"^Coords:\s*([-\d.]+)", longitude=r"^Coords:\s*\S+\s+([-\d.]+)",
 )  # fmt: skip
 _FIRST = re.compile(r"(Corrected|Uncorrected)\s+(acceleration|velocity|displacement)\s+\(Format v", re.I)
 _DATA = re.compile(
@@ -24,8 +32,10 @@ _DATA = re.compile(
 )
 _REALS = re.compile(r"^\s*(\d+)\s+Real-header values follow on\s+(\d+)\s+lines.*?\d+[FE](\d+)", re.I)
 _END = re.compile(r"\s*(End-of-data|/&)", re.I)
-_RECORDER_STEP, _STEP, _LENGTH, _PEAK, _PEAK_TIME = 33, 61, 62, 63, 64
-"""Places in the real header: step of the recorder, s; of the series, step in ms, length, largest value and its time.
+_ELEVATION, _DISTANCE, _RECORDER_STEP, _STEP, _LENGTH, _PEAK, _PEAK_TIME, _RMS = 2, 16, 33, 61, 62, 63, 64, 83
+"""Places in the real header: elevation of the station, m, and its distance from the epicentre, km; step of the
+recorder, s; of the series, step in ms, length, largest value and its time; of
+a raw one its root mean square.
 
 After COSMOS format 1.20. A processed series is often resampled, so that the recorder's step is not its own.
 """
@@ -62,9 +72,12 @@ def _channel(block: list[str], options: Options, held: int) -> Accelerogram | No
     values = _samples(block[at + 1 :], data)
     length, lasts = reals[_LENGTH], values.size * step
     wrong = 0 < length < 1e5 and abs(length - lasts) > 1.5 * step + 5e-4  # not all agencies fill it
-    stated = [None if abs(reals[at] - _UNKNOWN) < 1e-3 else reals[at] for at in (_PEAK, _PEAK_TIME)]
+    elevation, from_epicentre, peak, peak_time = (
+        None if abs(reals[at] - _UNKNOWN) < 1e-3 else reals[at]
+        for at in (_ELEVATION, _DISTANCE, _PEAK, _PEAK_TIME)
+    )
     note = f"The header gives the series a length of {length:g} s, but its samples last {lasts:g} s."
-    return _LAYOUT.channel(
+    record = _LAYOUT.channel(
         head,
         values,
         options,
@@ -73,13 +86,17 @@ def _channel(block: list[str], options: Options, held: int) -> Accelerogram | No
         component=_component(head),
         warnings=(
             *missing_channels(head, held),
-            *site_warnings(optional(r"\bLocation:\s*(.*?)\s*$", head)),
             *([note] if wrong else []),
         ),
         event=optional(r"(?:Rcrd|Record)?\s*(?:of)?\s*(.*)", block[1]),
-        peak=stated[0],
-        peak_time=stated[1],
+        elevation=elevation,
+        epicentral_distance=distance(from_epicentre),
+        peak=peak,
+        peak_time=peak_time,
     )
+    if record.processed or len(reals) <= _RMS:
+        return record
+    return agree_with_mean_square(record, reals[_RMS], data["unit"], digit=1e-6)
 
 
 def _samples(rows: list[str], data: re.Match[str]) -> np.ndarray:

@@ -14,7 +14,8 @@ from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Options
 from rocking.records.formats.text import count, lines, number
-from rocking.records.plausibility import agree_with_header
+from rocking.records.instrument import site_warnings
+from rocking.records.plausibility import agree_with_header, agree_with_mean_square
 
 NUMBER = r"([+-]?(?:\d+\.?\d*|\.\d+)(?:E[+-]?\d+)?)"
 _NAMES = "component", "station", "network", "event", "event_time"
@@ -38,8 +39,10 @@ class Layout:
     (some agencies count n steps for n samples, others n - 1). magnitude: a text like "6.5 Mw". place: one like
     "40.941N, 123.633W"; latitude, longitude: degrees north and east. elevation: m. distance: from the epicentre, km.
     high_pass: Hz. corrected: what says that the numbers are processed; where it is "", a high-pass does. start: time of
-    the first sample, hours ahead of universal time. code: of the network, where it is not read. needed: facts that must
+    the first sample, hours ahead of universal time. code: of the network, where it is not read. location: of
+    the instrument in a structure. needed: facts that must
     be there. peak: in peak_unit, with half a unit of its last digit; peak_time: s after the first sample.
+    rms: the root mean square, in peak_unit.
     """
 
     unit: str = ""
@@ -65,11 +68,13 @@ class Layout:
     start: str = ""
     ahead: float = 0.0
     code: str = ""
+    location: str = ""
     needed: tuple[str, ...] = ()
     peak: str = ""
     peak_unit: str = ""
     half_digit: float = 0.0
     peak_time: str = ""
+    rms: str = ""
 
     def text(self, name: str, head: str) -> str:
         """Return what `head` says of the fact `name`, "" where it does not."""
@@ -112,16 +117,19 @@ class Layout:
             rate = self.rate and self.text("rate", head)
             hertz = positive(RecordError, "the rate", number("the rate", rate), "Hz") if rate else 0.0
             step = 1 / hertz if rate else number("the step", self.declared("step", head))
+        fields["warnings"] = (*fields.get("warnings", ()), *site_warnings(self.text("location", head)))
         record = options.accelerogram(unit or self.unit, values, step, **self._facts(head) | fields)
         if duration := self.text("duration", head):
             declared = number("the duration", duration)
             rounding = self.duration_digits * 10.0 ** -len(duration.partition(".")[2])
             check_duration(declared, values.size, record.time_step, self.duration_steps, rounding)
+        in_unit = self.peak_unit or unit or self.unit
+        if (rms := self.number("rms", head)) is not None:
+            digit = 10.0 ** -len(self.text("rms", head).partition(".")[2])
+            record = agree_with_mean_square(record, rms, in_unit, digit)
         peak = self.number("peak", head) if peak is None else peak
         at = self.number("peak_time", head) if peak_time is None else peak_time
-        return agree_with_header(
-            record, peak, self.peak_unit or unit or self.unit, self.half_digit, at=at, samples=in_file
-        )
+        return agree_with_header(record, peak, in_unit, self.half_digit, at=at, samples=in_file)
 
     def _facts(self, head: str) -> dict[str, Any]:
         north, east, height = (self.number(name, head) for name in ("latitude", "longitude", "elevation"))

@@ -114,8 +114,9 @@ def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
 
 _RESORCE = Layout("m/s2", **keyed(
     samples="NUMBER OF DATA", step="TIME INCREMENT (S)", component="ORIENTATION", station="STATION CODE / NAME",
-    event="EVENT DATE & TIME", high_pass="FILTER CUT-OFF FREQUENCY (HZ)", peak="PGA (M/S/S)",
-))  # fmt: skip
+    event="EVENT DATE & TIME", event_time="EVENT DATE & TIME", high_pass="FILTER CUT-OFF FREQUENCY (HZ)",
+    peak="PGA (M/S/S)",
+), network=r"^Network\s*:\s*(\S+)")  # fmt: skip
 _RESORCE_TITLE = re.compile(r"(Acc[a-z]*tion|Velocity|Displacement) time series in (\S+)", re.I)
 _RESORCE_WIDTH, _RESORCE_PER_LINE = 14, 5
 

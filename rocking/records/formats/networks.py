@@ -1,12 +1,13 @@
 """Formats of single networks, whose headers are sentences or places: K-NET, JMA, CSMNC, GeoNet, USGS SMC."""
 
 import re
+from typing import Any
 
 from rocking.errors import RecordError
 from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, starts, without_offset
-from rocking.records.formats.header import Layout, blocks, optional, required, typed_magnitude
+from rocking.records.formats.header import Layout, blocks, optional, required, site, typed_magnitude
 from rocking.records.formats.text import (
     after_lines,
     column_width,
@@ -19,6 +20,7 @@ from rocking.records.formats.text import (
     numbers,
     whole,
 )
+from rocking.records.plausibility import agree_with_velocity
 
 _JAPAN = 9.0
 """h ahead of universal time."""
@@ -73,7 +75,8 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
 
 _JMA = Layout(
     rate=r"^\s*SAMPLING RATE\s*=\s*([\d.]+)\s*Hz", station=r"^SITE CODE=\s*([\x21-\x7e]+)",
-    start=r"^\s*INITIAL TIME\s*=\s*([\d ]+)", ahead=_JAPAN, code="JMA",
+    latitude=r"^\s*LAT\.=\s*(.*)", longitude=r"^\s*LON\.=\s*(.*)", start=r"^\s*INITIAL TIME\s*=\s*([\d ]+)",
+    ahead=_JAPAN, code="JMA",
 )  # fmt: skip
 _JMA_HEADER, _JMA_NAMES = 7, "NS,EW,UD"
 
@@ -131,7 +134,7 @@ _GEONET = Layout(
     magnitude=r"^Epicentre\b.*\b(M[A-Za-z]\s+[\d.]+)", distance=r"^Epicentre\b.*\bDist\s+([\d.]+)\s*km",
     high_pass=r"transition bands are\s+([\d.]+)", peak=r"^Acceleration:\s+peak\s+(\S+)\s+mm/s/s",
     peak_time=r"^Acceleration:\s+peak\s+\S+\s+mm/s/s at\s+([\d.]+)\s*s", half_digit=0.05,
-    corrected=r"\A(corrected)", code="NZ", needed=("peak",),
+    corrected=r"\A(corrected)", code="NZ", needed=("peak",), rms=r"^Acceleration:.*\brms\s+([\d.]+)",
 )  # fmt: skip
 _GEONET_FIRST = re.compile(r"(Un)?corrected accelerogram\s", re.I)
 _TEXT, _HEADER, _PER_LINE, _WIDTH = 16, 26, 10, 8
@@ -172,13 +175,16 @@ def _geonet_channel(block: list[str], options: Options, notes: tuple[str, ...]) 
     if at is not None and len(integers) == 40 and integers[_PREPENDED].isdecimal():
         at += int(integers[_PREPENDED]) * number("the step", _GEONET.declared("step", head))
     values = filled(rows[:wanted], declared, _PER_LINE, _WIDTH) * factor
-    return _GEONET.channel(head, values, options, warnings=notes, peak_time=at)
+    record = _GEONET.channel(head, values, options, warnings=notes, peak_time=at)
+    if len(rows) == wanted:
+        return record
+    return agree_with_velocity(record, filled(rows[wanted : 2 * wanted], declared, _PER_LINE, _WIDTH) / 1000)
 
 
 _SMC = Layout(
     "cm/s2", component=r"component\s*=\s*(\S+)", station=r"station\s*=\s*(.*?)\s*component",
     event=r"^\s+\d{4}\s+\d+\s+\d+\s+\d{4}\s+(.*)$", distance=r"epicentral dist\s*=\s*([\d.]+)",
-    corrected=r"\A(2) ",
+    corrected=r"\A(2) ", event_time=r"^\s+(\d{4}\s+\d+\s+\d+\s+\d{4}) ",
 )  # fmt: skip
 _SMC_KINDS = {"0": "unknown", "1": "uncorrected accelerogram", "2": "corrected accelerogram", "3": "velocity",
               "4": "displacement", "5": "response spectrum", "6": "Fourier spectrum"}  # fmt: skip
@@ -190,6 +196,8 @@ _SMC_TEXT, _SMC_INTEGERS, _SMC_REALS = 11, 17, 27
 _COMMENTS, _SAMPLES = 15, 16
 _RATE, _LARGEST, _SMALLEST, _CORNER = 1, 29, 31, 32
 """Places in the integer and in the real header; the time of an extreme stands before its value."""
+_PLACE = slice(10, 13)
+"""Places in the real header of latitude, longitude and elevation of the station."""
 _MISSING = 1.69e38
 
 
@@ -226,6 +234,7 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     peak, at = max(extremes, default=(None, 0.0))
     head = "\n".join(text[:_SMC_TEXT])
     scales = " ".join(optional(r"^Moment (Mag.*)", head).replace("Mag", "Mw").split())
+    place: dict[str, Any] = site(*(real if abs(real) < _MISSING else None for real in reals[_PLACE].tolist()))
     record = _SMC.channel(
         head,
         values,
@@ -233,6 +242,7 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
         step=1 / rate,
         **typed_magnitude(scales),
         warnings=notes,
+        **place,
         high_pass_frequency=float(reals[_CORNER]) if 0 < reals[_CORNER] < 100 else None,
         peak=peak,
         peak_time=float(at) if 0 < at < _MISSING else None,

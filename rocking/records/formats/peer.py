@@ -18,6 +18,9 @@ _UNITS = (
     (re.compile(r"\b(UNITS OF|UNITS ARE|ACCELERATION IN)\s*\(?G\b", re.I), "g"),
 )
 _VELOCITY_UNIT = re.compile(r"\bUNITS (OF|ARE) \(?(CM|M|IN)/S(EC)?\b(?!\s*[/*^\d])")
+_SERIES = re.compile(
+    r"^(?!.*\bACC(?:EL|\b)).*\b(VELOCITY|DISPLACEMENT)\b.*\b(?:TIME|HISTORY|UNITS?|CM|IN)\b", re.M
+)
 _LAYOUT = Layout(
     event_time=r"\A.*\n.*?(\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?)", peak=r"PGA\s*=\s*([0-9.]+)\s*G\b",
     peak_unit="g", half_digit=5e-6,
@@ -43,10 +46,11 @@ def _kind(content: bytes) -> str:
     header = _header(content)
     if header is None:
         return ""
-    text = " ".join(header[0]).upper()
-    if re.search(r"\bACC(EL|\b)", text):
+    text = "\n".join(header[0]).upper()
+    series = _SERIES.search(text)  # what it says counts more than a title that speaks of an accelerogram
+    if not series and re.search(r"\bACC(EL|\b)", text):
         return "acceleration"
-    named = re.search(r"\b(VELOCITY|DISPLACEMENT)\b", text)
+    named = series or re.search(r"\b(VELOCITY|DISPLACEMENT)\b", text)
     return named[1].lower() if named else "velocity" if _VELOCITY_UNIT.search(text) else "acceleration"
 
 

@@ -36,7 +36,8 @@ from rocking.records.formats.text import (
     number,
     whole,
 )
-from rocking.records.instrument import is_vertical, site_warnings
+from rocking.records.instrument import is_vertical
+from rocking.records.plausibility import agree_with_velocity
 
 _HEADER, _REALS, _RATE = 27, 20, 8
 _TEXT = 13
@@ -46,10 +47,12 @@ _LONGEST_GAP = 0.25
 """s."""
 _LENGTH = r"NO\. OF POINTS\s*=\s*\S+\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)"
 _SIZES: dict[str, Any] = {"unit": "g/10", "samples": r"NO\. OF POINTS\s*=\s*(\S+)"}
-_USC = Layout(**_SIZES, component=r"^COMP\s+(\S+)", station=r"^STATION\s+(USC#\s*\d+)")
+_USC = Layout(
+    **_SIZES, rms=r"^RMS.*=\s*([\d.]+) G/10", component=r"^COMP\s+(\S+)", station=r"^STATION\s+(USC#\s*\d+)",
+)  # fmt: skip
 _RENADIC = Layout(
     **_SIZES, component=r"^CHAN\s*\d+:\s*(\S+)", station=r"^(QDR S/N\s*\d+)", event=r"^([\d/]+ [\d:]+)",
-    peak=r"MAX\s*=\s*(-?[\d.]+)\s*G", peak_unit="g", half_digit=5e-4,
+    peak=r"MAX\s*=\s*(-?[\d.]+)\s*G", peak_unit="g", half_digit=5e-4, rms=r"^RMS.*=\s*([\d.]+) G\b(?!/)",
 )  # fmt: skip
 _BHRC = Layout(
     **_SIZES, component=r"^COMP\s+(\S+)", station=r"FILE:\s*(\w+)", event=r"^Origin Time\s*:\s*(\S+\s+\S+)",
@@ -58,10 +61,11 @@ _BHRC = Layout(
 )  # fmt: skip
 _CSMIP: dict[str, Any] = {
     "component": r"^Chan\s*\d+:\s*(\S+)", "station": r"^Station No\.\s*(\S+)", "place": r"^Station No\.\s*\S+\s+(.*)",
+    "location": r"\bLocation:\s*(.*?)\s*$", "event_time": r"^(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)",
 }  # fmt: skip
 _CSMIP_1 = Layout(
     **_CSMIP, peak=r"Max\s*=\s*(-?[\d.]+)\s*g", peak_unit="g", half_digit=5e-4,
-    duration=r"Record length\s*=\s*([\d.]+)",
+    duration=r"Record length\s*=\s*([\d.]+)", rms=r"\A(?:.*\n){20}.{30}(.{10})",
 )  # fmt: skip
 _CSMIP_2 = Layout(
     **_CSMIP, high_pass=r"(?:3 dB pts at|RAMPS AT)\s+([\d.]+)", peak=r"Peak acceleration\s*=\s*(-?[\d.]+)",
@@ -131,8 +135,11 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
     values, offset = without_offset(samples, options.unit_of("g/10"))
     step = number("duration", optional(_LENGTH, head)) / values.size
     reals = " ".join(block[_REALS : _REALS + 2]).split()
-    rate = float(reals[_RATE]) if len(reals) > _RATE and is_number(reals[_RATE]) else 0.0
+    printed = reals[_RATE] if len(reals) > _RATE else "0"
+    rate = float(printed) if is_number(printed) else 0.0
     notes: tuple[str, ...] = ()
+    if not is_number(printed):
+        notes = (f"The header gives a rate of {printed!r}, which is no number: the file may be damaged.",)
     if 1 <= rate <= 1e4 and abs(rate * step - 1) > 1e-3:
         notes = (
             f"The header gives a rate of {rate:g} Hz, but duration and number of points a step of {step:g} s.",
@@ -211,20 +218,19 @@ def _csmip(block: list[str], options: Options, held: int) -> Accelerogram:
         check_equal("the interval", interval, step)
     layout = _CSMIP_2 if is_corrected else _CSMIP_1
     named = _named(head, held)
-    return layout.channel(
+    record = layout.channel(
         head, values, options, unit=facts["unit"], step=step, processed=is_corrected, **named
     )
+    for part, (_, data) in zip(parts[1:], announced[1:], strict=True):
+        if (data.groupdict().get("quantity") or "").lower() == "veloc" and data["unit"].lower() == "cm/sec":
+            record = agree_with_velocity(record, part / 100)
+    return record
 
 
 def _named(head: str, held: int) -> dict[str, Any]:
     title = next((row.strip() for row in head.split("\n") if re.search(r"\bEARTHQUAKE\b", row)), "")
-    return {
-        "event": optional(r"^(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)", head) or title[:60],
-        "warnings": (
-            *missing_channels(head, held),
-            *site_warnings(optional(r"\bLocation:\s*(.*?)\s*$", head)),
-        ),
-    }
+    event = _CSMIP_1.text("event_time", head) or title[:60]
+    return {"event": event, "warnings": missing_channels(head, held)}
 
 
 def _film(block: list[str], options: Options, held: int) -> Accelerogram:
@@ -235,7 +241,7 @@ def _film(block: list[str], options: Options, held: int) -> Accelerogram:
     named = _named(head, held)
     named["warnings"] = (*notes, *named["warnings"])
     in_file = values * acceleration_factor("g/10")
-    layout = replace(_CSMIP_1, duration="")
+    layout = replace(_CSMIP_1, duration="", rms="")
     return layout.channel(
         head, even, options, unit="g/10", step=step, processing=notes, in_file=in_file, **named
     )

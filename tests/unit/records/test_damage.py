@@ -175,6 +175,9 @@ def test_miniseed_blocks_that_come_twice_are_told(counts: np.ndarray) -> None:
     blocks = [content[i : i + 512] for i in range(0, len(content), 512)]
     (record,) = read_content(b"".join(blocks[:-3] + blocks[:3]), "made", Options(unit="mm/s2"))
     assert record.acceleration.size < 4000 and any("overlap" in told for told in record.warnings)
+    assert any("Block number 1 follows" not in told and "overwritten" in told for told in record.warnings)
+    (record,) = read_content(b"".join([*blocks[:4], *blocks[3:]]), "made", Options(unit="mm/s2"))
+    assert any("Block number 4 follows number 4" in told for told in record.warnings)
 
 
 @pytest.mark.parametrize(("old", "new", "word"), [
@@ -315,3 +318,52 @@ def test_channels_have_names_of_their_own() -> None:
     assert [r.azimuth for r in read_text(text)] == [0.0, 0.0, None]
     (single,) = read_text("\n".join(f"{v:.4f}" for v in TRUE), unit="m/s2", time_step=STEP)
     assert single.component == "channel 1"
+
+
+def test_a_root_mean_square_that_contradicts_its_header_is_warned_of() -> None:
+    rms = np.sqrt(np.mean(TRUE**2)) / 9.80665
+    for factor, is_told in ((1.0, False), (1.5, True)):
+        (record,) = read_text(
+            made("RENADIC").replace("\nRMS\n", f"\nRMS ACCEL OF COMPLETE RECORD ={factor * rms:6.3f} G\n")
+        )
+        assert any("root mean square" in sentence for sentence in record.warnings) == is_told
+
+
+def test_a_velocity_that_contradicts_its_acceleration_is_warned_of() -> None:
+    text = made("CSMIP V1/V2: of 1983")
+    head, rest = text.split("VELOC DATA EQUALLY", 1)
+    velocity = np.array(rest.split("\n", 1)[1].split(f" {N} POINTS", 1)[0].split(), dtype=float)
+    other = text.replace(
+        made_files.columns(velocity, 8, "10.3f"), made_files.columns(velocity[::-1], 8, "10.3f")
+    )
+    assert head and other != text and not read_text(text)[0].warnings
+    assert "own velocity is not the integral" in read_text(other)[0].warnings[0]
+
+
+@pytest.mark.parametrize("name", ["BHRC", "DYNA (ESM, ITACA, AFAD)", "GeoNet V1A/V2A"])
+def test_what_a_fortran_program_prints_for_no_number_is_refused(name: str) -> None:
+    lines = made(name).rstrip("\n").split("\n")
+    at = max(i for i, line in enumerate(lines) if line.strip()[:1] in tuple("-.0123456789"))
+    old = lines[at].split()[-1]
+    lines[at] = lines[at].replace(old, "1.#IND".rjust(len(old)))
+    with pytest.raises(RecordError, match=r"1\.#I"):
+        read_text("\n".join(lines) + "\n")
+
+
+@pytest.mark.parametrize("title", ["PEER STRONG MOTION ACCELEROGRAM", "PEER NGA RECORD"])
+@pytest.mark.parametrize(
+    "line", ["VELOCITY TIME SERIES IN UNITS OF CM/S", "VELOCITY TIME HISTORY, UNITS: CM/S"]
+)
+def test_a_peer_file_of_velocity_is_no_acceleration_by_its_title(title: str, line: str) -> None:
+    text = made("PEER AT2").replace("ACCELERATION TIME SERIES IN UNITS OF G", line)
+    with pytest.raises(RecordError, match="PEER velocity file"):
+        read_text(text.replace("PEER NGA STRONG MOTION DATABASE RECORD", title), unit="g")
+
+
+@pytest.mark.parametrize(("name", "old"), [
+    ("USGS SMC", "station = Made"), ("DYNA (ESM, ITACA, AFAD)", "STATION_CODE: X"), ("K-NET/KiK-net", "MADE01"),
+    ("PEER AT2", "Station"), ("AFAD/NSMN text", "0921"),
+])  # fmt: skip
+def test_a_station_on_a_floor_is_told_in_every_format(name: str, old: str) -> None:
+    text = made(name).replace(old, old.rstrip("Xx") + " 12th Fl", 1)
+    assert any("in a structure" in sentence for sentence in read_text(text)[0].warnings)

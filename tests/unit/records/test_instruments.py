@@ -1,14 +1,16 @@
 """Formats that obspy opens for us: miniSEED with StationXML, SAC, EVT; directions, and the obspy plug-ins."""
 
 import io
+import os
 from importlib.metadata import entry_points
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from rocking.errors import RecordError, UndeclaredError
-from rocking.records import read
+from rocking.errors import RecordError, RockingError, UndeclaredError
+from rocking.records import load_catalogue, read
+from rocking.records.folder import list_folder
 from rocking.records.formats import FORMATS
 from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.obspy_plugin import PLUGINS
@@ -151,3 +153,21 @@ def test_every_plug_in_is_declared_and_refuses_quietly(tmp_path: Path) -> None:
         assert callable(group["readFormat"].load())
         for source in (str(rubbish), rubbish, io.BytesIO(b""), tmp_path / "none", Broken(), None, 7):
             assert is_format(source) is False
+
+
+@pytest.mark.parametrize("kind", ["pipe", "device", "link to a device"])
+def test_an_input_that_is_no_file_is_refused_and_not_waited_for(miniseed: Path, kind: str) -> None:
+    """As record, as inventory, beside a record, and as catalogue."""
+    odd = miniseed.parent / "odd.xml"
+    if kind == "pipe":
+        os.mkfifo(odd)
+    else:
+        odd.symlink_to("/dev/zero")
+    path = Path("/dev/zero") if kind == "device" else odd
+    for reads in (lambda: read(path), lambda: read(miniseed, inventory=path), lambda: load_catalogue(path)):
+        with pytest.raises(RockingError, match="no regular file") as caught:
+            reads()
+        assert "\n" not in str(caught.value)
+    with pytest.raises(RecordError, match="none beside it does"):
+        read(miniseed)
+    assert [file.file for file in list_folder(miniseed.parent)[0]] == ["record.mseed"]

@@ -150,3 +150,17 @@ def test_variants_differ_and_all_run() -> None:
 def test_settings_out_of_range(settings: dict, field: str) -> None:
     with pytest.raises(RecordError, match=field):
         Processing(**settings)
+
+
+def test_the_displacement_of_a_filtered_record_is_that_with_its_pads() -> None:
+    """Without what the filter put before the record, the displacement drifts."""
+    rng = np.random.default_rng(2)
+    raw = Accelerogram(rng.standard_normal(4000) * np.hanning(4000) + 0.05, 0.01)
+    settings = {"baseline": "linear", "high_pass": 0.1}
+    cut, padded = (process(raw, Processing(**settings, keep_padding=kept)) for kept in (False, True))
+    pad = (padded.acceleration.size - cut.acceleration.size) // 2
+    for integrated in (velocity, displacement):
+        assert integrated(cut) == pytest.approx(integrated(padded)[pad:-pad], abs=1e-12)
+        assert integrated(cut.scaled(-2.0)) == pytest.approx(-2.0 * integrated(cut))
+    assert cut.measures.peak_displacement == np.abs(displacement(cut)).max()
+    assert cut.spectrum(np.array([1.0])).displacement.shape == (1,)
