@@ -13,7 +13,6 @@ from rocking.records.formats.header import (
     blocks,
     check_nothing_left,
     distance,
-    missing_channels,
     optional,
 )
 from rocking.records.formats.text import count, fields, filled
@@ -84,10 +83,8 @@ def _channel(block: list[str], options: Options, held: int) -> Accelerogram | No
         unit=data["unit"],
         step=step,
         component=_component(head),
-        warnings=(
-            *missing_channels(head, held),
-            *([note] if wrong else []),
-        ),
+        warnings=(note,) if wrong else (),
+        held=held,
         event=optional(r"(?:Rcrd|Record)?\s*(?:of)?\s*(.*)", block[1]),
         elevation=elevation,
         epicentral_distance=distance(from_epicentre),

@@ -103,12 +103,14 @@ class Layout:
         peak: float | None = None,
         peak_time: float | None = None,
         in_file: np.ndarray | None = None,
+        held: int = 10**9,
         **fields: Any,
     ) -> Accelerogram:
         """Return the accelerogram of a header and its samples (n,), after holding duration and peak against them.
 
         unit, step [s], peak and its time where they follow from something else than the patterns; fields: more of an
-        Accelerogram, before what the header says. in_file: (n,) m/s² as agree_with_header takes it.
+        Accelerogram, before what the header says. in_file: (n,) m/s² as agree_with_header takes it. held: channels in
+        the file.
         Raises RecordError when something is missing or contradicts the samples.
         """
         for name in self.needed:
@@ -117,7 +119,13 @@ class Layout:
             rate = self.rate and self.text("rate", head)
             hertz = positive(RecordError, "the rate", number("the rate", rate), "Hz") if rate else 0.0
             step = 1 / hertz if rate else number("the step", self.declared("step", head))
-        fields["warnings"] = (*fields.get("warnings", ()), *site_warnings(self.text("location", head)))
+        spoken = optional_number(r"\(\s*(\d+)\s+Chns\s+of", head) or 0.0
+        missing = f"The header speaks of {spoken:g} channels, but the file holds {held}."
+        fields["warnings"] = (
+            *fields.get("warnings", ()),
+            *([missing] if held < spoken < 1e4 else []),
+            *site_warnings(self.text("location", head)),
+        )
         record = options.accelerogram(unit or self.unit, values, step, **self._facts(head) | fields)
         if duration := self.text("duration", head):
             declared = number("the duration", duration)
@@ -172,9 +180,9 @@ def required(what: str, pattern: str, text: str) -> re.Match[str]:
 
 
 def optional(pattern: str, text: str) -> str:
-    """Return the first group of the first match of `pattern` in `text`, stripped, or ""."""
+    """Return the last group of the first match of `pattern` in `text`, stripped, or ""."""
     match = re.search(pattern, text, re.I | re.M) if pattern else None
-    return match[1].strip() if match else ""
+    return (match[match.lastindex or 0] or "").strip() if match else ""
 
 
 def optional_number(pattern: str, text: str) -> float | None:
@@ -267,14 +275,6 @@ def check_equal(field: str, first: float, second: float, relative: float = 1e-3)
         raise RecordError(
             f"the header gives {field} as {first:g} and as {second:g}; it is damaged, fetch it again."
         )
-
-
-def missing_channels(head: str, held: int) -> tuple[str, ...]:
-    """Return a warning when `head` speaks of more channels of the record than the file holds."""
-    spoken = optional_number(r"\(\s*(\d+)\s+Chns\s+of", head)
-    if spoken is None or not held < spoken < 1e4:
-        return ()
-    return (f"The header speaks of {spoken:g} channels, but the file holds {held}.",)
 
 
 def check_nothing_left(rows: list[str]) -> None:

@@ -4,8 +4,7 @@ A header of 13 lines of text, 7 of integers and 7 of reals stands above each cha
 """
 
 import re
-from collections.abc import Callable
-from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -19,7 +18,6 @@ from rocking.records.formats.header import (
     blocks,
     check_equal,
     check_nothing_left,
-    missing_channels,
     optional,
     optional_number,
     required,
@@ -49,6 +47,7 @@ _LENGTH = r"NO\. OF POINTS\s*=\s*\S+\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)
 _SIZES: dict[str, Any] = {"unit": "g/10", "samples": r"NO\. OF POINTS\s*=\s*(\S+)"}
 _USC = Layout(
     **_SIZES, rms=r"^RMS.*=\s*([\d.]+) G/10", component=r"^COMP\s+(\S+)", station=r"^STATION\s+(USC#\s*\d+)",
+    event=r"\A.*\n(.{,60})",
 )  # fmt: skip
 _RENADIC = Layout(
     **_SIZES, component=r"^CHAN\s*\d+:\s*(\S+)", station=r"^(QDR S/N\s*\d+)", event=r"^([\d/]+ [\d:]+)",
@@ -62,7 +61,11 @@ _BHRC = Layout(
 _CSMIP: dict[str, Any] = {
     "component": r"^Chan\s*\d+:\s*(\S+)", "station": r"^Station No\.\s*(\S+)", "place": r"^Station No\.\s*\S+\s+(.*)",
     "location": r"\bLocation:\s*(.*?)\s*$", "event_time": r"^(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)",
+    "event": r"^(?:(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)|\s*(\S.*\bEARTHQUAKE\b.*))",
 }  # fmt: skip
+_FILM = Layout(
+    **_CSMIP, **_SIZES, peak=r"Max\s*=\s*(-?[\d.]+)\s*g", peak_unit="g", half_digit=5e-4,
+)  # fmt: skip
 _CSMIP_1 = Layout(
     **_CSMIP, peak=r"Max\s*=\s*(-?[\d.]+)\s*g", peak_unit="g", half_digit=5e-4,
     duration=r"Record length\s*=\s*([\d.]+)", rms=r"\A(?:.*\n){20}.{30}(.{10})",
@@ -84,49 +87,37 @@ def _rows(block: list[str]) -> tuple[str, list[str]]:
     return head, [row for row in body[:end] if row.strip()]
 
 
-def _pairs(head: str, rows: list[str], margin: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return (times, samples) of five (t, a) pairs a line in columns of 7."""
+def _digitised(
+    layout: Layout, block: list[str], options: Options, held: int, margin: int = 0, is_even: bool = False
+) -> Accelerogram:
+    """Return a channel of five pairs of time and acceleration a line, in columns of 7.
+
+    Points of film stand where the trace bends, a dozen to a hundred a second, and are joined by lines.
+    Raises RecordError at a gap, or where the times, which of this format are_even, are not so.
+    """
+    head, rows = _rows(block)
     table = in_columns(fields(rows, 7, margin), 2)
-    times = table[:, 0]
-    whole(times, _USC.count(head), per_line=0)
+    times, values = table.T
+    whole(times, layout.count(head), per_line=0)
     duration = number("duration", optional(_LENGTH, head))
-    step = (times[-1] - times[0]) / (times.size - 1)
-    if abs(duration - times[-1]) > 2 * step + 0.001:  # which may count a last step or not
+    if (
+        abs(duration - times[-1]) > 2 * np.ptp(times) / (times.size - 1) + 0.001
+    ):  # which may count a last step or not
         raise RecordError(
             f"the header declares a length of {duration:g} s, but the last sample stands at {times[-1]:g} s; "
             "the file is damaged or its header belongs to another record."
         )
-    return times, table[:, 1]
-
-
-def _evened(times: np.ndarray, values: np.ndarray) -> tuple[float, np.ndarray, tuple[str, ...]]:
-    """Return (step, samples at even times, sentences) of a trace digitised from film: linear between its points.
-
-    Raises RecordError at a gap: points were digitised where the trace bends, a dozen to a hundred a second.
-    """
     step = even_step(times)
     if step is not None:
-        return step, values, ()
+        return layout.channel(head, values, options, step=step, held=held)
+    if is_even:
+        raise RecordError("the times are not evenly spaced, but this format's are; the file is damaged.")
     check_no_gap(times, _LONGEST_GAP)
     even = np.arange(round(times[0] / _STEP), int(times[-1] / _STEP + 1e-6) + 1) * _STEP
-    sentence = f"The {times.size} samples are unevenly spaced; interpolated linearly to {even.size}, {_STEP:g} s apart."
-    return _STEP, np.interp(even, times, values), (sentence,)
-
-
-def _usc(block: list[str], options: Options, _: int) -> Accelerogram:
-    head, rows = _rows(block)
-    step, values, notes = _evened(*_pairs(head, rows, margin=1))
-    event = block[1].strip()[:60]
-    return _USC.channel(head, values, options, step=step, event=event, processing=notes, warnings=notes)
-
-
-def _renadic(block: list[str], options: Options, held: int) -> Accelerogram:
-    head, rows = _rows(block)
-    times, values = _pairs(head, rows, margin=0)
-    step = even_step(times)
-    if step is None:
-        raise RecordError("the times are not evenly spaced, but RENADIC's are; the file is damaged.")
-    return _RENADIC.channel(head, values, options, step=step, warnings=missing_channels(head, held))
+    note = f"The {times.size} samples are unevenly spaced; interpolated linearly to {even.size}, {_STEP:g} s apart."
+    told: dict[str, Any] = {"processing": (note,), "warnings": (note,)}
+    joined, in_file = np.interp(even, times, values), values * acceleration_factor("g/10")
+    return layout.channel(head, joined, options, step=_STEP, held=held, in_file=in_file, **told)
 
 
 def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
@@ -195,7 +186,7 @@ def _announcement(line: str) -> re.Match[str] | None:
 def _csmip(block: list[str], options: Options, held: int) -> Accelerogram:
     announced = [(i, data) for i, line in enumerate(block) if (data := _announcement(line))]
     if not announced and any(re.match(r"UNITS\b.*\bG/10", line, re.I) for line in block[:_TEXT]):
-        return _film(block, options, held)
+        return _digitised(_FILM, block, options, held)
     facts: dict[str, Any] = announced[0][1].groupdict() if announced else {}
     if not announced or (facts.get("quantity") or "accel").lower() != "accel":
         raise RecordError(
@@ -217,34 +208,12 @@ def _csmip(block: list[str], options: Options, held: int) -> Accelerogram:
     if is_corrected and interval:
         check_equal("the interval", interval, step)
     layout = _CSMIP_2 if is_corrected else _CSMIP_1
-    named = _named(head, held)
-    record = layout.channel(
-        head, values, options, unit=facts["unit"], step=step, processed=is_corrected, **named
-    )
+    told: dict[str, Any] = {"processed": is_corrected, "held": held}
+    record = layout.channel(head, values, options, unit=facts["unit"], step=step, **told)
     for part, (_, data) in zip(parts[1:], announced[1:], strict=True):
         if (data.groupdict().get("quantity") or "").lower() == "veloc" and data["unit"].lower() == "cm/sec":
             record = agree_with_velocity(record, part / 100)
     return record
-
-
-def _named(head: str, held: int) -> dict[str, Any]:
-    title = next((row.strip() for row in head.split("\n") if re.search(r"\bEARTHQUAKE\b", row)), "")
-    event = _CSMIP_1.text("event_time", head) or title[:60]
-    return {"event": event, "warnings": missing_channels(head, held)}
-
-
-def _film(block: list[str], options: Options, held: int) -> Accelerogram:
-    """Return a raw channel digitised from film: (t, a) pairs in seconds and tenths of g."""
-    head, rows = _rows(block)
-    times, values = _pairs(head, rows, margin=0)
-    step, even, notes = _evened(times, values)
-    named = _named(head, held)
-    named["warnings"] = (*notes, *named["warnings"])
-    in_file = values * acceleration_factor("g/10")
-    layout = replace(_CSMIP_1, duration="", rms="")
-    return layout.channel(
-        head, even, options, unit="g/10", step=step, processing=notes, in_file=in_file, **named
-    )
 
 
 def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
@@ -252,13 +221,7 @@ def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
 
 
 def _volume1(
-    name: str,
-    origin: str,
-    sought: str,
-    first: str,
-    read: Callable[[list[str], Options, int], Accelerogram],
-    plugin: str,
-    mark: str = "",
+    name: str, origin: str, sought: str, first: str, read: Any, plugin: str, mark: str = ""
 ) -> Format:
     """Return the format whose channels start with a line like `first`; `mark` stands in the text below it."""
     pattern = re.compile(first, re.I)
@@ -275,10 +238,12 @@ def _volume1(
 
 USC = _volume1("USC Volume 1", "University of Southern California",
     "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I",
-    r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", _usc, "USC_V1")  # fmt: skip
+    r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", partial(_digitised, _USC, margin=1),
+    "USC_V1")  # fmt: skip
 RENADIC = _volume1("RENADIC", "RENADIC (Universidad de Chile)",
     "first line UNCORRECTED ACCELEROGRAM DATA PROCESSED with RENADIC below",
-    r"UNCORRECTED ACCELEROGRAM DATA\s+PROCESSED", _renadic, "RENADIC", "RENADIC")  # fmt: skip
+    r"UNCORRECTED ACCELEROGRAM DATA\s+PROCESSED", partial(_digitised, _RENADIC, is_even=True), "RENADIC",
+    "RENADIC")  # fmt: skip
 BHRC = _volume1("BHRC", "BHRC, Iran", "first line * VOL1DS FILE:", r"\* VOL1DS FILE:", _bhrc, "BHRC")
 CSMIP = Format("CSMIP V1/V2", "California Geological Survey (CSMIP, CDMG)",
     "first line like Uncorrected Accelerogram Data Processed, or Corrected accelerogram Chan", _is_csmip,
