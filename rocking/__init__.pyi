@@ -24,7 +24,13 @@ from .pulses import PulseAnalysis as PulseAnalysis
 from .pulses import PulseSettings as PulseSettings
 from .pulses import extract_pulses as extract_pulses
 from .records import Accelerogram as Accelerogram
+from .records import RotD as RotD
 from .records import read as read
+from .records import rotd as rotd
+from .records.measures import RecordMeasures as RecordMeasures
+from .records.measures import ResponseSpectrum as ResponseSpectrum
+from .records.measures import record_measures as record_measures
+from .records.measures import response_spectrum as response_spectrum
 from .reports.panels import plot as plot
 from .sine_pulse import Maximum as Maximum
 from .sine_pulse import Regime as Regime

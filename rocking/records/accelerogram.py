@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from pandas import DataFrame
 
-    from rocking.records.measures import RecordMeasures, ResponseSpectrum
+    from rocking import RecordMeasures, ResponseSpectrum
 
 
 @dataclass(frozen=True)
@@ -140,15 +140,15 @@ class Accelerogram:
         >>> round(record.measures.peak_velocity, 2)
         1.02
         """
-        from rocking.records.measures import record_measures  # which stands above this
+        from rocking import record_measures  # which stands above this
 
         return record_measures(self)
 
     def spectrum(self, periods: np.ndarray | None = None, damping: float = 0.05) -> "ResponseSpectrum":
         """Return the response spectrum at undamped `periods`, s, as response_spectrum does; None: at its own."""
-        from rocking.records.measures import PERIODS, response_spectrum
+        from rocking import response_spectrum
 
-        return response_spectrum(self, PERIODS if periods is None else periods, damping)
+        return response_spectrum(self, periods, damping)
 
     @cached_property
     def sha256(self) -> str:

@@ -16,6 +16,9 @@ class RotD:
     """Peak accelerations over all directions (Boore 2010), m/s²: median and largest, and the azimuth of the largest.
 
     azimuth: degrees clockwise from north in [0, 180), or from the first component where azimuths are unknown.
+
+    >>> rocking.RotD(rotd50=2.0, rotd100=2.5, azimuth=30.0).rotd100
+    2.5
     """
 
     rotd50: float
@@ -60,6 +63,10 @@ def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
     """Return RotD50 and RotD100 of peak acceleration over directions `step` degrees apart.
 
     Components without azimuths are taken as orthogonal.
+
+    >>> north, across, up = rocking.read("records/20161113_110259_WTMC_20.V2A")
+    >>> round(rocking.rotd(north, across).rotd100, 1)
+    9.9
     """
     if not 0 < step <= 90:
         raise RecordError(f"step is {step!r} degrees, but must be above 0 and at most 90.")
