@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.signal import detrend
 
 from rocking.assessment.fate import Fate
 from rocking.assessment.rows.of_folder import RecordTables
@@ -136,11 +135,13 @@ def _case(
 def _motion(accelerogram: Accelerogram, tables: RecordTables) -> Content:
     """Acceleration [m/s²] and its pulse, and the displacement [m] that moves the drawing, over the whole record."""
     times, duration = accelerogram.times, accelerogram.duration
+    moved = displacement(accelerogram)
+    line = np.polyval(np.polyfit(times, moved, 1), times)
     kept = partial(extremes, times, begin=0.0, end=duration)
     said: Content = {
         "duration": duration,
         "acceleration": packed(kept(accelerogram.acceleration)),
-        "displacement": packed(kept(detrend(displacement(accelerogram)))),
+        "displacement": packed(kept(moved - line)),
     }
     ranked = [row for row in tables.pulses if row.component == accelerogram.component and row.ranked]
     if ranked:
