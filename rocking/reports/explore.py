@@ -55,10 +55,12 @@ def record_content(
     worst = worst_cases(tables.comparison)
     fates = {fate.structure: fate for fate in tables.verdicts}
     components = {row.component for row in worst.values()}
+    warnings = [each for row in tables.record for each in row.warnings]
+    warnings += [row.warning for row in tables.maxima if row.warning]
     return {
         "id": record,
         "failure": " ".join(failure.message for failure in tables.failures),
-        "warnings": list(dict.fromkeys(each for row in tables.record for each in row.warnings)),
+        "warnings": list(dict.fromkeys(warnings)),
         "pga": _number(
             max((row.peak_acceleration_m_s2 / GRAVITY for row in tables.record), default=math.nan)
         ),
@@ -111,7 +113,7 @@ def _case(
 ) -> Content:
     predicted = row.predicted_rotation_ratio if row else math.nan
     given, low, high, closed = (
-        printing.ratio(each)
+        printing.ratio(each, 2)
         for each in (fate.rotation_ratio, fate.rotation_ratio_low, fate.rotation_ratio_high, predicted)
     )
     band = f" (5 to 95 % of the members: {low} to {high})" if fate.members else ""

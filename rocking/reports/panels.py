@@ -32,6 +32,8 @@ ZERO: dict[str, Any] = {"color": "0.8", "linewidth": 0.6, "zorder": 0}
 _POINTS = 400
 _SMALLEST, _FALLEN = 1e-3, 1.6
 """Rotation ratio below which a point is set on the edge of a scatter, and where overturning is set."""
+_AROUND = ((0, 4), (0, -9), (7, -2), (-7, -2))
+"""Where the numbers of structures that stand side by side are written, points."""
 _MOST_DRAWN = 5000
 """Points that are drawn as shapes; more become a picture, whose size does not grow with them."""
 
@@ -149,11 +151,10 @@ def _draw_placed(axes: Axes, places: Iterable[Placed]) -> None:
     shared: dict[tuple[float, float], list[str]] = {}
     for number, x, y in places:
         shared.setdefault((float(f"{x:.3g}"), float(f"{y:.3g}")), []).append(number)
-    for (x, y), numbers in shared.items():
+    for place, ((x, y), numbers) in enumerate(sorted(shared.items())):
         axes.plot(x, y, "o", color=UPLIFT, markersize=3.5, fillstyle="none")
-        axes.annotate(
-            ",".join(numbers), (x, y), xytext=(3, 2), textcoords="offset points", fontsize=7, color=UPLIFT
-        )
+        beside: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7, "color": UPLIFT}
+        axes.annotate(",".join(numbers), (x, y), _AROUND[place % len(_AROUND)], **beside, ha="center")
 
 
 def draw_energy_map(

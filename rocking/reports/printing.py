@@ -6,6 +6,7 @@ from functools import partial
 from itertools import accumulate
 from typing import Any
 
+from rocking.assessment.verdict import NEGLIGIBLE, rests
 from rocking.quantities import counted
 from rocking.tables import Row
 
@@ -65,10 +66,10 @@ def words(text: str | Sequence[str] | None) -> str:
 
 
 def ratio(value: float | None, digits: int = 3) -> str:
-    """Return a rotation ratio: a number, "overturns" for inf, "no uplift" for zero, a dash for nan or None."""
-    if value is not None and math.isinf(value):
-        return "overturns"
-    return "no uplift" if value == 0 else number(value, digits)
+    """Return a rotation ratio: a number, "overturns" for inf, "rests" up to a thousandth, a dash for nan or None."""
+    if value is None or NEGLIGIBLE < value < math.inf:
+        return number(value, digits)
+    return NOTHING if math.isnan(value) else "rests" if rests(value) else "overturns"
 
 
 def listed(names: Sequence[str], most: int = 6) -> str:

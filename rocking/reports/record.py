@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from importlib.metadata import version
 from textwrap import wrap
 from typing import Any
@@ -267,7 +267,7 @@ def strip_figure(fates: Sequence[Fate], report: RecordReport) -> Figure:
 
 def _draw_state(axes: Axes, report: RecordReport, fate: Fate, middle: float, top: float) -> None:
     sign, colour, ink, hatch = LOOKS[fate.verdict]
-    structure = _cracked(report, fate)
+    structure = _cracked(report.structures[fate.structure], fate.crack)
     rotation = drawn_rotation(structure, fate)
     points = np.vstack([*structure.outline(), *structure.outline(rotation)])
     low, high = points.min(axis=0), points.max(axis=0)
@@ -291,12 +291,10 @@ def _draw_state(axes: Axes, report: RecordReport, fate: Fate, middle: float, top
     axes.text(middle, foot[1] - 6.3, word, ha="center", va="center", color=ink, fontweight="bold")
 
 
-def _cracked(report: RecordReport, fate: Fate) -> Structure:
-    """The structure with the crack that statics chooses."""
-    structure = report.structures[fate.structure]
-    of_structure = (row for row in report.tables.candidates if row.structure == fate.structure)
-    chosen = next((row.position_m for row in of_structure if row.description == fate.crack), math.nan)
-    return structure.cracked_at(chosen) if math.isfinite(chosen) else structure
+@lru_cache(maxsize=100)
+def _cracked(structure: Structure, crack: str) -> Structure:
+    """The structure with one of its cracks, kept because the candidates of an arch take a tenth of a second."""
+    return next((each.structure for each in structure.candidates() if each.description == crack), structure)
 
 
 def drawn_rotation(structure: Structure, fate: Fate) -> float:
@@ -312,7 +310,7 @@ def drawn_rotation(structure: Structure, fate: Fate) -> float:
 
 def _lines(report: RecordReport, fate: Fate) -> list[str]:
     """What stands below a drawing: members, rotation, statics, and what opens."""
-    multiplier = report.structures[fate.structure].mechanism().uplift_multiplier
+    static = report.structures[fate.structure].static_multiplier
     peak = max((row.peak_acceleration_m_s2 for row in report.tables.record), default=math.nan) / GRAVITY
     lines = [
         f"{fate.count} overturn" if fate.members else "one run",
@@ -321,9 +319,9 @@ def _lines(report: RecordReport, fate: Fate) -> list[str]:
     if fate.members and not rests(fate.rotation_ratio_high) and fate.rotation_ratio_low < math.inf:
         low, high = (_printed(each, fate) for each in (fate.rotation_ratio_low, fate.rotation_ratio_high))
         lines.append(f"5–95 %: {low} to {'falling' if high == 'overturns' else high}")
-    lines.append(f"static {number(multiplier, 2)} g, PGA {number(peak / multiplier, 2)} ×")
+    lines.append(f"static {number(static, 2)} g, PGA {number(peak / static, 2)} ×")
     for crack in (fate.crack, fate.elsewhere_crack):
-        lines += wrap(crack.replace("hinges at", "hinges"), _LETTERS)
+        lines += wrap(crack.replace("hinges at", "hinges").replace("°,", ","), _LETTERS)
     if fate.elsewhere_crack and fate.elsewhere_members:
         lines.append(f"there {fate.elsewhere_overturning_members} of {fate.elsewhere_members} overturn")
     return lines
@@ -331,10 +329,8 @@ def _lines(report: RecordReport, fate: Fate) -> list[str]:
 
 def _printed(value: float, fate: Fate) -> str:
     """A rotation ratio with no more digits than the spread of the ensemble leaves a meaning."""
-    if math.isnan(value) or math.isinf(value):
+    if rests(value) or not math.isfinite(value):
         return ratio(value)
-    if rests(value):
-        return "0"
     return printing.to_spread(value, fate.rotation_ratio_high - fate.rotation_ratio_low)
 
 
@@ -357,7 +353,7 @@ def _sentences(report: RecordReport) -> list[str]:
             depends.append(fate.structure)
     remarks = [f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."]
     warnings = [each for row in report.tables.record for each in row.warnings]
-    warnings += [response.warning for response in report.responses.values() if response.warning]
+    warnings += [row.warning for row in report.tables.maxima if row.warning]
     return [*remarks[: len(depends)], *dict.fromkeys(warnings)]
 
 
@@ -714,13 +710,13 @@ def _verdict_table(report: RecordReport) -> dict[str, object]:
     return table_of(
         report.fates,
         ("No.", "auto", "r", lambda fate: report.numbers[fate.structure]),
-        ("Structure", "1.6", "l", lambda fate: short(fate.structure)),
+        ("Structure", "1.4", "l", lambda fate: short(fate.structure)),
         ("Verdict", "0.7", "l", lambda fate: strong(str(fate.verdict), fate.verdict is not Verdict.STANDS)),
         ("Members that overturn", "0.8", "l", lambda fate: words(fate.count)),
         ("As given", "0.7", "l", lambda fate: _printed(fate.rotation_ratio, fate)),
-        ("5 %", "0.5", "r", lambda fate: _printed(fate.rotation_ratio_low, fate)),
-        ("50 %", "0.5", "r", lambda fate: _printed(fate.rotation_ratio_median, fate)),
-        ("95 %", "0.7", "r", lambda fate: _printed(fate.rotation_ratio_high, fate)),
+        ("5 %", "0.75", "r", lambda fate: _printed(fate.rotation_ratio_low, fate)),
+        ("50 %", "0.75", "r", lambda fate: _printed(fate.rotation_ratio_median, fate)),
+        ("95 %", "0.75", "r", lambda fate: _printed(fate.rotation_ratio_high, fate)),
         (
             "Worst direction, sign",
             "1",
@@ -777,7 +773,12 @@ def _method_table(report: RecordReport) -> dict[str, object]:
         ("a [-]", "0.5", "r", lambda case: number(report.of(case, form, "amplitude_ratio"))),
         ("ω/p [-]", "0.5", "r", lambda case: number(report.of(case, form, "frequency_ratio"))),
         *(
-            (METHODS[each], "0.8", "r", partial(_method_ratio, report, each))
+            (
+                METHODS[each],
+                "0.8",
+                "r",
+                lambda case, each=each: strong(ratio(report.ratio(case, each)), each is whole),
+            )
             for each in METHODS
             if each in used
         ),
@@ -788,13 +789,6 @@ def _method_table(report: RecordReport) -> dict[str, object]:
     )
 
 
-def _method_ratio(report: RecordReport, method: Method, case: Case) -> Cell:
-    """A rotation ratio to three digits, in words where it is too small to be more than rest."""
-    value = report.ratio(case, method)
-    text = "rests" if value > 0 and rests(value) else ratio(value)
-    return strong(text, method is Method.MECHANISM_ON_RECORD)
-
-
 def _contacts(report: RecordReport, case: Case) -> Cell:
     failing = _contact_failure(report, case)
     holding = "hold" if report.of(case, Method.MECHANISM_ON_RECORD, "slides") is False else printing.NOTHING
@@ -802,7 +796,7 @@ def _contacts(report: RecordReport, case: Case) -> Cell:
 
 
 def _variation_table(report: RecordReport) -> dict[str, object]:
-    """The governing height of hinge or crack, and the largest rotation under each processing, component by component.
+    """The crack that turns farthest, and the largest rotation under each processing, component by component.
 
     Of each structure the component that turns it farthest.
     """

@@ -16,6 +16,7 @@ _UNITS = {
     "m_s": "m/s",
     "rad": "rad",
     "hz": "Hz",
+    "deg": "°",
     "s": "s",
     "m": "m",
 }

@@ -23,7 +23,7 @@ TEMPLATE = """
 """
 FOOTER = 780.0
 """Of 842 points: below stands the number of the page."""
-COUNTS = (1, 3, 10, 40)
+COUNTS = (1, 3, 10)
 
 
 Word = tuple[float, float, float, float, str]
@@ -71,7 +71,7 @@ def sixty(noun: str, count: int) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize("count", [1, 8, 9, 12, 40])
+@pytest.mark.parametrize("count", [1, 9, 40])
 def test_no_table_goes_on_over_a_page_after_one_row(count, tmp_path):
     """Wherever it begins on a page: at least four rows stand together, or the whole table."""
     (tmp_path / "one.typ").write_text(TEMPLATE)
@@ -111,7 +111,7 @@ def test_the_report_of_a_record_is_well_laid(example, count):
     assert set(tables_named) == {f"{number}." for number in range(1, 7)}, "each table has a number of its own"
 
 
-@pytest.mark.parametrize(("count", "records"), list(zip(COUNTS, (1, 13, 3, 13), strict=True)))
+@pytest.mark.parametrize(("count", "records"), list(zip(COUNTS, (1, 13, 13), strict=True)))
 def test_the_summary_is_well_laid(example, count, records):
     """Structures that overturn, rock and rest in turn, under one record and under many."""
     names, kinds = sixty("structure", count), list(example.structures)

@@ -27,7 +27,8 @@ def test_a_number_keeps_its_significant_digits(value, digits, printed):
 
 
 @pytest.mark.parametrize(
-    ("value", "printed"), [(math.inf, "overturns"), (0.0, "no uplift"), (0.5, "0.500"), (math.nan, "–")]
+    ("value", "printed"),
+    [(math.inf, "overturns"), (0.0, "rests"), (4.1e-4, "rests"), (0.5, "0.500"), (math.nan, "–")],
 )
 def test_a_ratio_says_what_became_of_the_structure(value, printed):
     assert printing.ratio(value) == printed
