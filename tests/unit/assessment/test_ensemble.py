@@ -211,6 +211,12 @@ def test_verdict(probability, error, said):
     assert verdict(probability, error, 0.05) is said
 
 
+def test_a_probability_that_reaches_its_limit_with_its_error_still_decides():
+    """In numbers without rounding: 1/32 and its error make 1/16."""
+    assert verdict(1 / 32, 1 / 32, 1 / 16) is Verdict.STANDS
+    assert verdict(31 / 32, 1 / 32, 1 / 16) is Verdict.OVERTURNS
+
+
 @pytest.mark.parametrize(
     ("predicted", "integrated", "words"),
     [
