@@ -350,7 +350,7 @@ def incremental_dynamic_analysis(
     intensity_measure: a name of INTENSITY_MEASURES. method: scaling takes every record to every level; cloud leaves it
     as recorded, and the levels are then those of the records. levels: ascending, in the unit of the measure; by default
     40 that lie where the probability of overturning moves. stations: what counts as one independent record, by default
-    event and station. ensemble: what is not known of a case, which then has MEMBERS members instead of itself.
+    event and station. ensemble: ranges of the uncertain inputs; each case then has MEMBERS members.
     over_cracks: whether each member counts with the worst of the cracks that may form, instead of with the one that
     statics chooses.
     Raises ConfigurationError for fewer than two stations, levels out of order, a measure that a record lacks, or a

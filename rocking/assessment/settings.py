@@ -23,7 +23,7 @@ class EnsembleSettings:
         ge=0,
         le=4096,
     )
-    amplitude_range: float = described(0.05, "share plus or minus to which the motion is known", ge=0, le=0.9)
+    amplitude_range: float = described(0.05, "uncertainty of the amplitude, ± a share", ge=0, le=0.9)
     restitution_range: float = described(
         0.05,
         "plus or minus of the restitution, where a structure says none",
@@ -72,7 +72,7 @@ class AssessmentSettings:
     )
     pulse: PredictingPulse = PredictingPulse()
     ensemble: EnsembleSettings = EnsembleSettings()
-    friction_coefficient: float = described(0.6, "beyond which a contact is said to slide", gt=0)
+    friction_coefficient: float = described(0.6, "friction beyond which a contact slides", gt=0)
     fidelity: Literal["full", "auto"] = described(
         "full",
         "full: every method, to compare them; auto: per case what settles the verdict, where no PDF reports are made",

@@ -112,7 +112,7 @@ LAYOUT = {
         *("acceleration_scale", "tolerance", "vertical", "friction_coefficient", "pulse", "candidates"),
         *("processing_variants", "fidelity", "fidelity_risk"),
     ),
-    "Ensemble: what is not known of a case varies within these ranges": ("ensemble",),
+    "Ensemble: the uncertain inputs of a case vary within these ranges": ("ensemble",),
     "Fragility from all records of the study: snakemake fragility": ("fragility",),
     "Trade of error for time: snakemake trade": ("trade",),
     "Output": ("reports", "histories", "records_per_job"),
