@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from docs.research import scores
+from docs.research.fragilities import median_of
 from docs.research.report import publish
 from docs.research.scores import Score
 from docs.research.sites import independent, structures_tried
-from rocking.assessment.fragility import curve, incremental_dynamic_analysis
+from rocking.assessment.fragility import fragility_of, incremental_dynamic_analysis
 from rocking.records import Accelerogram
 
 STATIONS = (8, 20, 35)
@@ -70,31 +71,18 @@ def population_scores(name: str) -> Iterator[Score]:
     yield from _scores(name, "drawn", LEVELS, truth, draw)
 
 
-def _scores(
-    name: str, whence: str, levels: np.ndarray, curve_of_all: np.ndarray, draw: Draw
-) -> Iterator[Score]:
-    """Coverage of the interval and bias of the median, at each number of stations."""
-    truth = curve._crossing(levels, curve_of_all, np.ones(levels.size))
+def _scores(name: str, whence: str, levels: np.ndarray, curve: np.ndarray, draw: Draw) -> Iterator[Score]:
+    """Coverage of the interval and bias of the median, at each number of stations. curve: (k,) of all of them."""
+    truth = median_of(levels, curve[None])
     for count in STATIONS:
-        rng, tried = np.random.default_rng(count), np.ones((count, levels.size))
-        medians = [
-            curve._crossing(levels, draw(rng, count).sum(axis=0), tried.sum(axis=0)) for _ in range(ESTIMATES)
-        ]
-        ends = np.array([_interval(levels, draw(rng, count), tried) for _ in range(TRIALS)])
-        held = (ends[:, 0] <= truth) & (truth <= ends[:, 1])
-        over = np.array(medians) / truth
-        part = f"{count} stations {whence}"
-        yield from scores.scored(
-            name, part, {"intervals that hold the median": scores.mean(held)}, range(TRIALS)
-        )
+        rng, names = np.random.default_rng(count), list(map(str, range(count)))
+        over = np.array([median_of(levels, draw(rng, count)) for _ in range(ESTIMATES)]) / truth
+        ends = [fragility_of(levels, draw(rng, count), names).interval for _ in range(TRIALS)]
+        held = scores.mean([low <= truth <= high for low, high in ends])
         bias = {"bias of the median": lambda rows, over=over: float(np.median(over[rows])) - 1}
+        part = f"{count} stations {whence}"
+        yield from scores.scored(name, part, {"intervals that hold the median": held}, range(TRIALS))
         yield from scores.scored(name, part, bias, range(ESTIMATES), replicates=200)
-
-
-def _interval(levels: np.ndarray, over: np.ndarray, tried: np.ndarray) -> np.ndarray:
-    weights = curve.drawn_stations(len(over))
-    crossings = [curve._crossing(levels, w @ over, w @ tried) for w in weights]
-    return curve._quantiles(np.array(crossings), len(over))
 
 
 def _lognormal(rng: np.random.Generator, count: int) -> np.ndarray:

@@ -5,13 +5,12 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from scipy.optimize import isotonic_regression
 
 from docs.research import scores
 from docs.research.report import publish
 from docs.research.scores import Score
 from docs.research.sites import timed
-from rocking.assessment.fragility import incremental_dynamic_analysis
+from rocking.assessment.fragility import _crossing, incremental_dynamic_analysis
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.trade import TradeMethod, best_sines
 from rocking.motion import integrate_batch
@@ -71,13 +70,13 @@ def method_scores(
         yield from scores.scored(method, name, measures, reference.stations)
 
 
-def crossing(levels: np.ndarray, shares: np.ndarray) -> float:
-    """Return the level at which the rising curve nearest to `shares` (k,) crosses one half, linear in the logarithm."""
-    return float(np.exp(np.interp(0.5, isotonic_regression(shares).x, np.log(levels))))
+def median_of(levels: np.ndarray, shares: np.ndarray) -> float:
+    """Return the median of a fragility whose stations overturn by `shares` (n, k) at `levels` (k,)."""
+    return _crossing(levels, shares.sum(axis=0), np.full(levels.size, float(len(shares))))
 
 
 def _median_error(levels: np.ndarray, shares: np.ndarray, exact: np.ndarray, rows: np.ndarray) -> float:
-    return crossing(levels, shares[rows].mean(axis=0)) / crossing(levels, exact[rows].mean(axis=0)) - 1
+    return median_of(levels, shares[rows]) / median_of(levels, exact[rows]) - 1
 
 
 def _curve_error(shares: np.ndarray, exact: np.ndarray, rows: np.ndarray) -> float:

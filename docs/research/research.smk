@@ -15,6 +15,7 @@ TARGETS_OF_RESEARCH = {
         REAL_RECORDS[1:],
         [],
     ),
+    "cover": ("Hold a fragility's median against truths that are known", REAL_RECORDS, []),
     "govern": ("Try the governing crack on stacks of courses", REAL_RECORDS, ["cracks.csv"]),
     "validate": (
         "Predict the overturning of two specimens on a shake table",

@@ -6,7 +6,7 @@ from pathlib import Path
 
 def main(target, catalogues, mirror, structures, folder, tell):
     """Write the tables and the report of `target` into `folder`."""
-    from docs.research import cracks, ensembles, fragilities, tiers, validation
+    from docs.research import coverage, cracks, ensembles, fragilities, tiers, validation
     from docs.research.comparison import table
     from docs.research.comparison.cases import RECORDS
     from rocking.records import load_catalogue, open_record, open_records
@@ -21,6 +21,8 @@ def main(target, catalogues, mirror, structures, folder, tell):
     elif target == "trade_fragility":
         motions = [record for each in records for _, record in each]
         fragilities.write_fragilities(motions, load_structures(Path(structures)), folder, tell)
+    elif target == "cover":
+        coverage.write_coverage((record for each in records for record in each), folder, tell)
     elif target == "govern":
         cracks.write_cracks((record for each in records for record in each), folder, tell)
     elif target == "compare":
