@@ -97,10 +97,7 @@ class Campaign:
         if self._arrays is not None and name in self._arrays:
             samples = self._arrays[name]
         elif listed is not None:
-            path = download(listed.source_path, REPOSITORY, COMMIT, listed.source_path)
-            samples = converted(path.read_bytes(), path.name)
-            if not listed.holds(samples):
-                path.unlink()
+            samples = _fetched(listed)
         else:
             raise RecordError(
                 f"test {test.number}: no samples in {self.folder / MOTIONS} nor in the catalogue."
@@ -122,6 +119,18 @@ class Campaign:
     def _arrays(self) -> Mapping[str, np.ndarray] | None:
         path = self.folder / MOTIONS
         return np.load(path, allow_pickle=False) if path.is_file() else None
+
+
+def _fetched(listed: TableMotion) -> np.ndarray:
+    """The samples of a test from the source; a file that does not hold those of the catalogue is not kept."""
+    path, held = download(listed.source_path, REPOSITORY, COMMIT, listed.source_path), False
+    try:
+        samples = converted(path.read_bytes(), path.name)
+        held = listed.holds(samples)
+        return samples
+    finally:
+        if not held:
+            path.unlink()
 
 
 def converted(content: bytes, name: str) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from urllib.request import Request
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from docs.research.validation import (
 )
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
+from rocking.records import fetch
 
 CATALOGUE = Path(__file__).parents[2] / "records" / "shake_table.csv"
 
@@ -79,6 +81,13 @@ def test_what_the_folder_lacks_is_fetched_and_checked(made, tmp_path, monkeypatc
     file.write_text("head\nonly\n")
     with pytest.raises(RecordError, match=r"Test001\.txt: the file is no table of a test"):
         opened.table_motion(opened.tests[0])
+    assert not file.exists()
+
+
+def test_a_redirect_to_http_is_refused():
+    asked = Request("https://example.org/Test001.txt")
+    with pytest.raises(RecordError, match="which is not https"):
+        fetch._Direct().redirect_request(asked, None, 302, "Found", {}, "http://example.org/a")
 
 
 def test_no_prediction_sees_the_outcomes_of_its_motion(measured):

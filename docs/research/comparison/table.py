@@ -12,7 +12,15 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from docs.research import scores
-from docs.research.comparison.cases import PULSES, RECORDS, SEED, CodeCase, pulse_cases, record_cases
+from docs.research.comparison.cases import (
+    PULSES,
+    RECORDS,
+    SEED,
+    CodeCase,
+    pulse_cases,
+    record_cases,
+    structures,
+)
 from docs.research.comparison.codes import (
     ANOTHER_MODEL,
     LMGC90,
@@ -26,6 +34,7 @@ from docs.research.comparison.runs import Answer
 from docs.research.reference import reference_landings
 from docs.research.report import publish
 from docs.research.scores import Score
+from rocking.assessment.variations import cracks
 from rocking.errors import MotionError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
@@ -77,6 +86,9 @@ class CodeRow(Row):
     restitution: float = column("Of a reversal on still ground: root of the ratio of energies of excursions")
     restitution_error: float = column("Half width of its error bar")
     same_restitution_rotation_ratio: float = column("Rotation ratio by this package with that restitution")
+    envelope_rotation_ratio: float = column(
+        "Largest by this package over the cracks that may form; for other models"
+    )
     outside_hinges: float = column("Share of all joint rotation outside the hinges of the mechanism")
     reason: str = column("Why there is no number")
 
@@ -162,6 +174,7 @@ def _row(case: CodeCase, code: str, answer: Answer, truth: float, expected: np.n
     same, within = math.nan, 0.02 / side.frequency_parameter
     if 0 <= answer.restitution <= 1:
         same = integrate(Mechanism(replace(side, restitution=answer.restitution)), case.motion).rotation_ratio
+    envelope = max(_over_cracks(case)) if other else math.nan
     return CodeRow.of(
         answer,
         case=case.name,
@@ -176,7 +189,12 @@ def _row(case: CodeCase, code: str, answer: Answer, truth: float, expected: np.n
         missed_impacts=None if landings is None else missed(landings, expected, within),
         reference_restitution=side.restitution,
         same_restitution_rotation_ratio=same,
+        envelope_rotation_ratio=envelope,
     )
+
+
+def _over_cracks(case: CodeCase) -> list[float]:
+    return [integrate(each, case.motion).rotation_ratio for _, each in cracks(structures()[case.structure])]
 
 
 def _kind(ratio: float) -> int:
@@ -234,6 +252,15 @@ def _losses(rows: Sequence[CodeRow]) -> Mapping[str, scores.Measure]:
         ),
         "rotation over ours, same restitution": scores.median(
             [_over(row, row.same_restitution_rotation_ratio) for row in rows]
+        ),
+        "rotation over the largest of ours over all cracks": scores.median(
+            [row.rotation_ratio / row.envelope_rotation_ratio for row in rows]
+        ),
+        "share with a larger one of ours over all cracks": scores.mean(
+            [
+                row.envelope_rotation_ratio >= row.rotation_ratio if row.another_model else math.nan
+                for row in rows
+            ]
         ),
         "share with the reference within the bar": scores.mean(np.where(barred, held, math.nan)),
     }
