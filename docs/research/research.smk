@@ -17,6 +17,11 @@ TARGETS_OF_RESEARCH = {
     ),
     "cover": ("Hold a fragility's median against truths that are known", REAL_RECORDS, []),
     "govern": ("Try the governing crack on stacks of courses", REAL_RECORDS, ["cracks.csv"]),
+    "screen": (
+        "Hold the verdict over all cracks against the ensemble of each",
+        REAL_RECORDS,
+        ["screening.csv"],
+    ),
     "validate": (
         "Predict the overturning of two specimens on a shake table",
         [f"{workflow.basedir}/records/shake_table.csv"],

@@ -6,7 +6,7 @@ from pathlib import Path
 
 def main(target, catalogues, mirror, structures, folder, tell):
     """Write the tables and the report of `target` into `folder`."""
-    from docs.research import coverage, cracks, ensembles, fragilities, tiers, validation
+    from docs.research import coverage, cracks, ensembles, fragilities, screening, tiers, validation
     from docs.research.comparison import table
     from docs.research.comparison.cases import RECORDS
     from rocking.records import load_catalogue, open_record, open_records
@@ -25,6 +25,9 @@ def main(target, catalogues, mirror, structures, folder, tell):
         coverage.write_coverage((record for each in records for record in each), folder, tell)
     elif target == "govern":
         cracks.write_cracks((record for each in records for record in each), folder, tell)
+    elif target == "screen":
+        motions = (record for each in records for record in each)
+        screening.write_screening(motions, load_structures(Path(structures)), folder, tell)
     elif target == "compare":
         motions = [open_record(each, mirror=mirror)[0] for each in listed[0][: RECORDS // 3]]
         table.write_comparison(motions, folder, tell)

@@ -10,8 +10,8 @@ from docs.research import scores
 from docs.research.report import publish
 from docs.research.scores import Score
 from docs.research.sites import independent, lifting_factor, one_of_each
-from rocking.assessment.ensemble import CAUSES, Ensemble, EnsembleSettings, GroundMotions, drawn, ensemble
-from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.ensemble import CAUSES, Ensemble, GroundMotions, drawn, ensemble
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import cracks, ensemble_over_cracks
 from rocking.assessment.verdict import Verdict
 from rocking.records import Accelerogram

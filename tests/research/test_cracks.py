@@ -5,10 +5,11 @@ import pytest
 
 from docs.research import cracks
 from docs.research.cracks import KINDS, CrackRow, crack_scores, members, ruled, stack
+from docs.research.screening import screening_scores, screening_trials
 from rocking.assessment.verdict import Verdict
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.structures import Block
+from rocking.structures import Block, Wall
 
 TIMES = np.arange(0, 3, 0.01)
 
@@ -82,3 +83,13 @@ def test_a_column_of_lmgc90_falls_where_the_block_does():
     lift = column.mechanisms[0].uplift_multiplier * GRAVITY
     assert stack(column, pulse(0.9 * lift)) == (False, pytest.approx(0, abs=5), "")
     assert stack(column, pulse(6 * lift))[0]
+
+
+def test_the_verdict_over_all_cracks_is_that_of_the_ensembles_of_all():
+    """Of a wall that may crack anywhere; a block has one mechanism and is no trial."""
+    made = {"wall": Wall(1.6, 1.6, 0.25), "block": Block(2.0, 0.2)}
+    trials = list(screening_trials("r", "s", pulse(3.0), made))
+    assert [(each.structure, each.verdict) for each in trials] == [("wall", trials[0].exhaustive)]
+    values = {each.measure: each.value for each in screening_scores(trials) if each.part == "wall"}
+    assert values["other verdict than that of all cracks"] == 0
+    assert values['share of "stands"'] == float(trials[0].verdict is Verdict.STANDS)
