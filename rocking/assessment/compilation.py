@@ -17,9 +17,8 @@ from rocking.structures import Block
 
 USUAL = 20.0
 """Seconds that compiling takes on two cores of 2024."""
-_PATIENCE = 3.0
-"""Seconds after which something is said: what is compiled already is loaded in less."""
-_EVERY = 5.0
+_PATIENCE, _EVERY = 3.0, 5.0
+"""Seconds after which something is said, as what is compiled already is loaded in less; and seconds between words."""
 
 
 def compile_all(say: Callable[[str], None] = print) -> None:
@@ -29,12 +28,10 @@ def compile_all(say: Callable[[str], None] = print) -> None:
     """
     started = time.monotonic()
     command = "from rocking.assessment import compilation; compilation.{}()"
-    running = [
-        subprocess.Popen(
-            [sys.executable, "-c", command.format(part.__name__)], stderr=subprocess.PIPE, text=True
-        )
-        for part in (compile_mechanisms, compile_blocks)
+    calls = [
+        [sys.executable, "-c", command.format(part)] for part in ("compile_mechanisms", "compile_blocks")
     ]
+    running = [subprocess.Popen(call, stderr=subprocess.PIPE, text=True) for call in calls]
     next_word = _PATIENCE
     while any(each.poll() is None for each in running):
         spent = time.monotonic() - started
@@ -45,9 +42,7 @@ def compile_all(say: Callable[[str], None] = print) -> None:
     for each in running:
         _, errors = each.communicate()
         if each.returncode:
-            raise RockingError(
-                f"the numerical parts could not be compiled: {errors.strip().splitlines()[-1:]}"
-            )
+            raise RockingError(f"the numerical parts do not compile: {errors.strip().splitlines()[-1:]}")
     if next_word > _PATIENCE:
         say(f"Compiled in {time.monotonic() - started:.0f} s; it is kept for every later run.")
 

@@ -306,19 +306,23 @@ def ensemble(
     *,
     tolerance: float = 1e-6,
     verdict_only: bool = False,
+    whether_it_stands: bool = False,
 ) -> Ensemble:
     """Follow `structure` through the members of its ensemble, the same ones at every call.
 
     It ends after FIRST members that all rest, and grows to MOST_NEAR_A_LIMIT where those asked for leave a verdict in
     doubt that more may settle. verdict_only: it ends after FIRST members, too, that all stay far from overturning:
-    that settles the verdict but says less of the band. Raises MotionError as `integrate` does.
+    that settles the verdict but says less of the band. whether_it_stands: it also ends after FIRST of which so many
+    overturn that it does not stand, and never grows. Raises MotionError as `integrate` does.
     """
     settings = settings or EnsembleSettings()
     points = lattice(max(settings.size, MOST_NEAR_A_LIMIT))
     made = drawn(structure, motions, points[:FIRST], settings, tolerance=tolerance)
-    if np.all(made.rotation_ratios <= NEGLIGIBLE) or (verdict_only and made.far):
+    quick = verdict_only or whether_it_stands
+    falls = made.overturning_share - made.probability_error > settings.risk
+    if np.all(made.rotation_ratios <= NEGLIGIBLE) or (quick and made.far) or (whether_it_stands and falls):
         return made
-    for size in (settings.size, MOST_NEAR_A_LIMIT):
+    for size in (settings.size,) if whether_it_stands else (settings.size, MOST_NEAR_A_LIMIT):
         done = made.rotation_ratios.size
         if size > done and (done == FIRST or _near_a_limit(made)):
             made = _joined(made, drawn(structure, motions, points[done:size], settings, tolerance=tolerance))

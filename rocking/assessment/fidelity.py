@@ -22,7 +22,6 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
-from scipy.special import expit
 
 from rocking.assessment.intensity import peak_velocity, per_velocity
 from rocking.assessment.verdict import Method
@@ -120,7 +119,8 @@ class TierFit:
         if self.unlike(measures):
             return None
         odds, error = self.log_odds(np.array([[measures[term] for term in self.tier.terms]]))
-        return Estimate(*(float(expit(odds[0] + k * NORMAL_95 * error[0])) for k in (0, -1, 1)))
+        ends = odds[0] + NORMAL_95 * error[0] * np.array([0.0, -1.0, 1.0])
+        return Estimate(*(1 / (1 + np.exp(-ends))).tolist())
 
 
 @lru_cache(maxsize=1)

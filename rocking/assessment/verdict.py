@@ -101,9 +101,8 @@ def ratio_in_words(predicted: float, integrated: float) -> str:
     """
     if math.isnan(predicted) or math.isnan(integrated):
         return ""
-    kinds = _severity(predicted), _severity(integrated)
-    if kinds != (1, 1):
-        return _WORDS[kinds]
+    if words := _WORDS.get((_severity(predicted), _severity(integrated))):
+        return words
     factor = max(predicted / integrated, integrated / predicted)
     if factor <= 1 + CLOSE:
         return f"within {CLOSE:.0%}".replace("%", " %")
