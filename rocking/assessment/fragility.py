@@ -310,7 +310,8 @@ class IncrementalDynamicAnalysis:
 
     measure: of the levels. levels: (k,) ascending. rotation_ratios: (r, k, m) of every record, level and member;
     inf overturns, nan where a cloud holds no such case. intensities: (r,) of the records as they are.
-    stations: (r,) what counts as one independent record.
+    stations: (r,) what counts as one independent record. governing: the same with the worst of the cracks that may
+    form, member by member, where they were followed.
     """
 
     measure: IntensityMeasure
@@ -318,6 +319,7 @@ class IncrementalDynamicAnalysis:
     rotation_ratios: np.ndarray
     intensities: np.ndarray
     stations: tuple[str, ...]
+    governing: "IncrementalDynamicAnalysis | None" = None
 
     def __repr__(self) -> str:
         records, levels, members = self.rotation_ratios.shape
@@ -351,8 +353,7 @@ def incremental_dynamic_analysis(
     as recorded, and the levels are then those of the records. levels: ascending, in the unit of the measure; by default
     40 that lie where the probability of overturning moves. stations: what counts as one independent record, by default
     event and station. ensemble: ranges of the uncertain inputs; each case then has MEMBERS members.
-    over_cracks: whether each member counts with the worst of the cracks that may form, instead of with the one that
-    statics chooses.
+    over_cracks: whether the cracks that may form are followed beside the one that statics chooses, as `governing`.
     Raises ConfigurationError for fewer than two stations, levels out of order, a measure that a record lacks, or a
     record that cannot be followed.
     """
@@ -372,17 +373,21 @@ def incremental_dynamic_analysis(
     else:
         chosen = _checked_levels(levels)
         ratios = cases.at_levels(chosen)
-    for _, other in others if over_cracks else ():
+    analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, names)
+    if not (over_cracks and others):
+        return analysis
+    for _, other in others:
         cracked = replace(cases, mechanism=other)
-        more = cracked.cloud()[1] if method == "cloud" else cracked.at_levels(chosen)
+        more = cracked.cloud()[1] if method == "cloud" else cracked.at_levels(chosen, ratios)
         ratios = np.maximum(ratios, more)
-    return IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, names)
+    return replace(analysis, governing=replace(analysis, rotation_ratios=ratios))
 
 
 def fragility(
     records: Sequence[Accelerogram], structure: Rocking, *, threshold: float = np.inf, **how: Any
 ) -> Fragility:
-    """Return the fragility of `structure` under `records`: of the mechanism that statics chooses where cracks may form.
+    """Return the fragility of `structure` under `records`: of the mechanism that statics chooses where cracks may form,
+    and with over_cracks of the worst of them all.
 
     threshold: rotation ratio that is exceeded; inf: overturning. how: what else `incremental_dynamic_analysis` takes,
     intensity_measure, levels, stations, method, ensemble, over_cracks, tolerance; its errors are raised too.
@@ -393,7 +398,8 @@ def fragility(
     >>> rocking.fragility(records, rocking.Block(2.0, 0.2), levels=[0.2, 0.4, 0.8, 1.6]).probability.tolist()
     [0.0, 0.0, 0.0, 1.0]
     """
-    return incremental_dynamic_analysis(records, structure, **how).fragility(threshold)
+    analysis = incremental_dynamic_analysis(records, structure, **how)
+    return (analysis.governing or analysis).fragility(threshold)
 
 
 def _checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> tuple[str, ...]:
@@ -433,15 +439,23 @@ class _Cases:
         # Equal intensities are moved apart by rounding size, so that each stays a level of its own.
         return self.intensities[order] * (1 + 1e-12 * np.arange(order.size)), ratios
 
-    def at_levels(self, levels: np.ndarray) -> np.ndarray:
-        """(r, k, m) for every record scaled to every level. Raises ConfigurationError where one cannot be followed."""
+    def at_levels(self, levels: np.ndarray, least: np.ndarray | None = None) -> np.ndarray:
+        """(r, k, m) for every record scaled to every level; at `least` those of another mechanism, where all of whose
+        members overturn nothing is followed. Raises ConfigurationError where one cannot be followed.
+        """
 
         def follow(record: int) -> np.ndarray:
-            ratios = self._ratios(record, levels / self.intensities[record])
+            before = np.zeros((levels.size, 1)) if least is None else least[record]
+            open_to = ~np.isinf(before).all(axis=1)
+            if not open_to.any():
+                return before
+            ratios = self._ratios(record, levels[open_to] / self.intensities[record])
             if np.isnan(ratios).any():
                 named = self.records[record].source.path or self.records[record].station or "a record"
                 raise ConfigurationError(f"{named} cannot be followed at every level; leave it out.")
-            return ratios
+            after = np.full((levels.size, max(before.shape[1], *ratios.shape[1:])), np.inf)
+            after[open_to] = np.maximum(before[open_to], ratios)
+            return after
 
         with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
             return np.array(list(pool.map(follow, range(len(self.records)))))

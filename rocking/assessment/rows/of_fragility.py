@@ -19,6 +19,7 @@ _STEPS = 400
 ROTATION_RATIOS = (0.1, 0.3, 0.5, math.inf)
 """Largest rotations over the critical one whose exceedance has a curve; inf: overturning."""
 _THRESHOLD = "Rotation over critical rotation that is exceeded; INF: overturning"
+_GOVERNED = "with the worst crack that may form; empty where none else may"
 _MEASURE = f"Intensity measure: {MEASURES_IN_WORDS}"
 
 
@@ -97,6 +98,7 @@ class IdaRow(Row):
     members: int = column("Members that were followed")
     rotation_ratio: float = column("Median of their largest rotation over critical rotation; INF overturns")
     overturning_share: float = column("Share of them that overturn")
+    governing_overturning_share: float = column(f"Share of them that overturn {_GOVERNED}")
 
 
 @row("fragility")
@@ -113,6 +115,9 @@ class FragilityRow(Row):
     lognormal: float = column("Lognormal curve fitted by maximum likelihood")
     lognormal_low: float = column("Lower end of its 90 % interval, too narrow where no lognormal holds")
     lognormal_high: float = column("Upper end of its 90 % interval, too narrow where no lognormal holds")
+    governing_probability: float = column(f"The same share {_GOVERNED}")
+    governing_probability_low: float = column("Lower end of its 90 % interval")
+    governing_probability_high: float = column("Upper end of its 90 % interval")
 
 
 @row("fragility_summary")
@@ -139,6 +144,12 @@ class FragilitySummaryRow(Row):
     annual_rate_left_out: float = column(
         "Most that the rate may lack, as curve and hazard end before shaking does", unit="1/year"
     )
+    governing_median: float = column(f"The median {_GOVERNED}")
+    governing_median_low: float = column("Lower end of its 90 % interval")
+    governing_median_high: float = column("Upper end of its 90 % interval")
+    governing_annual_rate: float = column(f"The annual rate {_GOVERNED}", unit="1/year")
+    governing_annual_rate_low: float = column("From the lower ends of that curve's interval", unit="1/year")
+    governing_annual_rate_high: float = column("From the upper ends of that curve's interval", unit="1/year")
 
 
 @row("intensity_measures")
@@ -161,31 +172,38 @@ class IntensityMeasureRow(Row):
     )
 
 
-def ida_rows(structure: str, records: Sequence[str], found: IncrementalDynamicAnalysis) -> Iterator[IdaRow]:
+def ida_rows(
+    structure: str, records: Sequence[str], analysis: IncrementalDynamicAnalysis
+) -> Iterator[IdaRow]:
     """Yield a row for each record and level that was followed."""
-    for name, station, intensity, by_level in zip(
-        records, found.stations, found.intensities, found.rotation_ratios, strict=True
-    ):
-        for level, ratios in zip(found.levels.tolist(), by_level, strict=True):
-            if np.isnan(ratios).all():
-                continue
-            yield IdaRow(
-                structure=structure,
-                record=name,
-                station=station,
-                intensity_measure=found.measure.name,
-                level=level,
-                scale_factor=level / float(intensity),
-                members=ratios.size,
-                rotation_ratio=float(np.sort(ratios)[(ratios.size - 1) // 2]),
-                overturning_share=float(np.isinf(ratios).mean()),
-            )
+    governing, measure = analysis.governing, analysis.measure.name
+    for place, (name, station) in enumerate(zip(records, analysis.stations, strict=True)):
+        for step, level in enumerate(analysis.levels.tolist()):
+            ratios = analysis.rotation_ratios[place, step]
+            if not np.isnan(ratios).all():
+                yield IdaRow.of(
+                    structure=structure,
+                    record=name,
+                    station=station,
+                    intensity_measure=measure,
+                    level=level,
+                    scale_factor=level / float(analysis.intensities[place]),
+                    members=ratios.size,
+                    rotation_ratio=float(np.sort(ratios)[(ratios.size - 1) // 2]),
+                    overturning_share=float(np.isinf(ratios).mean()),
+                    governing_overturning_share=governing
+                    and float(np.isinf(governing.rotation_ratios[place, step]).mean()),
+                )
 
 
-def fragility_rows(structure: str, curve: Fragility) -> Iterator[FragilityRow]:
-    """Yield a row for each level."""
+def fragility_rows(structure: str, curve: Fragility, governing: Fragility | None) -> Iterator[FragilityRow]:
+    """Yield a row for each level. governing: the curve with the worst of the cracks that may form."""
     for place, level in enumerate(curve.levels.tolist()):
+        of_worst = {
+            f"governing_{name}": float(getattr(governing, name)[place]) for name in CURVES[:3] if governing
+        }
         yield FragilityRow.of(
+            of_worst,
             structure=structure,
             intensity_measure=curve.measure,
             rotation_ratio=curve.threshold,
@@ -195,12 +213,19 @@ def fragility_rows(structure: str, curve: Fragility) -> Iterator[FragilityRow]:
 
 
 def fragility_summary_row(
-    structure: str, curve: Fragility, hazard: Sequence[HazardRow] | None
+    structure: str, curve: Fragility, governing: Fragility | None, hazard: Sequence[HazardRow] | None
 ) -> FragilitySummaryRow:
-    """Return what the curve comes down to. hazard: in the unit of its measure."""
+    """Return what a curve comes down to, and `governing`, the one with the worst crack. hazard: of its measure."""
+    of_worst: dict[str, float] = {}
+    if governing:
+        names = ("governing_median", "governing_median_low", "governing_median_high")
+        of_worst = dict(zip(names, (governing.median, *governing.interval), strict=True))
+        rates = annual_rate(governing, hazard) if hazard else {}
+        of_worst |= {f"governing_{name}": rate for name, rate in rates.items()}
     return FragilitySummaryRow.of(
         curve,
         annual_rate(curve, hazard) if hazard else {},
+        of_worst,
         structure=structure,
         intensity_measure=curve.measure,
         rotation_ratio=curve.threshold,

@@ -17,13 +17,13 @@ from rocking.errors import ConfigurationError
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.reports.fragility import write_fragility_report
-from rocking.structures import Block
+from rocking.structures import Block, Spire
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
 from rocking.study.summary import write_fragility
 from rocking.tables import read_rows
 
-STRUCTURES = {"slender": Block.of_size(0.5, 3.0), "stout": Block.of_size(1.0, 3.0)}
+STRUCTURES = {"slender": Block.of_size(0.5, 3.0), "stout": Block.of_size(1.0, 3.0), "spire": Spire(1.0, 6.0)}
 
 
 def _study(**fragility: object) -> Study:
@@ -52,7 +52,7 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
     (tmp_path / "made2.AT2").write_bytes(b"not a record")
     told: list[str] = []
     (unused,) = write_fragility(records, _study(), tmp_path / "out", told.append)
-    assert "made2" in unused and told == ["1 of 2: slender", "2 of 2: stout"]
+    assert "made2" in unused and told == ["1 of 3: slender", "2 of 3: stout", "3 of 3: spire"]
     rows = {
         name: list(read_rows(each, tmp_path / "out" / each.table.file_name))
         for name, each in FRAGILITY_TABLES.items()
@@ -67,6 +67,10 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
             and len(outcomes) == 2
         )
     assert {row.records for row in rows["fragility_summary"]} == {2}
+    for row in rows["fragility"]:
+        other_cracks = row.structure == "spire"
+        assert math.isnan(row.governing_probability) is not other_cracks
+        assert not other_cracks or row.governing_probability >= row.probability
     medians = {
         row.structure: row.median for row in rows["fragility_summary"] if math.isinf(row.rotation_ratio)
     }
