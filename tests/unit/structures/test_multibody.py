@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from free_bars import BOTH, ONE, SMOOTH, UNDER_FILL, free_bars, pier_part, places_of, ring_part
 from multibody import Bar, Multibody, Pin
 from scipy.integrate import solve_ivp
 
 from rocking.quantities import GRAVITY
-from rocking.structures.arch import Arch
+from rocking.structures.arch import Arch, ArchOnPiers
 from rocking.structures.wall import Wall
 
 
@@ -18,26 +19,8 @@ def vertical(time):
     return 2.0 * np.cos(11.0 * time)
 
 
-def sector(inner, outer, start, end):
-    """An annular sector of unit density by quadrature over its area: angles from the vertical, clockwise."""
-    nodes, weights = np.polynomial.legendre.leggauss(20)
-    radius = (outer - inner) / 2 * nodes + (outer + inner) / 2
-    angle = (end - start) / 2 * nodes + (end + start) / 2
-    radius, angle = np.meshgrid(radius, angle)
-    area = np.outer(weights, weights) * radius * (outer - inner) * (end - start) / 4
-    points = np.stack([radius * np.sin(angle), radius * np.cos(angle)])
-    centre = (area * points).sum(axis=(1, 2)) / area.sum()
-    return Bar(area.sum(), (area * ((points - centre[:, None, None]) ** 2).sum(axis=0)).sum(), centre)
-
-
 def arch_bodies(arch):
-    sections = arch.onset.hinges - arch.embrace_angle / 2
-    inner, outer = arch.radius - arch.thickness / 2, arch.radius + arch.thickness / 2
-    radii = np.array([inner, outer, inner, outer])
-    points = np.stack([radii * np.sin(sections), radii * np.cos(sections)], axis=1)
-    bars = tuple(sector(inner, outer, *sections[k : k + 2]) for k in range(3))
-    pins = (Pin(points[0], 0), Pin(points[1], 1, 0), Pin(points[2], 2, 1), Pin(points[3], 2))
-    return Multibody(bars, pins, GRAVITY)
+    return free_bars(arch, places_of(arch))
 
 
 def wall_bodies(wall):
@@ -58,6 +41,10 @@ CASES = {
     "arch": (Arch(3.0, 0.6, np.radians(165)), arch_bodies, 0.6),
     "thick arch": (Arch(1.0, 0.35, np.radians(180)), arch_bodies, 1.2),
     "voussoir arch": (Arch(10.0, 1.5, np.radians(157.5), 7), arch_bodies, 0.25),
+    "arch under fill": (SMOOTH, arch_bodies, 3 * SMOOTH.mechanism().critical_rotation),
+    "arch and a pier": (ONE, arch_bodies, 3 * ONE.mechanism().critical_rotation),
+    "arch and two piers": (BOTH, arch_bodies, 3 * BOTH.mechanism().critical_rotation),
+    "arch and piers under fill": (UNDER_FILL, arch_bodies, 3 * UNDER_FILL.mechanism().critical_rotation),
     "wall": (Wall(2.0, 2.0, 0.4), wall_bodies, 1.0),
     "low hinge": (Wall(1.2, 2.5, 0.4), wall_bodies, 1.5),
     "high hinge": (Wall(2.5, 1.2, 0.4), wall_bodies, 0.6),
@@ -89,7 +76,10 @@ def test_hinge_thrusts_are_the_constraint_forces(case):
     system, mechanism = bodies(structure), structure.mechanism()
     mass = sum(bar.mass for bar in system.bars)
     if isinstance(structure, Arch):
-        mass = structure.embrace_angle * structure.radius * structure.thickness
+        half = structure.embrace_angle / 2
+        mass = ring_part(structure, -half, half)[0].sum()
+    if isinstance(structure, ArchOnPiers):
+        mass += sum(pier_part(structure, side)[0].sum() for side in (-1, 1))
     for phi, velocity in ((0.0, 0.0), (0.05, speed), (0.6 * mechanism.critical_rotation, -speed)):
         acceleration = mechanism.angular_acceleration(phi, velocity, 1.3, -2.0)
         contacts = structure.contact_forces(phi, velocity, acceleration, 1.3, -2.0)
