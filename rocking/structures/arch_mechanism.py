@@ -134,6 +134,8 @@ _DOWN = np.array([0.0, 0.0, 0.0, -1.0])
 _ROUNDS = 100
 _CLEARANCE = 1e-12
 """A gap (of order t/r) that is zero to rounding."""
+_ASIDE = 1e-5
+"""Rotation of a section [rad] over which the slope of a gap is differenced: Newton's steps need few digits of it."""
 _SOUGHT = 25
 """Sections at most between which the hinges of other mechanisms are sought: 15 thousand mechanisms."""
 _APART = 1e-6
@@ -294,7 +296,10 @@ def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.n
         if hinges[1] - hinges[0] < _APART:
             raise NoMechanism
         unknowns = _touching_line(rows)
-        slope, curvature = (derivative @ unknowns for derivative in ring.gap_slopes(hinges, PATTERN))
+        before, slope, after = (
+            ring.gap_slopes(hinges + aside, PATTERN) @ unknowns for aside in (-_ASIDE, 0.0, _ASIDE)
+        )
+        curvature = (after - before) / (2 * _ASIDE)
         step = np.where(
             curvature > 0, -slope / np.where(curvature > 0, curvature, 1.0), -np.sign(slope) * spacing
         )
@@ -313,7 +318,7 @@ def thrust_line(ring: Ring, onset: Onset, sections: np.ndarray) -> np.ndarray:
     unknowns = np.array([*onset.reaction, onset.multiplier, 1.0])
     gap = ring.gaps(sections, np.full(sections.shape, INTRADOS)) @ unknowns
     _, vertical, horizontal = onset.reaction
-    load = ring.loads(sections)[0].weight
+    load = ring.loads(sections)[0][0]
     normal = (horizontal + onset.multiplier * load) * np.cos(sections) - (vertical - load) * np.sin(sections)
     return (ring.contact_radius(INTRADOS) + gap / normal) * 1j * np.exp(-1j * sections)
 

@@ -7,15 +7,14 @@ Piers add one more section below each springing: FOOT before the left springing 
 contacts are the inner corner (as the intrados) and the outer corner (as the extrados).
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-Moments = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""Weight, ∫ x and ∫ y of it."""
+Loads = tuple[np.ndarray, np.ndarray]
+"""Weight, ∫ x and ∫ y of what loads the ring (3, ...), and their derivatives with the section."""
 
 
 @dataclass(frozen=True)
@@ -29,31 +28,25 @@ class Fill:
     depth: float
     density: float
 
-    def loads(self, thickness: float, section: np.ndarray) -> tuple[Moments, Moments, Moments]:
-        """Return weight, ∫ x, ∫ y from the crown to `section` [rad from the vertical], and two derivatives with it.
+    def loads(self, thickness: float, section: np.ndarray) -> Loads:
+        """Return what lies from the crown to `section` [rad from the vertical].
 
         Per t·r of the ring, whose centreline radius is 1 and thickness `thickness`.
         """
         outer = 1 + thickness / 2
         level, factor = outer + self.depth, self.density * outer / thickness
-        inside = np.abs(section) < np.pi / 2
         v = np.clip(section, -np.pi / 2, np.pi / 2)
         sine, cosine = np.sin(v), np.cos(v)
         square = v / 2 + sine * cosine / 2  # ∫ cos²
-        total = (
-            factor * (level * sine - outer * square),
-            factor * outer * (level * sine**2 / 2 + outer * cosine**3 / 3),
-            factor * outer * (level * square - outer * (sine - sine**3 / 3)),
+        total = factor * np.stack(
+            [
+                level * sine - outer * square,
+                outer * (level * sine**2 / 2 + outer * cosine**3 / 3),
+                outer * (level * square - outer * (sine - sine**3 / 3)),
+            ]
         )
-        weight = factor * inside * (level - outer * cosine) * cosine
-        change = factor * inside * (2 * outer * cosine - level) * sine
-        rate = (weight, weight * outer * sine, weight * outer * cosine)
-        slope = (
-            change,
-            outer * (change * sine + weight * cosine),
-            outer * (change * cosine - weight * sine),
-        )
-        return total, rate, slope
+        weight = factor * (np.abs(section) < np.pi / 2) * (level - outer * cosine) * cosine
+        return total, weight * np.stack([np.ones_like(sine), outer * sine, outer * cosine])
 
 
 INTRADOS, EXTRADOS = 1.0, -1.0
@@ -72,14 +65,6 @@ class Bars(NamedTuple):
     masses: np.ndarray
     centroids: np.ndarray
     inertias: np.ndarray
-
-
-class Load(NamedTuple):
-    """What loads the ring left of a section: weight, and its first moments ∫ x and ∫ y, any shape; or derivatives."""
-
-    weight: np.ndarray
-    x: np.ndarray
-    y: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -132,26 +117,27 @@ class Ring:
         centroids: np.ndarray = -self.centroid_radius * turns / np.where(masses > 0, masses, 1.0)
         about_centre = masses * (1 + self.thickness**2 / 4)
         if self.fill is not None:
-            weight, x, y = (np.diff(values) for values in self.fill.loads(self.thickness, edges)[0])
+            weight, x, y = np.diff(self.fill.loads(self.thickness, edges)[0])
             moments = masses * centroids + x + 1j * y
             masses = masses + weight
             centroids = moments / np.where(masses > 0, masses, 1.0)
             about_centre = about_centre + weight * (1 + self.thickness / 2) ** 2
         return Bars(masses, centroids, about_centre - masses * np.abs(centroids) ** 2)
 
-    def loads(self, section: np.ndarray) -> tuple[Load, Load, Load]:
-        """Weight and first moments of all left of `section`, and their first and second derivatives with it."""
-        start, radius, zero = -self.embrace_angle / 2, self.centroid_radius, np.zeros_like(section)
+    def loads(self, section: np.ndarray) -> Loads:
+        """Return what lies left of `section`."""
+        start, radius = -self.embrace_angle / 2, self.centroid_radius
         sine, cosine = np.sin(section), np.cos(section)
-        total = Load(section - start, radius * (np.cos(start) - cosine), radius * (sine - np.sin(start)))
-        rate = Load(zero + 1, radius * sine, radius * cosine)
-        change = Load(zero, radius * cosine, -radius * sine)
+        total = np.stack(
+            [section - start, radius * (np.cos(start) - cosine), radius * (sine - np.sin(start))]
+        )
+        rate = np.stack([np.ones_like(sine), radius * sine, radius * cosine])
         if self.fill is None:
-            return total, rate, change
-        filled = self.fill.loads(self.thickness, section)
-        before = self.fill.loads(self.thickness, np.asarray(start))[0]
-        since = (value - at for value, at in zip(filled[0], before, strict=True))
-        return _added(total, since), _added(rate, filled[1]), _added(change, filled[2])
+            return total, rate
+        (filled, more), (before, _) = (
+            self.fill.loads(self.thickness, np.asarray(each)) for each in (section, start)
+        )
+        return total + (filled.T - before).T, rate + more
 
     def gaps(self, section: np.ndarray, contact: np.ndarray) -> np.ndarray:
         """Rows (a, b) with gap = a·(M₀, V, H, λ) + b, shape (k, 5).
@@ -163,17 +149,12 @@ class Ring:
         point = self.contact_points(section, contact)
         return -contact[..., None] * _moment(1.0, point, self.loads(section)[0])
 
-    def gap_slopes(self, section: np.ndarray, contact: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """First and second derivatives of `gaps` with the section, each (k, 5)."""
-        load, rate, change = self.loads(section)
+    def gap_slopes(self, section: np.ndarray, contact: np.ndarray) -> np.ndarray:
+        """Derivatives of `gaps` with the section, (k, 5)."""
+        load, rate = self.loads(section)
         point = self.contact_points(section, contact)
-        loaded = np.array([0.0, 0.0, 0.0, 1.0, 1.0])  # what the loads have a part in
-        first = _moment(0.0, -1j * point, load) + loaded * _moment(1.0, point, rate)
-        second = _moment(0.0, -point, load) + loaded * (
-            2 * _moment(0.0, -1j * point, rate) + _moment(1.0, point, change)
-        )
-        sign = -contact[..., None]
-        return sign * first, sign * second
+        of_loads = np.array([0.0, 0.0, 0.0, 1.0, 1.0]) * _moment(1.0, point, rate)
+        return -contact[..., None] * (_moment(0.0, -1j * point, load) + of_loads)  # type: ignore[no-any-return]
 
     def kept(self, hinges: np.ndarray) -> np.ndarray:
         """Sections moved back onto the ring."""
@@ -181,15 +162,11 @@ class Ring:
         return np.clip(hinges, -edge, edge)
 
 
-def _moment(one: float, point: np.ndarray, load: Load) -> np.ndarray:
+def _moment(one: float, point: np.ndarray, load: np.ndarray) -> np.ndarray:
     """(k, 5) moments about points of M₀, V, H, of the loads times λ and of the loads; one: 0 for derivatives."""
     x, y = point.real, point.imag
-    of_loads = [y * load.weight - one * load.y, x * load.weight - one * load.x]
-    return np.stack([np.full_like(x, one), -x, y, *of_loads], axis=-1)
-
-
-def _added(load: Load, more: Iterable[np.ndarray]) -> Load:
-    return Load(*(one + other for one, other in zip(load, more, strict=True)))
+    weight, of_x, of_y = load
+    return np.stack([np.full_like(x, one), -x, y, y * weight - one * of_y, x * weight - one * of_x], axis=-1)
 
 
 FOOT = 1.0
@@ -257,20 +234,17 @@ class PierRing(Ring):
         corner = np.where(contact > 0, inner.real, outer.real)
         return np.where(foot == 0, super().contact_points(section, contact), foot * corner + 1j * inner.imag)
 
-    def loads(self, section: np.ndarray) -> tuple[Load, Load, Load]:
+    def loads(self, section: np.ndarray) -> Loads:
         """As for a ring; at a foot with its pier, and without change."""
         foot = self._foot(np.asarray(section))
-        total, rate, change = super().loads(super().kept(np.asarray(section)))
+        total, rate = super().loads(super().kept(np.asarray(section)))
         centre = np.where(foot < 0, self.pier_centre(-1.0), self.pier_centre(1.0))
-        mass, still = foot * self.pier_mass, foot == 0
-        added = Load(total.weight + mass, total.x + mass * centre.real, total.y + mass * centre.imag)
-        return added, Load(*(still * value for value in rate)), Load(*(still * value for value in change))
+        pier = foot * self.pier_mass * np.stack([np.ones_like(foot), centre.real, centre.imag])
+        return total + pier, (foot == 0) * rate
 
-    def gap_slopes(self, section: np.ndarray, contact: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """As for a ring; a foot does not move: no slope, and a curvature to divide by."""
-        foot = (self._foot(section) != 0)[..., None]
-        first, second = super().gap_slopes(section, contact)
-        return np.where(foot, np.zeros(5), first), np.where(foot, [0.0, 0.0, 0.0, 0.0, 1.0], second)
+    def gap_slopes(self, section: np.ndarray, contact: np.ndarray) -> np.ndarray:
+        """As for a ring; a foot does not move."""
+        return np.where((self._foot(section) != 0)[..., None], 0.0, super().gap_slopes(section, contact))
 
     def bars(self, edges: np.ndarray) -> Bars:
         """Those of the ring, the first and the last with their pier where it rocks."""
