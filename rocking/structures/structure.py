@@ -1,5 +1,6 @@
 """Every structure: mechanism, bodies, drawing, contacts, candidates, capacity, and how a file describes it."""
 
+import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from contextlib import suppress
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.errors import StructureError
+from rocking.errors import StructureError, StructureWarning
 from rocking.quantities import within
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Dimension, Mark, Path, plane
@@ -74,13 +75,14 @@ class Structure(ABC):
 
     type_name: the `type` in a file. described_as: what each constructor that a file may use describes, by the name of
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
-    usual_restitution: where none is given.
+    usual_restitution: where none is given. side_names: to which side it falls where `peak_side` is +1, and −1.
     """
 
     type_name: ClassVar[str] = ""
     described_as: ClassVar[dict[str, str]] = {}
     crack_name: ClassVar[str] = ""
     usual_restitution: ClassVar[float | str] = "momentum"
+    side_names: ClassVar[tuple[str, str]] = ("to the right", "to the left")
     one_sided = False
 
     restitution_range: Annotated[
@@ -437,29 +439,56 @@ class Crackable(Structure):
         Value("Whether the crack or the hinges exist where they are given", "known", phrase="{name} {value}"),
     ] = field(default="unknown", kw_only=True)
 
+    at_joints_only: ClassVar[bool] = False
+    """Whether it opens at the heights of `_crack_heights` and nowhere between them."""
+
     def _crack_heights(self, count: int) -> np.ndarray:
         """About `count` heights above the base [m] at which it may open."""
         return np.empty(0)
 
     def candidates(self, count: int = 11) -> tuple[Candidate, ...]:
-        """Those of an unknown crack keep the restitution of the structure: their own balance may be unphysical.
+        """Those of an unknown crack, each with its own momentum balance where no restitution is given.
 
-        A crack at which what holds the structure leaves no mechanism is left out.
+        Where λ has its least value between two of the heights, the height of that is one more. A crack at which what
+        holds the structure leaves no mechanism is left out.
         """
         if self.crack == "known":
             return super().candidates(count)
-        fixed: Any = replace(self, crack="known", restitution=self.mechanism().restitution)  # type: ignore[call-arg]
-        found = []
-        given = getattr(self, f"{self.crack_name}_height")
-        for height in sorted({*map(float, self._crack_heights(count)), float(given)}):
-            with suppress(StructureError):
-                description = f"{self.crack_name} at {height:.4g} m"
-                found.append(Candidate(description, height, fixed.cracked_at(height)))
+        given = float(getattr(self, f"{self.crack_name}_height"))
+        heights = sorted({*map(float, self._crack_heights(count)), given})
+        cracked = [each for each in map(self._candidate, heights) if each]
         # of equal multipliers, as all along a solid spire, the lowest crack
-        return tuple(sorted(found, key=lambda each: float(f"{each.multiplier:.9g}")))
+        order = np.argsort([float(f"{each.multiplier:.9g}") for each in cracked], kind="stable")
+        ranked, least = [cracked[place] for place in order], int(order[0])
+        if 0 < least < len(cracked) - 1 and not self.at_joints_only:
+            weakest = self._weakest_between(cracked[least - 1].position, cracked[least + 1].position)
+            if weakest and weakest.multiplier < (1 - 1e-5) * ranked[0].multiplier:
+                ranked.insert(0, weakest)
+        return tuple(ranked)
+
+    def _weakest_between(self, low: float, high: float) -> Candidate | None:
+        """The candidate of least λ between two heights [m]."""
+        from scipy.optimize import minimize_scalar  # slow to import, and needed here only
+
+        def multiplier(height: float) -> float:
+            candidate = self._candidate(height)
+            return candidate.multiplier if candidate else np.inf
+
+        accuracy = {"xatol": 1e-3 * (high - low)}
+        found = minimize_scalar(multiplier, bounds=(low, high), method="bounded", options=accuracy)
+        return self._candidate(float(found.x))
+
+    def _candidate(self, height: float) -> Candidate | None:
+        with suppress(StructureError), warnings.catch_warnings():
+            # a crack next to a support may keep nothing of an impact: nobody asked for that one
+            warnings.simplefilter("ignore", StructureWarning)
+            structure = replace(self, crack="known").cracked_at(height)
+            structure.mechanism()
+            return Candidate(f"{self.crack_name} at {height:.4g} m", height, structure)
+        return None
 
     def cracked_by_statics(self) -> Self:
-        """Return this structure cracked where statics chooses, with its restitution; the crack stays unknown."""
+        """Return this structure cracked where statics chooses; the crack stays unknown."""
         return replace(self.candidates()[0].structure, crack=self.crack)  # type: ignore[call-arg,return-value]
 
 

@@ -138,6 +138,7 @@ class CrackedWall(Crackable):
     """A wall cracked into two blocks; base and top follow the ground, the top support slides vertically."""
 
     crack_name: ClassVar[str] = "hinge"
+    side_names: ClassVar[tuple[str, str]] = ("outwards", "inwards")
 
     lower_height: Annotated[float, length("Height below the hinge", 2.0, (0.2, 57), "h₁")]
     upper_height: Annotated[float, length("Height above the hinge", 1.5, (0.1, 57), "h₂")]
@@ -154,8 +155,7 @@ class CrackedWall(Crackable):
     ) -> Self:
         """Return the wall of that height and thickness [m], hinged where statics puts the hinge or as it is given.
 
-        values, options: the others of the class. Restitution by momentum is that of the wall hinged at mid-height
-        where statics puts the hinge: next to a support it is not physical.
+        values, options: the others of the class.
         """
         if hinge_height is not None:
             return cls.hinged_at(height, hinge_height, thickness, *values, **options)

@@ -1,0 +1,76 @@
+"""Which crack governs: statics against a dense scan, and dynamics against statics."""
+
+import copy
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from operator import attrgetter, methodcaller
+
+import numpy as np
+import pytest
+
+from rocking.motion import Members, integrate_members
+from rocking.pulses import Pulse
+from rocking.quantities import GRAVITY
+from rocking.structures import ArchOnPiers, Block, Facade, Frame, LoadedWall, Spire, Wall
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"top_load": 30e3},
+        {"top_load": 30e3, "top_slab": "flat"},
+        {"tie_heights": (1.2, 3.0), "tie_stiffness": 5e4, "tie_strength": 4e3, "top_load": 10e3},
+    ],
+)
+def test_statics_puts_the_hinge_where_the_multiplier_is_least(options):
+    """Against 90 hinges: λ is no larger than theirs, and as small as a parabola between them allows."""
+    wall = LoadedWall.of_size(3.2, 0.25, 20e3, restitution=0.8, **options)
+    heights = np.linspace(1.2, 2.7, 90)
+    scanned = [wall.cracked_at(float(height)).linkage for height in heights]
+    multipliers = np.array([float(each.gravity(0.0) / each.ground(0.0)) for each in scanned])
+    assert wall.static_multiplier == wall.mechanism().uplift_multiplier
+    assert multipliers.min() * (1 - 1e-3) < wall.static_multiplier < multipliers.min() * (1 + 1e-6)
+    assert wall.hinge_height == pytest.approx(heights[multipliers.argmin()], abs=0.02)
+
+
+def test_each_crack_has_its_own_balance_where_no_restitution_is_given():
+    wall = Wall.of_size(3.2, 0.25)
+    for each in wall.candidates():
+        alone = Wall.hinged_at(3.2, each.position, 0.25, crack="known")
+        assert each.structure.mechanism().restitution == pytest.approx(
+            max(alone._momentum_balance(False), 0.0)
+        )
+    given = Wall.of_size(3.2, 0.25, restitution=0.7)
+    assert {each.structure.mechanism().restitution for each in given.candidates()} == {0.7}
+
+
+def least_overturning(mechanism, period):
+    """Amplitude in g of the weakest single sine of that period that overturns, to one part in fifty."""
+    scales = np.geomspace(0.2, 6.0, 170)
+    ratios = integrate_members(mechanism, Pulse(GRAVITY, 2 * np.pi / period), Members(scales)).rotation_ratio
+    return scales[np.argmax(np.isinf(ratios))] if np.isinf(ratios).any() else np.inf
+
+
+def test_the_base_of_a_spire_governs_statically_and_under_long_pulses_its_top_under_short_ones():
+    """The paper, section 3.1: dynamics chooses another mechanism than statics where the pulse is short."""
+    cracks = Spire(3.0, 15.0, wall_thickness=0.25).candidates(6)
+    assert cracks[0].position == 0
+    for period, lowest in ((0.6, 14.25), (1.0, 14.25), (4.0, 0.0), (8.0, 0.0)):
+        least = [least_overturning(each.structure.mechanism(), period) for each in cracks]
+        assert cracks[int(np.argmin(least))].position == lowest
+
+
+def test_structures_and_mechanisms_travel_to_processes_and_are_copied():
+    structures = [
+        Block(2.0, 0.2), Wall.of_size(3.2, 0.25), Frame(Block(2.0, 0.2), 3, 0.4), Spire(3.0, 15.0),
+        Facade((3.5, 3.0), (0.6, 0.5), 20e3, tie_heights=(3.4,), tie_stiffness=1e4),
+        ArchOnPiers(5.0, 0.8, np.pi, pier_width=1.5, pier_height=4.0),
+    ]  # fmt: skip
+    mechanisms = [each.mechanism() for each in structures]
+    expected = [each.uplift_multiplier for each in mechanisms]
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+        assert list(pool.map(attrgetter("uplift_multiplier"), mechanisms)) == expected
+        made = list(pool.map(methodcaller("mechanism"), structures))
+    assert [each.uplift_multiplier for each in made] == expected
+    assert copy.deepcopy(structures) == structures
+    assert [each.uplift_multiplier for each in copy.deepcopy(mechanisms)] == expected
