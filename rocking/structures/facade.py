@@ -49,7 +49,6 @@ class Facade(Tied):
     type_name: ClassVar[str] = "facade"
     crack_name: ClassVar[str] = "crack"
     at_joints_only: ClassVar[bool] = True
-    side_names: ClassVar[tuple[str, str]] = ("outwards", "inwards")
     described_as: ClassVar[dict[str, str]] = {
         "": "Façade of one storey or several with floor loads, ties and thrust; forces per metre of façade"
     }

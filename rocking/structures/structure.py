@@ -75,14 +75,13 @@ class Structure(ABC):
 
     type_name: the `type` in a file. described_as: what each constructor that a file may use describes, by the name of
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
-    usual_restitution: where none is given. side_names: to which side it falls where `peak_side` is +1, and −1.
+    usual_restitution: where none is given.
     """
 
     type_name: ClassVar[str] = ""
     described_as: ClassVar[dict[str, str]] = {}
     crack_name: ClassVar[str] = ""
     usual_restitution: ClassVar[float | str] = "momentum"
-    side_names: ClassVar[tuple[str, str]] = ("to the right", "to the left")
     one_sided = False
 
     restitution_range: Annotated[
@@ -139,6 +138,11 @@ class Structure(ABC):
     def symmetric(self) -> bool:
         """Whether the negative side is the mirror image of the positive one."""
         return True
+
+    @property
+    def side_names(self) -> tuple[str, str]:
+        """To which side it falls, in words: where `peak_side` is +1, and where it is −1."""
+        return "to the right", "to the left"
 
     @cached_property
     def linkages(self) -> tuple[Linkage, ...]:

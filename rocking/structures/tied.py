@@ -86,6 +86,11 @@ class Tied(Crackable):
     one_sided: OneSided = field(default=False, kw_only=True)
 
     @property
+    def side_names(self) -> tuple[str, str]:
+        """Outwards and inwards, where ties, loads or what it leans on tell them apart."""
+        return super().side_names if self.symmetric and not self.one_sided else ("outwards", "inwards")
+
+    @property
     @abstractmethod
     def height(self) -> float:
         """Of the wall, m."""

@@ -138,7 +138,6 @@ class CrackedWall(Crackable):
     """A wall cracked into two blocks; base and top follow the ground, the top support slides vertically."""
 
     crack_name: ClassVar[str] = "hinge"
-    side_names: ClassVar[tuple[str, str]] = ("outwards", "inwards")
 
     lower_height: Annotated[float, length("Height below the hinge", 2.0, (0.2, 57), "h₁")]
     upper_height: Annotated[float, length("Height above the hinge", 1.5, (0.1, 57), "h₂")]

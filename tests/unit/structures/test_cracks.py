@@ -74,3 +74,10 @@ def test_structures_and_mechanisms_travel_to_processes_and_are_copied():
     assert [each.uplift_multiplier for each in made] == expected
     assert copy.deepcopy(structures) == structures
     assert [each.uplift_multiplier for each in copy.deepcopy(mechanisms)] == expected
+
+
+def test_a_structure_says_to_which_side_it_falls():
+    facade, ties = Facade((3.5,), (0.6,), 20e3), {"tie_heights": (1.2,), "tie_stiffness": 5e4}
+    tied = LoadedWall(1.6, 1.6, 0.25, 20e3, tie_strength=4e3, **ties)
+    assert facade.side_names == tied.side_names == ("outwards", "inwards")
+    assert Wall(1.6, 1.6, 0.25).side_names == Block(2.0, 0.2).side_names == ("to the right", "to the left")
