@@ -50,6 +50,8 @@ def run(folder: Path, options: Sequence[str]) -> int:
         raise ConfigurationError(
             f"{folder} holds no config.yaml; start a study there first: rocking start {folder}"
         )
+    if any(option.startswith("--trust") for option in options):
+        raise ConfigurationError("--trust-io-cache would run what .snakemake/iocache holds; leave it out.")
     plan = _plan(folder, config)
     home = workflow_folder()
     sys.path.append(str(home / "workflow" / "logger"))

@@ -18,7 +18,7 @@ BOMB = "\n".join(
 )
 
 
-@pytest.mark.parametrize("name", [".numba_config.yaml", "matplotlibrc"])
+@pytest.mark.parametrize("name", [".numba_config.yaml", "matplotlibrc", "profiles/default"])
 @pytest.mark.parametrize("verb", [["read", "x.AT2"], ["run", "study"], ["run"]])
 def test_a_folder_brings_no_settings_for_a_library(
     tmp_path: Path,
@@ -31,7 +31,9 @@ def test_a_folder_brings_no_settings_for_a_library(
     (tmp_path / "study").mkdir()
     (tmp_path / "study" / "config.yaml").touch()
     monkeypatch.chdir(tmp_path)
-    (tmp_path / ("study" if "study" in verb else "") / name).write_text("cache_dir: nc\n")
+    path = tmp_path / ("study" if "study" in verb else "") / name
+    path.parent.mkdir(exist_ok=True)
+    path.write_text("cache_dir: nc\n")
     assert main(verb) == 2
     assert name in capsys.readouterr().err
 
