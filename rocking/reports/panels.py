@@ -216,6 +216,29 @@ def draw_agreement(axes: Axes, integrated: np.ndarray, predicted: np.ndarray) ->
     axes.legend(loc="upper left", bbox_to_anchor=(0.03, 0.88))
 
 
+def draw_governing_cracks(axes: Axes, structure: "Structure", periods: np.ndarray) -> None:
+    """Draw which crack overturns first under one sine of each period (n,) [s], and at what amplitude.
+
+    Dashed is the crack that statics chooses, dotted the acceleration at which static limit analysis lets it fall. Each
+    crack stands for its equivalent block exact at rest.
+    """
+    from rocking.quantities import GRAVITY
+    from rocking.sine_pulse import overturning_amplitudes  # compiled, and of no use to the other pictures
+
+    cracks = structure.candidates()
+    blocks = [crack.structure.mechanism().equivalent_block("rest") for crack in cracks]
+    amplitudes = overturning_amplitudes(blocks, 2 * np.pi / np.asarray(periods)) / GRAVITY
+    heights = np.nan_to_num([cracks[first].position for first in amplitudes.argmin(axis=0)])
+    governing = axes.scatter(periods, amplitudes.min(axis=0), s=12, c=heights, label="crack that governs")
+    axes.figure.colorbar(governing, ax=axes, label="its height [m]")
+    axes.plot(periods, amplitudes[0], "k--", linewidth=0.8, label=f"statics: {cracks[0].description}")
+    axes.axhline(cracks[0].multiplier, color="k", linestyle=":", linewidth=0.8, label="static limit")
+    for which in ("x", "y"):
+        plain_logarithmic(axes, which)
+    axes.set(xlabel="period of the pulse [s]", ylabel="amplitude that overturns [g]")
+    axes.legend(loc="upper right")
+
+
 def draw_probability(
     axes: Axes,
     levels: np.ndarray,

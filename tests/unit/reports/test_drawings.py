@@ -7,19 +7,14 @@ import pytest
 from matplotlib.figure import Figure
 
 from rocking.assessment.verdict import Verdict
-from rocking.reports.drawings import draw_structure, fallen_rotation, round_length, seen_rotation
+from rocking.reports.drawings import draw_structure, fallen_rotation, seen_rotation
 from rocking.reports.record import drawn_rotation, strip_figure
-from rocking.reports.style import MOST_POINTS, fixed_ticks, svg, thinned
+from rocking.reports.style import MOST_POINTS, svg, thinned
 from rocking.structures import Arch, Block, Wall
 
 from .conftest import fate
 
 STRUCTURES = [Block.of_size(1.0, 4.0), Wall(1.6, 1.4, 0.4), Arch(10, 1.5, 2.75)]
-
-
-@pytest.mark.parametrize(("length", "rounded"), [(1.0, 1.0), (4.9, 2.0), (5.0, 5.0), (0.199, 0.1), (37, 20)])
-def test_scale_bars_are_one_two_or_five(length, rounded):
-    assert round_length(length) == pytest.approx(rounded, rel=1e-12)
 
 
 @pytest.mark.parametrize("structure", STRUCTURES)
@@ -66,16 +61,6 @@ def test_a_thinned_trace_keeps_its_peaks_and_few_points():
         thinned(times[:100], values[:100])[1] is not None
         and thinned(times[:100], values[:100])[1].size == 100
     )
-
-
-@pytest.mark.parametrize(("low", "high"), [(0, 20.3), (-4.7, 4.7), (1e-4, 3e-4), (12.0, 12.6)])
-def test_ticks_are_round_and_inside(low, high):
-    axes = Figure().subplots()
-    fixed_ticks(axes, "x", low, high)
-    places = axes.get_xticks()
-    assert 2 <= len(places) <= 11 and low <= places[0] and places[-1] <= high * (1 + 1e-9)
-    steps = np.diff(places)
-    assert np.allclose(steps, steps[0]) and f"{steps[0]:.0e}"[0] in "125"
 
 
 def test_a_structure_that_rocks_to_one_side_falls_to_it():

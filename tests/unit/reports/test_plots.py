@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import rocking
+from rocking.reports.panels import draw_governing_cracks
 
 TIMES = np.arange(3000) * 0.01
 PULSE = rocking.Pulse(4.0, 2 * np.pi / 0.9, 5.0)
@@ -81,13 +82,13 @@ def test_the_mechanism_is_drawn_over_its_values_at_rest():
     assert len(unlike.mechanism().plot().lines) == 7  # three for each side and the line at 0
 
 
-def test_a_spectrum_is_an_array_that_knows_its_axes():
-    assert SPECTRUM.shape == (12, 10) and np.isinf(SPECTRUM).any() and (SPECTRUM == 0).any()
-    assert np.array_equal(SPECTRUM.frequency_parameters, FREQUENCIES)
-    assert np.array_equal(SPECTRUM.uplift_multipliers, MULTIPLIERS)
-    block = rocking.EquivalentBlock(FREQUENCIES[3], 1.0, 1 / MULTIPLIERS[4], 0.9)
-    # two compiled ways to the same exact solution; the equations amplify rounding by e^(p t)
-    assert SPECTRUM[3, 4] == pytest.approx(rocking.integrate(block, RECORD).rotation_ratio, rel=1e-7)
+def test_a_spire_falls_at_its_tip_under_short_pulses_and_at_its_base_under_long_ones():
+    spire = rocking.Spire(3.0, 15.0, wall_thickness=0.25, crack_height=5.0, crack="unknown")
+    axes = Figure().subplots()
+    draw_governing_cracks(axes, spire, np.array([0.3, 6.0]))
+    (governing,) = axes.collections
+    assert governing.get_array().tolist() == [pytest.approx(14.25), 0.0]
+    assert np.all(governing.get_offsets()[:, 1] <= axes.lines[0].get_ydata())
 
 
 def test_what_cannot_be_drawn_is_said():

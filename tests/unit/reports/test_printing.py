@@ -34,10 +34,6 @@ def test_a_ratio_says_what_became_of_the_structure(value, printed):
     assert printing.ratio(value) == printed
 
 
-def test_a_chosen_number_has_no_trailing_zeros():
-    assert [printing.given(value) for value in (12.5, 1.0, 1e-06, None)] == ["12.5", "1", "1×10⁻⁶", "–"]
-
-
 def test_a_column_has_the_heading_unit_and_digits_of_its_field():
     columns = printing.columns_of(PulseRow, "component start_time_s gain_m2_s3 gain_ratio rank")
     heads = ["Component", "Start time [s]", "Gain [m²/s³]", "Gain ratio [-]", "Rank"]

@@ -11,11 +11,11 @@ import pytest
 from rocking.assessment.rows.of_study import structure_rows
 from rocking.assessment.verdict import Agreement, Method, Verdict
 from rocking.records.accelerogram import Accelerogram
-from rocking.reports.record import RecordReport, failure_report, headlines
+from rocking.reports.record import RecordReport, failure_report
 from rocking.structures import Block
 from rocking.tables import cell
 
-from .conftest import HOSTILE, assessed, fate, shaken
+from .conftest import HOSTILE, assessed, shaken
 
 NUMBER = re.compile(r"[−-]?\d+(?:\.\d+)?(?:×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
 CSV_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
@@ -91,11 +91,6 @@ def test_page_one_begins_with_the_verdicts_by_name_and_holds_no_table(example, d
         if row.verdict is Verdict.UNDECIDED:
             assert f"overturns in {row.overturning_members} of {row.members}" in lines[row.verdict]
     assert "PGA 0." in data["key"][0] and " g, PGV " in data["key"][0] and "D5–95" in data["key"][0]
-
-
-def test_the_reports_own_settings_stand_above_its_title(example):
-    named = replace(example, settings=example.settings | {"client": "A client", "date": "2026-01-02"})
-    assert named.data()["about"] == {"study": "", "client": "A client", "author": "", "date": "2026-01-02"}
 
 
 def test_an_outcome_that_processing_decides_is_told(example):
@@ -212,9 +207,3 @@ def test_a_vertical_component_is_named_and_changes_the_histories(example):
     still, moved = (replace(example, tables=tables, vertical=each).data() for each in (None, up))
     assert still["vertical"] == "UP"
     assert still["histories"][0]["svg"] != moved["histories"][0]["svg"]
-
-
-def test_the_first_lines_hold_few_long_names_and_say_how_many_more():
-    many = [fate(Verdict.STANDS, 0.1, structure=f"{place} {'W' * 60}") for place in range(12)]
-    (line,) = headlines(many)
-    assert len(line["names"]) < 340 and line["names"].endswith("and 8 others")

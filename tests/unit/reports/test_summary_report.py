@@ -151,13 +151,6 @@ def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first(
     ]
 
 
-def test_a_large_map_is_cut_and_says_so():
-    cases = [case(f"s{k}", 0.1, 0.2, f"r{j}") for j in range(50) for k in range(25)]
-    shown = summary_data(summary_tables(cases), SETTINGS)["map"]
-    assert len(shown["rows"]) == 30 and len(shown["heads"]) == 20
-    assert shown["note"] == " Not shown, but in verdicts.csv: 20 records and 5 structures."
-
-
 def test_each_method_is_held_against_the_integration_with_what_it_took(example):
     tables = summarised(example.tables, example.structures) | {
         "maxima": frame(MaximumRow, example.tables.maxima)
@@ -174,12 +167,6 @@ def test_each_method_is_held_against_the_integration_with_what_it_took(example):
     assert summary_data(summarised(example.tables, example.structures), SETTINGS)["methods"]["rows"] == []
 
 
-def test_unsafe_cases_are_listed():
-    data = summary_data(summary_tables(CASES), SETTINGS)
-    assert len(data["unsafe"]["rows"]) == 1 and data["unsafe"]["rows"][0][-1] == "misses the overturning"
-    assert data["unsafe"]["rows"][0][4] == {"text": "overturns", "strong": True}
-
-
 def test_a_study_without_a_readable_record_says_so_first():
     failure = FailureRow.of(record="bad", stage="read", message="bad.at2: is empty.")
     tables = summary_tables([], failures=[failure])
@@ -191,12 +178,6 @@ def test_the_summary_of_a_record_is_the_same_twice_and_names_its_factor(hostile)
     tables = summarised(hostile.tables, hostile.structures)
     assert summary_report(tables, SETTINGS) == summary_report(tables, SETTINGS)
     assert any("declared factor" in notice["text"] for notice in summary_data(tables, SETTINGS)["notices"])
-
-
-def test_the_trade_is_shown_where_it_was_measured():
-    shown = [{"svg": "<svg xmlns='http://www.w3.org/2000/svg'/>", "alt": "a", "conclusion": "Buy one."}]
-    assert summary_data(summary_tables(CASES), SETTINGS, shown)["trade"] == shown
-    assert summary_report(summary_tables(CASES), SETTINGS, shown).startswith(b"%PDF")
 
 
 def test_tables_read_from_files_give_the_report_of_rows_in_memory(example, tmp_path):
@@ -238,13 +219,6 @@ def test_a_scatter_of_many_cases_does_not_grow_with_them():
         for number in (6000, 60000)
     ]
     assert sizes[1] < 1.5 * sizes[0] < 1.5 * 2e5
-
-
-def test_a_case_without_a_prediction_is_not_counted_in_the_scatter():
-    cases = [case("pier", math.nan, 0.5), case("pier", 0.4, 0.5), case("wall", math.inf, 0.5)]
-    figure = prediction_scatter(frame(ComparisonRow, cases))
-    labels = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
-    assert labels == ["cases (2)"]
 
 
 SHARES = {"a": (0.0, 0.4, 1.0), "b": (0.2, 0.6, 0.3), "c": (0.0, 0.0, 0.1), "d": (1, 1, 1)}
@@ -310,13 +284,3 @@ def test_every_intensity_measure_is_drawn_with_its_unit(measure):
         FRAGILITY[name].assign(intensity_measure=measure) for name in ("fragility", "fragility_summary")
     )
     assert f">{measure} [" in svg(fragility_figure(curves, summary))
-
-
-def test_many_fragility_curves_go_on_over_pages():
-    names = [f"pier {place}" for place in range(20)]
-    many = (
-        pandas.concat([table.assign(structure=each) for each in names], ignore_index=True)
-        for table in (FRAGILITY["fragility"], FRAGILITY["fragility_summary"], FRAGILITY["ida"])
-    )
-    data = fragility_data(*many)
-    assert len(data["parts"]) == 5 and len(data["parts"][1]["rows"]) == 20
