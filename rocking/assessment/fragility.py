@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from scipy.optimize import isotonic_regression
 from scipy.special import betaincinv, erfcx, ndtr, stdtr, stdtrit
 
 from rocking.assessment.ensemble import GroundMotions, drawn, lattice
@@ -211,6 +210,8 @@ def _crossing(levels: np.ndarray, over: np.ndarray, trials: np.ndarray) -> float
     """
     tried = trials > 0
     logs = np.log(levels[tried])
+    from scipy.optimize import isotonic_regression  # half a second, which every summary would pay
+
     rising = isotonic_regression(over[tried] / trials[tried], weights=trials[tried]).x
     rising[np.abs(rising - 0.5) < 1e-12] = 0.5  # but for rounding
     places = []

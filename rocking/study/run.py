@@ -85,7 +85,8 @@ def run(folder: Path, options: Sequence[str]) -> int:
         print(f"Stopped; what was finished stays. To go on: rocking run {folder}")
         return 128 + _STOPS[0]
     if status:
-        text = log.read_text(encoding="utf-8", errors="replace")
+        # The folder of the results may be gone.
+        text = log.read_text(encoding="utf-8", errors="replace") if log.exists() else ""
         sentences = dict.fromkeys(" ".join(match[1].split()) for match in _ERRORS.finditer(text))
         last = progress.errors[-1:] or text.strip().splitlines()[-1:] or ["snakemake gave no reason"]
         reason = "; ".join(sentences) or " ".join(last[0].split())

@@ -80,7 +80,7 @@ class Settings(AssessmentSettings):
         False, "rotation histories of every response too, as histories.csv of each record"
     )
     records_per_job: int | None = described(
-        None, "about; null: the square root of their number, an eighth of it from 64, 200 from 1600", ge=1
+        None, "about; null: twelve, an eighth of their number from 96, 200 from 1600", ge=1
     )
 
     def numbers(self) -> dict[str, Any]:

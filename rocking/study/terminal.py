@@ -2,6 +2,7 @@
 
 import json
 import os
+import sys
 import tempfile
 import time
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
@@ -117,13 +118,16 @@ def send(**told: Any) -> None:
 
 
 def line_writer(log: Path) -> Callable[[str], None]:
-    """Return what adds a line to `log`, begun anew, and shows it to the one who waits."""
+    """Return what adds a line to `log`, begun anew, and shows it to the one who waits, or else on the terminal."""
     log.write_text("", encoding="utf-8")
 
     def add(line: str) -> None:
         with log.open("a", encoding="utf-8") as stream:
             print(line, file=stream)
-        send(job=log.stem, line=line)
+        if PIPE in os.environ:
+            send(job=log.stem, line=line)
+        else:
+            print(line, file=sys.stderr, flush=True)
 
     return add
 
