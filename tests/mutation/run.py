@@ -1,6 +1,6 @@
 """Change one operator, comparison, number or branch of the code at a time; the tests of that wing must notice.
 
-    python tests/mutation/run.py [WING ...] [--mutants 30] [--seed 1]
+    python tests/mutation/run.py [WING ...] [--mutants 30] [--seed 1] [--only MODULE.py]
 
 Works on a clone of the last commit in a temporary folder and prints each change that no test noticed. Compiled modules
 are tested interpreted, on small cases. A mutant whose tests take longer than LIMIT counts as noticed.
@@ -92,11 +92,11 @@ def noticed(tree: Path, wing: str, module: Path | None = None) -> bool:
     return done.returncode != 0
 
 
-def try_wing(tree: Path, wing: str, count: int, seed: int) -> None:
-    """Draw mutants of one wing, and print those that survive and how many there were."""
+def try_wing(tree: Path, wing: str, count: int, seed: int, only: str) -> None:
+    """Draw mutants of one wing, of modules that match `only`; print those that survive and how many there were."""
     if noticed(tree, wing):
         raise SystemExit(f"{wing}: its tests fail on the code as it is")
-    modules = sorted((tree / "rocking" / wing).rglob("*.py"))
+    modules = sorted((tree / "rocking" / wing).rglob(only))
     possible = [(path, change) for path in modules for change in mutants(path.read_text(encoding="utf-8"))]
     drawn = random.Random(seed).sample(possible, min(count, len(possible)))
     survivors = 0
@@ -120,12 +120,13 @@ def main() -> None:
     )
     parser.add_argument("--mutants", type=int, default=30)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="*.py", help="modules, such as facade.py")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         tree = Path(folder) / "tree"
         subprocess.run(["git", "clone", "--quiet", ROOT, tree], check=True)
         for wing in options.wings:
-            try_wing(tree, wing, options.mutants, options.seed)
+            try_wing(tree, wing, options.mutants, options.seed, options.only)
 
 
 if __name__ == "__main__":

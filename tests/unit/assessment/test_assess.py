@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import AssessmentSettings, Method, assess_structures, predict
+from rocking.assessment.rows.of_record import ComponentRow, maximum_rows
 from rocking.assessment.settings import PredictingPulse
 from rocking.assessment.verdict import NEGLIGIBLE, agreement, ratio, rests, within_factor_two
 from rocking.errors import StructureError
@@ -42,6 +43,17 @@ def test_block_on_pulse_is_the_closed_form(case):
     # Both follow the same linear block under the same sine by different routes.
     on_pulse = case.responses[Method.BLOCK_ON_PULSE].rotation_ratio
     assert case.prediction.maximum.rotation_ratio == pytest.approx(on_pulse, rel=1e-5)
+
+
+def test_a_row_of_a_maximum_has_its_error_against_the_integration(case):
+    identity = ComponentRow(**dict.fromkeys(ComponentRow.table.column_names))
+    rows = list(maximum_rows(identity, case, 0.6))
+    assert {Method.PRINTED, Method.CLOSED_FORM, Method.MECHANISM_ON_RECORD} < {row.method for row in rows}
+    for row in rows:
+        if row.method is not Method.MECHANISM_ON_RECORD:  # against which the others err
+            assert row.error == pytest.approx(
+                row.rotation_ratio / case.integrated_rotation_ratio - 1, abs=1e-12
+            )
 
 
 def test_a_structure_that_fails_costs_no_other_its_result():

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy.optimize import minimize
-from scipy.stats import norm
+from scipy.stats import beta, norm
 
 import rocking
 from rocking.assessment.fragility import fragility, fragility_of
@@ -162,3 +162,31 @@ def test_a_record_without_the_measure_is_named():
         ConfigurationError, match=r"still has a pgv of 0\.0, but must have one greater than 0"
     ):
         fragility([*RECORDS, still], BLOCK)
+
+
+@pytest.mark.parametrize(
+    ("share", "median"),
+    [
+        ([0.2, 0.4, 0.6, 0.8], 2**1.5),
+        ([0.2, 0.5, 0.5, 0.8], 2**1.5),
+        ([0.1, 0.3, 0.7, 0.9], 2**1.5),
+        ([0.6, 0.7, 0.8, 0.9], 1.0),
+    ],
+)
+def test_the_median_is_linear_in_the_logarithm_between_two_levels_and_the_middle_of_a_flat_half(
+    share, median
+):
+    exceedance = (np.arange(20)[:, None] < 20 * np.array(share)).astype(float)
+    found = fragility_of(np.array([1.0, 2.0, 4.0, 8.0]), exceedance, [str(k) for k in range(20)])
+    assert found.median == pytest.approx(median, rel=1e-12)
+
+
+def test_the_interval_of_a_share_is_that_of_jeffreys_for_the_scatter_of_the_stations():
+    """6 of 20 stations: their shares scatter by p(1 − p) n/(n − 1), as those of n − 1 independent records."""
+    exceedance = (np.arange(20)[:, None] < np.array([6, 14])).astype(float)
+    found = fragility_of(np.array([1.0, 2.0]), exceedance, [str(k) for k in range(20)])
+    for place, share in enumerate((0.3, 0.7)):
+        ends = beta.ppf((0.05, 0.95), 19 * share + 0.5, 19 * (1 - share) + 0.5)
+        assert (found.probability_low[place], found.probability_high[place]) == pytest.approx(
+            tuple(ends), rel=1e-9
+        )
