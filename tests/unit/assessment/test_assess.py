@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import AssessmentSettings, Method, assess_structures, predict
-from rocking.assessment.rows.of_record import ComponentRow, maximum_rows
-from rocking.assessment.settings import PredictingPulse
+from rocking.assessment.rows.of_record import ComponentRow, comparison_row, maximum_rows, pulse_rows
+from rocking.assessment.settings import EnsembleSettings, PredictingPulse
 from rocking.assessment.verdict import NEGLIGIBLE, agreement, ratio, rests, within_factor_two
 from rocking.errors import StructureError
 from rocking.pulses import PULSE_METHODS, Pulse, extract_pulses
@@ -45,9 +45,25 @@ def test_block_on_pulse_is_the_closed_form(case):
     assert case.prediction.maximum.rotation_ratio == pytest.approx(on_pulse, rel=1e-5)
 
 
+IDENTITY = ComponentRow(**dict.fromkeys(ComponentRow.table.column_names))
+
+
+def test_a_case_without_an_ensemble_alone_has_an_estimate_in_its_row(case):
+    settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
+    (alone,) = assess_structures(RECORD, {"block": BLOCK}, settings).cases
+    assert comparison_row(IDENTITY, alone).overturning_estimate == alone.overturning_estimate.share
+    assert math.isnan(comparison_row(IDENTITY, case).overturning_estimate)
+
+
+def test_the_ranked_rows_of_pulses_are_the_alternatives_in_their_order():
+    analysis = extract_pulses(RECORD)
+    rows = [row for row in pulse_rows(IDENTITY, analysis, ()) if row.ranked]
+    assert [row.pulse for row in rows] == [evidence.pulse for evidence in analysis.ranked]
+    assert [row.rank for row in rows] == list(range(1, len(rows) + 1)) and rows[0].gain_ratio == 1
+
+
 def test_a_row_of_a_maximum_has_its_error_against_the_integration(case):
-    identity = ComponentRow(**dict.fromkeys(ComponentRow.table.column_names))
-    rows = list(maximum_rows(identity, case, 0.6))
+    rows = list(maximum_rows(IDENTITY, case, 0.6))
     assert {Method.PRINTED, Method.CLOSED_FORM, Method.MECHANISM_ON_RECORD} < {row.method for row in rows}
     for row in rows:
         if row.method is not Method.MECHANISM_ON_RECORD:  # against which the others err
