@@ -29,6 +29,8 @@ from rocking.sine_pulse import predict_maximum
 from rocking.structures import Mechanism, Structure
 from rocking.structures.structure import Candidate
 
+CRACKS = 11
+"""Mechanisms that are tried where more than one may form; those of settings that ask for as many are the same."""
 IN_DOUBT = 0.3
 """Rotation ratio of a member beyond which it is in doubt that a mechanism other than that of statics stands."""
 
@@ -105,7 +107,13 @@ def cracks(structure: Structure | Mechanism) -> tuple[tuple[str, Mechanism], ...
     """Return the mechanisms that may form, each with what opens in words; the one that statics chooses first."""
     if isinstance(structure, Mechanism):
         return (("", structure),)
-    return tuple((each.description, each.structure.mechanism()) for each in structure.candidates())
+    return tuple((each.description, each.structure.mechanism()) for each in _candidates(structure, CRACKS))
+
+
+@lru_cache(maxsize=256)
+def _candidates(structure: Structure, count: int) -> tuple[Candidate, ...]:
+    """The same objects at every call, whose mechanisms keep their tables."""
+    return structure.candidates(count) if count else ()
 
 
 def candidates(
@@ -115,11 +123,13 @@ def candidates(
     count: int,
     settings: AssessmentSettings,
 ) -> list[CrackResponse]:
-    """Return `count` candidates of a structure over what it may crack at (its `moved`); [] where nothing is.
+    """Return `count` candidates of a structure, the lowest crack first; [] where there is one mechanism.
 
     Raises RockingError where one of them cannot be followed.
     """
-    others = _moved(structure, count)
+    others = sorted(_candidates(structure, count), key=lambda each: each.position)
+    if len(others) < 2:
+        return []
     structures = [each.structure for each in others]
     integrated = _rotation_ratios(structures, accelerogram, settings)
     for other, ratio in zip(structures, integrated, strict=True):
@@ -171,13 +181,6 @@ def _rotation_ratios(
     """The largest rotation ratio of each, nan where it cannot be followed; one thread, as a job has one core."""
     how: Any = {"vertical": vertical, "tolerance": settings.tolerance, "workers": 1}
     return integrate_batch(structures, record, **how)[:, 0].tolist()
-
-
-@lru_cache(maxsize=64)
-def _moved(structure: Structure, count: int) -> tuple[Candidate, ...]:
-    """The cracks that may form, the lowest first; none where there is one mechanism or `count` is 0."""
-    others = structure.candidates(count) if count else ()
-    return tuple(sorted(others, key=lambda each: each.position)) if len(others) > 1 else ()
 
 
 def _predicted(structure: Structure, pulse: Pulse | None, settings: AssessmentSettings) -> float:

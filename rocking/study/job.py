@@ -194,10 +194,14 @@ def _assess(assessed: Assessed, study: Study, durations: dict[str, float]) -> No
     record, tables, settings = assessed.record, assessed.tables, study.assessment
     with _timed(durations, "velocity pulse"):
         motions = horizontal_motions(assessed.accelerograms)
+    pair = _pair(assessed, settings)
+    # What settles a verdict with least work needs no ensemble of a component beside that over all directions.
+    spared = pair is not None and settings.fidelity == "auto"
+    of_each = replace(settings, ensemble=replace(settings.ensemble, members=0)) if spared else settings
     for accelerogram, motion in zip(assessed.accelerograms, motions, strict=True):
         beside = None if assessed.vertical is None else aligned(assessed.vertical, accelerogram)
         alone = len(motions) == 1
-        assessment = assess_structures(accelerogram, study.structures, settings, beside, alone)
+        assessment = assess_structures(accelerogram, study.structures, of_each, beside, alone)
         identity = identity_of(record.id, accelerogram, study.settings_sha256)
         tables.add(identity, assessment, settings, record.licence, beside, motion)
         for case in assessment.cases:
@@ -207,23 +211,35 @@ def _assess(assessed: Assessed, study: Study, durations: dict[str, float]) -> No
             _vary(identity, assessment, study, tables, beside)
         for stage, duration in assessment.durations.items():
             durations[stage] += duration
-    if len(motions) == 2 and settings.ensemble.members and settings.fidelity == "full":
+    if pair is not None:
         with _timed(durations, "directions"):
-            _assess_directions(assessed, study)
+            _assess_directions(assessed, study, pair)
 
 
-def _assess_directions(assessed: Assessed, study: Study) -> None:
-    """Append the ensembles over directions of a record that has two horizontal components."""
-    (first, second), tables, settings = assessed.accelerograms, assessed.tables, study.assessment.ensemble
-    identity = identity_of(assessed.record.id, first, study.settings_sha256)
-    names = dict.fromkeys(alone.structure for alone in tables.ensemble)
+def _pair(assessed: Assessed, settings: AssessmentSettings) -> GroundMotions | None:
+    """The motions of both horizontal components; None without two of them that belong together, or an ensemble."""
+    if len(assessed.accelerograms) != 2 or not settings.ensemble.members:
+        return None
+    first, second = assessed.accelerograms
+    processing = settings.ensemble.processing
     try:
-        motions = GroundMotions.of_pair(first, second, assessed.vertical, processing=settings.processing)
-        for name in names:
-            found = ensemble_over_cracks(study.structures[name], motions, study.assessment)
-            tables.ensemble.append(ensemble_row(identity, name, found, BOTH_COMPONENTS))
+        return GroundMotions.of_pair(first, second, assessed.vertical, processing=processing)
     except RockingError as error:
-        tables.fail(identity.record, BOTH_COMPONENTS, Failure("directions", "", str(error)))
+        assessed.tables.fail(assessed.record.id, BOTH_COMPONENTS, Failure("directions", "", str(error)))
+        return None
+
+
+def _assess_directions(assessed: Assessed, study: Study, pair: GroundMotions) -> None:
+    """Append the ensembles over directions of a record that has two horizontal components."""
+    tables, settings = assessed.tables, study.assessment
+    identity = identity_of(assessed.record.id, assessed.accelerograms[0], study.settings_sha256)
+    quick = settings.fidelity == "auto"
+    for name in dict.fromkeys(case.structure for case in tables.comparison):
+        try:
+            members = ensemble_over_cracks(study.structures[name], pair, settings, verdict_only=quick)
+            tables.ensemble.append(ensemble_row(identity, name, members, BOTH_COMPONENTS))
+        except RockingError as error:
+            tables.fail(identity.record, BOTH_COMPONENTS, Failure("directions", name, str(error)))
 
 
 def _vary(

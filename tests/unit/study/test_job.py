@@ -12,11 +12,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rocking.assessment.assess import assess
 from rocking.assessment.rows.of_folder import PER_RECORD
 from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, HistoryRow, MaximumRow, PulseRow
 from rocking.assessment.verdict import Method
 from rocking.errors import RockingError, StructureError
 from rocking.motion import integrate
+from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.structures import Block
@@ -154,6 +156,23 @@ def test_a_job_that_breaks_off_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(MemoryError):
         run_job([_record(tmp_path)], _study(broken=Broken(1.0, 0.2)), tmp_path / "part", tmp_path)
     assert not list((tmp_path / "part").iterdir())
+
+
+@pytest.mark.parametrize("fidelity", ["full", "auto"])
+def test_a_pair_has_the_ensemble_over_its_directions_that_assess_has(tmp_path: Path, fidelity: str) -> None:
+    times = np.arange(0, 4, 0.01)
+    waves = [a * np.sin(7 * times) * np.exp(-((times - 1.5) ** 2)) for a in (3.0, 4.0)]
+    pair = [Accelerogram(wave, 0.01, name) for wave, name in zip(waves, "xy", strict=True)]
+    block = Block(2.0, 0.2, restitution=0.9)
+    study = _study(block=block)
+    study = replace(study, settings=replace(study.settings, fidelity=fidelity))
+    (*alone, both) = assess_record(_record(tmp_path), study, (pair, None)).tables.ensemble
+    joined = assess(pair, block)
+    assert both.component == "both" and both.verdict is joined.verdict
+    assert [row.component for row in alone] == (["x", "y"] if fidelity == "full" else [])
+    if fidelity == "full":
+        same = ("members", "overturning_members", "rotation_ratio_low", "rotation_ratio_high")
+        assert all(getattr(both, name) == getattr(joined, name) for name in same)
 
 
 def test_the_error_of_each_method_is_against_the_mechanism_on_the_record(tmp_path: Path) -> None:
