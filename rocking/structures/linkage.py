@@ -46,18 +46,6 @@ class Motion:
     accelerations: np.ndarray = field(repr=False)
 
 
-class Bodies(NamedTuple):
-    """Moving masses at a rotation (any shape, ...), up to one factor of mass; points complex, m.
-
-    masses, inertias (about each centre of mass): (k,). centres: (k, ...). turns: (k, ...) counterclockwise, rad.
-    """
-
-    masses: np.ndarray
-    inertias: np.ndarray
-    centres: np.ndarray
-    turns: np.ndarray
-
-
 class PointMotion(NamedTuple):
     """Points at rotations of any shape: how far they moved from rest, and the derivatives with φ; complex, m."""
 
@@ -190,13 +178,6 @@ class Linkage(ABC):
         slopes += [tie.slope(*(each.real for each in point)) for tie, point in self._tied(motion)]
         return self.weight_slope(rotation) + sum(slopes, np.zeros(())) / self.unit
 
-    def held_work(self, rotation: ArrayLike) -> np.ndarray:
-        """Return the work over g done since rest against constant forces and ties, on the way out."""
-        motion = self.motion(rotation)
-        works = [-(force.conjugate() * point.moved).real for force, point in self._pushed(motion)]
-        works += [tie.work(point.moved.real) for tie, point in self._tied(motion)]
-        return sum(works, np.zeros(np.shape(rotation)))
-
     def _pushed(self, motion: Motion) -> Iterator[tuple[complex, PointMotion]]:
         """The constant forces and the motions of their points."""
         for each in self.hung:
@@ -252,7 +233,7 @@ class Linkage(ABC):
         if not falls.size:
             raise StructureError(
                 f"the structure has no unstable equilibrium up to a rotation of {self.end_rotation:.6g} rad: "
-                "what holds it never lets go; make it weaker."
+                "what holds it never lets go; make it weaker, or say at which strength its ties yield."
             )
         if falls[0] == 0:
             raise StructureError("the structure does not stand: what acts on it at rest turns it over.")

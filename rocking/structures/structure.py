@@ -18,7 +18,6 @@ from rocking.structures.drawing import Dimension, Mark, Path, plane
 from rocking.structures.fields import Field, Form, Value, constructor
 from rocking.structures.linkage import (
     STILL,
-    Bodies,
     Linkage,
     Motion,
     Restitution,
@@ -29,10 +28,6 @@ from rocking.structures.mechanism import Mechanism
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-
-_STEP = 1e-5
-"""Rotation over which velocities at rest are differenced, rad: errors of 1e-10 of a length."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,12 +153,17 @@ class Structure(ABC):
     def outline(self, rotation: float = 0.0) -> list[np.ndarray]:
         """Return the rigid parts at a signed `rotation` [rad] as polygons (k, 2) in m, x to the right, y up."""
         linkage, motion = self._posed(rotation)
-        mirrored, drawn = rotation < 0, []
-        for part, corners in self._parts():
-            seen = -corners.conj() if mirrored and not self.symmetric else corners
-            moved = seen if part == STILL else seen + linkage.carried(part, seen, motion).moved
-            drawn.append(plane(moved, mirrored))
+        drawn = []
+        for part, corners in self._seen(rotation < 0):
+            moved = 0.0 if part == STILL else linkage.carried(part, corners, motion).moved
+            drawn.append(plane(corners + moved, rotation < 0))
         return drawn
+
+    def _seen(self, mirrored: bool) -> list[tuple[int, np.ndarray]]:
+        """The outlines at rest as the linkage of one side sees them."""
+        if not mirrored or self.symmetric:
+            return self._parts()
+        return [(part, -corners.conj()) for part, corners in self._parts()]
 
     def hinges(self, rotation: float = 0.0) -> np.ndarray:
         """Return the contact points (k, 2) in m at a signed `rotation` [rad]; at rest those of the positive side."""
@@ -205,27 +205,32 @@ class Structure(ABC):
             bends = np.array([bend for bend in of.bends if bend < of.critical_rotation])
             rotation = np.unique(np.concatenate([rotation, bends, bends * (1 + 1e-12)]))
 
-        # the control point is the corner that moves furthest sideways; two small steps give its speed for φ' = 1
-        steps = side * np.append(rotation, [_STEP, 2 * _STEP])
-        places = np.array([np.vstack(self.outline(each or side * 1e-300)) for each in steps])
-        moved = np.abs(places[:, :, 0] - places[0, :, 0])
-        control = int(np.argmax(moved[(rotation.size) // 2]))
-        once, twice = moved[-2:, control]
-        control_speed = float(2 * once - twice / 2) / _STEP
+        # the control point is the corner that moves furthest sideways
+        linkage = self.linkages[0 if side > 0 else -1]
+        motion, at_rest = linkage.motion(rotation), linkage.motion(0.0)
+        corners = [
+            (part, corner)
+            for part, part_corners in self._seen(side < 0)
+            for corner in part_corners
+            if part != STILL
+        ]
+        moved = np.array([linkage.carried(*each, motion).moved.real for each in corners])
+        control = int(np.argmax(moved[:, rotation.size // 2]))
+        displacement = moved[control] - moved[control, 0]  # which is rounding
+        place = plane(corners[control][1], side < 0)
+        speed = float(linkage.carried(*corners[control], at_rest).velocity.real)
 
         # a mass that something else holds sideways, as that of a load that only rises, has no part
-        linkage = self.linkages[0 if side > 0 else -1]
-        across = linkage.motion(0.0).velocities.real
+        across = at_rest.velocities.real
         masses = np.where(across == 0, 0.0, linkage.masses)
         first = masses @ across
         second = masses @ across**2
-        x, y = places[0, control]
         return CapacityCurve(
             rotation=rotation,
             multiplier=of.gravity(rotation) / of.ground(rotation),
-            displacement=moved[:-2, control],
-            effective_displacement=moved[:-2, control] * second / (control_speed * first),
-            control_point=(float(x), float(y)),
+            displacement=displacement,
+            effective_displacement=displacement * second / (speed * first),
+            control_point=(float(place[0]), float(place[1])),
             participating_mass_ratio=float(first**2 / (masses.sum() * second)),
         )
 
@@ -267,11 +272,6 @@ class Structure(ABC):
             np.where(there, positive.tangential, negative.tangential) + unknown,
         )
 
-    def bodies(self, rotation: float | np.ndarray) -> Bodies:
-        """Return the moving masses at `rotation` ≥ 0 [rad], any shape, on the positive side, up to a factor of mass."""
-        motion = self.linkage.motion(rotation)
-        return Bodies(self.linkage.masses, self.linkage.inertias, motion.centroids, motion.angles)
-
     def dimensions(self) -> tuple[Dimension, ...]:
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
         drawn, paths = [], self._dimensions()
@@ -300,13 +300,6 @@ class Structure(ABC):
     def tie_events(self, rotation: float) -> str:
         """Return which ties have yielded or broken once a signed `rotation` [rad] was reached, in words; "" if none."""
         return ""
-
-    def held_work(self, rotation: float | np.ndarray) -> np.ndarray:
-        """Return the work done on the way out to `rotation` ≥ 0 on the positive side against what is no moving mass.
-
-        Over g, in the factor of mass of `bodies`: constant loads, thrusts and ties.
-        """
-        return self.linkage.held_work(rotation)
 
     def candidates(self, count: int = 11) -> "tuple[Candidate, ...]":
         """Return the mechanisms that may form, `count` or one more; first the one that statics chooses, of least λ.

@@ -57,15 +57,8 @@ class Tie:
         force = np.clip(elastic - self.stiffness * plastic, 0.0, self.strength)
         return np.where(largest > self.rupture_stretch, 0.0, force)
 
-    def work(self, stretch: np.ndarray) -> np.ndarray:
-        """What was done against it on the way out to u = `stretch`."""
-        stretch = np.minimum(stretch, self.rupture_stretch)
-        elastic = np.minimum(stretch, self.yield_stretch)
-        work = self.pretension * elastic + self.stiffness * elastic**2 / 2
-        return work if np.isinf(self.strength) else work + self.strength * (stretch - elastic)
-
     def slope(self, stretch: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray) -> np.ndarray:
-        """Second derivative of `work` with φ, from the derivatives of u; beyond yield that of the force it keeps."""
+        """Derivative of T du/dφ with φ, from those of u; beyond yield that of the force it keeps."""
         stiffness = np.where(stretch <= self.yield_stretch, self.stiffness, 0.0)
         return self.tension(stretch) * acceleration + stiffness * velocity**2
 

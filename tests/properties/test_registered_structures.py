@@ -20,6 +20,7 @@ from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.structures.contacts import UnknownContacts
 from rocking.structures.structure_list import TYPES, load_structures, structure_from_config, structures_schema
+from rocking.structures.ties import Tie
 
 FEW = settings(
     max_examples=12,
@@ -77,6 +78,21 @@ def differentiated(function, at, step):
     return sum(w * (function(at + k * step) - function(at - k * step)) for k, w in weights.items()) / step
 
 
+def held_work(linkage, at):
+    """Work against the constant forces and, on the way out, the ties of a linkage."""
+    total = np.zeros(at.shape)
+    for each in linkage.hung:
+        moved = linkage.carried(each.part, each.start, linkage.motion(at)).moved
+        if not isinstance(each.force, Tie):
+            total -= (each.force.conjugate() * moved).real
+            continue
+        stretch = np.minimum(moved.real, each.force.rupture_stretch)
+        elastic = np.minimum(stretch, each.force.yield_stretch)
+        total += each.force.pretension * elastic + each.force.stiffness * elastic**2 / 2
+        total += np.where(stretch > elastic, each.force.strength, 0.0) * (stretch - elastic)
+    return total
+
+
 def work_of(side, end):
     """∫ G dφ from rest on the way out to `end`."""
     nodes, weights = np.polynomial.legendre.leggauss(40)
@@ -100,17 +116,18 @@ def test_the_standard_form_is_that_of_its_moving_masses(structure):
     step = 1e-2 * last
     at = smooth(side, last * np.linspace(0.05, 0.95, 9), 4 * step)
     assume(at.size)
-    masses, inertias = structure.bodies(at)[:2]
-    velocity = differentiated(lambda phi: structure.bodies(phi).centres, at, step)
-    spin = differentiated(lambda phi: structure.bodies(phi).turns, at, step)
+    linkage = structure.linkage
+    masses, inertias = linkage.masses, linkage.inertias
+    velocity = differentiated(lambda phi: linkage.motion(phi).centroids, at, step)
+    spin = differentiated(lambda phi: linkage.motion(phi).angles, at, step)
     expected = {
         "inertia": masses @ np.abs(velocity) ** 2 + inertias @ spin**2,
-        "gravity": masses @ velocity.imag + differentiated(structure.held_work, at, step),
+        "gravity": masses @ velocity.imag + differentiated(lambda phi: held_work(linkage, phi), at, step),
         "ground": masses @ velocity.real,
     }
     factor = expected["inertia"] / side.inertia(at)
     # differences of eighth order: no truncation to speak of, and the rounding of the positions over the step
-    rounding = 8e-16 * masses.sum() * np.abs(structure.bodies(at).centres).max() / step
+    rounding = 8e-16 * masses.sum() * np.abs(linkage.motion(at).centroids).max() / step
     np.testing.assert_allclose(factor, factor[0], rtol=1e-9 + rounding / np.sqrt(expected["inertia"].min()))
     for name in ("gravity", "ground"):
         values, bound = getattr(side, name)(at) * factor[0], 1e-9 * np.abs(expected[name]).max() + rounding
@@ -128,8 +145,8 @@ def test_slopes_are_derivatives_and_the_potential_is_the_height_of_the_masses(st
         size = np.abs(getattr(side, name)(np.append(0.0, at))).max()
         bound = 1e-9 * np.abs(slope).max() + 1e-14 * size / (3e-3 * side.critical_rotation)
         np.testing.assert_allclose(getattr(side, f"{name}_slope")(at), slope, rtol=0, atol=bound)
-    masses, _, centres, _ = structure.bodies(np.append(0.0, at))
-    risen = masses @ (centres.imag - centres.imag[:, :1]) + structure.held_work(np.append(0.0, at))
+    masses, centres = structure.linkage.masses, structure.linkage.motion(np.append(0.0, at)).centroids
+    risen = masses @ (centres.imag - centres.imag[:, :1]) + held_work(structure.linkage, np.append(0.0, at))
     work = np.array([work_of(side, end) for end in at])
     rounding = 8e-16 * masses.sum() * np.abs(centres).max()
     np.testing.assert_allclose(risen[1:], work * (risen[-1] / work[-1]), rtol=1e-9, atol=4 * rounding)

@@ -203,9 +203,9 @@ def test_the_toe_carries_mass_times_acceleration_and_what_hangs_on_it(name):
 
     speed, turn = 0.06 * np.cos(0.9), -0.18 * np.sin(0.9)
     seen = RigidBody(0.3, 0.5, 2.0, 1.4) if sign < 0 else body
-    masses = seen.bodies(0.0).masses
+    masses = seen.linkage.masses
     pushed = masses @ (
-        second_derivative(lambda time: seen.bodies(rotation(time)).centres)
+        second_derivative(lambda time: seen.linkage.motion(rotation(time)).centroids)
         + ground
         + 1j * (vertical + GRAVITY)
     )
