@@ -9,11 +9,11 @@ def main(target, catalogues, mirror, structures, folder, tell):
     from docs.research import coverage, cracks, ensembles, fragilities, screening, tiers, validation
     from docs.research.comparison import table
     from docs.research.comparison.cases import RECORDS
-    from rocking.records import load_catalogue, open_record, open_records
+    from rocking.records import load_catalogue, open_record
     from rocking.structures import load_structures
 
     listed = [load_catalogue(Path(each)) for each in catalogues if target != "validate"]
-    records = (open_records(each, mirror, tell) for each in listed)
+    records = (motions_of(each, mirror, tell) for each in listed)
     if target == "calibrate":
         tiers.write_tiers((record for each in records for record in each), folder)
     elif target == "calibrate_ensemble":
@@ -33,6 +33,15 @@ def main(target, catalogues, mirror, structures, folder, tell):
         table.write_comparison(motions, folder, tell)
     elif target == "validate":
         validation.write_validation(Path(catalogues[0]), mirror and Path(mirror), folder, tell=tell)
+
+
+def motions_of(listed, mirror, tell):
+    """Yield identifier and accelerogram of every component of the records, after a line for each record."""
+    from rocking.records import open_record
+
+    for count, record in enumerate(listed, start=1):
+        tell(f"{count} of {len(listed)}: {record.id}")
+        yield from ((record.id, accelerogram) for accelerogram in open_record(record, mirror))
 
 
 if __name__ == "__main__":

@@ -11,5 +11,4 @@ from rocking.records.rotation import aligned as aligned
 from rocking.records.rotation import rotd as rotd
 from rocking.records.station import Station as Station
 from rocking.records.station import open_record as open_record
-from rocking.records.station import open_records as open_records
 from rocking.records.station import open_station as open_station

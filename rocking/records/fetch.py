@@ -21,16 +21,10 @@ LONGEST_DOWNLOAD, _SILENCE = 300.0, 30.0
 _RAW = "https://raw.githubusercontent.com/{repository}/{commit}/{path}"
 
 
-def path_of(
-    record: CatalogueRecord,
-    file: RecordFile,
-    mirror: str | Path | None = None,
-    cache: str | Path | None = None,
-) -> Path:
-    """Return where `file` of the record lies, downloaded if need be.
+def path_of(record: CatalogueRecord, file: RecordFile, mirror: str | Path | None = None) -> Path:
+    """Return where `file` of the record lies, downloaded into the user's cache folder if need be.
 
-    mirror: a folder that is looked into first. cache: where downloads are kept (default: the user's cache folder).
-    Raises RecordError naming the file when it cannot be had.
+    mirror: a folder that is looked into first. Raises RecordError naming the file when it cannot be had.
     """
     if record.example_name is not None:
         from obspy.core.util.base import get_example_file  # which takes a second to import
@@ -43,7 +37,7 @@ def path_of(
         return path
     if record.is_remote:
         source = record.source_repository, record.source_commit, file.source_path
-        return download(file.name, *source, sha256=file.sha256, cache=cache)
+        return download(file.name, *source, sha256=file.sha256)
     places = " or ".join(str(folder) for folder in (mirror, record.folder) if folder)
     raise RecordError(f"file {file.name!r} is not in {places}; mend the catalogue or add the file.")
 
@@ -90,19 +84,17 @@ def _beside(record: CatalogueRecord, file: str, mirror: str | Path | None) -> Pa
     return None
 
 
-def download(
-    file: str, repository: str, commit: str, path: str, *, sha256: str = "", cache: str | Path | None = None
-) -> Path:
-    """Return where the cache keeps `path` of a GitHub repository, downloaded if need be, its sha256 checked if given.
+def download(file: str, repository: str, commit: str, path: str, *, sha256: str = "") -> Path:
+    """Return where the user's cache keeps `path` of a GitHub repository, downloaded if need be.
 
-    Raises RecordError naming `file` when it cannot be had.
+    sha256: checked if given. Raises RecordError naming `file` when it cannot be had.
     """
     import pooch  # which only a download needs
 
     name = f"{(sha256 or commit)[:16]}-{Path(path).name}"
     address = _RAW.format(repository=repository, commit=commit, path=quote(path, safe="/"))
     store = pooch.create(
-        path=Path(cache) if cache else pooch.os_cache("rocking"), base_url="",
+        path=pooch.os_cache("rocking"), base_url="",
         registry={name: f"sha256:{sha256}" if sha256 else None}, urls={name: address}, retry_if_failed=_RETRIES,
     )  # fmt: skip
     pooch.get_logger().setLevel("WARNING")

@@ -70,16 +70,12 @@ def read_content(
         records = told_apart(reader.read(text, replace(options, file=name)))
         if not records:
             raise RecordError("the file holds no channel of acceleration.")
-        source = replace(source, format=reader.name)
         notes = (_DOUBLED,) if b"\r\r\n" in content[:2000] and text is not content else ()
-        return [
-            replace(
-                record,
-                source=replace(source, unit=record.source.unit),
-                warnings=(*record.warnings, *notes, *pass_limits(record), *damage_warnings(record)),
-            )
-            for record in records
-        ]
+        for i, record in enumerate(records):
+            own = replace(source, format=reader.name, unit=record.source.unit)
+            doubts = (*record.warnings, *notes, *pass_limits(record), *damage_warnings(record))
+            records[i] = replace(record, source=own, warnings=doubts)
+        return records
 
 
 def undressed(content: bytes) -> bytes:
@@ -165,15 +161,13 @@ def told_apart(records: Sequence[Accelerogram]) -> list[Accelerogram]:
                 f"channel {k} ({a.component or 'not named'}) repeats channel {i} number by number: the file is "
                 "appended to itself; fetch it again."
             )
-    shared = Counter(record.component for record in records)
+    shared = Counter(record.component for record in records if record.component)
     channels = []
     for place, record in enumerate(records, 1):
         name = record.component or f"channel {place}"
-        if record.component and shared[record.component] > 1:
-            name += f" (channel {place})"
-        known = (*record.warnings, *channel_warnings(record.component), *site_warnings(record.station))
-        warnings = tuple(dict.fromkeys(known))
-        channels.append(replace(record, component=name, warnings=warnings))
+        name += f" (channel {place})" if shared[record.component] > 1 else ""
+        doubts = (*record.warnings, *channel_warnings(record.component), *site_warnings(record.station))
+        channels.append(replace(record, component=name, warnings=tuple(dict.fromkeys(doubts))))
     return channels
 
 

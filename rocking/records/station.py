@@ -2,10 +2,11 @@
 
 import hashlib
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.fetch import inventory_of, path_of
 from rocking.records.formats import Options
-from rocking.records.instrument import azimuth, is_vertical
+from rocking.records.instrument import directed
 from rocking.records.plausibility import scaled
 from rocking.records.read import bytes_of, is_unnamed, read_raw
 
@@ -31,58 +32,31 @@ class Station:
     vertical: Accelerogram | None = None
 
 
-def open_station(
-    record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None
-) -> Station:
-    """Return the components of `record`, each of its files read once.
+def open_station(record: CatalogueRecord, mirror: str | Path | None = None) -> Station:
+    """Return the components of `record`, each of its files read once, those of several on their common span.
 
     Horizontal are the components it names, else every one at the surface that is not vertical. scale_factor, station,
     event, high_pass, magnitude and distance of the row are applied. Raises RecordError naming record and file.
-    """
-    return station_of(channels_of(record, mirror, cache), record)
-
-
-def open_record(
-    record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None
-) -> list[Accelerogram]:
-    """Return the horizontal components of `record`, as open_station does."""
-    return list(open_station(record, mirror, cache).horizontal)
-
-
-def open_records(
-    records: Collection[CatalogueRecord], mirror: str | Path | None, tell: Callable[[str], object]
-) -> Iterator[tuple[str, Accelerogram]]:
-    """Yield identifier and accelerogram of every component of `records`. tell: takes a line for each record."""
-    for count, record in enumerate(records, start=1):
-        tell(f"{count} of {len(records)}: {record.id}")
-        for accelerogram in open_record(record, mirror=mirror):
-            yield record.id, accelerogram
-
-
-def channels_of(
-    record: CatalogueRecord, mirror: str | Path | None = None, cache: str | Path | None = None
-) -> list[Accelerogram]:
-    """Return every channel of the record's files as it was read, those of several files on their common span.
-
-    Raises RecordError naming record and file.
     """
     inventory = inventory_of(record, mirror)
     channels: list[Accelerogram] = []
     with about(record.id):
         for file in record.files:
-            path = path_of(record, file, mirror, cache)
+            path = path_of(record, file, mirror)
             raw = bytes_of(path)
             if file.sha256 and (sha256 := hashlib.sha256(raw).hexdigest()) != file.sha256:
                 raise RecordError(
                     f"file {path} has sha256 {sha256}, but the catalogue says {file.sha256}; it is another version."
                 )
             options = Options(record.unit or None, record.time_step, inventory, path.parent)
-            channels += [
-                replace(channel, source=replace(channel.source, path=file.name))
-                for channel in read_raw(raw, path, options)
-            ]
-        channels = _named(channels, record)
-        return channels if len(record.files) == 1 else joined(channels)
+            for channel in read_raw(raw, path, options):
+                channels.append(replace(channel, source=replace(channel.source, path=file.name)))
+        return station_of(channels, record)
+
+
+def open_record(record: CatalogueRecord, mirror: str | Path | None = None) -> list[Accelerogram]:
+    """Return the horizontal components of `record`, as open_station does."""
+    return list(open_station(record, mirror).horizontal)
 
 
 def _named(channels: Sequence[Accelerogram], record: CatalogueRecord) -> list[Accelerogram]:
@@ -90,10 +64,8 @@ def _named(channels: Sequence[Accelerogram], record: CatalogueRecord) -> list[Ac
     one_each = len(record.files) == len(channels) == len(record.components)
     if not one_each or not all(is_unnamed(channel.component) for channel in channels):
         return list(channels)
-    return [
-        replace(channel, component=name, azimuth=azimuth(name), vertical=is_vertical(name))
-        for channel, name in zip(channels, record.components, strict=True)
-    ]
+    named = zip(channels, record.components, strict=True)
+    return [replace(channel, **directed({"component": name})) for channel, name in named]
 
 
 def why_apart(channels: Sequence[Accelerogram], samples: Collection[int]) -> str:
@@ -116,10 +88,8 @@ def joined(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     """
     if why := why_apart(channels, [channel.acceleration.size for channel in channels]):
         raise RecordError(f"its files do not fit together: {why}; give each file a row of its own.")
-    return _cut(channels) if all(channel.start_time for channel in channels) else list(channels)
-
-
-def _cut(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
+    if not all(channel.start_time for channel in channels):
+        return list(channels)
     starts = [datetime.fromisoformat(channel.start_time).timestamp() for channel in channels]
     step = channels[0].time_step
     late = [(max(starts) - start) / step for start in starts]
@@ -144,8 +114,9 @@ def _cut(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
 
 def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Station:
     """Return the components that open_station returns, from all `channels` of the record's files."""
-    with about(f"{record.id} ({record.file})"):
+    with about(record.file):
         channels = _named(channels, record)
+        channels = joined(channels) if len(record.files) > 1 else channels
         held = ", ".join(channel.component or "(unnamed)" for channel in channels)
         of = {channel.component: channel for channel in reversed(channels)}
         for name in filter(None, (*record.components, record.vertical_component)):
@@ -154,11 +125,11 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
         upwards = (channel for channel in channels if channel.vertical and not channel.borehole)
         vertical = of[record.vertical_component] if record.vertical_component else next(upwards, None)
         horizontal = [of[name] for name in record.components]
-        if horizontal and len(record.files) == 1:
-            horizontal = [  # it will shake sideways
-                replace(c, warnings=(*c.warnings, _SIDEWAYS.format(c.component))) if c.vertical else c
-                for c in horizontal
-            ]
+        if horizontal and len(record.files) == 1:  # a vertical one that is asked for will shake sideways
+            told = {
+                c.component: (*c.warnings, _SIDEWAYS.format(c.component)) for c in horizontal if c.vertical
+            }
+            horizontal = [replace(c, warnings=told.get(c.component, c.warnings)) for c in horizontal]
         else:
             sideways = horizontal or [channel for channel in channels if not channel.borehole]
             horizontal = [channel for channel in sideways if channel is not vertical and not channel.vertical]
@@ -173,12 +144,13 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
 def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
     """Return a channel with what its row says of name, scale, station, event, corner, magnitude and distance."""
     channel = scaled(channel, record.scale_factor) if record.scale_factor != 1 else channel
-    distance = None if record.epicentral_distance is None else 1000 * record.epicentral_distance
-    return replace(
-        channel,
-        station=record.station or channel.station,
-        event=record.event or channel.event,
-        high_pass_frequency=record.high_pass or channel.high_pass_frequency,
-        magnitude=channel.magnitude if record.magnitude is None else record.magnitude,
-        epicentral_distance=channel.epicentral_distance if distance is None else distance,
-    )
+    told: dict[str, Any] = {
+        "station": record.station or channel.station,
+        "event": record.event or channel.event,
+        "high_pass_frequency": record.high_pass or channel.high_pass_frequency,
+    }
+    if record.magnitude is not None:
+        told |= {"magnitude": record.magnitude, "magnitude_type": ""}
+    if record.epicentral_distance is not None:
+        told["epicentral_distance"] = 1000 * record.epicentral_distance
+    return replace(channel, **told)

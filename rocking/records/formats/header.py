@@ -1,7 +1,7 @@
 """Headers: a format says where in its text each fact stands, and one reader finds the facts and checks them."""
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from itertools import pairwise
@@ -39,10 +39,9 @@ class Layout:
     (some agencies count n steps for n samples, others n - 1). magnitude: a text like "6.5 Mw". place: one like
     "40.941N, 123.633W"; latitude, longitude: degrees north and east. elevation: m. distance: from the epicentre, km.
     high_pass: Hz. corrected: what says that the numbers are processed; where it is "", a high-pass does. start: time of
-    the first sample, hours ahead of universal time. code: of the network, where it is not read. location: of
-    the instrument in a structure. needed: facts that must
-    be there. peak: in peak_unit, with half a unit of its last digit; peak_time: s after the first sample.
-    rms: the root mean square, in peak_unit.
+    the first sample, hours ahead of universal time. code: of the network, where it is not read. location: of the
+    instrument in a structure. needed: facts that must be there. peak and rms, the root mean square: in peak_unit, the
+    peak within half a unit of its last digit; peak_time: s after the first sample.
     """
 
     unit: str = ""
@@ -138,6 +137,19 @@ class Layout:
         peak = self.number("peak", head) if peak is None else peak
         at = self.number("peak_time", head) if peak_time is None else peak_time
         return agree_with_header(record, peak, in_unit, self.half_digit, at=at, samples=in_file)
+
+    def channels(
+        self, head: str, table: np.ndarray, labels: Sequence[str], options: Options, **fields: Any
+    ) -> list[Accelerogram]:
+        """Return the accelerogram of each column of `table` (n, channels), named by `labels`, as channel() does.
+
+        peaks, if among the fields: stated of each.
+        """
+        peaks = fields.pop("peaks", [None] * len(labels))
+        return [
+            self.channel(head, values, options, component=label, peak=peak, **fields)
+            for label, values, peak in zip(labels, table.T, peaks, strict=True)
+        ]
 
     def _facts(self, head: str) -> dict[str, Any]:
         north, east, height = (self.number(name, head) for name in ("latitude", "longitude", "elevation"))

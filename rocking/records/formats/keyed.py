@@ -4,6 +4,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import takewhile
+from typing import Any
 
 import numpy as np
 
@@ -98,18 +99,9 @@ def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
     table = in_columns(numbers("\n".join(text[at + 1 :])), len(labels))
     _, notes = whole(table[:, 0], _AFAD.count(head), per_line=1)
     peaks = optional(r"^(.*PGA.*:.*)", head)
-    return [
-        _AFAD.channel(
-            head,
-            values,
-            options,
-            component=component,
-            warnings=notes,
-            processed="RAW" not in peaks,
-            peak=optional_number(rf"\({re.escape(component)}\)\s*{NUMBER}", peaks),
-        )
-        for component, values in zip(labels, table.T, strict=True)
-    ]
+    stated = [optional_number(rf"\({re.escape(label)}\)\s*{NUMBER}", peaks) for label in labels]
+    told: dict[str, Any] = {"warnings": notes, "processed": "RAW" not in peaks, "peaks": stated}
+    return _AFAD.channels(head, table, labels, options, **told)
 
 
 _RESORCE = Layout("m/s2", **keyed(
@@ -158,20 +150,10 @@ def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
     if step is None or abs(step * rate - 1) > 1e-3:
         raise RecordError(f"SampleRate is {rate:g} Hz, but the times are not spaced so; the file is damaged.")
     magnitudes = re.findall(r"^Magnitude\((\w+)\)(:.*)", head, re.I | re.M)
-    records = []
-    for component, values in zip(labels, table.T[1:], strict=True):
-        extremes = re.findall(NUMBER, optional(rf"^.*MAX.*\b{component}\s*:(.*)", head), re.I)
-        record = _CWB.channel(
-            head,
-            values,
-            options,
-            step=step,
-            component=component,
-            **typed_magnitude(" ".join(scale + value for scale, value in magnitudes)),
-            peak=max((abs(float(text)) for text in extremes), default=None),
-        )
-        records.append(record)
-    return records
+    extremes = [re.findall(NUMBER, optional(rf"^.*MAX.*\b{label}\s*:(.*)", head), re.I) for label in labels]
+    told = typed_magnitude(" ".join(scale + value for scale, value in magnitudes))
+    told["peaks"] = [max((abs(float(text)) for text in ends), default=None) for ends in extremes]
+    return _CWB.channels(head, table[:, 1:], labels, options, step=step, **told)
 
 
 _UNAM = Layout("gal", half_digit=5e-5, **keyed(

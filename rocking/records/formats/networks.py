@@ -95,10 +95,7 @@ def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError(f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.")
     table = in_columns(numbers("\n".join(rows).replace(",", " ")), len(labels))
     unit = required("the unit", r"^\s*UNIT\s*=\s*(\w+)", head)[1]
-    return [
-        _JMA.channel(head, values, options, unit=unit, component=label)
-        for label, values in zip(labels, table.T, strict=True)
-    ]
+    return _JMA.channels(head, table, labels, options, unit=unit)
 
 
 _CSMNC = Layout(

@@ -38,10 +38,10 @@ def catalogue_from_folder(folder, **declared):
     return rows, [(each.file, each.unread) for each in listed if each.unread]
 
 
-def fetch(record, mirror=None, cache=None):
+def fetch(record, mirror=None):
     """Where the one file of a record lies."""
     (file,) = record.files
-    return path_of(record, file, mirror, cache)
+    return path_of(record, file, mirror)
 
 
 def write(folder: Path, *rows: dict[str, str], columns: tuple[str, ...] = COLUMNS) -> Path:
@@ -76,7 +76,7 @@ def test_components_by_name_and_in_the_order_given(folder: Path) -> None:
     (record,) = load_catalogue(write(folder, row(component="UD; NS")))
     assert [a.component for a in open_record(record)] == ["UD", "NS"]
     (record,) = load_catalogue(write(folder, row(component="XX")))
-    with pytest.raises(RecordError, match=r"one \(table.csv\): .*'XX', but the file holds NS, EW, UD"):
+    with pytest.raises(RecordError, match=r"table.csv: .*'XX', but the file holds NS, EW, UD"):
         open_record(record)
 
 
@@ -171,11 +171,12 @@ class _Answer(http.server.BaseHTTPRequestHandler):
 
 
 @pytest.fixture
-def answer(monkeypatch: pytest.MonkeyPatch) -> Iterator[type[_Answer]]:
+def answer(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[type[_Answer]]:
     """A server of this machine in the place of the one that records come from."""
     pytest.importorskip("pooch")
     monkeypatch.setattr(_Answer, "asked", [])
     monkeypatch.setenv("no_proxy", "127.0.0.1")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.setattr("time.sleep", lambda _: None)
     with http.server.ThreadingHTTPServer(("127.0.0.1", 0), _Answer) as server:
         threading.Thread(target=server.serve_forever, daemon=True).start()
@@ -188,14 +189,14 @@ def answer(monkeypatch: pytest.MonkeyPatch) -> Iterator[type[_Answer]]:
 
 def test_remote_files_come_by_commit_and_hash(folder: Path, tmp_path: Path, answer: type[_Answer]) -> None:
     record = remote(folder)
-    path = fetch(record, cache=tmp_path / "cache")
+    path = fetch(record)
     assert path.read_text() == TABLE and answer.asked == [f"/own/er/{'0' * 40}/a%20b/t.csv"]
-    fetch(record, cache=tmp_path / "cache")
+    fetch(record)
     assert len(answer.asked) == 1
-    unchecked = download("t.csv", "own/er", "0" * 40, "a b/t.csv", cache=tmp_path / "cache")
+    unchecked = download("t.csv", "own/er", "0" * 40, "a b/t.csv")
     assert unchecked != path and unchecked.read_text() == TABLE
     with pytest.raises(RecordError, match="cannot be fetched"):
-        fetch(dataclasses.replace(record, sha256="0" * 64), cache=tmp_path / "cache")
+        fetch(dataclasses.replace(record, sha256="0" * 64))
 
 
 def test_a_download_ends_at_a_size_and_after_a_time(
@@ -203,7 +204,7 @@ def test_a_download_ends_at_a_size_and_after_a_time(
 ) -> None:
     monkeypatch.setattr(answer, "served", staticmethod(lambda: itertools.repeat(b"0" * 2**20)))
     with pytest.raises(RecordError, match=r"larger than \d+ bytes"):
-        fetch(remote(folder), cache=tmp_path / "cache")
+        fetch(remote(folder))
     assert not [path for path in (tmp_path / "cache").rglob("*") if path.is_file()]
     monkeypatch.setattr(fetching, "LONGEST_DOWNLOAD", 0.2)
     pause = threading.Event()
@@ -211,7 +212,7 @@ def test_a_download_ends_at_a_size_and_after_a_time(
         answer, "served", staticmethod(lambda: (pause.wait(0.05) or b"0" for _ in range(1000)))
     )
     with pytest.raises(RecordError, match=r"took more than 0\.2 s|timed out"):
-        fetch(remote(folder), cache=tmp_path / "cache")
+        fetch(remote(folder))
 
 
 def test_the_shipped_catalogue_opens_offline() -> None:
