@@ -14,8 +14,9 @@ from rocking.errors import RecordError, UnknownFormatError, about
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
+from rocking.records.formats.text import numbers_per_line
 from rocking.records.instrument import channel_warnings, site_warnings
-from rocking.records.plausibility import damage_warnings, pass_limits
+from rocking.records.plausibility import damage_warnings, exchanged_lines, pass_limits
 from rocking.tables import read_whole
 
 LARGEST_FILE = 8 * 2**20
@@ -71,9 +72,11 @@ def read_content(
         if not records:
             raise RecordError("the file holds no channel of acceleration.")
         notes = (_DOUBLED,) if b"\r\r\n" in content[:2000] and text is not content else ()
+        per_line = numbers_per_line(text)
         for i, record in enumerate(records):
             own = replace(source, format=reader.name, unit=record.source.unit)
             doubts = (*record.warnings, *notes, *pass_limits(record), *damage_warnings(record))
+            doubts += exchanged_lines(record, per_line)
             records[i] = replace(record, source=own, warnings=doubts)
         return records
 

@@ -86,6 +86,16 @@ def fields(rows: list[str], width: int, margin: int = 0) -> np.ndarray:
         return numbers(" ".join(pieces))
 
 
+def numbers_per_line(content: bytes) -> int:
+    """Return how many numbers most lines around the middle of a text hold, touching or not; 0 of another content."""
+    if b"\0" in content[:512]:
+        return 0
+    middle = content[len(content) // 2 :][:8000].split(b"\n")[1:-1]
+    rows = [row for row in middle if row.strip() and not row.translate(None, _NUMERIC)]
+    counts = [max(row.count(b"."), len(row.split())) for row in rows]
+    return max(set(counts), key=counts.count, default=0)
+
+
 def in_columns(values: np.ndarray, width: int) -> np.ndarray:
     """Return `values` in `width` columns, (n, width). Raises RecordError when they do not fill them."""
     if not width or not values.size or values.size % width:
