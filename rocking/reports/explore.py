@@ -116,12 +116,15 @@ def _case(
         printing.ratio(each, 2)
         for each in (fate.rotation_ratio, fate.rotation_ratio_low, fate.rotation_ratio_high, predicted)
     )
-    band = f" (5 to 95 % of the members: {low} to {high})" if fate.members else ""
+    band = (
+        f" (5 to 95 % of the members: {low if low == high else f'{low} to {high}'})" if fate.members else ""
+    )
+    crack = f" What opens, as statics chooses it: {fate.crack}." if fate.crack else ""
     case: Content = {
         "verdict": str(fate.verdict),
         "cell": cell_text(fate),
         "told": f"{fate.verdict}: {fate.leaning or fate.why}. Largest rotation over critical rotation: {given} as "
-        f"given{band}, {closed} by the closed form.",
+        f"given{band}, {closed} by the closed form.{crack}",
         "share": _number(fate.overturning_share),
         "severity": [_number(min(each, 1e9)) for each in fate.severity],
         "component": row.component if row else "",

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 ON_A_PAGE = 8
 """Structures whose curves stand on one page."""
 FEW_STATIONS = 20
-"""Below so many stations the interval of the median covers less than it says."""
+"""Below so many stations the curves are called rough."""
 _COLUMNS, _HEIGHT = 2, 52.0
 """Panels of a row, and its height, mm."""
 _GOVERNING, _HALF = 3, 0.5
@@ -47,7 +47,7 @@ def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") 
     scaled = (
         "Each record of the study is scaled up until the structure overturns; a level counts by its stations."
     )
-    few = f" With {counted(stations, 'station')} the curves are rough and their intervals too narrow: take more."
+    few = f" With {counted(stations, 'station')} the curves are rough and their intervals wide: take more."
     caption = (
         "Level that half of the stations overturn each structure at, with its 90 % interval by stations; dispersion of "
         "the lognormal curve; records under which it overturns first, with the level of each: they govern the lower "

@@ -310,11 +310,14 @@ def drawn_rotation(structure: Structure, fate: Fate) -> float:
 
 def _lines(report: RecordReport, fate: Fate) -> list[str]:
     """What stands below a drawing: members, rotation, statics, and what opens."""
-    static = report.structures[fate.structure].static_multiplier
+    structure = report.structures[fate.structure]
+    static = structure.static_multiplier
     peak = max((row.peak_acceleration_m_s2 for row in report.tables.record), default=math.nan) / GRAVITY
+    tells = not (rests(fate.rotation_ratio) or structure.symmetric)
+    side = f" {structure.side_names[fate.peak_side < 0]}" if tells and fate.peak_side else ""
     lines = [
         f"{fate.count} overturn" if fate.members else "one run",
-        f"as given {_printed(fate.rotation_ratio, fate)}",
+        f"as given {_printed(fate.rotation_ratio, fate)}{side}",
     ]
     if fate.members and not rests(fate.rotation_ratio_high) and fate.rotation_ratio_low < math.inf:
         low, high = (_printed(each, fate) for each in (fate.rotation_ratio_low, fate.rotation_ratio_high))
