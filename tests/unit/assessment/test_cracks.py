@@ -10,10 +10,11 @@ from rocking.assessment.assess import assess_structures
 from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.fragility import fragility
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.variations import cracks
+from rocking.assessment.variations import cracks, ensemble_over_cracks
 from rocking.assessment.verdict import Verdict
+from rocking.motion.members import follow_factors
 from rocking.records import Accelerogram
-from rocking.structures import Spire, Wall
+from rocking.structures import Arch, Spire, Wall
 
 STEP, TIMES = 0.01, np.arange(0, 4, 0.01)
 SPIRE = Spire(width=3.0, height=15.0, wall_thickness=0.3)
@@ -48,6 +49,28 @@ def test_stands_means_that_every_crack_stands_and_a_crack_that_does_not_is_named
             assert found.governing.description in repr(found)
         seen.add(found.verdict)
     assert expected <= seen
+
+
+@pytest.mark.parametrize("structure", [WALL, SPIRE, Arch(5.0, 0.8, np.radians(150))])
+def test_unknown_cracks_cost_at_most_two_and_a_half_ensembles(structure, monkeypatch):
+    """Members that are followed, over records under which it stands, is undecided and overturns."""
+    followed: list[int] = []
+
+    def counted(reduced, forcing, factors, *others):
+        followed.append(factors.size)
+        return follow_factors(reduced, forcing, factors, *others)
+
+    monkeypatch.setattr("rocking.assessment.ensemble.follow_factors", counted)
+    members = {"unknown": 0, "given": 0}
+    for severity in (1.5, 2.5, 3.5, 5.0, 8.0):
+        motions = GroundMotions.of(record(severity * structure.static_multiplier * 9.80665))
+        followed.clear()
+        ensemble_over_cracks(structure, motions, AssessmentSettings())
+        members["unknown"] += sum(followed)
+        followed.clear()
+        ensemble(cracks(structure)[0][1], motions)
+        members["given"] += sum(followed)
+    assert members["given"] < members["unknown"] <= 2.5 * members["given"]
 
 
 def test_auto_rests_only_where_every_crack_does():
