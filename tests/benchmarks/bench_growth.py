@@ -23,7 +23,7 @@ def run(folder: Path, *options: str) -> str:
     profile = ROOT / "workflow" / "profiles" / "default"
     command = (
         f"{sys.executable} -m snakemake --snakefile {ROOT / 'Snakefile'} --cores 2 --quiet --directory {folder} "
-        f"--configfile {folder / 'config.yaml'} --workflow-profile {profile} --config"
+        f"--workflow-profile {profile} --config"
     )
     return subprocess.run(
         [*shlex.split(command), *options],
