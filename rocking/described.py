@@ -119,9 +119,9 @@ def described(
     **more: Any,
 ) -> Any:
     """Declare a field of a frozen dataclass with all there is to say of its value; see Described."""
-    said = {"meaning": meaning, "unit": unit, "one_of": one_of}
+    facts = {"meaning": meaning, "unit": unit, "one_of": one_of}
     bounds = {name: more.pop(name) for name in _BOUNDS if name in more}
-    return field(default=default, metadata={**said, "bounds": bounds, "more": more})
+    return field(default=default, metadata={**facts, "bounds": bounds, "more": more})
 
 
 @cache
@@ -171,9 +171,9 @@ def read_described(
     what is allowed.
     """
     kind: Any = type(default)
-    known = {each.key: each for each in described_values(kind).values()}
+    allowed = {each.key: each for each in described_values(kind).values()}
     parts = {name: getattr(default, name) for name in parts_of(kind)}
-    names = [*known, *parts]
+    names = [*allowed, *parts]
     if not isinstance(mapping, Mapping):
         defects.append(f"{above.rstrip('.')} is {mapping!r}, but must be a mapping of {', '.join(names)}.")
         return default
@@ -181,17 +181,17 @@ def read_described(
     for key, value in mapping.items():
         if key in parts:
             values[key] = read_described(parts[key], value, defects, f"{above}{key}.", heard)
-        elif key not in known:
+        elif key not in allowed:
             near = get_close_matches(str(key), names, n=1, cutoff=0.6)
             hint = f"did you mean {near[0]}?" if near else f"the names are {', '.join(names)}."
             defects.append(f"{above}{key} is {value!r}, but nothing has this name; {hint}")
         else:
             for meant in [value, heard(value)] if isinstance(value, str) else [value]:
                 with suppress(ValueError):
-                    values[known[key].name] = known[key].checked(meant)
+                    values[allowed[key].name] = allowed[key].checked(meant)
                     break
             else:
-                defects.append(f"{above}{key} is {known[key].refusal(value)}")
+                defects.append(f"{above}{key} is {allowed[key].refusal(value)}")
     if len(defects) == before:
         try:
             return replace(default, **values)  # type: ignore[type-var]

@@ -254,15 +254,15 @@ def _vary(
     for name, case in cases.items():
         pulse = case.prediction.pulse if case.prediction else None
         try:
-            found = candidates(
+            cracks = candidates(
                 study.structures[name], record, pulse, study.settings.candidates, study.assessment
             )
-            tables.candidates.extend(candidate_rows(identity, name, found))
+            tables.candidates.extend(candidate_rows(identity, name, cracks))
         except RockingError as error:
             tables.fail(identity.record, record.component, Failure("variations", name, str(error)))
     if study.settings.processing_variants:
         structures = {name: study.structures[name] for name in cases}
-        known = {name: case.integrated_rotation_ratio for name, case in cases.items()}
-        variants = processed_variants(structures, processed(record), study.assessment, known, vertical)
+        as_recorded = {name: case.integrated_rotation_ratio for name, case in cases.items()}
+        variants = processed_variants(structures, processed(record), study.assessment, as_recorded, vertical)
         for name, of_structure in variants.items():
             tables.maxima.extend(processing_rows(identity, name, of_structure))

@@ -49,9 +49,9 @@ def written_part(folder: Path) -> Iterator[Callable[[RecordTables, Mapping[str, 
         ]
         page = stack.enter_context(whole(folder / PAGE))
 
-        def add(found: RecordTables, content: Mapping[str, Any] | None) -> None:
+        def add(record: RecordTables, content: Mapping[str, Any] | None) -> None:
             for each, write in tables:
-                write(getattr(found, each.table.name))
+                write(getattr(record, each.table.name))
             if content is not None:
                 page.write(json.dumps(content, allow_nan=False, separators=(",", ":")).encode() + b"\n")
 

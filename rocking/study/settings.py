@@ -127,10 +127,10 @@ def read_settings(config: Mapping[str, Any]) -> Settings:
     defect, one a line: the setting, its value, and what is allowed.
     """
     defects: list[str] = []
-    made = read_described(Settings(), config, defects, "setting ", said_by)
+    settings = read_described(Settings(), config, defects, "setting ", said_by)
     if defects:
         raise ConfigurationError("\n".join(defects))
-    return made
+    return settings
 
 
 def named_files(config: Mapping[str, Any]) -> Settings:
@@ -143,17 +143,17 @@ def named_files(config: Mapping[str, Any]) -> Settings:
 
 def json_schema(section: Any = None) -> dict[str, Any]:
     """Return the JSON schema of config.yaml, for editors and for other programs."""
-    made = section or Settings()
+    whole = section or Settings()
     head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": "Settings of a study"}
     return {
-        **({"description": " ".join((made.__doc__ or "").split())} if section else head),
+        **({"description": " ".join((whole.__doc__ or "").split())} if section else head),
         "type": "object",
         "additionalProperties": False,
         "properties": {
             key: json_schema(value)
-            if said is None
-            else {**said.schema, "description": _meaning(said), "default": value}
-            for key, said, value in _entries(made)
+            if description is None
+            else {**description.schema, "description": _meaning(description), "default": value}
+            for key, description, value in _entries(whole)
         },
     }
 
@@ -173,22 +173,23 @@ def _entries(section: Any) -> Iterator[tuple[str, Described | None, Any]]:
     """Each key of a section, what is said of it (None: it is a section of its own), and its value."""
     for name in parts_of(section.__class__):
         yield name, None, getattr(section, name)
-    for name, said in described_values(section.__class__).items():
-        yield said.key, said, getattr(section, name)
+    for name, description in described_values(section.__class__).items():
+        yield description.key, description, getattr(section, name)
 
 
-def _yaml_lines(key: str, said: Described | None, value: Any, indent: str = "") -> Iterator[str]:
-    if said is not None:
-        null = ", or null" if "or null" in said.must and "null" not in said.meaning and value != "" else ""
-        yield f"{indent}{key}: {_scalar(value)} ".ljust(48) + f"# {_meaning(said)}{null}"
+def _yaml_lines(key: str, description: Described | None, value: Any, indent: str = "") -> Iterator[str]:
+    if description is not None:
+        optional = description.optional and "null" not in description.meaning and value != ""
+        null = ", or null" * optional
+        yield f"{indent}{key}: {_scalar(value)} ".ljust(48) + f"# {_meaning(description)}{null}"
     else:
         yield f"{indent}{key}:"
         for entry in _entries(value):
             yield from _yaml_lines(*entry, indent + "  ")
 
 
-def _meaning(said: Described) -> str:
-    return f"{said.meaning}, {said.unit}" if said.unit else said.meaning
+def _meaning(description: Described) -> str:
+    return f"{description.meaning}, {description.unit}" if description.unit else description.meaning
 
 
 def _scalar(value: object) -> str:

@@ -104,10 +104,10 @@ _LONGEST = 1000
 """Characters of a message: what the system writes to a pipe at once, by whatever process, is at least 4096 bytes."""
 
 
-def send(**told: Any) -> None:
+def send(**event: Any) -> None:
     """Send what happened to the one who waits, if there is one."""
     text = json.dumps(
-        {name: each[:_LONGEST] if isinstance(each, str) else each for name, each in told.items()}
+        {name: each[:_LONGEST] if isinstance(each, str) else each for name, each in event.items()}
     )
     with suppress(KeyError, OSError):  # without blocking: the one who waited may be gone
         pipe = os.open(os.environ[PIPE], os.O_WRONLY | os.O_NONBLOCK)
@@ -170,20 +170,20 @@ class Progress:
         for line in iter(lines.readline, b"\n"):
             self.tell(json.loads(line))
 
-    def tell(self, told: Mapping[str, Any]) -> None:
-        """Show what was told, if it is for a reader."""
-        if "planned" in told:
-            self._total = sum(self._records.get(rule, 0) for rule in told["planned"])
-        elif told.get("begun") == "compile":
+    def tell(self, event: Mapping[str, Any]) -> None:
+        """Show an event, if it is for a reader."""
+        if "planned" in event:
+            self._total = sum(self._records.get(rule, 0) for rule in event["planned"])
+        elif event.get("begun") == "compile":
             self._show("The integration is compiled, once on this machine: about half a minute.")
-        elif "error" in told:
-            self.errors.append(told["error"])
-        elif told.get("job") in self._records:
+        elif "error" in event:
+            self.errors.append(event["error"])
+        elif event.get("job") in self._records:
             self._done += 1
-            record, _, text = told["line"].partition(": ")
+            record, _, text = event["line"].partition(": ")
             self._show(f"{record:<{self._width}}  {text}")
-        elif "line" in told:
-            self._show(f"{told['job']}: {told['line']}")
+        elif "line" in event:
+            self._show(f"{event['job']}: {event['line']}")
         if self._back and self._done < self._total:
             text = f"{self._done} of {counted(self._total, 'record')}"
             if self._done:

@@ -85,9 +85,10 @@ def readable(path: Path) -> Iterator[Any]:
 
 
 def check_columns(table: Table, names: Iterable[str], path: Path) -> None:
-    found, wanted = list(names), list(table.column_names)
-    if found != wanted:
-        wrong = sorted(set(found) ^ set(wanted)) or ["in another order"]
+    columns = list(names)
+    wanted = list(table.column_names)
+    if columns != wanted:
+        wrong = sorted(set(columns) ^ set(wanted)) or ["in another order"]
         raise RockingError(
             f"{path}, line 1: the columns are not those of {table.name} ({', '.join(wrong[:6])}); make the table again."
         )
@@ -154,7 +155,7 @@ def frame(
     texts = [each for each in kept if each.holds is str or each.holds is tuple]
     chosen = [each for each in kept if issubclass(each.holds, StrEnum)]
     try:
-        made = pd.read_csv(
+        table = pd.read_csv(
             content,
             usecols=[each.name for each in kept],
             dtype={each.name: "category" if each in chosen else _dtype(each) for each in kept},
@@ -162,14 +163,14 @@ def frame(
             na_values={each.name: ["", "nan"] for each in kept if each not in texts},
         )
         for each in chosen:
-            made[each.name] = _checked(made[each.name], each)
+            table[each.name] = _checked(table[each.name], each)
     except ValueError:
         if isinstance(source, Path | str):
             list(read_rows(row_class, Path(source)))  # says where
         raise
     for each in texts:
-        made[each.name] = made[each.name].map(unguarded)
-    return made
+        table[each.name] = table[each.name].map(unguarded)
+    return table
 
 
 def _dtype(each: Described) -> Any:
@@ -177,22 +178,22 @@ def _dtype(each: Described) -> Any:
 
     if issubclass(each.holds, StrEnum):
         return pd.CategoricalDtype([one.value for one in each.holds])
-    known = {float: "float64", bool: "boolean", int: "Int64" if each.optional else "int64"}
-    return known.get(each.holds, "str")
+    dtypes = {float: "float64", bool: "boolean", int: "Int64" if each.optional else "int64"}
+    return dtypes.get(each.holds, "str")
 
 
-def _checked(found: Any, each: Described) -> Any:
-    unknown = set(found.cat.categories) - set(each.holds)
-    if unknown or (found.isna().any() and not each.optional):
+def _checked(choices: Any, each: Described) -> Any:
+    unknown = set(choices.cat.categories) - set(each.holds)
+    if unknown or (choices.isna().any() and not each.optional):
         raise ValueError(each.name)
-    return found.cat.set_categories([one.value for one in each.holds])
+    return choices.cat.set_categories([one.value for one in each.holds])
 
 
 def rows_of(row_class: type[R], table: "DataFrame") -> Iterator[R]:
     """Yield the rows of a whole data frame that `frame` gave as objects again."""
     columns = row_class.table.columns
-    for found in table.astype(object).where(table.notna(), None).itertuples(index=False):
-        yield row_class(**{each.name: _restored(each, getattr(found, each.name)) for each in columns})
+    for line in table.astype(object).where(table.notna(), None).itertuples(index=False):
+        yield row_class(**{each.name: _restored(each, getattr(line, each.name)) for each in columns})
 
 
 def _restored(each: Described, value: Any) -> Any:

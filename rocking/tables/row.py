@@ -143,12 +143,12 @@ def _guarded(text: str) -> str:
     if text.isalnum():
         return text
     text = "'" + text if _FORMULA.match(text) else text
-    return _CONTROL.sub(lambda found: "\\\\" if found[0] == "\\" else f"\\u{ord(found[0]):04x}", text)
+    return _CONTROL.sub(lambda mark: "\\\\" if mark[0] == "\\" else f"\\u{ord(mark[0]):04x}", text)
 
 
 def unguarded(text: str) -> str:
     if "\\" in text:
-        text = _ESCAPED.sub(lambda found: found[1] or chr(int(found[2], 16)), text)
+        text = _ESCAPED.sub(lambda mark: mark[1] or chr(int(mark[2], 16)), text)
     return text[1:] if text[:1] == "'" and _FORMULA.match(text) else text
 
 
