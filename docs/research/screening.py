@@ -20,6 +20,8 @@ from rocking.tables import Row, column, row
 
 UPLIFTS = (1.3, 8.0)
 """Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
+SCALES = 3
+"""Trials of each structure under each record."""
 WORST, DRAWS = 2, 512
 """Mechanisms of a case that stands that are followed again, and the random members of each."""
 
@@ -56,9 +58,9 @@ def write_screening(
 def screening_trials(
     name: str, site: str, record: Accelerogram, structures: Mapping[str, Structure]
 ) -> Iterator[ScreeningTrial]:
-    """Yield a trial of each structure that may crack elsewhere."""
+    """Yield SCALES trials of each structure that may crack elsewhere."""
     draw = np.random.default_rng(zlib.crc32(name.encode()))
-    for structure_name, structure in structures.items():
+    for structure_name, structure in SCALES * list(structures.items()):
         mechanisms = [mechanism for _, mechanism in cracks(structure)]
         if len(mechanisms) == 1:
             continue
