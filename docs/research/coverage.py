@@ -19,7 +19,7 @@ from rocking.records import Accelerogram
 from rocking.structures import Block, Structure
 
 STATIONS = (8, 20, 35)
-TRIALS = 400
+TRIALS = 800
 """With an interval."""
 ESTIMATES = 20_000
 """Of the median alone, for its bias."""

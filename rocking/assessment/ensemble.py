@@ -181,8 +181,8 @@ def is_raw(accelerogram: Accelerogram) -> bool:
 
 
 DIRECTIONS = 8
-"""Of the motion of two components, spread evenly over half a turn; the other half is that of the sign. Of 53 decided
-verdicts over three directions, 7 went beyond their risk in 24."""
+"""Of the motion of two components, spread evenly over half a turn; the other half is that of the sign. Of 73
+decided verdicts on 50 sites none goes beyond its risk in 24 directions; over three, 7 of 53 did."""
 
 
 @lru_cache(maxsize=2)  # the two components of a record
