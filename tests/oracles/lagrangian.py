@@ -14,10 +14,14 @@ mp.dps = 30
 
 @dataclass(frozen=True)
 class Lagrangian:
-    """places(φ): for each mass (mass, inertia, x, y, angle). stored(φ): energy in springs, loads and thrusts, J."""
+    """places(φ): for each mass (mass, inertia, x, y, angle). stored(φ): energy in springs, loads and thrusts, J.
+
+    stretches(φ): of the springs.
+    """
 
     places: Callable[[mpf], Sequence[tuple]]
     stored: Callable[[mpf], mpf] = lambda phi: mpf(0)
+    stretches: Callable[[mpf], Sequence[mpf]] = lambda phi: ()
 
     def acceleration(self, rotation: float, velocity: float, ground: float, gravity: float) -> float:
         """φ'' from d/dt ∂T/∂φ' − ∂T/∂φ + ∂V/∂φ = −Σ m x' ü_g."""

@@ -134,7 +134,7 @@ class TiedBody:
         for n in range(count):
 
             def taut(t, y, n=n):
-                return self.pretension + self.stiffness * (held.points(y[0])[n] - y[2 + n])
+                return self.pretension + self.stiffness * (held.terms(y[0])[4][n] - y[2 + n])
 
             if self.mode[n] == "elastic":
                 marks.append(

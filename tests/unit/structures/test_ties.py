@@ -5,9 +5,11 @@ import itertools
 
 import numpy as np
 import pytest
+from loaded import facade_lagrangian, wall_lagrangian
+from mpmath import mpf
 from tied import Held, TiedBody
 
-from rocking.motion import Members, integrate, integrate_batch, integrate_members
+from rocking.motion import integrate
 from rocking.motion.response import check_model
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
@@ -26,66 +28,22 @@ WALL = LoadedWall(
 )  # fmt: skip
 
 
-def facade_side(facade, sign):
-    """Storeys and loads of a façade that turns about its toe; the points of its ties on the outer face."""
-    base = 0.0 if sign > 0 else -facade.thicknesses[0]
-    masses, inertias, x, y, level = [], [], [], [], 0.0
-    for h, t, load in zip(facade.storey_heights, facade.thicknesses, facade.floor_loads, strict=True):
-        masses += [facade.unit_weight * h * t / GRAVITY, load / GRAVITY]
-        inertias += [masses[-2] * (h**2 + t**2) / 12, 0.0]
-        x += [sign * (-t / 2 - base), sign * (-t / 2 - facade.eccentricity - base)]
-        y += [level + h / 2, level + h]
-        level += h
-    masses, inertias, x, y = map(np.array, (masses, inertias, x, y))
-    spin = np.append(np.ones(len(facade.storey_heights)), 0.0)[[0, -1] * len(facade.storey_heights)]
+def held(structure, sign):
+    """Where masses and points of ties are on one side, seen in the mirror on the negative one."""
+    facade = isinstance(structure, Facade)
+    lagrangian = (facade_lagrangian if facade else wall_lagrangian)(structure, sign)
+    mirror = [1, 1, sign if facade else 1, 1, 1]
 
     def places(phi):
-        c, s = np.cos(phi), np.sin(phi)
-        return masses, inertias, c * x + s * y, c * y - s * x, spin * phi
+        return np.array(lagrangian.places(mpf(phi)), dtype=float).T * np.array(mirror)[:, None]
 
-    heights = np.array(facade.tie_heights)
-    return Held(places, lambda phi: heights * np.sin(phi))
-
-
-def wall_side(wall, sign):
-    """Two rectangles: the lower about its right bottom corner, the upper on the hinge with its top kept in line."""
-    h1, h2, t = wall.lower_height, wall.upper_height, wall.thickness
-    weight = np.array([h1, h2]) * wall.unit_weight * t
-    masses = np.append(weight, wall.top_load) / GRAVITY
-    inertias = np.append(masses[:2] * (np.array([h1, h2]) ** 2 + t**2) / 12, 0.0)
-
-    def upper(phi):
-        hinge = complex(t / 2, 0.0) + (complex(-t, h1)) * np.exp(-1j * phi)
-        # hinge.x + t cos ψ − h₂ sin ψ = t/2
-        reach = np.hypot(t, h2)
-        psi = np.arccos((t / 2 - hinge.real) / reach) - np.arctan2(h2, t)
-        return hinge, np.exp(1j * psi), psi
-
-    def on_upper(phi, x, y):
-        hinge, turn, _ = upper(phi)
-        return hinge + turn * complex(x + t / 2, y - h1)
-
-    def places(phi):
-        lower = t / 2 + complex(-t / 2, h1 / 2) * np.exp(-1j * phi)
-        top = on_upper(phi, 0.0, h1 + h2)
-        points = np.array([lower, on_upper(phi, 0.0, h1 + h2 / 2), 1j * top.imag])
-        return masses, inertias, points.real, points.imag, np.array([-phi, upper(phi)[2], 0.0])
-
-    def points(phi):
-        moved = [
-            t / 2 + 1j * z * np.exp(-1j * phi) if z <= h1 else on_upper(phi, t / 2, z)
-            for z in wall.tie_heights
-        ]
-        return np.array(moved).real - t / 2
-
-    return Held(places, points)
+    return Held(places, lambda phi: np.array(lagrangian.stretches(mpf(phi)), dtype=float))
 
 
 def oracle(structure):
-    side = facade_side if isinstance(structure, Facade) else wall_side
     signs = (1,) if structure.one_sided else (1, -1)
     return TiedBody(
-        {sign: side(structure, sign) for sign in signs}, structure.tie_stiffness, structure.tie_pretension,
+        {sign: held(structure, sign) for sign in signs}, structure.tie_stiffness, structure.tie_pretension,
         np.inf if structure.tie_strength is None else structure.tie_strength, structure.tie_plastic_elongation,
         structure.restitution, len(structure.tie_heights),
     )  # fmt: skip
@@ -260,28 +218,6 @@ def test_limits_of_the_strength():
     brittle = dataclasses.replace(FACADE, tie_plastic_elongation=0.0)
     short = dataclasses.replace(FACADE, tie_plastic_elongation=1e-13)
     assert history(short, Pulse(-3.0, 6.0)) == pytest.approx(history(brittle, Pulse(-3.0, 6.0)), rel=1e-9)
-
-
-def test_members_and_batches_are_single_runs():
-    rng = np.random.default_rng(5)
-    samples = np.convolve(rng.normal(size=900), np.hanning(40), "same")
-    record = Accelerogram(3.0 * samples / np.abs(samples).max(), 0.01)
-    lift = Accelerogram(np.roll(record.acceleration, 40), 0.01)
-    members = Members([0.6, 0.9, 1.2, 1.5], [1, -1, 1, -1], [True, False, True, True], [0.7, 0.8, 0.9, 0.85])
-    found = integrate_members(FACADE, record, members, 1e-11, vertical=lift)
-    for k in range(4):
-        structure = dataclasses.replace(FACADE, restitution=float(members.restitution[k, 0]))
-        factor = float(members.scale_factor[k])
-        alone = integrate(
-            structure, record.scaled(factor * float(members.polarity[k])), 1e-11,
-            vertical=lift.scaled(factor) if members.vertical[k] else None,
-        )  # fmt: skip
-        assert found.rotation_ratio[k] == pytest.approx(alone.rotation_ratio, rel=1e-8)
-    batch = integrate_batch([FACADE, WALL], record, [0.5, 1.0], tolerance=1e-11)
-    singly = [
-        [integrate(s, record.scaled(f), 1e-11).rotation_ratio for f in (0.5, 1.0)] for s in (FACADE, WALL)
-    ]
-    np.testing.assert_allclose(batch, singly, rtol=1e-8)
 
 
 @pytest.mark.parametrize("structure", [FACADE, WALL], ids=["façade", "wall"])
