@@ -281,33 +281,26 @@ class ArchOnPiers(Arch):
         field(kw_only=True)
     )
     pier_density_ratio: Annotated[
-        float,
-        Value("Density of the piers over that of the arch", 1.0, usual=(0.5, 1.5), bounds={"gt": 0}),
+        float, Value("Density of the piers over that of the arch", 1.0, usual=(0.5, 1.5), bounds={"gt": 0})
     ] = field(default=1.0, kw_only=True)
-
-    def _check(self) -> None:
-        needed = self.thickness * float(np.sin(self.embrace_angle / 2))
-        if self.pier_width < needed:
-            raise StructureError(
-                f"pier_width is {self.pier_width!r} m, but must be at least {needed:.6g} m to carry the springing."
-            )
 
     @property
     def ring(self) -> PierRing:
         """Arch and piers with a centreline radius of 1."""
         return PierRing(
-            self.thickness / self.radius,
-            self.embrace_angle,
-            self.voussoirs,
-            self._fill,
-            self.pier_width / self.radius,
-            self.pier_height / self.radius,
-            self.pier_density_ratio,
+            **vars(super().ring),
+            pier_width=self.pier_width / self.radius,
+            pier_height=self.pier_height / self.radius,
+            pier_density=self.pier_density_ratio,
         )
 
     def _static_onset(self) -> Onset:
         """λ of the mechanism that governs and its hinges (angles from the left springing; a foot is beyond it)."""
-        self._check()
+        needed = self.thickness * float(np.sin(self.embrace_angle / 2))
+        if self.pier_width < needed:
+            raise StructureError(
+                f"pier_width is {self.pier_width!r} m, but must be at least {needed:.6g} m to carry the springing."
+            )
         try:
             return static_onset(self.ring)
         except TooThin:

@@ -15,14 +15,7 @@ from rocking.quantities import whole
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, restitution_value
 from rocking.structures.linkage import STILL, Hung, Restitution, Turning
-from rocking.structures.tied import (
-    Eccentricity,
-    Tied,
-    TopSlab,
-    UnitWeight,
-    check_eccentricity,
-    check_inside,
-)
+from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity, check_inside
 
 _MOST_STOREYS = 50
 _SIZES = {"gt": 0, "le": 1000}

@@ -78,13 +78,14 @@ class Side:
                 f"end_rotation is {self.end_rotation!r} rad, but must exceed critical_rotation = {critical!r} rad."
             )
         object.__setattr__(self, "restitution", within(StructureError, "restitution", self.restitution, 0, 1))
-        for name, at in (
+        ends = (
             ("inertia", 0.0),
             ("inertia", critical),
             ("gravity", 0.0),
             ("ground", 0.0),
             ("ground", critical),
-        ):
+        )
+        for name, at in ends:
             value = self.at(name, at)
             if not value > 0:
                 raise StructureError(

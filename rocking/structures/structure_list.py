@@ -7,8 +7,8 @@ message, and each size is remembered as it was typed. The JSON schema follows fr
 import warnings
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
-from importlib import import_module
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import Any
 
 import yaml
@@ -31,12 +31,7 @@ _CLASSES = (
 )
 
 
-def _found(path: str) -> type[Structure]:
-    module, name = path.rsplit(".", 1)
-    return getattr(import_module(module), name)  # type: ignore[no-any-return]
-
-
-TYPES: dict[str, type[Structure]] = {each.type_name: each for each in map(_found, _CLASSES)}
+TYPES: dict[str, type[Structure]] = {each.type_name: each for each in map(resolve_name, _CLASSES)}
 """By the `type` of a structure list."""
 
 

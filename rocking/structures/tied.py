@@ -60,8 +60,7 @@ class Tied(Crackable):
         tuple[float, ...], Value("Heights of the ties above the ground", [1.6], "m", (0.2, 60), "z")
     ] = field(default=(), kw_only=True)
     tie_stiffness: Annotated[
-        float,
-        Value("Stiffness of each tie per metre of wall, kN/m per m", 50.0, "kN/m²", (1, 1e5), "k"),
+        float, Value("Stiffness of each tie per metre of wall, kN/m per m", 50.0, "kN/m²", (1, 1e5), "k")
     ] = field(default=0.0, kw_only=True)
     tie_pretension: Annotated[
         float, Value("Force of each tie at rest; needs one_sided", 0.0, "kN/m", (0, 200), "T")
