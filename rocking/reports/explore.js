@@ -147,9 +147,9 @@
     const raw = (high - low) / wished;
     const power = 10 ** Math.floor(Math.log10(raw));
     const step = power * [1, 2, 5, 10].find((each) => each * power >= raw);
-    const found = [];
-    for (let k = Math.ceil(low / step); k * step <= high + 1e-9 * step; k += 1) found.push(Number((k * step).toPrecision(6)));
-    return found;
+    const first = Math.ceil(low / step);
+    const count = Math.floor(high / step + 1e-9) - first + 1;
+    return Array.from({ length: count }, (_, k) => Number(((first + k) * step).toPrecision(6)));
   }
 
   function panel({ top, bottom }, span, reach, label) {
@@ -197,8 +197,8 @@
     if (each.history) trace(values, each.history.span, span, axes, { stroke: "#000", "stroke-width": 1.1, id: "rotation" });
     for (const level of predicted > 0 ? [predicted, -predicted] : [])
       drawn("line", { x1: LEFT, x2: RIGHT, y1: axes.y(level), y2: axes.y(level), stroke: "#0072b2", "stroke-dasharray": "8 3 2 3" });
-    const said = predicted > 0 ? "dash-dot: largest by the closed form" : `closed form: ${each.closed}`;
-    drawn("text", { x: RIGHT - 8, y: PANELS[1].top + 16, "text-anchor": "end" }, said);
+    const remark = predicted > 0 ? "dash-dot: largest by the closed form" : `closed form: ${each.closed}`;
+    drawn("text", { x: RIGHT - 8, y: PANELS[1].top + 16, "text-anchor": "end" }, remark);
     drawn("text", { x: (LEFT + RIGHT) / 2, y: 292, "text-anchor": "middle" }, "time after the first sample [s]");
     const cursor = drawn("line", { y1: PANELS[0].top, y2: PANELS[1].bottom, stroke: "#009e73", "stroke-width": 1.5, id: "cursor" });
     return (time) => { cursor.setAttribute("x1", axes.x(time)); cursor.setAttribute("x2", axes.x(time)); };
@@ -332,7 +332,7 @@
     let place = Number(at("scrub").value);
     let before = performance.now();
     const step = (now) => {
-      place += (1000 * (now - before) / 1000 * Number(at("speed").value)) / show.length_s;
+      place += ((now - before) * Number(at("speed").value)) / show.length_s;
       before = now;
       at("scrub").value = Math.min(1000, place);
       show();

@@ -143,7 +143,7 @@ def _motion(accelerogram: Accelerogram, tables: RecordTables) -> Content:
     moved = displacement(accelerogram)
     line = np.polyval(np.polyfit(times, moved, 1), times)
     kept = partial(extremes, times, begin=0.0, end=duration)
-    said: Content = {
+    shown: Content = {
         "duration": duration,
         "acceleration": packed(kept(accelerogram.acceleration)),
         "displacement": packed(kept(moved - line)),
@@ -152,11 +152,11 @@ def _motion(accelerogram: Accelerogram, tables: RecordTables) -> Content:
     if ranked:
         pulse = min(ranked, key=lambda row: row.rank).pulse
         inside = np.linspace(pulse.start_time, pulse.end_time, 61)
-        said["pulse"] = {
+        shown["pulse"] = {
             "span": [_number(pulse.start_time), _number(pulse.end_time)],
             "acceleration": packed(pulse.acceleration(inside)),
         }
-    return said
+    return shown
 
 
 def _history(response: Response, mechanism: Mechanism) -> Content | None:

@@ -60,6 +60,8 @@ def summary_data(
     unsafe = unsafe.sort_values("integrated_rotation_ratio", ascending=False, kind="stable")
     both = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]].max(axis=1, skipna=False)
     scatter = [comparison] if (both > 0).sum() >= FEWEST_POINTS else []
+    summary = tables.get("fragility_summary")
+    falls = None if summary is None else summary[np.isinf(summary["rotation_ratio"])]
     alt = "Scatter of predicted against integrated rotation ratio, with factor-two lines."
     return {
         "title": "Rocking assessment: summary",
@@ -75,7 +77,7 @@ def summary_data(
         "agreement": agreement_table(agreements),
         "unsafe": case_table(rows_of(ComparisonRow, unsafe.head(MOST_LISTED))),
         "unsafe-note": _rest(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
-        "fragility": _fragility(tables),
+        "fragility": [fragility_table(falls, tables["ida"])] if "ida" in tables else [],
         "failures": table_of(rows_of(FailureRow, failures.head(MOST_LISTED)), *FAILURE_COLUMNS),
         "failures-note": _rest(len(failures) - MOST_LISTED, "failure", "failures.csv"),
         "records": record_table(list(rows_of(RecordRow, records.head(MOST_RECORDS))), tables["pulses"]),
@@ -296,14 +298,6 @@ def case_table(cases: Iterable[ComparisonRow]) -> dict[str, object]:
 
 
 # Fragility, failures and records ---------------------------------------------------------------------------
-
-
-def _fragility(tables: Mapping[str, "DataFrame"]) -> list[dict[str, object]]:
-    """The table of the fragility in a list, which is empty where it was not measured."""
-    if "fragility_summary" not in tables:
-        return []
-    summary = tables["fragility_summary"]
-    return [fragility_table(summary[np.isinf(summary["rotation_ratio"])], tables["ida"])]
 
 
 FAILURE_COLUMNS = columns_of(

@@ -45,13 +45,13 @@ def write_trade_report(folder: Path, pdf: Path, image: Path) -> None:
 def trade_picture(folder: Path) -> list[dict[str, str]]:
     """Return the figure and its conclusion for another document; nothing where no structure was followed."""
     rows = [row for row in read_table(TradeRow, folder) if row.structure == ""]
-    said = "; ".join(
+    conclusion = "; ".join(
         f"{row.method}: {1e3 * row.cpu_s:.2g} ms, {printing.of(row.wrong_verdicts, row.cases)} verdicts wrong"
         for row in rows
     )
     shown = picture(trade_figure(rows), "Median error against processor time of every method.")
     caption = "Median error of the largest rotation against the processor time of one response, over all structures."
-    return [shown | {"caption": caption, "conclusion": f"{said}."}] if rows else []
+    return [shown | {"caption": caption, "conclusion": f"{conclusion}."}] if rows else []
 
 
 @styled
