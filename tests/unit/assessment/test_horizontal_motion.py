@@ -7,11 +7,14 @@ import numpy as np
 import pytest
 
 from rocking.assessment.horizontal_motion import horizontal_motions
+from rocking.assessment.rows.of_record import ComponentRow, record_row
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 
 STEP = 0.01
 MOTION = Pulse(3.0, math.pi, 10.0).acceleration(np.arange(3000) * STEP)
+
+IDENTITY = ComponentRow(**dict.fromkeys(ComponentRow.table.column_names))
 
 
 def component(share: float, name: str, azimuth: float | None = None, **changes) -> Accelerogram:
@@ -25,6 +28,15 @@ def test_a_pair_has_one_motion_and_its_axis_from_north():
     assert one.azimuth == pytest.approx(math.degrees(0.3))
     assert one.velocity_pulse.orientation == pytest.approx(0.3)
     assert one.rotd.rotd100 == pytest.approx(3.0, rel=1e-3)
+    row = record_row(IDENTITY, north, "", motion=one, dominant=Pulse(1.0, math.pi))
+    assert (row.rotd50_peak_acceleration_m_s2, row.rotd100_peak_acceleration_m_s2) == (
+        one.rotd.rotd50,
+        one.rotd.rotd100,
+    )
+    assert row.pulse_period_ratio == pytest.approx(2.0 / one.velocity_pulse.period)
+    alone = record_row(IDENTITY, north, "", vertical=component(0.1, ""))
+    assert math.isnan(alone.rotd100_peak_acceleration_m_s2) and math.isnan(alone.pulse_period_ratio)
+    assert alone.vertical_component == "not named"
 
 
 @pytest.mark.parametrize(
