@@ -236,9 +236,9 @@ def _listed(path: Path, folder: Path, unit: str | None, time_step: float | None)
             )
         for sentence in sentences:
             doubts.setdefault(sentence, []).append(channel.component)
-    told = tuple(s if len(of) == len(channels) else f"{', '.join(of)}: {s}" for s, of in doubts.items())
+    remarks = tuple(s if len(of) == len(channels) else f"{', '.join(of)}: {s}" for s, of in doubts.items())
     listed = tuple(ListedChannel.of(channel, not to_fill) for channel in channels)
-    return ListedFile(file, listed, reason, told, declared, to_fill)
+    return ListedFile(file, listed, reason, remarks, declared, to_fill)
 
 
 def _passed_over(path: Path) -> bool:
@@ -274,13 +274,13 @@ def _row(group: Sequence[ListedFile], taken: set[str]) -> Row:
     first = level[0]
     fill = group[0].to_fill
     doubts = dict.fromkeys(doubt for file in group for doubt in file.doubts)
-    told = [s for s in doubts if not fill or ("m/s" not in s and " g," not in s)]
+    remarks = [s for s in doubts if not fill or ("m/s" not in s and " g," not in s)]
     if (angle := _angle(level)) is not None and abs(angle - 90) > _SQUARE:
-        told.append(
+        remarks.append(
             f"Components {level[0].component} and {level[1].component} are {min(angle, 180 - angle):g}° apart, "
             "not at right angles."
         )
-    note = [f"{first.source.format}.", *([f"Fill in {' and '.join(fill)}."] if fill else []), *told]
+    note = [f"{first.source.format}.", *([f"Fill in {' and '.join(fill)}."] if fill else []), *remarks]
     return {
         "id": _id(group, taken),
         "file": ";".join(f"./{file.file}" if file.file[0] in _FORMULA else file.file for file in group),

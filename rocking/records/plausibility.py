@@ -169,21 +169,21 @@ def damage_warnings(record: Accelerogram) -> tuple[str, ...]:
 
     A time step that is too long for strong motion is told too.
     """
-    told = []
+    warnings = []
     magnitudes = np.abs(record.acceleration)
     step = record.time_step
     if step > _LONGEST_STEP:
-        told.append(
+        warnings.append(
             f"The time step is {step:g} s: strong motion needs one below {_LONGEST_STEP:g} s; check it."
         )
     if magnitudes.size < 2 * _ZEROS or not magnitudes.any():
-        return tuple(told)
+        return tuple(warnings)
     at = int(magnitudes.argmax())
     peak = float(magnitudes[at])
     others = np.delete(magnitudes, at)
     near = others[max(0, at - _NEIGHBOURS) : at + _NEIGHBOURS].max()
     if peak > _ALONE[0] * near and peak > _ALONE[1] * others.max():
-        told.append(
+        warnings.append(
             f"The sample at {at * step:g} s is {peak / GRAVITY:.3g} g and stands alone; without it the peak "
             f"acceleration is {others.max() / GRAVITY:.3g} g: a number is damaged, or the instrument was struck."
         )
@@ -192,10 +192,10 @@ def damage_warnings(record: Accelerogram) -> tuple[str, ...]:
     moving = np.flatnonzero(magnitudes[begin : end + 1])
     longest = int(np.diff(moving).max(initial=0)) - 1
     if longest >= _ZEROS:
-        told.append(
+        warnings.append(
             f"Within the strong shaking {longest} samples in a row are exactly zero: a gap was filled, perhaps."
         )
-    return tuple(told)
+    return tuple(warnings)
 
 
 _EXCHANGED = 3.0

@@ -126,10 +126,10 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
         vertical = of[record.vertical_component] if record.vertical_component else next(upwards, None)
         horizontal = [of[name] for name in record.components]
         if horizontal and len(record.files) == 1:  # a vertical one that is asked for will shake sideways
-            told = {
+            warnings = {
                 c.component: (*c.warnings, _SIDEWAYS.format(c.component)) for c in horizontal if c.vertical
             }
-            horizontal = [replace(c, warnings=told.get(c.component, c.warnings)) for c in horizontal]
+            horizontal = [replace(c, warnings=warnings.get(c.component, c.warnings)) for c in horizontal]
         else:
             sideways = horizontal or [channel for channel in channels if not channel.borehole]
             horizontal = [channel for channel in sideways if channel is not vertical and not channel.vertical]
@@ -144,13 +144,13 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
 def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
     """Return a channel with what its row says of name, scale, station, event, corner, magnitude and distance."""
     channel = scaled(channel, record.scale_factor) if record.scale_factor != 1 else channel
-    told: dict[str, Any] = {
+    facts: dict[str, Any] = {
         "station": record.station or channel.station,
         "event": record.event or channel.event,
         "high_pass_frequency": record.high_pass or channel.high_pass_frequency,
     }
     if record.magnitude is not None:
-        told |= {"magnitude": record.magnitude, "magnitude_type": ""}
+        facts |= {"magnitude": record.magnitude, "magnitude_type": ""}
     if record.epicentral_distance is not None:
-        told["epicentral_distance"] = 1000 * record.epicentral_distance
-    return replace(channel, **told)
+        facts["epicentral_distance"] = 1000 * record.epicentral_distance
+    return replace(channel, **facts)

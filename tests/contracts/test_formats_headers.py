@@ -79,41 +79,6 @@ def test_what_a_header_says(name: str) -> None:
     assert {record.source.format for record in records} == {format_of(name)}
 
 
-EARTHQUAKES: dict[str, tuple[str, str, float | None, float | None]] = {
-    "USGS SMC": (
-        "component=     45\n*\n*\n",
-        "component=     45\nepicentral dist =  12.5        pk acc =\nMoment Mag= 6.9   Ms=  7.1   Ml= \n",
-        6.9,
-        12500.0,
-    ),
-    "DYNA (ESM, ITACA, AFAD)": (
-        "USER1: ",
-        "MAGNITUDE_W: \nMAGNITUDE_L: 4.6\nEPICENTRAL_DISTANCE_KM: 88.1",
-        4.6,
-        88100.0,
-    ),
-    "AFAD/NSMN text": ("Copyright", "EARTHQUAKE MAGNITUDE    : 5.1 (Ml)\nCopyright", 5.1, None),
-    "GeoNet V1A/V2A": (
-        "Site WTMC      42 37 10S\nx",
-        "Site WTMC\nEpicentre 42 38S Dist 9.5 km ML 7.82",
-        7.82,
-        9500.0,
-    ),
-    "UNAM/CICESE": ("UNIDADES", "MAGNITUD(ES)                           : /M=7.1\nUNIDADES", 7.1, None),
-    "CWB": ("#RecordLength", "#Magnitude(Ml): 6.0\n#RecordLength", 6.0, None),
-    "CSMNC": ("MAGNITUDE", "MAGNITUDE   4.0(Ms)", 4.0, None),
-}
-
-
-@pytest.mark.parametrize("name", EARTHQUAKES)
-def test_the_earthquake_that_a_header_tells_of(name: str) -> None:
-    old, new, size, distance = EARTHQUAKES[name]
-    text = MADE[name][0]()
-    assert old in text
-    records = read_text(text.replace(old, new, 1))
-    assert {(record.magnitude, record.epicentral_distance) for record in records} == {(size, distance)}
-
-
 @pytest.mark.parametrize(("line", "corner"), [
     ("PGA= 0.1 G, HP=0.13 HZ, LP=40.0 HZ", 0.13), ("HP= 1 HZ", 1.0), ("HP= 0.0 HZ", None), ("HP=0.1.2 HZ", None),
     ("FILTER POINTS: HP=. HZ", None), ("4 POLE @ 30. HZ LOW, 4 POLE @ .15 HZ HIGH", 0.15),

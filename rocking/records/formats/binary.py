@@ -39,12 +39,12 @@ def _stream(content: bytes, form: str, **options: Any):
             raise
         except Exception as error:
             raise RecordError(f"damaged {form} file, {first_line(error)}; fetch it again.") from error
-    told = [first_line(each.message) for each in caught]
-    if form == "MSEED" and (damage := [text for text in told if _DAMAGE.search(text)]):
+    messages = [first_line(each.message) for each in caught]
+    if form == "MSEED" and (damage := [text for text in messages if _DAMAGE.search(text)]):
         raise RecordError(f"damaged {form} file, {damage[0]}; fetch it again.")
     if not any(trace.stats.npts for trace in result):
         raise RecordError(f"the {form} file holds no samples.")
-    notes |= {f"obspy: {text}." for text in told}
+    notes |= {f"obspy: {text}." for text in messages}
     for _, station, _, channel, _, begin, seconds, _ in result.get_gaps():
         if seconds < 0:
             notes.add(

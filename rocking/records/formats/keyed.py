@@ -100,8 +100,8 @@ def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
     _, notes = whole(table[:, 0], _AFAD.count(head), per_line=1)
     peaks = optional(r"^(.*PGA.*:.*)", head)
     stated = [optional_number(rf"\({re.escape(label)}\)\s*{NUMBER}", peaks) for label in labels]
-    told: dict[str, Any] = {"warnings": notes, "processed": "RAW" not in peaks, "peaks": stated}
-    return _AFAD.channels(head, table, labels, options, **told)
+    facts: dict[str, Any] = {"warnings": notes, "processed": "RAW" not in peaks, "peaks": stated}
+    return _AFAD.channels(head, table, labels, options, **facts)
 
 
 _RESORCE = Layout("m/s2", **keyed(
@@ -151,9 +151,9 @@ def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError(f"SampleRate is {rate:g} Hz, but the times are not spaced so; the file is damaged.")
     magnitudes = re.findall(r"^Magnitude\((\w+)\)(:.*)", head, re.I | re.M)
     extremes = [re.findall(NUMBER, optional(rf"^.*MAX.*\b{label}\s*:(.*)", head), re.I) for label in labels]
-    told = typed_magnitude(" ".join(scale + value for scale, value in magnitudes))
-    told["peaks"] = [max((abs(float(text)) for text in ends), default=None) for ends in extremes]
-    return _CWB.channels(head, table[:, 1:], labels, options, step=step, **told)
+    facts = typed_magnitude(" ".join(scale + value for scale, value in magnitudes))
+    facts["peaks"] = [max((abs(float(text)) for text in ends), default=None) for ends in extremes]
+    return _CWB.channels(head, table[:, 1:], labels, options, step=step, **facts)
 
 
 _UNAM = Layout("gal", half_digit=5e-5, **keyed(

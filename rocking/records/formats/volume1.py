@@ -115,9 +115,9 @@ def _digitised(
     check_no_gap(times, _LONGEST_GAP)
     even = np.arange(round(times[0] / _STEP), int(times[-1] / _STEP + 1e-6) + 1) * _STEP
     note = f"The {times.size} samples are unevenly spaced; interpolated linearly to {even.size}, {_STEP:g} s apart."
-    told: dict[str, Any] = {"processing": (note,), "warnings": (note,)}
+    more: dict[str, Any] = {"processing": (note,), "warnings": (note,)}
     joined, in_file = np.interp(even, times, values), values * acceleration_factor("g/10")
-    return layout.channel(head, joined, options, step=_STEP, held=held, in_file=in_file, **told)
+    return layout.channel(head, joined, options, step=_STEP, held=held, in_file=in_file, **more)
 
 
 def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
@@ -208,8 +208,8 @@ def _csmip(block: list[str], options: Options, held: int) -> Accelerogram:
     if is_corrected and interval:
         check_equal("the interval", interval, step)
     layout = _CSMIP_2 if is_corrected else _CSMIP_1
-    told: dict[str, Any] = {"processed": is_corrected, "held": held}
-    record = layout.channel(head, values, options, unit=facts["unit"], step=step, **told)
+    more: dict[str, Any] = {"processed": is_corrected, "held": held}
+    record = layout.channel(head, values, options, unit=facts["unit"], step=step, **more)
     for part, (_, data) in zip(parts[1:], announced[1:], strict=True):
         if (data.groupdict().get("quantity") or "").lower() == "veloc" and data["unit"].lower() == "cm/sec":
             record = agree_with_velocity(record, part / 100)

@@ -8,7 +8,6 @@ import http.server
 import itertools
 import os
 import threading
-from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, ClassVar
@@ -241,18 +240,6 @@ def test_the_near_fault_catalogue_opens_from_the_mirror(
         if r["role"] in ("pulse", "non-pulse") and r["component"].strip("-") != "UP"
     }
     assert {record.file for record in records} == {file for file in wanted if not file.endswith("VT2")}
-
-
-@pytest.mark.real_records
-def test_the_fema_catalogue_opens_from_the_mirror(real_records: Path) -> None:
-    """Two components of each station, 21 far from the fault and 14 near it (FEMA P-695, tables A-4 and A-6)."""
-    records = load_catalogue(SHIPPED / "fema_p695.csv", mirror=real_records)
-    stations = Counter((record.id[:7], record.event, record.station) for record in records)
-    assert Counter(suite for suite, _, _ in stations) == {"P695_FF": 21, "P695_NF": 14}
-    assert set(stations.values()) == {2} and all(record.is_remote for record in records)
-    for record in records:
-        (channel,) = open_record(record, real_records)
-        assert not channel.vertical and 0.1 * GRAVITY < channel.peak_acceleration < GRAVITY
 
 
 def test_a_catalogue_from_a_folder(folder: Path) -> None:

@@ -89,12 +89,6 @@ def test_an_unknown_file_is_told_what_was_looked_for(tmp_path: Path) -> None:
     assert caught.value.details == tuple(f"{form.name}: no {form.sought}" for form in FORMATS)
 
 
-@pytest.mark.parametrize("path", ["missing.AT2", ".", "nul\0byte"])
-def test_what_cannot_be_opened(tmp_path: Path, path: str) -> None:
-    with pytest.raises(RecordError, match="cannot be opened"):
-        read(tmp_path / path)
-
-
 class _Trap:
     """Unpickling this appends to the path of modules."""
 
