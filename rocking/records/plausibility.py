@@ -100,10 +100,14 @@ def scaled(record: Accelerogram, factor: float) -> Accelerogram:
 def pass_limits(record: Accelerogram) -> tuple[str, ...]:
     """Return warnings on a peak that is below 1e-5 g or above 3 g; raise RecordError when it is above 5 g."""
     peak = record.peak_acceleration / GRAVITY
+    low, high = (bound * GRAVITY for bound in _PLAUSIBLE)
     if record.peak_acceleration > LARGEST_PEAK:
+        fits = [f"by {f:g} ({m})" for f, m in _FACTORS.items() if low < record.peak_acceleration / f < high]
+        hint = f"; divided {', '.join(fits)} it would be plausible"
+        unexplained = ", and no factor between units explains it: counts without their calibration, perhaps"
         raise RecordError(
             f"peak acceleration is {peak:.6g} g read as {record.source.unit or 'm/s2'}, "
-            f"above the 5 g that no ground has reached{_candidates(peak, divide=True)}; declare the true unit."
+            f"above the 5 g that no ground has reached{hint if fits else unexplained}; declare the true unit."
         )
     if record.peak_acceleration > RARE_PEAK:
         return (
@@ -111,7 +115,8 @@ def pass_limits(record: Accelerogram) -> tuple[str, ...]:
         )
     if record.peak_acceleration >= SMALLEST_PEAK:
         return ()
-    hint = _candidates(peak, divide=False)
+    fits = [f"by {f:g} ({m})" for f, m in _FACTORS.items() if low < record.peak_acceleration * f < high]
+    hint = f"; multiplied {', '.join(fits)} it would be plausible" if fits else ""
     return (f"The peak acceleration is {peak:.3g} g, below 1e-5 g: noise, or a wrong unit{hint}.",)
 
 
@@ -225,17 +230,3 @@ def exchanged_lines(record: Accelerogram, per_line: int) -> tuple[str, ...]:
         return ()
     time = (at + 2) * per_line * record.time_step
     return (f"Around {time:g} s two lines of numbers seem to be exchanged: turned they would join smoothly.",)
-
-
-def _candidates(peak: float, divide: bool) -> str:
-    low, high = _PLAUSIBLE
-    fits = [(f, m) for f, m in _FACTORS.items() if low < (peak / f if divide else peak * f) < high]
-    word = "divided" if divide else "multiplied"
-    if not fits:
-        return (
-            ", and no factor between units explains it: counts without their calibration, perhaps"
-            if divide
-            else ""
-        )
-    factors = ", ".join(f"by {f:g} ({m})" for f, m in fits)
-    return f"; {word} {factors} it would be plausible"

@@ -235,10 +235,7 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
 
 
 def _drifts(velocity: np.ndarray, onset: int, ends: Sequence[int]) -> Iterator[tuple[int, int, np.ndarray]]:
-    """Yield end, degree and drift (n,) for each end and, of each end, for each degree.
-
-    The drift is a line before the onset, a polynomial after the end, and a cubic Hermite bridge between.
-    """
+    """Yield end, degree and drift (n,): a line to the onset, a polynomial from the end, a cubic bridge between."""
     (before, slope), _ = _fitted(velocity[:onset])
     height = before[-1] + slope
     for end in ends:
@@ -251,10 +248,8 @@ def _drifts(velocity: np.ndarray, onset: int, ends: Sequence[int]) -> Iterator[t
 
 
 def _fitted(values: np.ndarray) -> list[tuple[np.ndarray, float]]:
-    """Return the least-squares polynomial of each degree through `values` (k,), and its slope at the first, per sample.
-
-    In Legendre's polynomials of these places, which are orthogonal, so that a degree only adds its own term.
-    """
+    """Return the least-squares polynomial of each degree through `values` (k,), and its slope there, per sample."""
+    # In Legendre's polynomials of these places, which are orthogonal, a degree only adds its own term.
     x = np.linspace(-1, 1, values.size)
     square = (x * x).sum()  # sums, because a dot product of many samples wakes a thread on every core
     bow = x * x - square / x.size
