@@ -175,11 +175,6 @@ AS_IT_IS = "unchanged"
 """The variant that is the record itself."""
 
 
-def is_raw(accelerogram: Accelerogram) -> bool:
-    """Whether the record comes from a file that says it is uncorrected, whatever was done to it since."""
-    return bool(accelerogram.source.path) and accelerogram.processed is False
-
-
 DIRECTIONS = 8
 """Of the motion of two components, spread evenly over half a turn; the other half is that of the sign. Of 73
 decided verdicts on 50 sites none goes beyond its risk in 24 directions; over three, 7 of 53 did."""
@@ -213,8 +208,8 @@ class GroundMotions:
         cls, accelerogram: Accelerogram, vertical: Accelerogram | None = None, *, processing: bool = False
     ) -> "GroundMotions":
         """One component as it is; with `processing`, a raw one as each variant of its processing leaves it."""
-        found = _processings(processing, accelerogram)
-        horizontal = {(accelerogram.component, name): motions[0] for name, motions in found.items()}
+        motions = _processings(processing, accelerogram)
+        horizontal = {(accelerogram.component, name): motion for name, (motion,) in motions.items()}
         return cls(horizontal, vertical)
 
     @classmethod
@@ -230,11 +225,12 @@ class GroundMotions:
 
         processing: as in `of`.
         """
+        names = {0: first.component or "first", DIRECTIONS // 2: second.component or "second"}
         horizontal: dict[tuple[str, str], Accelerogram] = {}
         for processed_as, (one, other) in _processings(processing, first, second).items():
             for place in range(DIRECTIONS):
                 motion = rotated(one, other, np.pi * place / DIRECTIONS)
-                horizontal[_direction(place, first, second, motion), processed_as] = motion
+                horizontal[names.get(place, motion.component), processed_as] = motion
         along = next(iter(horizontal.values()))
         return cls(horizontal, None if vertical is None else aligned(vertical, along))
 
@@ -249,21 +245,14 @@ class GroundMotions:
         return tuple(dict.fromkeys(processing for _, processing in self.horizontal))
 
 
-def _direction(place: int, first: Accelerogram, second: Accelerogram, motion: Accelerogram) -> str:
-    """Its name: that of a component where it is one."""
-    if place == 0:
-        return first.component or "first"
-    return (second.component or "second") if 2 * place == DIRECTIONS else motion.component
-
-
 def _processings(wanted: bool, *components: Accelerogram) -> dict[str, tuple[Accelerogram, ...]]:
     """The components by what their processing is named; those of raw ones that fit them all, if wanted."""
-    if not wanted or not all(map(is_raw, components)):
+    raw = all(each.source.path and each.processed is False for each in components)
+    if not (wanted and raw):
         return {"": components}
-    found = [processed(component) for component in components]
-    return {
-        name: tuple(each[name] for each in found) for name in found[0] if all(name in each for each in found)
-    }
+    variants_of = [processed(component) for component in components]
+    names = [name for name in variants_of[0] if all(name in each for each in variants_of)]
+    return {name: tuple(each[name] for each in variants_of) for name in names}
 
 
 _GENERATOR = (1, 182667, 469891, 377, 1723, 1677)
