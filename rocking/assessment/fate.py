@@ -7,11 +7,11 @@ from typing import TypeVar
 from rocking.assessment.rows import of_record as rows
 from rocking.assessment.rows.of_record import (
     CandidateRow,
-    CaseRow,
     ComparisonRow,
     EnsembleRow,
     FailureRow,
     MaximumRow,
+    MembersRow,
 )
 from rocking.assessment.verdict import Method, Verdict
 from rocking.structures import Outcome
@@ -25,26 +25,15 @@ ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, Verdict.UNKNOWN, Verdict.STANDS)
 
 
 @row("verdicts")
-class Fate(CaseRow):
+class Fate(MembersRow):
     """One row per record and structure: the verdict over all components, its count and its reason.
 
     The component is that of the governing case.
     """
 
-    verdict: Verdict = column("stands, overturns, undecided, or unknown where a component gave no result")
-    overturning_members: int = column("Members of the governing ensemble that overturn")
-    members: int = column("Members that were followed; 0 without an ensemble")
-    overturning_share: float = column("Share of the members that overturn; of a single run 0 or 1")
-    crack: str = column(rows.CRACK)
-    elsewhere_crack: str = column(rows.ELSEWHERE)
-    elsewhere_overturning_members: int | None = column("Members that overturn where it cracks there")
-    elsewhere_members: int | None = column("Members that were followed there; 0: of a single run")
     rotation_ratio: float = column(
         "Largest rotation over critical rotation of the run as recorded, worst component; INF if it overturns"
     )
-    rotation_ratio_low: float = column("5 % quantile over the members; empty without an ensemble")
-    rotation_ratio_median: float = column("Median over the members")
-    rotation_ratio_high: float = column("95 % quantile over the members; INF if more than 5 % overturn")
     direction: str = column("Direction in which it rotates most; empty with one direction")
     polarity: str = column("Sign of the motion with which it rotates most: as recorded or reversed, or empty")
     peak_side: int | None = column(rows.PEAK_SIDE)

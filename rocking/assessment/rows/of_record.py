@@ -31,8 +31,6 @@ SCALE_FACTOR = "What the accelerations of the file were multiplied by, beyond th
 RECORD_SHA256 = "SHA-256 of the file the record was read from"
 ROTATION_RATIO = "Largest rotation over critical rotation; INF if it overturns, 0 without uplift"
 PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift"
-CRACK = "What opens, as statics chooses it among the cracks that may form; empty where none else may"
-ELSEWHERE = "Another crack that may form and with which it does not stand; empty where there is none"
 _REGIME = "Regime of the closed form in which the prediction was made"
 _SHARE = (
     "Share of the variance of the rotation (1 where it overturns) that {} explains; empty where it is fixed"
@@ -68,6 +66,25 @@ class CaseRow(ComponentRow):
     def case(self) -> tuple[str, str]:
         """Component and structure."""
         return self.component, self.structure
+
+
+@row()
+class MembersRow(CaseRow):
+    """A row about the members of the ensemble that speaks for a case."""
+
+    verdict: Verdict = column("stands, overturns, undecided, or unknown where a component gave no result")
+    overturning_members: int = column("Members that overturn")
+    members: int = column("Members that were followed; 0 without an ensemble")
+    overturning_share: float = column("Share of the members that overturn; of a single run 0 or 1")
+    crack: str = column(
+        "What opens, as statics chooses it among the cracks that may form; empty for one alone"
+    )
+    elsewhere_crack: str = column("Another crack that may form and with which it does not stand; or empty")
+    elsewhere_overturning_members: int | None = column("Members that overturn where it cracks there")
+    elsewhere_members: int | None = column("Members that were followed there; 0: of a single run")
+    rotation_ratio_low: float = column("5 % quantile of largest rotation over critical rotation")
+    rotation_ratio_median: float = column("Median of the same")
+    rotation_ratio_high: float = column("95 % quantile of the same; INF if more than 5 % overturn")
 
 
 @row("record")
@@ -203,22 +220,11 @@ class ComparisonRow(CaseRow):
 
 
 @row("ensemble")
-class EnsembleRow(CaseRow):
+class EnsembleRow(MembersRow):
     """One row per structure: what becomes of it when what is not known varies; component 'both' for all directions."""
 
-    verdict: Verdict = column("stands, overturns or undecided, from the share and the risk beside it")
-    overturning_share: float = column("Share of the members that overturn")
-    overturning_members: int = column("Members that overturn")
-    members: int = column("Members that were followed")
     failed_members: int = column("Members that could not be followed")
-    crack: str = column(CRACK)
-    elsewhere_crack: str = column(ELSEWHERE)
-    elsewhere_overturning_members: int | None = column("Members that overturn where it cracks there")
-    elsewhere_members: int | None = column("Members that were followed there")
     uplift_share: float = column("Share of the members that lift")
-    rotation_ratio_low: float = column("5 % quantile of largest rotation over critical rotation")
-    rotation_ratio_median: float = column("Median of largest rotation over critical rotation")
-    rotation_ratio_high: float = column("95 % quantile of the same; INF if it overturns")
     risk: float = column("Largest probability of the opposite that the verdict may bear")
     amplitude_range: float = column("The motion varied by plus or minus this share")
     restitution_range: float = column("The restitution varied by plus or minus this much")
