@@ -5,6 +5,7 @@ import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -70,18 +71,11 @@ def integrate_batch(
 
 
 def _shared_out(structures: int, factors: int, workers: int) -> list[list[tuple[int, slice]]]:
-    """Jobs of calls: place of the structure, and which factors.
-
-    A call takes all factors of a structure, unless there are too few structures to keep the workers busy; a job takes
-    as many calls as are worth a thread.
-    """
+    """Jobs of calls, each a structure's place and which factors: as many as are worth a thread, and keep all busy."""
     parts = max(1, -(-2 * workers // max(structures, 1))) if workers > 1 else 1
     chunk = max(_SMALLEST_CHUNK, -(-factors // parts))
-    calls = [
-        (index, slice(start, start + chunk))
-        for index in range(structures)
-        for start in range(0, factors, chunk)
-    ]
+    slices = [slice(start, start + chunk) for start in range(0, factors, chunk)]
+    calls = list(product(range(structures), slices))
     size = max(1, _SMALLEST_CHUNK // min(chunk, factors))
     return [calls[k : k + size] for k in range(0, len(calls), size)]
 

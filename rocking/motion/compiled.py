@@ -1,8 +1,9 @@
-"""What both kernels share: how they are compiled, and how a run ends.
+"""What both kernels share: how they are compiled, how a run ends, and what is written down of it.
 
 numba compiles a kernel anew when the kernel's own file changes: after a change here both must be touched.
 """
 
+import math
 from typing import Any
 
 from numba import njit
@@ -43,3 +44,42 @@ entry = njit(**_OPTIONS)
 compiled = njit(**_INNER)
 part = njit(forceinline=True, **_INNER)
 """Of what is called from one place: inlined there, so that nothing is handed over by way of memory."""
+
+
+@compiled
+def write(log, time, arc, speed):
+    """Write one line of history where there is room; the first row counts how much room was needed."""
+    if log.shape[0] > 0:
+        line = int(log[0, 0]) + 1
+        log[0, 0] = line
+        if line < log.shape[0]:
+            log[line, 0], log[line, 1], log[line, 2] = time, arc, speed
+
+
+@compiled
+def keep(best, log, side, peak, span, time):
+    """Keep a peak where it is the largest of its side, and write it down; span: the arc per unit of it."""
+    slot = 0 if side > 0 else 1
+    if peak > best[0, slot]:
+        best[0, slot], best[1, slot] = peak, time
+    write(log, time, side * peak * span, 0.0)
+
+
+@compiled
+def forget(best, side, arc):
+    """Begin `best`, (2, 2): the largest arc of the positive and of the negative side, and their times."""
+    best[0, 0] = best[0, 1] = 0.0
+    best[1, 0] = best[1, 1] = math.nan
+    if side != 0:
+        slot = 0 if side > 0 else 1
+        best[0, slot], best[1, slot] = arc, 0.0
+
+
+@compiled
+def crossing(positive, negative, next_positive, next_negative):
+    """The share of an interval after which the first of two margins is positive, and its side; side 0 if none is."""
+    to_positive = positive / (positive - next_positive) if next_positive > 0 else 2.0
+    to_negative = negative / (negative - next_negative) if next_negative > 0 else 2.0
+    if next_positive > 0 or next_negative > 0:
+        return min(to_positive, to_negative), 1 if to_positive <= to_negative else -1
+    return 0.0, 0

@@ -24,8 +24,12 @@ from rocking.motion.compiled import (
     SETTLED,
     TOO_MANY_IMPACTS,
     compiled,
+    crossing,
     entry,
+    forget,
+    keep,
     part,
+    write,
 )
 
 NEAR = 1 / 16
@@ -93,33 +97,12 @@ def _uplift(blocks, ground, factor, time_step, i, tau):
         return i, tau, (1 if positive >= negative else -1)
     while i < count:
         next_positive, next_negative = _margins(blocks, factor * ground[i + 1])
-        if next_positive > 0 or next_negative > 0:
-            to_positive = positive / (positive - next_positive) if next_positive > 0 else 2.0
-            to_negative = negative / (negative - next_negative) if next_negative > 0 else 2.0
-            side = 1 if to_positive <= to_negative else -1
-            return i, tau + min(to_positive, to_negative) * (time_step - tau), side
+        share, side = crossing(positive, negative, next_positive, next_negative)
+        if side != 0:
+            return i, tau + share * (time_step - tau), side
         positive, negative, tau = next_positive, next_negative, 0.0
         i += 1
     return i, 0.0, 0
-
-
-@compiled
-def _write(log, time, rotation, velocity):
-    """Write one line of history where there is room; the first row counts how much room was needed."""
-    if log.shape[0] > 0:
-        line = int(log[0, 0]) + 1
-        log[0, 0] = line
-        if line < log.shape[0]:
-            log[line, 0], log[line, 1], log[line, 2] = time, rotation, velocity
-
-
-@compiled
-def _keep(best, log, side, peak, span, time):
-    """Keep a peak where it is the largest of its side, and write it down."""
-    slot = 0 if side > 0 else 1
-    if peak > best[0, slot]:
-        best[0, slot], best[1, slot] = peak, time
-    _write(log, time, side * peak * span, 0.0)
 
 
 @compiled
@@ -291,13 +274,13 @@ def _free(motion, time, blocks, restitution, best, log):
         energy = w * w + x * (2 - x)
         if w > 0:
             peak = energy / (1 + math.sqrt(max(1 - energy, 0.0)))
-            _keep(best, log, side, peak, span[k], time + 0.5 * math.log(stable / unstable) / frequency[k])
+            keep(best, log, side, peak, span[k], time + 0.5 * math.log(stable / unstable) / frequency[k])
             turns += 1
             if turns > last:
                 break
         arrival = math.sqrt(energy)
         time += math.log((-1 - arrival) / unstable) / frequency[k]
-        _write(log, time, 0.0, -side * arrival * span[k] * frequency[k])
+        write(log, time, 0.0, -side * arrival * span[k] * frequency[k])
         impacts += 1
         w = arrival * restitution[0 if side > 0 else 1] * frequency[k] * span[k]
         if not blocks.one_sided:
@@ -339,7 +322,7 @@ def _glide(ground, bound, time_step, p, scale, limit, full, motion, span, log):
         growth, decay, up, up_end, down, down_end = full
         width = p * time_step
         passed += 1
-        _write(log, i * time_step, span * x, span * w * p)
+        write(log, i * time_step, span * x, span * w * p)
         fallen = q - 1 > limit * bound[i]
         if fallen or i == ground.size - 1:
             return Motion(i, tau, x, w, side), Sample(drive, final, new, pull), fallen, passed
@@ -348,13 +331,10 @@ def _glide(ground, bound, time_step, p, scale, limit, full, motion, span, log):
 @part
 def _begin(blocks, start, best, log):
     """Forget what `best` held, and write down the start."""
-    best[0, 0] = best[0, 1] = 0.0
-    best[1, 0] = best[1, 1] = np.nan
-    slot, k = (0, 0) if start.side > 0 else (1, blocks.frequency.size - 1)
-    if start.side != 0:
-        best[0, slot], best[1, slot] = start.x, 0.0
+    forget(best, start.side, start.x)
+    k = 0 if start.side > 0 else blocks.frequency.size - 1
     rotation, velocity = start.side * start.x * blocks.span[k], start.side * start.w * blocks.span[k]
-    _write(log, 0.0, rotation, velocity * blocks.frequency[k])
+    write(log, 0.0, rotation, velocity * blocks.frequency[k])
 
 
 @part
@@ -363,7 +343,7 @@ def _lift(blocks, samples, factor, motion, log):
     time_step = samples.time_step
     i, tau, side = _uplift(blocks, samples.ground, factor, time_step, motion.interval, motion.offset)
     if side != 0:
-        _write(log, i * time_step + tau, 0.0, 0.0)
+        write(log, i * time_step + tau, 0.0, 0.0)
     return Motion(i, tau, 0.0, 0.0, side)
 
 
@@ -374,12 +354,12 @@ def _strike(blocks, samples, factor, restitution, k, motion, w, landing, settle,
     ground, time_step, span, p = samples.ground, samples.time_step, blocks.span, blocks.frequency
     instant = landing <= INSTANT * (p[k] * (time_step - tau))
     tau += landing / p[k]
-    _write(log, i * time_step + tau, 0.0, side * w * span[k] * p[k])
+    write(log, i * time_step + tau, 0.0, side * w * span[k] * p[k])
     w *= -restitution[0 if side > 0 else 1] * p[k] * span[k]
     if not blocks.one_sided:
         side, k = -side, p.size - 1 - k
     w /= p[k] * span[k]
-    _write(log, i * time_step + tau, 0.0, side * w * span[k] * p[k])
+    write(log, i * time_step + tau, 0.0, side * w * span[k] * p[k])
     if not w * w > REST_ENERGY or w < 0:
         side = 0
         tau += PAUSE * time_step if instant else 0.0
@@ -399,14 +379,14 @@ def _meet(blocks, samples, factor, restitution, k, motion, sample, unstable, tak
     ramp = (sample.final - sample.drive) / y
     landing, peak, at = _sample_events(x, w, sample.drive, ramp, y)
     if peak > 0:
-        _keep(best, log, side, peak, span, i * samples.time_step + tau + at / p)
+        keep(best, log, side, peak, span, i * samples.time_step + tau + at / p)
     if landing >= 0:
         _, w, _ = _exact(x, w, sample.drive, ramp, landing)
         motion = _strike(blocks, samples, factor, restitution, k, motion, w, landing, settle, best, log)
         return motion, ROCKS, 1
     if not abs(sample.x) < np.inf:
         return motion, NOT_FINITE, 0
-    _write(log, (i + 1) * samples.time_step, side * sample.x * span, side * sample.w * span * p)
+    write(log, (i + 1) * samples.time_step, side * sample.x * span, side * sample.w * span * p)
     falls = sample.x + sample.w - 1 > unstable * takeable[i + 1]
     return Motion(i + 1, 0.0, sample.x, sample.w, side), OVERTURNS if falls else ROCKS, 0
 
@@ -482,13 +462,14 @@ def rock_linear_members(
     followed, nor counted.
     """
     ground, time_step = samples.ground, samples.time_step
-    settle = factors.size > 0  # for a literal True `rock_linear` would be compiled once more
+    settle = factors.size > 0  # for literals `rock_linear` would be compiled once more
+    begin = Motion(0, 0.0, 0.0, 0.0, 0)
     for m in range(factors.size):
         for k in range(frequency.shape[1]):
             if m > 0 and frequency[m, k] != frequency[m - 1, k]:
                 samples.takeable[k, 0, -1] = samples.takeable[k, 1, -1] = -1.0
         blocks = Blocks(frequency[m], push[m], span[m], one_sided)
-        i, tau, side = _uplift(blocks, ground, factors[m], time_step, 0, 0.0)
+        i, tau, side = _uplift(blocks, ground, factors[m], time_step, begin.interval, begin.offset)
         if side != 0:
             _fill(blocks, samples, factors[m])
             start, eta = Motion(i, tau, 0.0, 0.0, side), (restitution[m, 0], restitution[m, 1])

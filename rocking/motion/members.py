@@ -54,13 +54,15 @@ class Members:
         vertical: Values = True,
         restitution: Values | Sequence[Sequence[float]] | None = None,
     ) -> None:
-        given = {
-            "scale_factor": np.atleast_1d(np.asarray(scale_factor, dtype=float)),
-            "polarity": np.atleast_1d(np.asarray(polarity, dtype=float)),
-            "vertical": np.atleast_1d(np.asarray(vertical, dtype=bool)),
+        columns = {
+            "scale_factor": (scale_factor, float),
+            "polarity": (polarity, float),
+            "vertical": (vertical, bool),
         }
+        given = {name: np.atleast_1d(np.asarray(*column)) for name, column in columns.items()}
         if restitution is not None:
-            given["restitution"] = _by_side(np.asarray(restitution, dtype=float))
+            eta = np.atleast_1d(np.asarray(restitution, dtype=float))
+            given["restitution"] = eta if eta.ndim == 2 else np.stack([eta, eta], axis=-1)
         size = max(array.shape[0] for array in given.values())
         for name, array in given.items():
             shape = (size, 2) if name == "restitution" else (size,)
@@ -69,11 +71,15 @@ class Members:
             object.__setattr__(self, name, np.array(np.broadcast_to(array, shape)))
         if restitution is None:
             object.__setattr__(self, "restitution", None)
-        _check("scale_factor", self.scale_factor, self.scale_factor > 0, "be greater than 0")
-        _check("polarity", self.polarity, np.abs(self.polarity) == 1, "be 1 or -1")
-        if self.restitution is not None:
-            inside = (self.restitution >= 0) & (self.restitution <= 1)
-            _check("restitution", self.restitution, inside, "lie between 0 and 1")
+        for name, allowed, holds in (
+            ("scale_factor", "be greater than 0", lambda values: values > 0),
+            ("polarity", "be 1 or -1", lambda values: np.abs(values) == 1),
+            ("restitution", "lie between 0 and 1", lambda values: (values >= 0) & (values <= 1)),
+        ):
+            values = given.get(name, np.ones(1))
+            wrong = values[~(holds(values) & np.isfinite(values))]
+            if wrong.size:
+                raise MotionError(f"{name} holds {wrong[0]!s}, but every value must {allowed}.")
 
     def __repr__(self) -> str:
         low, high = self.scale_factor.min(), self.scale_factor.max()
@@ -241,14 +247,3 @@ def _concluded(
     ratio[failed], side[failed] = np.nan, 0
     reasons = {int(k): str(failure(int(status[k]), int(impacts[k]))) for k in failed}
     return MemberResponses(ratio, side, reasons)
-
-
-def _by_side(restitution: np.ndarray) -> np.ndarray:
-    """(m, 2), or (1, 2) of one value."""
-    return restitution if restitution.ndim == 2 else np.repeat(np.atleast_1d(restitution)[:, None], 2, axis=1)
-
-
-def _check(name: str, values: np.ndarray, right: np.ndarray, allowed: str) -> None:
-    right = right & np.isfinite(values)
-    if not np.all(right):
-        raise MotionError(f"{name} holds {values[~right][0]!s}, but every value must {allowed}.")

@@ -28,8 +28,12 @@ from rocking.motion.compiled import (
     SETTLED,
     TOO_MANY_IMPACTS,
     compiled,
+    crossing,
     entry,
+    forget,
+    keep,
     part,
+    write,
 )
 
 SHORT_SHARE = 0.1
@@ -167,11 +171,9 @@ def _uplift(sides, ground, member, i, tau, held):
     while i < count:
         next_push, next_weight = _accelerations(ground, member, i + 1)
         next_positive, next_negative = _margins(sides, held, next_push, next_weight)
-        if next_positive > 0 or next_negative > 0:
-            to_positive = positive / (positive - next_positive) if next_positive > 0 else 2.0
-            to_negative = negative / (negative - next_negative) if next_negative > 0 else 2.0
-            side = 1 if to_positive <= to_negative else -1
-            return i, tau + min(to_positive, to_negative) * (ground.time_step - tau), side
+        share, side = crossing(positive, negative, next_positive, next_negative)
+        if side != 0:
+            return i, tau + share * (ground.time_step - tau), side
         positive, negative, tau = next_positive, next_negative, 0.0
         i += 1
     return i, 0.0, 0
@@ -593,7 +595,7 @@ def _glide(sides, phase, ground, member, k, motion, tolerance, log):
             break
         i, arc, speed, push, weight = i + 1, new, pull, next_push, next_weight
         farthest, fastest = max(farthest, arc), max(fastest, abs(speed))
-        _write(log, i * h, side * arc, side * speed)
+        write(log, i * h, side * arc, side * speed)
     return Motion(i, tau, arc, speed, side, farthest, fastest)
 
 
@@ -681,16 +683,6 @@ def _leaves(ties, phase, slot, x, h, arc, speed, new, turn, landing):
 def _back(x):
     """The series of the motion reversed in sign."""
     return -x[0], -x[1], -x[2], -x[3], -x[4], -x[5], -x[6], -x[7]
-
-
-@compiled
-def _write(log, time, arc, speed):
-    """Write one line of history where there is room; the first row counts how much room was needed."""
-    if log.shape[0] > 0:
-        line = int(log[0, 0]) + 1
-        log[0, 0] = line
-        if line < log.shape[0]:
-            log[line, 0], log[line, 1], log[line, 2] = time, arc, speed
 
 
 @part
@@ -796,15 +788,13 @@ def _row(sides, side):
 def _begin(sides, phase, start, best, log):
     """Forget what `best` and the ties held, and write down the start."""
     _forget(sides.ties, phase)
-    best[0, 0] = best[0, 1] = 0.0
-    best[1, 0] = best[1, 1] = np.nan
-    side, slot = start.side, 0 if start.side > 0 else 1
+    forget(best, start.side, start.arc)
+    side = start.side
     if side != 0:
-        best[0, slot], best[1, slot] = start.arc, 0.0
         _enter(sides.ties, sides.grid, phase, side, _row(sides, side), start.arc, 1.0)
         if start.speed < 0:  # it came that far and turned: what yielded there lets go elastically
             _enter(sides.ties, sides.grid, phase, side, _row(sides, side), start.arc, -1.0)
-    _write(log, 0.0, side * start.arc, side * start.speed)
+    write(log, 0.0, side * start.arc, side * start.speed)
 
 
 @part
@@ -812,7 +802,7 @@ def _lift(sides, phase, ground, member, motion, log):
     """The motion at its next uplift; at rest still if there is none."""
     i, tau, side = _next_uplift(sides, phase, ground, member, motion.interval, motion.offset)
     if side != 0:
-        _write(log, i * ground.time_step + tau, 0.0, 0.0)
+        write(log, i * ground.time_step + tau, 0.0, 0.0)
         _enter(sides.ties, sides.grid, phase, side, _row(sides, side), 0.0, 1.0)
     return Motion(i, tau, 0.0, 0.0, side, 0.0, 0.0)
 
@@ -845,16 +835,6 @@ def _step(sides, phase, ground, member, k, motion, tolerance, left):
 
 
 @part
-def _turn(ground, motion, step, best, log):
-    """Keep the peak that a step passes."""
-    peak, slot = motion.arc + _displacement(step.series, step.turn), 0 if motion.side > 0 else 1
-    now = motion.interval * ground.time_step + motion.offset
-    if peak > best[0, slot]:
-        best[0, slot], best[1, slot] = peak, now + step.turn
-    _write(log, now + step.turn, motion.side * peak, 0.0)
-
-
-@part
 def _carry_on(sides, phase, ground, member, k, motion, step, left, log):
     """The motion after a step that does not land, and its status."""
     i, tau, _, _, side, farthest, fastest = motion
@@ -869,7 +849,7 @@ def _carry_on(sides, phase, ground, member, k, motion, step, left, log):
         way = 1.0 if leaves == 1 or (leaves == 0 and speed > 0) else -1.0
         _enter(sides.ties, sides.grid, phase, side, k, arc, way)
     i, tau = (i + 1, 0.0) if h == left else (i, tau + h)
-    _write(log, now + h, side * arc, side * speed)
+    write(log, now + h, side * arc, side * speed)
     motion = Motion(i, tau, arc, speed, side, max(farthest, arc), max(fastest, abs(speed)))
     return motion, OVERTURNS if _lost(sides, phase, ground, member, k, motion) else ROCKS
 
@@ -881,11 +861,11 @@ def _strike(sides, phase, ground, member, k, motion, step, settle, best, log):
     landing, arrival = step.landing, -_speed(step.series, step.landing)
     now = i * ground.time_step + tau + landing
     tau += landing
-    _write(log, now, 0.0, -side * arrival)
+    write(log, now, 0.0, -side * arrival)
     speed = arrival * member.restitution[0 if side > 0 else 1]
     if not sides.one_sided:
         side, k = -side, sides.pieces.shape[0] - 1 - k
-    _write(log, now, 0.0, side * speed)
+    write(log, now, 0.0, side * speed)
     _enter(sides.ties, sides.grid, phase, side, k, 0.0, 1.0)
     if not speed > sides.rest_speed[k]:
         side = 0
@@ -928,7 +908,9 @@ def rock(sides, ground, member, start, tolerance, settle, phase, best, log):
         step = _step(sides, phase, ground, member, k, motion, tolerance, left)
         steps += 1
         if motion.speed > 0 and step.turn >= 0:
-            _turn(ground, motion, step, best, log)
+            peak = motion.arc + _displacement(step.series, step.turn)
+            when = motion.interval * time_step + motion.offset + step.turn
+            keep(best, log, motion.side, peak, 1.0, when)
             turns += _over(ground, motion.interval)
             if turns >= sides.pieces.shape[0]:
                 break

@@ -94,7 +94,7 @@ class SideTable:
         return self.rotation(arcs) / self.critical_rotation
 
     def slope(self, arc: np.ndarray | float, rotation: np.ndarray | None = None) -> np.ndarray:
-        """Return dφ/dq at `arc`, any shape; `rotation` there, where it is known, spares finding it."""
+        """Return dφ/dq at `arc`, any shape; `rotation` there may be given."""
         if self.rotation_map is not None:
             return self.rotation_map.slope(np.asarray(arc))
         return 1 / self.stretch(self.rotation(arc) if rotation is None else rotation)
@@ -142,9 +142,9 @@ def side_table(side: Side, apart: bool = False) -> SideTable:
     for cut in CUTS:
         last = side.end_rotation - cut * (side.end_rotation - side.critical_rotation)
         with np.errstate(all="ignore"):
-            found = _tabulated(side, last, apart)
-        if found is not None:
-            return found
+            table = _tabulated(side, last, apart)
+        if table is not None:
+            return table
     raise MotionError(
         f"the mechanism's functions cannot be tabulated to {ACCURACY:g} of their maximum up to a rotation of "
         f"{last!r} rad; they must be smooth up to there."
@@ -160,11 +160,11 @@ def _functions(
     def functions(arcs: np.ndarray) -> np.ndarray:
         rotation = arc.rotation(arcs)
         scale = np.sqrt(side.inertia(rotation) * rest)
-        found = [gravity(rotation) / scale, side.ground(rotation) / scale, rotation / arcs]
+        values = [gravity(rotation) / scale, side.ground(rotation) / scale, rotation / arcs]
         for tie in ties:
             stretch, pull = tie.stretch(rotation), tie.stretch_slope(rotation) / scale
-            found += [pull, stretch * pull, stretch]
-        return np.stack(found)
+            values += [pull, stretch * pull, stretch]
+        return np.stack(values)
 
     return functions
 
@@ -360,8 +360,8 @@ def _fit(
     low = np.maximum(start - centres, -(1 + 2 * ROOM) * half) / half
     high = np.minimum(end - centres, (1 + 2 * ROOM) * half) / half
     places, probes = ((low + high) / 2 + (high - low) / 2 * each for each in (_NODES, _PROBES))
-    found = functions(centres + half * np.concatenate([places, probes], axis=1))
-    values, between = found[..., : _NODES.size], found[..., _NODES.size :]
+    everywhere = functions(centres + half * np.concatenate([places, probes], axis=1))
+    values, between = everywhere[..., : _NODES.size], everywhere[..., _NODES.size :]
     powers = np.linalg.solve(places[..., None] ** np.arange(DEGREE + 1), np.moveaxis(values, 0, -1))
     powers = np.moveaxis(powers, -1, 0)
     fit = np.einsum("fmp,mqp->fmq", powers, probes[..., None] ** np.arange(DEGREE + 1))
@@ -403,12 +403,12 @@ def table_of(mechanism: Mechanism, vertical: bool = False) -> Table:
     Raises MotionError when it cannot be tabulated.
     """
     apart = mechanism.remembers or (vertical and mechanism.tied)
-    known = _REMEMBERED.setdefault(mechanism, {})
-    if apart not in known:
-        known[apart] = _stacked(
+    tables = _REMEMBERED.setdefault(mechanism, {})
+    if apart not in tables:
+        tables[apart] = _stacked(
             tuple(side_table(side, apart) for side in mechanism.sides), mechanism.one_sided
         )
-    return known[apart]
+    return tables[apart]
 
 
 @lru_cache(maxsize=1024)

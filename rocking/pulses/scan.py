@@ -152,15 +152,15 @@ def _mark(rows, b, floor, mask):
 @compiled(
     types.int64(_MATRIX, types.int64, types.int64, _MASK, types.int64[:, ::1], _VECTOR, types.int64),
 )
-def _collected(rows, b, onset, mask, places, found, k):
-    """Append the maxima among the marked gains of rows[b] to the first k of places and found; return how many."""
+def _collected(rows, b, onset, mask, places, gains, k):
+    """Append the maxima among the marked gains of rows[b] to the first k of places and gains; return how many."""
     words = mask.view(np.uint64)
     for w in range(words.size):
         if words[w] == 0:
             continue
         for i in range(w * WORD, w * WORD + WORD):
             if mask[i] and _is_maximum(rows, b, i):
-                places[k, 0], places[k, 1], found[k] = onset, i, rows[b, i]
+                places[k, 0], places[k, 1], gains[k] = onset, i, rows[b, i]
                 k += 1
     return k
 
@@ -172,16 +172,16 @@ def _collected(rows, b, onset, mask, places, found, k):
     ),
 )
 def _searched(
-    held, mask, start, filled, end, first, last, largest, share, places, found,
+    held, mask, start, filled, end, first, last, largest, share, places, gains,
     padded, counts, last_onsets, turning, weights, sums,
 ):  # fmt: skip
     """Search the onsets from `start` to `end` until places might overflow.
 
-    held: rows of the energy map, `filled` of them from the onsets before. Returns (maxima found, next start, rows
+    held: rows of the energy map, `filled` of them from the onsets before. Returns (maxima counted, next start, rows
     filled, largest gain of a maximum); the search goes on with what it returns.
     """
     k = 0
-    while start < end and k + HELD_ROWS * counts.size <= found.size:
+    while start < end and k + HELD_ROWS * counts.size <= gains.size:
         for i in range(counts.size):
             held[0, i], held[1, i] = held[filled, i], held[filled + 1, i]
         filled = min(HELD_ROWS, end - start)
@@ -191,9 +191,9 @@ def _searched(
             onset = start + b - 2
             if onset >= first and onset < last:
                 _mark(held, b, share * largest, mask)
-                before, k = k, _collected(held, b, onset, mask, places, found, k)
+                before, k = k, _collected(held, b, onset, mask, places, gains, k)
                 for n in range(before, k):
-                    largest = max(largest, found[n])
+                    largest = max(largest, gains[n])
         start += filled
     return k, start, filled, largest
 
@@ -210,14 +210,14 @@ def local_maxima(
     scan = _prepared(samples, time_step, angles, start)
     held, mask = np.zeros((HELD_ROWS + 2, m)), np.zeros(-(-m // WORD) * WORD, np.uint8)
     room = 2 * HELD_ROWS * m
-    found, filled, largest = [], 0, 0.0
+    parts, filled, largest = [], 0, 0.0
     while start < end:
         places, gains = np.empty((room, 2), np.int64), np.empty(room)
         k, start, filled, largest = _searched(
             held, mask, start, filled, end, first, last, largest, share, places, gains, *scan
         )
-        found.append((places[:k], gains[:k]))
-    return np.concatenate([places for places, _ in found]), np.concatenate([gains for _, gains in found])
+        parts.append((places[:k], gains[:k]))
+    return np.concatenate([places for places, _ in parts]), np.concatenate([gains for _, gains in parts])
 
 
 @entry(types.float64(_SAMPLES, types.int64, types.float64))

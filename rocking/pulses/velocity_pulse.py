@@ -246,10 +246,10 @@ def _extracted(velocity: np.ndarray, scale: int, column: int) -> tuple[np.ndarra
     pulse, centre, reach = np.zeros_like(velocity), column, math.ceil(NEIGHBOURHOOD * scale)
     for number in range(WAVELETS):
         low, high = max(0, centre - reach), min(centre + reach + 1, velocity.size)
-        found = coefficients(velocity - pulse, scale, low, high).real
-        best = int(np.argmax(np.abs(found)))
+        sizes = coefficients(velocity - pulse, scale, low, high).real
+        best = int(np.argmax(np.abs(sizes)))
         begin, end, wavelet = overlap(velocity.size, scale, low + best)
-        pulse[begin:end] += found[best] * wavelet
+        pulse[begin:end] += sizes[best] * wavelet
         if number == 0:
             centre = low + best
     return pulse, centre

@@ -69,27 +69,6 @@ def test_events_within_a_sample_are_those_on_a_fine_grid() -> None:
     assert landed > 60 and turned > 60
 
 
-def taken(ground: np.ndarray, step: float, p: float, i: int) -> float:
-    """The largest p ∫ ü_g exp(−p (t − t_i)) dt from sample i up to any later instant, on a fine grid."""
-    times = np.linspace(i * step, (ground.size - 1) * step, (ground.size - 1 - i) * 400 + 1)
-    rate = p * np.interp(times, np.arange(ground.size) * step, ground) * np.exp(-p * (times - times[0]))
-    return float(max(0.0, np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(times)).max()))
-
-
-@pytest.mark.parametrize("side", [1.0, -1.0])
-def test_what_a_record_can_take_back(side: float) -> None:
-    rng, p, step = np.random.default_rng(4), 2.0, 0.05
-    for ground in (rng.uniform(0.5, 2, 12), rng.normal(size=12)):
-        out = np.empty(12)
-        kernel.takeback(side * ground, step, p, side, out)
-        assert out[-1] == 0
-        for i in range(11):
-            true = taken(ground, step, p, i)
-            # no less; more by the negative part of one sample at the most, which the bound of a part of it leaves out
-            spare = p * step * np.abs(ground[i:]).max() if (ground < 0).any() else 0.0
-            assert true * (1 - 1e-5) - 1e-9 <= out[i] <= true * (1 + 1e-5) + spare
-
-
 MIRRORED = Blocks(np.array([2.0]), np.array([0.5]), np.array([0.2]), False)
 
 

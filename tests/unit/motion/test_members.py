@@ -75,15 +75,6 @@ def test_members_equal_one_response_at_a_time(name):
     assert not found.reasons
 
 
-def test_a_pulse_and_its_mirror_image():
-    mechanism = MECHANISMS["two sides"]
-    amplitude = 1.5 * g * max(side.uplift_multiplier for side in mechanism.sides)
-    found = integrate_members(mechanism, Pulse(amplitude, 9.0), Members(polarity=[1, -1]), 1e-10)
-    alone = [integrate(mechanism, Pulse(sign * amplitude, 9.0), 1e-10).rotation_ratio for sign in (1, -1)]
-    assert found.rotation_ratio == pytest.approx(alone, rel=1e-8)
-    assert alone[0] != pytest.approx(alone[1], rel=1e-2)
-
-
 @pytest.mark.parametrize("linear", [False, True])
 def test_chains_of_impacts_that_die_out_change_nothing(linear):
     """Members leave them out and `integrate` follows them: both end in the same rest, and so does what follows.

@@ -3,13 +3,11 @@
 import numpy as np
 import pytest
 from motion_cases import MECHANISMS
-from scipy.constants import g
-from scipy.integrate import quad
 
 from rocking.errors import MotionError
 from rocking.motion import nonlinear_kernel
 from rocking.motion.table import ACCURACY, linear_table, table_of
-from rocking.structures import Arch, EquivalentBlock, Wall
+from rocking.structures import Arch, Wall
 from rocking.structures.mechanism import Mechanism, Side
 from tests.parts import callable_parts
 
@@ -55,18 +53,6 @@ def test_table_equals_direct_evaluation(name):
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_arc_is_the_integral_of_the_root_of_the_inertia(name):
-    """q = ∫ √(I/I(0)) dφ by adaptive quadrature, whose own bound is 1e-13 relative."""
-    side = ALL[name].positive
-    own = table_of(ALL[name]).side(1)
-    rest = side.at("inertia", 0.0)
-    for rotation in (1e-9, side.critical_rotation / 3, side.critical_rotation):
-        truth, _ = quad(lambda r: np.sqrt(side.at("inertia", r) / rest), 0, rotation, epsabs=0, epsrel=1e-13)
-        assert float(own.arc(np.float64(rotation))) == pytest.approx(truth, rel=1e-12)
-        assert float(own.rotation(own.arc(np.float64(rotation)))) == pytest.approx(rotation, rel=1e-12)
-
-
-@pytest.mark.parametrize("name", ALL)
 def test_hold_bounds_every_rotation_further_out(name):
     side, own = ALL[name].positive, table_of(ALL[name]).side(1)
     rotation = np.linspace(0, float(own.rotation(np.float64(own.end))), 2001)
@@ -75,16 +61,6 @@ def test_hold_bounds_every_rotation_further_out(name):
     for q, lowest in zip(own.arc(rotation), np.minimum.accumulate(balance[::-1])[::-1], strict=True):
         j, _, _ = _place(grid, 0, q)
         assert own.kernel.hold[0, j] <= lowest + 1e-12
-
-
-def test_table_of_an_equivalent_block_is_the_straight_line():
-    block = EquivalentBlock(2.0, 0.3, 1.2, 0.9)
-    table = linear_table(block)
-    arc = np.linspace(0, 100.0, 57)
-    gravity, ground = evaluated(table, 0, arc)
-    assert gravity == pytest.approx(4.0 / g * (0.3 - arc), abs=1e-11)
-    assert ground == pytest.approx(np.full(57, 4.0 / g * 1.2), rel=1e-14)
-    assert table.sides[0].end == np.inf
 
 
 def test_functions_with_a_kink_are_refused():

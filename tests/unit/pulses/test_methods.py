@@ -49,11 +49,6 @@ def test_a_record_without_room_for_a_velocity_pulse_is_refused():
         PULSE_METHODS["velocity"].candidates(short)
 
 
-def test_nothing_to_choose_from_is_refused():
-    with pytest.raises(PulseError, match="no pulse to predict with"):
-        predicting_pulse((), lambda pulse: 0.0)
-
-
 def test_one_cycle_and_nothing_outside():
     pulse = Pulse(-2.0, math.pi, 1.0)
     times = np.array([0.99, 1.0, 1.5, 2.0, 2.5, 3.0, 3.01])

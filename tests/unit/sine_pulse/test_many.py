@@ -48,11 +48,6 @@ def test_many_equal_one_at_a_time() -> None:
     assert np.isinf(ratios).any() and (ratios == 0).any() and ((ratios > 0) & (ratios < 1)).any()
 
 
-def test_none_at_all() -> None:
-    assert predict_maxima([], []).shape == (0, 0)
-    assert predict_maxima(list(KINDS.values()), []).shape == (len(KINDS), 0)
-
-
 @pytest.mark.parametrize("polarity", [1, -1])
 def test_amplitudes_that_overturn(polarity: int) -> None:
     """Just below, the block stands; just above, it does not. A façade needs the half that pushes it off its wall."""
@@ -102,15 +97,9 @@ def test_every_cell_is_the_prediction(eta: float) -> None:
 @pytest.mark.parametrize(
     ("frequencies", "amplitudes", "message"),
     [
-        (
-            [1.0, 0.0],
-            [2.0],
-            r"frequency_ratios holds 0\.0, but every value must lie between 1e-12 and 1e.12",
-        ),
+        ([1.0, 0.0], [2.0], r"frequency_ratios holds 0\.0, but every value must lie between 1e-12 and 1e.12"),
         ([1.0], [2.0, -1.0], r"amplitude_ratios holds -1\.0, but every value must lie between 0 and 1e.12"),
-        ([1.0], [math.nan], "amplitude_ratios holds nan"),
         ([[1.0]], [1.0], r"frequency_ratios has the shape \(1, 1\)"),
-        ([], [1.0], r"frequency_ratios has the shape \(0,\)"),
     ],
 )
 def test_bad_axes_are_refused_in_words(frequencies: list, amplitudes: list, message: str) -> None:

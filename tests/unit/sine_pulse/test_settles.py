@@ -62,8 +62,3 @@ def test_a_chain_that_may_rise_above_the_peaks_is_followed() -> None:
     phase, v = 11 * math.pi / 6, 0.01
     assert _settles((ALIKE, ALIKE), phase, 0, v, 1.0001 * v * v / 0.75) == 2 * math.pi
     assert _settles((ALIKE, ALIKE), phase, 0, v, 0.9999 * v * v / 0.75) == -1
-
-
-def test_a_force_that_may_lift_proves_nothing() -> None:
-    strong = side(2.0, 1.0, 0.5)
-    assert _settles((strong, strong), 1.2 * math.pi, 0, 1e-9, 1.0) == -1
