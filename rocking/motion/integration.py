@@ -33,11 +33,7 @@ TOLERANCES = (1e-13, 0.1)
 """Smallest and largest relative tolerance."""
 STEP_SHARE = 0.03
 """Share of the tolerance that one step may spend: each flight amplifies the errors of those before it."""
-OUTCOMES = {
-    0: Outcome.NO_UPLIFT,
-    ROCKS: Outcome.ROCKS,
-    OVERTURNS: Outcome.OVERTURNS,
-}
+OUTCOMES = {0: Outcome.NO_UPLIFT, ROCKS: Outcome.ROCKS, OVERTURNS: Outcome.OVERTURNS}
 WEIGHTLESS = (
     "the vertical motion takes away more than gravity for an instant, so that bodies would fly; the model keeps them "
     "on the ground."

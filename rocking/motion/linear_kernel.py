@@ -440,16 +440,6 @@ def rock_linear(blocks, samples, factor, restitution, start, settle, best, log):
     return status, impacts + bounces, uplift, side, steps
 
 
-@part
-def _fill(blocks, samples, factor):
-    """Fill what is needed of `takeable` under a motion of the sign of `factor`, where a negative end says it is not."""
-    for side in (1, -1):
-        k, sign = 0 if side > 0 else blocks.frequency.size - 1, side if factor > 0 else -side
-        out = samples.takeable[k, 0 if sign > 0 else 1]
-        if out[-1] < 0:
-            takeback(samples.ground, samples.time_step, blocks.frequency[k], sign, out)
-
-
 @entry
 def rock_linear_members(
     frequency, push, span, one_sided, samples, factors, restitution, best, log, status, peaks, impacts
@@ -471,7 +461,11 @@ def rock_linear_members(
         blocks = Blocks(frequency[m], push[m], span[m], one_sided)
         i, tau, side = _uplift(blocks, ground, factors[m], time_step, begin.interval, begin.offset)
         if side != 0:
-            _fill(blocks, samples, factors[m])
+            for other in (1, -1):
+                k, sign = 0 if other > 0 else blocks.frequency.size - 1, other if factors[m] > 0 else -other
+                takeable = samples.takeable[k, 0 if sign > 0 else 1]
+                if takeable[-1] < 0:
+                    takeback(ground, time_step, blocks.frequency[k], sign, takeable)
             start, eta = Motion(i, tau, 0.0, 0.0, side), (restitution[m, 0], restitution[m, 1])
             status[m], impacts[m], _, _, _ = rock_linear(
                 blocks, samples, factors[m], eta, start, settle, best, log

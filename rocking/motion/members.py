@@ -229,10 +229,7 @@ def _exact(
 
 
 def _concluded(
-    sides: Sequence[SideTable | EquivalentBlock],
-    status: np.ndarray,
-    peaks: np.ndarray,
-    impacts: np.ndarray,
+    sides: Sequence[SideTable | EquivalentBlock], status: np.ndarray, peaks: np.ndarray, impacts: np.ndarray
 ) -> MemberResponses:
     """status, peaks, impacts: (m,), (m, 2) and (m,) as the kernels leave them. sides: one where they are mirrored."""
     peaks[status != ROCKS] = 0.0

@@ -180,35 +180,25 @@ def _uplift(sides, ground, member, i, tau, held):
 
 
 @compiled
-def _uplift_sine(sides, amplitude, omega, gravity, tau, held):
-    """First instant of the sine pulse from offset tau on that lifts: offset, side (0 if none does)."""
-    lift = sides.lift
+def _next_uplift(sides, phase, ground, member, i, tau):
+    """First instant from (interval i, offset tau) on that lifts, of a record or of a sine; side 0 if none does."""
+    held, lift, omega = (phase[0, HELD], phase[1, HELD]), sides.lift, ground.circular_frequency
+    if omega == 0:
+        return _uplift(sides, ground, member, i, tau, held)
+    amplitude = member.horizontal * ground.horizontal[0]
     for half in range(2):
         push = -amplitude if half else amplitude
         side = -1 if push > 0 else 1
-        if push == 0 or (sides.one_sided and side < 0):
+        if i > 0 or push == 0 or (sides.one_sided and side < 0):
             continue
         k = 0 if side > 0 else lift.shape[0] - 1
-        holds = lift[k, 0] * gravity + held[0 if side > 0 else 1]
+        holds = lift[k, 0] * ground.gravity + held[0 if side > 0 else 1]
         ratio = holds / (lift[k, 1] * abs(amplitude))
         if ratio < 1:
             angle = math.asin(ratio)
             if tau < ((half + 1) * math.pi - angle) / omega:
-                return max(tau, (half * math.pi + angle) / omega), side
-    return tau, 0
-
-
-@part
-def _next_uplift(sides, phase, ground, member, i, tau):
-    """First instant from (interval i, offset tau) on that lifts, of a record or of a sine."""
-    held = phase[0, HELD], phase[1, HELD]
-    if ground.circular_frequency == 0:
-        return _uplift(sides, ground, member, i, tau, held)
-    if i > 0:
-        return i, 0.0, 0
-    amplitude = member.horizontal * ground.horizontal[0]
-    tau, side = _uplift_sine(sides, amplitude, ground.circular_frequency, ground.gravity, tau, held)
-    return i, tau, side
+                return i, max(tau, (half * math.pi + angle) / omega), side
+    return i, tau, 0
 
 
 @compiled
@@ -462,21 +452,16 @@ def _series(pieces, k, j, u, v, side, a0, a1, g0, g1, square, ties, phase):
 
 
 @part
-def _short_terms(pieces, k, j, u, s0, s1, g0, g1, ties, phase, slot):
-    """Coefficients 0 to 4 of what pulls back, then of how it grows with time, about the place u."""
+def _short_series(pieces, k, j, u, v, s0, s1, g0, g1, ties, phase, slot):
+    """The first coefficients (v, x2, ..., x6) of `_series` for a ground acceleration s0 + s1 t against the side."""
     if ties is None:
         p0, p1, p2, p3, p4 = _short_shift(_every_other(pieces, k, j, 0), u)
         q0, q1, q2, q3, q4 = _short_shift(_every_other(pieces, k, j, 1), u)
         still = g0 * p0 + s0 * q0, g0 * p1 + s0 * q1, g0 * p2 + s0 * q2, g0 * p3 + s0 * q3, g0 * p4 + s0 * q4
-        return still, (g1 * p0 + s1 * q0, g1 * p1 + s1 * q1, g1 * p2 + s1 * q2, g1 * p3 + s1 * q3, 0.0)
-    own = _with_ties(ties, phase, slot, k, j, _polynomial(pieces, k, j, g0, s0))
-    return _short_shift(own, u), _short_shift(_polynomial(pieces, k, j, g1, s1), u)
-
-
-@part
-def _short_series(pieces, k, j, u, v, s0, s1, g0, g1, ties, phase, slot):
-    """The first coefficients (v, x2, ..., x6) of `_series` for a ground acceleration s0 + s1 t against the side."""
-    still, growing = _short_terms(pieces, k, j, u, s0, s1, g0, g1, ties, phase, slot)
+        growing = g1 * p0 + s1 * q0, g1 * p1 + s1 * q1, g1 * p2 + s1 * q2, g1 * p3 + s1 * q3, 0.0
+    else:
+        own = _with_ties(ties, phase, slot, k, j, _polynomial(pieces, k, j, g0, s0))
+        still, growing = _short_shift(own, u), _short_shift(_polynomial(pieces, k, j, g1, s1), u)
     w0, w1, w2, w3, w4 = still
     r0, r1, r2, r3, _ = growing
     square = v * v
@@ -587,7 +572,7 @@ def _glide(sides, phase, ground, member, k, motion, tolerance, log):
         j, centre, room = _place(grid, k, arc)
         x = _short_series(
             pieces, k, j, arc - centre, speed, push, (next_push - push) * rate, weight, (next_weight - weight) * rate,
-            sides.ties, phase, slot,
+            sides.ties, phase, slot
         )  # fmt: skip
         plain, new, pull = _eventless(x, h, share, arc, room, farthest, fastest, tolerance)
         out = new > critical and pull > 0

@@ -223,7 +223,15 @@ def _ties(side: Side, arc: Arc, powers: np.ndarray) -> Ties:
     count, pieces = powers.shape[0] // 3, powers.shape[1]
     pulls, stretch = np.split(powers.reshape(count, 3, pieces, DEGREE + 1), [2], axis=1)
     pulls = pulls.transpose(0, 2, 3, 1).reshape(count, pieces, -1)
-    laws = [tie_law(side, tie, arc) for tie in side.ties]
+    laws, rotations = [], np.linspace(0.0, arc.last, 129)
+    for tie in side.ties:
+        law = tie.tie
+        ends = [tie.rotation(stretch, arc.last) for stretch in (law.yield_stretch, law.rupture_stretch)]
+        yields, breaks = (float(arc.at(rotation)) if rotation < np.inf else np.inf for rotation in ends)
+        stiffest = float(np.max(tie.stretch_slope(rotations) ** 2 / side.inertia(rotations)))
+        forces = GRAVITY * law.stiffness, GRAVITY * law.pretension, GRAVITY * law.strength
+        at_rest = float(tie.stretch_slope(np.asarray(0.0))) / side.at("inertia", 0.0)
+        laws.append((*forces, law.yield_stretch, yields, breaks, forces[0] * stiffest, at_rest))
     return Ties(np.concatenate([pulls, stretch[:, 0]], axis=2), np.array(laws)[None])
 
 
@@ -273,26 +281,6 @@ def _hold(gravity: Function, ground: Function, rotation: Function, starts: np.nd
     steps = np.abs(np.diff(balance, axis=1)).max(axis=1)
     lowest = balance.min(axis=1) - steps
     return np.minimum.accumulate(lowest[::-1])[::-1]
-
-
-def tie_law(side: Side, tie: SideTie, arc: Arc) -> tuple[float, ...]:
-    """Return the law (8,) of a tie as `Ties` has it."""
-    law, rotations = tie.tie, np.linspace(0.0, arc.last, 129)
-    yields, breaks = (
-        float(arc.at(rotation)) if (rotation := tie.rotation(stretch, arc.last)) < np.inf else np.inf
-        for stretch in (law.yield_stretch, law.rupture_stretch)
-    )
-    stiffest = np.max(tie.stretch_slope(rotations) ** 2 / side.inertia(rotations))
-    return (
-        GRAVITY * law.stiffness,
-        GRAVITY * law.pretension,
-        GRAVITY * law.strength,
-        law.yield_stretch,
-        yields,
-        breaks,
-        GRAVITY * law.stiffness * float(stiffest),
-        float(tie.stretch_slope(np.asarray(0.0))) / side.at("inertia", 0.0),
-    )
 
 
 def _slope_near_rest(side: Side, tie: SideTie, arc: Arc, reach: float) -> float:

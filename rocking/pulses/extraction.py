@@ -290,7 +290,11 @@ def _raised(
     pulse, second = ranked[0].pulse, ranked[1] if len(ranked) > 1 else None
     equal = second is not None and second.gain / ranked[0].gain > EQUAL_GAIN_RATIO
     strong = [other.pulse for other in ranked[1:] if other.gain > OSCILLATION_GAIN_RATIO * ranked[0].gain]
-    more_cycles = (len(sequence) > 1 and adjoins(pulse, sequence[1].pulse)) or oscillates(pulse, strong)
+    more_cycles = oscillates(pulse, strong)
+    for neighbour in (following.pulse for following in sequence[1:2]):  # which continues the same oscillation
+        gap = min(abs(neighbour.start_time - pulse.end_time), abs(pulse.start_time - neighbour.end_time))
+        alike = abs(neighbour.period / pulse.period - 1) <= ADJOINING_PERIOD_CHANGE
+        more_cycles = more_cycles or (alike and gap <= ADJOINING_GAP * pulse.period)
     high_pass, samples, step = (
         accelerogram.high_pass_frequency,
         accelerogram.acceleration,
@@ -309,13 +313,6 @@ def _raised(
         Flag.GAP: (np.diff(changes).max(initial=1) - 1) * step > GAP_DURATION,
     }
     return tuple(flag for flag, holds in raised.items() if holds)
-
-
-def adjoins(pulse: Pulse, neighbour: Pulse) -> bool:
-    """Whether `neighbour` begins where `pulse` ends, or ends where it begins, with nearly its period."""
-    change = abs(neighbour.period / pulse.period - 1)
-    gap = min(abs(neighbour.start_time - pulse.end_time), abs(pulse.start_time - neighbour.end_time))
-    return change <= ADJOINING_PERIOD_CHANGE and gap <= ADJOINING_GAP * pulse.period
 
 
 def oscillates(pulse: Pulse, strong_rivals: list[Pulse]) -> bool:

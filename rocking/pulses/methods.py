@@ -67,9 +67,7 @@ PULSE_METHODS: Mapping[str, PulseMethod] = {
             lambda analysis: analysis.ranked[:DEMAND_CANDIDATES],
         ),
         PulseMethod(
-            "velocity",
-            "the sine of acceleration in the velocity pulse of the component",
-            _of_velocity_pulse,
+            "velocity", "the sine of acceleration in the velocity pulse of the component", _of_velocity_pulse
         ),
     )
 }

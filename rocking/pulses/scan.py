@@ -149,9 +149,7 @@ def _mark(rows, b, floor, mask):
         mask[i] = (gain > floor) & (gain > rows[b - 1, i]) & (gain >= rows[b + 1, i])
 
 
-@compiled(
-    types.int64(_MATRIX, types.int64, types.int64, _MASK, types.int64[:, ::1], _VECTOR, types.int64),
-)
+@compiled(types.int64(_MATRIX, types.int64, types.int64, _MASK, types.int64[:, ::1], _VECTOR, types.int64))
 def _collected(rows, b, onset, mask, places, gains, k):
     """Append the maxima among the marked gains of rows[b] to the first k of places and gains; return how many."""
     words = mask.view(np.uint64)
@@ -169,11 +167,11 @@ def _collected(rows, b, onset, mask, places, gains, k):
     types.Tuple((types.int64, types.int64, types.int64, types.float64))(
         *(_MATRIX, _MASK, types.int64, types.int64, types.int64, types.int64, types.int64),
         *(types.float64, types.float64, types.int64[:, ::1], _VECTOR, *_SCAN),
-    ),
+    )
 )
 def _searched(
     held, mask, start, filled, end, first, last, largest, share, places, gains,
-    padded, counts, last_onsets, turning, weights, sums,
+    padded, counts, last_onsets, turning, weights, sums
 ):  # fmt: skip
     """Search the onsets from `start` to `end` until places might overflow.
 

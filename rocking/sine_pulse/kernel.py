@@ -40,7 +40,7 @@ _EQUAL = 1 + 1e-12
 """Of peaks that are equal to within this the first counts."""
 
 # Of floats, because numba compiles what is called with an integer constant once for each.
-_POSITION, _VELOCITY, _MINUS_VELOCITY, _MONOTONY, _MINUS_MONOTONY = 0.0, 1.0, 2.0, 3.0, 4.0
+_POSITION, _VELOCITY, _MONOTONY, _FALLING, _RISING = 0.0, 1.0, 2.0, 1.0, -1.0
 
 _OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 entry = njit(**_OPTIONS)
@@ -147,28 +147,19 @@ def _monotony(f, t):
 
 
 @compiled
-def _value(f, kind, t):
-    """What a root is sought of, and its slope."""
-    if kind == _POSITION:
-        x, velocity, _ = state(f, t)
-        return x, velocity
-    if kind <= _MINUS_VELOCITY:
-        _, velocity, acceleration = state(f, t)
-        return (velocity, acceleration) if kind == _VELOCITY else (-velocity, -acceleration)
-    r, slope = _monotony(f, t)
-    return (r, slope) if kind == _MONOTONY else (-r, -slope)
-
-
-@compiled
-def root(f, kind, low, high, guess):
-    """Where a value falls through zero between low (value > 0) and high (value < 0).
+def root(f, kind, way, low, high, guess):
+    """Where a value passes through zero between low and high: _FALLING below it, or _RISING above.
 
     Newton's iteration, kept inside the bracket and replaced by bisection where it does not halve the value.
     """
     t, last = guess, math.inf
     for _ in range(200):
-        value, slope = _value(f, kind, t)
-        if value > 0:
+        if kind == _MONOTONY:
+            value, slope = _monotony(f, t)
+        else:
+            x, velocity, acceleration = state(f, t)
+            value, slope = (x, velocity) if kind == _POSITION else (velocity, acceleration)
+        if way * value > 0:
             low = t
         else:
             high = t
@@ -185,7 +176,7 @@ def root(f, kind, low, high, guess):
 @compiled
 def _contact(f, low, high, guess, peak):
     """contact, time, x, x' and peak of a flight that lands between two times."""
-    time = root(f, _POSITION, low, high, guess)
+    time = root(f, _POSITION, _FALLING, low, high, guess)
     x, velocity, _ = state(f, time)
     return True, time, x, velocity, peak
 
@@ -215,10 +206,10 @@ def _follow(f, high, low, rising, peak):
     x, velocity, _ = state(f, high)
     landing = False, 0.0, x, velocity, peak
     if rising and velocity < 0:
-        low = root(f, _VELOCITY, low, high, (low + high) / 2)
+        low = root(f, _VELOCITY, _FALLING, low, high, (low + high) / 2)
         peak, rising = max(peak, state(f, low)[0]), False
     elif not rising and velocity > 0:
-        turn = root(f, _MINUS_VELOCITY, low, high, (low + high) / 2)
+        turn = root(f, _VELOCITY, _RISING, low, high, (low + high) / 2)
         if state(f, turn)[0] <= 0:
             return _contact(f, low, turn, (low + turn) / 2, peak), low, rising, peak
         low, rising = turn, True
@@ -237,8 +228,8 @@ def land(f, duration):
         high = min(breaks[n] if n < 3 else duration, duration)
         after = _monotony(f, high)[0]
         if before * after < 0:
-            kind = _MONOTONY if before > 0 else _MINUS_MONOTONY
-            node = root(f, kind, start, high, (start + high) / 2)
+            way = _FALLING if before > 0 else _RISING
+            node = root(f, _MONOTONY, way, start, high, (start + high) / 2)
             landing, low, rising, peak = _follow(f, node, low, rising, peak)
             if landing[0]:
                 return landing
@@ -268,7 +259,7 @@ def hop(f, duration, peak):
     if latest > duration or abs(f.amplitude) * f.omega * latest > d / 2:
         return False, none
     if 2 * v * v / d > peak:
-        peak = state(f, root(f, _VELOCITY, 0.0, latest, v / d))[0]
+        peak = state(f, root(f, _VELOCITY, _FALLING, 0.0, latest, v / d))[0]
     bend = 2 * v / (3 * d * d) * (v + f.omega * f.slope)
     return True, _contact(f, v / d, latest, 2 * v / d * (1 + bend), peak)
 

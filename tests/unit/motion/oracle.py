@@ -87,7 +87,7 @@ class Oracle:
             size = rotation + abs(velocity) * (until - now) + 1e-9 * scale
             return solve_ivp(
                 slope, (now, until), [rotation, velocity], "DOP853", dense_output=True,
-                rtol=self.rtol, atol=[1e-3 * self.rtol * size, 1e-3 * self.rtol * size / (until - now)],
+                rtol=self.rtol, atol=[1e-3 * self.rtol * size, 1e-3 * self.rtol * size / (until - now)]
             )  # fmt: skip
 
         whole = solve(span)

@@ -103,7 +103,7 @@ def test_first_uplift_is_where_the_acceleration_crosses():
         assert response.uplift_time == pytest.approx(0.225, rel=1e-12)
         assert response.peak_side == -1  # thrown back against the ground's acceleration
         told = integrate(structure, record, history=True)
-        (at,) = np.flatnonzero(told.times == told.uplift_time)
+        (at) = np.flatnonzero(told.times == told.uplift_time)
         assert told.rotation[at] == told.angular_velocity[at] == 0
 
 
@@ -141,7 +141,7 @@ def test_fragile_verdicts_are_marked():
 
 TIED = Facade(
     (3.2, 2.8), (0.6, 0.5), 20e3, (10e3, 5e3), 0.05, tie_heights=(3.1, 5.8), tie_stiffness=3e5, tie_strength=6e3,
-    tie_plastic_elongation=0.03, restitution=0.85,
+    tie_plastic_elongation=0.03, restitution=0.85
 )  # fmt: skip
 
 

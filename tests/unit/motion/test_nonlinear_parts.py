@@ -101,7 +101,7 @@ def plain_sides(one_sided: bool = False, **changes) -> Sides:
     known = {
         "pieces": np.zeros((2, 1, 16)), "grid": np.zeros((2, 9)), "lift": np.array([[0.2, 0.8], [0.3, 1.1]]),
         "hold": zero, "critical": zero[:, 0], "end": zero[:, 0], "rest_speed": zero[:, 0],
-        "longest_step": zero[:, 0], "near": near, "one_sided": one_sided,
+        "longest_step": zero[:, 0], "near": near, "one_sided": one_sided
     }  # fmt: skip
     return Sides(**(known | changes))
 

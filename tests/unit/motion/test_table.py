@@ -43,7 +43,7 @@ def test_table_equals_direct_evaluation(name):
         own = table.sides[k]
         rotation = np.concatenate([
             np.linspace(0, side.critical_rotation, 301),
-            np.linspace(0, own.rotation(np.float64(own.end)) * (1 - 1e-12), 301),
+            np.linspace(0, own.rotation(np.float64(own.end)) * (1 - 1e-12), 301)
         ])  # fmt: skip
         found = evaluated(table, k, own.arc(rotation))
         scale = np.sqrt(side.inertia(rotation) * side.at("inertia", 0.0))

@@ -79,7 +79,7 @@ class Oracle:
         step = min(0.02 / b.frequency_parameter, 0.02 * self.pulse.period)
         return solve_ivp(
             motion, (start, end), state, "DOP853", events=(contact, crest, fallen) if events else None,
-            rtol=1e-12, atol=1e-15, max_step=step if events else np.inf,
+            rtol=1e-12, atol=1e-15, max_step=step if events else np.inf
         )  # fmt: skip
 
     def record(self, s: int, rotation: float) -> None:

@@ -100,7 +100,7 @@ def precise_flight(omega: mp.mpf, a: mp.mpf):
 
 
 EXTREMES = [
-    (1.0, 1 + 1e-9), (1e-3, 1 + 1e-7), (1e-3, 1 + 1e-12), (1e4, 1.001), (1e6, 1.2), (30.0, 1.5), (4.0, 1.05),
+    (1.0, 1 + 1e-9), (1e-3, 1 + 1e-7), (1e-3, 1 + 1e-12), (1e4, 1.001), (1e6, 1.2), (30.0, 1.5), (4.0, 1.05)
 ]  # fmt: skip
 
 
@@ -125,7 +125,7 @@ def test_first_flight_keeps_its_digits_when_it_is_tiny(omega: float, a: float) -
 @pytest.mark.parametrize(
     ("omega", "a", "name"),
     [(0.0, 2.0, "frequency_ratio"), (math.nan, 2.0, "frequency_ratio"), (1.0, 1.0, "amplitude_ratio"),
-     (1.0, math.inf, "amplitude_ratio"), ("1", 2.0, "frequency_ratio")],
+     (1.0, math.inf, "amplitude_ratio"), ("1", 2.0, "frequency_ratio")]
 )  # fmt: skip
 def test_bad_ratios_are_refused_by_name(omega: float, a: float, name: str) -> None:
     with pytest.raises(PulseError, match=name):
