@@ -172,9 +172,7 @@ def _follow(
 ) -> Response:
     if isinstance(reduced, EquivalentBlock) and solvable_exactly(reduced, forcing):
         return _exact(reduced, forcing, start, history)
-    table = (
-        linear_table(reduced) if isinstance(reduced, EquivalentBlock) else table_of(reduced, forcing.vertical)
-    )
+    table = table_of(reduced, forcing.vertical)
     sides = table.kernel_of(forcing)
     arc, speed, side = _initial_arc(table, start) if start[2] else (0.0, 0.0, 0)
     begin = nonlinear_kernel.Motion(0, 0.0, arc, speed, side, arc, abs(speed))

@@ -20,7 +20,7 @@ from rocking.motion.integration import (
     reduce,
     solvable_exactly,
 )
-from rocking.motion.table import SideTable, Table, linear_table, table_of
+from rocking.motion.table import SideTable, table_of
 from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
@@ -160,72 +160,36 @@ def follow_factors(
 
     horizontal, vertical: factors (m,) of the two components; None: no vertical component. restitution: (m, 2) or None.
     """
-    lift = np.zeros(horizontal.size) if vertical is None else vertical
-    if isinstance(reduced, Mechanism):
-        table = table_of(reduced, forcing.vertical)
-        return _stepped(table, forcing, horizontal, lift, restitution, tolerance)
-    still = replace(forcing, vertical=False)
-    exact = (lift == 0) & solvable_exactly(reduced, still)
-    if exact.all():
-        return _exact(reduced, still, horizontal, restitution)
-    stepped = _stepped(linear_table(reduced), forcing, horizontal, lift, restitution, tolerance)
-    rows = np.flatnonzero(exact)
-    if rows.size:
-        eta = None if restitution is None else restitution[rows]
-        solved = _exact(reduced, still, horizontal[rows], eta)
-        stepped.rotation_ratio[rows], stepped.peak_side[rows] = solved.rotation_ratio, solved.peak_side
-        for row in rows.tolist():
-            stepped.reasons.pop(row, None)
-        stepped.reasons.update({int(rows[k]): reason for k, reason in solved.reasons.items()})
-    return stepped
-
-
-def _stepped(
-    table: Table,
-    forcing: Forcing,
-    horizontal: np.ndarray,
-    vertical: np.ndarray,
-    restitution: np.ndarray | None,
-    tolerance: float,
-) -> MemberResponses:
-    """By the kernel that integrates to a tolerance."""
-    count, sides = horizontal.size, table.kernel_of(forcing)
-    results = np.zeros(count, dtype=np.int64), np.zeros((count, 2)), np.zeros(count, dtype=np.int64)
+    count, sides = horizontal.size, reduced.sides
+    lift, still = np.zeros(count) if vertical is None else vertical, replace(forcing, vertical=False)
+    own = (sides[0].restitution, sides[-1].restitution) if restitution is None else restitution
+    eta, best = np.full((count, 2), own), np.zeros((2, 2))
+    results = np.zeros(count, int), np.zeros((count, 2)), np.zeros(count, int)
+    block = reduced if isinstance(reduced, EquivalentBlock) and solvable_exactly(reduced, still) else None
+    if block and not lift.any():
+        one, takeable = blocks_of(block), np.empty((len(sides), 2, forcing.samples))
+        takeable[..., -1] = -1.0  # to be filled
+        rows = (np.tile(values, (count, 1)) for values in (one.frequency, one.push, one.span))
+        samples = linear_kernel.Samples(forcing.ground.horizontal, forcing.ground.time_step, takeable)
+        linear_kernel.rock_linear_members(
+            *rows, one.one_sided, samples, horizontal, eta, best, NO_LOG, *results
+        )
+        return _concluded(block.sides, *results)
+    if block and not lift.all():  # members with and without vertical motion each go their own way
+        ratio, side = np.empty(count), np.empty(count, int)
+        reasons: dict[int, str] = {}
+        for places in (np.flatnonzero(lift == 0), np.flatnonzero(lift)):
+            some = follow_factors(reduced, forcing, horizontal[places], lift[places], eta[places], tolerance)
+            ratio[places], side[places] = some.rotation_ratio, some.peak_side
+            reasons |= {int(places[k]): reason for k, reason in some.reasons.items()}
+        return MemberResponses(ratio, side, reasons)
+    table = table_of(reduced, forcing.vertical)
+    kernel, step_tolerance = table.kernel_of(forcing), STEP_SHARE * tolerance
+    scratch = nonlinear_kernel.memory(kernel.ties), best, NO_LOG
     nonlinear_kernel.rock_members(
-        sides,
-        forcing.ground,
-        horizontal,
-        vertical,
-        np.full((count, 2), table.restitution if restitution is None else restitution),
-        STEP_SHARE * tolerance,
-        nonlinear_kernel.memory(sides.ties),
-        np.zeros((2, 2)),
-        NO_LOG,
-        *results,
+        kernel, forcing.ground, horizontal, lift, eta, step_tolerance, *scratch, *results
     )
     return _concluded(table.sides, *results)
-
-
-def _exact(
-    block: EquivalentBlock, forcing: Forcing, horizontal: np.ndarray, restitution: np.ndarray | None
-) -> MemberResponses:
-    """By the kernel that is exact."""
-    sides, count, own, ground = block.sides, horizontal.size, blocks_of(block), forcing.ground
-    results = np.zeros(count, dtype=np.int64), np.zeros((count, 2)), np.zeros(count, dtype=np.int64)
-    eta = (sides[0].restitution, sides[-1].restitution) if restitution is None else restitution
-    takeable = np.empty((len(sides), 2, forcing.samples))
-    takeable[..., -1] = -1.0
-    linear_kernel.rock_linear_members(
-        *(np.tile(values, (count, 1)) for values in (own.frequency, own.push, own.span)),
-        own.one_sided,
-        linear_kernel.Samples(ground.horizontal, ground.time_step, takeable),
-        horizontal,
-        np.full((count, 2), eta),
-        np.zeros((2, 2)),
-        NO_LOG,
-        *results,
-    )
-    return _concluded(sides, *results)
 
 
 def _concluded(

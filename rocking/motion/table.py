@@ -383,13 +383,15 @@ class Table:
 _REMEMBERED: WeakKeyDictionary[Mechanism, dict[bool, Table]] = WeakKeyDictionary()
 
 
-def table_of(mechanism: Mechanism, vertical: bool = False) -> Table:
-    """Return the table of a mechanism, remembered as long as the mechanism lives.
+def table_of(mechanism: Mechanism | EquivalentBlock, vertical: bool = False) -> Table:
+    """Return the table of a mechanism, remembered as long as the mechanism lives, or of an equivalent block.
 
     vertical: for a vertical component, with which ties do not grow and fall. Ties are then kept apart from G, as they
     are where they yield or break.
     Raises MotionError when it cannot be tabulated.
     """
+    if isinstance(mechanism, EquivalentBlock):
+        return linear_table(mechanism)
     apart = mechanism.remembers or (vertical and mechanism.tied)
     tables = _REMEMBERED.setdefault(mechanism, {})
     if apart not in tables:
