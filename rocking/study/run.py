@@ -33,7 +33,7 @@ _ANSWERS = re.compile(
     r"detailed-summary|report|unlock|touch|archive|delete-all-output|print-compilation))(=.*)?"
 )
 """Options with which snakemake answers a question instead of running the study: its answer is shown as it is."""
-_ERRORS = re.compile(r"^[ \w.]*Error(?:: | in file .*\n)(.+)", re.MULTILINE)
+_ERRORS = re.compile(r"^[ \w.]*Error(?:: | in file .*\n)(?!Command )(.+)", re.MULTILINE)
 """Sentences of this package in a log: in a traceback, and as snakemake tells what a Snakefile raised."""
 _STOPS: list[int] = []
 """The signals by which somebody asked this process to stop."""

@@ -7,7 +7,7 @@ from rocking.study.terminal import send
 
 
 class LogHandler(LogHandlerBase):
-    """Sends the plan, the begin of jobs and the errors of a run; snakemake's own log stays as it is."""
+    """Sends the plan and the errors of a run; snakemake's own log stays as it is."""
 
     writes_to_stream = writes_to_file = needs_rulegraph = False
     has_filter = has_formatter = True
@@ -17,7 +17,5 @@ class LogHandler(LogHandlerBase):
         event = getattr(record, "event", None)
         if event == LogEvent.RUN_INFO:
             send(planned={name: number for name, number in record.stats.items() if name != "total"})
-        elif event == LogEvent.JOB_INFO:
-            send(begun=record.rule_name)
         elif event == LogEvent.ERROR:
             send(error=record.getMessage())
