@@ -86,14 +86,6 @@ def test_pulse_recovers_the_sine_in_the_file(record, capsys):
     assert "= 0.5 g, period 1 s, start 3.000 s, explains 100%" in text
 
 
-def test_a_raw_record_is_processed_as_in_a_study_and_says_so(capsys):
-    """The K-NET file that obspy installs holds raw counts."""
-    from obspy.core.util import get_example_file
-
-    assert main(["pulse", get_example_file("test.knet")]) == 0
-    assert "Least-squares line removed" in capsys.readouterr().out
-
-
 def test_assess_tells_overturning_from_no_uplift(record, blocks, capsys):
     """Peak 0.5 g: below the uplift at tan α = 1 of the squat block, far above that of the slender one (1/6)."""
     assert main(["assess", str(record), str(blocks), "--unit", "g"]) == 0

@@ -36,12 +36,6 @@ def test_a_table_of_the_summary_is_an_attribute(folder: Path) -> None:
     assert {"comparison", "candidates", "trade"} <= set(dir(results))
 
 
-def test_a_table_of_the_jobs_is_gathered(folder: Path) -> None:
-    results = rocking.open_results(str(folder))
-    assert results.timings["record"].tolist() == ["a", "b"]
-    assert list(results.table("timings", ["duration_s"])) == ["duration_s"]
-
-
 def test_what_is_not_there_is_said(folder: Path) -> None:
     results = rocking.open_results(folder)
     with pytest.raises(AttributeError, match="no table 'sums'"):

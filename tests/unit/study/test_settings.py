@@ -1,7 +1,7 @@
 """The tree of settings: what it refuses, and that every file made from it says the same."""
 
 import math
-from dataclasses import fields, replace
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from jsonschema import Draft7Validator
 
-from rocking.assessment.settings import AssessmentSettings, FragilitySettings, PredictingPulse
+from rocking.assessment.settings import AssessmentSettings, FragilitySettings
 from rocking.described import described_values, parts_of
 from rocking.errors import ConfigurationError
 from rocking.records.processing import UNPROCESSED_DEFAULT
@@ -54,18 +54,6 @@ def test_what_a_part_of_the_package_takes_by_default_is_the_default_of_a_study()
     )
     for made, part in (*parts, (settings.processing, UNPROCESSED_DEFAULT)):
         assert {each.name: getattr(made, each.name) for each in fields(part)} == vars(part)
-
-
-def test_a_value_reaches_the_part_it_is_for() -> None:
-    config = {
-        "tolerance": 1e-9,
-        "pulse": {"highest_frequency_hz": 8, "choice": "demand"},
-        "processing": {"high_pass_hz": None},
-    }
-    settings = read_settings(config)
-    assert settings.tolerance == 1e-9
-    assert settings.pulse == PredictingPulse(highest_frequency=8.0, choice="demand")
-    assert settings.processing == replace(Settings().processing, high_pass=None)
 
 
 def test_the_shipped_files_are_those_that_the_tree_writes(tmp_path: Path) -> None:
