@@ -817,13 +817,13 @@ def _variation_table(report: RecordReport) -> dict[str, object]:
         ("No.", "auto", "r", lambda case: report.numbers[case[1]]),
         ("Comp.", "0.7", "l", lambda case: words(case[0])),
         (
-            "Governing height [m]",
+            "Farthest with a crack at [m]",
             "0.9",
             "r",
             lambda case: number(getattr(heights.get(case), "position_m", None)),
         ),
         (
-            "there",
+            "ratio there",
             "0.8",
             "r",
             lambda case: ratio(getattr(heights.get(case), "integrated_rotation_ratio", None)),
