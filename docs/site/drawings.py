@@ -20,7 +20,7 @@ def forms() -> Iterator[tuple[str, str, Form]]:
 @styled
 def drawing(kind: str, form: Form) -> Figure:
     """Return the structure of the form's examples, at rest, measured, and displaced beside it."""
-    example = {field.key: field.said.example for field in form.fields if field.required or field.unit}
+    example = {field.key: field.value.example for field in form.fields if field.required or field.unit}
     structure = structure_from_config({"type": kind, **example})
     figure = Figure(figsize=(6.4, 2.9), layout="constrained")
     rest, displaced = figure.subplots(1, 2)

@@ -137,10 +137,10 @@ def _setting_rows(section: Any, above: str = "") -> Iterator[Sequence[str]]:
 def _structure(drawing: str, kind: str, form: Form) -> str:
     rows = []
     for key, field in form.keys.items():
-        low, high = field.said.usual or (None, None)
+        low, high = field.value.usual or (None, None)
         usual = "" if low is None else f"{low:g} to {high:g}{field.suffix}"
         required = "required" if field.required else ""
-        rows.append((f"`{key}`", field.said.letter, field.meaning, field.must, usual, required))
+        rows.append((f"`{key}`", field.value.letter, field.meaning, field.must, usual, required))
     picture = f"![{form.meaning}](figures/{drawing}.svg)"
     keys = table(("key", "letter", "meaning", "allowed", "usual", ""), rows)
     return f"### `type: {kind}` — {form.meaning}\n\n{picture}\n\n{keys}"

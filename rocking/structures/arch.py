@@ -140,15 +140,15 @@ class Arch(Crackable):
         hinges = [static.hinges, *other_hinges(self.ring, static, count - 1)]
         if self.hinge_angles is not None:
             hinges.append(np.array(self.hinge_angles))
-        found = []
+        others = []
         for angles in hinges:
             description = "hinges at " + ", ".join(map(self._hinge_text, angles))
             restitution = self.mechanism().restitution
             with suppress(StructureError):
                 other = replace(self, hinge_angles=tuple(angles), crack="known", restitution=restitution)
                 other.mechanism()
-                found.append(Candidate(description, np.nan, other))
-        return tuple(sorted(found, key=lambda each: each.multiplier))
+                others.append(Candidate(description, np.nan, other))
+        return tuple(sorted(others, key=lambda each: each.multiplier))
 
     def _hinge_text(self, angle: float) -> str:
         return f"{abs(np.degrees(angle)):.0f}°"  # candidates lie several degrees apart

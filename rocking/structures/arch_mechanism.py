@@ -229,9 +229,9 @@ def other_hinges(ring: Ring, onset: Onset, count: int) -> list[np.ndarray]:
     multipliers = (turns * rows[..., 4]).sum(axis=1)
     moves = (turns > 0).all(axis=1) & (multipliers > onset.multiplier)
     taken = [static]
-    for found in hinges[moves][np.argsort(multipliers[moves])]:
-        if len(taken) <= count and all(np.abs(found - each).max() >= spacing for each in taken):
-            taken.append(found)
+    for four in hinges[moves][np.argsort(multipliers[moves])]:
+        if len(taken) <= count and all(np.abs(four - each).max() >= spacing for each in taken):
+            taken.append(four)
     return [each + ring.embrace_angle / 2 for each in taken[1:]]
 
 

@@ -74,10 +74,10 @@ def arc_of(inertia: Function, last: float, accuracy: float) -> Arc | None:
     def stretch(rotation: np.ndarray) -> np.ndarray:
         return np.sqrt(inertia(np.asarray(rotation, dtype=float)) / rest)
 
-    found = _pieces(stretch, last, accuracy, 8)
-    if found is None:
+    series = _pieces(stretch, last, accuracy, 8)
+    if series is None:
         return None
-    coefficients, values = found
+    coefficients, values = series
     integrals = chebyshev.chebint(coefficients, lbnd=-1) * (last / coefficients.shape[1] / 2)
     starts = np.concatenate([[0.0], np.cumsum(integrals.sum(axis=0))])
     return Arc(stretch, last, integrals, starts, bool(np.all(values == 1)))
@@ -145,8 +145,8 @@ def rotation_map(arc: Arc, accuracy: float) -> RotationMap | None:
     def ratio(arcs: np.ndarray) -> np.ndarray:
         return arc.rotation(arcs) / arcs
 
-    found = _pieces(ratio, end, accuracy, 1)
-    return None if found is None else RotationMap(found[0], end)
+    series = _pieces(ratio, end, accuracy, 1)
+    return None if series is None else RotationMap(series[0], end)
 
 
 def _pieces(

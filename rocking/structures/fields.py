@@ -84,7 +84,7 @@ OneSided = Annotated[
 class Field(Described):
     """One key of a structure in a file: a parameter with what is said of it; see Value."""
 
-    said: Value = field(kw_only=True)
+    value: Value = field(kw_only=True)
 
     @property
     def required(self) -> bool:
@@ -131,11 +131,11 @@ class Field(Described):
 
     def phrased(self, text: str) -> str:
         """Return the phrase of the description for the value written `text`."""
-        return self.said.phrase.format(name=self.name.replace("_", " "), value=text + self.suffix)
+        return self.value.phrase.format(name=self.name.replace("_", " "), value=text + self.suffix)
 
     def remark(self, kind: str, value: object) -> str:
         """Return the sentence on a value (of the file) beyond the plausible range, or nothing."""
-        low, high = self.said.usual or (-np.inf, np.inf)
+        low, high = self.value.usual or (-np.inf, np.inf)
         values = value if isinstance(value, list | tuple) else [value]
         beyond = [each for each in values if isinstance(each, int | float) and not low <= each <= high]
         if not beyond:
@@ -170,9 +170,9 @@ class Form:
             hints |= get_type_hints(method, include_extras=True)
             options = {n: each for n, each in taken.items() if each.default is not Parameter.empty}
             taken = dict(signature(method).parameters) | options
-        taken["restitution_range"] = taken.pop("restitution_range")  # said last
+        taken["restitution_range"] = taken.pop("restitution_range")  # the last word
         described = [
-            _field(name, hints[name], taken[name].default) for name in taken if _said(hints.get(name))
+            _field(name, hints[name], taken[name].default) for name in taken if _value(hints.get(name))
         ]
         return cls(meaning, make, tuple(described))
 
@@ -193,21 +193,21 @@ def constructor(kind: Any) -> Form:
     return Form.of(kind, "", "")
 
 
-def _said(hint: Any) -> Value | None:
+def _value(hint: Any) -> Value | None:
     return next((each for each in getattr(hint, "__metadata__", ()) if isinstance(each, Value)), None)
 
 
 def _field(name: str, hint: Any, default: Any) -> Field:
-    said = _said(hint)
-    assert said is not None
+    value = _value(hint)
+    assert value is not None
     required = default is Parameter.empty
-    limits = tuple(_LIMITS[bound](limit) for bound, limit in said.bounds.items())
+    limits = tuple(_LIMITS[bound](limit) for bound, limit in value.bounds.items())
 
     def kind_of(hint: Any) -> Any:
         if hint in (float, int):
-            return Annotated[hint, said, *limits]  # type: ignore[valid-type]
+            return Annotated[hint, value, *limits]  # type: ignore[valid-type]
         if hint is str:
-            return Literal[said.names] if said.names else None
+            return Literal[value.names] if value.names else None
         if get_origin(hint) is tuple:
             return Annotated[tuple[kind_of(float), ...], MinLen(int(required))]  # type: ignore[misc]
         return hint
@@ -215,7 +215,7 @@ def _field(name: str, hint: Any, default: Any) -> Field:
     options = get_args(hint.__origin__) if NoneType in get_args(hint.__origin__) else (hint.__origin__,)
     kinds = [kind_of(each) for each in options if each is not NoneType]
     kind: Any = reduce(or_, [each for each in kinds if each is not None])
-    return Field(name, kind, said.meaning, said.unit, default=... if required else default, said=said)
+    return Field(name, kind, value.meaning, value.unit, default=... if required else default, value=value)
 
 
 def article(kind: str) -> str:

@@ -118,8 +118,7 @@ class Side:
     @cached_property
     def bends(self) -> tuple[float, ...]:
         """Rotations up to the end at which a tie yields or breaks on the way out, in order, rad."""
-        found = {bend for tie in self.ties for bend in tie.bends(self.end_rotation)}
-        return tuple(sorted(found))
+        return tuple(sorted({bend for tie in self.ties for bend in tie.bends(self.end_rotation)}))
 
     def restoring(self, rotation: np.ndarray, largest: np.ndarray, weight: np.ndarray | float) -> np.ndarray:
         """Return G (g + ü_v) of weights and G g of ties, at `rotation` after `largest` [rad]; weight: g + ü_v."""
@@ -155,9 +154,9 @@ class Side:
         for cut in CUTS:
             with np.errstate(all="ignore"):
                 arc = arc_of(self.inertia, self.end_rotation - cut * beyond, _ARC_ACCURACY)
-                found = None if arc is None else rotation_map(arc, _MAP_ACCURACY)
-            if arc is not None and found is not None:
-                return arc, found
+                inverse = None if arc is None else rotation_map(arc, _MAP_ACCURACY)
+            if arc is not None and inverse is not None:
+                return arc, inverse
         raise StructureError(
             f"the mechanism's inertia is not smooth up to {self.critical_rotation!r} rad, its critical_rotation, but "
             "must be for a block that is exact at rest; take the one linearised about φ_cr."
@@ -300,9 +299,9 @@ class Mechanism:
     @cached_property
     def block_defects(self) -> BlockDefects:
         """What the block exact at rest leaves out, of the worse side."""
-        found = [side.block_defects for side in self.sides]
+        defects = [side.block_defects for side in self.sides]
         return BlockDefects(
-            max(each.restoring for each in found), max((each.forcing for each in found), key=abs)
+            max(each.restoring for each in defects), max((each.forcing for each in defects), key=abs)
         )
 
     def angular_acceleration(

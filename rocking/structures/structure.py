@@ -276,7 +276,7 @@ class Structure(ABC):
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
         drawn, paths = [], self._dimensions()
         for each, _, text in self._given:
-            letter, shown = each.said.letter, paths.get(each.name, ())
+            letter, shown = each.value.letter, paths.get(each.name, ())
             if isinstance(shown, list):
                 for number, (one, path) in enumerate(zip(text.split(", "), shown, strict=True), start=1):
                     drawn.append(
@@ -353,8 +353,7 @@ class Structure(ABC):
 
     @cached_property
     def _mechanism(self) -> Mechanism:
-        built, known = self._build(), self.restitution_range
-        built = replace(built, restitution_range=built.restitution_range if known is None else known)
+        built = replace(self._build(), restitution_range=self.restitution_range)
         object.__setattr__(built, "structure", self)  # what it is built again from after pickling
         return built
 
@@ -472,8 +471,8 @@ class Crackable(Structure):
             return candidate.multiplier if candidate else np.inf
 
         accuracy = {"xatol": 1e-3 * (high - low)}
-        found = minimize_scalar(multiplier, bounds=(low, high), method="bounded", options=accuracy)
-        return self._candidate(float(found.x))
+        least = minimize_scalar(multiplier, bounds=(low, high), method="bounded", options=accuracy)
+        return self._candidate(float(least.x))
 
     def _candidate(self, height: float) -> Candidate | None:
         with suppress(StructureError), warnings.catch_warnings():

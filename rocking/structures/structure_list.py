@@ -90,8 +90,8 @@ def _form(kind: str, given: Mapping[str, object]) -> Form:
 
 
 def _nearest(word: object, allowed: Iterable[str]) -> str:
-    found = get_close_matches(str(word), list(allowed), n=1, cutoff=0.5)
-    return f" (did you mean {found[0]}?)" if found else ""
+    nearest = get_close_matches(str(word), list(allowed), n=1, cutoff=0.5)
+    return f" (did you mean {nearest[0]}?)" if nearest else ""
 
 
 _HEAD = "# Written from rocking/structures by `make schema`; edit the structure's own file instead.\n"
@@ -142,14 +142,16 @@ def _definition(kind: str, form: Form) -> dict[str, object]:
         "required": ["name", "type", *form.required],
         "properties": {"name": dict(_NAME), "type": {"const": kind}, **properties},
         "examples": [
-            {"name": f"my {kind}", "type": kind, **{each.key: each.said.example for each in form.fields}}
+            {"name": f"my {kind}", "type": kind, **{each.key: each.value.example for each in form.fields}}
         ],
     }
 
 
 def _property(each: Field) -> dict[str, object]:
     usual = (
-        f"; usually {each.said.usual[0]:g} to {each.said.usual[1]:g}" if each.said.usual and each.unit else ""
+        f"; usually {each.value.usual[0]:g} to {each.value.usual[1]:g}"
+        if each.value.usual and each.unit
+        else ""
     )
     unit = f", {each.unit}" if each.unit else ""
     return {**each.schema, "description": f"{each.meaning}{unit}{usual}"}

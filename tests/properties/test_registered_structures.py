@@ -43,7 +43,7 @@ def varied(draw, kind, form):
         if not field.required and draw(st.booleans()):
             continue
         factor = draw(st.floats(0.8, 1.1) if "restitution" in field.key else st.floats(0.8, 1.25))
-        value = field.said.example
+        value = field.value.example
         if isinstance(value, list):
             value = [factor * each for each in value]
         mapping[field.key] = factor * value if isinstance(value, float) else value
@@ -156,7 +156,9 @@ def test_slopes_are_derivatives_and_the_potential_is_the_height_of_the_masses(st
 @pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")
 def test_energy_of_free_rocking_is_kept_until_the_impact(kind, form):
     """Without forcing, I φ'²/2 + g ∫ G dφ of the integrated flight is the energy it was released with."""
-    structure = structure_from_config({"type": kind, **{each.key: each.said.example for each in form.fields}})
+    structure = structure_from_config(
+        {"type": kind, **{each.key: each.value.example for each in form.fields}}
+    )
     side = structure.mechanism().positive
     start = 0.5 * side.critical_rotation
     still = Pulse(1e-9, 20 * np.pi, 0.0)

@@ -210,7 +210,7 @@ def test_a_drawing_shows_the_letter_of_every_size(name, kind, form):
     """Every length and angle that the form requires; those of several floors are numbered."""
     texts = {text.get_text().strip() for text in drawing(kind, form).axes[0].texts} - {""}
     for field in form.keys.values():
-        letter = field.said.letter
+        letter = field.value.letter
         if field.required and letter and field.unit in ("m", "°"):
             assert any(text.rstrip("₀₁₂₃₄₅₆₇₈₉") in (letter, letter[0]) for text in texts), field.meaning
 
