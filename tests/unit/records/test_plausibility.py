@@ -6,7 +6,7 @@ import pytest
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram, Source
-from rocking.records.plausibility import agree_with_header, damage_warnings, pass_limits
+from rocking.records.plausibility import agree_with_header, damage_warnings, exchanged_lines, pass_limits
 
 
 def record(peak: float) -> Accelerogram:
@@ -76,3 +76,17 @@ def test_zeros_within_shaking_and_long_steps_are_told() -> None:
         damage_warnings(Accelerogram(still, 0.1)) == () == damage_warnings(Accelerogram(np.zeros(400), 0.1))
     )
     assert "6.01 s" in damage_warnings(Accelerogram(SHAKING, 6.01))[0]
+
+
+def test_two_lines_that_are_exchanged_are_told() -> None:
+    """Two that stand about a crest are alike, and may pass; noise, whose neighbours do not join, says nothing."""
+    rows = np.sin(np.arange(200) * 0.12 + 0.3).reshape(40, 5)
+    turned = []
+    for row in range(1, 37):
+        lines = rows.copy()
+        lines[[row, row + 1]] = rows[[row + 1, row]]
+        turned.append(Accelerogram(lines.ravel(), 0.01))
+        noise = Accelerogram(np.random.default_rng(row).standard_normal(2000), 0.01)
+        assert not exchanged_lines(noise, 5) and not exchanged_lines(turned[-1], 1)
+    assert not exchanged_lines(Accelerogram(rows.ravel(), 0.01), 5)
+    assert sum("seem to be exchanged" in "".join(exchanged_lines(each, 5)) for each in turned) >= 30
