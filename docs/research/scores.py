@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
+from scipy.optimize import minimize_scalar
 
 from rocking.tables import Row, column, row
 
@@ -11,6 +12,7 @@ REPLICATES = 1000
 """Draws of the sites behind an interval."""
 LEVELS = (0.05, 0.95)
 """Quantiles of the draws between which a 90 % interval lies."""
+LARGEST_LAPSE = 0.1
 STATED, HAPPENED = "stated", "happened"
 """Measures of one class of a reliability diagram: its mean probability, and the share of its cases that overturned."""
 Measure = Callable[[np.ndarray], float]
@@ -153,3 +155,13 @@ def logistic(
     np.add.at(summed, places, design * (outcomes - shares)[:, None])
     many = len(summed)
     return coefficients, inverse @ (summed.T @ summed * many / max(many - 1, 1)) @ inverse
+
+
+def lapse(probability: np.ndarray, shares: np.ndarray) -> float:
+    """Return the share l that stands whatever was stated, for which (1 − l) P makes the shares (n,) likeliest."""
+
+    def unlikeliness(share: float) -> float:
+        stated = np.clip((1 - share) * probability, 1e-12, 1 - 1e-12)
+        return -float(np.mean(shares * np.log(stated) + (1 - shares) * np.log1p(-stated)))
+
+    return float(minimize_scalar(unlikeliness, bounds=(0.0, LARGEST_LAPSE), method="bounded").x)

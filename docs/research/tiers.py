@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+from scipy.special import expit, logit
 
 from docs.research import scores
 from docs.research.answers import answer_scores, try_answers
@@ -70,10 +71,12 @@ class TierCases:
         centre, spread = terms.mean(axis=0), terms.std(axis=0)
         spread = np.where(spread > 0, spread, 1.0)
         design = np.column_stack([np.ones(len(terms)), (terms - centre) / spread])
-        fitted = scores.logistic(design, self.shares[kept], self.sites[kept])
+        shares = self.shares[kept]
+        fitted = scores.logistic(design, shares, self.sites[kept])
+        lapse = scores.lapse(expit(design @ fitted[0]), shares)
         frequencies = [case.measures["frequency_parameter"] for case in self.cases]
         ends = min(frequencies), max(frequencies)
-        return TierFit(tier, centre, spread, terms.min(axis=0), terms.max(axis=0), *fitted, ends)
+        return TierFit(tier, centre, spread, terms.min(axis=0), terms.max(axis=0), *fitted, ends, lapse)
 
 
 def tier_cases(
@@ -100,20 +103,21 @@ def tier_cases(
 
 
 def left_out(tier: Tier, cases: TierCases) -> np.ndarray:
-    """Return the log odds (n,) that `tier` gives each case when it is fitted without the site of the case."""
-    odds, terms = np.empty(len(cases.cases)), cases.terms(tier)
+    """Return the share (n,) that `tier` estimates of each case when it is fitted without the site of the case."""
+    stated, terms = np.empty(len(cases.cases)), cases.terms(tier)
     for site in np.unique(cases.sites):
         out = cases.sites == site
-        odds[out], _ = cases.fit(tier, ~out).log_odds(terms[out])
-    return odds
+        fit = cases.fit(tier, ~out)
+        stated[out] = (1 - fit.lapse) * expit(fit.log_odds(terms[out])[0])
+    return stated
 
 
 def tier_scores(cases: TierCases, replicates: int = scores.REPLICATES) -> Iterator[Score]:
     """Yield the scores and the reliability of each tier on sites left out."""
     overturned, part = cases.shares, "sites left out"
     for tier in Tier:
-        odds = left_out(tier, cases)
-        stated = 1 / (1 + np.exp(-odds))
+        stated = left_out(tier, cases)
+        odds = logit(stated)
         measures: dict[str, scores.Measure] = {
             "Brier skill": lambda rows, stated=stated: scores.brier_skill(stated[rows], overturned[rows]),
             "Brier skill of the shares themselves": lambda rows: scores.brier_skill(

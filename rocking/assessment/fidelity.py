@@ -85,7 +85,8 @@ class TierFit:
     """One fitted tier.
 
     centre, spread, least, largest: (k,) of the terms. coefficients: (k + 1,) and their covariance (k + 1, k + 1),
-    intercept first. frequencies: least and largest frequency parameter behind the fit, rad/s.
+    intercept first. frequencies: least and largest frequency parameter behind the fit, rad/s. lapse: share of the
+    members that stand whatever the terms, so that no estimate of strong motions is too sure.
     """
 
     tier: Tier
@@ -96,6 +97,7 @@ class TierFit:
     coefficients: np.ndarray
     covariance: np.ndarray
     frequencies: tuple[float, float]
+    lapse: float = 0.0
 
     def unlike(self, measures: Mapping[str, float]) -> bool:
         """Whether a property of a structure lies beyond those behind the fit."""
@@ -120,7 +122,8 @@ class TierFit:
             return None
         odds, error = self.log_odds(np.array([[measures[term] for term in self.tier.terms]]))
         ends = odds[0] + NORMAL_95 * error[0] * np.array([0.0, -1.0, 1.0])
-        return Estimate(*(1 / (1 + np.exp(-ends))).tolist())
+        kept = np.array([1 - self.lapse, 1 - self.lapse, 1.0])  # the upper end decides what stands
+        return Estimate(*(kept / (1 + np.exp(-ends))).tolist())
 
 
 @lru_cache(maxsize=1)
@@ -133,9 +136,9 @@ def read_tiers(path: Path) -> dict[Tier, TierFit]:
     """Return the tiers in a file that `write_tiers` made."""
     fits = {}
     for name, each in json.loads(path.read_text(encoding="utf-8"))["tiers"].items():
-        low, high = each.pop("frequencies")
+        (low, high), lapse = each.pop("frequencies"), each.pop("lapse")
         arrays = {key: np.array(values) for key, values in each.items() if key != "terms"}
-        fits[Tier(name)] = TierFit(Tier(name), frequencies=(low, high), **arrays)
+        fits[Tier(name)] = TierFit(Tier(name), frequencies=(low, high), lapse=lapse, **arrays)
     return fits
 
 
