@@ -5,8 +5,8 @@ import math
 import pytest
 
 from rocking.assessment.fate import fates
-from rocking.assessment.rows.of_record import ComparisonRow, EnsembleRow, FailureRow
-from rocking.assessment.verdict import Verdict
+from rocking.assessment.rows.of_record import ComparisonRow, EnsembleRow, FailureRow, MaximumRow
+from rocking.assessment.verdict import Method, Verdict
 from rocking.structures import Outcome
 
 
@@ -63,6 +63,22 @@ def test_the_ensemble_over_all_directions_decides_before_those_of_the_components
     assert (fate.verdict, fate.component, fate.count) == (Verdict.UNDECIDED, "both", "40 of 64")
     assert fate.leaning == "leans to overturns, overturns in 40 of 64"
     assert math.isinf(fate.rotation_ratio), "of the worst component as recorded"
+
+
+def test_the_side_is_that_of_the_integration_of_the_record_as_it_is():
+    blank = dict.fromkeys(MaximumRow.table.column_names)
+    whose = {"record": "a", "structure": "pier", "component": "EW"}
+    told = [
+        MaximumRow(**blank | whose | {"method": method, "processing": processing, "peak_side": side})
+        for method, processing, side in (
+            (Method.CLOSED_FORM, "", -1),
+            (Method.MECHANISM_ON_RECORD, "", 1),
+            (Method.MECHANISM_ON_RECORD, "high-pass 0.2 Hz", -1),
+            (Method.BLOCK_ON_RECORD, "", -1),
+        )
+    ]
+    (fate,) = fates([case("EW", 0.3)], maxima=told)
+    assert fate.peak_side == 1
 
 
 def test_a_component_that_failed_leaves_the_verdict_unknown_unless_another_overturns():

@@ -75,6 +75,8 @@ def test_a_curve_that_is_no_lognormal_has_the_median_of_the_rising_curve_beside_
     found = fragility_of(levels, exceedance, [str(k) for k in range(20)])
     # isotonic: 0, 0.55, 0.55, 0.9, 1; one half lies at 0.5/0.55 of the octave from 0.25 to 0.5
     assert found.median == pytest.approx(0.25 * 2 ** (0.5 / 0.55), rel=1e-12)
+    lognormal = norm.cdf(np.log(levels / found.lognormal_median) / found.dispersion)
+    assert found.misfit == pytest.approx(np.abs(share - lognormal).max(), rel=1e-9)
     assert (found.reversals > 0).sum() == 10
 
 
