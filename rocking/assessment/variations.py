@@ -57,8 +57,7 @@ def ensemble_over_cracks(
 
     Where it stands, the members of the worst mechanism that `screened` leaves in doubt are followed, and where that one
     does not stand, it is `elsewhere`. exhaustive: every mechanism is followed, one after the other, until one does not
-    stand. Of 767 cases of walls, spires and an arch on 21 sites that stand by statics, 383 had such a mechanism, and
-    the screen missed three: 0.8 % of those that it says to stand. verdict_only: as `ensemble` takes it. Raises
+    stand. docs/pages/validation.md counts what the screen misses. verdict_only: as `ensemble` takes it. Raises
     MotionError as `integrate` does.
     """
     how: Any = {"settings": settings.ensemble, "tolerance": settings.tolerance}
