@@ -19,7 +19,8 @@ from rocking.tables import read_whole
 _OBSPY = "obspy:"
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
 _RESERVED = re.compile(
-    r"(con|prn|aux|nul|(com|lpt)\d|summary|datapackage|paper|calibration|documentation|fragility|validation|comparison|cracks)"
+    r"(con|prn|aux|nul|(com|lpt)\d|summary|datapackage|paper|calibration|documentation|fragility|validation|comparison|cracks|"
+    r"calibrate|calibrate_ensemble|cover|trade_fragility|govern|screen|validate|compare)"
     r"(\..*)?",
     re.I,
 )

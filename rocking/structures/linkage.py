@@ -238,8 +238,11 @@ class Linkage(ABC):
         if falls[0] == 0:
             raise StructureError("the structure does not stand: what acts on it at rest turns it over.")
         before, after = places[falls[0] - 1], places[falls[0]]
+        # Where a tie breaks, a rotation alone may be rounded otherwise than in a row.
+        while bends and self.gravity(before) <= 0:
+            before, after = np.nextafter(before, 0.0), before
         while bends and self.gravity(after) > 0:
-            after = np.nextafter(after, np.inf)  # rounded otherwise alone than in a row
+            after = np.nextafter(after, np.inf)
         critical = float(brentq(self.gravity, before, after, xtol=1e-16, rtol=1e-15))
         while bends and critical < after and self.gravity(critical) > 0:
             critical = float(np.nextafter(critical, np.inf))  # where a tie breaks, the far side of the fall
