@@ -67,6 +67,15 @@ class Fate(MembersRow):
         return f"{told}, {there} in {self.elsewhere_overturning_members} of {self.elsewhere_members}"
 
 
+def worst_first(fates: Iterable[tuple[str, Fate]]) -> list[str]:
+    """Return the names, of records or structures, by the shares of members that overturn, summed over all of a name."""
+    shares: dict[str, float] = {}
+    for name, fate in fates:
+        share = fate.overturning_share
+        shares[name] = shares.get(name, 0.0) + (0.0 if math.isnan(share) else share)
+    return sorted(shares, key=shares.__getitem__, reverse=True)
+
+
 def fates(
     cases: Iterable[ComparisonRow],
     ensembles: Iterable[EnsembleRow] = (),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from rocking.assessment.fate import ORDER, Fate
+from rocking.assessment.fate import ORDER, Fate, worst_first
 from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, PulseRow, RecordRow
 from rocking.assessment.rows.of_study import AgreementRow
 from rocking.assessment.verdict import Agreement, Method, Verdict, agreement, within_factor_two
@@ -150,9 +150,7 @@ def _counts(fates: Sequence[Fate]) -> dict[str, Counter[Verdict]]:
 
 def severity_map(fates: Sequence[Fate], records: "DataFrame") -> dict[str, object]:
     """Return verdict and share by record and structure, both the worst first. fates: the worst first."""
-    names = [
-        _worst_first((getattr(fate, which), fate) for fate in fates) for which in ("record", "structure")
-    ]
+    names = [worst_first((getattr(fate, which), fate) for fate in fates) for which in ("record", "structure")]
     rows, columns = names[0][:MOST_MAPPED], names[1][:MOST_STRUCTURES]
     left = [(len(names[0]) - len(rows), "record"), (len(names[1]) - len(columns), "structure")]
     rest = " and ".join(counted(many, noun) for many, noun in left if many)
@@ -171,14 +169,6 @@ def severity_map(fates: Sequence[Fate], records: "DataFrame") -> dict[str, objec
         ],
         "note": f" Not shown, but in verdicts.csv: {rest}." if rest else "",
     }
-
-
-def _worst_first(fates: Iterable[tuple[str, Fate]]) -> list[str]:
-    """The names in order of the shares of members that overturn, summed over all that has the name."""
-    shares: dict[str, float] = {}
-    for name, fate in fates:
-        shares[name] = shares.get(name, 0.0) + float(np.nan_to_num(fate.overturning_share))
-    return sorted(shares, key=shares.__getitem__, reverse=True)
 
 
 def _cell(fate: Fate | None) -> dict[str, str]:

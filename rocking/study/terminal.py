@@ -11,7 +11,7 @@ from pathlib import Path
 from threading import Thread
 from typing import Any, BinaryIO, TextIO
 
-from rocking.assessment.fate import ORDER, Fate
+from rocking.assessment.fate import ORDER, Fate, worst_first
 from rocking.assessment.rows.of_record import FailureRow
 from rocking.assessment.verdict import Verdict, rocks
 from rocking.errors import RecordError
@@ -93,8 +93,8 @@ def paths_to_read(results: Path, verdicts: Iterable[Fate]) -> Iterator[str]:
     summary = results / "summary"
     yield from (f"Page to explore: {page}" for page in sorted(summary.glob("*.html")))
     yield f"Summary: {report if (report := summary / 'summary.pdf').is_file() else summary}"
-    worst = max(verdicts, key=lambda fate: fate.severity, default=None)
-    if worst and (report := results / worst.record / "report.pdf").is_file():
+    records = worst_first((fate.record, fate) for fate in verdicts)
+    if records and (report := results / records[0] / "report.pdf").is_file():
         yield f"Report of the worst record: {report}"
 
 
