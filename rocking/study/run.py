@@ -56,9 +56,10 @@ def run(folder: Path, options: Sequence[str]) -> int:
     home = workflow_folder()
     sys.path.append(str(home / "workflow" / "logger"))
     arguments = [
+        *("--logger", "rocking"),  # takes all names that follow: never before the options
         *("--snakefile", str(home / "Snakefile")),
         *("--workflow-profile", str(home / "workflow" / "profiles" / "default")),
-        *("--directory", str(folder), "--logger", "rocking"),
+        *("--directory", str(folder)),
         *options,
     ]
     if any(_ANSWERS.fullmatch(option) for option in options):
