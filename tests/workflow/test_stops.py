@@ -122,11 +122,13 @@ def test_a_second_run_is_locked_out_and_harms_nothing(finished, tmp_path: Path, 
     first = _started(study, *(study.command() if otherwise else ()))
     try:
         _wait(lambda: _jobs_run(study), first)
+        os.killpg(first.pid, signal.SIGSTOP)  # on a slow machine it would end before the others begin
         second = study.rocking("run", str(study.folder))
         assert second.returncode == 1
         assert "another run works in this study" in second.stderr
         third = study.run()
         assert third.returncode == 1 and "another run works in this study" in third.stdout
+        os.killpg(first.pid, signal.SIGCONT)
         first.communicate(timeout=600)
     finally:
         _kill_all(first)
