@@ -1,4 +1,4 @@
-"""Fixtures and oracles that every test may use, and the count of tests that used real records."""
+"""Fixtures and oracles that every test may use."""
 
 import csv
 import os
@@ -78,16 +78,3 @@ def browser(chromium):
     """The browser, with nothing in its log that an earlier module wrote."""
     chromium.get_log("browser")
     return chromium
-
-
-def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Say how many tests used real records, and how many were skipped for want of them."""
-
-    def marked(outcome: str) -> int:
-        reports = terminalreporter.stats.get(outcome, [])
-        return sum(
-            1 for r in reports if "real_records" in getattr(r, "keywords", {}) and r.when in ("call", "setup")
-        )
-
-    used, skipped = marked("passed") + marked("failed"), marked("skipped")
-    terminalreporter.write_line(f"real records: used by {used} tests, {skipped} skipped without them")

@@ -24,50 +24,34 @@ BESIDE = {
     "motion": ["tests/properties/test_motion.py"],
     "pulses": ["tests/properties/test_pulses.py"],
     "records": ["tests/contracts"],
-    "sine_pulse": ["tests/published/test_sine_pulse.py"],
+    "sine_pulse": [
+        "tests/published/test_sine_pulse.py",
+        "tests/properties/test_prediction_against_integration.py",
+    ],
     "structures": ["tests/properties/test_registered_structures.py", "tests/published/test_structures.py"],
 }
 """Tests of a wing besides its folder in tests/unit."""
 
 OTHERS = {
-    ast.Add: "-", ast.Sub: "+", ast.Mult: "/", ast.Div: "*", ast.Pow: "*", ast.Lt: "<=", ast.LtE: "<", ast.Gt: ">=",
-    ast.GtE: ">", ast.Eq: "!=", ast.NotEq: "==", ast.And: "or", ast.Or: "and",
+    ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.Pow: ast.Mult, ast.Lt: ast.LtE,
+    ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.And: ast.Or,
+    ast.Or: ast.And,
 }  # fmt: skip
 """What is written in the place of an operator."""
 
 
-def mutants(source: str) -> Iterator[tuple[int, int, str]]:
-    """Every change of a module as (offset, length, other text), docstrings and annotations left alone."""
-    encoded = source.encode()
-    starts = [0]
-    for line in encoded.splitlines(keepends=True):
-        starts.append(starts[-1] + len(line))
-
-    def between(left: ast.expr, right: ast.expr, operator: ast.AST) -> Iterator[tuple[int, int, str]]:
-        begin, end = (
-            starts[left.end_lineno - 1] + left.end_col_offset,
-            starts[right.lineno - 1] + right.col_offset,
-        )
-        gap = encoded[begin:end].decode()
-        word = gap.strip(" ()\n\\")
-        if type(operator) in OTHERS and word and "#" not in gap:
-            yield begin + gap.index(word), len(word), OTHERS[type(operator)]
-
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.BinOp):
-            yield from between(node.left, node.right, node.op)
-        elif isinstance(node, ast.BoolOp):
-            yield from between(node.values[0], node.values[1], node.op)
-        elif isinstance(node, ast.Compare):
-            yield from between(node.left, node.comparators[0], node.ops[0])
-        elif isinstance(node, ast.Constant) and type(node.value) in (int, float):
-            begin, end = (
-                starts[node.lineno - 1] + node.col_offset,
-                starts[node.end_lineno - 1] + node.end_col_offset,
-            )
-            yield begin, end - begin, repr(node.value + 1)
-        elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not | ast.USub):
-            yield starts[node.lineno - 1] + node.col_offset, 3 if isinstance(node.op, ast.Not) else 1, ""
+def mutants(tree: ast.Module) -> Iterator[tuple[ast.expr, str, object]]:
+    """Every change of a module as (node, attribute, other value)."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.BinOp(op=operator) | ast.BoolOp(op=operator) if type(operator) in OTHERS:
+                yield node, "op", OTHERS[type(operator)]()
+            case ast.Compare(ops=[operator, *more]) if type(operator) in OTHERS:
+                yield node, "ops", [OTHERS[type(operator)](), *more]
+            case ast.Constant(value=number) if type(number) in (int, float):
+                yield node, "value", number + 1
+            case ast.UnaryOp(op=ast.Not() | ast.USub() as operator, operand=operand):
+                yield node, "operand", ast.UnaryOp(operator, operand)
 
 
 def tests_of(tree: Path, wing: str, module: Path | None) -> list[Path]:
@@ -96,19 +80,20 @@ def try_wing(tree: Path, wing: str, count: int, seed: int, only: str) -> None:
     """Draw mutants of one wing, of modules that match `only`; print those that survive and how many there were."""
     if noticed(tree, wing):
         raise SystemExit(f"{wing}: its tests fail on the code as it is")
-    modules = sorted((tree / "rocking" / wing).rglob(only))
-    possible = [(path, change) for path in modules for change in mutants(path.read_text(encoding="utf-8"))]
+    texts = {path: path.read_text(encoding="utf-8") for path in sorted((tree / "rocking" / wing).rglob(only))}
+    trees = {path: ast.parse(text) for path, text in texts.items()}
+    possible = [(path, change) for path, module in trees.items() for change in mutants(module)]
     drawn = random.Random(seed).sample(possible, min(count, len(possible)))
     survivors = 0
-    for path, (at, length, other) in drawn:
-        whole = path.read_bytes()
-        path.write_bytes(whole[:at] + other.encode() + whole[at + length :])
+    for path, (node, attribute, other) in drawn:
+        before = getattr(node, attribute)
+        setattr(node, attribute, other)
+        path.write_text(ast.unparse(trees[path]), encoding="utf-8")
         if not noticed(tree, wing, path):
             survivors += 1
-            line = whole[:at].count(b"\n")
-            changed = path.read_text(encoding="utf-8").splitlines()[line].strip()
-            print(f"{path.relative_to(tree)}:{line + 1} survives as: {changed}", flush=True)
-        path.write_bytes(whole)
+            print(f"{path.relative_to(tree)}:{node.lineno} survives with: {ast.unparse(node)}", flush=True)
+        setattr(node, attribute, before)
+        path.write_text(texts[path], encoding="utf-8")
     print(f"{wing}: {survivors} of {len(drawn)} survive, of {len(possible)} possible", flush=True)
 
 

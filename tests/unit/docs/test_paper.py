@@ -1,6 +1,5 @@
 """The source paper redrawn: figures with data, and equations decided by numbers."""
 
-import itertools
 import math
 import re
 from pathlib import Path
@@ -9,14 +8,12 @@ import numpy as np
 import pytest
 
 from docs.paper import curves as paper_curves
-from docs.paper.equations import drawn_gravity, drawn_ground, drawn_inertia
 from docs.paper.report import equation_rows, equivalence_figures, paper_figures, paper_report
-from docs.paper.response import RADII, example_arch, predicted_levels, response_curves
+from docs.paper.response import RADII, example_arch, predicted_levels
 from docs.paper.write import SHIPPED, write_paper
 from rocking.motion import integrate
 from rocking.pulses import extract_pulses
 from rocking.records import read
-from rocking.structures import Block
 from rocking.tables import csv_lines
 
 
@@ -40,20 +37,6 @@ def test_the_corrected_form_agrees_with_what_decides_and_the_printed_one_does_no
             # six-point differences of the drawing: h⁶ of 2e-3 and rounding over h leave 1e-10 of 1e-1
             assert corrected == pytest.approx(decided, rel=1e-8)
             assert abs(printed / decided - 1) > 1e-3
-
-
-def test_the_drawing_of_a_block_gives_its_equation():
-    """I_O = 4/3 m R², dV/dφ = m g R sin(α − φ), Σ m x' = m R cos(α − φ), m = 4 R² sin α cos α."""
-    radius, alpha, rotation = 1.5, 0.3, 0.1
-    block = Block(radius, alpha)
-    mass = 4 * radius**2 * math.sin(alpha) * math.cos(alpha)
-    assert drawn_inertia(block, rotation) == pytest.approx(4 / 3 * mass * radius**2, rel=1e-9)
-    assert drawn_gravity(block, rotation) == pytest.approx(
-        mass * radius * math.sin(alpha - rotation), rel=1e-9
-    )
-    assert drawn_ground(block, rotation) == pytest.approx(
-        mass * radius * math.cos(alpha - rotation), rel=1e-9
-    )
 
 
 def test_the_printed_inertia_triples_the_bending_part():
@@ -97,11 +80,11 @@ def test_the_period_of_the_block_exact_at_rest_is_closer_than_the_paper_s(figure
 
 
 @pytest.mark.parametrize("figure", ["figure_4", "figure_7"])
-def test_the_block_exact_at_rest_overturns_more_nearly_when_the_structure_does(figure):
+@pytest.mark.parametrize("panel", ["a", "b"])
+def test_the_block_exact_at_rest_overturns_more_nearly_when_the_structure_does(figure, panel):
     ours = errors(figure, "c")
-    for panel in "ab":
-        for label, printed in errors(figure, panel).items():
-            assert np.abs(ours[label]).mean() <= np.abs(printed).mean()
+    for label, printed in errors(figure, panel).items():
+        assert np.abs(ours[label]).mean() <= np.abs(printed).mean()
 
 
 @pytest.fixture(scope="module")
@@ -130,20 +113,6 @@ def test_without_its_record_figure_8_says_so_and_shows_the_shipped_one(tmp_path)
 
 
 @pytest.mark.real_records
-def test_figure_8_prediction_and_integration_are_nearly_the_same(real_records):
-    """The paper: "the maximum response predicted by the two methods is nearly identical" for r = 10 m and 15 m."""
-    record = read(real_records / "northridge1994_rinaldi" / "RSN1063_NORTHR_RRS228.AT2")[0]
-    curves = response_curves(record)
-    for panel, radius in RADII.items():
-        lines = {curve.label: curve.y for curve in curves if curve.panel == panel}
-        integrated = np.abs(lines[f"full integration, r = {radius:g} m"]).max()
-        assert 0.2 < integrated < 1
-        # a tenth: the difference that can still be seen in the paper's Fig. 8
-        assert abs(lines["paper's block, every regime"][0] - integrated) < 0.1 * integrated
-    assert example_arch(10.0).restitution == 0.9
-
-
-@pytest.mark.real_records
 def test_the_page_holds_the_numbers_of_figure_8(real_records):
     record = read(real_records / "northridge1994_rinaldi" / "RSN1063_NORTHR_RRS228.AT2")[0]
     pulse = extract_pulses(record).dominant
@@ -161,12 +130,3 @@ def test_the_page_holds_the_numbers_of_figure_8(real_records):
         for row in zip(*columns, strict=True)
     ]
     assert said == computed
-
-
-def test_the_pulse_spectrum_holds_a_safe_island(figures):
-    """η = 0.9, ω near 5: falls above a = 3.02, stands again above 6.32, falls for good above 7.17."""
-    rows = next(figure.rows for figure in figures if figure.name == "pulse_spectrum")
-    near = min({row.frequency_ratio for row in rows}, key=lambda omega: abs(omega - 5))
-    falls = [math.isinf(row.rotation_ratio) for row in rows if row.frequency_ratio == near]
-    changes = sum(one != other for one, other in itertools.pairwise(falls))
-    assert changes == 3 and falls[-1]

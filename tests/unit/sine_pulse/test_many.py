@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.constants import g
 
-from rocking.errors import PulseError, StructureError
 from rocking.pulses.pulse import Pulse
 from rocking.sine_pulse import (
     Regime,
@@ -62,22 +61,6 @@ def test_amplitudes_that_overturn(polarity: int) -> None:
             assert (below, above) == (Outcome.ROCKS, Outcome.OVERTURNS)
 
 
-def test_what_is_refused() -> None:
-    block = KINDS["symmetric"]
-    with pytest.raises(
-        PulseError, match="ω_g/p, the pulse's circular_frequency over the block's frequency_parameter"
-    ):
-        predict_maxima([block], [Pulse(1.0, 1e14)])
-    with pytest.raises(PulseError, match="a_g/"):
-        predict_maxima([block], [Pulse(1e15, 1.0)])
-    with pytest.raises(PulseError, match="polarity is 2, but must be 1 or -1"):
-        overturning_amplitudes([block], [1.0], 2)
-    with pytest.raises(PulseError, match="circular_frequencies must be"):
-        overturning_amplitudes([block], [0.0])
-    with pytest.raises(StructureError, match=r"restitution is 1\.5"):
-        pulse_spectrum(np.array([1.0]), np.array([2.0]), 1.5)
-
-
 @pytest.mark.parametrize("eta", [0.0, 0.6, 0.9])
 def test_every_cell_is_the_prediction(eta: float) -> None:
     """λ = p = 1/g and amplitude = a exactly, so that both see the same a and ω; 1e-12 allows for another summation."""
@@ -92,16 +75,3 @@ def test_every_cell_is_the_prediction(eta: float) -> None:
             assert ratios[i, j] == pytest.approx(found.rotation_ratio, rel=1e-12), (omega, a)
     assert len(regimes) >= 4
     assert Regime.CONTACT_DURING_PULSE in regimes
-
-
-@pytest.mark.parametrize(
-    ("frequencies", "amplitudes", "message"),
-    [
-        ([1.0, 0.0], [2.0], r"frequency_ratios holds 0\.0, but every value must lie between 1e-12 and 1e.12"),
-        ([1.0], [2.0, -1.0], r"amplitude_ratios holds -1\.0, but every value must lie between 0 and 1e.12"),
-        ([[1.0]], [1.0], r"frequency_ratios has the shape \(1, 1\)"),
-    ],
-)
-def test_bad_axes_are_refused_in_words(frequencies: list, amplitudes: list, message: str) -> None:
-    with pytest.raises(PulseError, match=message):
-        pulse_spectrum(np.array(frequencies), np.array(amplitudes), 0.9)
