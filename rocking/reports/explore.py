@@ -20,6 +20,7 @@ from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import displacement
 from rocking.reports import printing
+from rocking.reports.panels import rotation_ratios
 from rocking.reports.record import cell_text, worst_cases
 from rocking.structures import Mechanism, Structure
 
@@ -161,18 +162,16 @@ def _motion(accelerogram: Accelerogram, tables: RecordTables) -> Content:
 
 def _history(response: Response, mechanism: Mechanism) -> Content | None:
     """Rotation over critical rotation while it moves; None where there is none."""
-    if response.times is None or response.rotation is None or response.times.size < 2:
+    if (history := rotation_ratios(response, mechanism)) is None:
         return None
-    first, last = mechanism.sides[0].critical_rotation, mechanism.sides[-1].critical_rotation
-    times = response.times
-    ratio = np.clip(response.rotation / np.where(response.rotation < 0, last, first), -_BEYOND, _BEYOND)
+    times, ratio = history[0], np.clip(history[1], -_BEYOND, _BEYOND)
     moving = np.flatnonzero(np.abs(ratio) > _STILL * np.abs(ratio).max())
     begin = max(float(times[0]), float(times[moving[0]]) - _BEFORE)
     end = min(float(times[-1]), float(times[moving[-1]]) + _AFTER)
     return {
         "span": [_number(begin), _number(end)],
         "ratio": packed(extremes(times, ratio, begin, end)),
-        "critical": [_number(first), _number(last)],
+        "critical": [_number(mechanism.sides[place].critical_rotation) for place in (0, -1)],
     }
 
 

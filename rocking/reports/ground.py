@@ -1,6 +1,6 @@
-"""The pictures of the ground in a record's report: acceleration, pulses, measures, rocking spectra."""
+"""The pictures of the ground in a record's report: acceleration and pulses."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -11,25 +11,9 @@ from matplotlib.figure import Figure
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.measures import record_measures, response_spectrum
-from rocking.records.processing import displacement, velocity
-from rocking.reports.panels import (
-    Placed,
-    draw_energy_map,
-    draw_levels,
-    draw_motion,
-    draw_response_spectra,
-)
-from rocking.reports.style import (
-    TEXT_WIDTH,
-    elided,
-    fixed_ticks,
-    new_figure,
-    panel_at,
-    plain_logarithmic,
-    styled,
-    thinned,
-)
+from rocking.records.measures import record_measures
+from rocking.reports.panels import draw_energy_map, draw_motion
+from rocking.reports.style import TEXT_WIDTH, elided, fixed_ticks, new_figure, panel_at, styled
 
 POINTS = 1200
 """Points of a trace of a report: no printer shows more on the width of a page."""
@@ -123,42 +107,4 @@ def pulses_figure(motions: Sequence[Motion]) -> Figure:
         gains = np.maximum.reduceat(gains, starts, axis=0)
         draw_energy_map(energy, starts * accelerogram.time_step, 1 / frequencies, gains, motion.pulses)
         fixed_ticks(energy, "x", *motion.span, 6)
-    return figure
-
-
-@styled
-def measures_figure(motions: Sequence[Motion], placed: Sequence[Placed]) -> Figure:
-    """Draw response spectra with the structures on them, and velocity and displacement over time."""
-    figure = new_figure(62)
-    spectrum = panel_at(figure, 14, 2, 70, 50)
-    spectra = {motion.name: response_spectrum(motion.accelerogram) for motion in motions}
-    draw_response_spectra(spectrum, spectra, placed)
-    spectrum.legend(loc="lower left")
-    for row, (label, integral) in enumerate(
-        {"velocity [m/s]": velocity, "displacement [m]": displacement}.items()
-    ):
-        panel = panel_at(figure, 103, 2 + 26 * row, 65, 24)
-        traces = [(motion.accelerogram.times, integral(motion.accelerogram)) for motion in motions]
-        for trace, line in zip(traces, ("-", "--", ":"), strict=False):
-            panel.plot(*thinned(*trace, POINTS), line, color="black", linewidth=0.6)
-        reach = 1.1 * max(float(np.abs(trace).max()) for _, trace in traces) or 1.0
-        fixed_ticks(panel, "y", -reach, reach, 3)
-        panel.set_ylabel(label)
-        _time_axis(panel, shared_span(motions), row == 1)
-    return figure
-
-
-@styled
-def spectra_figure(
-    spectra: Mapping[str, tuple[np.ndarray, np.ndarray, np.ndarray]], placed: Sequence[Placed]
-) -> Figure:
-    """Draw the rocking spectra of the components, (p, λ, rotation ratios) by name, side by side with the structures."""
-    figure = new_figure(58)
-    width = (TEXT_WIDTH - 16) / len(spectra) - 4
-    for place, (name, levels) in enumerate(spectra.items()):
-        panel = panel_at(figure, 15 + place * (width + 16 / len(spectra)), 4, width - 12, 43)
-        draw_levels(panel, *levels, placed, (0.1, 0.5))
-        plain_logarithmic(panel, "x")
-        plain_logarithmic(panel, "y")
-        panel.set_title(name)
     return figure

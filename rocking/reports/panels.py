@@ -4,7 +4,7 @@ Units stand on every axis. A long trace is drawn as its envelope.
 """
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from rocking.errors import MotionError
 from rocking.reports.drawings import draw_dimensions, draw_marks, draw_structure
-from rocking.reports.style import PREDICTED, PULSE, RECORD, UPLIFT, plain_logarithmic, thinned
+from rocking.reports.style import PREDICTED, PULSE, RECORD, plain_logarithmic, thinned
 
 if TYPE_CHECKING:
     from rocking.assessment.assess import StructureAssessment
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from rocking.motion.response import Response
     from rocking.pulses import Pulse, PulseAnalysis
     from rocking.records.accelerogram import Accelerogram
-    from rocking.records.response_spectrum import ResponseSpectrum
     from rocking.structures import Mechanism, Structure
     from rocking.structures.structure import CapacityCurve
 
@@ -32,13 +31,8 @@ ZERO: dict[str, Any] = {"color": "0.8", "linewidth": 0.6, "zorder": 0}
 _POINTS = 400
 _SMALLEST, _FALLEN = 1e-3, 1.6
 """Rotation ratio below which a point is set on the edge of a scatter, and where overturning is set."""
-_AROUND = ((0, 4), (0, -9), (7, -2), (-7, -2))
-"""Where the numbers of structures that stand side by side are written, points."""
 _MOST_DRAWN = 5000
 """Points that are drawn as shapes; more become a picture, whose size does not grow with them."""
-
-Placed = tuple[str, float, float]
-"""Number, frequency parameter p [rad/s] and uplift multiplier λ of an equivalent block."""
 
 
 def plot(thing: object, axes: Axes | None = None, **options: Any) -> Axes:
@@ -109,15 +103,22 @@ def draw_rotation(
     axes.plot(impacts, np.full(impacts.size, level), "|", color="black", markersize=3, markeredgewidth=0.4)
 
 
+def rotation_ratios(response: "Response", mechanism: "Mechanism") -> tuple[np.ndarray, np.ndarray] | None:
+    """Return times [s] and rotation over the critical rotation of its side (k,); None without a history."""
+    if response.times is None or response.rotation is None or response.times.size < 2:
+        return None
+    first, last = mechanism.sides[0].critical_rotation, mechanism.sides[-1].critical_rotation
+    return response.times, response.rotation / np.where(response.rotation < 0, last, first)
+
+
 def draw_levels(
     axes: Axes,
     across: np.ndarray,
     up: np.ndarray,
     ratios: np.ndarray,
-    placed: Sequence[Placed] = (),
-    levels: Sequence[float] = (0.05, 0.1, 0.2, 0.5, 1.0),
 ) -> None:
-    """Draw lines of equal rotation ratio (m, n) over p (m,) and λ (n,), hatched where it overturns, with structures."""
+    """Draw lines of equal rotation ratio (m, n) over p (m,) and λ (n,), hatched where it overturns."""
+    levels = (0.05, 0.1, 0.2, 0.5, 1.0)
     overturns = np.isinf(ratios).T
     if overturns.any():
         axes.contourf(across, up, overturns.astype(float), levels=[0.5, 1.5], colors="0.85", hatches=["///"])
@@ -125,36 +126,8 @@ def draw_levels(
     if np.nanmax(shown, initial=0) > levels[0] and np.nanmin(shown, initial=np.inf) < levels[-1]:
         lines = axes.contour(across, up, shown, levels=levels, colors="black", linewidths=0.7)
         axes.clabel(lines, fmt="%g", fontsize=7)
-    _draw_placed(axes, placed)
     axes.set_xlabel("frequency parameter p [rad/s]")
     axes.set_ylabel("uplift multiplier λ [-]")
-
-
-def draw_response_spectra(
-    axes: Axes, spectra: Mapping[str, "ResponseSpectrum"], placed: Sequence[Placed] = ()
-) -> None:
-    """Draw the pseudo-acceleration by component, and equivalent blocks at their period 2π/p and acceleration gλ."""
-    from rocking.quantities import GRAVITY
-
-    for (name, each), line in zip(spectra.items(), ("-", "--", ":"), strict=False):
-        shown = np.maximum(each.pseudo_acceleration, 1e-3 * max(each.pseudo_acceleration.max(), 1e-9))
-        axes.plot(each.periods, shown, line, color="black", linewidth=0.9, label=name or "record")
-    _draw_placed(axes, [(number, 2 * math.pi / p, GRAVITY * lam) for number, p, lam in placed])
-    plain_logarithmic(axes, "x")
-    plain_logarithmic(axes, "y")
-    axes.set_xlabel("period T, or 2π/p of a structure [s]")
-    axes.set_ylabel("PSA, 5 % [m/s²]")
-
-
-def _draw_placed(axes: Axes, places: Iterable[Placed]) -> None:
-    """Structures as circles; those that stand in one place share a label."""
-    shared: dict[tuple[float, float], list[str]] = {}
-    for number, x, y in places:
-        shared.setdefault((float(f"{x:.3g}"), float(f"{y:.3g}")), []).append(number)
-    for place, ((x, y), numbers) in enumerate(sorted(shared.items())):
-        axes.plot(x, y, "o", color=UPLIFT, markersize=3.5, fillstyle="none")
-        beside: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7, "color": UPLIFT}
-        axes.annotate(",".join(numbers), (x, y), _AROUND[place % len(_AROUND)], **beside, ha="center")
 
 
 def draw_energy_map(

@@ -19,38 +19,17 @@ from rocking.assessment.rows.of_folder import RecordTables
 from rocking.assessment.rows.of_record import ComparisonRow, MaximumRow, PulseRow, RecordRow
 from rocking.assessment.rows.of_study import StructureRow, structure_rows
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Method, Verdict, agreement, rests
-from rocking.motion.batch import rocking_spectrum
-from rocking.motion.integration import integrate
 from rocking.motion.response import Response
 from rocking.pulses import Flag
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.rotation import aligned
 from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.drawings import draw_structure, fallen_rotation, round_length
-from rocking.reports.ground import (
-    POINTS,
-    Motion,
-    draw_ground,
-    ground_figure,
-    measures_figure,
-    pulses_figure,
-    spectra_figure,
-)
-from rocking.reports.panels import Placed, draw_rotation
+from rocking.reports.ground import POINTS, Motion, draw_ground, ground_figure, pulses_figure
+from rocking.reports.panels import draw_rotation, rotation_ratios
 from rocking.reports.printing import Cell, columns_of, number, ratio, short, strong, table, table_of, words
-from rocking.reports.style import (
-    PREDICTED,
-    TEXT_WIDTH,
-    Picture,
-    elided,
-    new_figure,
-    panel_at,
-    picture,
-    pictures,
-    styled,
-)
+from rocking.reports.style import PREDICTED, TEXT_WIDTH, elided, new_figure, panel_at, pictures, styled
 from rocking.structures import Structure
 
 ABOUT = ("study", "client", "author", "date")
@@ -78,7 +57,6 @@ _STILL, _HIGHEST = 0.01, 1.25
 """Share of the largest rotation below which a history is cut; rotation ratio beyond which it is not drawn."""
 _SMALLEST, _FALLEN = 1e-3, 2.2
 """Rotation ratios at the left end of the comparison, and where overturning stands."""
-SPECTRUM_POINTS = 36
 NO_BLOCK = 1.0
 """Defect from which on the block means nothing: it is as large as what is described."""
 METHODS = {
@@ -98,9 +76,8 @@ class RecordReport:
     """The report of one record, and what several of its pages ask for.
 
     Every number of a table is a cell of `tables` or of the structures table, rounded. structures: by name. settings: at
-    least tolerance and acceleration_scale; study, client, author and date where they are given. vertical: the vertical
-    component, if it acted on the responses of the tables. responses: those of the mechanism under the record with
-    their histories, by component and structure; one that is not there is integrated again.
+    least tolerance and acceleration_scale; study, client, author and date where they are given. responses: those of
+    the mechanism under the record with their histories, by component and structure.
     """
 
     record: str
@@ -108,7 +85,6 @@ class RecordReport:
     structures: Mapping[str, Structure]
     tables: RecordTables
     settings: Mapping[str, Any]
-    vertical: Accelerogram | None = None
     responses: Mapping[Case, Response] = field(default_factory=dict)
 
     def pdf(self) -> bytes:
@@ -158,14 +134,6 @@ class RecordReport:
     def worst(self) -> dict[str, ComparisonRow]:
         """Of each structure the component that turns it farthest."""
         return worst_cases(self.tables.comparison)
-
-    @cached_property
-    def placed(self) -> list[Placed]:
-        """Number, p and λ of the equivalent block of each structure."""
-        return [
-            (self.numbers[row.structure], row.frequency_parameter_rad_s, row.uplift_multiplier)
-            for row in self.structure_rows
-        ]
 
     @cached_property
     def structure_rows(self) -> list[StructureRow]:
@@ -449,23 +417,11 @@ class History:
 def _history(report: RecordReport, fate: Fate) -> History | None:
     """The history of a structure; None where it rests."""
     row = report.worst.get(fate.structure)
-    if (
-        row is None
-        or fate.structure not in report.structures
-        or not row.integrated_rotation_ratio > NEGLIGIBLE
-    ):
+    response = report.responses.get(row.case) if row else None
+    if row is None or response is None or not row.integrated_rotation_ratio > NEGLIGIBLE:
         return None
-    mechanism, response = report.structures[fate.structure].mechanism(), report.responses.get(row.case)
-    if response is None or response.times is None:
-        accelerogram = next(each for each in report.accelerograms if each.component == row.component)
-        beside = None if report.vertical is None else aligned(report.vertical, accelerogram)
-        tolerance = float(report.settings["tolerance"])
-        response = integrate(mechanism, accelerogram, tolerance, history=True, vertical=beside)
-    if response.times is None or response.rotation is None or response.times.size < 2:
-        return None
-    first, last = mechanism.sides[0].critical_rotation, mechanism.sides[-1].critical_rotation
-    ratio = response.rotation / np.where(response.rotation < 0, last, first)
-    return History(fate, row, response.times, ratio, response.impacts)
+    history = rotation_ratios(response, report.structures[fate.structure].mechanism())
+    return None if history is None else History(fate, row, *history, response.impacts)
 
 
 @styled
@@ -636,16 +592,12 @@ _BLAME: dict[tuple[bool, ...], str] = {
 
 def _appendix(report: RecordReport) -> dict[str, object]:
     tables, record = report.tables, report.tables.record
-    alt = "Response spectrum with the structures on it, velocity and displacement of the ground."
     return {
-        "measures": pictures(measures_figure, report.motions, alt, report.placed),
-        "spectra": _spectra(report),
         "facts": facts_table(record),
         "verdicts": _verdict_table(report),
         "structures": _structure_table(report),
         "pulses": table_of([row for row in tables.pulses if row.rank <= MOST_PULSES], *PULSE_COLUMNS),
         "methods": _method_table(report),
-        "variations": _variation_table(report),
         "tolerance": printing.given(float(report.settings["tolerance"])),
         "acceleration-scale": str(report.settings["acceleration_scale"]),
         "friction": printing.given(report.settings.get("friction_coefficient")),
@@ -659,26 +611,6 @@ def _appendix(report: RecordReport) -> dict[str, object]:
         "settings": ", ".join(dict.fromkeys(f"{row.settings_sha256[:16]}…" for row in record)),
         "version": version("rocking"),
     }
-
-
-def _spectra(report: RecordReport) -> list[Picture]:
-    if not report.placed or not report.motions:
-        return []
-    # a grid that holds every structure with room to both sides
-    across, up = (
-        np.geomspace(min(values) / 1.8, max(values) * 1.8, SPECTRUM_POINTS)
-        for values in list(zip(*report.placed, strict=True))[1:]
-    )
-    restitution = sorted(row.restitution for row in report.structure_rows)[len(report.structure_rows) // 2]
-    spectra = {
-        motion.name: (across, up, np.asarray(rocking_spectrum(motion.accelerogram, across, up, restitution)))
-        for motion in report.motions[:2]
-    }
-    if not any(levels[2].any() for levels in spectra.values()):
-        return []
-    drawn = spectra_figure(spectra, report.placed)
-    shown = picture(drawn, "Rocking spectra with the structures on them.")
-    return [shown | {"restitution": number(restitution, 2)}]
 
 
 FACTS = (
@@ -796,37 +728,3 @@ def _contacts(report: RecordReport, case: Case) -> Cell:
     failing = _contact_failure(report, case)
     holding = "hold" if report.of(case, Method.MECHANISM_ON_RECORD, "slides") is False else printing.NOTHING
     return strong(failing or holding, bool(failing))
-
-
-def _variation_table(report: RecordReport) -> dict[str, object]:
-    """The crack that turns farthest, and the largest rotation under each processing, component by component.
-
-    Of each structure the component that turns it farthest.
-    """
-    tables = report.tables
-    processings = list(dict.fromkeys(row.processing for row in tables.processing))
-    varied = {(row.case, row.processing): row.rotation_ratio for row in tables.processing}
-    heights = {row.case: row for row in tables.candidates if row.governs_record}
-    cases = {row.case for row in (*tables.candidates, *tables.processing)}
-    return table_of(
-        [
-            case
-            for name in report.numbers
-            if name in report.worst and (case := report.worst[name].case) in cases
-        ],
-        ("No.", "auto", "r", lambda case: report.numbers[case[1]]),
-        ("Comp.", "0.7", "l", lambda case: words(case[0])),
-        (
-            "Farthest with a crack at [m]",
-            "0.9",
-            "r",
-            lambda case: number(getattr(heights.get(case), "position_m", None)),
-        ),
-        (
-            "ratio there",
-            "0.8",
-            "r",
-            lambda case: ratio(getattr(heights.get(case), "integrated_rotation_ratio", None)),
-        ),
-        *((name, "1", "r", lambda case, name=name: ratio(varied.get((case, name)))) for name in processings),
-    )

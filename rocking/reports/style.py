@@ -24,8 +24,8 @@ from matplotlib.ticker import (
 
 TEXT_WIDTH = 170.0
 """Width of the text of a page, mm."""
-RECORD, PULSE, PREDICTED, UPLIFT = "0.35", "#D55E00", "#0072B2", "#009E73"
-"""Colours of a recorded motion, of its sine pulse, of a closed form, and of what lifts a structure."""
+RECORD, PULSE, PREDICTED = "0.35", "#D55E00", "#0072B2"
+"""Colours of a recorded motion, of its sine pulse and of a closed form."""
 MOST_POINTS = 4000
 """Points of a trace; a longer one keeps the least and the largest value of each stretch."""
 FONT_FOLDER = Path(matplotlib.get_data_path()) / "fonts" / "ttf"

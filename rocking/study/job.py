@@ -157,7 +157,7 @@ def write_report(assessed: Assessed, study: Study, folder: Path) -> None:
     tables, record = assessed.tables, assessed.record.id
     tables.write(folder)
     if tables.comparison:
-        shown = (study.structures, tables, study.settings.mapping(), assessed.vertical, assessed.responses)
+        shown = (study.structures, tables, study.settings.mapping(), assessed.responses)
         report = RecordReport(record, assessed.accelerograms, *shown).pdf()
     else:
         report = failure_report(record, " ".join(failure.message for failure in tables.failures))

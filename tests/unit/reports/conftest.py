@@ -18,7 +18,7 @@ from rocking.assessment.rows.of_record import (
 )
 from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows, structure_rows
 from rocking.assessment.variations import candidates, processed_variants
-from rocking.assessment.verdict import Verdict
+from rocking.assessment.verdict import Method, Verdict
 from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.reports.record import RecordReport
@@ -57,11 +57,13 @@ def shaken(component: str = "EW", scale_factor: float = 1.0, **identity) -> Acce
 
 def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[str, object]) -> RecordReport:
     """Compute every table of `record` and return its report."""
-    tables = RecordTables()
+    tables, responses = RecordTables(), {}
     for accelerogram in accelerograms:
         computed = assess_structures(accelerogram, structures, ASSESSMENT)
         identity = identity_of(record, accelerogram, "cd" * 32)
         tables.add(identity, computed, ASSESSMENT, "CC0-1.0")
+        for case in computed.cases:
+            responses[accelerogram.component, case.structure] = case.responses[Method.MECHANISM_ON_RECORD]
         records = processed(accelerogram)
         pulse = computed.analysis.dominant if computed.analysis else None
         for name, structure in structures.items():
@@ -69,7 +71,7 @@ def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[st
             tables.candidates.extend(candidate_rows(identity, name, others))
             variants = processed_variants({name: structure}, records, ASSESSMENT)
             tables.maxima.extend(processing_rows(identity, name, variants[name]))
-    return RecordReport(record, accelerograms, structures, tables, SETTINGS)
+    return RecordReport(record, accelerograms, structures, tables, SETTINGS, responses)
 
 
 def summarised(tables: RecordTables, structures: dict[str, object]) -> dict[str, object]:
