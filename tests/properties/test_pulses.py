@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from rocking.pulses import PULSE_METHODS, PulseSettings, extract_pulses, predicting_pulse
+from rocking.pulses import PULSE_METHODS, extract_pulses, predicting_pulse
 from rocking.records.accelerogram import Accelerogram
 
 SEEDS = 60
 
 
-def sine_cycle(times, amplitude, period, start):
-    """One cycle, written without the product's Pulse."""
+def sine_cycle(times, amplitude, period, start, cycles=1):
+    """One cycle, or more, written without the product's Pulse."""
     phase = (times - start) / period
-    return amplitude * np.sin(2 * np.pi * phase) * ((phase > 0) & (phase < 1))
+    return amplitude * np.sin(2 * np.pi * phase) * ((phase > 0) & (phase < cycles))
 
 
 def boore_noise(rng, count, step, magnitude=6.5, stress_drop=80.0, kappa=0.04, distance=15.0):
@@ -49,21 +49,6 @@ def planted(seed, ratio, count=4000, step=0.01, shortest=0.4):
 def recovered(pulse, period, start):
     """Success as defined with the acceptance figures: |Δ ln ω| < 0.25 and |Δt₀| < 0.3 T."""
     return abs(np.log(pulse.period / period)) < 0.25 and abs(pulse.start_time - start) < 0.3 * period
-
-
-@pytest.mark.parametrize(
-    ("step", "period", "sign"),
-    [(0.005, 0.3, 1), (0.01, 0.3, -1), (0.005, 5.0, -1), (0.02, 0.7, 1), (0.02, 1.9, -1)],
-)
-def test_noise_free_sine_is_recovered(step, period, sign):
-    start = 4.0 + 0.377 * step
-    times = np.arange(0, 20, step)
-    found = extract_pulses(Accelerogram(sine_cycle(times, sign * 3.1, period, start), step))
-    assert found.dominant.amplitude == pytest.approx(sign * 3.1, rel=1e-6)
-    assert found.dominant.period == pytest.approx(period, rel=1e-6)
-    assert found.dominant.start_time == pytest.approx(start, abs=1e-6 * period)
-    assert found.explained_energy == pytest.approx(1, abs=1e-9)
-    assert np.abs(found.residual).max() < 1e-6 * 3.1
 
 
 @pytest.mark.parametrize(
@@ -103,13 +88,6 @@ def test_shape_constants():
     assert double.explained_energy == pytest.approx(0.50, rel=0.01)
 
 
-def same(found, reference, amplitude=1.0, delay=0.0, rel=1e-9):
-    pulse, other = found.dominant, reference.dominant
-    assert pulse.amplitude == pytest.approx(amplitude * other.amplitude, rel=rel)
-    assert pulse.period == pytest.approx(other.period, rel=rel)
-    assert pulse.start_time == pytest.approx(other.start_time + delay, abs=rel * other.period)
-
-
 def quiet_ended(seed, step=0.01, count=4000):
     """A pulse in noise whose velocity is zero at both ends, so that zeros may be appended: (n,) m/s²."""
     samples = planted(seed, 0.5, count, step, shortest=0.6)[0]
@@ -125,14 +103,14 @@ def predicted(name, samples, step=0.01):
     )
 
 
-def alike(found, reference, amplitude=1.0, delay=0.0):
-    pulse, other = found.pulse, reference.pulse
-    assert pulse.amplitude == pytest.approx(amplitude * other.amplitude, rel=1e-9)
-    assert pulse.period == pytest.approx(other.period, rel=1e-9)
-    assert pulse.start_time == pytest.approx(other.start_time + delay, abs=1e-9 * other.period)
-    assert found.gain == pytest.approx(amplitude**2 * reference.gain, rel=1e-9)
-    assert found.explained_energy == pytest.approx(reference.explained_energy, rel=1e-9)
-    assert np.cos(found.phase - reference.phase) == pytest.approx(np.sign(amplitude), rel=1e-9)
+def alike(evidence, reference, amplitude=1.0, delay=0.0, rel=1e-9):
+    pulse, other = evidence.pulse, reference.pulse
+    assert pulse.amplitude == pytest.approx(amplitude * other.amplitude, rel=rel)
+    assert pulse.period == pytest.approx(other.period, rel=rel)
+    assert pulse.start_time == pytest.approx(other.start_time + delay, abs=rel * other.period)
+    assert evidence.gain == pytest.approx(amplitude**2 * reference.gain, rel=2 * rel)
+    assert evidence.explained_energy == pytest.approx(reference.explained_energy, rel=2 * rel)
+    assert np.cos(evidence.phase - reference.phase) == pytest.approx(np.sign(amplitude), rel=rel)
 
 
 @pytest.mark.parametrize("name", PULSE_METHODS)
@@ -147,30 +125,34 @@ def test_every_method_is_invariant_to_scale_sign_shift_and_padding(name, seed):
 
 
 @pytest.mark.parametrize("name", PULSE_METHODS)
-@pytest.mark.parametrize(("period", "sign"), [(0.7, -1), (1.9, 1)])
-def test_every_method_finds_a_sine_that_stands_alone(name, period, sign):
-    analysis = extract_pulses(
-        Accelerogram(sine_cycle(np.arange(4000) * 0.01, sign * 3.1, period, 12.003), 0.01)
-    )
-    found = predicting_pulse(PULSE_METHODS[name].candidates(analysis), lambda p: abs(p.amplitude)).pulse
-    assert found.amplitude == pytest.approx(sign * 3.1, rel=1e-6)
-    assert found.period == pytest.approx(period, rel=1e-6)
-    assert found.start_time == pytest.approx(12.003, abs=1e-6 * period)
+@pytest.mark.parametrize(
+    ("step", "period", "sign"),
+    [(0.005, 0.3, 1), (0.01, 0.3, -1), (0.005, 5.0, -1), (0.01, 0.7, -1), (0.02, 1.9, 1)],
+)
+def test_every_method_recovers_a_sine_that_stands_alone(name, step, period, sign):
+    start, times = 12.0 + 0.377 * step, np.arange(0, 40, step)
+    analysis = extract_pulses(Accelerogram(sine_cycle(times, sign * 3.1, period, start), step))
+    evidence = predicting_pulse(PULSE_METHODS[name].candidates(analysis), lambda p: abs(p.amplitude))
+    assert evidence.pulse.amplitude == pytest.approx(sign * 3.1, rel=1e-6)
+    assert evidence.pulse.period == pytest.approx(period, rel=1e-6)
+    assert evidence.pulse.start_time == pytest.approx(start, abs=1e-6 * period)
+    assert evidence.explained_energy == pytest.approx(1, abs=1e-9)
+    assert np.abs(analysis.residual).max() < 1e-6 * 3.1
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_an_offset_of_a_tenth_and_another_sampling_hardly_matter(seed):
     samples = planted(seed, 0.25, count=8000, step=0.005)[0]
-    reference = extract_pulses(Accelerogram(samples, 0.005))
-    same(extract_pulses(Accelerogram(samples + 0.1, 0.005)), reference, rel=1e-3)
-    for factor in (2, 4):
-        coarse = signal.decimate(samples, factor, ftype="fir", zero_phase=True)
-        same(extract_pulses(Accelerogram(coarse, 0.005 * factor)), reference, rel=1e-2)
-
-
-def burst(times, amplitude, frequency, cycles, start):
-    phase = (times - start) * frequency
-    return amplitude * np.sin(2 * np.pi * phase) * ((phase > 0) & (phase < cycles))
+    reference = extract_pulses(Accelerogram(samples, 0.005)).dominant
+    others = {(0.005, 1e-3): samples + 0.1} | {
+        (0.005 * factor, 1e-2): signal.decimate(samples, factor, ftype="fir", zero_phase=True)
+        for factor in (2, 4)
+    }
+    for (step, rel), changed in others.items():
+        pulse = extract_pulses(Accelerogram(changed, step)).dominant
+        assert pulse.amplitude == pytest.approx(reference.amplitude, rel=rel)
+        assert pulse.period == pytest.approx(reference.period, rel=rel)
+        assert pulse.start_time == pytest.approx(reference.start_time, abs=rel * reference.period)
 
 
 def ranks(seeds, shortest, strength, frequency, cycles):
@@ -179,7 +161,7 @@ def ranks(seeds, shortest, strength, frequency, cycles):
     for seed in seeds:
         samples, amplitude, period, start = planted(seed, 0.25, shortest=shortest)
         at = np.random.default_rng(1000 + seed).uniform(2, 30)
-        samples = samples + burst(np.arange(4000) * 0.01, strength * amplitude, frequency, cycles, at)
+        samples += sine_cycle(np.arange(4000) * 0.01, strength * amplitude, 1 / frequency, at, cycles)
         ranked = extract_pulses(Accelerogram(samples, 0.01)).ranked
         hits = [recovered(each.pulse, period, start) for each in ranked]
         places.append((period, hits.index(True) if any(hits) else len(hits)))
@@ -202,16 +184,6 @@ def test_a_burst_within_the_band_leaves_the_pulse_among_the_first():
 
 
 def test_noise_alone_explains_little():
-    shares = [
-        extract_pulses(
-            Accelerogram(boore_noise(np.random.default_rng(seed), 4000, 0.01), 0.01)
-        ).explained_energy
-        for seed in range(SEEDS)
-    ]
+    noises = (boore_noise(np.random.default_rng(seed), 4000, 0.01) for seed in range(SEEDS))
+    shares = [extract_pulses(Accelerogram(noise, 0.01)).explained_energy for noise in noises]
     assert np.mean(np.array(shares) < 0.2) >= 0.95
-
-
-def test_cost_of_the_settings_is_the_callers_choice():
-    samples = planted(3, 0.5)[0]
-    few = extract_pulses(Accelerogram(samples, 0.01), settings=PulseSettings(alternatives=1, pursuit=1))
-    assert (len(few.ranked), len(few.sequence)) == (1, 1)
