@@ -228,7 +228,6 @@ def _compared(
     follow(Method.BLOCK_ON_RECORD, block, record, vertical=vertical)
     if prediction is not None:
         follow(Method.MECHANISM_ON_PULSE, mechanism, prediction.pulse)
-        follow(Method.BLOCK_ON_PULSE, prediction.block, prediction.pulse)
     whole = responses[Method.MECHANISM_ON_RECORD]
     answer = Answer(Method.MECHANISM_ON_RECORD, whole.rotation_ratio, whole.outcome, whole)
     return answer, responses, durations

@@ -37,8 +37,6 @@ FAR = 0.3
 case up to it overturned in more than 2 % of 64. docs/research measures what it does on all sites."""
 LATTICE_ERROR = 4.0
 """Members times the error of a probability that 95 in 100 cases stay below; see docs/research/ensembles.py."""
-_STRATA = 8
-"""Parts of its range between which the share of a continuous cause is measured."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -90,11 +88,6 @@ class Ensemble:
         return self.overturning_members / self.members if self.members else float("nan")
 
     @property
-    def uplift_share(self) -> float:
-        """Share of members that lift; nan without members."""
-        return float((self._followed > 0).mean()) if self.members else float("nan")
-
-    @property
     def rotation_ratio_low(self) -> float:
         """5 % quantile of the rotation ratio."""
         return self._quantile(0.05)
@@ -140,13 +133,6 @@ class Ensemble:
         """Whether all members stay far from overturning."""
         return bool(self.members and self._followed.max() <= FAR)
 
-    @cached_property
-    def shares(self) -> dict[str, float]:
-        """Share of the variance of the rotation ratio (1 where it overturns) that each cause explains by itself."""
-        followed = ~np.isnan(self.rotation_ratios)
-        answer = np.minimum(self._followed, 1.0)
-        return {name: _share(answer, values[followed]) for name, values in self.causes.items()}
-
     def worst(self, cause: str) -> str:
         """Return the value of `cause` with which it rotates most on average; "" of a cause that did not vary."""
         if (values := self.causes.get(cause)) is None:
@@ -154,21 +140,6 @@ class Ensemble:
         capped = np.minimum(self.rotation_ratios, 1.0)
         means = {str(name): float(np.nanmean(capped[values == name])) for name in np.unique(values)}
         return max(means, key=means.__getitem__)
-
-
-def _share(answer: np.ndarray, values: np.ndarray) -> float:
-    """The variance between the groups of a cause over the whole, less what chance alone would put there (ω²)."""
-    total = float(((answer - answer.mean()) ** 2).sum())
-    if answer.size < 2 * _STRATA or total == 0:
-        return 0.0
-    kinds, group = np.unique(values, return_inverse=True)
-    if values.dtype.kind == "f" and kinds.size > _STRATA:
-        group = np.argsort(np.argsort(values, kind="stable")) * _STRATA // values.size
-    counts = np.bincount(group)
-    means = np.bincount(group, answer) / counts
-    between = float((counts * (means - answer.mean()) ** 2).sum())
-    within = (total - between) / (answer.size - counts.size)
-    return float(np.clip((between - (counts.size - 1) * within) / total, 0.0, 1.0))
 
 
 AS_IT_IS = "unchanged"

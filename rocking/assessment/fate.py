@@ -1,23 +1,22 @@
 """Fate: what became of one structure under one record, all components considered. The only place that decides it."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import TypeVar
 
 from rocking.assessment.rows import of_record as rows
 from rocking.assessment.rows.of_record import (
-    CandidateRow,
     ComparisonRow,
     EnsembleRow,
     FailureRow,
-    MaximumRow,
     MembersRow,
+    VariationRow,
 )
-from rocking.assessment.verdict import Method, Verdict
+from rocking.assessment.verdict import Verdict
 from rocking.structures import Outcome
 from rocking.tables import column, row
 
-R = TypeVar("R", ComparisonRow, EnsembleRow, FailureRow, CandidateRow)
+R = TypeVar("R", ComparisonRow, EnsembleRow, FailureRow, VariationRow)
 BOTH_COMPONENTS = "both"
 """In place of a component: all directions of a record."""
 ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, Verdict.UNKNOWN, Verdict.STANDS)
@@ -80,24 +79,23 @@ def fates(
     cases: Iterable[ComparisonRow],
     ensembles: Iterable[EnsembleRow] = (),
     failures: Iterable[FailureRow] = (),
-    maxima: Iterable[MaximumRow] = (),
-    candidates: Iterable[CandidateRow] = (),
+    variations: Iterable[VariationRow] = (),
 ) -> list[Fate]:
     """Return what became of each structure under each record, in the order of `cases`.
 
     The ensemble over all directions decides, or where there is none the one that overturns, then rotates, most; without
     any ensemble the single run of the worst component. A component that gave no result makes the verdict unknown,
-    unless another component overturns or an ensemble over all directions decides. maxima: tell the side. candidates:
-    other cracks, of which without an ensemble one that overturns leaves undecided what stands as given.
+    unless another component overturns or an ensemble over all directions decides. variations: of whose cracks, without
+    an ensemble, one that overturns leaves undecided what stands as given.
     """
     by_pair = _by_pair(cases)
     failed = _by_pair(each for each in failures if each.stage == "responses" and each.structure)
     governing = {pair: max(several, key=_weight) for pair, several in _by_pair(ensembles).items()}
-    fallen = _by_pair(each for each in candidates if math.isinf(each.integrated_rotation_ratio))
-    on_record = (each for each in maxima if each.method is Method.MECHANISM_ON_RECORD and not each.processing)
-    sides = {(each.record, *each.case): each.peak_side for each in on_record}
+    fallen = _by_pair(
+        each for each in variations if each.crack and math.isinf(each.integrated_rotation_ratio)
+    )
     return [
-        _fate(of_pair, governing.get(pair), failed.get(pair, ()), sides, fallen.get(pair, ()))
+        _fate(of_pair, governing.get(pair), failed.get(pair, ()), fallen.get(pair, ()))
         for pair, of_pair in by_pair.items()
     ] + [
         Fate.of(first, verdict=Verdict.UNKNOWN, overturning_members=0, members=0, why=first.message)
@@ -118,25 +116,22 @@ def _fate(
     cases: Sequence[ComparisonRow],
     ensemble: EnsembleRow | None,
     failures: Sequence[FailureRow],
-    sides: Mapping[tuple[str, str, str], int | None],
-    fallen: Sequence[CandidateRow],
+    fallen: Sequence[VariationRow],
 ) -> Fate:
     worst = max(cases, key=_badness)
-    missing = [case.component for case in cases if case.answer_outcome is Outcome.FAILED]
-    missing += [failure.component for failure in failures]
+    missing = [failure.component for failure in failures]
     over_all = ensemble is not None and ensemble.component == BOTH_COMPONENTS
     elsewhere_crack = ensemble.elsewhere_crack if ensemble else ""
     if ensemble is not None:
         verdict = ensemble.verdict
         why = f"{ensemble.overturning_members} of {ensemble.members} members overturn"
-    elif worst.answer_outcome is Outcome.FAILED:
-        verdict, why = Verdict.UNKNOWN, "no component gave a result"
-    elif fallen and not missing and worst.answer_outcome is not Outcome.OVERTURNS:
-        verdict, elsewhere_crack = Verdict.UNDECIDED, fallen[0].description
+    elif worst.answer_outcome is Outcome.OVERTURNS:
+        verdict, why = Verdict.OVERTURNS, worst.answer_reason
+    elif fallen:
+        verdict, elsewhere_crack = Verdict.UNDECIDED, fallen[0].crack
         why = f"one run as recorded stands, and with the {elsewhere_crack} it overturns"
     else:
-        verdict = Verdict.OVERTURNS if worst.answer_outcome is Outcome.OVERTURNS else Verdict.STANDS
-        why = worst.answer_reason or "one run as recorded, without an ensemble"
+        verdict, why = Verdict.STANDS, worst.answer_reason
     if missing and verdict is not Verdict.OVERTURNS and not over_all:
         verdict = Verdict.UNKNOWN
         why = f"the component {', '.join(name or 'not named' for name in missing)} gave no result"
@@ -153,8 +148,7 @@ def _fate(
         rotation_ratio=worst.integrated_rotation_ratio,
         direction=(ensemble and ensemble.worst_direction) or (worst.component if len(cases) > 1 else ""),
         polarity=ensemble and ensemble.worst_polarity,
-        peak_side=sides.get((worst.record, *worst.case)),
-        why=why,
+        why=why or "one run as recorded, without an ensemble",
     )
 
 
@@ -167,7 +161,5 @@ def _or_least(value: float) -> float:
     return -1.0 if math.isnan(value) else value
 
 
-def _badness(case: ComparisonRow) -> tuple[int, float]:
-    """What is not known may overturn, and so counts for more than any rocking, but less than overturning."""
-    kinds = {Outcome.OVERTURNS: 2, Outcome.FAILED: 1}
-    return kinds.get(case.answer_outcome, 0), _or_least(case.integrated_rotation_ratio)
+def _badness(case: ComparisonRow) -> tuple[bool, float]:
+    return case.answer_outcome is Outcome.OVERTURNS, _or_least(case.integrated_rotation_ratio)

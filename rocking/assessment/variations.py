@@ -36,13 +36,17 @@ IN_DOUBT = 0.3
 
 
 @dataclass(frozen=True)
-class CrackResponse:
-    """A crack that may form, in words and by its height [m]: rotation ratios under pulse (nan: none) and record."""
+class Variation:
+    """A case with one thing changed: rotation ratios under pulse (nan: none) and record.
 
-    description: str
-    position: float
-    predicted_rotation_ratio: float
+    crack, position: what opens, in words, and its height, m. processing: of the record.
+    """
+
     integrated_rotation_ratio: float
+    predicted_rotation_ratio: float = math.nan
+    crack: str = ""
+    position: float = math.nan
+    processing: str = ""
 
 
 def ensemble_over_cracks(
@@ -121,7 +125,7 @@ def candidates(
     pulse: Pulse | None,
     count: int,
     settings: AssessmentSettings,
-) -> list[CrackResponse]:
+) -> list[Variation]:
     """Return `count` candidates of a structure, the lowest crack first; [] where there is one mechanism.
 
     Raises RockingError where one of them cannot be followed.
@@ -129,21 +133,16 @@ def candidates(
     others = sorted(_candidates(structure, count), key=lambda each: each.position)
     if len(others) < 2:
         return []
-    structures = [each.structure for each in others]
-    integrated = _rotation_ratios(structures, accelerogram, settings)
-    for other, ratio in zip(structures, integrated, strict=True):
+    integrated = _rotation_ratios([each.structure for each in others], accelerogram, settings)
+    for each, ratio in zip(others, integrated, strict=True):
         if math.isnan(ratio):
-            integrate(other, accelerogram, settings.tolerance)  # raises the reason
-    return [
-        CrackResponse(each.description, each.position, _predicted(each.structure, pulse, settings), ratio)
-        for each, ratio in zip(others, integrated, strict=True)
-    ]
-
-
-def governing(values: list[float]) -> int:
-    """Return the index of the largest of `values`, the first of several that overturn; −1 where none is above 0."""
-    known = np.nan_to_num(np.array(values, dtype=float), nan=0.0, posinf=np.inf)
-    return int(np.argmax(known)) if known.size and known.max() > 0 else -1
+            integrate(each.structure, accelerogram, settings.tolerance)  # raises the reason
+    found = []
+    for each, ratio in zip(others, integrated, strict=True):
+        block = each.structure.mechanism().equivalent_block(settings.acceleration_scale)
+        predicted = predict_maximum(block, pulse).rotation_ratio if pulse else math.nan
+        found.append(Variation(ratio, predicted, each.description, each.position))
+    return found
 
 
 def processed_variants(
@@ -152,13 +151,13 @@ def processed_variants(
     settings: AssessmentSettings,
     as_it_is: Mapping[str, float] | None = None,
     vertical: Accelerogram | None = None,
-) -> dict[str, dict[str, float]]:
-    """Return the rotation ratio of each of `structures` under each of `records`, by structure and processing.
+) -> dict[str, list[Variation]]:
+    """Return each of `structures` under each of `records`, by structure; one that cannot be followed is left out.
 
     records: as `processed` gives them. as_it_is: the ratios under the record itself, where they are known (not nan).
-    vertical: acts with each. A response that cannot be followed is left out.
+    vertical: acts with each.
     """
-    varied: dict[str, dict[str, float]] = {name: {} for name in structures}
+    varied: dict[str, list[Variation]] = {name: [] for name in structures}
     for processing, record in records.items():
         ratios = dict(as_it_is or {}) if processing == AS_IT_IS else {}
         rest = [name for name in structures if math.isnan(ratios.get(name, math.nan))]
@@ -167,7 +166,7 @@ def processed_variants(
             ratios |= zip(rest, computed, strict=True)
         for name, ratio in ratios.items():
             if not math.isnan(ratio):
-                varied[name][processing] = ratio
+                varied[name].append(Variation(ratio, processing=processing))
     return varied
 
 
@@ -180,10 +179,3 @@ def _rotation_ratios(
     """The largest rotation ratio of each, nan where it cannot be followed; one thread, as a job has one core."""
     how: Any = {"vertical": vertical, "tolerance": settings.tolerance, "workers": 1}
     return integrate_batch(structures, record, **how)[:, 0].tolist()
-
-
-def _predicted(structure: Structure, pulse: Pulse | None, settings: AssessmentSettings) -> float:
-    if pulse is None:
-        return np.nan
-    block = structure.mechanism().equivalent_block(settings.acceleration_scale)
-    return predict_maximum(block, pulse).rotation_ratio

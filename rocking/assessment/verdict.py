@@ -36,7 +36,6 @@ class Method(StrEnum):
 
     PRINTED = "printed"
     CLOSED_FORM = "closed form"
-    BLOCK_ON_PULSE = "block on pulse"
     BLOCK_ON_RECORD = "block on record"
     MECHANISM_ON_PULSE = "mechanism on pulse"
     MECHANISM_ON_RECORD = "mechanism on record"

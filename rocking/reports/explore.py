@@ -57,7 +57,7 @@ def record_content(
     fates = {fate.structure: fate for fate in tables.verdicts}
     components = {row.component for row in worst.values()}
     warnings = [each for row in tables.record for each in row.warnings]
-    warnings += [row.warning for row in tables.maxima if row.warning]
+    warnings += [row.warning for row in tables.comparison if row.warning]
     return {
         "id": record,
         "failure": " ".join(failure.message for failure in tables.failures),

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from importlib.metadata import version
 from textwrap import wrap
 from typing import Any
@@ -16,7 +16,7 @@ from matplotlib.transforms import Affine2D
 
 from rocking.assessment.fate import Fate
 from rocking.assessment.rows.of_folder import RecordTables
-from rocking.assessment.rows.of_record import ComparisonRow, MaximumRow, PulseRow, RecordRow
+from rocking.assessment.rows.of_record import RATIO_COLUMNS, ComparisonRow, PulseRow, RecordRow
 from rocking.assessment.rows.of_study import StructureRow, structure_rows
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Method, Verdict, agreement, rests
 from rocking.motion.response import Response
@@ -126,11 +126,6 @@ class RecordReport:
         ]
 
     @cached_property
-    def methods(self) -> dict[tuple[Case, Method], MaximumRow]:
-        """The rows under the record as it is used, by case and method."""
-        return {(row.case, row.method): row for row in self.tables.maxima if not row.processing}
-
-    @cached_property
     def worst(self) -> dict[str, ComparisonRow]:
         """Of each structure the component that turns it farthest."""
         return worst_cases(self.tables.comparison)
@@ -147,14 +142,6 @@ class RecordReport:
             printing.given(row.scale_factor) for row in self.tables.record if row.scale_factor != 1
         )
         return f" Accelerations ×\u00a0{', '.join(factors)}, declared." if factors else ""
-
-    def ratio(self, case: Case, method: Method) -> float:
-        """The rotation ratio by one method, nan where it gave none."""
-        return self.of(case, method, "rotation_ratio", math.nan)  # type: ignore[no-any-return]
-
-    def of(self, case: Case, method: Method, column: str, otherwise: Any = None) -> Any:
-        """A column of the row of one method."""
-        return getattr(self.methods.get((case, method)), column, otherwise)
 
 
 def cell_text(fate: Fate | None) -> str:
@@ -319,12 +306,14 @@ def _sentences(report: RecordReport) -> list[str]:
     """Return what a reader has to know beside the verdicts, and what file and integrations warn of, each once."""
     depends = []
     for fate in report.fates:
-        done = [row.rotation_ratio for row in report.tables.processing if row.structure == fate.structure]
+        done = [
+            row.integrated_rotation_ratio for row in report.processings if row.structure == fate.structure
+        ]
         if any(map(math.isinf, done)) and any(map(math.isfinite, done)):
             depends.append(fate.structure)
     remarks = [f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."]
     warnings = [each for row in report.tables.record for each in row.warnings]
-    warnings += [row.warning for row in report.tables.maxima if row.warning]
+    warnings += [row.warning for row in report.tables.comparison if row.warning]
     return [*remarks[: len(depends)], *dict.fromkeys(warnings)]
 
 
@@ -341,9 +330,7 @@ def _notices(report: RecordReport) -> list[dict[str, object]]:
     if not tables.comparison:
         loud.append("No structure could be assessed under this record.")
     failing = dict.fromkeys(
-        f"{name} ({failure})"
-        for (_, name), method in report.methods
-        if method is Method.MECHANISM_ON_RECORD and (failure := _contact_failure(report, (_, name)))
+        f"{row.structure} ({failure})" for row in tables.comparison if (failure := _contact_failure(row))
     )
     if failing:
         loud.append(
@@ -357,10 +344,9 @@ def _notices(report: RecordReport) -> list[dict[str, object]]:
     return [{"strong": text in loud, "text": text} for text in [*quiet, *loud]]
 
 
-def _contact_failure(report: RecordReport, case: Case) -> str:
+def _contact_failure(row: ComparisonRow) -> str:
     """Return how the contacts of a response fail: "slides", "bounces", both, or nothing."""
-    whole = Method.MECHANISM_ON_RECORD
-    return " and ".join(name for name in ("slides", "bounces") if report.of(case, whole, name))
+    return " and ".join(name for name in ("slides", "bounces") if getattr(row, name))
 
 
 def _subtitle(rows: Sequence[RecordRow]) -> str:
@@ -508,13 +494,8 @@ def comparison_figure(cases: Sequence[ComparisonRow], report: RecordReport) -> F
     figure = new_figure(height + 16)
     panel = panel_at(figure, 46, 6, TEXT_WIDTH - 46 - 40, height)
     rows = np.arange(len(cases))
-    blocks = [report.ratio(case.case, Method.BLOCK_ON_RECORD) for case in cases]
-    ratios = np.array(
-        [
-            [case.predicted_rotation_ratio, block, case.integrated_rotation_ratio]
-            for case, block in zip(cases, blocks, strict=True)
-        ]
-    )
+    shown = (Method.CLOSED_FORM, Method.BLOCK_ON_RECORD, Method.MECHANISM_ON_RECORD)
+    ratios = np.array([[getattr(case, RATIO_COLUMNS[method]) for method in shown] for case in cases])
     form, block, whole = np.where(np.isinf(ratios), _FALLEN, np.maximum(ratios, _SMALLEST)).T
     unsafe = np.array([case.agreement is Agreement.TOO_LOW for case in cases])
     panel.hlines(rows[~unsafe], form[~unsafe], whole[~unsafe], color="0.6", linewidth=0.8)
@@ -565,8 +546,8 @@ def _doubts(report: RecordReport, rows: Sequence[ComparisonRow]) -> list[str]:
     for row in sorted(rows, key=lambda row: -row.integrated_rotation_ratio):
         if row.agreement is Agreement.TOO_LOW:
             kept = tuple(
-                agreement(report.ratio(row.case, method), row.integrated_rotation_ratio) is Agreement.SAME
-                for method in (Method.BLOCK_ON_RECORD, Method.MECHANISM_ON_PULSE)
+                agreement(simpler, row.integrated_rotation_ratio) is Agreement.SAME
+                for simpler in (row.block_on_record_rotation_ratio, row.mechanism_on_pulse_rotation_ratio)
             )
             name = row.structure + (f" ({words(row.component)})" if len(report.motions) > 1 else "")
             reasons.setdefault(_BLAME[kept], []).append(name)
@@ -699,32 +680,27 @@ PULSE_COLUMNS = columns_of(
 
 def _method_table(report: RecordReport) -> dict[str, object]:
     """Every method beside the others, and what stands behind them, one row per structure and component."""
-    form, whole = Method.CLOSED_FORM, Method.MECHANISM_ON_RECORD
-    used = {method for _, method in report.methods}
+    rows = report.tables.comparison
+    heads = {RATIO_COLUMNS[method]: head for method, head in METHODS.items()}
+    used = [name for name in heads if not all(math.isnan(getattr(row, name)) for row in rows)]
+    whole = RATIO_COLUMNS[Method.MECHANISM_ON_RECORD]
     return table_of(
-        [row.case for row in report.tables.comparison],
-        ("No.", "auto", "r", lambda case: report.numbers[case[1]]),
-        ("Comp.", "0.6", "l", lambda case: words(case[0])),
-        ("a [-]", "0.5", "r", lambda case: number(report.of(case, form, "amplitude_ratio"))),
-        ("ω/p [-]", "0.5", "r", lambda case: number(report.of(case, form, "frequency_ratio"))),
+        rows,
+        ("No.", "auto", "r", lambda row: report.numbers[row.structure]),
+        ("Comp.", "0.6", "l", lambda row: words(row.component)),
+        ("a [-]", "0.5", "r", lambda row: number(row.amplitude_ratio)),
+        ("ω/p [-]", "0.5", "r", lambda row: number(row.frequency_ratio)),
         *(
-            (
-                METHODS[each],
-                "0.8",
-                "r",
-                lambda case, each=each: strong(ratio(report.ratio(case, each)), each is whole),
-            )
-            for each in METHODS
-            if each in used
+            (heads[name], "0.8", "r", lambda row, name=name: strong(ratio(getattr(row, name)), name == whole))
+            for name in used
         ),
-        ("Peak [s]", "0.5", "r", lambda case: number(report.of(case, whole, "peak_time_s"))),
-        ("Im\u00adpacts", "0.5", "r", lambda case: printing.given(report.of(case, whole, "impacts"))),
-        ("Friction [-]", "0.6", "r", lambda case: number(report.of(case, whole, "friction_needed"), 2)),
-        ("Contacts", "0.7", "l", partial(_contacts, report)),
+        ("Peak [s]", "0.5", "r", lambda row: number(row.peak_time_s)),
+        ("Im\u00adpacts", "0.5", "r", lambda row: printing.given(row.impacts)),
+        ("Friction [-]", "0.6", "r", lambda row: number(row.friction_needed, 2)),
+        ("Contacts", "0.7", "l", _contacts),
     )
 
 
-def _contacts(report: RecordReport, case: Case) -> Cell:
-    failing = _contact_failure(report, case)
-    holding = "hold" if report.of(case, Method.MECHANISM_ON_RECORD, "slides") is False else printing.NOTHING
-    return strong(failing or holding, bool(failing))
+def _contacts(row: ComparisonRow) -> Cell:
+    failing = _contact_failure(row)
+    return strong(failing or ("hold" if row.slides is False else printing.NOTHING), bool(failing))

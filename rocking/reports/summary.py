@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from rocking.assessment.fate import ORDER, Fate, worst_first
-from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, PulseRow, RecordRow
+from rocking.assessment.rows.of_record import RATIO_COLUMNS, ComparisonRow, FailureRow, PulseRow, RecordRow
 from rocking.assessment.rows.of_study import AgreementRow
 from rocking.assessment.verdict import Agreement, Method, Verdict, agreement, within_factor_two
 from rocking.quantities import GRAVITY, counted
@@ -49,7 +49,7 @@ def summary_data(
     """Return what the template of the summary is given: texts, tables and figures.
 
     tables: the summary tables "record", "pulses", "comparison", "verdicts", "structures", "agreement" and "failures",
-    and where they exist "maxima" and "timings" (what each method is worth and takes), "fragility_summary" and "ida".
+    and where they exist "timings" (what each method takes), "fragility_summary" and "ida".
     settings: at least tolerance and acceleration_scale; study, client, author and date where they are given.
     trade: figure and conclusion, where it was measured.
     """
@@ -103,8 +103,7 @@ def _notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> li
         told.append("No structure could be assessed under any record; the failures below say why.")
     elif (integrated == 0).all():
         told.append("No structure uplifts under any record.")
-    spared = int((integrated.isna() & (comparison["answer_outcome"] != "failed")).sum())
-    if spared:
+    if spared := int(integrated.isna().sum()):
         told.append(
             f"{counted(spared, 'case')} answered by a cheaper method than the full integration and left out of what "
             "compares the two; see answer_method in comparison.csv."
@@ -203,19 +202,11 @@ def _band(fate: Fate) -> str:
 
 
 def method_table(tables: Mapping[str, "DataFrame"]) -> dict[str, object]:
-    """Return how each method stands to the integration of the mechanism under the record, and what a case took it.
-
-    Without rows where the table "maxima" is not given.
-    """
-    rows = []
-    if "maxima" in tables:
-        maxima = tables["maxima"]
-        used = maxima[maxima["processing"].fillna("") == ""]
-        cases = used.set_index(["record", "component", "structure"])
-        ratios = {name: part["rotation_ratio"] for name, part in cases.groupby(cases["method"].astype(str))}
-        whole = ratios.get(Method.MECHANISM_ON_RECORD)
-        if whole is not None:
-            rows = [(method, *_worth(ratios[method], whole)) for method in METHODS if method in ratios]
+    """Return how each method stands to the integration of the mechanism under the record, and what a case took it."""
+    comparison = tables["comparison"]
+    whole = comparison[RATIO_COLUMNS[Method.MECHANISM_ON_RECORD]]
+    worth = ((method, *_worth(comparison[RATIO_COLUMNS[method]], whole)) for method in METHODS)
+    rows = [each for each in worth if each[1]]
     timings = tables.get("timings")
     spent = {} if timings is None else timings.groupby("stage")["duration_s"].sum().to_dict()
     return table_of(
@@ -232,11 +223,8 @@ def method_table(tables: Mapping[str, "DataFrame"]) -> dict[str, object]:
 
 def _worth(ratios: "DataFrame", integrated: "DataFrame") -> tuple[int, ...]:
     """Cases; those with the same, a too low and a too high outcome; within a factor two, of those that both rock."""
-    pairs = [
-        (float(one), float(other))
-        for one, other in zip(ratios, integrated.reindex(ratios.index), strict=True)
-        if not (math.isnan(one) or math.isnan(other))
-    ]
+    both = ratios.notna() & integrated.notna()
+    pairs = list(zip(ratios[both].tolist(), integrated[both].tolist(), strict=True))
     outcomes = Counter(agreement(*pair) for pair in pairs)
     near = [close for pair in pairs if (close := within_factor_two(*pair)) is not None]
     kinds = (outcomes[kind] for kind in (Agreement.SAME, Agreement.TOO_LOW, Agreement.TOO_HIGH))

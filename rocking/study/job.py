@@ -21,11 +21,10 @@ from rocking.assessment.rows.of_record import (
     ComponentRow,
     HistoryRow,
     TimingRow,
-    candidate_rows,
+    VariationRow,
     ensemble_row,
     history_rows,
     identity_of,
-    processing_rows,
 )
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, ensemble_over_cracks, processed_variants
@@ -249,20 +248,19 @@ def _vary(
     tables: RecordTables,
     vertical: Accelerogram | None,
 ) -> None:
-    """Append the rows of candidates and processing, for every structure that gave a result."""
+    """Append the rows of cracks and processing, for every structure that gave a result."""
     record, cases = assessment.accelerogram, {case.structure: case for case in assessment.cases}
+    structures, settings = {name: study.structures[name] for name in cases}, study.assessment
+    varied = {}
     for name, case in cases.items():
         pulse = case.prediction.pulse if case.prediction else None
         try:
-            cracks = candidates(
-                study.structures[name], record, pulse, study.settings.candidates, study.assessment
-            )
-            tables.candidates.extend(candidate_rows(identity, name, cracks))
+            varied[name] = candidates(structures[name], record, pulse, study.settings.candidates, settings)
         except RockingError as error:
             tables.fail(identity.record, record.component, Failure("variations", name, str(error)))
     if study.settings.processing_variants:
-        structures = {name: study.structures[name] for name in cases}
         as_recorded = {name: case.integrated_rotation_ratio for name, case in cases.items()}
-        variants = processed_variants(structures, processed(record), study.assessment, as_recorded, vertical)
-        for name, of_structure in variants.items():
-            tables.maxima.extend(processing_rows(identity, name, of_structure))
+        of_processing = processed_variants(structures, processed(record), settings, as_recorded, vertical)
+        varied = {name: varied.get(name, []) + of_processing[name] for name in cases}
+    for name, several in varied.items():
+        tables.variations.extend(VariationRow.of(identity, each, structure=name) for each in several)

@@ -22,7 +22,7 @@ from rocking.assessment.rows.of_fragility import (
     intensity_measure_rows,
     read_hazard,
 )
-from rocking.assessment.rows.of_record import ComparisonRow, MaximumRow
+from rocking.assessment.rows.of_record import ComparisonRow
 from rocking.assessment.rows.of_study import (
     AGREEMENT_COLUMNS,
     SUMMARY_TABLES,
@@ -42,7 +42,6 @@ from rocking.tables import Row, data_package, frame, write_tables, write_whole
 
 _GOVERNING = ("structure", "record", "level", "overturning_share")
 _SHOWN = ("record", "pulses", "comparison", "verdicts", "structures", "agreement", "failures", "timings")
-_OF_METHODS = ("record", "component", "structure", "method", "processing", "rotation_ratio")
 
 
 def summarise(
@@ -114,7 +113,6 @@ def _report(folder: Path, study: Study, fragility: Path) -> None:
 
     shown = {each.table.name: each for each in SUMMARY_TABLES if each.table.name in _SHOWN}
     tables = {name: frame(each, folder / each.table.file_name) for name, each in shown.items()}
-    tables["maxima"] = frame(MaximumRow, folder / MaximumRow.table.file_name, _OF_METHODS)
     if (fragility / FragilitySummaryRow.table.file_name).exists():
         path = fragility / FragilitySummaryRow.table.file_name
         tables["fragility_summary"] = frame(FragilitySummaryRow, path)

@@ -57,7 +57,7 @@ def test_broken_records_change_no_byte_of_the_good_ones(with_broken, finished) -
     """The good records also shared their jobs with broken ones, four to a job instead of one."""
     for name in ("good_1", "good_2", "good_3"):
         expected = finished.rows_of(name)
-        assert expected["maxima.csv"] and expected["comparison.csv"]
+        assert expected["pulses.csv"] and expected["comparison.csv"]
         assert with_broken.rows_of(name) == expected
 
 

@@ -36,8 +36,8 @@ def test_a_record_that_changed_and_one_more_compute_their_own_jobs_only(finished
     assert sum(map(int, re.findall(r"(?m)^assess\w* +(\d+) *$", done.stdout))) == 2, done.stdout
     assert study.rows_of("good_1")["record.csv"] != finished.rows_of("good_1")["record.csv"]
     for name in ("good_2", "good_3"):
-        assert finished.rows_of(name)["maxima.csv"] and study.rows_of(name) == finished.rows_of(name)
-    assert b"good_4" in study.tables()["summary/maxima.csv"]
+        assert finished.rows_of(name)["comparison.csv"] and study.rows_of(name) == finished.rows_of(name)
+    assert b"good_4" in study.tables()["summary/comparison.csv"]
     assert not list((study.results / "good_1").iterdir()), "a copy of its tables would say something else"
     assert _planned(study) == [], "the second run has nothing to do, in ten years as now"
 
@@ -65,8 +65,8 @@ def test_a_dry_run_changes_nothing_and_a_run_in_other_jobs_fills_in_the_hash(
     assert [path.name for path in (study.results / "summary" / "jobs").iterdir()] == ["00000_of_00001"]
     for name in ("good_1", "good_2", "good_3"):
         assert study.rows_of(name) == finished.rows_of(name)
-    for path in ("summary/comparison.csv", "summary/maxima.csv"):
-        assert study.tables()[path] == finished.tables()[path], "in the order of the catalogue"
+    path = "summary/comparison.csv"
+    assert study.tables()[path] == finished.tables()[path], "in the order of the catalogue"
     assert _planned(study, "--config", "records_per_job=3") == []
 
 

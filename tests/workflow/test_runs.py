@@ -19,8 +19,8 @@ def test_a_run_makes_every_table_of_every_record(finished, tmp_path: Path) -> No
         for table in (each.table for each in PER_RECORD):
             with (folder / table.file_name).open(newline="") as stream:
                 assert {row["record"] for row in csv.DictReader(stream)} <= {f"good_{number}"}
-        assert (folder / "maxima.csv").read_text().count("\n") > 2
-    with (finished.results / "summary" / "maxima.csv").open(newline="") as stream:
+        assert (folder / "comparison.csv").read_text().count("\n") > 2
+    with (finished.results / "summary" / "comparison.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert {row["record"] for row in rows} == {"good_1", "good_2", "good_3"}
     assert {row["structure"] for row in rows} == {"block", "wall"}

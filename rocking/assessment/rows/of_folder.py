@@ -8,23 +8,20 @@ from rocking.assessment.assess import Assessment, Failure
 from rocking.assessment.fate import Fate, fates
 from rocking.assessment.horizontal_motion import HorizontalMotion
 from rocking.assessment.rows.of_record import (
-    CandidateRow,
     ComparisonRow,
     ComponentRow,
     EnsembleRow,
     FailureRow,
-    MaximumRow,
     PulseRow,
     RecordRow,
     TimingRow,
+    VariationRow,
     comparison_row,
     ensemble_row,
-    maximum_rows,
     pulse_rows,
     record_row,
 )
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.verdict import Method
 from rocking.records import Accelerogram
 from rocking.tables import Row, read_table, write_tables, written_together
 
@@ -35,10 +32,9 @@ class RecordTables:
 
     record: list[RecordRow] = field(default_factory=list)
     pulses: list[PulseRow] = field(default_factory=list)
-    maxima: list[MaximumRow] = field(default_factory=list)
     comparison: list[ComparisonRow] = field(default_factory=list)
     ensemble: list[EnsembleRow] = field(default_factory=list)
-    candidates: list[CandidateRow] = field(default_factory=list)
+    variations: list[VariationRow] = field(default_factory=list)
     failures: list[FailureRow] = field(default_factory=list)
     timings: list[TimingRow] = field(default_factory=list)
 
@@ -55,16 +51,7 @@ class RecordTables:
     @property
     def verdicts(self) -> list[Fate]:
         """What became of each structure, all components considered."""
-        return fates(self.comparison, self.ensemble, self.failures, self.maxima, self.candidates)
-
-    @property
-    def processing(self) -> list[MaximumRow]:
-        """The maxima under the record processed otherwise."""
-        return [row for row in self.maxima if row.processing]
-
-    def by_method(self, method: Method) -> dict[tuple[str, str], MaximumRow]:
-        """The maxima of one method under the record as it is used, by component and structure."""
-        return {row.case: row for row in self.maxima if row.method is method and not row.processing}
+        return fates(self.comparison, self.ensemble, self.failures, self.variations)
 
     def of_component(self, component: str) -> "RecordTables":
         """Return the rows of one component, without the timings."""
@@ -86,8 +73,7 @@ class RecordTables:
         self.record.append(record_row(identity, assessment.accelerogram, licence, vertical, motion, dominant))
         self.pulses.extend(pulse_rows(identity, assessment.analysis, assessment.candidates))
         for case in assessment.cases:
-            self.maxima.extend(maximum_rows(identity, case, settings.friction_coefficient))
-            self.comparison.append(comparison_row(identity, case))
+            self.comparison.append(comparison_row(identity, case, settings.friction_coefficient))
             if case.ensemble is not None:
                 self.ensemble.append(ensemble_row(identity, case.structure, case.ensemble))
         for failure in assessment.failures:

@@ -1,12 +1,10 @@
 """The rows of the tables of one record: each class says what its columns are, and `of` fills them by name."""
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from rocking.assessment.assess import Case
-from rocking.assessment.ensemble import CAUSES, Ensemble
+from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.horizontal_motion import HorizontalMotion, horizontal_motions
-from rocking.assessment.variations import CrackResponse, governing
 from rocking.assessment.verdict import (
     Agreement,
     Method,
@@ -16,12 +14,12 @@ from rocking.assessment.verdict import (
     ratio_in_words,
     within_factor_two,
 )
-from rocking.motion.response import UNKNOWN, Response
+from rocking.motion.response import Response
 from rocking.pulses import Pulse, PulseAnalysis, PulseEvidence
 from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
 from rocking.sine_pulse import Regime
-from rocking.structures import Mechanism, Outcome
+from rocking.structures import Outcome
 from rocking.tables import Row, column, row
 
 RECORD = "Identifier of the record in the catalogue"
@@ -29,12 +27,7 @@ COMPONENT = "Component of the ground motion, as the file names it"
 STRUCTURE = "Name of the structure in the structure list"
 SCALE_FACTOR = "What the accelerations of the file were multiplied by, beyond their unit"
 RECORD_SHA256 = "SHA-256 of the file the record was read from"
-ROTATION_RATIO = "Largest rotation over critical rotation; INF if it overturns, 0 without uplift"
 PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift"
-_REGIME = "Regime of the closed form in which the prediction was made"
-_SHARE = (
-    "Share of the variance of the rotation (1 where it overturns) that {} explains; empty where it is fixed"
-)
 
 
 @row()
@@ -99,7 +92,6 @@ class RecordRow(ComponentRow):
     station: str = column("Recording station")
     station_latitude_deg: float | None = column("Latitude of the station, north")
     station_longitude_deg: float | None = column("Longitude of the station, east")
-    station_elevation_m: float | None = column("Elevation of the station above the sea")
     start_time: str = column("Time of the first sample, as the file states it")
     file: str = column("File the record was read from")
     format: str = column("Format that recognised the file")
@@ -118,7 +110,6 @@ class RecordRow(ComponentRow):
     rotd50_peak_acceleration_m_s2: float = column("Median over all directions of the pair's peak")
     rotd100_peak_acceleration_m_s2: float = column("Largest peak of the pair in any direction")
     velocity_pulse_period_s: float = column("Period T_p of the velocity pulse (Shahi & Baker 2014)")
-    velocity_pulse_centre_time_s: float = column("Middle of the velocity pulse after the first sample")
     velocity_pulse_peak_velocity_m_s: float = column("Peak velocity along the axis of the velocity pulse")
     velocity_pulse_orientation_rad: float = column("Its axis, from the first of the pair to the second")
     velocity_pulse_azimuth_deg: float = column("The same clockwise from north, where that is known")
@@ -161,41 +152,12 @@ class PulseRow(ComponentRow):
         return Pulse(self.amplitude_m_s2, self.circular_frequency_rad_s, self.start_time_s)
 
 
-@row("maxima")
-class MaximumRow(CaseRow):
-    """One row per structure and method, closed form or integration: the largest rotation."""
-
-    method: Method = column("How the number was computed")
-    processing: str = column("What else was done to the record; empty as it is used")
-    rotation_ratio: float = column(ROTATION_RATIO)
-    rotation_rad: float = column("Largest rotation; INF if it overturns")
-    outcome: Outcome | None = column("no uplift, rocks, overturns or failed")
-    error: float = column("Rotation ratio over that of the mechanism on the record, minus 1, where both rock")
-    regime: Regime | None = column(_REGIME)
-    impacts: int | None = column("Number of impacts")
-    pulse_rank: int | None = column("Of a closed form: rank of its pulse among those of the method")
-    amplitude_ratio: float = column("Of a closed form: a = a_g/(gλ)", equation="Eq. 16")
-    frequency_ratio: float = column(
-        "Of a closed form: circular frequency of the pulse over p",
-        equation="Eq. 16",
-    )
-    peak_side: int | None = column(PEAK_SIDE)
-    peak_time_s: float = column("Time of the largest rotation after the first sample")
-    uplift_time_s: float = column("Time of the first uplift after the first sample")
-    tolerance: float = column("Relative tolerance of the integration; 0 for an exact solution")
-    steps: int | None = column("Steps taken")
-    friction_needed: float = column("Largest friction a contact needs; INF where it is not pressed")
-    slides: bool | None = column("Whether that exceeds the friction of the settings: the model does not hold")
-    bounces: bool | None = column("Whether a contact would have to pull: the model does not hold")
-    contacts_unknown: str = column("Why nothing is known of the contacts; empty where something is")
-    ties: str = column("Which ties yield or break on the way to the largest rotation")
-    warning: str = column("What the model leaves out under this motion; empty for nothing")
-    reason: str = column("Why it failed, if it did")
-
-
 @row("comparison")
 class ComparisonRow(CaseRow):
-    """One row per structure: the closed form under the dominant pulse beside the integration of the whole record."""
+    """One row per structure: the closed form under the dominant pulse beside the integration of the whole record.
+
+    The columns from the impacts to the warning are those of the integration.
+    """
 
     predicted_rotation_ratio: float = column("Exact maximum of the equivalent block under the dominant pulse")
     integrated_rotation_ratio: float = column("Mechanism on the record; empty where less settled it")
@@ -203,9 +165,23 @@ class ComparisonRow(CaseRow):
     prediction_in_words: str = column("How the prediction stands to the integration, in words")
     within_factor_two: bool | None = column("Whether that ratio lies between 1/2 and 2, where both rock")
     agreement: Agreement = column("Closed form against integration: same outcome, too low or too high")
-    regime: Regime | None = column(_REGIME)
+    regime: Regime | None = column("Regime of the closed form in which the prediction was made")
+    printed_rotation_ratio: float = column("The same block under the same pulse", equation="Eq. 15")
+    block_on_record_rotation_ratio: float = column("Equivalent block under the whole record")
+    mechanism_on_pulse_rotation_ratio: float = column("Mechanism under the dominant pulse")
+    pulse_rank: int | None = column("Rank of the pulse that predicts among those of its method")
+    amplitude_ratio: float = column("a = a_g/(gλ) of that pulse", equation="Eq. 16")
+    frequency_ratio: float = column("Circular frequency of that pulse over p", equation="Eq. 16")
+    impacts: int | None = column("Number of impacts")
+    peak_side: int | None = column(PEAK_SIDE)
+    peak_time_s: float = column("Time of the largest rotation after the first sample")
+    friction_needed: float = column("Largest friction a contact needs; INF where it is not pressed")
+    slides: bool | None = column("Whether that exceeds the friction of the settings: the model does not hold")
+    bounces: bool | None = column("Whether a contact would have to pull: the model does not hold")
+    ties: str = column("Which ties yield or break on the way to the largest rotation")
+    warning: str = column("What the model leaves out under this motion; empty for nothing")
     answer_method: Method = column("What settled the verdict: the mechanism on the record, or with auto less")
-    answer_outcome: Outcome = column("What that says: no uplift, rocks, overturns or failed")
+    answer_outcome: Outcome = column("What that says: no uplift, rocks or overturns")
     answer_reason: str = column("Why that one settled it, where fidelity: auto chose it")
     overturning_estimate: float = column(
         "Share of members that overturn, estimated from p PGV/(gλ) where no ensemble ran"
@@ -219,36 +195,38 @@ class ComparisonRow(CaseRow):
         return self.answer_method is not Method.MECHANISM_ON_RECORD
 
 
+RATIO_COLUMNS = {
+    Method.PRINTED: "printed_rotation_ratio",
+    Method.CLOSED_FORM: "predicted_rotation_ratio",
+    Method.BLOCK_ON_RECORD: "block_on_record_rotation_ratio",
+    Method.MECHANISM_ON_PULSE: "mechanism_on_pulse_rotation_ratio",
+    Method.MECHANISM_ON_RECORD: "integrated_rotation_ratio",
+}
+"""Where the largest rotation of each method stands in the comparison, over the critical one; INF if it overturns."""
+
+
 @row("ensemble")
 class EnsembleRow(MembersRow):
     """One row per structure: what becomes of it when what is not known varies; component 'both' for all directions."""
 
     failed_members: int = column("Members that could not be followed")
-    uplift_share: float = column("Share of the members that lift")
     risk: float = column("Largest probability of the opposite that the verdict may bear")
     amplitude_range: float = column("The motion varied by plus or minus this share")
     restitution_range: float = column("The restitution varied by plus or minus this much")
-    amplitude_share: float = column(_SHARE.format("the amplitude"))
-    restitution_share: float = column(_SHARE.format("the restitution"))
-    polarity_share: float = column(_SHARE.format("the sign of the motion"))
-    direction_share: float = column(_SHARE.format("the direction"))
-    processing_share: float = column(_SHARE.format("the processing of the record"))
-    vertical_share: float = column(_SHARE.format("the vertical motion"))
     worst_direction: str = column("Direction in which it rotates most on average; empty with one direction")
     worst_polarity: str = column("Sign with which it rotates most on average: as recorded, reversed")
     worst_processing: str = column("Processing under which it rotates most on average; empty with one")
 
 
-@row("candidates")
-class CandidateRow(CaseRow):
-    """One row per crack that may form, as a hinge of a wall at another height: the governing one is marked."""
+@row("variations")
+class VariationRow(CaseRow):
+    """One row per crack that may form, and one per processing of the record: the case with this changed alone."""
 
-    description: str = column("What opens, and where")
+    crack: str = column("What opens, and where; empty as the structure is given")
     position_m: float = column("Height of the hinge or crack above the base; empty where none tells it")
+    processing: str = column("What else was done to the record; empty as it is used")
     predicted_rotation_ratio: float = column("Exact maximum of its equivalent block under the dominant pulse")
     integrated_rotation_ratio: float = column("Its mechanism under the whole record")
-    governs_pulse: bool = column("Whether it rotates most under the pulse; the lowest of those that overturn")
-    governs_record: bool = column("Whether it rotates most under the record; the lowest that overturns")
 
 
 @row("histories")
@@ -308,7 +286,6 @@ def record_row(
         samples=accelerogram.acceleration.size,
         station_latitude_deg=accelerogram.latitude,
         station_longitude_deg=accelerogram.longitude,
-        station_elevation_m=accelerogram.elevation,
         vertical_component=vertical and (vertical.component or "not named"),
         vertical_peak_acceleration_m_s2=vertical and vertical.peak_acceleration,
         rotd50_peak_acceleration_m_s2=rotd and rotd.rotd50,
@@ -344,75 +321,26 @@ def pulse_rows(
             )
 
 
-def maximum_rows(identity: ComponentRow, case: Case, friction_coefficient: float) -> Iterator[MaximumRow]:
-    """Yield the row of each closed form, Eq. 15 as printed and the exact one, and of each integration."""
-    reference = case.integrated_rotation_ratio
-    if case.prediction is not None:
-        shared = identity, case, case.prediction
-        printed = case.prediction.printed
-        yield MaximumRow.of(
-            *shared,
-            method=Method.PRINTED,
-            rotation_ratio=printed,
-            rotation_rad=printed * case.prediction.block.critical_rotation,
-            error=ratio(printed, reference) - 1,
-        )
-        maximum = case.prediction.maximum
-        yield MaximumRow.of(
-            *shared,
-            maximum,
-            method=Method.CLOSED_FORM,
-            rotation_rad=_rotation(case.mechanism, maximum.rotation_ratio, maximum.peak_side),
-            error=ratio(maximum.rotation_ratio, reference) - 1,
-        )
-    for method, response in case.responses.items():
-        on_record = method is Method.MECHANISM_ON_RECORD
-        check = case.check if on_record else UNKNOWN
-        yield MaximumRow.of(
-            identity,
-            response,
-            check,
-            structure=case.structure,
-            method=method,
-            rotation_rad=_rotation(case.mechanism, response.rotation_ratio, response.peak_side),
-            error=math.nan if on_record else ratio(response.rotation_ratio, reference) - 1,
-            slides=check.slides(friction_coefficient),
-            contacts_unknown=check.reason,
-        )
-
-
-def _rotation(mechanism: Mechanism, rotation_ratio: float, side: int) -> float:
-    """The rotation in rad that `rotation_ratio` means on `side` (+1 or −1) of `mechanism`."""
-    return rotation_ratio * mechanism.sides[0 if side >= 0 else -1].critical_rotation
-
-
-def processing_rows(
-    identity: ComponentRow, structure: str, rotation_ratios: Mapping[str, float]
-) -> Iterator[MaximumRow]:
-    """Yield the row of each processing of the record for one structure, from the rotation ratios by processing."""
-    for processing, rotation_ratio in rotation_ratios.items():
-        yield MaximumRow.of(
-            identity,
-            structure=structure,
-            method=Method.MECHANISM_ON_RECORD,
-            processing=processing,
-            rotation_ratio=rotation_ratio,
-            outcome=Outcome.at(rotation_ratio),
-        )
-
-
-def comparison_row(identity: ComponentRow, case: Case) -> ComparisonRow:
+def comparison_row(identity: ComponentRow, case: Case, friction_coefficient: float) -> ComparisonRow:
     """Return the row of one case: the closed form beside the integration of the whole record."""
     ratios = case.predicted_rotation_ratio, case.integrated_rotation_ratio
+    by_method = {RATIO_COLUMNS[method]: each.rotation_ratio for method, each in case.responses.items()}
+    prediction, estimate = case.prediction, case.overturning_estimate
     return ComparisonRow.of(
         identity,
+        by_method,
         case,
+        prediction,
+        case.responses.get(Method.MECHANISM_ON_RECORD),
+        case.check,
+        printed_rotation_ratio=prediction and prediction.printed,
         prediction_over_integration=ratio(*ratios),
         prediction_in_words=ratio_in_words(*ratios),
         within_factor_two=within_factor_two(*ratios),
         agreement=agreement(*ratios),
-        regime=case.prediction and case.prediction.maximum.regime,
-        overturning_estimate=case.overturning_estimate and case.overturning_estimate.share,
+        regime=prediction and prediction.maximum.regime,
+        slides=case.check.slides(friction_coefficient),
+        overturning_estimate=estimate and estimate.share,
     )
 
 
@@ -429,26 +357,11 @@ def ensemble_row(
         worst_direction=ensemble.worst("direction"),
         worst_polarity={"1.0": "as recorded", "-1.0": "reversed"}.get(ensemble.worst("polarity"), ""),
         worst_processing=ensemble.worst("processing"),
-        **{f"{cause}_share": ensemble.shares.get(cause) for cause in CAUSES},
     )
 
 
-def candidate_rows(
-    identity: ComponentRow, structure: str, candidates: Sequence[CrackResponse]
-) -> Iterator[CandidateRow]:
-    """Yield the row of each crack that may form in one structure."""
-    on_pulse = governing([candidate.predicted_rotation_ratio for candidate in candidates])
-    on_record = governing([candidate.integrated_rotation_ratio for candidate in candidates])
-    for place, candidate in enumerate(candidates):
-        marks = {"governs_pulse": place == on_pulse, "governs_record": place == on_record}
-        yield CandidateRow.of(identity, candidate, structure=structure, **marks)
-
-
 def history_rows(record: str, responses: Mapping[tuple[str, str], Response]) -> Iterator[HistoryRow]:
-    """Yield the history of each response by component and structure, as maxima.csv sums it up.
-
-    A response without a history has no rows.
-    """
+    """Yield the history of each response by component and structure; of one without a history there are no rows."""
     for (component, structure), response in responses.items():
         if response.times is not None:
             for step in response.frame().to_dict("records"):

@@ -12,7 +12,6 @@ from rocking.assessment.rows.of_record import (
     ComparisonRow,
     EnsembleRow,
     FailureRow,
-    MaximumRow,
     PulseRow,
     RecordRow,
     TimingRow,
@@ -90,7 +89,7 @@ class SpectrumRow(Row):
     frequency_parameter_rad_s: float = column(_P, equation="Eq. 11")
     uplift_multiplier: float = column("Uplift acceleration of the equivalent block in g", equation="Eq. 12")
     restitution: float = column(_ETA, equation="Eq. 2")
-    rotation_ratio: float = column(rows.ROTATION_RATIO)
+    rotation_ratio: float = column("Largest rotation over critical rotation; INF if it overturns")
     scale_factor: float = column(rows.SCALE_FACTOR)
     record_sha256: str = column(rows.RECORD_SHA256)
 
@@ -194,7 +193,6 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     EnsembleRow,
     Fate,
     AgreementRow,
-    MaximumRow,
     StructureRow,
     CapacityRow,
     FailureRow,

@@ -109,7 +109,6 @@ def test_the_sign_of_the_motion_is_a_cause_for_unlike_sides_alone():
     assert (
         lifted[found.causes["polarity"] == 1.0].all() and not lifted[found.causes["polarity"] == -1.0].any()
     )
-    assert found.shares["polarity"] > 0.8
     assert "polarity" not in ensemble(BLOCK, GroundMotions.of(one_pulse), EnsembleSettings()).causes
 
 
@@ -130,8 +129,7 @@ def test_the_processing_of_a_raw_record_is_a_cause():
         motion = process(record, Processing(taper=0.02, high_pass=0.2)).scaled(found.causes["amplitude"][k])
         alone = integrate(Block(2.0, 0.2, restitution=0.9 + found.causes["restitution"][k]), motion)
         assert found.rotation_ratios[k] == pytest.approx(alone.rotation_ratio, rel=1e-6)
-    fixed = drawn(BLOCK, motions, lattice(64), FIXED)
-    assert list(fixed.shares) == ["processing"] and fixed.shares["processing"] == pytest.approx(1.0)
+    assert list(drawn(BLOCK, motions, lattice(64), FIXED).causes) == ["processing"]
 
 
 @pytest.mark.parametrize(
@@ -158,15 +156,6 @@ def test_a_structure_may_say_how_well_its_restitution_is_known():
         )
         assert np.array_equal(found.rotation_ratios, wide.rotation_ratios)
         assert found.settings.restitution_range == known and ("restitution" in found.causes) == (known > 0)
-
-
-def test_shares_of_an_additive_answer_are_those_of_its_variance():
-    points = lattice(1024)
-    found = drawn(BLOCK, GroundMotions.of(_record(5.0)), points, EnsembleSettings())
-    answer = 0.3 + 0.2 * points[:, 0] + 0.1 * points[:, 1]
-    made = type(found)(answer, found.causes, found.settings)
-    assert made.shares["amplitude"] == pytest.approx(0.8, abs=0.03), "eight strata explain 63/64 of it"
-    assert made.shares["restitution"] == pytest.approx(0.2, abs=0.03)
 
 
 def test_where_the_verdict_alone_is_asked_it_ends_early_far_from_overturning_only():

@@ -5,17 +5,13 @@ import math
 import pytest
 
 from rocking.assessment.fate import fates
-from rocking.assessment.rows.of_record import ComparisonRow, EnsembleRow, FailureRow, MaximumRow
-from rocking.assessment.verdict import Method, Verdict
+from rocking.assessment.rows.of_record import ComparisonRow, EnsembleRow, FailureRow
+from rocking.assessment.verdict import Verdict
 from rocking.structures import Outcome
 
 
-def outcome_of(ratio: float) -> Outcome:
-    return Outcome.FAILED if math.isnan(ratio) else Outcome.at(ratio)
-
-
 def case(component: str, ratio: float, **more: object) -> ComparisonRow:
-    ratios = {"integrated_rotation_ratio": ratio, "answer_outcome": outcome_of(ratio)}
+    ratios = {"integrated_rotation_ratio": ratio, "answer_outcome": Outcome.at(ratio)}
     whose = {"record": "a", "structure": "pier", "component": component, "answer_reason": ""}
     return ComparisonRow(**dict.fromkeys(ComparisonRow.table.column_names) | whose | ratios | more)
 
@@ -44,14 +40,13 @@ def failure(component: str, structure: str = "pier") -> FailureRow:
         ([0.97], Verdict.STANDS),
         ([math.inf], Verdict.OVERTURNS),
         ([0.2, math.inf], Verdict.OVERTURNS),
-        ([0.2, math.nan], Verdict.UNKNOWN),
-        ([math.inf, math.nan], Verdict.OVERTURNS),
-        ([math.nan], Verdict.UNKNOWN),
     ],
 )
 def test_without_an_ensemble_the_single_run_of_the_worst_component_decides(ratios, verdict):
-    (fate,) = fates([case(str(place), ratio) for place, ratio in enumerate(ratios)])
+    cases = [case(str(place), ratio, peak_side=place) for place, ratio in enumerate(ratios)]
+    (fate,) = fates(cases)
     assert fate.verdict is verdict and fate.members == 0 and fate.count == ""
+    assert fate.peak_side == ratios.index(max(ratios))
 
 
 def test_the_ensemble_over_all_directions_decides_before_those_of_the_components():
@@ -65,27 +60,14 @@ def test_the_ensemble_over_all_directions_decides_before_those_of_the_components
     assert math.isinf(fate.rotation_ratio), "of the worst component as recorded"
 
 
-def test_the_side_is_that_of_the_integration_of_the_record_as_it_is():
-    blank = dict.fromkeys(MaximumRow.table.column_names)
-    whose = {"record": "a", "structure": "pier", "component": "EW"}
-    told = [
-        MaximumRow(**blank | whose | {"method": method, "processing": processing, "peak_side": side})
-        for method, processing, side in (
-            (Method.CLOSED_FORM, "", -1),
-            (Method.MECHANISM_ON_RECORD, "", 1),
-            (Method.MECHANISM_ON_RECORD, "high-pass 0.2 Hz", -1),
-            (Method.BLOCK_ON_RECORD, "", -1),
-        )
-    ]
-    (fate,) = fates([case("EW", 0.3)], maxima=told)
-    assert fate.peak_side == 1
-
-
 def test_a_component_that_failed_leaves_the_verdict_unknown_unless_another_overturns():
     (fate,) = fates([case("EW", 0.3)], [ensemble("EW", Verdict.STANDS, 0)], [failure("NS")])
     assert fate.verdict is Verdict.UNKNOWN and "NS" in fate.why
     (fate,) = fates([case("EW", math.inf)], [ensemble("EW", Verdict.OVERTURNS, 64)], [failure("NS")])
     assert fate.verdict is Verdict.OVERTURNS
+    for ratio, verdict in ((0.2, Verdict.UNKNOWN), (math.inf, Verdict.OVERTURNS)):
+        (fate,) = fates([case("EW", ratio)], failures=[failure("NS")])
+        assert fate.verdict is verdict
 
 
 def test_a_structure_that_failed_under_every_component_is_unknown_and_says_why():
@@ -97,7 +79,7 @@ def test_a_structure_that_failed_under_every_component_is_unknown_and_says_why()
 def test_the_worst_of_several_comes_last_by_severity():
     found = [
         *fates([case("EW", 0.9)], [ensemble("EW", Verdict.STANDS, 0)]),
-        *fates([case("EW", math.nan)]),
+        *fates([], failures=[failure("EW")]),
         *fates([case("EW", 0.1)], [ensemble("EW", Verdict.UNDECIDED, 5)]),
         *fates([case("EW", 0.05)], [ensemble("EW", Verdict.UNDECIDED, 60)]),
         *fates([case("EW", math.inf)], [ensemble("EW", Verdict.OVERTURNS, 63)]),

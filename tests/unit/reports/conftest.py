@@ -12,9 +12,8 @@ from rocking.assessment.rows.of_record import (
     FailureRow,
     PulseRow,
     RecordRow,
-    candidate_rows,
+    VariationRow,
     identity_of,
-    processing_rows,
 )
 from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows, structure_rows
 from rocking.assessment.variations import candidates, processed_variants
@@ -67,10 +66,9 @@ def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[st
         records = processed(accelerogram)
         pulse = computed.analysis.dominant if computed.analysis else None
         for name, structure in structures.items():
-            others = candidates(structure, accelerogram, pulse, 7, ASSESSMENT)
-            tables.candidates.extend(candidate_rows(identity, name, others))
-            variants = processed_variants({name: structure}, records, ASSESSMENT)
-            tables.maxima.extend(processing_rows(identity, name, variants[name]))
+            varied = candidates(structure, accelerogram, pulse, 7, ASSESSMENT)
+            varied += processed_variants({name: structure}, records, ASSESSMENT)[name]
+            tables.variations.extend(VariationRow.of(identity, each, structure=name) for each in varied)
     return RecordReport(record, accelerograms, structures, tables, SETTINGS, responses)
 
 

@@ -99,7 +99,7 @@ def test_the_report_of_a_record_is_well_laid(example, count):
             for row in getattr(example.tables, table)
             if row.structure == "wall 3 m"
         ]
-        for table in ("maxima", "comparison", "ensemble", "candidates")
+        for table in ("comparison", "ensemble", "variations")
     }
     structures = dict.fromkeys(names, example.structures["wall 3 m"])
     tables = replace(example.tables, **kept)

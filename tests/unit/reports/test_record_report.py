@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment.rows.of_study import structure_rows
-from rocking.assessment.verdict import Agreement, Method, Verdict
+from rocking.assessment.verdict import Agreement, Verdict
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports.record import RecordReport, failure_report
 from rocking.structures import Block
@@ -75,11 +75,8 @@ def test_every_number_that_is_printed_stands_in_a_csv(example, data):
 
 
 def test_a_changed_cell_changes_what_is_printed(example):
-    maxima = [
-        replace(row, rotation_ratio=0.123456789) if row.method is Method.MECHANISM_ON_RECORD else row
-        for row in example.tables.maxima
-    ]
-    table = with_tables(example, maxima=maxima)["methods"]
+    comparison = [replace(row, integrated_rotation_ratio=0.123456789) for row in example.tables.comparison]
+    table = with_tables(example, comparison=comparison)["methods"]
     assert all({"text": "0.123", "strong": True} in row for row in table["rows"])
 
 
@@ -95,28 +92,26 @@ def test_page_one_begins_with_the_verdicts_by_name_and_holds_no_table(example, d
 
 def test_an_outcome_that_processing_decides_is_told(example):
     ratios = iter([0.3, np.inf])
-    maxima = [
-        replace(row, rotation_ratio=next(ratios, 0.3))
+    variations = [
+        replace(row, integrated_rotation_ratio=next(ratios, 0.3))
         if row.processing and row.structure == "arch 20 m"
         else row
-        for row in example.tables.maxima
+        for row in example.tables.variations
     ]
-    sentences = with_tables(example, maxima=maxima)["sentences"]
+    sentences = with_tables(example, variations=variations)["sentences"]
     assert any("depends on the processing of the record: arch 20 m" in text for text in sentences)
 
 
 def test_the_reason_of_a_miss_is_told_apart(example):
     """The block under the whole record overturns as the mechanism does: the pulse is the reason."""
-    comparison = [
-        replace(row, agreement=Agreement.TOO_LOW, integrated_rotation_ratio=np.inf)
-        for row in example.tables.comparison
-    ]
-    ratios = {Method.BLOCK_ON_RECORD: np.inf, Method.MECHANISM_ON_PULSE: 0.2}
-    maxima = [
-        replace(row, rotation_ratio=ratios.get(row.method, row.rotation_ratio))
-        for row in example.tables.maxima
-    ]
-    (sentence,) = with_tables(example, comparison=comparison, maxima=maxima)["doubts"]
+    changed = {
+        "agreement": Agreement.TOO_LOW,
+        "integrated_rotation_ratio": np.inf,
+        "block_on_record_rotation_ratio": np.inf,
+        "mechanism_on_pulse_rotation_ratio": 0.2,
+    }
+    comparison = [replace(row, **changed) for row in example.tables.comparison]
+    (sentence,) = with_tables(example, comparison=comparison)["doubts"]
     assert sentence.endswith("so the single pulse is the reason.")
 
 
@@ -171,11 +166,8 @@ def test_nothing_that_lifts_no_structure_and_no_pulse_are_told_first():
 
 def test_of_a_hundred_structures_all_are_in_the_tables_and_few_are_drawn(example):
     names = [f"block {place}" for place in range(100)]
-    repeated = {
-        table: [replace(getattr(example.tables, table)[0], structure=each) for each in names]
-        for table in ("comparison", "maxima")
-    }
-    tables = replace(example.tables, **repeated, ensemble=[], candidates=[])
+    repeated = [replace(example.tables.comparison[0], structure=each) for each in names]
+    tables = replace(example.tables, comparison=repeated, ensemble=[], variations=[])
     structures = dict.fromkeys(names, example.structures["block 4 m"])
     response = example.responses[example.tables.comparison[0].case]
     responses = {("EW", name): response for name in names}
@@ -192,11 +184,8 @@ def test_a_failure_is_one_page_that_says_why(message):
 
 
 def test_a_contact_that_fails_is_told_first(example):
-    maxima = [
-        replace(row, slides=True, bounces=True) if row.method is Method.MECHANISM_ON_RECORD else row
-        for row in example.tables.maxima
-    ]
-    data = with_tables(example, maxima=maxima)
+    comparison = [replace(row, slides=True, bounces=True) for row in example.tables.comparison]
+    data = with_tables(example, comparison=comparison)
     failing = f"{next(iter(example.structures))} (slides and bounces)"
     assert any(failing in notice["text"] and notice["strong"] for notice in data["notices"])
     assert data["methods"]["rows"][0][-1] == {"text": "slides and bounces", "strong": True}

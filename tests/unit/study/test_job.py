@@ -1,7 +1,6 @@
 """A study of records: what fails becomes a row, and costs neither its record nor the others."""
 
 import hashlib
-import math
 import os
 import pickle
 import re
@@ -14,8 +13,7 @@ import pytest
 
 from rocking.assessment.assess import assess
 from rocking.assessment.rows.of_folder import PER_RECORD
-from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, HistoryRow, MaximumRow, PulseRow
-from rocking.assessment.verdict import Method
+from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, HistoryRow, PulseRow
 from rocking.errors import RockingError, StructureError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
@@ -67,7 +65,7 @@ def test_a_structure_that_fails_does_not_take_the_record_with_it(tmp_path: Path)
     assert (failure.structure, failure.stage) == ("impossible", "responses")
     alone = _assessed(_record(tmp_path), _study(), tmp_path / "alone")
     assert alone == []
-    for name in ("maxima.csv", "comparison.csv", "pulses.csv"):
+    for name in ("comparison.csv", "pulses.csv"):
         assert (tmp_path / "out" / name).read_bytes() == (tmp_path / "alone" / name).read_bytes()
 
 
@@ -128,7 +126,7 @@ def _parts(results: Path) -> list[Path]:
 def test_the_summary_holds_every_row_of_every_record_in_its_order(in_two_jobs) -> None:
     results, records = in_two_jobs
     write_summary(_parts(results), [record.id for record in records], {}, results / "summary")
-    for each in (PulseRow, ComparisonRow, MaximumRow, FailureRow):
+    for each in (PulseRow, ComparisonRow, FailureRow):
         found = [getattr(assess_record(record, _study()).tables, each.table.name) for record in records]
         lines = list(csv_lines(each, chain.from_iterable(found)))
         assert "".join(lines) == (results / "summary" / each.table.file_name).read_text(encoding="utf-8")
@@ -173,19 +171,6 @@ def test_a_pair_has_the_ensemble_over_its_directions_that_assess_has(tmp_path: P
     if fidelity == "full":
         same = ("members", "overturning_members", "rotation_ratio_low", "rotation_ratio_high")
         assert all(getattr(both, name) == getattr(joined, name) for name in same)
-
-
-def test_the_error_of_each_method_is_against_the_mechanism_on_the_record(tmp_path: Path) -> None:
-    study = _study(stout=Block.of_size(1.0, 3.0))
-    maxima = {row.method: row for row in assess_record(_record(tmp_path), study).tables.maxima}
-    reference = maxima.pop(Method.MECHANISM_ON_RECORD)
-    assert 0 < reference.rotation_ratio < 1, "the record was made so that the block rocks"
-    assert math.isnan(reference.error)
-    for row in maxima.values():
-        if not math.isnan(row.error):
-            assert row.error == pytest.approx(row.rotation_ratio / reference.rotation_ratio - 1, rel=1e-12)
-    closed = maxima[Method.CLOSED_FORM]
-    assert not math.isnan(closed.error) or closed.rotation_ratio in (0, math.inf)
 
 
 def test_a_job_reads_each_file_once_and_writes_all_from_what_it_has(

@@ -33,7 +33,7 @@ def folder(tmp_path: Path) -> Path:
 def test_a_table_of_the_summary_is_an_attribute(folder: Path) -> None:
     results = rocking.open_results(folder)
     assert tuple(results.structures) == StructureRow.table.column_names
-    assert {"comparison", "candidates", "trade"} <= set(dir(results))
+    assert {"comparison", "variations", "trade"} <= set(dir(results))
 
 
 def test_what_is_not_there_is_said(folder: Path) -> None:

@@ -19,7 +19,7 @@ def _case(record: str, structure: str, ratio: float) -> ComparisonRow:
         "record": record,
         "structure": structure,
         "integrated_rotation_ratio": ratio,
-        "answer_outcome": Outcome.FAILED if math.isnan(ratio) else Outcome.at(ratio),
+        "answer_outcome": Outcome.at(ratio),
     }
     return ComparisonRow(**dict.fromkeys(ComparisonRow.table.column_names) | known)
 
@@ -50,19 +50,6 @@ def test_the_worst_component_counts() -> None:
         *(_case("a", "wall", 0.25), _case("a", "wall", 0.0005), _case("a", "arch", 0.0)),
     ]
     assert record_line(fates(cases), []) == "overturns: pier; stands: wall 0.25, arch"
-
-
-@pytest.mark.parametrize(
-    ("ratios", "line"),
-    [
-        ((math.nan,), "unknown: pier"),
-        ((0.2, math.nan), "unknown: pier"),
-        ((math.nan, 0.2), "unknown: pier"),
-        ((math.nan, math.inf), "overturns: pier"),
-    ],
-)
-def test_a_component_that_is_not_known_is_not_told_as_rest(ratios, line):
-    assert record_line(fates([_case("a", "pier", ratio) for ratio in ratios]), []) == line
 
 
 def test_undecided_is_ordered_by_share_and_says_what_it_leans_to() -> None:
@@ -99,7 +86,10 @@ def test_nothing_overturns() -> None:
     assert list(closing_lines(fates([_case("a", "pier", 0.1)]), [])) == [
         "Every structure stands under 1 record."
     ]
-    assert list(closing_lines(fates([_case("a", "pier", math.nan)]), []))[2].endswith("a–")
+    failed = FailureRow(
+        record="a", component="", structure="pier", stage="responses", message="it cannot stand."
+    )
+    assert list(closing_lines(fates([], failures=[failed]), []))[2].endswith("a–")
 
 
 def test_the_paths_are_those_that_exist(tmp_path: Path) -> None:
