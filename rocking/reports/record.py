@@ -306,9 +306,8 @@ def _sentences(report: RecordReport) -> list[str]:
     """Return what a reader has to know beside the verdicts, and what file and integrations warn of, each once."""
     depends = []
     for fate in report.fates:
-        done = [
-            row.integrated_rotation_ratio for row in report.processings if row.structure == fate.structure
-        ]
+        varied = [row for row in report.tables.variations if row.structure == fate.structure]
+        done = [row.integrated_rotation_ratio for row in varied if row.processing]
         if any(map(math.isinf, done)) and any(map(math.isfinite, done)):
             depends.append(fate.structure)
     remarks = [f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."]
