@@ -1,6 +1,11 @@
-"""What accuracy costs in a fragility: its median by every method at the same levels, and the time of each."""
+"""What accuracy costs in a fragility, and whether the 90 % interval of its median holds the truth.
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+Its median by every method at the same levels, and the time of each. Then intervals drawn from real stations, whose
+truth is the curve of all of them, from which few are drawn with repetition; and from populations that are no lognormals
+(two apart, a dip, a plateau below one), whose truth is the curve of very many.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -9,36 +14,46 @@ import numpy as np
 from docs.research import scores
 from docs.research.report import publish
 from docs.research.scores import Score
-from docs.research.sites import timed
-from rocking.assessment.fragility import _crossing, incremental_dynamic_analysis
+from docs.research.sites import independent, structures_tried, timed
+from rocking.assessment.fragility import _crossing, fragility_of, incremental_dynamic_analysis
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.trade import TradeMethod, best_sines
 from rocking.motion import integrate_batch
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maxima
-from rocking.structures import EquivalentBlock, Structure
+from rocking.structures import Block, EquivalentBlock, Structure
 
 TIGHT = 1e-9
 """Tolerance of the reference."""
 OPEN = (0.02, 0.98)
 """Probabilities between which the error of a curve counts."""
+STATIONS = (8, 20, 35)
+"""Drawn for one interval."""
+TRIALS = 800
+"""With an interval."""
+ESTIMATES = 20_000
+"""Of the median alone, for its bias."""
+LEVELS = np.geomspace(0.1, 8.0, 80)
+MANY = 2_000_000
+"""Stations whose curve is the truth of a population."""
+TRIED = ("block R 2 m, 0.12 rad", "wall 1.5 + 1.5 m, 0.4 m", "arch 140°, t/r 0.15")
+Tell = Callable[[str], None]
+Draw = Callable[[np.random.Generator, int], np.ndarray]
+"""Shares that overturn of so many stations at each level, (n, k)."""
 
 
 def write_fragilities(
-    records: Sequence[Accelerogram],
-    structures: Mapping[str, Structure],
-    folder: Path,
-    tell: Callable[[str], None],
+    records: Sequence[Accelerogram], structures: Mapping[str, Structure], folder: Path, tell: Tell
 ) -> None:
     """Write the scores of every method into `folder`; tell: is given a line for each structure."""
     sines, searched_s = timed(lambda: [best_sines(record, AssessmentSettings()) for record in records])
-    found: list[Score] = []
+    rows: list[Score] = []
     for name, structure in structures.items():
-        found += method_scores(name, structure, records, sines)
+        rows += method_scores(name, structure, records, sines)
         tell(f"fragility of {name}")
     subtitle = f"{len(records)} components; the sines of all took {searched_s:.0f} s of processor time."
-    publish(folder, "What accuracy costs in a fragility", subtitle, {Score: found})
+    publish(folder, "What accuracy costs in a fragility", subtitle, {Score: rows})
 
 
 def method_scores(
@@ -50,22 +65,25 @@ def method_scores(
     levels, exact = reference.levels, np.isinf(reference.rotation_ratios).mean(axis=2)
     factors = levels / reference.intensities[:, None]
     block = structure.mechanism().equivalent_block("rest")
+
+    def on_block() -> np.ndarray:
+        pairs = zip(records, factors, strict=True)
+        return np.array([integrate_batch([block], *pair, workers=1)[0] for pair in pairs])[..., None]
+
     runs: dict[TradeMethod, Callable[[], np.ndarray]] = {
         TradeMethod.ONE_SINE: lambda: _by_sines(block, [each[:1] for each in sines], factors),
         TradeMethod.SINES: lambda: _by_sines(block, sines, factors),
-        TradeMethod.BLOCK: lambda: np.array(
-            [integrate_batch([block], *pair, workers=1)[0] for pair in zip(records, factors, strict=True)]
-        )[..., None],
+        TradeMethod.BLOCK: on_block,
         TradeMethod.MECHANISM: lambda: analysis(levels=levels).rotation_ratios,
         TradeMethod.ENSEMBLE: lambda: analysis(levels=levels, ensemble=EnsembleSettings()).rotation_ratios,
     }
     for method, run in runs.items():
         ratios, cpu_s = timed(run)
         shares = np.isinf(ratios).mean(axis=2)
-        measures = {
+        measures: dict[str, scores.Measured] = {
             "error of the median": partial(_median_error, levels, shares, exact),
             "mean error of the curve": partial(_curve_error, shares, exact),
-            "processor time of all, s": scores.mean(np.full(len(shares), cpu_s)),
+            "processor time of all, s": np.full(len(shares), cpu_s),
         }
         yield from scores.scored(method, name, measures, reference.stations)
 
@@ -93,3 +111,81 @@ def _by_sines(block: EquivalentBlock, sines: Sequence[Sequence[Pulse]], factors:
         if scaled:
             ratios[place, :, 0] = predict_maxima([block], scaled)[0].reshape(-1, scales.size).max(axis=0)
     return ratios
+
+
+def write_coverage(records: Iterable[tuple[str, Accelerogram]], folder: Path, tell: Tell) -> None:
+    """Write the scores of the median into `folder`; tell: is given a line for each structure and population."""
+    counted = [(site, record) for _, site, record in independent(records)]
+    tried = {name: each for name, each in structures_tried().items() if name in TRIED}
+    rows: list[Score] = []
+    for name, structure in {"stone pier, 2 by 9 m": Block.of_size(2.0, 9.0), **tried}.items():
+        rows += real_scores(name, structure, counted)
+        tell(name)
+    for name in POPULATIONS:
+        rows += population_scores(name)
+        tell(name)
+    subtitle = f"{TRIALS} intervals and {ESTIMATES} medians of each; of real stations the pool is the truth."
+    publish(folder, "What the interval of a fragility's median covers", subtitle, {Score: rows})
+
+
+def real_scores(
+    name: str, structure: Structure, records: Sequence[tuple[str, Accelerogram]]
+) -> Iterator[Score]:
+    """Yield the scores of a structure under `records` by site."""
+    sites, motions = zip(*records, strict=True)
+    analysis = incremental_dynamic_analysis(motions, structure, stations=sites)
+    shares = np.isinf(analysis.rotation_ratios).mean(axis=2)
+    pool = np.array([shares[np.array(sites) == site].mean(axis=0) for site in dict.fromkeys(sites)])
+    whence = f"of {len(pool)} real ones"
+    yield from _scores(name, whence, analysis.levels, pool.mean(axis=0), lambda rng, n: rng.choice(pool, n))
+
+
+def population_scores(name: str) -> Iterator[Score]:
+    """Yield the scores of one of POPULATIONS."""
+    rng, draw = np.random.default_rng(99), POPULATIONS[name]
+    truth = np.mean([draw(rng, 10_000).mean(axis=0) for _ in range(MANY // 10_000)], axis=0)
+    yield from _scores(name, "drawn", LEVELS, truth, draw)
+
+
+def _scores(name: str, whence: str, levels: np.ndarray, curve: np.ndarray, draw: Draw) -> Iterator[Score]:
+    """Coverage of the interval and bias of the median, at each number of stations. curve: (k,) of all of them."""
+    truth = median_of(levels, curve[None])
+    for count in STATIONS:
+        rng, names = np.random.default_rng(count), list(map(str, range(count)))
+        over = np.array([median_of(levels, draw(rng, count)) for _ in range(ESTIMATES)]) / truth
+        ends = [fragility_of(levels, draw(rng, count), names).interval for _ in range(TRIALS)]
+        held = [low <= truth <= high for low, high in ends]
+        bias = {"bias of the median": lambda rows, over=over: float(np.median(over[rows])) - 1}
+        part = f"{count} stations {whence}"
+        yield from scores.scored(name, part, {"intervals that hold the median": held}, range(TRIALS))
+        yield from scores.scored(name, part, bias, range(ESTIMATES), replicates=200)
+
+
+def _lognormal(rng: np.random.Generator, count: int) -> np.ndarray:
+    return (np.exp(0.5 * rng.standard_normal((count, 1))) < LEVELS).astype(float)
+
+
+def _two_populations(rng: np.random.Generator, count: int) -> np.ndarray:
+    middle = np.where(rng.random((count, 1)) < 0.5, -0.45, 0.7)
+    return (np.exp(middle + 0.25 * rng.standard_normal((count, 1))) < LEVELS).astype(float)
+
+
+def _dip(rng: np.random.Generator, count: int) -> np.ndarray:
+    """Half of the stations let stand again, over a range, what they had overturned."""
+    first = np.exp(0.5 * rng.standard_normal((count, 1)))
+    stands = first * np.exp(rng.uniform(0.1, 0.5, (count, 1)))
+    again = stands * np.exp(rng.uniform(0.1, 0.6, (count, 1)))
+    back = rng.random((count, 1)) < 0.5
+    return ((first < LEVELS) & ~(back & (stands < LEVELS) & (again > LEVELS))).astype(float)
+
+
+def _plateau(rng: np.random.Generator, count: int) -> np.ndarray:
+    return _lognormal(rng, count) * (rng.random((count, 1)) < 0.8)
+
+
+POPULATIONS: dict[str, Draw] = {
+    "lognormal": _lognormal,
+    "two populations": _two_populations,
+    "dip": _dip,
+    "plateau of 0.8": _plateau,
+}

@@ -1,38 +1,39 @@
 """Run one target of the research: snakemake.* onto docs.research."""
 
 import sys
+from itertools import chain
 from pathlib import Path
 
 
 def main(target, catalogues, mirror, structures, folder, tell):
     """Write the tables and the report of `target` into `folder`."""
-    from docs.research import coverage, cracks, ensembles, fragilities, screening, tiers, validation
-    from docs.research.comparison import table
-    from docs.research.comparison.cases import RECORDS
+    from docs.research import cracks, ensembles, fragilities, screening, tiers, validation
+    from docs.research.comparison import cases, table
     from rocking.records import load_catalogue, open_record
     from rocking.structures import load_structures
 
-    listed = [load_catalogue(Path(each)) for each in catalogues if target != "validate"]
-    records = (motions_of(each, mirror, tell) for each in listed)
+    if target == "validate":
+        validation.write_validation(Path(catalogues[0]), mirror and Path(mirror), folder, tell)
+        return
+    listed = [load_catalogue(Path(each)) for each in catalogues]
+    of_catalogue = [motions_of(each, mirror, tell) for each in listed]
+    records = chain.from_iterable(of_catalogue)
+    made = load_structures(Path(structures))
     if target == "calibrate":
-        tiers.write_tiers((record for each in records for record in each), folder)
+        tiers.write_tiers(records, folder)
     elif target == "calibrate_ensemble":
-        ensembles.write_ensemble_accuracy(*records, load_structures(Path(structures)), folder)
+        ensembles.write_ensemble_accuracy(*of_catalogue, made, folder)
     elif target == "trade_fragility":
-        motions = [record for each in records for _, record in each]
-        fragilities.write_fragilities(motions, load_structures(Path(structures)), folder, tell)
+        fragilities.write_fragilities([record for _, record in records], made, folder, tell)
     elif target == "cover":
-        coverage.write_coverage((record for each in records for record in each), folder, tell)
+        fragilities.write_coverage(records, folder, tell)
     elif target == "govern":
-        cracks.write_cracks((record for each in records for record in each), folder, tell)
+        cracks.write_cracks(records, folder, tell)
     elif target == "screen":
-        motions = (record for each in records for record in each)
-        screening.write_screening(motions, load_structures(Path(structures)), folder, tell)
+        screening.write_screening(records, made, folder, tell)
     elif target == "compare":
-        motions = [open_record(each, mirror=mirror)[0] for each in listed[0][: RECORDS // 3]]
-        table.write_comparison(motions, folder, tell)
-    elif target == "validate":
-        validation.write_validation(Path(catalogues[0]), mirror and Path(mirror), folder, tell=tell)
+        first = [open_record(each, mirror=mirror)[0] for each in listed[0][: cases.RECORDS // 3]]
+        table.write_comparison(first, folder, tell)
 
 
 def motions_of(listed, mirror, tell):

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -15,8 +16,12 @@ LEVELS = (0.05, 0.95)
 LARGEST_LAPSE = 0.1
 STATED, HAPPENED = "stated", "happened"
 """Measures of one class of a reliability diagram: its mean probability, and the share of its cases that overturned."""
+Labels = Sequence[object] | np.ndarray
+"""The site of each case, or what else is independent: an input motion, a case."""
 Measure = Callable[[np.ndarray], float]
 """A score of some of the cases, by index, with repeats; nan where they tell none."""
+Measured = Measure | Sequence[float] | np.ndarray
+"""A measure, or a value of each case (nan: it does not count), whose mean is the measure."""
 
 
 @row("scores", "One row per subject, part of the cases and measure, with a 90 % interval by resampling sites")
@@ -34,20 +39,16 @@ class Score(Row):
 
 
 def scored(
-    subject: str,
-    part: str,
-    measures: Mapping[str, Measure],
-    sites: Sequence[object] | np.ndarray,
-    replicates: int = REPLICATES,
-) -> list[Score]:
-    """Return every measure of the cases at `sites` (n,), with its interval."""
-    draws, every = resampled(sites, replicates), np.arange(len(sites))
+    subject: str, part: str, measures: Mapping[str, Measured], sites: Labels, replicates: int = REPLICATES
+) -> Iterator[Score]:
+    """Yield every measure of the cases at `sites` (n,), with its interval."""
+    draws = resampled(sites, replicates)
+    every = np.arange(len(sites))
     counts = {"subject": subject, "part": part, "cases": every.size, "sites": len(set(sites))}
-    rows = []
-    for name, measure in measures.items():
+    for name, each in measures.items():
+        measure = each if callable(each) else mean(each)
         low, high = interval(measure, draws)
-        rows.append(Score(measure=name, value=measure(every), value_low=low, value_high=high, **counts))
-    return rows
+        yield Score(measure=name, value=measure(every), value_low=low, value_high=high, **counts)
 
 
 def reliability(
@@ -55,20 +56,19 @@ def reliability(
     part: str,
     probability: np.ndarray,
     outcomes: np.ndarray,
-    sites: Sequence[object] | np.ndarray,
+    sites: Labels,
     edges: Sequence[float],
-    replicates: int = REPLICATES,
 ) -> Iterator[Score]:
     """Yield what was STATED and what HAPPENED in the classes between `edges` that hold a case; (n,) in [0, 1]."""
     place = np.clip(np.searchsorted(edges, probability, side="right") - 1, 0, len(edges) - 2)
     for which in np.unique(place).tolist():
         own = place == which
-        measures = {STATED: mean(probability[own]), HAPPENED: mean(outcomes[own])}
         called = f"{part}, {edges[which]:g} to {edges[which + 1]:g} stated"
-        yield from scored(subject, called, measures, np.asarray(sites)[own].tolist(), replicates)
+        measures = {STATED: probability[own], HAPPENED: outcomes[own]}
+        yield from scored(subject, called, measures, np.asarray(sites)[own].tolist())
 
 
-def resampled(labels: Sequence[object] | np.ndarray, replicates: int) -> list[np.ndarray]:
+def resampled(labels: Labels, replicates: int) -> list[np.ndarray]:
     """Return indices of the cases of as many labels (n,) as there are, drawn with repetition, `replicates` times.
 
     All cases of a label (a site, an input motion) are drawn together.
@@ -76,10 +76,8 @@ def resampled(labels: Sequence[object] | np.ndarray, replicates: int) -> list[np
     names, place = np.unique(np.asarray(labels), return_inverse=True)
     rows = [np.flatnonzero(place == k) for k in range(names.size)]
     rng = np.random.default_rng(0)
-    return [
-        np.concatenate([rows[k] for k in rng.integers(names.size, size=names.size)])
-        for _ in range(replicates)
-    ]
+    drawn = (rng.integers(names.size, size=names.size) for _ in range(replicates))
+    return [np.concatenate([rows[k] for k in each]) for each in drawn]
 
 
 def interval(measure: Measure, draws: Sequence[np.ndarray]) -> tuple[float, float]:
@@ -91,41 +89,49 @@ def interval(measure: Measure, draws: Sequence[np.ndarray]) -> tuple[float, floa
 
 def mean(values: Sequence[float] | np.ndarray) -> Measure:
     """Return the mean of `values` (n,) as a measure; cases of nan do not count."""
-    return _over(values, np.mean)
+    return _over(np.mean, values)
 
 
 def median(values: Sequence[float] | np.ndarray, share: float = 0.5) -> Measure:
     """Return the median of `values` (n,), or another quantile, as a measure; cases of nan do not count."""
-    return _over(values, lambda known: np.quantile(known, share, method="higher"))
+    return _over(partial(np.quantile, q=share, method="higher"), values)
 
 
-def _over(values: Sequence[float] | np.ndarray, statistic: Callable[[np.ndarray], float]) -> Measure:
+def _over(statistic: Callable[..., float], values: Sequence[float] | np.ndarray) -> Measure:
     counted = np.asarray(values, dtype=float)
 
     def measure(rows: np.ndarray) -> float:
-        known = counted[rows]
-        known = known[~np.isnan(known)]
-        return float(statistic(known)) if known.size else math.nan
+        kept = counted[rows]
+        kept = kept[~np.isnan(kept)]
+        return float(statistic(kept)) if kept.size else math.nan
 
     return measure
 
 
-def brier(probability: np.ndarray, shares: np.ndarray) -> float:
-    """Mean of (P − outcome)², 0 at best; of a share in [0, 1], over the outcomes that it sums up."""
-    return float(np.mean((probability - shares) ** 2 + shares * (1 - shares)))
+def brier(probability: np.ndarray, shares: np.ndarray) -> np.ndarray:
+    """(P − outcome)², 0 at best, of each case (n,); of a share in [0, 1] the mean over the outcomes it sums up."""
+    return (probability - shares) ** 2 + shares * (1 - shares)
 
 
-def brier_skill(probability: np.ndarray, shares: np.ndarray) -> float:
-    """1 − Brier score over that of the mean share of all cases; nan where nothing or everything overturns."""
-    base = shares.mean()
-    return 1 - brier(probability, shares) / float(base * (1 - base)) if 0 < base < 1 else math.nan
+def brier_skill(probability: np.ndarray, shares: np.ndarray) -> Measure:
+    """1 − Brier score over that of the mean share of the cases; nan where nothing or everything overturns."""
+
+    def measure(rows: np.ndarray) -> float:
+        base = shares[rows].mean()
+        score = float(np.mean(brier(probability[rows], shares[rows])))
+        return 1 - score / float(base * (1 - base)) if 0 < base < 1 else math.nan
+
+    return measure
 
 
-def logit_slope(odds: np.ndarray, outcomes: np.ndarray) -> float:
+def logit_slope(odds: np.ndarray, outcomes: np.ndarray) -> Measure:
     """Slope of the logistic regression of the outcomes, or shares, on the log odds stated (Cox 1958); 1 is right."""
-    kept = np.clip(odds, -12, 12)
-    coefficients, _ = logistic(np.column_stack([np.ones(kept.size), kept]), outcomes, np.arange(kept.size))
-    return float(coefficients[1])
+    design = np.column_stack([np.ones(odds.size), np.clip(odds, -12, 12)])
+
+    def measure(rows: np.ndarray) -> float:
+        return float(logistic(design[rows], outcomes[rows], np.arange(rows.size))[0][1])
+
+    return measure
 
 
 def logistic(
@@ -145,8 +151,7 @@ def logistic(
         weights = np.maximum(shares * (1 - shares), 1e-12)
         curvature = (design * weights[:, None]).T @ design + np.diag(penalty)
         step = np.linalg.solve(curvature, design.T @ (outcomes - shares) - penalty * coefficients)
-        if np.abs(step).max() > 0:
-            coefficients = coefficients + step * min(1.0, 4.0 / np.abs(step).max())
+        coefficients = coefficients + step * (4.0 / max(4.0, np.abs(step).max()))
         if np.abs(step).max() < 1e-10:
             break
     inverse = np.linalg.inv(curvature)

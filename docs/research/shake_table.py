@@ -5,15 +5,14 @@ part of this package: a folder in the form of `Campaign.open` is read as it stan
 it are fetched from the source and checked against the catalogue.
 """
 
-import csv
 import hashlib
-import io
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
@@ -25,6 +24,14 @@ REPOSITORY = "ZhiangChen/virtual_shake_robot_pybullet"
 COMMIT = "9f239e7e21280702be9ba7a40ed9b47a35868a52"
 TESTS, MOTIONS = "tests.csv", "accelerations.npz"
 SPECIMENS = (1, 2)
+CELLS = {
+    int: ("a whole number", r"\d+"),
+    float: ("a number", r"\d*\.?\d+(e-?\d+)?"),
+    str: ("a name", ".+"),
+    bool: ("0 or 1", "[01]"),
+}
+"""What a cell of tests.csv may be, in words and as a pattern."""
+G = acceleration_factor("g")
 
 
 @row("shake_table", "One row per test: where its table motion is, and what must be true of it")
@@ -42,25 +49,11 @@ class TableMotion(Row):
         return hashlib.sha256(content).hexdigest() == self.samples_sha256
 
 
-@dataclass(frozen=True)
-class TableTest:
-    """One test. motion: the input that the table played, scaled. overturned: by specimen. published: verdicts of
-    other codes by specimen and name. peak_velocity: nominal, m/s, as published with the test.
-    """
-
-    number: int
-    motion: str
-    time_step: float
-    peak_velocity: float
-    overturned: Mapping[int, bool]
-    published: Mapping[int, Mapping[str, bool]]
-
-
 @dataclass(frozen=True, eq=False)
 class Campaign:
-    """The tests in the order of their numbers, and where their files are."""
+    """The tests in the order of their numbers (`read_tests`), and where their files are."""
 
-    tests: tuple[TableTest, ...]
+    tests: pd.DataFrame
     folder: Path
     catalogue: Mapping[int, TableMotion]
 
@@ -68,9 +61,8 @@ class Campaign:
     def open(cls, catalogue: Path, mirror: Path | None) -> "Campaign":
         """Open the campaign in `mirror`, or in `shake_table` inside it or beside it.
 
-        The folder holds tests.csv (test, dt, motion, pgv_over_pga, pga_g, overturned_specimen_1 and _2, published
-        verdicts as specimen_K_NAME) and accelerations.npz (float32, g, one array a test, key "011"), which is fetched
-        where it is missing. Raises RecordError when there is no such folder or a row has a defect.
+        The folder holds tests.csv and accelerations.npz (float32, g, one array a test, key "011"), which is fetched
+        where it is missing. Raises RecordError when there is no such folder or tests.csv has a defect.
         """
         tried = [] if mirror is None else [mirror, mirror / "shake_table", mirror.parent / "shake_table"]
         folder = next((folder for folder in tried if (folder / TESTS).is_file()), None)
@@ -79,46 +71,57 @@ class Campaign:
             raise RecordError(
                 f"no {TESTS} of the shake-table campaign in {places}; name its folder, or one beside it, as mirror."
             )
-        tests = []
-        reader = csv.DictReader(io.StringIO((folder / TESTS).read_text(encoding="utf-8")))
-        for line, cells in enumerate(reader, 2):
-            try:
-                tests.append(_test(cells))
-            except (KeyError, ValueError) as error:
-                raise RecordError(
-                    f"{folder / TESTS}, line {line}: {error} is missing or no number; mend the row."
-                ) from None
         listed = {motion.test: motion for motion in read_rows(TableMotion, catalogue)}
-        return cls(tuple(sorted(tests, key=lambda test: test.number)), folder, listed)
+        return cls(read_tests(folder / TESTS), folder, listed)
 
-    def table_motion(self, test: TableTest) -> Accelerogram:
+    def table_motion(self, number: int) -> Accelerogram:
         """Return the unfiltered acceleration of the table, its numbers checked against the catalogue."""
-        name, listed = f"{test.number:03d}", self.catalogue.get(test.number)
-        if self._arrays is not None and name in self._arrays:
+        name, listed = f"{number:03d}", self.catalogue.get(number)
+        if name in self._arrays:
             samples = self._arrays[name]
         elif listed is not None:
             samples = _fetched(listed)
         else:
-            raise RecordError(
-                f"test {test.number}: no samples in {self.folder / MOTIONS} nor in the catalogue."
-            )
+            raise RecordError(f"test {number}: no samples in {self.folder / MOTIONS} nor in the catalogue.")
         if listed is not None and not listed.holds(samples):
             raise RecordError(
-                f"test {test.number}: the samples have another sha256 than {listed.samples_sha256} of the catalogue; "
+                f"test {number}: the samples have another sha256 than {listed.samples_sha256} of the catalogue; "
                 "it is another version."
             )
-        return Accelerogram(
-            samples.astype(np.float64) * acceleration_factor("g"),
-            test.time_step,
-            component="table",
-            event=test.motion,
-            source=Source(path=f"Test{name}", unit="g", format="shake table"),
-        )
+        (test,) = self.tests[self.tests.test == number].itertuples()
+        source = Source(path=f"Test{name}", unit="g", format="shake table")
+        acceleration = samples.astype(np.float64) * G
+        return Accelerogram(acceleration, test.dt, component="table", event=test.motion, source=source)
 
     @cached_property
-    def _arrays(self) -> Mapping[str, np.ndarray] | None:
+    def _arrays(self) -> Mapping[str, np.ndarray]:
         path = self.folder / MOTIONS
-        return np.load(path, allow_pickle=False) if path.is_file() else None
+        return np.load(path, allow_pickle=False) if path.is_file() else {}
+
+
+def read_tests(path: Path) -> pd.DataFrame:
+    """Return tests.csv by number: test, dt [s], motion (what the table played, scaled) and verdicts, as truths.
+
+    The verdicts are overturned_specimen_1 and _2, and published ones of other codes as specimen_K_NAME. Of the columns
+    pga_g and pgv_over_pga the nominal peak velocity is made, m/s. Raises RecordError naming the line of a defect.
+    """
+    tests = pd.read_csv(path, dtype=str, keep_default_na=False)
+    own = [f"overturned_specimen_{each}" for each in SPECIMENS]
+    verdicts = dict.fromkeys([*own, *(name for name in tests if name.startswith("specimen_"))], bool)
+    kinds = {"test": int, "dt": float, "pga_g": float, "pgv_over_pga": float, "motion": str, **verdicts}
+    for name, kind in kinds.items():
+        if name not in tests:
+            raise RecordError(f"{path}: the column {name!r} is missing; mend the table.")
+        allowed, pattern = CELLS[kind]
+        fits = tests[name].str.fullmatch(pattern)
+        if not fits.all():
+            line, value = int(np.argmin(fits)) + 2, tests[name][np.argmin(fits)]
+            raise RecordError(
+                f"{path}, line {line}: {name} is {value!r}, but must be {allowed}; mend the row."
+            )
+    tests = tests.astype(dict.fromkeys(verdicts, int)).astype(kinds)
+    tests["nominal_peak_velocity"] = tests.pga_g * tests.pgv_over_pga * G
+    return tests.sort_values("test", ignore_index=True)
 
 
 def _fetched(listed: TableMotion) -> np.ndarray:
@@ -143,27 +146,3 @@ def converted(content: bytes, name: str) -> np.ndarray:
         return np.array([float(line.split()[1]) for line in text if line.strip()], dtype="<f4")
     except (UnicodeDecodeError, IndexError, ValueError) as error:
         raise RecordError(f"{name}: the file is no table of a test, {error}; fetch it again.") from None
-
-
-def _test(cells: Mapping[str, str]) -> TableTest:
-    step, peak, ratio = (float(cells[name]) for name in ("dt", "pga_g", "pgv_over_pga"))
-    published: dict[int, dict[str, bool]] = {specimen: {} for specimen in SPECIMENS}
-    for specimen in SPECIMENS:
-        start = f"specimen_{specimen}_"
-        for name, value in cells.items():
-            if name.startswith(start) and value != "":
-                published[specimen][name.removeprefix(start)] = _flag(value)
-    return TableTest(
-        number=int(cells["test"]),
-        motion=cells["motion"],
-        time_step=step,
-        peak_velocity=peak * ratio * acceleration_factor("g"),
-        overturned={specimen: _flag(cells[f"overturned_specimen_{specimen}"]) for specimen in SPECIMENS},
-        published=published,
-    )
-
-
-def _flag(text: str) -> bool:
-    if text not in ("0", "1"):
-        raise ValueError(f"verdict {text!r}, which must be 0 or 1,")
-    return text == "1"

@@ -1,6 +1,7 @@
-"""Real records by site: what counts as independent, and the structures that are tried under them."""
+"""Real records by site: what counts as independent, the structures that are tried under them, and at what scale."""
 
 import re
+import zlib
 from collections.abc import Callable, Iterable, Iterator
 from time import process_time
 from typing import TypeVar
@@ -12,10 +13,25 @@ from rocking.pulses import Pulse, extract_pulses
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Arch, Block, Structure, Wall
+from rocking.tables import Row, column, row
 
 MOST_COMPONENTS = 2
 """Of a site that count."""
+SiteRecord = tuple[str, str, Accelerogram]
+"""Identifier, site and record of a component that counts."""
+UPLIFTS = (1.3, 8.0)
+"""Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
 T = TypeVar("T")
+
+
+@row()
+class Trial(Row):
+    """A structure under a record of a scale that lifts it."""
+
+    record: str = column("Identifier of the record in the catalogue")
+    site: str = column("Event and station")
+    structure: str = column("Name of the structure")
+    scale_factor: float = column("What the record was multiplied by")
 
 
 def structures_tried() -> dict[str, Structure]:
@@ -31,7 +47,7 @@ def structures_tried() -> dict[str, Structure]:
     return made
 
 
-def independent(records: Iterable[tuple[str, Accelerogram]]) -> Iterator[tuple[str, str, Accelerogram]]:
+def independent(records: Iterable[tuple[str, Accelerogram]]) -> Iterator[SiteRecord]:
     """Yield identifier, site and record of the components that count, none under two names.
 
     A site is an event and a station. Events are alike in the first four letters, stations where the words of one begin
@@ -40,25 +56,28 @@ def independent(records: Iterable[tuple[str, Accelerogram]]) -> Iterator[tuple[s
     """
     sites: list[tuple[str, list[str], str, set]] = []
     for name, record in records:
-        named = site_of(record)
         event = "".join(re.findall(r"[a-z]+", record.event.lower()))[:4]
         words = re.findall(r"[a-z0-9]+", record.station.lower())
-        place = next(
-            (k for k, site in enumerate(sites) if site[0] == event and _begins(site[1], words)), None
-        )
-        if place is None:
-            place = len(sites)
-            sites.append((event, words, named, set()))
-        _, _, site_name, directions = sites[place]
-        azimuth = record.azimuth
-        direction = name if azimuth is None and not record.component else record.component
-        direction = direction if azimuth is None else round(azimuth) % 180
-        if named == site_name and direction not in directions and len(directions) < MOST_COMPONENTS:
+        alike = (site for site in sites if site[0] == event and _begins(site[1], words))
+        site = next(alike, None)
+        if site is None:
+            site = (event, words, site_of(record), set())
+            sites.append(site)
+        _, _, site_name, directions = site
+        direction: object = record.component or name
+        if record.azimuth is not None:
+            direction = round(record.azimuth) % 180
+        if site_of(record) == site_name and direction not in directions and len(directions) < MOST_COMPONENTS:
             directions.add(direction)
             yield name, site_name, record
 
 
-def one_of_each(records: Iterable[tuple[str, str, Accelerogram]]) -> list[tuple[str, str, Accelerogram]]:
+def _begins(one: list[str], other: list[str]) -> bool:
+    few = min(len(one), len(other))
+    return few > 0 and one[:few] == other[:few]
+
+
+def one_of_each(records: Iterable[SiteRecord]) -> list[SiteRecord]:
     """Return the first component of each site, of records as `independent` gives them."""
     first = {site: (name, site, record) for name, site, record in reversed(list(records))}
     return list(reversed(first.values()))
@@ -72,6 +91,11 @@ def lifting_factor(
     multiplier: uplift acceleration over g.
     """
     return float(multiplier * GRAVITY * np.exp(draw.uniform(*np.log(uplifts))) / record.peak_acceleration)
+
+
+def draw_of(name: str) -> np.random.Generator:
+    """Return the draws of a record, the same at every call."""
+    return np.random.default_rng(zlib.crc32(name.encode()))
 
 
 def timed(run: Callable[[], T]) -> tuple[T, float]:
@@ -91,8 +115,3 @@ def dominant_pulse(record: Accelerogram) -> Pulse | None:
         return extract_pulses(record).dominant
     except PulseError:
         return None
-
-
-def _begins(one: list[str], other: list[str]) -> bool:
-    few = min(len(one), len(other))
-    return few > 0 and one[:few] == other[:few]

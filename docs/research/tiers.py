@@ -1,148 +1,197 @@
-"""The tiers: what a cheap figure says of overturning, fitted to real records and judged by leaving sites out."""
+"""The tiers: what a cheap figure says of overturning, fitted to real records and judged by leaving sites out.
+
+And what `fidelity: auto` does with them on those sites: where it stops, what it costs, where it errs.
+"""
 
 import hashlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from scipy.special import expit, logit
 
 from docs.research import scores
-from docs.research.answers import answer_scores, try_answers
 from docs.research.report import publish
 from docs.research.scores import Score
-from docs.research.sites import independent, structures_tried
+from docs.research.sites import SiteRecord, independent, one_of_each, structures_tried, timed
 from rocking.assessment import fidelity
-from rocking.assessment.ensemble import GroundMotions, drawn, lattice
-from rocking.assessment.fidelity import NUDGES, Tier, TierFit, stays_at_rest
+from rocking.assessment.ensemble import GroundMotions, drawn, ensemble, lattice
+from rocking.assessment.fidelity import NUDGES, Tier, TierFit, cheapest_answer, stays_at_rest
 from rocking.assessment.fidelity import write_tiers as write_fits
+from rocking.assessment.intensity import peak_velocity
 from rocking.assessment.settings import EnsembleSettings
-from rocking.motion import integrate_batch
+from rocking.assessment.verdict import Method, Verdict
+from rocking.motion import integrate, integrate_batch
 from rocking.records import Accelerogram
-from rocking.structures import Structure
+from rocking.structures import Mechanism, Outcome, Structure
 
 FACTORS = (0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8)
 """On each record, so that it speaks for weaker and stronger shaking of the same shape."""
 MEMBERS = 64
 """Of the ensemble of a case."""
 BINS = (0.0, 0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
+RISK = 0.01
+"""Of the answers that are tried."""
+ANSWERED_FACTORS = (0.5, 1.0, 2.0)
+"""On each record for these."""
 
 
-@dataclass(frozen=True, eq=False)
-class TierCase:
-    """A structure under a record times a factor: what is known of it by measure, and what becomes of it.
-
-    share: of the members of its ensemble that overturn.
-    """
-
-    record: str
-    site: str
-    structure: str
-    factor: float
-    measures: Mapping[str, float]
-    share: float
-
-
-@dataclass(frozen=True, eq=False)
-class TierCases:
-    """All cases, and what they are as arrays."""
-
-    cases: Sequence[TierCase]
-
-    @cached_property
-    def shares(self) -> np.ndarray:
-        """(n,) share of the members that overturn."""
-        return np.array([case.share for case in self.cases])
-
-    @cached_property
-    def sites(self) -> np.ndarray:
-        """(n,) site of each."""
-        return np.array([case.site for case in self.cases])
-
-    def terms(self, tier: Tier) -> np.ndarray:
-        """Return (n, k) of the terms that `tier` takes."""
-        return np.array([[case.measures[term] for term in tier.terms] for case in self.cases])
-
-    def fit(self, tier: Tier, kept: np.ndarray | slice = slice(None)) -> TierFit:
-        """Return `tier` fitted to the cases `kept`, one of which weighs as much as another."""
-        terms = self.terms(tier)[kept]
-        centre, spread = terms.mean(axis=0), terms.std(axis=0)
-        spread = np.where(spread > 0, spread, 1.0)
-        design = np.column_stack([np.ones(len(terms)), (terms - centre) / spread])
-        shares = self.shares[kept]
-        fitted = scores.logistic(design, shares, self.sites[kept])
-        lapse = scores.lapse(expit(design @ fitted[0]), shares)
-        frequencies = [case.measures["frequency_parameter"] for case in self.cases]
-        ends = min(frequencies), max(frequencies)
-        return TierFit(tier, centre, spread, terms.min(axis=0), terms.max(axis=0), *fitted, ends, lapse)
+def write_tiers(records: Iterable[tuple[str, Accelerogram]], folder: Path) -> None:
+    """Fit and judge every tier on `records`; write the fits and the scores into `folder`; tiers.json is what ships."""
+    counted = list(independent(records))
+    cases = pd.DataFrame(tier_cases(counted))
+    rows = [*tier_scores(cases), *answer_scores(pd.DataFrame(try_answers(counted, cases)))]
+    about: dict[str, object] = {"records": cases.record.nunique(), "sites": cases.site.nunique()}
+    about["cases"] = len(cases)
+    subtitle = ", ".join(f"{many} {name}" for name, many in about.items())
+    publish(folder, "What a cheap figure says of overturning", f"{subtitle}.", {Score: rows})
+    hashes = "\n".join(sorted({record.source.sha256 for _, _, record in counted}))
+    about["records_sha256"] = hashlib.sha256(hashes.encode()).hexdigest()
+    write_fits(folder / "tiers.json", {tier: fit(tier, cases) for tier in Tier}, about)
 
 
 def tier_cases(
-    records: Iterable[tuple[str, str, Accelerogram]], structures: Mapping[str, Structure] | None = None
-) -> Iterator[TierCase]:
-    """Yield the cases of each record, as `independent` gives them, but those that rest as given, which is certain."""
+    records: Iterable[SiteRecord], structures: Mapping[str, Structure] | None = None
+) -> Iterator[dict[str, object]]:
+    """Yield the cases of each record but those that rest as given, which is certain: what is measured of each.
+
+    share: of the members of its ensemble that overturn. The other columns name the case and are the terms of the tiers.
+    """
     mechanisms = {name: s.mechanism() for name, s in (structures or structures_tried()).items()}
     blocks = [mechanism.equivalent_block("rest") for mechanism in mechanisms.values()]
     nudged = np.outer(FACTORS, NUDGES)
     for name, site, record in records:
         on_block = integrate_batch(blocks, record, nudged.ravel()).reshape(len(blocks), *nudged.shape)
         for k, (structure, mechanism) in enumerate(mechanisms.items()):
-            own = fidelity.of_structure(mechanism)
             for i, factor in enumerate(FACTORS):
                 motion = record.scaled(factor)
                 if stays_at_rest(mechanism, motion):
                     continue
-                points = lattice(MEMBERS)
-                members = drawn(mechanism, GroundMotions.of(motion), points, EnsembleSettings())
+                members = drawn(mechanism, GroundMotions.of(motion), lattice(MEMBERS), EnsembleSettings())
                 if not members.failed_members:
-                    measures = fidelity.of_velocity(motion, blocks[k])
+                    case = {"record": name, "site": site, "structure": structure, "factor": factor}
+                    measures = fidelity.of_structure(mechanism) | fidelity.of_velocity(motion, blocks[k])
                     measures |= fidelity.from_nudged(on_block[k, i])
-                    yield TierCase(name, site, structure, factor, own | measures, members.overturning_share)
+                    yield {**case, "share": members.overturning_share, **measures}
 
 
-def left_out(tier: Tier, cases: TierCases) -> np.ndarray:
+def fit(tier: Tier, cases: pd.DataFrame) -> TierFit:
+    """Return `tier` fitted to `cases`, one of which weighs as much as another."""
+    terms, shares = _terms(tier, cases), cases.share.to_numpy()
+    centre, spread = terms.mean(axis=0), terms.std(axis=0)
+    spread = np.where(spread > 0, spread, 1.0)
+    design = np.column_stack([np.ones(len(terms)), (terms - centre) / spread])
+    fitted = scores.logistic(design, shares, cases.site.to_numpy())
+    lapse = scores.lapse(expit(design @ fitted[0]), shares)
+    ends = cases.frequency_parameter.min(), cases.frequency_parameter.max()
+    return TierFit(tier, centre, spread, terms.min(axis=0), terms.max(axis=0), *fitted, ends, lapse)
+
+
+def _terms(tier: Tier, cases: pd.DataFrame) -> np.ndarray:
+    return np.ascontiguousarray(cases[list(tier.terms)].to_numpy())
+
+
+def left_out(tier: Tier, cases: pd.DataFrame) -> np.ndarray:
     """Return the share (n,) that `tier` estimates of each case when it is fitted without the site of the case."""
-    stated, terms = np.empty(len(cases.cases)), cases.terms(tier)
-    for site in np.unique(cases.sites):
-        out = cases.sites == site
-        fit = cases.fit(tier, ~out)
-        stated[out] = (1 - fit.lapse) * expit(fit.log_odds(terms[out])[0])
+    stated = np.empty(len(cases))
+    for site in cases.site.unique():
+        out = (cases.site == site).to_numpy()
+        without = fit(tier, cases[~out])
+        stated[out] = (1 - without.lapse) * expit(without.log_odds(_terms(tier, cases[out]))[0])
     return stated
 
 
-def tier_scores(cases: TierCases, replicates: int = scores.REPLICATES) -> Iterator[Score]:
+def tier_scores(cases: pd.DataFrame) -> Iterator[Score]:
     """Yield the scores and the reliability of each tier on sites left out."""
-    overturned, part = cases.shares, "sites left out"
+    overturned, sites, part = cases.share.to_numpy(), cases.site.tolist(), "sites left out"
     for tier in Tier:
         stated = left_out(tier, cases)
-        odds = logit(stated)
-        measures: dict[str, scores.Measure] = {
-            "Brier skill": lambda rows, stated=stated: scores.brier_skill(stated[rows], overturned[rows]),
-            "Brier skill of the shares themselves": lambda rows: scores.brier_skill(
-                overturned[rows], overturned[rows]
-            ),
-            "calibration slope": lambda rows, odds=odds: scores.logit_slope(odds[rows], overturned[rows]),
+        measures = {
+            "Brier skill": scores.brier_skill(stated, overturned),
+            "Brier skill of the shares themselves": scores.brier_skill(overturned, overturned),
+            "calibration slope": scores.logit_slope(logit(stated), overturned),
         }
-        yield from scores.scored(tier, part, measures, cases.sites, replicates)
-        yield from scores.reliability(tier, part, stated, overturned, cases.sites, BINS, replicates)
+        yield from scores.scored(tier, part, measures, sites)
+        yield from scores.reliability(tier, part, stated, overturned, sites, BINS)
 
 
-def write_tiers(
-    records: Iterable[tuple[str, Accelerogram]], folder: Path, replicates: int = scores.REPLICATES
-) -> None:
-    """Fit and judge every tier on `records`; write the fits and the scores into `folder`; tiers.json is what ships."""
-    counted = list(independent(records))
-    cases = TierCases(list(tier_cases(counted)))
-    found = [*tier_scores(cases, replicates), *answer_scores(list(try_answers(counted, cases)), replicates)]
-    about: dict[str, object] = {
-        "records": len({case.record for case in cases.cases}),
-        "sites": len(set(cases.sites)),
-        "cases": len(cases.cases),
+def try_answers(records: Iterable[SiteRecord], cases: pd.DataFrame) -> Iterator[dict[str, object]]:
+    """Yield a trial of each structure at each factor on the first component of each site, with tiers fitted without it.
+
+    cases: those of `tier_cases` under `records`.
+    """
+    mechanisms = [structure.mechanism() for structure in structures_tried().values()]
+    for _, site, record in one_of_each(records):
+        fits = {tier: fit(tier, cases[cases.site != site]) for tier in Tier}
+        for motion in map(record.scaled, ANSWERED_FACTORS):
+            _, velocity_s = timed(lambda motion=motion: peak_velocity(motion))
+            for mechanism in mechanisms:
+                trial = _answer_trial(mechanism, motion, fits, velocity_s / len(mechanisms))
+                yield {"site": site, **trial}
+
+
+def _answer_trial(
+    mechanism: Mechanism, record: Accelerogram, fits: Mapping[Tier, TierFit], velocity_s: float
+) -> dict[str, object]:
+    """What answered, the truths, and the CPU time of each [s].
+
+    alone: where the mechanism is the last that is asked. beside: where an ensemble follows. mechanism: the case as
+    given. whole: its ensemble. quick: one that may end early.
+    """
+    motions = GroundMotions.of(record)
+    asked = partial(cheapest_answer, mechanism, record, risk=RISK, fits=fits)
+    case, mechanism_s = timed(lambda: integrate(mechanism, record))
+    alone, alone_s = timed(asked)
+    beside, beside_s = timed(lambda: asked(ensemble_follows=True))
+    whole, whole_s = timed(lambda: ensemble(mechanism, motions))
+    quick, quick_s = timed(lambda: ensemble(mechanism, motions, verdict_only=True))
+    return {
+        "method": beside.method,
+        "overturns": case.outcome is Outcome.OVERTURNS,
+        "alone_overturns": alone.outcome is Outcome.OVERTURNS,
+        "beside_overturns": beside.outcome is Outcome.OVERTURNS,
+        "overturning_share": whole.overturning_share,
+        "verdict": whole.verdict,
+        "quick_verdict": quick.verdict,
+        "mechanism_s": mechanism_s,
+        "alone_s": alone_s + velocity_s,
+        "beside_s": beside_s + velocity_s,
+        "whole_s": whole_s,
+        "quick_s": quick_s,
     }
-    told = ", ".join(f"{many} {name}" for name, many in about.items())
-    publish(folder, "What a cheap figure says of overturning", f"{told}.", {Score: found})
-    hashes = "\n".join(sorted({record.source.sha256 for _, _, record in counted}))
-    about["records_sha256"] = hashlib.sha256(hashes.encode()).hexdigest()
-    write_fits(folder / "tiers.json", {tier: cases.fit(tier) for tier in Tier}, about)
+
+
+def answer_scores(trials: pd.DataFrame) -> Iterator[Score]:
+    """Yield every measure of the trials with its interval."""
+    by_velocity = trials.method == Method.PEAK_VELOCITY
+    by_block = trials.method == Method.BLOCK_ON_RECORD
+    settled = by_velocity | by_block
+    wrong = trials.beside_overturns != trials.overturns
+    against = trials.overturning_share.where(~trials.beside_overturns, 1 - trials.overturning_share)
+    opposite = trials.beside_overturns.map({True: Verdict.STANDS, False: Verdict.OVERTURNS})
+    paid = trials.mechanism_s + trials.whole_s
+    spent = trials.beside_s + trials.quick_s * (trials.method == Method.MECHANISM_ON_RECORD)
+    measures = {
+        "share at rest": trials.method == Method.NOTHING_TO_INTEGRATE,
+        "share settled by the peak velocity": by_velocity,
+        "share settled by the block": by_block,
+        "members against the verdict of the peak velocity": against.where(by_velocity),
+        "members against the verdict of the block": against.where(by_block),
+        "wrong verdicts among all without an ensemble": trials.alone_overturns != trials.overturns,
+        "wrong verdicts among those settled": wrong.where(settled),
+        "overturnings called standing among those settled": (wrong & trials.overturns).where(settled),
+        "opposite verdict of the ensemble among those settled": (trials.verdict == opposite).where(settled),
+        "undecided in the ensemble among those settled": (trials.verdict == Verdict.UNDECIDED).where(settled),
+        "verdicts of the ensemble that its early end changes": trials.quick_verdict != trials.verdict,
+        "CPU saved of the mechanism for all": _saved(trials.alone_s, trials.mechanism_s),
+        "CPU saved of mechanism and ensemble for all": _saved(spent, paid),
+    }
+    yield from scores.scored("fidelity: auto", "sites left out", measures, trials.site.tolist())
+
+
+def _saved(spent: pd.Series, usual: pd.Series) -> scores.Measure:
+    """The share of the usual time that is not spent."""
+    paid, without = spent.to_numpy(), usual.to_numpy()
+    return lambda rows: 1 - paid[rows].sum() / without[rows].sum()

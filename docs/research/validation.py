@@ -1,21 +1,20 @@
 """The shake table: every method's probability of overturning, from fits that never saw the motion of the test."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from scipy.special import logit
 
 from docs.research import scores
-from docs.research.identification import BlockPrior, Identification, overturning_table, two_sided_block
-from docs.research.mixture import fit_mixture
+from docs.research.identification import BlockPrior, blocks_of, fit_mixture, overturning_table
 from docs.research.report import publish
 from docs.research.scores import Score
-from docs.research.shake_table import SPECIMENS, Campaign, TableTest
+from docs.research.shake_table import SPECIMENS, Campaign
 from docs.research.sites import dominant_pulse
 from rocking.pulses import Pulse
-from rocking.records import Accelerogram
 from rocking.records.processing import Processing, process, velocity
 from rocking.sine_pulse import predict_maxima
 from rocking.tables import Row, column, row
@@ -49,7 +48,7 @@ Fitted = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 @row(
     "predictions",
-    "One row per specimen, method and test: what a fit to the other motions said, and the outcome",
+    "One row per specimen, method and test: what a fit to the other motions stated, and the outcome",
 )
 class PredictionRow(Row):
     """One method on one test."""
@@ -58,35 +57,65 @@ class PredictionRow(Row):
     method: str = column("How the prediction was made")
     test: int = column("Number of the test")
     motion: str = column("Input motion, which the table played scaled")
-    peak_acceleration_m_s2: float = column("Largest magnitude of the acceleration of the table, low-passed")
-    peak_velocity_m_s: float = column("Largest magnitude of the velocity of the table")
     probability: float = column("Predicted probability of overturning; 0 or 1 where the method knows no more")
     overturned: bool = column("Whether it overturned")
 
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """The tests as every method sees them. peak_acceleration, peak_velocity: (n,) m/s², m/s, of the table as measured.
+    """The tests as every method sees them: those of the campaign with peak_acceleration and peak_velocity as measured.
 
-    overturns: (n, m) verdict of each candidate block on the record. pulse_overturns: (n, m) the same in closed form
-    under the dominant pulse.
+    In m/s² and m/s. overturns: (n, m) verdict of each candidate block on the record. pulse_overturns: (n, m) the same
+    in closed form under the dominant pulse.
     """
 
-    tests: Sequence[TableTest]
+    tests: pd.DataFrame
     parameters: np.ndarray
-    peak_acceleration: np.ndarray
-    peak_velocity: np.ndarray
     overturns: np.ndarray
     pulse_overturns: np.ndarray
 
-    @property
-    def motions(self) -> np.ndarray:
-        """(n,) label of the input motion."""
-        return np.array([test.motion for test in self.tests])
-
     def outcomes(self, specimen: int) -> np.ndarray:
         """(n,) whether specimen 1 or 2 overturned."""
-        return np.array([test.overturned[specimen] for test in self.tests])
+        return self.tests[f"overturned_specimen_{specimen}"].to_numpy()
+
+
+def write_validation(
+    catalogue: Path, mirror: Path | None, folder: Path, tell: Callable[[str], None] = lambda line: None
+) -> None:
+    """Write every table of the validation and its report into `folder`; `tell` is given lines for a log.
+
+    catalogue: records/shake_table.csv. mirror: a folder of the campaign, or beside one (`Campaign.open`).
+    """
+    measured = measure(Campaign.open(catalogue, mirror), PRIOR, tell)
+    tests = measured.tests
+    motions = tests.motion.tolist()
+    counts = {"cases": len(motions), "sites": len(set(motions))}
+    rows: list[Score] = []
+    predictions: list[PredictionRow] = []
+    for specimen in SPECIMENS:
+        probability, outcomes = left_out(measured, specimen), measured.outcomes(specimen)
+        part, ours = f"specimen {specimen}", probability[IDENTIFIED]
+        for method, values in probability.items():
+            rows += scores.scored(method, part, _measures(values, ours, outcomes), motions)
+            about = {"specimen": specimen, "method": method}
+            for test, motion, value, fell in zip(tests.test, motions, values, outcomes, strict=True):
+                each = PredictionRow(
+                    test=int(test), motion=motion, probability=float(value), overturned=bool(fell), **about
+                )
+                predictions.append(each)
+        rows += scores.reliability(part, "motions left out", ours, outcomes, motions, EDGES)
+        population = fit_mixture(measured.parameters, measured.overturns, outcomes, motions)
+        for name, (low, middle, high) in population.ranges().items():
+            about = {"subject": name, "part": f"{part}, 5 to 95 % of the population of all motions"}
+            ends = {"value": middle, "value_low": low, "value_high": high}
+            rows.append(Score(measure="median of the population", **about, **ends, **counts))
+    subtitle = (
+        f"{len(tests)} tests of two granite specimens under {counts['sites']} input motions, each motion left out of "
+        "the fit that predicts it."
+    )
+    texts = [{"text": text} for text in TEXTS]
+    tables = {Score: rows, PredictionRow: predictions}
+    publish(folder, "Validation against shake-table tests", subtitle, tables, texts)
 
 
 def measure(
@@ -94,47 +123,45 @@ def measure(
 ) -> Measured:
     """Follow every candidate through every measured motion, one motion in memory at a time."""
     parameters = prior.parameters()
-    blocks = [two_sided_block(*each) for each in parameters.tolist()]
+    blocks = blocks_of(parameters)
     peaks, verdicts, pulses = [], [], []
-    for number, test in enumerate(campaign.tests, start=1):
-        tell(f"{number} of {len(campaign.tests)}: test {test.number}")
-        table_motion = campaign.table_motion(test)
-        motion = processed(table_motion)
+    for count, number in enumerate(campaign.tests.test, start=1):
+        tell(f"{count} of {len(campaign.tests)}: test {number}")
+        table_motion = campaign.table_motion(number)
+        motion = process(table_motion, TABLE_PROCESSING)
         speed = velocity(process(table_motion, VELOCITY_PROCESSING))
         peaks.append((motion.peak_acceleration, float(np.abs(speed).max())))
         verdicts.append(overturning_table(blocks, [motion])[0])
         pulses.append(dominant_pulse(motion) or NO_PULSE)
     acceleration, speeds = np.array(peaks).T
-    closed = np.isinf(predict_maxima(blocks, pulses)).T
-    return Measured(campaign.tests, parameters, acceleration, speeds, np.array(verdicts), closed)
-
-
-def processed(record: Accelerogram) -> Accelerogram:
-    """Return a measured motion of the table as the blocks meet it."""
-    return process(record, TABLE_PROCESSING)
+    tests = campaign.tests.assign(peak_acceleration=acceleration, peak_velocity=speeds)
+    return Measured(tests, parameters, np.array(verdicts), np.isinf(predict_maxima(blocks, pulses)).T)
 
 
 def left_out(measured: Measured, specimen: int) -> Mapping[str, np.ndarray]:
     """Return by method the probability of overturning (n,) of every test, its motion left out of the fit."""
-    motions = measured.motions
-    probability = {name: np.empty(motions.size) for name in methods(measured, specimen)}
+    motions = measured.tests.motion.to_numpy()
+    probability = {}
     for name, fitted in methods(measured, specimen).items():
+        probability[name] = np.empty(motions.size)
         for motion in np.unique(motions):
             out = motions == motion
             probability[name][out] = fitted(np.flatnonzero(~out), np.flatnonzero(out))
-    for name in measured.tests[0].published[specimen]:
-        verdicts = [float(test.published[specimen][name]) for test in measured.tests]
-        probability[f"published {name.replace('_', ' ')}"] = np.array(verdicts)  # not fitted here
+    start = f"specimen_{specimen}_"
+    for name, verdicts in measured.tests.items():
+        if str(name).startswith(start):  # not fitted here
+            published = str(name).removeprefix(start).replace("_", " ")
+            probability[f"published {published}"] = verdicts.to_numpy(float)
     return probability
 
 
 def methods(measured: Measured, specimen: int) -> Mapping[str, Fitted]:
     """Return every method by its name: the population, and what it must beat."""
-    outcomes = measured.outcomes(specimen)
-    nominal = np.array([test.peak_velocity for test in measured.tests])
+    tests, outcomes = measured.tests, measured.outcomes(specimen)
 
     def population(kept: np.ndarray, out: np.ndarray) -> np.ndarray:
-        mixture = fit_mixture(measured.overturns[kept], outcomes[kept], measured.motions[kept].tolist())
+        motions = tests.motion.to_numpy()[kept].tolist()
+        mixture = fit_mixture(measured.parameters, measured.overturns[kept], outcomes[kept], motions)
         return mixture.probability(measured.overturns[out])
 
     def one_block(verdicts: np.ndarray) -> Fitted:
@@ -147,16 +174,18 @@ def methods(measured: Measured, specimen: int) -> Mapping[str, Fitted]:
 
         return fitted
 
-    def threshold(values: np.ndarray) -> Fitted:
-        return lambda kept, out: (values[out] > fit_threshold(values[kept], outcomes[kept])).astype(float)
+    def threshold(values: pd.Series) -> Fitted:
+        of = values.to_numpy()
+        return lambda kept, out: (of[out] > fit_threshold(of[kept], outcomes[kept])).astype(float)
 
-    def logistic(values: np.ndarray) -> Fitted:
+    def logistic(values: pd.Series) -> Fitted:
+        logs = np.log(values.to_numpy())
+
         def fitted(kept: np.ndarray, out: np.ndarray) -> np.ndarray:
-            centre, many = np.log(values[kept]).mean(), kept.size
-            design = np.column_stack([np.ones(values.size), np.log(values) - centre])
-            ridge = 2e-4 / many  # keeps the fit finite where the outcomes separate
-            found, _ = scores.logistic(design[kept], outcomes[kept], np.arange(many), ridge)
-            return 1 / (1 + np.exp(-design[out] @ found))
+            design = np.column_stack([np.ones(logs.size), logs - logs[kept].mean()])
+            ridge = 2e-4 / kept.size  # keeps the fit finite where the outcomes separate
+            coefficients, _ = scores.logistic(design[kept], outcomes[kept], np.arange(kept.size), ridge)
+            return 1 / (1 + np.exp(-design[out] @ coefficients))
 
         return fitted
 
@@ -164,10 +193,10 @@ def methods(measured: Measured, specimen: int) -> Mapping[str, Fitted]:
         IDENTIFIED: population,
         "one block on the record": one_block(measured.overturns),
         "closed form on the dominant pulse": one_block(measured.pulse_overturns),
-        "threshold on peak velocity, nominal": threshold(nominal),
-        "threshold on peak velocity, measured": threshold(measured.peak_velocity),
-        "logistic regression on peak velocity": logistic(measured.peak_velocity),
-        "logistic regression on peak acceleration": logistic(measured.peak_acceleration),
+        "threshold on peak velocity, nominal": threshold(tests.nominal_peak_velocity),
+        "threshold on peak velocity, measured": threshold(tests.peak_velocity),
+        "logistic regression on peak velocity": logistic(tests.peak_velocity),
+        "logistic regression on peak acceleration": logistic(tests.peak_acceleration),
     }
 
 
@@ -178,66 +207,16 @@ def fit_threshold(values: np.ndarray, outcomes: np.ndarray) -> float:
     return float(limits[np.argmax([np.sum((values > limit) == outcomes) for limit in limits])])
 
 
-def write_validation(
-    catalogue: Path,
-    mirror: Path | None,
-    folder: Path,
-    prior: BlockPrior = PRIOR,
-    tell: Callable[[str], None] = lambda line: None,
-) -> None:
-    """Write every table of the validation and its report into `folder`; `tell` is given lines for a log.
-
-    catalogue: records/shake_table.csv. mirror: a folder of the campaign, or beside one (`Campaign.open`).
-    """
-    measured = measure(Campaign.open(catalogue, mirror), prior, tell)
-    motions = measured.motions.tolist()
-    tables: dict[type[Row], list] = {kind: [] for kind in (Score, PredictionRow)}
-    for specimen in SPECIMENS:
-        probability, outcomes = left_out(measured, specimen), measured.outcomes(specimen)
-        part, ours = f"specimen {specimen}", probability[IDENTIFIED]
-        for method, values in probability.items():
-            tables[Score] += scores.scored(method, part, _measures(values, ours, outcomes), motions)
-            tables[PredictionRow] += [
-                PredictionRow(
-                    specimen=specimen,
-                    method=method,
-                    test=test.number,
-                    motion=test.motion,
-                    peak_acceleration_m_s2=float(measured.peak_acceleration[k]),
-                    peak_velocity_m_s=float(measured.peak_velocity[k]),
-                    probability=float(values[k]),
-                    overturned=test.overturned[specimen],
-                )
-                for k, test in enumerate(measured.tests)
-            ]
-        tables[Score] += scores.reliability(part, "motions left out", ours, outcomes, motions, EDGES)
-        mixture = fit_mixture(measured.overturns, outcomes, motions)
-        identified = Identification(measured.parameters, mixture, processed)
-        counts = {"cases": len(motions), "sites": len(set(motions))}
-        for name, (low, median, high) in identified.ranges().items():
-            called = {"subject": name, "part": f"{part}, 5 to 95 % of the population of all motions"}
-            ends = {"value": median, "value_low": low, "value_high": high}
-            tables[Score].append(Score(measure="median of the population", **called, **ends, **counts))
-    subtitle = (
-        f"{len(measured.tests)} tests of two granite specimens under {len(set(motions))} input motions, each motion "
-        "left out of the fit that predicts it."
-    )
-    publish(
-        folder, "Validation against shake-table tests", subtitle, tables, [{"text": text} for text in TEXTS]
-    )
-
-
-def _measures(values: np.ndarray, ours: np.ndarray, outcomes: np.ndarray) -> Mapping[str, scores.Measure]:
+def _measures(values: np.ndarray, ours: np.ndarray, outcomes: np.ndarray) -> Mapping[str, scores.Measured]:
     """The measures of probabilities (n,), and what `ours` gains in them, paired."""
     right, ours_right = ((each > 0.5) == outcomes for each in (values, ours))
     missed_by, ours_missed_by = ((each - outcomes) ** 2 for each in (values, ours))
-    odds = logit(np.clip(values, 0.01, 0.99))
     return {
-        "accuracy": scores.mean(right),
-        "Brier score": scores.mean(missed_by),
-        "gain of the population in accuracy": scores.mean(ours_right * 1.0 - right),
-        "gain of the population in Brier score": scores.mean(missed_by - ours_missed_by),
-        "missed overturnings": scores.mean(np.where(outcomes, values <= 0.5, 0.0)),
-        "false overturnings": scores.mean(np.where(outcomes, 0.0, values > 0.5)),
-        "slope of the logit": lambda rows: scores.logit_slope(odds[rows], outcomes[rows].astype(float)),
+        "accuracy": right,
+        "Brier score": missed_by,
+        "gain of the population in accuracy": ours_right * 1.0 - right,
+        "gain of the population in Brier score": missed_by - ours_missed_by,
+        "missed overturnings": np.where(outcomes, values <= 0.5, 0.0),
+        "false overturnings": np.where(outcomes, 0.0, values > 0.5),
+        "slope of the logit": scores.logit_slope(logit(np.clip(values, 0.01, 0.99)), outcomes.astype(float)),
     }

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from docs.research import coverage
-from docs.research.fragilities import write_fragilities
+from docs.research import fragilities
+from docs.research.fragilities import population_scores, write_fragilities
 from docs.research.scores import Score
 from rocking.assessment.trade import TradeMethod
 from rocking.records import Accelerogram
@@ -34,10 +34,10 @@ def test_the_mechanism_is_its_own_reference(tmp_path):
 
 def test_the_median_of_a_known_population(monkeypatch):
     """Of a lognormal of median 1; 40 intervals of 90 % miss it in 4, and in ten or more once in 500 studies."""
-    monkeypatch.setattr(coverage, "STATIONS", (20,))
-    monkeypatch.setattr(coverage, "TRIALS", 40)
-    monkeypatch.setattr(coverage, "ESTIMATES", 1000)
-    monkeypatch.setattr(coverage, "MANY", 100_000)
-    held, bias = coverage.population_scores("lognormal")
+    monkeypatch.setattr(fragilities, "STATIONS", (20,))
+    monkeypatch.setattr(fragilities, "TRIALS", 40)
+    monkeypatch.setattr(fragilities, "ESTIMATES", 1000)
+    monkeypatch.setattr(fragilities, "MANY", 100_000)
+    held, bias = population_scores("lognormal")
     assert held.value > 0.75 and held.cases == 40
     assert abs(bias.value) < 0.06, "a step of the levels"

@@ -39,11 +39,11 @@ def measured(made) -> Measured:
 
 def test_a_test_is_read_as_it_was_measured(made):
     opened = Campaign.open(*made)
-    test = opened.tests[5]
-    motion = opened.table_motion(test)
-    assert (test.number, test.motion, test.overturned) == (6, "motion_1", {1: False, 2: False})
-    assert test.peak_velocity == pytest.approx(0.1 * 0.2 * GRAVITY)
-    assert test.published == {1: {"dem_a": True}, 2: {}}
+    test = opened.tests.loc[5]
+    motion = opened.table_motion(6)
+    assert (test.test, test.motion, test.specimen_1_dem_a) == (6, "motion_1", True)
+    assert not test.overturned_specimen_1 and not test.overturned_specimen_2
+    assert test.nominal_peak_velocity == pytest.approx(0.1 * 0.2 * GRAVITY)
     assert np.array_equal(motion.acceleration, made_motion(1, 0.2).astype(float) * GRAVITY)
     assert motion.time_step == 0.005
 
@@ -54,13 +54,13 @@ def test_what_is_no_campaign_is_refused(made, tmp_path):
     opened = Campaign.open(*made)
     wrong = {**opened.catalogue, 1: replace(opened.catalogue[1], samples_sha256="0" * 64)}
     with pytest.raises(RecordError, match="test 1: the samples have another sha256"):
-        replace(opened, catalogue=wrong).table_motion(opened.tests[0])
+        replace(opened, catalogue=wrong).table_motion(1)
     text = (made[1] / "tests.csv").read_text().replace(",0,0,1\n", ",0,2,1\n", 1)
     (tmp_path / "tests.csv").write_text(text)
-    with pytest.raises(RecordError, match=r"line 2: verdict '2'"):
+    with pytest.raises(RecordError, match="line 2: overturned_specimen_2 is '2', but must be 0 or 1"):
         Campaign.open(made[0], tmp_path)
     (tmp_path / "tests.csv").write_text("test,dt\n1,0.01\n")
-    with pytest.raises(RecordError, match="'pga_g' is missing"):
+    with pytest.raises(RecordError, match="the column 'pga_g' is missing"):
         Campaign.open(made[0], tmp_path)
 
 
@@ -74,13 +74,13 @@ def test_what_the_folder_lacks_is_fetched_and_checked(made, tmp_path, monkeypatc
     monkeypatch.setattr(shake_table, "download", lambda *_: file)
     (tmp_path / "tests.csv").write_bytes((made[1] / "tests.csv").read_bytes())
     opened = Campaign.open(made[0], tmp_path)
-    assert np.array_equal(opened.table_motion(opened.tests[0]).acceleration, samples.astype(float) * GRAVITY)
+    assert np.array_equal(opened.table_motion(1).acceleration, samples.astype(float) * GRAVITY)
     with pytest.raises(RecordError, match="test 2: the samples have another sha256"):
-        opened.table_motion(opened.tests[1])
+        opened.table_motion(2)
     assert not file.exists(), "a file of another version is not kept"
     file.write_text("head\nonly\n")
     with pytest.raises(RecordError, match=r"Test001\.txt: the file is no table of a test"):
-        opened.table_motion(opened.tests[0])
+        opened.table_motion(1)
     assert not file.exists()
 
 
@@ -92,14 +92,10 @@ def test_a_redirect_to_http_is_refused():
 
 def test_no_prediction_sees_the_outcomes_of_its_motion(measured):
     """Turning the outcomes of one motion around changes no prediction of it, by any method that is fitted."""
-    tests = [
-        replace(test, overturned={k: not each for k, each in test.overturned.items()})
-        if test.motion == "motion_2"
-        else test
-        for test in measured.tests
-    ]
-    before, after = left_out(measured, 1), left_out(replace(measured, tests=tests), 1)
-    inside = measured.motions == "motion_2"
+    inside = (measured.tests.motion == "motion_2").to_numpy()
+    turned = measured.tests.overturned_specimen_1 ^ inside
+    before = left_out(measured, 1)
+    after = left_out(replace(measured, tests=measured.tests.assign(overturned_specimen_1=turned)), 1)
     for method in before:
         assert np.array_equal(before[method][inside], after[method][inside]), method
     assert not np.array_equal(before[IDENTIFIED][~inside], after[IDENTIFIED][~inside])

@@ -6,21 +6,13 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from statistics import median
 
 import numpy as np
+import pandas as pd
 from matplotlib.figure import Figure
 
 from docs.research import scores
-from docs.research.comparison.cases import (
-    PULSES,
-    RECORDS,
-    SEED,
-    CodeCase,
-    pulse_cases,
-    record_cases,
-    structures,
-)
+from docs.research.comparison.cases import SEED, CodeCase, pulse_cases, record_cases, structures
 from docs.research.comparison.codes import (
     ANOTHER_MODEL,
     LMGC90,
@@ -92,24 +84,11 @@ class CodeRow(Row):
     outside_hinges: float = column("Share of all joint rotation outside the hinges of the mechanism")
     reason: str = column("Why there is no number")
 
-    @property
-    def rocks(self) -> bool:
-        """Whether there is an error to speak of: both rock."""
-        return not math.isnan(self.error) and 0 < self.reference_rotation_ratio < math.inf
 
-
-def write_comparison(
-    records: Sequence[Accelerogram], folder: Path, tell: Callable[[str], None], share: float = 1.0
-) -> None:
-    """Write codes.csv, its scores and its report into `folder`; tell: is given a line for each case.
-
-    share: of the cases, in (0, 1], for a shorter run.
-    """
-    cases = [
-        *pulse_cases(math.ceil(share * PULSES)),
-        *record_cases(records, math.ceil(share * RECORDS)),
-    ]
-    slow, rows = slow_cases(cases, share), []
+def write_comparison(records: Sequence[Accelerogram], folder: Path, tell: Callable[[str], None]) -> None:
+    """Write codes.csv, its scores and its report into `folder`; tell: is given a line for each case."""
+    cases = [*pulse_cases(), *record_cases(records)]
+    slow, rows = slow_cases(cases), []
     for case in cases:
         rows += code_rows(case, {**inner_codes(), **slow.get(case.name, {})})
         tell(case.name)
@@ -121,7 +100,8 @@ def write_comparison(
     shown = picture(work_figure(rows), "Median error against median processor time of every code.")
     caption = "Small marks: cases; large ones: medians of a code. No error is drawn at 1e-15."
     parts = [{**shown, "caption": caption}, {"heading": "What is compared", "text": COMPARED}]
-    publish(folder, "Work against precision", subtitle, {CodeRow: rows, Score: code_scores(rows)}, parts)
+    tables = {CodeRow: rows, Score: list(code_scores(rows))}
+    publish(folder, "Work against precision", subtitle, tables, parts)
 
 
 def code_rows(case: CodeCase, codes: Mapping[str, Code]) -> Iterator[CodeRow]:
@@ -147,8 +127,8 @@ def missed(landings: np.ndarray, expected: np.ndarray, within: float) -> int:
     return int((np.abs(expected[:, None] - landings).min(axis=1) > within).sum())
 
 
-def slow_cases(cases: Sequence[CodeCase], share: float = 1.0) -> Mapping[str, Mapping[str, Code]]:
-    """Return by case the slow codes that take it, of each code that share of its sample."""
+def slow_cases(cases: Sequence[CodeCase]) -> Mapping[str, Mapping[str, Code]]:
+    """Return by case the slow codes that take it, of each code its sample."""
     rocking: dict[str, list[str]] = {}
     for case in cases:
         if VISIBLE[0] < integrate(case.mechanism, case.motion).rotation_ratio < VISIBLE[1]:
@@ -157,73 +137,69 @@ def slow_cases(cases: Sequence[CodeCase], share: float = 1.0) -> Mapping[str, Ma
     for name, code in outer_codes().items():
         for structure, most in SAMPLED[name].items():
             names = rocking.get(structure, [])
-            for case_name in random.Random(SEED).sample(names, min(math.ceil(share * most), len(names))):
+            for case_name in random.Random(SEED).sample(names, min(most, len(names))):
                 chosen.setdefault(case_name, {})[name] = code
     return chosen
 
 
 def _row(case: CodeCase, code: str, answer: Answer, truth: float, expected: np.ndarray) -> CodeRow:
-    ratio, side, other = (
-        answer.rotation_ratio,
-        case.mechanism.positive,
-        (case.structure, code) in ANOTHER_MODEL,
-    )
+    ratio, side = answer.rotation_ratio, case.mechanism.positive
     agrees = None if math.isnan(ratio) or math.isnan(truth) else _kind(ratio) == _kind(truth)
     error = abs(ratio / truth - 1) if agrees and 0 < truth < math.inf else 0.0 if agrees else math.nan
-    landings = None if other else answer.landings
-    same, within = math.nan, 0.02 / side.frequency_parameter
-    if 0 <= answer.restitution <= 1:
-        same = integrate(Mechanism(replace(side, restitution=answer.restitution)), case.motion).rotation_ratio
-    envelope = max(_over_cracks(case)) if other else math.nan
-    return CodeRow.of(
+    made = CodeRow.of(
         answer,
         case=case.name,
         structure=case.structure,
         motion=case.kind,
         code=code,
-        another_model=other,
+        another_model=False,
         reference_rotation_ratio=truth,
-        error=math.nan if other else error,
+        error=error,
         verdict_agrees=agrees,
         reference_impacts=expected.size,
-        missed_impacts=None if landings is None else missed(landings, expected, within),
         reference_restitution=side.restitution,
-        same_restitution_rotation_ratio=same,
-        envelope_rotation_ratio=envelope,
     )
-
-
-def _over_cracks(case: CodeCase) -> list[float]:
-    return [integrate(each, case.motion).rotation_ratio for _, each in cracks(structures()[case.structure])]
+    if 0 <= answer.restitution <= 1:
+        same = integrate(Mechanism(replace(side, restitution=answer.restitution)), case.motion)
+        made = replace(made, same_restitution_rotation_ratio=same.rotation_ratio)
+    if (case.structure, code) in ANOTHER_MODEL:
+        mechanisms = [mechanism for _, mechanism in cracks(structures()[case.structure])]
+        envelope = max(integrate(each, case.motion).rotation_ratio for each in mechanisms)
+        return replace(made, another_model=True, error=math.nan, envelope_rotation_ratio=envelope)
+    if answer.landings is not None:
+        made = replace(
+            made, missed_impacts=missed(answer.landings, expected, 0.02 / side.frequency_parameter)
+        )
+    return made
 
 
 def _kind(ratio: float) -> int:
     """0 at rest, 1 rocking, 2 overturned; a rotation beyond 1.5 critical ones at the end of a run has overturned."""
-    return 0 if ratio == 0 else 2 if ratio > 1.5 else 1
+    return (ratio > 0) + (ratio > 1.5)
 
 
-def code_scores(rows: Sequence[CodeRow]) -> list[Score]:
-    """Return error and work of every code on every structure, with intervals by case."""
-    groups: dict[tuple[str, str], list[CodeRow]] = {}
-    for each in rows:
-        groups.setdefault((each.structure, each.code), []).append(each)
-    found: list[Score] = []
-    for (structure, code), own in sorted(groups.items()):
-        cases = [row.case for row in own]
-        found += scores.scored(code, structure, _measures(own), cases)
+def code_scores(rows: Sequence[CodeRow]) -> Iterator[Score]:
+    """Yield error and work of every code on every structure, with intervals by case."""
+    for (structure, code), own in _frame(rows).groupby(["structure", "code"]):
+        cases = own.case.tolist()
+        yield from scores.scored(code, structure, _measures(own), cases)
         if code in SAMPLED:
-            found += scores.scored(
-                code, f"{structure}, what the other codes lose and give", _losses(own), cases
-            )
-    return found
+            part = f"{structure}, what the other codes lose and give"
+            yield from scores.scored(code, part, _losses(own), cases)
 
 
-def _measures(rows: Sequence[CodeRow]) -> Mapping[str, scores.Measure]:
+def _frame(rows: Sequence[CodeRow]) -> pd.DataFrame:
+    """The rows, and whether there is an error to speak of: both rock."""
+    table = pd.DataFrame(rows).astype({"missed_impacts": float})
+    moves = table.reference_rotation_ratio.between(0, math.inf, inclusive="neither")
+    return table.assign(rocks=table.error.notna() & moves)
+
+
+def _measures(own: pd.DataFrame) -> Mapping[str, scores.Measured]:
     """Errors where both rock; verdicts and impacts of all."""
-    errors = [row.error if row.rocks else math.nan for row in rows]
-    told = [row.missed_impacts is not None for row in rows]
-    impacts = np.array([row.reference_impacts * each for row, each in zip(rows, told, strict=True)])
-    missing = np.array([row.missed_impacts or 0 for row in rows])
+    errors = own.error.where(own.rocks)
+    missing = own.missed_impacts.fillna(0).to_numpy()
+    impacts = own.reference_impacts.where(own.missed_impacts.notna(), 0).to_numpy()
 
     def missed_share(kept: np.ndarray) -> float:
         return float(missing[kept].sum() / impacts[kept].sum()) if impacts[kept].any() else math.nan
@@ -231,45 +207,38 @@ def _measures(rows: Sequence[CodeRow]) -> Mapping[str, scores.Measure]:
     return {
         "median error": scores.median(errors),
         "95 % error": scores.median(errors, 0.95),
-        "share that rocks": scores.mean([row.rocks for row in rows]),
-        "share of other verdicts": scores.mean([row.verdict_agrees is False for row in rows]),
-        "share without an answer": scores.mean([math.isnan(row.rotation_ratio) for row in rows]),
+        "share that rocks": own.rocks,
+        "share of other verdicts": own.verdict_agrees.eq(False),
+        "share without an answer": own.rotation_ratio.isna(),
         "share of impacts missed": missed_share,
-        "processor time of a response, s": scores.median([row.duration_s for row in rows]),
+        "processor time of a response, s": scores.median(own.duration_s),
     }
 
 
-def _losses(rows: Sequence[CodeRow]) -> Mapping[str, scores.Measure]:
+def _losses(own: pd.DataFrame) -> Mapping[str, scores.Measured]:
     """What a code keeps at an impact, and how many times its rotation is that of the reference, and ours with its η."""
-    barred = [not (math.isnan(row.rotation_ratio_error) or row.another_model) for row in rows]
-    apart = [abs(row.rotation_ratio - row.reference_rotation_ratio) for row in rows]
-    held = [gap <= row.rotation_ratio_error for gap, row in zip(apart, rows, strict=True)]
+    barred = own.rotation_ratio_error.notna() & ~own.another_model
+    apart = (own.rotation_ratio - own.reference_rotation_ratio).abs()
+    envelope = own.envelope_rotation_ratio
     return {
-        "restitution of the reference": scores.median([row.reference_restitution for row in rows]),
-        "restitution of the code": scores.median([row.restitution for row in rows]),
-        "rotation over the reference's": scores.median(
-            [_over(row, row.reference_rotation_ratio) for row in rows]
-        ),
+        "restitution of the reference": scores.median(own.reference_restitution),
+        "restitution of the code": scores.median(own.restitution),
+        "rotation over the reference's": scores.median(_over(own, own.reference_rotation_ratio)),
         "rotation over ours, same restitution": scores.median(
-            [_over(row, row.same_restitution_rotation_ratio) for row in rows]
+            _over(own, own.same_restitution_rotation_ratio)
         ),
-        "rotation over the largest of ours over all cracks": scores.median(
-            [row.rotation_ratio / row.envelope_rotation_ratio for row in rows]
+        "rotation over the largest of ours over all cracks": scores.median(own.rotation_ratio / envelope),
+        "share with a larger one of ours over all cracks": (envelope >= own.rotation_ratio).where(
+            own.another_model
         ),
-        "share with a larger one of ours over all cracks": scores.mean(
-            [
-                row.envelope_rotation_ratio >= row.rotation_ratio if row.another_model else math.nan
-                for row in rows
-            ]
-        ),
-        "share with the reference within the bar": scores.mean(np.where(barred, held, math.nan)),
+        "share with the reference within the bar": (apart <= own.rotation_ratio_error).where(barred),
     }
 
 
-def _over(row: CodeRow, expected: float) -> float:
-    """Return how many times the rotation is as large, where both rock."""
-    both = math.isfinite(row.rotation_ratio) and 0 < expected < math.inf
-    return row.rotation_ratio / expected if both else math.nan
+def _over(own: pd.DataFrame, expected: pd.Series) -> pd.Series:
+    """How many times the rotation is as large, where both rock."""
+    both = np.isfinite(own.rotation_ratio) & expected.between(0, math.inf, inclusive="neither")
+    return (own.rotation_ratio / expected).where(both)
 
 
 @styled
@@ -277,15 +246,16 @@ def work_figure(rows: Sequence[CodeRow]) -> Figure:
     """Draw error against processor time: small marks are cases, large ones the medians of a code and structure."""
     figure = new_figure(112, margins=(17, 4, 29, 6))
     panels = figure.subplots(1, 3, sharex=True, sharey=True, gridspec_kw={"wspace": 0.06})
-    names = [name for name in dict.fromkeys(row.code for row in rows) if name != REFERENCE]
+    table = _frame(rows)
+    names = [name for name in table.code.unique() if name != REFERENCE]
     for panel, structure in zip(panels, ("block", "frame", "arch"), strict=True):
         for k, name in enumerate(names):
-            own = [row for row in rows if (row.structure, row.code) == (structure, name) and row.rocks]
-            if own:
-                times, errors = [r.duration_s for r in own], [max(r.error, SMALLEST_ERROR) for r in own]
+            own = table[(table.structure == structure) & (table.code == name) & table.rocks]
+            if len(own):
+                times, errors = own.duration_s, own.error.clip(lower=SMALLEST_ERROR)
                 look = {"color": f"C{k % 10}", "marker": "osD^vPXH"[k % 8], "linestyle": "none"}
                 panel.plot(times, errors, markersize=1.8, alpha=0.35, **look)
-                panel.plot(median(times), median(errors), markersize=6.5, label=name, **look)
+                panel.plot(times.median(), errors.median(), markersize=6.5, label=name, **look)
         panel.set(xscale="log", yscale="log", title=structure, xlabel="processor time of a response (s)")
         panel.grid(True)
     panels[0].set_ylabel("relative error of the largest rotation")
