@@ -3,7 +3,6 @@
 import csv
 import os
 import shutil
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,12 +12,9 @@ from hypothesis import settings
 _VARIABLE = "ROCKING_RECORDS"
 _BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 
-settings.register_profile(
-    "any machine", deadline=None
-)  # by default an example must end within 0.2 s of the clock
+# By default an example must end within 0.2 s of the clock.
+settings.register_profile("any machine", deadline=None)
 settings.load_profile("any machine")
-
-sys.path.append(str(Path(__file__).parent / "oracles"))  # what several folders of tests compare with
 
 ON_DEMAND = Path(__file__).parent / "research"
 """The tests of docs/research, each marked slow: `make test-all` runs them."""

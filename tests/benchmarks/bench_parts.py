@@ -1,28 +1,38 @@
-"""CPU of each part of the work on one record, and the memory that many reports leave: bench_parts.py [REPORTS].
+"""CPU of each part of the work on one record, and of the integration beside scipy's with its error. Run it as a script.
 
-Run it as a script. Each time is the least of several turns in one run; nothing is asserted.
+Each time is the least of several turns in one run; nothing is asserted.
 """
 
 import dataclasses
-import resource
 import sys
 import tempfile
+import time
+from itertools import count
 from pathlib import Path
 
 import numpy as np
 from clock import least_cpu, shaking
+from scipy.constants import g
 
 sys.path.append(str(Path(__file__).parents[1] / "unit" / "reports"))
+sys.path.append(str(Path(__file__).parents[1] / "unit" / "motion"))
 
 from conftest import assessed, shaken
+from oracle import Oracle
 
-from rocking import Arch, Block, Pulse, Wall
+from rocking import Accelerogram, Arch, Block, Pulse, Wall, integrate, rocking_spectrum
+from rocking.assessment.ensemble import GroundMotions, ensemble
+from rocking.motion import integrate_batch
 from rocking.pulses import extract_pulses
 from rocking.records import read
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.sine_pulse import predict_maxima, pulse_spectrum
+from rocking.structures import load_structures
+from rocking.structures.mechanism import Mechanism
 
 RATIOS = np.linspace(0.2, 12, 200)
+STRUCTURES = Path(__file__).parents[2] / "workflow" / "structures.yaml"
+BLOCK = Block(3.0, 0.2, restitution=0.9)
 
 
 def parts(folder: Path) -> dict[str, object]:
@@ -49,7 +59,7 @@ def report_of_ten_structures():
     structures |= {f"wall {h} m": Wall(0.5 * h, 0.45 * h, 0.1 * h) for h in (2.5, 3.5, 5)}
     structures |= {f"arch {r} m": Arch(r, 0.15 * r, np.radians(157.5)) for r in (5, 10, 15)}
     case = assessed("ten", [shaken(station="STA")], structures)
-    places = iter(range(10_000))
+    places = count()
 
     def another() -> bytes:
         moved = [each.scaled(1 + 1e-3 * next(places)) for each in case.accelerograms]
@@ -58,20 +68,70 @@ def report_of_ten_structures():
     return another
 
 
-def main(reports: int) -> None:
-    """Print the table, and the growth of memory over so many reports."""
+def print_parts() -> None:
     with tempfile.TemporaryDirectory() as folder:
-        calls = parts(Path(folder))
-        report = report_of_ten_structures()
-        calls["report of a record with ten structures"] = report
+        calls = parts(Path(folder)) | {"report of a record with ten structures": report_of_ten_structures()}
         for name, seconds in zip(calls, least_cpu(*calls.values(), repeats=5), strict=True):
             print(f"{1e3 * seconds:10.3f} ms  {name}")
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    for _ in range(reports):
-        report()
-    after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    print(f"memory after {reports} more reports: {after / before:.3f} times as much")
+
+
+def lively(mechanism: Mechanism, seconds: float, rounds: int = 1) -> Accelerogram:
+    """The strongest of some records, played so often, under which the structure stands; then still ground."""
+    for strength in (3.0, 2.5, 2.2, 2.0, 1.8, 1.6, 1.5, 1.4, 1.3, 1.2, 1.1):
+        motion = shaking(seconds, strength * g * mechanism.uplift_multiplier, period=0.3)
+        samples = np.append(np.tile(motion.acceleration, rounds), np.zeros(2000))
+        if integrate(mechanism, played := Accelerogram(samples, motion.time_step)).outcome == "rocks":
+            return played
+    raise RuntimeError("the structure stands under none of the records")
+
+
+def beside_scipy() -> None:
+    """One response with its error against a run at 1e-13, and the same by the oracle of the tests with its own."""
+    for name, structure in (("block", BLOCK), ("arch", Arch(20.0, 2.4, np.pi))):
+        mechanism = structure.mechanism()
+        motion = lively(mechanism, 4)
+        truth = integrate(mechanism, motion, 1e-13).rotation_ratio
+        response = integrate(mechanism, motion)
+        (here,) = least_cpu(lambda m=mechanism, r=motion: integrate(m, r))
+        error = abs(response.rotation_ratio / truth - 1)
+        print(f"{name}, 4 s at 200 Hz: {here * 1e3:.3f} ms, {response.impacts} impacts, error {error:.0e}")
+        for tolerance in (1e-6, 1e-8):
+            started = time.process_time()
+            peak, _ = Oracle(mechanism, tolerance).run(motion.acceleration, motion.time_step)
+            times = (time.process_time() - started) / here
+            print(f"  DOP853 at {tolerance:g}: error {abs(peak / truth - 1):.0e}, {times:,.0f} times as long")
+
+
+def growth() -> None:
+    """Exponent of the cost against samples and against structures, and the cost of a record spectrum."""
+    block = BLOCK.mechanism()
+    records = [lively(block, 10, rounds) for rounds in (4, 40, 400)]
+    sizes = [record.acceleration.size for record in records]
+    taken = least_cpu(*(lambda r=r: integrate(block, r) for r in records), repeats=5)
+    print(f"cost ~ samples^{np.polyfit(np.log(sizes), np.log(taken), 1)[0]:.3f}")
+    short, counts = lively(block, 4), np.array([100, 1000, 10_000])
+    taken = least_cpu(*(lambda n=n: integrate_batch([block] * n, short) for n in counts), repeats=3)
+    print(f"cost ~ structures^{np.polyfit(np.log(counts), np.log(taken), 1)[0]:.3f}")
+    frequencies, multipliers = np.linspace(0.5, 5, 100), np.linspace(0.05, 0.45, 100)
+    (spent,) = least_cpu(lambda: rocking_spectrum(short, frequencies, multipliers, 0.9), repeats=3)
+    print(f"100 x 100 record spectrum of {short.acceleration.size} samples: {spent:.2f} s")
+
+
+def ensembles() -> None:
+    """The ensemble of each shipped structure over one integration of it under the same record."""
+    for name, structure in load_structures(STRUCTURES).items():
+        mechanism = structure.mechanism()
+        motion = shaking(20, 2.5 * g * mechanism.uplift_multiplier, step=0.01)
+        motions = GroundMotions.of(motion)
+        whole, one = least_cpu(
+            lambda m=mechanism, of=motions: ensemble(m, of), lambda m=mechanism, r=motion: integrate(m, r)
+        )
+        members = ensemble(mechanism, motions).members
+        print(f"{name}: ensemble of {members} in {whole * 1e3:.2f} ms = {whole / one:.0f} integrations")
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 20)
+    print_parts()
+    beside_scipy()
+    ensembles()
+    growth()

@@ -3,16 +3,12 @@
 import random
 import re
 import resource
-import sys
 import time
 from pathlib import Path
 
+import mutate_records
 import numpy as np
 import pytest
-
-sys.path.append(str(Path(__file__).parents[1] / "fuzz"))
-
-import mutate_records
 
 from rocking.errors import RecordError
 from rocking.records.formats import Options

@@ -44,24 +44,6 @@ def energy(side, rotation: float, velocity: float) -> float:
     return side.at("inertia", rotation) * velocity**2 / 2 + g * lifted
 
 
-@pytest.mark.parametrize("name", MECHANISMS)
-@pytest.mark.parametrize("share", [0.05, 0.6])
-def test_free_rocking_conserves_energy_over_a_hundred_periods(name, share):
-    """η = 1: ½ I φ'² + g ∫ G dφ is the same after 100 periods, to 1e-10; this catches any error in I, J = I'/2 or G."""
-    mechanism = lossless(MECHANISMS[name])
-    side = mechanism.positive
-    period = 4 / side.frequency_parameter * np.arccosh(1 / (1 - share))
-    record = Accelerogram(np.zeros(4000), 110 * period / 3999)
-    response = integrate(
-        mechanism, record, 1e-12, history=True, initial_rotation=share * side.critical_rotation
-    )
-    assert response.impacts >= 200
-    start = energy(side, share * side.critical_rotation, 0.0)
-    picked = np.linspace(0, response.times.size - 1, 60).astype(int)
-    found = [energy(side, abs(response.rotation[k]), response.angular_velocity[k]) for k in picked]
-    assert found == pytest.approx(np.full(60, start), rel=1e-10)
-
-
 @pytest.mark.parametrize("name", ["block", "arch"])
 def test_energy_drift_over_ten_thousand_impacts(name):
     """η = 1, still ground: the speed of landing is the same to 1e-9 at impact 10 000 as at the first."""
@@ -76,22 +58,15 @@ def test_energy_drift_over_ten_thousand_impacts(name):
 
 
 @pytest.mark.parametrize("name", ["block", "arch"])
-@pytest.mark.parametrize("linear", [False, True])
-def test_free_period_of_the_equivalent_block(name, linear):
-    """Housner's T = (4/p) acosh(1/(1 − x₀)) is exact on the equivalent block; the mechanism tends to it near none."""
+def test_free_period_of_the_equivalent_block(name):
+    """Housner's T = (4/p) acosh(1/(1 − x₀)) is exact on the linearised block."""
     mechanism = lossless(MECHANISMS[name])
-    structure = mechanism.equivalent_block("linearised") if linear else mechanism
     record = Accelerogram(np.zeros(2000), 0.01)
-    response = integrate(
-        structure, record, 1e-10, history=True, initial_rotation=0.5 * mechanism.critical_rotation
-    )
+    block, start = mechanism.equivalent_block("linearised"), 0.5 * mechanism.critical_rotation
+    response = integrate(block, record, 1e-10, history=True, initial_rotation=start)
     landed = np.unique(response.times[response.rotation == 0])
     period = 4 / mechanism.positive.frequency_parameter * np.arccosh(2)
-    if linear:
-        assert landed[2] - landed[0] == pytest.approx(period, rel=1e-12)
-    else:
-        assert landed[2] - landed[0] != pytest.approx(period, rel=1e-6)
-        assert landed[2] - landed[0] == pytest.approx(period, rel=0.3)
+    assert landed[2] - landed[0] == pytest.approx(period, rel=1e-12)
 
 
 @pytest.mark.parametrize("name", MECHANISMS)
@@ -131,13 +106,11 @@ def test_mirrored_records_give_mirrored_responses(name, seed):
 @given(seed=SEEDS, scale=st.floats(0.01, 100))
 def test_similar_structures_under_time_scaled_records(seed, scale):
     """Lengths times k and times times √k leave φ/φ_cr as it is."""
-    for build in (
-        lambda k: Block(k, 0.25, restitution=0.85).mechanism(),
-        lambda k: Wall(2.0 * k, 3.0 * k, 0.5 * k, restitution=0.8).mechanism(),
-    ):
-        record = noise(seed, build(1.0))
+    wall = Wall(2.0 * scale, 3.0 * scale, 0.5 * scale, restitution=0.8)
+    for one, other in ((BLOCK, Block(scale, 0.25, restitution=0.85)), (WALL, wall)):
+        record = noise(seed, one)
         scaled = Accelerogram(record.acceleration, record.time_step * np.sqrt(scale))
-        small, large = integrate(build(1.0), record, 1e-10), integrate(build(scale), scaled, 1e-10)
+        small, large = integrate(one, record, 1e-10), integrate(other, scaled, 1e-10)
         assert small.outcome is large.outcome
         assert large.rotation_ratio == pytest.approx(small.rotation_ratio, rel=1e-7)
 

@@ -12,8 +12,11 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
+import obspy
 import pytest
 import yaml
+from obspy.core.inventory import Channel, Inventory, Network, Response, Station
+from obspy.core.inventory.response import InstrumentSensitivity
 
 import rocking
 from docs.site.drawings import drawing, forms
@@ -116,24 +119,20 @@ COUNTS_PER_M_S2 = 2.0e5
 
 def stored_answer():
     """A stream of two horizontal channels in counts, its inventory, and the acceleration that it holds, m/s²."""
-    from obspy import Stream, Trace, UTCDateTime
-    from obspy.core.inventory import Channel, Inventory, Network, Response, Station
-    from obspy.core.inventory.response import InstrumentSensitivity
-
-    start = UTCDateTime("2019-07-06T03:19:40")
-    place = {"latitude": 35.8, "longitude": -117.6, "elevation": 735}
     times = np.arange(0, 20, 0.01)
     acceleration = 3.0 * np.sin(2 * np.pi * times) * (times > 5) * (times < 6)
-    said = InstrumentSensitivity(COUNTS_PER_M_S2, 1.0, input_units="M/S**2", output_units="COUNTS")
+    place = {"latitude": 35.8, "longitude": -117.6, "elevation": 735}
+    since = obspy.UTCDateTime("2019-07-06T03:19:40")
+    sensitivity = InstrumentSensitivity(COUNTS_PER_M_S2, 1.0, input_units="M/S**2", output_units="COUNTS")
     channels, traces = [], []
     for code, azimuth in (("HNE", 90.0), ("HNN", 0.0)):
-        response = Response(instrument_sensitivity=said)
-        at = {"depth": 0.0, "azimuth": azimuth, "dip": 0.0, "sample_rate": 100.0, "start_date": start - 1e6}
-        channels.append(Channel(code, "", **place, **at, response=response))
-        header = {"network": "CI", "station": "CLC", "channel": code, "delta": 0.01, "starttime": start}
-        traces.append(Trace(np.round(acceleration * COUNTS_PER_M_S2).astype(np.int32), header))
-    station = Station("CLC", **place, channels=channels)
-    return Stream(traces), Inventory(networks=[Network("CI", stations=[station])]), acceleration
+        channel = Channel(code, "", **place, depth=0.0, azimuth=azimuth, dip=0.0, start_date=since - 1e6)
+        channel.response = Response(instrument_sensitivity=sensitivity)
+        channels.append(channel)
+        header = {"network": "CI", "station": "CLC", "channel": code, "delta": 0.01, "starttime": since}
+        traces.append(obspy.Trace(np.round(acceleration * COUNTS_PER_M_S2).astype(np.int32), header))
+    network = Network("CI", stations=[Station("CLC", **place, channels=channels)])
+    return obspy.Stream(traces), Inventory([network]), acceleration
 
 
 @pytest.mark.slow
@@ -154,9 +153,7 @@ def test_the_commands_of_a_page_are_understood(path):
     commands += [line for line in re.findall(r"`(rocking [a-z]+ [^`]+)`", text) if "FILE" not in line]
     for command in commands:
         given = shlex.split(command, comments=True)[1:]
-        assert vars(_parser().parse_args(given)), (
-            command
-        )  # which ends the process where it does not understand
+        assert vars(_parser().parse_args(given)), command  # ends the process where it does not understand
 
 
 @pytest.mark.parametrize("path", WRITTEN, ids=lambda path: path.name)

@@ -4,15 +4,10 @@ import gzip
 import io
 import re
 import struct
-import sys
-from pathlib import Path
-
-import numpy as np
-import pytest
-
-sys.path.append(str(Path(__file__).parents[2] / "contracts"))
 
 import made_files
+import numpy as np
+import pytest
 from made_files import MADE, STEP, TRUE, N
 
 from rocking.errors import RecordError
