@@ -165,6 +165,10 @@ class Accelerogram:
         """Return a copy with new samples and one more processing sentence."""
         return replace(self, acceleration=acceleration, processing=(*self.processing, step), **changes)
 
+    def warned(self, *sentences: str) -> "Accelerogram":
+        """Return a copy with more warnings."""
+        return replace(self, warnings=(*self.warnings, *sentences))
+
     @classmethod
     def from_obspy(
         cls, trace_or_stream, inventory=None, unit: str | None = None, response: str = "sensitivity"

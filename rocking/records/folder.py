@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from datetime import datetime
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -20,10 +21,8 @@ from rocking.records.station import why_apart
 
 Row = dict[str, str]
 
-_STAND_IN = "mm/s2"
-"""Unit in which a file that declares none is looked at, small enough for counts: for its step and number of samples."""
-_STAND_IN_STEP = 0.01
-"""s; the same for the time step."""
+_STAND_INS: dict[str, Any] = {"unit": "mm/s2", "time_step": 0.01}
+"""With which a file that declares none is looked at; the unit is small enough for counts."""
 _UPWARDS = re.compile(r"(?:^|[-_. ])(UP|UD|DN|DWN|DOWN|VER|VERT|VERTICAL)(?=[-_. ]|$)", re.I)
 _FORMULA = "=+-@"
 """Signs that make a spreadsheet compute what comes after them."""
@@ -35,28 +34,15 @@ _SQUARE = 5.0
 
 @dataclass(frozen=True)
 class ListedChannel:
-    """One channel as it was read: what it says of itself, with two samples only, so that many fit into memory.
+    """One channel as it was read: what it says of itself, with two of its samples, so that many fit into memory.
 
-    peak_acceleration: m/s². peak_velocity: m/s, as a study clears the record by default. Both None where the unit or
-    the time step is unknown.
+    peak_acceleration: m/s². peak_velocity: m/s, as a study clears the record by default. None where unknown.
     """
 
     record: Accelerogram
     samples: int
     peak_acceleration: float | None = None
     peak_velocity: float | None = None
-
-    @classmethod
-    def of(cls, record: Accelerogram, is_declared: bool) -> "ListedChannel":
-        """Return what is listed of `record`; is_declared: whether its unit and its time step are known."""
-        own = replace(record, acceleration=record.acceleration[:2])
-        listed = cls(own, record.acceleration.size)
-        if not is_declared:
-            return listed
-        listed = replace(listed, peak_acceleration=record.peak_acceleration)
-        with suppress(RecordError):  # it is too short to be processed
-            listed = replace(listed, peak_velocity=float(abs(velocity(process(record))).max()))
-        return listed
 
 
 @dataclass
@@ -65,7 +51,8 @@ class ListedFile:
 
     doubts: what is plausibly wrong with it, one sentence each. unread: why it gets no row, or "". apart: why it does
     not share the row of other files of its station, or "". to_fill: the cells that its row leaves blank and that must
-    be filled before it can be used; declared: those that hold what its header does not say.
+    be filled before it can be used; declared: those that hold what its header does not say. beside: number of other
+    files in its row. is_again: whether it has the content of an earlier file.
     """
 
     file: str
@@ -77,9 +64,7 @@ class ListedFile:
     apart: str = ""
     record: str = ""
     beside: int = 0
-    """Number of other files in its row."""
     is_again: bool = False
-    """Whether it has the content of an earlier file."""
 
     @property
     def channels(self) -> list[Accelerogram]:
@@ -116,7 +101,7 @@ def list_folder(
         raise RecordError(f"{folder}: this is no folder; give the folder that holds the records.")
     names = {name.strip(): row["id"] for row in known for name in row["file"].split(";")}
     paths = sorted(path for path in folder.rglob("*") if path.is_file() and not _passed_over(path))
-    listed = [_listed(path, folder, unit, time_step) for path in paths]
+    listed = [_listed(path, folder, {"unit": unit, "time_step": time_step}) for path in paths]
     first: dict[str, str] = {}
     for file in listed:
         file.record = names.get(file.file, "") or names.get(f"./{file.file}", "")
@@ -128,14 +113,16 @@ def list_folder(
     taken = {row["id"].lower() for row in known}
     rows = []
     for group in _stations([file for file in listed if not (file.unread or file.record)]):
-        if any(channel.is_horizontal for file in group for channel in file.channels):
-            rows.append(_row(group, taken))
+        level = [channel for file in group for channel in file.channels if channel.is_horizontal]
+        if level:
+            rows.append(_row(group, level, taken))
             taken.add(rows[-1]["id"].lower())
-            for file in group:
-                file.record, file.beside = rows[-1]["id"], len(group) - 1
-        else:
-            for file in group:
-                file.unread = f"it holds no horizontal component at the surface. {file.apart}".strip()
+        for file in group:
+            file.record = rows[-1]["id"] if level else ""
+            file.beside = len(group) - 1
+            file.unread = (
+                "" if level else f"it holds no horizontal component at the surface. {file.apart}".strip()
+            )
     return listed, rows
 
 
@@ -174,15 +161,14 @@ def _simultaneous(files: list[ListedFile]) -> list[list[ListedFile]]:
     if not all(file.channels[0].start_time for file in files):
         return [files]
     starts = [datetime.fromisoformat(file.channels[0].start_time).timestamp() for file in files]
-    parts: list[list[ListedFile]] = []
+    parts: list[list[int]] = []
     end = 0.0
-    for place in np.argsort(starts, kind="stable"):
-        file, start = files[place], starts[place]
-        if not parts or start >= end:
+    for place in np.argsort(starts, kind="stable").tolist():
+        if not parts or starts[place] >= end:
             parts.append([])
-            end = start + file.listed[0].samples * file.channels[0].time_step
-        parts[-1].append(file)
-    return [sorted(part, key=files.index) for part in parts]
+            end = starts[place] + files[place].listed[0].samples * files[place].channels[0].time_step
+        parts[-1].append(place)
+    return [[files[place] for place in sorted(part)] for part in parts]
 
 
 def _why_apart(group: Sequence[ListedFile]) -> str:
@@ -191,14 +177,14 @@ def _why_apart(group: Sequence[ListedFile]) -> str:
         return ""
     channels = [channel for file in group for channel in file.channels]
     level = [channel for channel in channels if not channel.vertical]
-    for file in group:
-        if any(is_unnamed(channel.component) for channel in file.channels):
-            return f"{file.file} does not name its component"
+    unnamed = (file.file for file in group for channel in file.channels if is_unnamed(channel.component))
+    if file := next(unnamed, ""):
+        return f"{file} does not name its component"
     if why := why_apart(channels, [each.samples for file in group for each in file.listed]):
         return why
     if len(level) > 2 or len(channels) - len(level) > 1:
         return f"it has {len(level)} horizontal and {len(channels) - len(level)} vertical components"
-    if any(file.declared != group[0].declared for file in group):
+    if any(each.declared != group[0].declared for each in group):
         return "not all of them declare unit and time step"
     if (angle := _angle(level)) is not None and min(angle, 180 - angle) < _SQUARE:
         return f"components {level[0].component} and {level[1].component} point the same way"
@@ -212,11 +198,11 @@ def _angle(level: Sequence[Accelerogram]) -> float | None:
     return (level[1].azimuth - level[0].azimuth) % 180
 
 
-def _listed(path: Path, folder: Path, unit: str | None, time_step: float | None) -> ListedFile:
+def _listed(path: Path, folder: Path, given: Mapping[str, Any]) -> ListedFile:
     name = path.relative_to(folder).as_posix()
     file = printable(name)
     try:
-        channels, declared, to_fill = _read(path, unit, time_step)
+        channels, missing = _read(path, given)
     except RecordError as error:
         return ListedFile(file, unread=printable(str(error)))
     reason = ""
@@ -229,16 +215,28 @@ def _listed(path: Path, folder: Path, unit: str | None, time_step: float | None)
     doubts: dict[str, list[str]] = {}
     upwards = _UPWARDS.search(path.stem)
     for channel in channels:
-        sentences = list(channel.warnings)
-        if upwards and not channel.vertical:
-            sentences.append(
-                f"The file's name says {upwards[1]}, but {channel.component} is taken as horizontal."
-            )
-        for sentence in sentences:
+        level = (
+            f"The file's name says {upwards[1]}, but {channel.component} is taken as horizontal."
+            if upwards
+            else ""
+        )
+        for sentence in filter(None, (*channel.warnings, "" if channel.vertical else level)):
             doubts.setdefault(sentence, []).append(channel.component)
     remarks = tuple(s if len(of) == len(channels) else f"{', '.join(of)}: {s}" for s, of in doubts.items())
-    listed = tuple(ListedChannel.of(channel, not to_fill) for channel in channels)
+    declared = {_CELLS[name]: f"{given[name]}" for name in missing if given[name]}
+    to_fill = tuple(_CELLS[name] for name in missing if not given[name])
+    listed = tuple(_listed_channel(channel, not to_fill) for channel in channels)
     return ListedFile(file, listed, reason, remarks, declared, to_fill)
+
+
+def _listed_channel(record: Accelerogram, is_declared: bool) -> ListedChannel:
+    speed = None
+    with suppress(RecordError):  # it is too short to be processed
+        speed = float(abs(velocity(process(record))).max()) if is_declared else None
+    own = replace(record, acceleration=record.acceleration[:2])
+    return ListedChannel(
+        own, record.acceleration.size, record.peak_acceleration if is_declared else None, speed
+    )
 
 
 def _passed_over(path: Path) -> bool:
@@ -252,25 +250,16 @@ def _passed_over(path: Path) -> bool:
 _CELLS = {"unit": "unit", "time_step": "time_step_s"}
 
 
-def _read(
-    path: Path, unit: str | None, time_step: float | None
-) -> tuple[list[Accelerogram], Row, tuple[str, ...]]:
-    """Return (channels, cells that had to be declared, cells to fill), declaring no more than the file leaves out."""
-    given = {"unit": unit, "time_step": time_step}
-    stand_ins: dict = {"unit": unit or _STAND_IN, "time_step": time_step or _STAND_IN_STEP}
+def _read(path: Path, given: Mapping[str, Any]) -> tuple[list[Accelerogram], tuple[str, ...]]:
+    """Return the channels and what had to be declared, which is no more than the file leaves out."""
     for missing in ((), ("unit",), ("time_step",), ("unit", "time_step")):
-        try:
-            channels = read(path, **{name: stand_ins[name] for name in missing})
-        except UndeclaredError:
-            continue
-        declared = {_CELLS[name]: f"{given[name]}" for name in missing if given[name]}
-        return channels, declared, tuple(_CELLS[name] for name in missing if not given[name])
+        with suppress(UndeclaredError):
+            return read(path, **{name: given[name] or _STAND_INS[name] for name in missing}), missing
     raise UndeclaredError(f"{printable(path.name)}: neither unit nor time step is declared.")
 
 
-def _row(group: Sequence[ListedFile], taken: set[str]) -> Row:
-    channels = [channel for file in group for channel in file.channels]
-    level = [channel for channel in channels if channel.is_horizontal]
+def _row(group: Sequence[ListedFile], level: Sequence[Accelerogram], taken: set[str]) -> Row:
+    """Return the row of files whose horizontal components are `level`."""
     first = level[0]
     fill = group[0].to_fill
     doubts = dict.fromkeys(doubt for file in group for doubt in file.doubts)
@@ -280,7 +269,12 @@ def _row(group: Sequence[ListedFile], taken: set[str]) -> Row:
             f"Components {level[0].component} and {level[1].component} are {min(angle, 180 - angle):g}° apart, "
             "not at right angles."
         )
-    note = [f"{first.source.format}.", *([f"Fill in {' and '.join(fill)}."] if fill else []), *remarks]
+    note = (
+        f"{first.source.format}.",
+        f"Fill in {' and '.join(fill)}." if fill else "",
+        *remarks,
+        group[0].apart,
+    )
     return {
         "id": _id(group, taken),
         "file": ";".join(f"./{file.file}" if file.file[0] in _FORMULA else file.file for file in group),
@@ -288,7 +282,7 @@ def _row(group: Sequence[ListedFile], taken: set[str]) -> Row:
         "station": first.station.lstrip(_FORMULA + " "),
         "sha256": ";".join(file.channels[0].source.sha256 for file in group),
         **group[0].declared,
-        "note": plain(" ".join([*note, group[0].apart])),
+        "note": plain(" ".join(note)),
     }
 
 
@@ -297,18 +291,16 @@ def _id(group: Sequence[ListedFile], taken: set[str]) -> str:
     base = _ENDING.sub("", Path(group[0].file).name)
     component = group[0].channels[0].component
     if len(group) > 1:
-        names = [Path(file.file).name for file in group]
-        same = next((i for i in range(len(base)) if len({name[i : i + 1] for name in names}) > 1), len(base))
+        beside = [Path(file.file).name for file in group]
+        same = next((i for i in range(len(base)) if len({name[i : i + 1] for name in beside}) > 1), len(base))
         if component and base.endswith(component):
             base = base.removesuffix(component)
         elif same > 2:
             base = base[:same]
     base = re.sub(r"[^A-Za-z0-9._-]+", "_", base)[:70].strip("._-") or "record"
     base = base if is_safe_id(base) else f"record_{base}"
-    name, number = base, 2
-    while name.lower() in taken:
-        name, number = f"{base}_{number}", number + 1
-    return name
+    names = (base, *(f"{base}_{number}" for number in range(2, len(taken) + 3)))
+    return next(name for name in names if name.lower() not in taken)
 
 
 _HEAD = ("file", "component", "format", "step s", "samples", "PGA g", "PGV m/s", "status")
@@ -319,16 +311,11 @@ _ALIGNED = "<<<>>>><"
 def listing_text(listed: Sequence[ListedFile]) -> str:
     """Return one line for each channel of each file: format, step, samples, PGA, PGV, component and status."""
     rows = [_HEAD, *(row for file in listed for row in _lines(file))]
-    cells = [
-        [
-            text if len(text) <= widest else f"{text[: widest - 1]}…"
-            for text, widest in zip(row, _WIDEST, strict=True)
-        ]
-        for row in rows
-    ]
-    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    forms = [f"{{:{side}{width}}}" for side, width in zip(_ALIGNED, widths, strict=True)]
-    return "".join("  ".join(map(str.format, forms, row)).rstrip() + "\n" for row in cells)
+    columns = []
+    for column, widest, side in zip(zip(*rows, strict=True), _WIDEST, _ALIGNED, strict=True):
+        cells = [text if len(text) <= widest else f"{text[: widest - 1]}…" for text in column]
+        columns.append([f"{text:{side}{max(map(len, cells))}}" for text in cells])
+    return "".join("  ".join(row).rstrip() + "\n" for row in zip(*columns, strict=True))
 
 
 def _lines(file: ListedFile) -> list[tuple[str, ...]]:
@@ -337,9 +324,9 @@ def _lines(file: ListedFile) -> list[tuple[str, ...]]:
         record, peak, speed = each.record, each.peak_acceleration, each.peak_velocity
         step = "" if "time_step_s" in file.to_fill else f"{record.time_step:g}"
         ground = "" if peak is None else f"{peak / GRAVITY:.3g}", "" if speed is None else f"{speed:.3g}"
-        rows.append((record.component, record.source.format, step, str(each.samples), *ground))
-    first, *others = rows or [("",) * 6]
-    return [(file.file, *first, file.status), *(("", *row, "") for row in others)]
+        rows.append(("", record.component, record.source.format, step, str(each.samples), *ground, ""))
+    first, *others = rows or [("",) * 8]
+    return [(file.file, *first[1:-1], file.status), *others]
 
 
 _LOOKED_AT = 200

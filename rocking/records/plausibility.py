@@ -1,7 +1,5 @@
 """Gates: a peak that contradicts its own header, or that no ground has, does not pass unseen."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from rocking.errors import RecordError
@@ -19,12 +17,9 @@ SMALLEST_PEAK = 1e-5 * GRAVITY
 """m/s²; below, a record is noise or has a wrong unit."""
 
 _FACTORS = {
-    980.665: "cm/s² against g",
-    9.80665: "m/s² against g",
-    100.0: "cm/s² against m/s²",
-    1000.0: "mg against g, or mm/s² against m/s²",
-    10.0: "g/10 against g",
-}
+    980.665: "cm/s² against g", 9.80665: "m/s² against g", 100.0: "cm/s² against m/s²",
+    1000.0: "mg against g, or mm/s² against m/s²", 10.0: "g/10 against g",
+}  # fmt: skip
 _ROUNDING = 1e-3
 """Share by which a stated peak may be off for its rounding, beyond its last digit: fifty times what real files show."""
 _NEAR = 0.02
@@ -53,35 +48,38 @@ def agree_with_header(
     if not peak:
         return record
     magnitudes = np.abs(record.acceleration if samples is None else samples)
-    peak_read, stated = float(magnitudes.max()), abs(peak) * acceleration_factor(unit)
-    allowed = max(0.01 * stated, half_digit * acceleration_factor(unit))
-    if abs(peak_read - stated) > allowed:
+    peak_read = float(magnitudes.max())
+    stated = abs(peak) * acceleration_factor(unit)
+    off = abs(peak_read - stated)
+    digit = half_digit * acceleration_factor(unit)
+    if off > max(0.01 * stated, digit):
         ratio = peak_read / stated
-        nearest = min(_FACTORS, key=lambda factor: min(abs(ratio / factor - 1), abs(ratio * factor - 1)))
-        is_near = min(abs(ratio / nearest - 1), abs(ratio * nearest - 1)) < _NEAR
-        factor = f"{nearest:g} ({_FACTORS[nearest]})" if is_near else f"{ratio:.4g} that no unit explains"
-        raise RecordError(
-            f"peak acceleration of {record.component or 'the samples'} is "
-            f"{peak_read:.6g} m/s², but the file's header states {stated:.6g} m/s²"
-            f", a factor {factor}; the two must agree within 1 %."
+        apart = {factor: min(abs(ratio / factor - 1), abs(ratio * factor - 1)) for factor in _FACTORS}
+        near = min(apart, key=apart.__getitem__)
+        factor = (
+            f"{near:g} ({_FACTORS[near]})" if apart[near] < _NEAR else f"{ratio:.4g} that no unit explains"
         )
-    if abs(peak_read - stated) > max(_ROUNDING * stated, half_digit * acceleration_factor(unit)):
-        sentence = (
+        raise RecordError(
+            f"peak acceleration of {record.component or 'the samples'} is {peak_read:.6g} m/s², but the file's header "
+            f"states {stated:.6g} m/s², a factor {factor}; the two must agree within 1 %."
+        )
+    if off > max(_ROUNDING * stated, digit):
+        record = record.warned(
             f"The peak is {peak_read:.6g} m/s², but the header states {stated:.6g} m/s², which is more than rounding: "
             "a number or a factor is damaged."
         )
-        record = replace(record, warnings=(*record.warnings, sentence))
     if at is None:
         return record
     place = round(at / record.time_step)
-    near = magnitudes[max(0, place - _NEIGHBOURS) : max(0, place + _NEIGHBOURS + 1)]
-    if near.size and near.max() >= 0.98 * peak_read:
+    if (
+        magnitudes[max(0, place - _NEIGHBOURS) : max(0, place + _NEIGHBOURS + 1)].max(initial=0)
+        >= 0.98 * peak_read
+    ):
         return record
-    sentence = (
+    return record.warned(
         f"The header puts the peak at {at:g} s, but it stands at {magnitudes.argmax() * record.time_step:g} s: "
         "lines may be missing, repeated or out of order before it, or the time step is another."
     )
-    return replace(record, warnings=(*record.warnings, sentence))
 
 
 def scaled(record: Accelerogram, factor: float) -> Accelerogram:
@@ -90,34 +88,32 @@ def scaled(record: Accelerogram, factor: float) -> Accelerogram:
     peak = enlarged.peak_acceleration
     if peak <= max(RARE_PEAK, record.peak_acceleration):
         return enlarged
-    sentence = (
+    return enlarged.warned(
         f"Multiplied by {factor:g} the peak acceleration is {peak / GRAVITY:.3g} g, above 3 g: "
         "almost no ground moves so; check the factor."
     )
-    return replace(enlarged, warnings=(*enlarged.warnings, sentence))
 
 
 def pass_limits(record: Accelerogram) -> tuple[str, ...]:
     """Return warnings on a peak that is below 1e-5 g or above 3 g; raise RecordError when it is above 5 g."""
     peak = record.peak_acceleration / GRAVITY
-    low, high = (bound * GRAVITY for bound in _PLAUSIBLE)
-    if record.peak_acceleration > LARGEST_PEAK:
-        fits = [f"by {f:g} ({m})" for f, m in _FACTORS.items() if low < record.peak_acceleration / f < high]
-        hint = f"; divided {', '.join(fits)} it would be plausible"
-        unexplained = ", and no factor between units explains it: counts without their calibration, perhaps"
-        raise RecordError(
-            f"peak acceleration is {peak:.6g} g read as {record.source.unit or 'm/s2'}, "
-            f"above the 5 g that no ground has reached{hint if fits else unexplained}; declare the true unit."
-        )
-    if record.peak_acceleration > RARE_PEAK:
+    if SMALLEST_PEAK <= record.peak_acceleration <= RARE_PEAK:
+        return ()
+    if RARE_PEAK < record.peak_acceleration <= LARGEST_PEAK:
         return (
             f"The peak acceleration is {peak:.3g} g, above 3 g: almost no ground moves so; check unit and file.",
         )
-    if record.peak_acceleration >= SMALLEST_PEAK:
-        return ()
-    fits = [f"by {f:g} ({m})" for f, m in _FACTORS.items() if low < record.peak_acceleration * f < high]
-    hint = f"; multiplied {', '.join(fits)} it would be plausible" if fits else ""
-    return (f"The peak acceleration is {peak:.3g} g, below 1e-5 g: noise, or a wrong unit{hint}.",)
+    is_small = peak < 1
+    plausible = {f: _PLAUSIBLE[0] < (peak * f if is_small else peak / f) < _PLAUSIBLE[1] for f in _FACTORS}
+    fits = ", ".join(f"by {f:g} ({meaning})" for f, meaning in _FACTORS.items() if plausible[f])
+    if is_small:
+        hint = f"; multiplied {fits} it would be plausible" if fits else ""
+        return (f"The peak acceleration is {peak:.3g} g, below 1e-5 g: noise, or a wrong unit{hint}.",)
+    unexplained = ", and no factor between units explains it: counts without their calibration, perhaps"
+    raise RecordError(
+        f"peak acceleration is {peak:.6g} g read as {record.source.unit or 'm/s2'}, above the 5 g that no ground has "
+        f"reached{f'; divided {fits} it would be plausible' if fits else unexplained}; declare the true unit."
+    )
 
 
 def agree_with_mean_square(record: Accelerogram, stated: float, unit: str, digit: float) -> Accelerogram:
@@ -129,11 +125,10 @@ def agree_with_mean_square(record: Accelerogram, stated: float, unit: str, digit
     in_samples = float(np.sqrt(np.mean(np.square(record.acceleration)))) / factor
     if stated <= 0 or abs(in_samples - stated) <= digit + _ROUNDING * stated:
         return record
-    sentence = (
+    return record.warned(
         f"The root mean square of the samples is {in_samples:.6g} {unit}, but the header states {stated:.6g} {unit}: "
         "numbers are damaged, missing or repeated, or a factor is wrong."
     )
-    return replace(record, warnings=(*record.warnings, sentence))
 
 
 _VELOCITY_OFF = 0.25
@@ -152,10 +147,9 @@ def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogra
     differing = differing - differing.mean() - times * (times @ differing) / (times @ times)
     if differing.std() <= _VELOCITY_OFF * stated.std():
         return record
-    sentence = (
+    return record.warned(
         "The file's own velocity is not the integral of its acceleration: numbers or a factor are damaged."
     )
-    return replace(record, warnings=(*record.warnings, sentence))
 
 
 _ALONE = 3.0, 2.0
@@ -175,8 +169,8 @@ def damage_warnings(record: Accelerogram) -> tuple[str, ...]:
     A time step that is too long for strong motion is told too.
     """
     warnings = []
-    magnitudes = np.abs(record.acceleration)
     step = record.time_step
+    magnitudes = np.abs(record.acceleration)
     if step > _LONGEST_STEP:
         warnings.append(
             f"The time step is {step:g} s: strong motion needs one below {_LONGEST_STEP:g} s; check it."

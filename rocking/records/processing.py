@@ -1,6 +1,5 @@
 """Processing: what turns recorded numbers into ground acceleration, each step optional and recorded in the result."""
 
-import operator
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -115,19 +114,16 @@ def _filtered(record: Accelerogram, processing: Processing) -> Accelerogram:
     if processing.taper:
         length = max(1, int(processing.taper * values.size))
         ramp = 0.5 * (1 - np.cos(np.pi * np.arange(length) / length))
-        window = np.ones(values.size)
-        window[:length] = ramp
-        window[-length:] = np.minimum(window[-length:], ramp[::-1])
-        values = values * window
+        window = np.concatenate([ramp, np.ones(values.size - length)])
+        values = values * np.minimum(window, window[::-1])
         steps.append(f"Cosine taper over {processing.taper:.3g} of the record at each end.")
-    corners = {"highpass": processing.high_pass, "lowpass": processing.low_pass}
     lowest = processing.high_pass or processing.low_pass
     pad = _room(processing.order, lowest, record) if processing.padding and lowest else 0
     if pad:
         values = np.pad(values, pad)
         steps.append(f"{pad} zeros before and after{'' if processing.keep_padding else ' while filtering'}.")
-    for kind, corner in corners.items():
-        if corner is not None:
+    for kind, corner in (("highpass", processing.high_pass), ("lowpass", processing.low_pass)):
+        if corner:
             held = 0 if pad else _room(processing.order, corner, record)
             values = _butterworth(values, record.time_step, kind, corner, processing.order, held)
             steps.append(
@@ -137,8 +133,8 @@ def _filtered(record: Accelerogram, processing: Processing) -> Accelerogram:
     if pad and not processing.keep_padding:
         # A filter that is run both ways moves the ground before the record; without that, displacement would drift.
         speed = integral(values, record.time_step)
-        course = integral(speed, record.time_step)
-        initial = {"initial_velocity": float(speed[pad]), "initial_displacement": float(course[pad])}
+        initial["initial_velocity"] = float(speed[pad])
+        initial["initial_displacement"] = float(integral(speed, record.time_step)[pad])
         values = values[pad:-pad]
     if not steps:
         return record
@@ -154,13 +150,8 @@ def _room(order: int, corner: float, record: Accelerogram) -> int:
 def _butterworth(
     values: np.ndarray, time_step: float, kind: str, corner: float, order: int, held: int
 ) -> np.ndarray:
-    """Return what a Butterworth filter makes of `values` (n,) run both ways.
-
-    held: samples over which the end values are held on before and after, so that the filter rings out beyond them; 0
-    where `values` hold their room themselves.
-    """
-    # In the function: scipy.signal takes half a second to import, and no record that is only read needs it.
-    from scipy import signal
+    """Return `values` (n,) run both ways through a filter, the end values held on over `held` samples to ring out."""
+    from scipy import signal  # takes half a second to import, and no record that is only read needs it
 
     nyquist = 0.5 / time_step
     if not corner < nyquist:
@@ -222,11 +213,14 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
         return acceleration, "Adaptive baseline left the record as it is: shaking lasts to its end."
     last = min(strong + int(0.85 * (acceleration.size - strong)), acceleration.size - _LEFT)
     ends = np.unique(np.linspace(strong, last, _CANDIDATES).astype(int)).tolist()
-    tried = []
-    for end, degree, drift in _drifts(velocity, onset, ends):
-        course = np.cumsum(velocity - drift)  # which a drift that is left makes larger than the ground's own
-        tried.append((max(course.max(), -course.min()), end, degree, drift))
-    _, end, degree, drift = min(tried, key=operator.itemgetter(0))
+
+    def largest(tried: tuple[int, int, np.ndarray]) -> float:
+        course = np.cumsum(
+            velocity - tried[2]
+        )  # which a drift that is left makes larger than the ground's own
+        return max(course.max(), -course.min())
+
+    end, degree, drift = min(_drifts(velocity, onset, ends), key=largest)
     sentence = (
         f"Adaptive baseline: drift of velocity fitted before {onset * time_step:g} s and after {end * time_step:g} s "
         f"(degree {degree}), bridged between, and its acceleration removed."

@@ -76,8 +76,7 @@ def read_content(
         for i, record in enumerate(records):
             own = replace(source, format=reader.name, unit=record.source.unit)
             doubts = (*record.warnings, *notes, *pass_limits(record), *damage_warnings(record))
-            doubts += exchanged_lines(record, per_line)
-            records[i] = replace(record, source=own, warnings=doubts)
+            records[i] = replace(record, source=own, warnings=doubts + exchanged_lines(record, per_line))
         return records
 
 
@@ -113,8 +112,8 @@ def recognise(content: bytes) -> Format:
     if forms:
         names = ", ".join(form.name for form in forms)
         raise UnknownFormatError(f"several readers recognise this file ({names}); none is preferred.")
-    head = content.lstrip()[:40]
-    words = head.decode("latin-1").splitlines()[0].strip() if head else ""
+    head = content.lstrip()[:40] or b" "
+    words = head.decode("latin-1").splitlines()[0].strip()
     raise UnknownFormatError(
         f"no reader recognises this file, which begins with {(words if words.isprintable() else head[:8])!r}; "
         "rocking read --details says what each of them looked for.",
@@ -160,10 +159,8 @@ def told_apart(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     for (i, a), (k, b) in combinations(enumerate(records, 1), 2):
         same = a.component == b.component and a.peak_acceleration > 0
         if same and np.array_equal(a.acceleration, b.acceleration):
-            raise RecordError(
-                f"channel {k} ({a.component or 'not named'}) repeats channel {i} number by number: the file is "
-                "appended to itself; fetch it again."
-            )
+            name = f"channel {k} ({a.component or 'not named'})"
+            raise RecordError(f"{name} repeats channel {i}: the file is appended to itself; fetch it again.")
     shared = Counter(record.component for record in records if record.component)
     channels = []
     for place, record in enumerate(records, 1):

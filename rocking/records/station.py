@@ -64,8 +64,8 @@ def _named(channels: Sequence[Accelerogram], record: CatalogueRecord) -> list[Ac
     one_each = len(record.files) == len(channels) == len(record.components)
     if not one_each or not all(is_unnamed(channel.component) for channel in channels):
         return list(channels)
-    named = zip(channels, record.components, strict=True)
-    return [replace(channel, **directed({"component": name})) for channel, name in named]
+    names = ({"component": name} for name in record.components)
+    return [replace(channel, **directed(name)) for channel, name in zip(channels, names, strict=True)]
 
 
 def why_apart(channels: Sequence[Accelerogram], samples: Collection[int]) -> str:
@@ -92,24 +92,24 @@ def joined(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
         return list(channels)
     starts = [datetime.fromisoformat(channel.start_time).timestamp() for channel in channels]
     step = channels[0].time_step
-    late = [(max(starts) - start) / step for start in starts]
-    first = [round(places) for places in late]
-    off = max(abs(places - place) for places, place in zip(late, first, strict=True))
+    late = (max(starts) - np.array(starts)) / step
+    first = np.round(late).astype(int).tolist()
+    off = np.abs(late - first).max()
     if off > _OFF_GRID:
         raise RecordError(
-            f"the samples of the files lie {off:.2g} of a time step between one another; resample them first."
+            f"the samples of the files lie {off:.2g} of a step between one another; resample them."
         )
     size = min(channel.acceleration.size - place for channel, place in zip(channels, first, strict=True))
     if size < 2:
         raise RecordError("the files have no span of time in common; give each file a row of its own.")
     begin = channels[int(np.argmax(starts))].start_time
     sentence = f"Cut to the span common to the station's files, {size * step:g} s from {begin} on."
-    return [
-        channel
-        if channel.acceleration.size == size
-        else channel.processed_by(channel.acceleration[place : place + size], sentence, start_time=begin)
-        for channel, place in zip(channels, first, strict=True)
-    ]
+    cut = []
+    for channel, place in zip(channels, first, strict=True):
+        samples = channel.acceleration[place : place + size]
+        is_whole = samples.size == channel.acceleration.size
+        cut.append(channel if is_whole else channel.processed_by(samples, sentence, start_time=begin))
+    return cut
 
 
 def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Station:
@@ -126,16 +126,13 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
         vertical = of[record.vertical_component] if record.vertical_component else next(upwards, None)
         horizontal = [of[name] for name in record.components]
         if horizontal and len(record.files) == 1:  # a vertical one that is asked for will shake sideways
-            warnings = {
-                c.component: (*c.warnings, _SIDEWAYS.format(c.component)) for c in horizontal if c.vertical
-            }
-            horizontal = [replace(c, warnings=warnings.get(c.component, c.warnings)) for c in horizontal]
+            horizontal = [c.warned(_SIDEWAYS.format(c.component)) if c.vertical else c for c in horizontal]
         else:
             sideways = horizontal or [channel for channel in channels if not channel.borehole]
             horizontal = [channel for channel in sideways if channel is not vertical and not channel.vertical]
         if not horizontal:
             raise RecordError(
-                f"the file holds no horizontal component at the surface, only {held}; name a component."
+                f"the file holds no horizontal component at the surface, only {held}; name one."
             )
         declared = tuple(_as_declared(channel, record) for channel in horizontal)
         return Station(declared, None if vertical is None else _as_declared(vertical, record))
@@ -143,7 +140,6 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
 
 def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
     """Return a channel with what its row says of name, scale, station, event, corner, magnitude and distance."""
-    channel = scaled(channel, record.scale_factor) if record.scale_factor != 1 else channel
     facts: dict[str, Any] = {
         "station": record.station or channel.station,
         "event": record.event or channel.event,
@@ -153,4 +149,4 @@ def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram
         facts |= {"magnitude": record.magnitude, "magnitude_type": ""}
     if record.epicentral_distance is not None:
         facts["epicentral_distance"] = 1000 * record.epicentral_distance
-    return replace(channel, **facts)
+    return replace(scaled(channel, record.scale_factor) if record.scale_factor != 1 else channel, **facts)

@@ -6,6 +6,7 @@
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -41,23 +42,18 @@ class SyntheticRecord:
             positive(RecordError, field, getattr(self, field))
         for field in ("pulse_amplitude", "pulse_start", "noise_peak"):
             finite(RecordError, field, getattr(self, field))
-        if not 16 * self.time_step <= self.duration <= 1e6 * self.time_step:
+        if not 16 <= self.duration / self.time_step <= 1e6:
             raise RecordError(
-                f"duration is {self.duration!r} s, but must hold 16 to 1e6 time steps of {self.time_step!r} s."
+                f"duration is {self.duration!r} s, but must hold 16 to 1e6 steps of {self.time_step!r} s."
             )
 
 
 def synthetic_record(recipe: SyntheticRecord) -> Accelerogram:
     """Return the accelerogram of `recipe`: pulse plus noise, m/s²."""
     times = np.arange(round(recipe.duration / recipe.time_step)) * recipe.time_step
-    return Accelerogram(
-        pulse(recipe, times) + noise(recipe, times.size),
-        recipe.time_step,
-        component="H1",
-        station=recipe.name,
-        event="Synthetic, not recorded",
-        processed=True,
-    )
+    values = pulse(recipe, times) + noise(recipe, times.size)
+    names: dict[str, Any] = {"component": "H1", "station": recipe.name, "event": "Synthetic, not recorded"}
+    return Accelerogram(values, recipe.time_step, **names, processed=True)
 
 
 def pulse(recipe: SyntheticRecord, times: np.ndarray) -> np.ndarray:

@@ -39,10 +39,10 @@ def calibrated(trace, inventory, response: str) -> tuple[np.ndarray, str]:
     except Exception as error:
         raise RecordError(f"the StationXML holds no response of {trace.id} at {stats.starttime}.") from error
     if response == "sensitivity" and measured in ("M/S**2", "M/S/S", "M/S^2") and gain:
-        data = trace.data.astype(float) / gain
-        mean = trace.data.astype(float).mean() / gain
+        counts = trace.data.astype(float)
+        mean = counts.mean() / gain
         step = f"Counts divided by the overall sensitivity {gain:g}, and their mean removed, {mean:.6g} m/s²."
-        return data - mean, step
+        return counts / gain - mean, step
     nyquist = stats.sampling_rate / 2
     band = (_CORNERS[0], _CORNERS[1], _CORNERS[2] * nyquist, _CORNERS[3] * nyquist)
     try:
@@ -54,10 +54,8 @@ def calibrated(trace, inventory, response: str) -> tuple[np.ndarray, str]:
     except Exception as error:
         raise RecordError(f"the response of {trace.id} cannot be removed, {error}.") from error
     limits = " and ".join(f"{band[i]:g}-{band[i + 1]:g} Hz" for i in (0, 2))
-    step = (
-        f"Mean removed, 5 % cosine taper, full instrument response removed to acceleration between {limits}."
-    )
-    return clean.data, step
+    removed = f"full instrument response removed to acceleration between {limits}"
+    return clean.data, f"Mean removed, 5 % cosine taper, {removed}."
 
 
 def site(trace, inventory) -> dict[str, float]:

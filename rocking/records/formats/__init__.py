@@ -7,22 +7,10 @@ from importlib import import_module
 
 from rocking.records.formats.format import Format, Options
 
-_FILES = (
-    "peer",
-    "cosmos",
-    "volume1",
-    "keyed",
-    "networks",
-    "binary",
-    "columns",
-)
+_FILES = "peer", "cosmos", "volume1", "keyed", "networks", "binary", "columns"
+_MODULES = [import_module(f"{__name__}.{file}") for file in _FILES]
 
-FORMATS: tuple[Format, ...] = tuple(
-    form
-    for file in _FILES
-    for form in vars(import_module(f"{__name__}.{file}")).values()
-    if isinstance(form, Format)
-)
+FORMATS = tuple(form for module in _MODULES for form in vars(module).values() if isinstance(form, Format))
 """Every format there is. Exactly one recognises a file; the order does not matter."""
 
 __all__ = ["FORMATS", "Format", "Options"]

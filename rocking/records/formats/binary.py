@@ -38,17 +38,20 @@ def _stream(content: bytes, form: str, **options: Any):
         except RecordError:
             raise
         except Exception as error:
-            raise RecordError(f"damaged {form} file, {first_line(error)}; fetch it again.") from error
+            reason = first_line(error).partition(": <_io")[
+                0
+            ]  # where memory holds the bytes tells nobody anything
+            raise RecordError(f"damaged {form} file, {reason}; fetch it again.") from error
     messages = [first_line(each.message) for each in caught]
     if form == "MSEED" and (damage := [text for text in messages if _DAMAGE.search(text)]):
         raise RecordError(f"damaged {form} file, {damage[0]}; fetch it again.")
     if not any(trace.stats.npts for trace in result):
         raise RecordError(f"the {form} file holds no samples.")
     notes |= {f"obspy: {text}." for text in messages}
-    for _, station, _, channel, _, begin, seconds, _ in result.get_gaps():
-        if seconds < 0:
+    for _, station, _, channel, _, begin, length, _ in result.get_gaps():
+        if length < 0:
             notes.add(
-                f"Blocks of {station} {channel} overlap by {-seconds:g} s at {begin}: repeated or overwritten."
+                f"Blocks of {station} {channel} overlap by {-length:g} s at {begin}: repeated or overwritten."
             )
     return joined(result), tuple(sorted(notes))
 
@@ -70,10 +73,8 @@ def _check_blocks(content: bytes) -> set[str]:
         while at < len(content):
             at += get_record_information(io.BytesIO(content), offset=at)["record_length"]
     if at != len(content):
-        raise RecordError(
-            f"the last record of {notes['record_length']} bytes is cut after {notes['excess_bytes']}: "
-            "the file is truncated; fetch the whole file."
-        )
+        size, left = notes["record_length"], notes["excess_bytes"]
+        raise RecordError(f"the last record of {size} bytes is cut after {left}; fetch the whole file.")
     samples = sum(trace.stats.npts for trace in heads)
     if samples > LARGEST_SERIES:
         raise RecordError(f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.")
@@ -96,11 +97,11 @@ _VERSION, _SAMPLES = 304, 316
 def _is_sac(content: bytes) -> bool:
     if len(content) <= _SAC_HEADER:
         return False
-    heads = [
-        [struct.unpack_from(order + "i", content, at)[0] for at in (_VERSION, _SAMPLES)] for order in "<>"
-    ]
-    rests = [(version, len(content) - _SAC_HEADER - 4 * n) for version, n in heads if n > 0]
-    return any(version in (6, 7) and 0 <= rest <= 176 for version, rest in rests)
+    for order in "<>":
+        version, samples = (struct.unpack_from(order + "i", content, at)[0] for at in (_VERSION, _SAMPLES))
+        if version in (6, 7) and samples > 0 and 0 <= len(content) - _SAC_HEADER - 4 * samples <= 176:
+            return True
+    return False
 
 
 def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
@@ -108,11 +109,7 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
     unit = options.unit_of(None)
     records = []
     for trace in traces:
-        numbers = {
-            key: float(value)
-            for key, value in trace.stats.sac.items()
-            if isinstance(value, np.floating | float)
-        }
+        numbers = {key: float(x) for key, x in trace.stats.sac.items() if isinstance(x, np.floating | float)}
         header = {key: value for key, value in numbers.items() if value != _UNDEFINED}
         # The step in the file has single precision: 0.02 is stored as 0.0199999996.
         step = float(f"{trace.stats.delta:.6g}")
@@ -132,19 +129,14 @@ def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
     allowed = 1e-4 * max(abs(header.get("depmin", _UNDEFINED)), abs(header.get("depmax", _UNDEFINED)))
     for key, value in measured.items():
         if allowed and key in header and not abs(header[key] - value) <= allowed:
-            raise RecordError(
-                f"the header states {key.upper()} = {header[key]:g}, but the samples reach {value:g}; the file is "
-                "damaged or its header belongs to another record."
-            )
-    begin, end = header.get("b"), header.get("e")
-    if begin is None or end is None or begin == end:
-        return
+            stated = f"the header states {key.upper()} = {header[key]:g}, but the samples reach {value:g}"
+            raise RecordError(f"{stated}; the file is damaged or its header belongs to another record.")
+    begin, end = header.get("b", 0.0), header.get("e", 0.0)
     # Single precision keeps seven digits of the times.
-    if abs(end - begin - step * (data.size - 1)) > 0.5 * step + 3e-7 * max(abs(begin), abs(end)):
-        raise RecordError(
-            f"the header states an end at {end:g} s, but {data.size} samples every {step:g} s from "
-            f"{begin:g} s end elsewhere; the file is damaged."
-        )
+    allowed = 0.5 * step + 3e-7 * max(abs(begin), abs(end))
+    if {"b", "e"} <= header.keys() and begin != end and abs(end - begin - step * (data.size - 1)) > allowed:
+        stated = f"the header states an end at {end:g} s, but {data.size} samples every {step:g} s"
+        raise RecordError(f"{stated} from {begin:g} s end elsewhere; the file is damaged.")
 
 
 _OBSPY_G = 9.81
@@ -167,11 +159,8 @@ def _read_evt(content: bytes, options: Options) -> list[Accelerogram]:
         samples = trace.data.astype(float) * trace.stats.calib * (GRAVITY / _OBSPY_G)
         values, offset = without_offset(samples, "m/s2")
         component = str(trace.stats.kinemetrics_evt.get("chan_id", "")).strip() or _COMPONENTS[i % 3]
-        facts: dict[str, Any] = names(trace) | {
-            "component": component,
-            "event": str(trace.stats.starttime)[:10],
-        }
-        facts |= {"processing": (offset,), "warnings": warnings}
+        facts: dict[str, Any] = {"processing": (offset,), "warnings": warnings, **names(trace)}
+        facts |= {"component": component, "event": str(trace.stats.starttime)[:10]}
         facts["vertical"] = component.upper() in ("Z", "V", "UP") or i == 2
         records.append(options.accelerogram("m/s2", values, float(trace.stats.delta), **facts))
     return records
@@ -189,10 +178,8 @@ def _check_frames(content: bytes) -> None:
             seconds, milliseconds = _FRAME.unpack_from(frame)
             now = 1000 * seconds + milliseconds
             if before is not None and now - before != _FRAME_LENGTH:
-                raise RecordError(
-                    f"the frame at byte {at} begins {now - before} ms after the one before, not "
-                    f"{_FRAME_LENGTH} ms: frames are missing, repeated or out of order."
-                )
+                late = f"the frame at byte {at} begins {now - before} ms after the one before, not {_FRAME_LENGTH} ms"
+                raise RecordError(f"{late}: frames are missing, repeated or out of order.")
             before = now
         at += _TAG.size + head + body
     if content[at:].strip(b"\0"):
@@ -212,12 +199,11 @@ def _read_miniseed(content: bytes, options: Options) -> list[Accelerogram]:
     traces, warnings = _stream(content, "MSEED")
     inventory = _inventory(traces[0].stats, options)
     unit = options.unit_of(None) if inventory is None else None
-    records = Accelerogram.from_obspy(traces, inventory, unit, options.response)
-    steps = [options.time_step_of(float(f"{record.time_step:.9g}")) for record in records]
-    return [
-        replace(record, time_step=step, warnings=warnings, processed=False)
-        for record, step in zip(records, steps, strict=True)
-    ]
+    records = []
+    for record in Accelerogram.from_obspy(traces, inventory, unit, options.response):
+        step = options.time_step_of(float(f"{record.time_step:.9g}"))
+        records.append(replace(record, time_step=step, warnings=warnings, processed=False))
+    return records
 
 
 def _inventory(stats, options: Options):
@@ -235,9 +221,9 @@ def _inventory(stats, options: Options):
                 naming.append(path)
     if len(naming) != 1:
         several = f"several do: {', '.join(p.name for p in naming)}" if naming else "none beside it does"
+        missing = f"no single StationXML describes {stats.network}.{stats.station} ({several})"
         raise UndeclaredError(
-            f"no single StationXML describes {stats.network}.{stats.station} ({several}); "
-            "give inventory=, or unit= if the samples are already acceleration."
+            f"{missing}; give inventory=, or unit= if the samples are already acceleration."
         )
     return _parse(naming[0])
 

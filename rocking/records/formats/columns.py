@@ -1,7 +1,6 @@
 """Bare numbers: columns, or one series wrapped over lines (OpenSees), below names or a title with count and step."""
 
 import re
-from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -24,7 +23,6 @@ _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
 _DECIMALS = re.compile(r"[.]?(\d*)(?:[eE][+-]?\d+)?\s*$")
 _HEAD, _TAIL = 12, 4000
 """Lines and bytes that are looked at, of the beginning and of the end."""
-_BLANK, _LINE_END = 32, 10
 _COMMENTED_FORMAT = b"#Earthquake Information"
 """CWB's header, which looks like comments above columns."""
 
@@ -55,35 +53,38 @@ def _table(content: bytes) -> tuple[tuple[str, ...], int, int] | None:
 
 
 def _are_columns(content: bytes) -> bool:
-    other = content.startswith(_COMMENTED_FORMAT) or b"\0" in content[:4096]
-    return not other and _table(_points_for_commas(content) or content) is not None
+    is_other = content.startswith(_COMMENTED_FORMAT) or b"\0" in content[:4096]
+    return not is_other and _table(_points_for_commas(content) or content) is not None
 
 
 def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     pointed = _points_for_commas(content)
     if pointed is None:
         raise RecordError(
-            "the commas may be decimal signs or part the columns; write points for decimals, or part the columns "
-            "with semicolons."
+            "the commas may be decimal signs or part columns; write points, or part with semicolons."
         )
-    table = _table(pointed)
-    if table is None:
-        raise RecordError("the file does not hold columns of numbers below at most one row of names.")
-    names, width, start = table
+    names, width, start = _table(pointed) or ((), 1, 0)  # it was recognised by that
     refuse_other_quantity(options.file, "\n".join(lines(pointed, _HEAD)[:start]))
     body = after_lines(pointed, start)
     if _EMPTY_CELL.search(body):
         raise RecordError("a cell is empty; every column needs a number on every line.")
-    values = numbers(body.replace(b",", b" ").replace(b";", b" "))
+    spaced = body.replace(b",", b" ").replace(b";", b" ")
+    values = numbers(spaced)
     wrapped = width > 2 and not names and not _time_first(values, width)
-    _check_rows(body, width, last_may_be_short=wrapped)
+    counts = [size for row in spaced.split(b"\n") if (size := len(row.split()))]
+    if wrapped and counts[-1] < width:  # the last row of a series may be short
+        counts = counts[:-1]
+    if wrong := next((i for i, size in enumerate(counts, 1) if size != width), 0):
+        raise RecordError(
+            f"row {wrong} of the samples has {counts[wrong - 1]} columns, but the first has {width}."
+        )
     if width == 1 or wrapped:
         label = names[0] if names else ""
         named: dict[str, Any] = {"component": "" if _unit(label) else label, "warnings": _repeats(values)}
         records = [options.accelerogram(_unit(label), values, None, processed=None, **named)]
     else:
         records = _timed_columns(values.reshape(-1, width), names, options)
-    return [replace(record, warnings=record.warnings + _cut_number(body)) for record in records]
+    return [record.warned(*_cut_number(body)) for record in records]
 
 
 def _cut_number(body: bytes) -> tuple[str, ...]:
@@ -102,31 +103,12 @@ def _time_first(values: np.ndarray, width: int) -> bool:
     return first.size > 2 and first[0] >= 0 and steps.min() > 0 and float(np.ptp(steps)) < 0.01 * steps[0]
 
 
-def _check_rows(body: bytes, width: int, last_may_be_short: bool) -> None:
-    """Check that each row holds `width` numbers. Raises RecordError naming the first that does not."""
-    octets = np.frombuffer(body + b"\n", dtype=np.uint8)
-    apart = (octets <= _BLANK) | (octets == ord(",")) | (octets == ord(";"))
-    first = np.flatnonzero(~apart & np.concatenate([[True], apart[:-1]]))
-    ends = np.flatnonzero(octets == _LINE_END)
-    filled = np.diff(np.searchsorted(first, ends), prepend=0)
-    rows = filled[filled != 0]
-    if last_may_be_short and rows[-1] < width:
-        rows = rows[:-1]
-    wrong = np.flatnonzero(rows != width)
-    if wrong.size:
-        raise RecordError(
-            f"row {wrong[0] + 1} of the samples has {rows[wrong[0]]} columns, but the first has {width}."
-        )
-
-
 def _repeats(values: np.ndarray) -> tuple[str, ...]:
     """Return a warning when numbers without count or times come twice."""
     half, odd = divmod(values.size, 2)
-    if odd or half < 2 or not np.any(values) or not np.array_equal(values[:half], values[half:]):
-        return ()
-    return (
-        f"The second half of the samples repeats the first, {half} numbers: the file may be appended to itself.",
-    )
+    is_twice = not odd and half > 1 and np.any(values) and np.array_equal(values[:half], values[half:])
+    sentence = f"The second half of the samples repeats the first, {half} numbers: the file may be appended to itself."
+    return (sentence,) if is_twice else ()
 
 
 def _timed_columns(rows: np.ndarray, names: tuple[str, ...], options: Options) -> list[Accelerogram]:
@@ -203,11 +185,7 @@ def _title(content: bytes) -> tuple[str, str] | None:
     if {len(row) for row in rows} == {2} and len(head[0].split()) == 2:
         return None  # two columns below their names
     parts = _WORDS.sub(" ", head[1]).split()
-    if (
-        not rows
-        or len(parts) != 2
-        or not all(map(is_number, [*parts, *(cell for row in rows for cell in row)]))
-    ):
+    if not rows or len(parts) != 2 or not all(map(is_number, sum(rows, parts))):
         return None
     for samples, step in (parts, parts[::-1]):
         if samples.isdecimal() and int(samples) > 1 and "." in step and 0 < float(step) <= _LONGEST_STEP:
@@ -216,18 +194,22 @@ def _title(content: bytes) -> tuple[str, str] | None:
 
 
 def _read_titled(content: bytes, options: Options) -> list[Accelerogram]:
-    announced = _title(content)
-    if announced is None:
-        raise RecordError("the second line does not give the number of samples and the time step.")
+    return _below_title(
+        content, options, *(_title(content) or ("", "")), event=lines(content, 1)[0].strip()[:60]
+    )
+
+
+def _below_title(
+    content: bytes, options: Options, samples: str, step: str, **names: str
+) -> list[Accelerogram]:
     title, second, *rows = lines(content, _HEAD)
     refuse_other_quantity(options.file, f"{title}\n{second}")
     words = (match[1] for match in _UNIT_IN_WORDS.finditer(f"{title}\n{second}"))
     unit = next(filter(None, map(acceleration_unit, words)), None)
     per_line = max(len(row.split()) for row in rows)
-    declared = count("number of samples", announced[0])
-    values, notes = whole(numbers(after_lines(content, 2)), declared, per_line)
-    step, event = number("time step", announced[1]), title.strip()[:60]
-    return [options.accelerogram(unit, values, step, event=event, warnings=notes, processed=None)]
+    values, notes = whole(numbers(after_lines(content, 2)), count("number of samples", samples), per_line)
+    seconds = number("time step", step)
+    return [options.accelerogram(unit, values, seconds, warnings=notes, processed=None, **names)]
 
 
 _EMOD3D = re.compile(r"\s*(\d+)\s+(\d\.\d+e[-+]\d\d)(\s+-?\d+){2}(\s+-?\d\.\d+e[-+]\d\d){4}\s*", re.I)
@@ -240,14 +222,9 @@ def _is_emod3d(content: bytes) -> bool:
 
 
 def _read_emod3d(content: bytes, options: Options) -> list[Accelerogram]:
-    title, second = lines(content, 3)[:2]
-    refuse_other_quantity(options.file, title)
+    title, second = lines(content, 2)
     station, component = title.split()[:2]
-    declared, step = second.split()[:2]
-    values, notes = whole(numbers(after_lines(content, 2)), count("number of samples", declared), per_line=6)
-    named = {"station": station, "component": component}
-    seconds = number("time step", step)
-    return [options.accelerogram(None, values, seconds, warnings=notes, processed=None, **named)]
+    return _below_title(content, options, *second.split()[:2], station=station, component=component)
 
 
 COLUMNS = Format("columns of numbers", "spreadsheets, OpenSees and scripts",

@@ -1,6 +1,7 @@
 """COSMOS strong-motion text, V1 and V2: self-describing blocks, one per channel and quantity."""
 
 import re
+from typing import Any
 
 import numpy as np
 
@@ -8,21 +9,16 @@ from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
-from rocking.records.formats.header import (
-    Layout,
-    blocks,
-    check_nothing_left,
-    distance,
-    optional,
-)
+from rocking.records.formats.header import Layout, blocks, check_nothing_left, distance, optional
 from rocking.records.formats.text import count, fields, filled
 from rocking.records.plausibility import agree_with_mean_square
 
-_LAYOUT = Layout(
-    station=r"Code:\s*(\S+)", high_pass=r"filtered below\s+([\d.]+)\s*Hz", half_digit=5e-7,
-    corrected=r"\A(corrected)", location=r"\bLocation:\s*(.*?)\s*$", event_time=r"^Origin:\s*(\d.*?)\s*(?:\(.*)?$",
-    magnitude=r"^Hypocenter:.*?(M\w=.*)", latitude=r"^Coords:\s*([-\d.]+)", longitude=r"^Coords:\s*\S+\s+([-\d.]+)",
-)  # fmt: skip
+_LAYOUT = Layout("", {
+    "station": r"Code:\s*(\S+)", "high_pass": r"filtered below\s+([\d.]+)\s*Hz", "corrected": r"\A(corrected)",
+    "location": r"\bLocation:\s*(.*?)\s*$", "event_time": r"^Origin:\s*(\d.*?)\s*(?:\(.*)?$",
+    "magnitude": r"^Hypocenter:.*?(M\w=.*)", "latitude": r"^Coords:\s*([-\d.]+)",
+    "longitude": r"^Coords:\s*\S+\s+([-\d.]+)",
+}, half_digit=5e-7)  # fmt: skip
 _FIRST = re.compile(r"(Corrected|Uncorrected)\s+(acceleration|velocity|displacement)\s+\(Format v", re.I)
 _DATA = re.compile(
     r"^\s*(?P<n>\d+)\s+(?P<quantity>\w+)\s+pts,.*?units\s*=\s*(?P<unit>[\w/^]+)\.?\s*(?:\((?P<code>\d+)\))?\s*,?"
@@ -32,12 +28,9 @@ _DATA = re.compile(
 _REALS = re.compile(r"^\s*(\d+)\s+Real-header values follow on\s+(\d+)\s+lines.*?\d+[FE](\d+)", re.I)
 _END = re.compile(r"\s*(End-of-data|/&)", re.I)
 _ELEVATION, _DISTANCE, _RECORDER_STEP, _STEP, _LENGTH, _PEAK, _PEAK_TIME, _RMS = 2, 16, 33, 61, 62, 63, 64, 83
-"""Places in the real header: elevation of the station, m, and its distance from the epicentre, km; step of the
-recorder, s; of the series, step in ms, length, largest value and its time; of
-a raw one its root mean square.
-
-After COSMOS format 1.20. A processed series is often resampled, so that the recorder's step is not its own.
-"""
+"""Places in the real header (COSMOS format 1.20): elevation of the station, m, and its distance from the epicentre, km;
+step of the recorder, s, which is not that of a resampled series; of the series, step in ms, length, s, largest value
+and its time; of a raw one its root mean square."""
 _UNKNOWN = -999.0
 _CODES = {"02": "g", "2": "g", "04": "cm/s2", "4": "cm/s2"}
 """Units of acceleration by their code in the format."""
@@ -71,26 +64,23 @@ def _channel(block: list[str], options: Options, held: int) -> Accelerogram | No
     values = _samples(block[at + 1 :], data)
     length, lasts = reals[_LENGTH], values.size * step
     wrong = 0 < length < 1e5 and abs(length - lasts) > 1.5 * step + 5e-4  # not all agencies fill it
+    places = _ELEVATION, _DISTANCE, _PEAK, _PEAK_TIME
     elevation, from_epicentre, peak, peak_time = (
-        None if abs(reals[at] - _UNKNOWN) < 1e-3 else reals[at]
-        for at in (_ELEVATION, _DISTANCE, _PEAK, _PEAK_TIME)
+        None if abs(reals[place] - _UNKNOWN) < 1e-3 else reals[place] for place in places
     )
     note = f"The header gives the series a length of {length:g} s, but its samples last {lasts:g} s."
-    record = _LAYOUT.channel(
-        head,
-        values,
-        options,
-        unit=data["unit"],
-        step=step,
-        component=_component(head),
-        warnings=(note,) if wrong else (),
-        held=held,
-        event=optional(r"(?:Rcrd|Record)?\s*(?:of)?\s*(.*)", block[1]),
-        elevation=elevation,
-        epicentral_distance=distance(from_epicentre),
-        peak=peak,
-        peak_time=peak_time,
-    )
+    facts: dict[str, Any] = {
+        "component": _component(head),
+        "warnings": (note,) if wrong else (),
+        "held": held,
+    }
+    facts |= {"elevation": elevation, "epicentral_distance": distance(from_epicentre)}
+    facts |= {
+        "peak": peak,
+        "peak_time": peak_time,
+        "event": optional(r"(?:Rcrd|Record)?\s*(?:of)?\s*(.*)", block[1]),
+    }
+    record = _LAYOUT.channel(head, values, options, unit=data["unit"], step=step, **facts)
     if record.processed or len(reals) <= _RMS:
         return record
     return agree_with_mean_square(record, reals[_RMS], data["unit"], digit=1e-6)
@@ -111,16 +101,12 @@ def _reals(head: list[str]) -> list[float]:
             values = fields(head[i + 1 : i + 1 + count("real-header lines", match[2])], int(match[3]) or 1)
             if values.size == count("real-header values", match[1]) > _PEAK_TIME:
                 return values.tolist()
-    raise RecordError(
-        f"the real header does not hold the values it announces, of which {_PEAK_TIME + 1} give step and peak; "
-        "the file is damaged."
-    )
+    raise RecordError("the real header does not hold the values it announces; the file is damaged.")
 
 
 def _component(head: str) -> str:
     """Return the direction of the channel line ("360 deg" as 360, "Up"), else the channel code of the SCNL comment."""
-    direction = optional(r"^Sta\s+Chan?\s*[^:]*:\s*([^(\n]*?)\s*\(", head)
-    direction = direction.split(":")[-1].strip()
+    direction = optional(r"^Sta\s+Chan?\s*[^:]*:\s*([^(\n]*?)\s*\(", head).split(":")[-1].strip()
     if degrees := optional(r"^(\d+)\s*deg", direction):
         return degrees
     code = optional(r"<SCNL>\s*[^.\s]+\.([A-Z0-9]{3})\.", head)

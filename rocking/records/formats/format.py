@@ -18,6 +18,10 @@ Response = Literal["sensitivity", "full"]
 
 _STEPS = (1e-6, 10.0)
 """s; a step outside is a misplaced number, not a recorder."""
+_UNDECLARED = (
+    "{0} is not declared, neither in the file nor by the caller; declare it: the column {1} of the catalogue, --{2} on "
+    "the command line, {0}= in Python."
+)
 
 
 @dataclass(frozen=True)
@@ -52,10 +56,7 @@ class Options:
         """
         unit = in_file or self.unit
         if unit is None:
-            raise UndeclaredError(
-                "unit is not declared, neither in the file nor by the caller; declare it: the column unit of the "
-                "catalogue, --unit on the command line, unit= in Python."
-            )
+            raise UndeclaredError(_UNDECLARED.format("unit", "unit", "unit"))
         factor = acceleration_factor(unit)
         if self.unit is not None and acceleration_factor(self.unit) != factor:
             raise RecordError(
@@ -67,10 +68,7 @@ class Options:
         """Return the time step [s] the file declares, else the caller's; the two may differ by 0.1 %."""
         step = in_file if in_file is not None else self.time_step
         if step is None:
-            raise UndeclaredError(
-                "time_step is not declared, neither in the file nor by the caller; declare it: the column "
-                "time_step_s of the catalogue, --time-step on the command line, time_step= in Python."
-            )
+            raise UndeclaredError(_UNDECLARED.format("time_step", "time_step_s", "time-step"))
         step = positive(RecordError, "time_step", float(step), "s")
         if not _STEPS[0] <= step <= _STEPS[1]:
             raise RecordError(f"time_step is {step!r} s, but must be from {_STEPS[0]:g} to {_STEPS[1]:g} s.")
@@ -83,14 +81,13 @@ class Options:
     ) -> Accelerogram:
         """Return an Accelerogram from `values` (n,) of a file; unit and time step [s] as the file declares them.
 
-        fields: of Accelerogram; vertical, and the azimuth of a horizontal one, follow from the component's name unless
-        the file gives them, and text is cleared of control characters.
+        fields: of Accelerogram, directed by the component's name; text is cleared of control characters.
         """
         fields = {key: plain(value) if isinstance(value, str) else value for key, value in fields.items()}
-        unit = self.unit_of(unit)
+        source = Source(unit=self.unit_of(unit))
         step = self.time_step_of(time_step)
         return Accelerogram(
-            values * acceleration_factor(unit), step, source=Source(unit=unit), **directed(fields)
+            values * acceleration_factor(source.unit), step, source=source, **directed(fields)
         )
 
 
@@ -119,7 +116,7 @@ class Format:
 def starts(content: bytes, pattern: re.Pattern[str]) -> bool:
     """Whether the first line that is not empty, among the first five, matches `pattern`."""
     head = content[:2000].decode("latin-1").split("\n", 5)[:5]
-    return any(pattern.match(line) for line in [row for row in head if row.strip()][:1])
+    return bool(pattern.match(next((line for line in head if line.strip()), "")))
 
 
 def plain(text: str) -> str:
@@ -134,10 +131,8 @@ def without_offset(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
     """
     offset = values.mean() if values.size else 0.0
     if abs(offset) * acceleration_factor(unit) > LARGEST_PEAK:
-        raise RecordError(
-            f"the mean of the record is {offset:.6g} {unit}, above the 5 g that no recorder is off by; "
-            "declare the true unit."
-        )
+        limit = "above the 5 g that no recorder is off by; declare the true unit"
+        raise RecordError(f"the mean of the record is {offset:.6g} {unit}, {limit}.")
     return (
         values - offset,
         f"Mean of the whole record removed, {offset:.6g} {unit}: the offset of the recorder.",

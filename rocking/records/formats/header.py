@@ -1,7 +1,8 @@
 """Headers: a format says where in its text each fact stands, and one reader finds the facts and checks them."""
 
+import math
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from itertools import pairwise
@@ -26,58 +27,37 @@ def key(name: str) -> str:
     return rf"^[ \t]*{re.escape(name)}[ \t]*:[ \t]*(.*)"
 
 
-def keyed(**keys: str) -> dict[str, Any]:
+def keyed(**keys: str) -> dict[str, str]:
     """Return the patterns of a Layout for a header of such lines, from the key of each fact."""
     return {fact: key(name) for fact, name in keys.items()}
 
 
 @dataclass(frozen=True)
 class Layout:
-    """Where the header of a format says what: patterns whose first group is the value, "" where it never does.
+    """Where the header of a format says what.
 
-    samples: their number. step: s; rate: Hz. duration: s, right within that many steps and that share of its last digit
-    (some agencies count n steps for n samples, others n - 1). magnitude: a text like "6.5 Mw". place: one like
-    "40.941N, 123.633W"; latitude, longitude: degrees north and east. elevation: m. distance: from the epicentre, km.
-    high_pass: Hz. corrected: what says that the numbers are processed; where it is "", a high-pass does. start: time of
-    the first sample, hours ahead of universal time. code: of the network, where it is not read. location: of the
-    instrument in a structure. needed: facts that must be there. peak and rms, the root mean square: in peak_unit, the
-    peak within half a unit of its last digit; peak_time: s after the first sample.
+    patterns: of each fact, its last group the value. samples: their number; step: s; rate: Hz; duration: s, right
+    within that many steps and that share of its last digit (some agencies count n steps for n samples, others n - 1);
+    magnitude: like "6.5 Mw"; place: like "40.941N, 123.633W"; latitude, longitude: degrees north and east; elevation:
+    m; distance: from the epicentre, km; high_pass: Hz; corrected: what says that the numbers are processed, without
+    which a high-pass does; start: time of the first sample, hours ahead of universal time; location: of the instrument
+    in a structure; peak, rms: in peak_unit, the peak within half a unit of its last digit; peak_time: s after the first
+    sample. needed: facts that must be there. code: of the network, where it is not read.
     """
 
-    unit: str = ""
-    samples: str = ""
-    step: str = ""
-    rate: str = ""
-    duration: str = ""
+    unit: str
+    patterns: Mapping[str, str]
+    needed: tuple[str, ...] = ()
     duration_steps: float = 1.001
     duration_digits: float = 0.5
-    component: str = ""
-    station: str = ""
-    network: str = ""
-    event: str = ""
-    event_time: str = ""
-    magnitude: str = ""
-    place: str = ""
-    latitude: str = ""
-    longitude: str = ""
-    elevation: str = ""
-    distance: str = ""
-    high_pass: str = ""
-    corrected: str = ""
-    start: str = ""
-    ahead: float = 0.0
-    code: str = ""
-    location: str = ""
-    needed: tuple[str, ...] = ()
-    peak: str = ""
     peak_unit: str = ""
     half_digit: float = 0.0
-    peak_time: str = ""
-    rms: str = ""
+    ahead: float = 0.0
+    code: str = ""
 
     def text(self, name: str, head: str) -> str:
         """Return what `head` says of the fact `name`, "" where it does not."""
-        return optional(getattr(self, name), head)
+        return optional(self.patterns.get(name, ""), head)
 
     def number(self, name: str, head: str) -> float | None:
         """Return the number that what is said of `name` begins with, None where it begins with none."""
@@ -85,7 +65,7 @@ class Layout:
 
     def declared(self, name: str, head: str) -> str:
         """Return what `head` says of `name`. Raises RecordError when it says nothing."""
-        return required(name, getattr(self, name), head)[1].strip()
+        return required(name, self.patterns.get(name, ""), head)[1].strip()
 
     def count(self, head: str) -> int:
         """Return the number of samples. Raises RecordError when it is missing or no whole number."""
@@ -109,23 +89,19 @@ class Layout:
 
         unit, step [s], peak and its time where they follow from something else than the patterns; fields: more of an
         Accelerogram, before what the header says. in_file: (n,) m/s² as agree_with_header takes it. held: channels in
-        the file.
-        Raises RecordError when something is missing or contradicts the samples.
+        the file. Raises RecordError when something is missing or contradicts the samples.
         """
         for name in self.needed:
             number(f"the {name}", self.declared(name, head))
-        if step is None:
-            rate = self.rate and self.text("rate", head)
-            hertz = positive(RecordError, "the rate", number("the rate", rate), "Hz") if rate else 0.0
-            step = 1 / hertz if rate else number("the step", self.declared("step", head))
-        spoken = optional_number(r"\(\s*(\d+)\s+Chns\s+of", head) or 0.0
-        missing = f"The header speaks of {spoken:g} channels, but the file holds {held}."
-        fields["warnings"] = (
-            *fields.get("warnings", ()),
-            *([missing] if held < spoken < 1e4 else []),
-            *site_warnings(self.text("location", head)),
-        )
+        if step is None and (rate := self.text("rate", head)):
+            step = 1 / positive(RecordError, "the rate", number("the rate", rate), "Hz")
+        elif step is None:
+            step = number("the step", self.declared("step", head))
         record = options.accelerogram(unit or self.unit, values, step, **self._facts(head) | fields)
+        spoken = optional_number(r"\(\s*(\d+)\s+Chns\s+of", head) or 0.0
+        if held < spoken < 1e4:
+            record = record.warned(f"The header speaks of {spoken:g} channels, but the file holds {held}.")
+        record = record.warned(*site_warnings(self.text("location", head)))
         if duration := self.text("duration", head):
             declared = number("the duration", duration)
             rounding = self.duration_digits * 10.0 ** -len(duration.partition(".")[2])
@@ -139,22 +115,24 @@ class Layout:
         return agree_with_header(record, peak, in_unit, self.half_digit, at=at, samples=in_file)
 
     def channels(
-        self, head: str, table: np.ndarray, labels: Sequence[str], options: Options, **fields: Any
+        self,
+        head: str,
+        table: np.ndarray,
+        labels: Sequence[str],
+        options: Options,
+        peaks: Any = None,
+        **fields: Any,
     ) -> list[Accelerogram]:
-        """Return the accelerogram of each column of `table` (n, channels), named by `labels`, as channel() does.
-
-        peaks, if among the fields: stated of each.
-        """
-        peaks = fields.pop("peaks", [None] * len(labels))
+        """Return channel() of each column of `table` (n, channels), named by `labels`; peaks: stated of each."""
+        columns = zip(labels, table.T, peaks or [None] * len(labels), strict=True)
         return [
-            self.channel(head, values, options, component=label, peak=peak, **fields)
-            for label, values, peak in zip(labels, table.T, peaks, strict=True)
+            self.channel(head, x, options, component=label, peak=peak, **fields) for label, x, peak in columns
         ]
 
     def _facts(self, head: str) -> dict[str, Any]:
         north, east, height = (self.number(name, head) for name in ("latitude", "longitude", "elevation"))
-        high_pass = self.number("high_pass", head)
-        high_pass = high_pass if high_pass is not None and 0 < high_pass < 100 else None  # no 0, no -999
+        stated = self.number("high_pass", head) or 0.0
+        high_pass = stated if 0 < stated < 100 else None  # no -999
         return {
             **{name: self.text(name, head) for name in _NAMES},
             **({"network": self.code} if self.code else {}),
@@ -164,7 +142,9 @@ class Layout:
             "start_time": universal(self.text("start", head), self.ahead),
             "epicentral_distance": distance(self.number("distance", head)),
             "high_pass_frequency": high_pass,
-            "processed": bool(self.text("corrected", head)) if self.corrected else high_pass is not None,
+            "processed": bool(self.text("corrected", head))
+            if "corrected" in self.patterns
+            else bool(high_pass),
         }
 
 
@@ -173,14 +153,6 @@ def blocks(content: bytes, first_line: re.Pattern[str]) -> list[list[str]]:
     text = lines(content)
     starts = [i for i, line in enumerate(text) if first_line.match(line)]
     return [text[a:b] for a, b in pairwise([*starts, len(text)])]
-
-
-def place_of(text: Iterable[str], is_sought: Callable[[str], object], what: str) -> int:
-    """Return the place of the first line that `is_sought`. Raises RecordError: no line `what`."""
-    at = next((i for i, line in enumerate(text) if is_sought(line)), None)
-    if at is None:
-        raise RecordError(f"no line {what}; the file is cut.")
-    return at
 
 
 def required(what: str, pattern: str, text: str) -> re.Match[str]:
@@ -248,36 +220,30 @@ _COORDINATES = re.compile(rf"{_ANGLE}([NS])\b[\s,:-]*{_ANGLE}([EW])\b", re.I)
 
 def coordinates(text: str) -> Mapping[str, float]:
     """Return latitude and longitude, degrees, of a text like "40.941N, 123.633W" or "42 37 10S 173 03 13E"."""
-    match = _COORDINATES.search(text)
-    if not match:
+    if not (match := _COORDINATES.search(text)):
         return {}
-    north, east = (
-        (float(d) + float(m or 0) / 60 + float(s or 0) / 3600) * (-1 if side.upper() in "SW" else 1)
-        for d, m, s, side in (match.groups()[:4], match.groups()[4:])
-    )
-    return site(north, east)
+    angles = []
+    for degrees, minutes, seconds, side in (match.groups()[:4], match.groups()[4:]):
+        angle = float(degrees) + float(minutes or 0) / 60 + float(seconds or 0) / 3600
+        angles.append(-angle if side.upper() in "SW" else angle)
+    return site(*angles)
 
 
 def site(north: float | None, east: float | None, elevation: float | None = None) -> dict[str, float]:
     """Return latitude and longitude [degrees] and elevation [m], each where it can be: no -999, and not 0, 0."""
-    place = {}
-    if (
-        north is not None
-        and east is not None
-        and (north, east) != (0, 0)
-        and abs(north) <= 90
-        and abs(east) <= 180
-    ):
-        place = {"latitude": north, "longitude": east}
-    return place | ({"elevation": elevation} if elevation is not None and -500 < elevation < 9000 else {})
+    places = [math.nan if value is None else value for value in (north, east)]
+    is_place = (north, east) != (0, 0) and abs(places[0]) <= 90 and abs(places[1]) <= 180
+    facts = {"latitude": places[0], "longitude": places[1]} if is_place else {}
+    return facts | ({"elevation": elevation} if elevation is not None and -500 < elevation < 9000 else {})
 
 
 def check_duration(declared: float, samples: int, time_step: float, steps: float, rounding: float) -> None:
     """Check `samples` against a duration, s, within `steps` and `rounding`, s. Raises RecordError for another."""
-    if abs(samples * time_step - declared) > steps * time_step + rounding:
+    lasts = samples * time_step
+    if abs(lasts - declared) > steps * time_step + rounding:
         raise RecordError(
-            f"the header declares a duration of {declared:g} s, but the {samples} samples last "
-            f"{samples * time_step:g} s: it is truncated or its header belongs to another record; fetch the whole file."
+            f"the header declares a duration of {declared:g} s, but the {samples} samples last {lasts:g} s: the file "
+            "is truncated or its header belongs to another record; fetch the whole file."
         )
 
 
@@ -285,7 +251,7 @@ def check_equal(field: str, first: float, second: float, relative: float = 1e-3)
     """Check that two places of a header give the same number. Raises RecordError when they do not."""
     if abs(first - second) > relative * abs(first):
         raise RecordError(
-            f"the header gives {field} as {first:g} and as {second:g}; it is damaged, fetch it again."
+            f"the header gives {field} as {first:g} and {second:g}; it is damaged, fetch it again."
         )
 
 
@@ -293,6 +259,5 @@ def check_nothing_left(rows: list[str]) -> None:
     """Check that nothing but blanks follows the last channel. Raises RecordError: a channel is cut."""
     if any(row.strip() for row in rows):
         raise RecordError(
-            f"{len(rows)} lines follow the end of the last whole channel: another channel is cut; "
-            "fetch the whole file."
+            f"{len(rows)} lines follow the last whole channel: another is cut; fetch the whole file."
         )

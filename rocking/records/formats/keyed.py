@@ -1,8 +1,7 @@
 """Formats whose header is lines of "KEY: value": DYNA and AFAD, RESORCE, CWB, UNAM."""
 
 import re
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
 from itertools import takewhile
 from typing import Any
 
@@ -19,7 +18,6 @@ from rocking.records.formats.header import (
     keyed,
     optional,
     optional_number,
-    place_of,
     required,
     typed_magnitude,
 )
@@ -27,12 +25,12 @@ from rocking.records.formats.sampling import even_step
 from rocking.records.formats.text import count, fields, in_columns, lines, number, numbers, whole
 from rocking.records.instrument import azimuth, is_vertical, other_quantity
 
-_DYNA = Layout(peak_unit="cm/s2", half_digit=5e-4, **keyed(
+_DYNA = Layout("", keyed(
     samples="NDATA", step="SAMPLING_INTERVAL_S", duration="DURATION_S", component="STREAM", station="STATION_CODE",
     network="NETWORK", latitude="STATION_LATITUDE_DEGREE", longitude="STATION_LONGITUDE_DEGREE",
     elevation="STATION_ELEVATION_M", distance="EPICENTRAL_DISTANCE_KM", high_pass="LOW_CUT_FREQUENCY_HZ",
     peak="PGA_CM/S^2", peak_time="TIME_PGA_S", start="DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS",
-))  # fmt: skip
+), peak_unit="cm/s2", half_digit=5e-4)  # fmt: skip
 _DYNA_KEY = re.compile(r"[A-Z][A-Z0-9_/^]*:")
 _DYNA_HEADER, _AFAD_HEADER, _RESORCE_HEADER, _CWB_HEADER, _UNAM_HEADER = 100, 40, 20, 60, 160
 """Lines of the longest headers."""
@@ -42,6 +40,14 @@ _REFILTERED = "AAD_"
 
 def _refiltered(text: list[str]) -> int:
     return sum(1 for _ in takewhile(lambda line: line.startswith(_REFILTERED), text))
+
+
+def _place_of(text: Sequence[str], is_sought: Callable[[str], object], what: str) -> int:
+    """Return the place of the first line that `is_sought`. Raises RecordError: no line `what`."""
+    at = next((i for i, line in enumerate(text) if is_sought(line)), None)
+    if at is None:
+        raise RecordError(f"no line {what}; the file is cut.")
+    return at
 
 
 def _is_dyna(content: bytes) -> bool:
@@ -59,29 +65,24 @@ def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
     if kind.upper() != "ACCELERATION":
         raise RecordError(f"DATA_TYPE is {kind!r}, but must be ACCELERATION; use the ACC file of the record.")
     values, notes = whole(numbers("\n".join(text[length:])), _DYNA.count(head), per_line=1)
-    date, scale_w, scale_l = (
-        optional(key(name), head) for name in ("EVENT_DATE_YYYYMMDD", "MAGNITUDE_W", "MAGNITUDE_L")
+    date = optional(key("EVENT_DATE_YYYYMMDD"), head)
+    scales = " ".join(
+        f"{scale}={optional(key(f'MAGNITUDE_{scale[1].upper()}'), head)}" for scale in ("Mw", "ML")
     )
-    # The peak that the header states is that of the samples before they were filtered anew.
-    layout = replace(_DYNA, peak="") if anew else _DYNA
-    record = layout.channel(
-        head,
-        values,
-        options,
-        unit=required("UNITS", key("UNITS"), head)[1].strip(),
-        warnings=notes,
-        event=f"{optional(key('EVENT_NAME'), head)} {date}",
-        event_time=f"{date} {optional(key('EVENT_TIME_HHMMSS'), head)}",
-        **typed_magnitude(f"Mw={scale_w} ML={scale_l}"),
-    )
-    return [record]
+    facts: dict[str, Any] = {"warnings": notes, **typed_magnitude(scales)}
+    facts["event"] = f"{optional(key('EVENT_NAME'), head)} {date}"
+    facts["event_time"] = f"{date} {optional(key('EVENT_TIME_HHMMSS'), head)}"
+    if anew:  # the peak that the header states is that of the samples before they were filtered anew
+        facts["peak"] = 0.0
+    unit = required("UNITS", key("UNITS"), head)[1].strip()
+    return [_DYNA.channel(head, values, options, unit=unit, **facts)]
 
 
-_AFAD = Layout("gal", half_digit=5e-7, code="TK", **keyed(
+_AFAD = Layout("gal", keyed(
     samples="NUMBER OF DATA", step="SAMPLING INTERVAL (SEC)", station="STATION ID", event="EARTHQUAKE DATE",
     event_time="EARTHQUAKE DATE", magnitude="EARTHQUAKE MAGNITUDE", place="STATION COORDINATES",
     elevation="STATION ALTITUDE (M)",
-))  # fmt: skip
+), half_digit=5e-7, code="TK")  # fmt: skip
 
 
 def _directions(line: str) -> list[str]:
@@ -92,8 +93,7 @@ def _directions(line: str) -> list[str]:
 
 def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
-    what = f"names the columns (N-S, E-W, U-D) in the first {_AFAD_HEADER}"
-    at = place_of(text[:_AFAD_HEADER], _directions, what)
+    at = _place_of(text[:_AFAD_HEADER], _directions, "names the columns (N-S, E-W, U-D)")
     head = "\n".join(text[:at])
     labels = _directions(text[at])
     table = in_columns(numbers("\n".join(text[at + 1 :])), len(labels))
@@ -104,11 +104,11 @@ def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
     return _AFAD.channels(head, table, labels, options, **facts)
 
 
-_RESORCE = Layout("m/s2", **keyed(
+_RESORCE = Layout("m/s2", {"network": r"^Network\s*:\s*(\S+)"} | keyed(
     samples="NUMBER OF DATA", step="TIME INCREMENT (S)", component="ORIENTATION", station="STATION CODE / NAME",
     event="EVENT DATE & TIME", event_time="EVENT DATE & TIME", high_pass="FILTER CUT-OFF FREQUENCY (HZ)",
     peak="PGA (M/S/S)",
-), network=r"^Network\s*:\s*(\S+)")  # fmt: skip
+))  # fmt: skip
 _RESORCE_TITLE = re.compile(r"(Acc[a-z]*tion|Velocity|Displacement) time series in (\S+)", re.I)
 _RESORCE_WIDTH, _RESORCE_PER_LINE = 14, 5
 
@@ -120,7 +120,7 @@ def _is_resorce(content: bytes) -> bool:
 
 def _read_resorce(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
-    at = place_of(text[:_RESORCE_HEADER], _RESORCE_TITLE.match, "names the time series and its unit")
+    at = _place_of(text[:_RESORCE_HEADER], _RESORCE_TITLE.match, "names the time series and its unit")
     kind = text[at].split()[0].lower()
     if not kind.startswith("acc"):
         raise RecordError(f"this RESORCE file holds {kind}, not acceleration; use the .acc file.")
@@ -129,16 +129,15 @@ def _read_resorce(content: bytes, options: Options) -> list[Accelerogram]:
     return [_RESORCE.channel(head, values, options, warnings=notes)]
 
 
-_CWB = Layout("gal", half_digit=5e-4, duration_digits=0.0, code="TW", needed=("duration",), **keyed(
+_CWB = Layout("gal", keyed(
     duration="RECORDLENGTH(SEC)", rate="SAMPLERATE(HZ)", station="STATIONCODE", event="ORIGIN TIME(GMT+08)",
     event_time="ORIGIN TIME(GMT+08)", latitude="STATIONLATITUDE(N)", longitude="STATIONLONGITUDE(E)",
-))  # fmt: skip
+), needed=("duration",), duration_digits=0.0, half_digit=5e-4, code="TW")  # fmt: skip
 
 
 def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
-    what = f"#Data: in the first {_CWB_HEADER}"
-    at = place_of(text[:_CWB_HEADER], lambda line: line.startswith("#Data:"), what)
+    at = _place_of(text[:_CWB_HEADER], re.compile("#Data:").match, "begins with #Data:")
     head = "\n".join(line.removeprefix("#") for line in text[:at])
     unit = optional(key("AMPLITUDEUNIT"), head)
     if not unit.lower().startswith("gal"):
@@ -156,11 +155,11 @@ def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
     return _CWB.channels(head, table[:, 1:], labels, options, step=step, **facts)
 
 
-_UNAM = Layout("gal", half_digit=5e-5, **keyed(
+_UNAM = Layout("gal", {"place": r"^COORDENADAS DE LA ESTACION\s*:(.*\n.*)"} | keyed(
     samples="NUM. TOTAL DE MUESTRAS", step="INTERVALO DE MUESTREO", duration="DURACION DEL REGISTRO (S)",
     station="CLAVE DE LA ESTACION", event="FECHA DEL SISMO [GMT]", magnitude="MAGNITUD(ES)", elevation="ALTITUD (MSNM)",
     peak="ACEL. MAX.(GAL)",
-), place=r"^COORDENADAS DE LA ESTACION\s*:(.*\n.*)")  # fmt: skip
+), half_digit=5e-5)  # fmt: skip
 _DATA = "DATOS DE ACELERACION"
 _RULE = re.compile(r"[-+]{20,}")
 _OF_CHANNELS = re.compile(r"^(.*?),? C(?:1-C6|(7-C12)).*?:(.*)")
@@ -174,9 +173,7 @@ def _is_unam(content: bytes) -> bool:
 
 def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
-    at = place_of(
-        text[:_UNAM_HEADER], lambda line: line.startswith(_DATA), f"{_DATA} in the first {_UNAM_HEADER}"
-    )
+    at = _place_of(text[:_UNAM_HEADER], re.compile(_DATA).match, f"begins with {_DATA}")
     rules = [i for i, line in enumerate(text[: _UNAM_HEADER + 10]) if i > at and _RULE.match(line)]
     if len(rules) < 2:
         raise RecordError(f"no heading {_DATA} above two rules; the file is cut.")
@@ -195,32 +192,24 @@ def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
     table = in_columns(fields(text[rules[1] + 1 :], max(1, int(width or 10))), len(heads))
     table, notes = _without_repeats(table, samples)
     _, surplus = whole(table[:, 0], samples, per_line=1)
-    return [
-        _unam_channel(own, values, options, notes + surplus)
-        for own, values in zip(heads, table.T, strict=True)
-    ]
+    columns = zip(heads, table.T, strict=True)
+    return [_unam_channel(own, values, options, notes + surplus) for own, values in columns]
 
 
 def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[str, ...]) -> Accelerogram:
     step = number("INTERVALO DE MUESTREO", _UNAM.declared("step", head))
-    rate, thinned, place = (
-        optional_number(key(name) + "$", head)
-        for name in ("VEL. DE MUESTREO", "FACTOR DE DECIMACION", "ACEL. MAX.")
-    )
+    keys = "VEL. DE MUESTREO", "FACTOR DE DECIMACION", "ACEL. MAX."
+    rate, thinned, place = (optional_number(key(name) + "$", head) for name in keys)
     if rate is not None:
         check_equal("the interval", step, (thinned or 1.0) / max(1e-9, rate))
     parts = [part.strip() for part in optional(key("ORIENTACION"), head).split(";") if part.strip()]
     directions = (part for part in parts if azimuth(part) is not None or is_vertical(part))
-    return _UNAM.channel(
-        head,
-        values,
-        options,
-        step=step,
-        component=next(directions, parts[-1]),  # of bearing and sense, "N90E;" or "V;+", one may be blank
-        warnings=notes,
-        event_time=f"{_UNAM.text('event', head)} {optional(key('HORA EPICENTRO (GMT)'), head)}",
-        peak_time=None if place is None else (place - 1) * step,
-    )
+    facts: dict[str, Any] = {"warnings": notes, "peak_time": None if place is None else (place - 1) * step}
+    facts["component"] = next(
+        directions, parts[-1]
+    )  # of bearing and sense, "N90E;" or "V;+", one may be blank
+    facts["event_time"] = f"{_UNAM.text('event', head)} {optional(key('HORA EPICENTRO (GMT)'), head)}"
+    return _UNAM.channel(head, values, options, step=step, **facts)
 
 
 def _of_channel(head: Sequence[str], channel: int) -> str:
@@ -244,11 +233,10 @@ def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tupl
     last, before = table[declared:], table[declared - surplus : declared]
     if not (np.array_equal(last, before) or np.all(last == table[declared - 1])):
         return table, ()
-    many = "lines repeat" if surplus > 1 else "line repeats"
-    sentence = (
-        f"The header declares {declared} samples; the {surplus} surplus {many} the end and {{}} left out."
+    what = "line repeats the end and is" if surplus == 1 else "lines repeat the end and are"
+    return table[:declared], (
+        f"The header declares {declared} samples; the {surplus} surplus {what} left out.",
     )
-    return table[:declared], (sentence.format("are" if surplus > 1 else "is"),)
 
 
 DYNA = Format("DYNA (ESM, ITACA, AFAD)", "ESM and ITACA (ORFEUS, INGV), AFAD",

@@ -31,13 +31,14 @@ _KNET_KEYS = (
     "Station Height(m)", "Record Time", "Sampling Freq(Hz)", "Duration Time(s)", "Dir.", "Scale Factor",
     "Max. Acc. (gal)", "Last Correction", "Memo.",
 )  # fmt: skip
-_KNET = Layout(
-    "gal", rate=r"^Sampling Freq\(Hz\)\s*(.*?)(?:Hz)?$", duration=r"^Duration Time\(s\)\s*(.*)", duration_steps=0.501,
-    duration_digits=0.0, component=r"^Dir\.\s*(.*)", station=r"^Station Code\s*(.*)", event_time=r"^Origin Time\s*(.*)",
-    magnitude=r"^Mag\.\s*(.*)", latitude=r"^Station Lat\.\s*(.*)", longitude=r"^Station Long\.\s*(.*)",
-    elevation=r"^Station Height\(m\)\s*(.*)", peak=r"^Max\. Acc\. \(gal\)\s*(.*)", half_digit=5e-4,
-    start=r"^Record Time\s*(.*)", ahead=_JAPAN + _DELAY, code="BO", needed=("duration", "peak"),
-)  # fmt: skip
+_KNET = Layout("gal", {
+    "rate": r"^Sampling Freq\(Hz\)\s*(.*?)(?:Hz)?$", "duration": r"^Duration Time\(s\)\s*(.*)",
+    "component": r"^Dir\.\s*(.*)", "station": r"^Station Code\s*(.*)", "event_time": r"^Origin Time\s*(.*)",
+    "magnitude": r"^Mag\.\s*(.*)", "latitude": r"^Station Lat\.\s*(.*)", "longitude": r"^Station Long\.\s*(.*)",
+    "elevation": r"^Station Height\(m\)\s*(.*)", "peak": r"^Max\. Acc\. \(gal\)\s*(.*)",
+    "start": r"^Record Time\s*(.*)",
+}, needed=("duration", "peak"), duration_steps=0.501, duration_digits=0.0, half_digit=5e-4, ahead=_JAPAN + _DELAY,
+    code="BO")  # fmt: skip
 _KIKNET = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
 _BOREHOLE = {"1", "2", "3"}
 
@@ -49,35 +50,30 @@ def _is_knet(content: bytes) -> bool:
 
 def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content, len(_KNET_KEYS))
-    missing = [key for key in _KNET_KEYS if not any(line.startswith(key) for line in text)]
-    if missing:
+    if missing := [key for key in _KNET_KEYS if not any(line.startswith(key) for line in text)]:
         raise RecordError(
             f"the header has no line {missing[0]!r}; a K-NET header has {len(_KNET_KEYS)} lines."
         )
     head = "\n".join(text)
-    options.unit_of("gal")
     scale = r"^Scale Factor\s*([\d.]+)\s*\(gal\)\s*/\s*([\d.]+)\s*$"
     parts = required("a Scale Factor like 3920(gal)/6182761", scale, head)
     full, counts = (positive(RecordError, "Scale Factor", number("Scale Factor", parts[i])) for i in (1, 2))
-    values, offset = without_offset(numbers(after_lines(content, len(_KNET_KEYS))) * (full / counts), "gal")
+    unit = options.unit_of("gal")
+    values, offset = without_offset(numbers(after_lines(content, len(_KNET_KEYS))) * (full / counts), unit)
     direction = _KNET.text("component", head)
-    record = _KNET.channel(
-        head,
-        values,
-        options,
-        component=_KIKNET.get(direction, direction),
-        event=f"{_KNET.text('event_time', head)} M{_KNET.text('magnitude', head)}",
-        processing=(offset,),
-        borehole=direction in _BOREHOLE,
-    )
-    return [record]
+    names: dict[str, Any] = {
+        "component": _KIKNET.get(direction, direction),
+        "borehole": direction in _BOREHOLE,
+    }
+    event = f"{_KNET.text('event_time', head)} M{_KNET.text('magnitude', head)}"
+    return [_KNET.channel(head, values, options, event=event, processing=(offset,), **names)]
 
 
-_JMA = Layout(
-    rate=r"^\s*SAMPLING RATE\s*=\s*([\d.]+)\s*Hz", station=r"^SITE CODE=\s*([\x21-\x7e]+)",
-    latitude=r"^\s*LAT\.=\s*(.*)", longitude=r"^\s*LON\.=\s*(.*)", start=r"^\s*INITIAL TIME\s*=\s*([\d ]+)",
-    ahead=_JAPAN, code="JMA",
-)  # fmt: skip
+_JMA = Layout("", {
+    "rate": r"^\s*SAMPLING RATE\s*=\s*([\d.]+)\s*Hz", "station": r"^SITE CODE=\s*([\x21-\x7e]+)",
+    "latitude": r"^\s*LAT\.=\s*(.*)", "longitude": r"^\s*LON\.=\s*(.*)",
+    "start": r"^\s*INITIAL TIME\s*=\s*([\d ]+)",
+}, ahead=_JAPAN, code="JMA")  # fmt: skip
 _JMA_HEADER, _JMA_NAMES = 7, "NS,EW,UD"
 
 
@@ -98,14 +94,14 @@ def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
     return _JMA.channels(head, table, labels, options, unit=unit)
 
 
-_CSMNC = Layout(
-    "cm/s2", samples=r"^NO\. OF POINTS:\s*(\S+)", step=r"EQUALLY SPACED INTERVALS OF:\s*(\S+)",
-    duration=r"\bDURATION:\s*([\d.]+)", duration_digits=1.0, component=r"^COMP\.\s*(\S+)", station=r"^STATION:\s*(\S+)",
-    event_time=r"^\d+ +(\d{4}-\d\d-\d\d [\d:]+ \w+)", magnitude=r"^MAGNITUDE\s+([\d.]+.*)",
-    place=r"^STATION:\s*\S+\s+(.*)", peak=r"^PEAK VALUE:\s*(-?[\d.]+)",
-    peak_time=r"^PEAK VALUE:.*?\bAT\s+([\d.]+)\s*SEC", half_digit=5e-4,
-    corrected=r"^(CORRECTED) ",
-)  # fmt: skip
+_CSMNC = Layout("cm/s2", {
+    "samples": r"^NO\. OF POINTS:\s*(\S+)", "step": r"EQUALLY SPACED INTERVALS OF:\s*(\S+)",
+    "duration": r"\bDURATION:\s*([\d.]+)", "component": r"^COMP\.\s*(\S+)", "station": r"^STATION:\s*(\S+)",
+    "event": r"\A(?:.*\n){2}[ \t]*(.{,60})", "event_time": r"^\d+ +(\d{4}-\d\d-\d\d [\d:]+ \w+)",
+    "magnitude": r"^MAGNITUDE\s+([\d.]+.*)", "place": r"^STATION:\s*\S+\s+(.*)",
+    "peak": r"^PEAK VALUE:\s*(-?[\d.]+)", "peak_time": r"^PEAK VALUE:.*?\bAT\s+([\d.]+)\s*SEC",
+    "corrected": r"^(CORRECTED) ",
+}, duration_digits=1.0, half_digit=5e-4)  # fmt: skip
 _CSMNC_HEADER, _CSMNC_PER_LINE, _CSMNC_WIDTH = 16, 8, 13
 
 
@@ -121,18 +117,18 @@ def _read_csmnc(content: bytes, options: Options) -> list[Accelerogram]:
     if kind[1].upper() != "ACCELERATION" or kind[2].upper() not in ("CM/SEC/SEC", "CM/S/S", "GAL"):
         raise RecordError(f"the file holds {kind[1]} in {kind[2]}, but must hold ACCELERATION in CM/SEC/SEC.")
     values, notes = whole(fields(text[_CSMNC_HEADER:], _CSMNC_WIDTH), _CSMNC.count(head), _CSMNC_PER_LINE)
-    return [_CSMNC.channel(head, values, options, event=text[2].strip()[:60], warnings=notes)]
+    return [_CSMNC.channel(head, values, options, warnings=notes)]
 
 
-_GEONET = Layout(
-    "mm/s2", samples=r"^Number of points\s+(\S+)", step=r"(?:intervals of|data at)\s+([\d.]+)\s*s",
-    duration=r"\bDuration\s+([\d.]+)", component=r"^Component\s+(\S+)", station=r"^Site\s+(\S+)",
-    event=r"^(\d{4} \w+ \d+)\s", event_time=r"^(\d{4} \w+ \d+\s+[\d:]+)", place=r"^Site\s+\S+\s+(.*)",
-    magnitude=r"^Epicentre\b.*\b(M[A-Za-z]\s+[\d.]+)", distance=r"^Epicentre\b.*\bDist\s+([\d.]+)\s*km",
-    high_pass=r"transition bands are\s+([\d.]+)", peak=r"^Acceleration:\s+peak\s+(\S+)\s+mm/s/s",
-    peak_time=r"^Acceleration:\s+peak\s+\S+\s+mm/s/s at\s+([\d.]+)\s*s", half_digit=0.05,
-    corrected=r"\A(corrected)", code="NZ", needed=("peak",), rms=r"^Acceleration:.*\brms\s+([\d.]+)",
-)  # fmt: skip
+_GEONET = Layout("mm/s2", {
+    "samples": r"^Number of points\s+(\S+)", "step": r"(?:intervals of|data at)\s+([\d.]+)\s*s",
+    "duration": r"\bDuration\s+([\d.]+)", "component": r"^Component\s+(\S+)", "station": r"^Site\s+(\S+)",
+    "event": r"^(\d{4} \w+ \d+)\s", "event_time": r"^(\d{4} \w+ \d+\s+[\d:]+)", "place": r"^Site\s+\S+\s+(.*)",
+    "magnitude": r"^Epicentre\b.*\b(M[A-Za-z]\s+[\d.]+)", "distance": r"^Epicentre\b.*\bDist\s+([\d.]+)\s*km",
+    "high_pass": r"transition bands are\s+([\d.]+)", "peak": r"^Acceleration:\s+peak\s+(\S+)\s+mm/s/s",
+    "peak_time": r"^Acceleration:\s+peak\s+\S+\s+mm/s/s at\s+([\d.]+)\s*s", "corrected": r"\A(corrected)",
+    "rms": r"^Acceleration:.*\brms\s+([\d.]+)",
+}, needed=("peak",), half_digit=0.05, code="NZ")  # fmt: skip
 _GEONET_FIRST = re.compile(r"(Un)?corrected accelerogram\s", re.I)
 _TEXT, _HEADER, _PER_LINE, _WIDTH = 16, 26, 10, 8
 _PREPENDED = 31
@@ -158,10 +154,7 @@ def _geonet_channel(block: list[str], options: Options, notes: tuple[str, ...]) 
     declared = _GEONET.count(head)
     rows = [row for row in block[_HEADER:] if row.strip()]
     wanted = -(-declared // _PER_LINE)
-    if len(rows) not in (
-        wanted,
-        3 * wanted,
-    ):  # a corrected file goes on with as many lines of velocity and displacement
+    if len(rows) not in (wanted, 3 * wanted):  # a corrected file goes on with velocity and displacement
         raise RecordError(
             f"the header declares {declared} samples, which fill {wanted} lines once or thrice, but {len(rows)} "
             "stand there: lines are missing or repeated, the file is truncated or damaged; fetch it again."
@@ -178,11 +171,11 @@ def _geonet_channel(block: list[str], options: Options, notes: tuple[str, ...]) 
     return agree_with_velocity(record, filled(rows[wanted : 2 * wanted], declared, _PER_LINE, _WIDTH) / 1000)
 
 
-_SMC = Layout(
-    "cm/s2", component=r"component\s*=\s*(\S+)", station=r"station\s*=\s*(.*?)\s*component",
-    event=r"^\s+\d{4}\s+\d+\s+\d+\s+\d{4}\s+(.*)$", distance=r"epicentral dist\s*=\s*([\d.]+)",
-    corrected=r"\A(2) ", event_time=r"^\s+(\d{4}\s+\d+\s+\d+\s+\d{4}) ",
-)  # fmt: skip
+_SMC = Layout("cm/s2", {
+    "component": r"component\s*=\s*(\S+)", "station": r"station\s*=\s*(.*?)\s*component",
+    "event": r"^\s+\d{4}\s+\d+\s+\d+\s+\d{4}\s+(.*)$", "distance": r"epicentral dist\s*=\s*([\d.]+)",
+    "corrected": r"\A(2) ", "event_time": r"^\s+(\d{4}\s+\d+\s+\d+\s+\d{4}) ",
+})  # fmt: skip
 _SMC_KINDS = {"0": "unknown", "1": "uncorrected accelerogram", "2": "corrected accelerogram", "3": "velocity",
               "4": "displacement", "5": "response spectrum", "6": "Fourier spectrum"}  # fmt: skip
 _SMC_FIRST = re.compile(
@@ -199,9 +192,8 @@ _MISSING = 1.69e38
 
 
 def _is_smc(content: bytes) -> bool:
-    return (
-        starts(content, _SMC_FIRST) and len(head := lines(content, 12)) == 12 and len(head[11].split()) == 8
-    )
+    head = lines(content, 12)
+    return starts(content, _SMC_FIRST) and len(head) == 12 and len(head[11].split()) == 8
 
 
 def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
@@ -212,14 +204,12 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     integers = fields(text[_SMC_TEXT:_SMC_INTEGERS], 10)
     reals = fields(text[_SMC_INTEGERS:_SMC_REALS], 15)
     if integers.size < 48 or reals.size < 50:
-        raise RecordError(
-            f"the SMC header holds {integers.size} integers and {reals.size} reals, not 48 and 50."
-        )
+        raise RecordError(f"the header holds {integers.size} integers and {reals.size} reals, not 48 and 50.")
     remarks, samples = (count("a count in the header", f"{integers[at]:.0f}") for at in (_COMMENTS, _SAMPLES))
     first = _SMC_REALS + remarks
     if any(row.startswith("|") != (at < first) for at, row in enumerate(text[_SMC_REALS:], _SMC_REALS)):
         raise RecordError(
-            f"the header declares {remarks} lines of comment, but other lines begin with |; the file is damaged."
+            f"the header declares {remarks} lines of comment, but others begin with |: it is damaged."
         )
     rate = float(reals[_RATE])
     if not 0 < rate < 1e6:
@@ -231,20 +221,11 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     peak, at = max(extremes, default=(None, 0.0))
     head = "\n".join(text[:_SMC_TEXT])
     scales = " ".join(optional(r"^Moment (Mag.*)", head).replace("Mag", "Mw").split())
-    place: dict[str, Any] = site(*(real if abs(real) < _MISSING else None for real in reals[_PLACE].tolist()))
-    record = _SMC.channel(
-        head,
-        values,
-        options,
-        step=1 / rate,
-        **typed_magnitude(scales),
-        warnings=notes,
-        **place,
-        high_pass_frequency=float(reals[_CORNER]) if 0 < reals[_CORNER] < 100 else None,
-        peak=peak,
-        peak_time=float(at) if 0 < at < _MISSING else None,
-    )
-    return [record]
+    place = site(*(real if abs(real) < _MISSING else None for real in reals[_PLACE].tolist()))
+    facts: dict[str, Any] = {**typed_magnitude(scales), **place, "warnings": notes, "peak": peak}
+    facts["high_pass_frequency"] = float(reals[_CORNER]) if 0 < reals[_CORNER] < 100 else None
+    facts["peak_time"] = float(at) if 0 < at < _MISSING else None
+    return [_SMC.channel(head, values, options, step=1 / rate, **facts)]
 
 
 KNET = Format("K-NET/KiK-net", "NIED, Japan",

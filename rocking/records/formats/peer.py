@@ -1,6 +1,7 @@
 """PEER AT2 in every spelling of its header, and the VT2 and DT2 files that are not acceleration."""
 
 import re
+from typing import Any
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
@@ -21,10 +22,9 @@ _VELOCITY_UNIT = re.compile(r"\bUNITS (OF|ARE) \(?(CM|M|IN)/S(EC)?\b(?!\s*[/*^\d
 _SERIES = re.compile(
     r"^(?!.*\bACC(?:EL|\b)).*\b(VELOCITY|DISPLACEMENT)\b.*\b(?:TIME|HISTORY|UNITS?|CM|IN)\b", re.M
 )
-_LAYOUT = Layout(
-    event_time=r"\A.*\n.*?(\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?)", peak=r"PGA\s*=\s*([0-9.]+)\s*G\b",
-    peak_unit="g", half_digit=5e-6,
-)  # fmt: skip
+_LAYOUT = Layout("", {
+    "event_time": r"\A.*\n.*?(\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?)", "peak": r"PGA\s*=\s*([0-9.]+)\s*G\b",
+}, peak_unit="g", half_digit=5e-6)  # fmt: skip
 _FILTER_POINTS = re.compile(r"HP\s*=\s*([0-9.]+)\s*HZ", re.I)
 _POLES = re.compile(r"(-?\d+)\s+POLE\s+@\s*([0-9.]+)", re.I)
 _HEADER_LINES = 8
@@ -55,9 +55,7 @@ def _kind(content: bytes) -> str:
 
 
 def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
-    raise RecordError(
-        f"this is a PEER {_kind(content)} file, not acceleration; use the AT2 file of the same record."
-    )
+    raise RecordError(f"this is a PEER {_kind(content)} file; use the AT2 file of the same record.")
 
 
 def _read(content: bytes, options: Options) -> list[Accelerogram]:
@@ -73,20 +71,13 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     parts = [part.strip() for part in title.split(",")]
     poles, points = _POLES.findall(text), _FILTER_POINTS.search(text)
     corner = points[1] if points else poles[1][1] if len(poles) > 1 and poles[1][0] != "0" else "0"
-    record = _LAYOUT.channel(
-        text,
-        values,
-        options,
-        unit=unit,
-        step=number("DT", size["dt"]),
-        component=_component(title),
-        station=parts[-2] if len(parts) >= 3 else "",
-        event=parts[0] if len(parts) >= 3 else "",
-        warnings=(*warnings, *([_MATCHED] if re.search(r"\bmatched\b", head[0], re.I) else [])),
-        processed=True,
-        high_pass_frequency=float(corner) or None if is_number(corner) else None,
-    )
-    return [record]
+    facts: dict[str, Any] = {"component": _component(title), "processed": True, "warnings": warnings}
+    if re.search(r"\bmatched\b", head[0], re.I):
+        facts["warnings"] += (_MATCHED,)
+    if len(parts) >= 3:
+        facts |= {"station": parts[-2], "event": parts[0]}
+    facts["high_pass_frequency"] = float(corner) or None if is_number(corner) else None
+    return [_LAYOUT.channel(text, values, options, unit=unit, step=number("DT", size["dt"]), **facts)]
 
 
 def _component(title: str) -> str:

@@ -25,7 +25,10 @@ def even_step(times: np.ndarray) -> float | None:
     if step < _SMALLEST_STEP:
         raise RecordError(f"the times are {step:g} s apart, less than any recorder's {_SMALLEST_STEP:g} s.")
     off = np.abs(times - (times[0] + step * np.arange(times.size))).max()
-    quantum = _quantum(times)
+    shifted = (times * 10.0**digits for digits in range(9))
+    quantum = 10.0 ** -next(
+        (n for n, each in enumerate(shifted) if np.allclose(each, np.round(each), 0, 1e-4)), 9
+    )
     # Half a printed digit for the time itself, and as much for the line through the rounded first and last ones. A
     # digit as coarse as the step rounds nothing: a line that is missing would pass for rounding.
     allowed = max(0.01 * step, 1.02 * quantum if quantum < 0.9 * step else 0.0) + 1e-9 * abs(times[-1])
@@ -46,10 +49,8 @@ def resampled(times: np.ndarray) -> tuple[float, np.ndarray, str]:
         raise RecordError(
             f"the times are uneven and would make {number} samples at their median step {step:g} s."
         )
-    sentence = (
-        f"The {times.size} samples are unevenly spaced; "
-        f"interpolated linearly to {number} at their median step, {step:g} s."
-    )
+    change = f"interpolated linearly to {number} at their median step, {step:g} s"
+    sentence = f"The {times.size} samples are unevenly spaced; {change}."
     return step, times[0] + step * np.arange(number), sentence
 
 
@@ -58,20 +59,8 @@ def check_no_gap(times: np.ndarray, longest: float) -> None:
     gaps = np.diff(times)
     at = int(gaps.argmax())
     if gaps[at] > longest * (1 + 1e-9):
-        raise RecordError(
-            f"no samples between {times[at]:g} and {times[at + 1]:g} s, more than {longest:g} s apart; "
-            "cut the record there, a gap is not bridged."
-        )
-
-
-def _quantum(times: np.ndarray) -> float:
-    """Return the last printed digit's weight, s."""
-    places = (
-        digits
-        for digits in range(9)
-        if np.allclose(times * 10.0**digits, np.round(times * 10.0**digits), 0, 1e-4)
-    )
-    return 10.0 ** -next(places, 9)
+        gap = f"no samples between {times[at]:g} and {times[at + 1]:g} s, more than {longest:g} s apart"
+        raise RecordError(f"{gap}; cut the record there, a gap is not bridged.")
 
 
 def _rounded(step: float, uncertainty: float) -> float:

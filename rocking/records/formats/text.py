@@ -2,6 +2,7 @@
 
 import re
 import warnings
+from contextlib import suppress
 
 import numpy as np
 
@@ -51,25 +52,19 @@ def numbers(text: bytes | str) -> np.ndarray:
     """Return the numbers of `text`, separated by blanks and line ends, (n,); RecordError at the first that is none."""
     text = text.encode("latin-1") if isinstance(text, str) else text
     if not text.translate(None, _NUMERIC):
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("error")
-                values = np.fromstring(text, sep=" ") if text.strip() else np.empty(0)
-        except (DeprecationWarning, ValueError):
-            pass
-        else:
+        with suppress(DeprecationWarning, ValueError), warnings.catch_warnings():
+            warnings.simplefilter("error")
+            values = np.fromstring(text, sep=" ") if text.strip() else np.empty(0)
             if values.size and not np.abs(values).max() < _LARGEST:
                 at = int(np.argmax(~(np.abs(values) < _LARGEST)))
                 raise RecordError(f"number {at + 1} of the samples is {values[at]:g}, beyond {_LARGEST:g}.")
             return values
-    broken = (
-        (i, token) for i, line in enumerate(lines(text), 1) for token in line.split() if not is_number(token)
-    )
-    line, token = next(broken, (0, ""))
-    defect = (
-        f"line {line} of the samples holds {token[:40]!r}" if line else "the samples cannot be told apart"
-    )
-    raise RecordError(f"{defect}; every sample must be a plain decimal number.")
+    for line, row in enumerate(lines(text), 1):
+        for token in row.split():
+            if not is_number(token):
+                defect = f"line {line} of the samples holds {token[:40]!r}"
+                raise RecordError(f"{defect}; every sample must be a plain decimal number.")
+    raise RecordError("the samples cannot be told apart; every sample must be a plain decimal number.")
 
 
 def fields(rows: list[str], width: int, margin: int = 0) -> np.ndarray:
@@ -81,7 +76,7 @@ def fields(rows: list[str], width: int, margin: int = 0) -> np.ndarray:
         broken = next((piece for piece in pieces if len(piece.split()) != 1), None)
         if broken is not None:
             raise RecordError(
-                f"a column of {width} characters holds {broken!r}, but must hold one number: it is damaged."
+                f"a column of {width} characters holds {broken!r}, but must hold one number."
             ) from None
         return numbers(" ".join(pieces))
 
@@ -118,16 +113,14 @@ def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray,
         raise RecordError(f"the header declares {declared} samples, but must declare at least 2.")
     if values.size == declared:
         return values, ()
-    said = f"the header declares {declared} samples, but the file holds {values.size}"
+    stated = f"the header declares {declared} samples, but the file holds {values.size}"
     if values.size < declared:
         raise RecordError(
-            f"{said}: it is truncated or its header belongs to another record; fetch the whole file."
+            f"{stated}: it is truncated or its header is another record's; fetch the whole file."
         )
     if values.size > declared + per_line:
-        raise RecordError(f"{said}: more than one line too many; mend the header or cut the file.")
-    return values, (
-        f"The header declares {declared} samples, but the file holds {values.size}; all are kept.",
-    )
+        raise RecordError(f"{stated}: more than one line too many; mend the header or cut the file.")
+    return values, (f"T{stated[1:]}; all are kept.",)
 
 
 def filled(rows: list[str], declared: int, per_line: int, width: int, margin: int = 0) -> np.ndarray:
@@ -139,9 +132,8 @@ def filled(rows: list[str], declared: int, per_line: int, width: int, margin: in
     rows = [row for row in rows if row.strip()]
     if len(rows) < wanted or (len(rows) > wanted and declared > 1):
         state = "truncated" if len(rows) < wanted else "damaged"
-        raise RecordError(
-            f"the header declares {declared} samples, which fill {wanted} lines, but {len(rows)} stand there: "
-            f"lines are missing or repeated, the file is {state}; fetch it again."
+        stated = (
+            f"the header declares {declared} samples, which fill {wanted} lines, but {len(rows)} stand there"
         )
-    values, _ = whole(fields(rows, width, margin), declared, per_line=0)
-    return values
+        raise RecordError(f"{stated}: lines are missing or repeated, the file is {state}; fetch it again.")
+    return whole(fields(rows, width, margin), declared, per_line=0)[0]

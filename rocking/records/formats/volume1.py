@@ -44,36 +44,34 @@ _STEP = 0.005
 _LONGEST_GAP = 0.25
 """s."""
 _LENGTH = r"NO\. OF POINTS\s*=\s*\S+\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)"
-_SIZES: dict[str, Any] = {"unit": "g/10", "samples": r"NO\. OF POINTS\s*=\s*(\S+)"}
-_USC = Layout(
-    **_SIZES, rms=r"^RMS.*=\s*([\d.]+) G/10", component=r"^COMP\s+(\S+)", station=r"^STATION\s+(USC#\s*\d+)",
-    event=r"\A.*\n(.{,60})",
-)  # fmt: skip
-_RENADIC = Layout(
-    **_SIZES, component=r"^CHAN\s*\d+:\s*(\S+)", station=r"^(QDR S/N\s*\d+)", event=r"^([\d/]+ [\d:]+)",
-    peak=r"MAX\s*=\s*(-?[\d.]+)\s*G", peak_unit="g", half_digit=5e-4, rms=r"^RMS.*=\s*([\d.]+) G\b(?!/)",
-)  # fmt: skip
-_BHRC = Layout(
-    **_SIZES, component=r"^COMP\s+(\S+)", station=r"FILE:\s*(\w+)", event=r"^Origin Time\s*:\s*(\S+\s+\S+)",
-    event_time=r"^Origin Time\s*:\s*(\S+\s+\S+)", magnitude=r"^(Epicenter\b.*)",
-    place=r"\bStation\s+(.*?)\s+Altitude", elevation=r"\bAltitude\s+(\S+)",
-)  # fmt: skip
-_CSMIP: dict[str, Any] = {
+_SIZE = {"samples": r"NO\. OF POINTS\s*=\s*(\S+)"}
+_USC = Layout("g/10", _SIZE | {
+    "rms": r"^RMS.*=\s*([\d.]+) G/10", "component": r"^COMP\s+(\S+)", "station": r"^STATION\s+(USC#\s*\d+)",
+    "event": r"\A.*\n(.{,60})",
+})  # fmt: skip
+_RENADIC = Layout("g/10", _SIZE | {
+    "component": r"^CHAN\s*\d+:\s*(\S+)", "station": r"^(QDR S/N\s*\d+)", "event": r"^([\d/]+ [\d:]+)",
+    "peak": r"MAX\s*=\s*(-?[\d.]+)\s*G", "rms": r"^RMS.*=\s*([\d.]+) G\b(?!/)",
+}, peak_unit="g", half_digit=5e-4)  # fmt: skip
+_BHRC = Layout("g/10", _SIZE | {
+    "component": r"^COMP\s+(\S+)", "station": r"FILE:\s*(\w+)", "event": r"^Origin Time\s*:\s*(\S+\s+\S+)",
+    "event_time": r"^Origin Time\s*:\s*(\S+\s+\S+)", "magnitude": r"^(Epicenter\b.*)",
+    "place": r"\bStation\s+(.*?)\s+Altitude", "elevation": r"\bAltitude\s+(\S+)",
+})  # fmt: skip
+_CSMIP = {
     "component": r"^Chan\s*\d+:\s*(\S+)", "station": r"^Station No\.\s*(\S+)", "place": r"^Station No\.\s*\S+\s+(.*)",
     "location": r"\bLocation:\s*(.*?)\s*$", "event_time": r"^(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)",
     "event": r"^(?:(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)|\s*(\S.*\bEARTHQUAKE\b.*))",
+    "peak": r"Max\s*=\s*(-?[\d.]+)\s*g",
 }  # fmt: skip
-_FILM = Layout(
-    **_CSMIP, **_SIZES, peak=r"Max\s*=\s*(-?[\d.]+)\s*g", peak_unit="g", half_digit=5e-4,
-)  # fmt: skip
-_CSMIP_1 = Layout(
-    **_CSMIP, peak=r"Max\s*=\s*(-?[\d.]+)\s*g", peak_unit="g", half_digit=5e-4,
-    duration=r"Record length\s*=\s*([\d.]+)", rms=r"\A(?:.*\n){20}.{30}(.{10})",
-)  # fmt: skip
-_CSMIP_2 = Layout(
-    **_CSMIP, high_pass=r"(?:3 dB pts at|RAMPS AT)\s+([\d.]+)", peak=r"Peak acceleration\s*=\s*(-?[\d.]+)",
-    peak_unit="cm/s2", half_digit=5e-4, peak_time=r"Peak acceleration\s*=.*?\bat\s+([\d.]+)\s*sec",
-)  # fmt: skip
+_FILM = Layout("g/10", _CSMIP | _SIZE, peak_unit="g", half_digit=5e-4)
+_CSMIP_1 = Layout("", _CSMIP | {
+    "duration": r"Record length\s*=\s*([\d.]+)", "rms": r"\A(?:.*\n){20}.{30}(.{10})",
+}, peak_unit="g", half_digit=5e-4)  # fmt: skip
+_CSMIP_2 = Layout("", _CSMIP | {
+    "high_pass": r"(?:3 dB pts at|RAMPS AT)\s+([\d.]+)", "peak": r"Peak acceleration\s*=\s*(-?[\d.]+)",
+    "peak_time": r"Peak acceleration\s*=.*?\bat\s+([\d.]+)\s*sec",
+}, peak_unit="cm/s2", half_digit=5e-4)  # fmt: skip
 
 
 def _rows(block: list[str]) -> tuple[str, list[str]]:
@@ -100,9 +98,8 @@ def _digitised(
     times, values = table.T
     whole(times, layout.count(head), per_line=0)
     duration = number("duration", optional(_LENGTH, head))
-    if (
-        abs(duration - times[-1]) > 2 * np.ptp(times) / (times.size - 1) + 0.001
-    ):  # which may count a last step or not
+    # The length may count a last step or not.
+    if abs(duration - times[-1]) > 2 * np.ptp(times) / (times.size - 1) + 0.001:
         raise RecordError(
             f"the header declares a length of {duration:g} s, but the last sample stands at {times[-1]:g} s; "
             "the file is damaged or its header belongs to another record."
@@ -128,25 +125,20 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
     reals = " ".join(block[_REALS : _REALS + 2]).split()
     printed = reals[_RATE] if len(reals) > _RATE else "0"
     rate = float(printed) if is_number(printed) else 0.0
-    notes: tuple[str, ...] = ()
+    note = ""
     if not is_number(printed):
-        notes = (f"The header gives a rate of {printed!r}, which is no number: the file may be damaged.",)
-    if 1 <= rate <= 1e4 and abs(rate * step - 1) > 1e-3:
-        notes = (
-            f"The header gives a rate of {rate:g} Hz, but duration and number of points a step of {step:g} s.",
+        note = f"The header gives a rate of {printed!r}, which is no number: the file may be damaged."
+    elif 1 <= rate <= 1e4 and abs(rate * step - 1) > 1e-3:
+        note = (
+            f"The header gives a rate of {rate:g} Hz, but duration and number of points a step of {step:g} s."
         )
     letter = _BHRC.text("component", head)[:1].upper()
-    along = optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", head) if letter in ("L", "T") else None
-    return _BHRC.channel(
-        head,
-        values,
-        options,
-        step=step,
-        processing=(offset,),
-        warnings=notes,
-        vertical=is_vertical(letter),
-        azimuth=along,
+    facts: dict[str, Any] = {"processing": (offset,), "warnings": (note,) if note else ()}
+    facts["vertical"] = is_vertical(letter)
+    facts["azimuth"] = (
+        optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", head) if letter in ("L", "T") else None
     )
+    return _BHRC.channel(head, values, options, step=step, **facts)
 
 
 _VOLUME_1 = re.compile(r"Uncorrected Accelerogram Data\s+Processed", re.I)
@@ -170,12 +162,13 @@ def _is_csmip(content: bytes) -> bool:
 
 
 def _read_csmip(content: bytes, options: Options) -> list[Accelerogram]:
-    *whole_channels, rest = re.split(r"^/&.*\n?", content.decode("latin-1"), flags=re.M)
-    channels = [text.split("\n") for text in whole_channels]
-    if any(_announcement(line) or _VOLUME_1.match(line) for line in rest.split("\n")):
-        channels.append(rest.split("\n"))
+    *channels, rest = (
+        text.split("\n") for text in re.split(r"^/&.*\n?", content.decode("latin-1"), flags=re.M)
+    )
+    if any(_announcement(line) or _VOLUME_1.match(line) for line in rest):
+        channels.append(rest)
     else:
-        check_nothing_left(rest.split("\n"))
+        check_nothing_left(rest)
     return [_csmip(block, options, len(channels)) for block in channels]
 
 
@@ -190,8 +183,7 @@ def _csmip(block: list[str], options: Options, held: int) -> Accelerogram:
     facts: dict[str, Any] = announced[0][1].groupdict() if announced else {}
     if not announced or (facts.get("quantity") or "accel").lower() != "accel":
         raise RecordError(
-            "no line announces points of acceleration with their format; the file is truncated, "
-            "or holds velocity or displacement only."
+            "no line announces points of acceleration; the file is cut, or of velocity or displacement."
         )
     parts = []
     for (i, data), end in zip(announced, [*(i for i, _ in announced[1:]), len(block)], strict=True):
@@ -208,8 +200,8 @@ def _csmip(block: list[str], options: Options, held: int) -> Accelerogram:
     if is_corrected and interval:
         check_equal("the interval", interval, step)
     layout = _CSMIP_2 if is_corrected else _CSMIP_1
-    more: dict[str, Any] = {"processed": is_corrected, "held": held}
-    record = layout.channel(head, values, options, unit=facts["unit"], step=step, **more)
+    more: dict[str, Any] = {"unit": facts["unit"], "step": step, "processed": is_corrected, "held": held}
+    record = layout.channel(head, values, options, **more)
     for part, (_, data) in zip(parts[1:], announced[1:], strict=True):
         if (data.groupdict().get("quantity") or "").lower() == "veloc" and data["unit"].lower() == "cm/sec":
             record = agree_with_velocity(record, part / 100)
