@@ -96,10 +96,8 @@ class Accelerogram:
     def __post_init__(self) -> None:
         with about(self.source.path) if self.source.path else nullcontext():
             for name in ("component", "station", "event", "network", "location"):
-                if _UNPRINTABLE.search(str(getattr(self, name))):
-                    raise RecordError(
-                        f"{name} is {getattr(self, name)!r}, but must hold printable characters only."
-                    )
+                if _UNPRINTABLE.search(str(text := getattr(self, name))):
+                    raise RecordError(f"{name} is {text!r}, but must hold printable characters only.")
             object.__setattr__(self, "acceleration", _samples(self.acceleration))
             object.__setattr__(self, "time_step", positive(RecordError, "time_step", self.time_step, "s"))
             object.__setattr__(self, "scale_factor", finite(RecordError, "scale_factor", self.scale_factor))
@@ -107,10 +105,9 @@ class Accelerogram:
     def __repr__(self) -> str:
         names = [name for name in (self.component, self.station, self.event) if name]
         size = f"{self.acceleration.size} samples at {shown(self.time_step, 's')}"
-        peak = (
-            f"peak {shown(self.peak_acceleration, 'm/s²')} = {shown(self.peak_acceleration / GRAVITY, 'g')}"
-        )
-        return f"Accelerogram({', '.join([*names, size, peak])})"
+        peak = self.peak_acceleration
+        peaks = f"peak {shown(peak, 'm/s²')} = {shown(peak / GRAVITY, 'g')}"
+        return f"Accelerogram({', '.join([*names, size, peaks])})"
 
     @property
     def is_horizontal(self) -> bool:
@@ -251,9 +248,7 @@ def _samples(values: np.ndarray) -> np.ndarray:
         raise RecordError(f"the samples have shape {samples.shape}, but must be one row of at least 2.")
     bad = np.flatnonzero(~np.isfinite(samples))
     if bad.size:
-        raise RecordError(
-            f"sample {bad[0]} is {samples[bad[0]]}, one of {bad.size} that are not finite; "
-            "fill or cut the gap before use."
-        )
+        first = f"sample {bad[0]} is {samples[bad[0]]}, one of {bad.size} that are not finite"
+        raise RecordError(f"{first}; fill or cut the gap before use.")
     samples.flags.writeable = False
     return samples

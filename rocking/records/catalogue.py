@@ -19,11 +19,9 @@ from rocking.tables import read_whole
 _OBSPY = "obspy:"
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
 _RESERVED = re.compile(
-    r"(con|prn|aux|nul|(com|lpt)\d|summary|datapackage|paper|calibration|documentation|fragility|validation|comparison|cracks|"
-    r"calibrate|calibrate_ensemble|cover|trade_fragility|govern|screen|validate|compare)"
-    r"(\..*)?",
-    re.I,
-)
+    r"(con|prn|aux|nul|(com|lpt)\d|summary|datapackage|paper|calibration|documentation|fragility|validation|comparison|"
+    r"cracks|calibrate|calibrate_ensemble|cover|trade_fragility|govern|screen|validate|compare)(\..*)?", re.I,
+)  # fmt: skip
 _HASH, _COMMIT = re.compile(r"[0-9a-f]{64}"), re.compile(r"[0-9a-f]{40}")
 _REPOSITORY = re.compile(r"(?!\.+/)[\w.-]+/(?!\.+$)[\w.-]+", re.ASCII)
 _PROSE = ("event", "station", "licence", "note")
@@ -50,33 +48,23 @@ class CatalogueRecord:
     'TAK090.AT2'
     """
 
-    id: str = described(
-        MISSING, "name of the record in every result: letters, digits, `.`, `_`, `-`; at most 80"
-    )
+    # fmt: off
+    id: str = described(MISSING, "name of the record in every result: letters, digits, `.`, `_`, `-`; at most 80")
     file: str = described(
-        MISSING,
-        "path beside the catalogue or in the mirror, or `obspy:NAME` for a file that obspy installs; the files of one "
-        "station, the vertical component among them, are separated by `;`",
-    )
+        MISSING, "path beside the catalogue or in the mirror, or `obspy:NAME` for a file that obspy installs; the "
+        "files of one station, the vertical component among them, are separated by `;`")
     sha256: str = described(
-        "",
-        "of each file as it lies on disk, in the order of `file`; a blank one is filled in when a study first reads "
-        "the file, and checked from then on",
-    )
+        "", "of each file as it lies on disk, in the order of `file`; a blank one is filled in when a study first "
+        "reads the file, and checked from then on")
     source_repository: str = described("", "where on GitHub the files are fetched from, as owner/name")
     source_path: str = described("", "of each file in that repository, in the order of `file`")
     source_commit: str = described("", "of that repository, 40 hexadecimal digits")
     component: str = described(
-        "",
-        "channels to use, separated by `;` (empty: every horizontal one at the surface); names the channels of files "
-        "that leave them unnamed, in the order of `file`",
-    )
-    vertical_component: str = described(
-        "", "the vertical channel, where the file's own name for it does not say so"
-    )
+        "", "channels to use, separated by `;` (empty: every horizontal one at the surface); names the channels of "
+        "files that leave them unnamed, in the order of `file`")
+    vertical_component: str = described("", "the vertical channel, where the file's own name for it does not say so")
     unit: str = described(
-        "", "of the samples, where the file is silent; a contradiction with the file is an error"
-    )
+        "", "of the samples, where the file is silent; a contradiction with the file is an error")
     time_step: float | None = described(None, "of the samples, where the file is silent", "s", gt=0)
     scale_factor: float = described(1.0, "multiplies the acceleration")
     event: str = described("", "the earthquake, for the reader")
@@ -84,15 +72,12 @@ class CatalogueRecord:
     licence: str = described("", "under which the files may be used, for the reader")
     inventory: str = described("", "StationXML of a miniSEED file, a path like `file`")
     high_pass: float | None = described(
-        None, "corner of a high-pass that was applied, if the file does not say it", "Hz", gt=0
-    )
-    magnitude: float | None = described(
-        None, "of the earthquake, where the file is silent or errs", ge=-2, le=10
-    )
+        None, "corner of a high-pass that was applied, if the file does not say it", "Hz", gt=0)
+    magnitude: float | None = described(None, "of the earthquake, where the file is silent or errs", ge=-2, le=10)
     epicentral_distance: float | None = described(
-        None, "distance from the epicentre, where the file is silent or errs", "km", ge=0, le=20_100
-    )
+        None, "distance from the epicentre, where the file is silent or errs", "km", ge=0, le=20_100)
     note: str = described("", "anything else, for the reader")
+    # fmt: on
     folder: Path = Path()
 
     def __post_init__(self) -> None:
@@ -193,7 +178,7 @@ def load_catalogue(path: str | Path, mirror: str | Path | None = None) -> tuple[
     path = Path(path)
     rows = read_rows(path)
     records: list[CatalogueRecord] = []
-    defects: list[str] = []
+    defects = []
     for line, row in rows:
         try:
             records.append(_record(row, path.parent))
@@ -203,10 +188,11 @@ def load_catalogue(path: str | Path, mirror: str | Path | None = None) -> tuple[
     twice = [(name, n) for name, n in counts.items() if n > 1]
     defects += [f"id {name!r} stands {n} times (upper and lower case count as one)" for name, n in twice]
     for record in records if mirror is not None else ():
-        is_elsewhere = record.example_name or record.is_remote
-        for name in () if is_elsewhere else (file.name for file in record.files):
-            if not any((Path(place) / name).is_file() for place in (mirror, record.folder) if place):
-                defects.append(f"{record.id}: file {name!r} is neither in {mirror} nor in {record.folder}.")
+        for file in () if record.example_name or record.is_remote else record.files:
+            if not any((Path(place) / file.name).is_file() for place in (mirror, record.folder) if place):
+                defects.append(
+                    f"{record.id}: file {file.name!r} is neither in {mirror} nor in {record.folder}."
+                )
     if defects:
         raise CatalogueError(f"{path.name} has {len(defects)} defects: " + " | ".join(defects))
     return tuple(records)
@@ -223,13 +209,7 @@ def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
         names = list(reader.fieldnames or ())
     except (ValueError, csv.Error) as error:
         raise CatalogueError(f"{path}: the catalogue cannot be read as UTF-8 CSV, {error}.") from None
-    defects = [
-        f"column {name!r} is gone; name the file of the vertical component in file, behind a ';'"
-        if name in ("vertical_file", "vertical_sha256")
-        else f"column {name!r} is not known"
-        for name in names
-        if name not in COLUMNS
-    ]
+    defects = [f"column {name!r} is not known" for name in names if name not in COLUMNS]
     defects += [f"column {name!r} stands {n} times" for name, n in Counter(names).items() if n > 1]
     defects += [f"column {name!r} is missing" for name in ("id", "file") if name not in names]
     defects += [f"line {line} has more cells than there are columns" for line, row in rows if row.get("")]
@@ -241,17 +221,13 @@ def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
 
 
 def _record(row: Mapping[str, str], folder: Path) -> CatalogueRecord:
-    values: dict[str, Any] = {}
+    values: dict[str, Any] = {"id": "", "file": "", "folder": folder}
     for name, each in described_values(CatalogueRecord).items():
-        cell = (row.get(each.key) or "").strip()
-        if not cell and each.default is not MISSING:
-            continue
-        values[name] = plain(cell) if name in _PROSE else cell
-        if each.kind is not str:
-            if not is_number(cell):
+        if cell := (row.get(each.key) or "").strip():
+            if each.kind is not str and not is_number(cell):
                 raise CatalogueError(f"{each.key} is {cell!r}, but must be a number.")
-            values[name] = float(cell)
-    return CatalogueRecord(**values, folder=folder)
+            values[name] = float(cell) if each.kind is not str else plain(cell) if name in _PROSE else cell
+    return CatalogueRecord(**values)
 
 
 def catalogue_text(rows: Iterable[Mapping[str, str]], columns: Sequence[str] = COLUMNS) -> str:
@@ -265,17 +241,14 @@ def catalogue_text(rows: Iterable[Mapping[str, str]], columns: Sequence[str] = C
 
 def repeated(records: Iterable[CatalogueRecord]) -> tuple[str, ...]:
     """Return a sentence for each record that is an earlier one again: one content and scale, a component in common."""
-    sentences: list[str] = []
+    sentences = []
     earlier: dict[tuple[str, float], list[CatalogueRecord]] = {}
     for record, file in [(row, file) for row in records for file in row.files if file.sha256]:
         same = earlier.setdefault((file.sha256, record.scale_factor), [])
-        for other in same:
-            chosen = set(other.components), set(record.components)  # of which none names all
-            if not all(chosen) or chosen[0] & chosen[1]:
-                sentences.append(
-                    f"{record.id} ({file.name}): its content is that of {other.id} ({other.file}), "
-                    "so that one motion counts twice; leave one of them out."
-                )
-                break
+        chosen = set(record.components)  # none names all
+        both = (each for each in same if not (chosen and each.components) or chosen & set(each.components))
+        if other := next(both, None):
+            content = f"{record.id} ({file.name}): its content is that of {other.id} ({other.file})"
+            sentences.append(f"{content}, so that one motion counts twice; leave one of them out.")
         same.append(record)
     return tuple(sentences)

@@ -12,6 +12,7 @@ from rocking.errors import RecordError, about
 from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
 from rocking.records.formats.binary import MINISEED
 from rocking.records.read import LARGEST_FILE, bytes_of
+from rocking.records.traces import first_line
 from rocking.tables import write_whole
 
 _RETRIES = 3
@@ -48,7 +49,7 @@ def inventory_of(record: CatalogueRecord, mirror: str | Path | None = None) -> P
         path = _beside(record, record.inventory, mirror) if record.inventory else None
         if record.inventory and path is None:
             raise RecordError(
-                f"inventory {record.inventory!r} is not there; mend the catalogue or add the file."
+                f"inventory {record.inventory!r} is missing; mend the catalogue or add the file."
             )
         return path
 
@@ -61,10 +62,10 @@ def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> li
     """
     own = [] if record.example_name else [file.name for file in record.files]
     paths: list[Path] = []
+    beside: list[Path] = []
     for name in filter(None, [*own, record.inventory]):
         with suppress(RecordError):
             paths += filter(None, [_beside(record, name, mirror)])
-    beside: list[Path] = []
     for path in () if record.inventory or record.unit else paths:
         with suppress(OSError), path.open("rb") as stream:
             head = stream.read(256)
@@ -101,10 +102,8 @@ def download(file: str, repository: str, commit: str, path: str, *, sha256: str 
     try:
         return Path(store.fetch(name, downloader=_Downloader()))
     except Exception as error:
-        reason = str(error).splitlines()[0][:200] if str(error) else type(error).__name__
-        raise RecordError(
-            f"file {file!r} cannot be fetched from {address}, {reason}; try again or give a mirror folder."
-        ) from error
+        failed = f"file {file!r} cannot be fetched from {address}, {first_line(error)}"
+        raise RecordError(f"{failed}; try again or give a mirror folder.") from error
 
 
 class _Direct(urllib.request.HTTPRedirectHandler):
@@ -130,9 +129,7 @@ class _Downloader:
             while piece := answer.read1(_PIECE):
                 size += len(piece)
                 if size > LARGEST_FILE:
-                    raise RecordError(
-                        f"the file is larger than {LARGEST_FILE} bytes, which no accelerogram is"
-                    )
+                    raise RecordError(f"the file is larger than {LARGEST_FILE} bytes, which no record is")
                 stream.write(piece)
                 self._left()
 

@@ -21,6 +21,10 @@ from rocking.records.station import why_apart
 
 Row = dict[str, str]
 
+_ONLY_VERTICAL = "it holds no horizontal component at the surface."
+_SIDEWAYS = "The file's name says {}, but {} is taken as horizontal."
+_BAD_NAME = "its name holds a character that a catalogue does not allow, or a blank at its end; rename it."
+
 _STAND_INS: dict[str, Any] = {"unit": "mm/s2", "time_step": 0.01}
 """With which a file that declares none is looked at; the unit is small enough for counts."""
 _UPWARDS = re.compile(r"(?:^|[-_. ])(UP|UD|DN|DWN|DOWN|VER|VERT|VERTICAL)(?=[-_. ]|$)", re.I)
@@ -120,9 +124,7 @@ def list_folder(
         for file in group:
             file.record = rows[-1]["id"] if level else ""
             file.beside = len(group) - 1
-            file.unread = (
-                "" if level else f"it holds no horizontal component at the surface. {file.apart}".strip()
-            )
+            file.unread = "" if level else f"{_ONLY_VERTICAL} {file.apart}".strip()
     return listed, rows
 
 
@@ -130,8 +132,7 @@ def _stations(files: Sequence[ListedFile]) -> list[list[ListedFile]]:
     """Return the files that share a row, in the order of their first; those of a station that do not fit say why."""
     groups: dict[object, list[ListedFile]] = {}
     for file in files:
-        key = None if file.is_again else _station_key(file)
-        groups.setdefault(key or file.file, []).append(file)
+        groups.setdefault(_station_key(file) or file.file, []).append(file)
     stations = []
     for group in (part for of_one in groups.values() for part in _simultaneous(of_one)):
         level = [file for file in group if file.channels[0].is_horizontal]
@@ -150,7 +151,7 @@ def _station_key(file: ListedFile) -> object:
     folder, _, name = file.file.rpartition("/")
     number = _RSN.match(name)
     is_named = number or (first.station and (first.event or first.start_time))
-    if len(file.channels) > 1 or not is_named or first.borehole:
+    if len(file.channels) > 1 or not is_named or first.borehole or file.is_again:
         return None
     of_header = (first.network, first.station, first.location, first.event)
     return folder, first.source.format, number[1] if number else of_header, file.to_fill
@@ -207,20 +208,14 @@ def _listed(path: Path, folder: Path, given: Mapping[str, Any]) -> ListedFile:
         return ListedFile(file, unread=printable(str(error)))
     reason = ""
     if not stays_inside(name) or name != name.strip() or name != file:
-        reason = (
-            "its name holds a character that a catalogue does not allow, or a blank at its end; rename it."
-        )
+        reason = _BAD_NAME
     elif not path.resolve().is_relative_to(folder.resolve()):
         reason = "it is a link that leads out of the folder; copy the file instead."
     doubts: dict[str, list[str]] = {}
     upwards = _UPWARDS.search(path.stem)
     for channel in channels:
-        level = (
-            f"The file's name says {upwards[1]}, but {channel.component} is taken as horizontal."
-            if upwards
-            else ""
-        )
-        for sentence in filter(None, (*channel.warnings, "" if channel.vertical else level)):
+        level = [_SIDEWAYS.format(upwards[1], channel.component)] if upwards and not channel.vertical else []
+        for sentence in (*channel.warnings, *level):
             doubts.setdefault(sentence, []).append(channel.component)
     remarks = tuple(s if len(of) == len(channels) else f"{', '.join(of)}: {s}" for s, of in doubts.items())
     declared = {_CELLS[name]: f"{given[name]}" for name in missing if given[name]}
@@ -230,13 +225,13 @@ def _listed(path: Path, folder: Path, given: Mapping[str, Any]) -> ListedFile:
 
 
 def _listed_channel(record: Accelerogram, is_declared: bool) -> ListedChannel:
-    speed = None
-    with suppress(RecordError):  # it is too short to be processed
-        speed = float(abs(velocity(process(record))).max()) if is_declared else None
     own = replace(record, acceleration=record.acceleration[:2])
-    return ListedChannel(
-        own, record.acceleration.size, record.peak_acceleration if is_declared else None, speed
-    )
+    listed = ListedChannel(own, record.acceleration.size)
+    with suppress(RecordError):  # it is too short to be processed
+        if is_declared:
+            listed = replace(listed, peak_acceleration=record.peak_acceleration)
+            listed = replace(listed, peak_velocity=float(abs(velocity(process(record))).max()))
+    return listed
 
 
 def _passed_over(path: Path) -> bool:
@@ -265,16 +260,9 @@ def _row(group: Sequence[ListedFile], level: Sequence[Accelerogram], taken: set[
     doubts = dict.fromkeys(doubt for file in group for doubt in file.doubts)
     remarks = [s for s in doubts if not fill or ("m/s" not in s and " g," not in s)]
     if (angle := _angle(level)) is not None and abs(angle - 90) > _SQUARE:
-        remarks.append(
-            f"Components {level[0].component} and {level[1].component} are {min(angle, 180 - angle):g}° apart, "
-            "not at right angles."
-        )
-    note = (
-        f"{first.source.format}.",
-        f"Fill in {' and '.join(fill)}." if fill else "",
-        *remarks,
-        group[0].apart,
-    )
+        names = f"{level[0].component} and {level[1].component}"
+        remarks.append(f"Components {names} are {min(angle, 180 - angle):g}° apart, not at right angles.")
+    head = f"{first.source.format}.", f"Fill in {' and '.join(fill)}." if fill else ""
     return {
         "id": _id(group, taken),
         "file": ";".join(f"./{file.file}" if file.file[0] in _FORMULA else file.file for file in group),
@@ -282,7 +270,7 @@ def _row(group: Sequence[ListedFile], level: Sequence[Accelerogram], taken: set[
         "station": first.station.lstrip(_FORMULA + " "),
         "sha256": ";".join(file.channels[0].source.sha256 for file in group),
         **group[0].declared,
-        "note": plain(" ".join(note)),
+        "note": plain(" ".join([*head, *remarks, group[0].apart])),
     }
 
 

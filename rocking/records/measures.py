@@ -1,7 +1,6 @@
 """Measures of the intensity of a record that engineers know it by, and its elastic response spectrum.
 
-Of the libraries made for spectra, pyrotd 0.6.1 needs a module that setuptools no longer holds and wraps the end of a
-record round to its start, and eqsig takes a second a record.
+Of the libraries made for spectra, pyrotd 0.6.1 wraps the end of a record round to its start, and eqsig takes a second.
 """
 
 import math

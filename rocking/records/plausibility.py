@@ -12,10 +12,8 @@ LARGEST_PEAK = 5 * GRAVITY
 
 RARE_PEAK = 3 * GRAVITY
 """m/s²; a handful of records of the world exceed it."""
-
 SMALLEST_PEAK = 1e-5 * GRAVITY
 """m/s²; below, a record is noise or has a wrong unit."""
-
 _FACTORS = {
     980.665: "cm/s² against g", 9.80665: "m/s² against g", 100.0: "cm/s² against m/s²",
     1000.0: "mg against g, or mm/s² against m/s²", 10.0: "g/10 against g",
@@ -56,9 +54,8 @@ def agree_with_header(
         ratio = peak_read / stated
         apart = {factor: min(abs(ratio / factor - 1), abs(ratio * factor - 1)) for factor in _FACTORS}
         near = min(apart, key=apart.__getitem__)
-        factor = (
-            f"{near:g} ({_FACTORS[near]})" if apart[near] < _NEAR else f"{ratio:.4g} that no unit explains"
-        )
+        is_unit = apart[near] < _NEAR
+        factor = f"{near:g} ({_FACTORS[near]})" if is_unit else f"{ratio:.4g} that no unit explains"
         raise RecordError(
             f"peak acceleration of {record.component or 'the samples'} is {peak_read:.6g} m/s², but the file's header "
             f"states {stated:.6g} m/s², a factor {factor}; the two must agree within 1 %."
@@ -71,10 +68,8 @@ def agree_with_header(
     if at is None:
         return record
     place = round(at / record.time_step)
-    if (
-        magnitudes[max(0, place - _NEIGHBOURS) : max(0, place + _NEIGHBOURS + 1)].max(initial=0)
-        >= 0.98 * peak_read
-    ):
+    around = magnitudes[max(0, place - _NEIGHBOURS) : max(0, place + _NEIGHBOURS + 1)]
+    if around.max(initial=0) >= 0.98 * peak_read:
         return record
     return record.warned(
         f"The header puts the peak at {at:g} s, but it stands at {magnitudes.argmax() * record.time_step:g} s: "
@@ -101,7 +96,7 @@ def pass_limits(record: Accelerogram) -> tuple[str, ...]:
         return ()
     if RARE_PEAK < record.peak_acceleration <= LARGEST_PEAK:
         return (
-            f"The peak acceleration is {peak:.3g} g, above 3 g: almost no ground moves so; check unit and file.",
+            f"The peak acceleration is {peak:.3g} g, above 3 g: almost no ground moves so; check the unit.",
         )
     is_small = peak < 1
     plausible = {f: _PLAUSIBLE[0] < (peak * f if is_small else peak / f) < _PLAUSIBLE[1] for f in _FACTORS}
@@ -164,17 +159,12 @@ _LONGEST_STEP = 0.1
 
 
 def damage_warnings(record: Accelerogram) -> tuple[str, ...]:
-    """Return warnings on samples that look damaged: one alone far above all others, zeros within strong shaking.
-
-    A time step that is too long for strong motion is told too.
-    """
+    """Return warnings on a long time step, a sample alone far above all others, and zeros within strong shaking."""
     warnings = []
     step = record.time_step
     magnitudes = np.abs(record.acceleration)
     if step > _LONGEST_STEP:
-        warnings.append(
-            f"The time step is {step:g} s: strong motion needs one below {_LONGEST_STEP:g} s; check it."
-        )
+        warnings.append(f"The time step is {step:g} s: strong motion needs one below {_LONGEST_STEP:g} s.")
     if magnitudes.size < 2 * _ZEROS or not magnitudes.any():
         return tuple(warnings)
     at = int(magnitudes.argmax())
@@ -192,7 +182,7 @@ def damage_warnings(record: Accelerogram) -> tuple[str, ...]:
     longest = int(np.diff(moving).max(initial=0)) - 1
     if longest >= _ZEROS:
         warnings.append(
-            f"Within the strong shaking {longest} samples in a row are exactly zero: a gap was filled, perhaps."
+            f"Within the strong shaking {longest} samples in a row are zero: a filled gap, perhaps."
         )
     return tuple(warnings)
 
@@ -216,9 +206,8 @@ def exchanged_lines(record: Accelerogram, per_line: int) -> tuple[str, ...]:
     steps = np.abs(np.diff(table, axis=1)).max(axis=1)
     least = 1e-3 * record.peak_acceleration + np.finfo(float).tiny
     within = np.maximum(steps[1:-2], steps[2:-1])
-    better = np.minimum(
-        here.sum(axis=0) / (turned.sum(axis=0) + least), np.median(here, axis=0) / (within + least)
-    )
+    overall = here.sum(axis=0) / (turned.sum(axis=0) + least)
+    better = np.minimum(overall, np.median(here, axis=0) / (within + least))
     at = int(better.argmax())
     if better[at] <= _EXCHANGED:
         return ()

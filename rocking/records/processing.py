@@ -19,10 +19,8 @@ _LOW_PASS_SHARE = 0.8
 class Processing:
     """Settings, applied in the order they stand here; a step that is None, 0 or "none" is left out.
 
-    order: of each Butterworth filter, before it is run both ways.
-    padding: whether zeros of 1.5 order/corner seconds (Boore 2005) are put before and after while filtering.
-    keep_padding: whether those zeros stay, which velocity and displacement need to end at rest.
-    time_step: s, to which the record is resampled at last. Raises RecordError when a setting is out of range.
+    order: of each Butterworth filter, before it is run both ways. padding: zeros of 1.5 order/corner seconds (Boore
+    2005); velocity and displacement need them kept to end at rest. Raises RecordError when a setting is out of range.
     """
 
     pre_event: float | None = described(
@@ -126,9 +124,8 @@ def _filtered(record: Accelerogram, processing: Processing) -> Accelerogram:
         if corner:
             held = 0 if pad else _room(processing.order, corner, record)
             values = _butterworth(values, record.time_step, kind, corner, processing.order, held)
-            steps.append(
-                f"Acausal Butterworth {kind} of order {processing.order}, run both ways, corner {corner:g} Hz."
-            )
+            run = f"of order {processing.order}, run both ways, corner {corner:g} Hz"
+            steps.append(f"Acausal Butterworth {kind} {run}.")
     initial: dict[str, float] = {}
     if pad and not processing.keep_padding:
         # A filter that is run both ways moves the ground before the record; without that, displacement would drift.
@@ -155,9 +152,7 @@ def _butterworth(
 
     nyquist = 0.5 / time_step
     if not corner < nyquist:
-        raise RecordError(
-            f"the {kind} corner is {corner!r} Hz, but must be below the Nyquist frequency {nyquist:g} Hz."
-        )
+        raise RecordError(f"the {kind} corner is {corner!r} Hz, but must be below {nyquist:g} Hz (Nyquist).")
     sections = signal.butter(order, corner / nyquist, kind, output="sos")
     whole = np.pad(values, held, mode="edge")
     return signal.sosfiltfilt(sections, whole, padtype=None)[held : held + values.size]
@@ -181,11 +176,10 @@ def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:
     return record.processed_by(even, sentence, time_step=step)
 
 
-_CANDIDATES = 20
-_DEGREES = (1, 2)
-_FEWEST = 64
-_LEFT = 16
-"""Samples after shaking, at least: fewer say nothing of a drift."""
+_CANDIDATES, _DEGREES = 20, (1, 2)
+"""Places at which shaking may end, and degrees of the polynomial after each."""
+_FEWEST, _LEFT = 64, 16
+"""Samples of the record and after shaking, at least: fewer say nothing of a drift."""
 
 
 def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.ndarray, str]:
@@ -197,14 +191,11 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
 
     Onset and end of shaking are where 0.1 % and 95 % of the squared acceleration have passed; the end is moved among
     20 places up to 85 % of what remains, each tried with degrees 1 and 2; the drift that leaves the smallest
-    displacement wins. At least 8 samples are taken as rest before the onset, and 16 as shaking;
-    where fewer than 16 are left after it, the record stays as it is.
-    Raises RecordError for fewer than 64 samples or a record without motion.
+    displacement wins. At least 8 samples are taken as rest before the onset, and 16 as shaking; where fewer than 16 are
+    left after it, the record stays as it is. Raises RecordError for fewer than 64 samples or a record without motion.
     """
-    if acceleration.size < _FEWEST or not np.any(acceleration):
-        raise RecordError(
-            f"the adaptive baseline needs motion and at least {_FEWEST} samples, got {acceleration.size}."
-        )
+    if (size := acceleration.size) < _FEWEST or not np.any(acceleration):
+        raise RecordError(f"the adaptive baseline needs motion and at least {_FEWEST} samples, got {size}.")
     velocity = integral(acceleration, time_step)
     share = np.cumsum(acceleration**2)
     onset = max(8, int(np.searchsorted(share, 1e-3 * share[-1])))
@@ -230,7 +221,7 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
 
 def _drifts(velocity: np.ndarray, onset: int, ends: Sequence[int]) -> Iterator[tuple[int, int, np.ndarray]]:
     """Yield end, degree and drift (n,): a line to the onset, a polynomial from the end, a cubic bridge between."""
-    (before, slope), _ = _fitted(velocity[:onset])
+    before, slope = _fitted(velocity[:onset])[0]
     height = before[-1] + slope
     for end in ends:
         width = end - onset
@@ -247,7 +238,8 @@ def _fitted(values: np.ndarray) -> list[tuple[np.ndarray, float]]:
     x = np.linspace(-1, 1, values.size)
     square = (x * x).sum()  # sums, because a dot product of many samples wakes a thread on every core
     bow = x * x - square / x.size
-    first, second = float((x * values).sum() / square), float((bow * values).sum() / (bow * bow).sum())
+    first = float((x * values).sum() / square)
+    second = float((bow * values).sum() / (bow * bow).sum())
     line = values.mean() + first * x
     per_sample = 2 / (x.size - 1)
     return [(line, first * per_sample), (line + second * bow, (first - 2 * second) * per_sample)]

@@ -36,14 +36,14 @@ def rotate(first: Accelerogram, second: Accelerogram, azimuth: float) -> Acceler
     azimuth = finite(RecordError, "azimuth", azimuth, "degrees")
     if first.azimuth is None or second.azimuth is None:
         raise RecordError(
-            "a component has no azimuth; give one with dataclasses.replace(record, azimuth=...)."
+            "a component has no known azimuth; give one with dataclasses.replace(record, azimuth=...)."
         )
     a, b = _paired(first, second)
     one, two, wanted = np.radians([first.azimuth, second.azimuth, azimuth])
     base = np.sin(two - one)
     if abs(base) < _FLATTEST:
         raise RecordError(
-            f"the azimuths are {first.azimuth:g}° and {second.azimuth:g}°, but must differ by 30°."
+            f"the azimuths are {first.azimuth:g}° and {second.azimuth:g}°, but must differ by 30° or more."
         )
     shares = np.sin(two - wanted) / base, np.sin(wanted - one) / base
     motion = shares[0] * a + shares[1] * b
@@ -82,7 +82,7 @@ def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
 def _paired(first: Accelerogram, second: Accelerogram) -> tuple[np.ndarray, np.ndarray]:
     if abs(first.time_step / second.time_step - 1) > 1e-9:
         raise RecordError(
-            f"time_step is {first.time_step!r} and {second.time_step!r} s; resample one of them."
+            f"time_step is {first.time_step!r} s and {second.time_step!r} s, but must be one; resample first."
         )
     if first.vertical or second.vertical:
         raise RecordError("a component is vertical, but both must be horizontal.")
@@ -99,11 +99,13 @@ def aligned(vertical: Accelerogram, horizontal: Accelerogram) -> Accelerogram:
 
     Raises RecordError when their time steps differ by more than rounding.
     """
-    step = horizontal.time_step
-    if not np.isclose(vertical.time_step, step, rtol=1e-9, atol=0):
-        steps = f"time_step is {vertical.time_step!r} s of the vertical and {step!r} s of the horizontal component"
-        raise RecordError(f"{steps}; resample one of them.")
-    samples = np.zeros(horizontal.acceleration.size)
-    kept = vertical.acceleration[: samples.size]
-    samples[: kept.size] = kept
-    return replace(vertical, acceleration=samples, time_step=step)
+    if not np.isclose(vertical.time_step, horizontal.time_step, rtol=1e-9, atol=0):
+        raise RecordError(
+            f"time_step of the vertical component is {vertical.time_step!r} s, but must equal that of the horizontal "
+            f"one, {horizontal.time_step!r} s; resample one of them."
+        )
+    size = horizontal.acceleration.size
+    samples = np.zeros(size)
+    kept = min(size, vertical.acceleration.size)
+    samples[:kept] = vertical.acceleration[:kept]
+    return replace(vertical, acceleration=samples, time_step=horizontal.time_step)
