@@ -36,8 +36,8 @@ def publish(
 def _score_table(scores: Sequence[Score], part: str) -> dict[str, object]:
     """A line for each measure and subject of one part of the cases."""
     own = sorted((each for each in scores if each.part == part), key=lambda each: each.measure)
-    names = "measure subject value value_low value_high cases sites"
-    columns = printing.columns_of(Score, names, "0.6", measure="2", subject="1.6")
+    names = "measure=2 subject=1.6 value value_low value_high cases sites"
+    columns = printing.columns_of(Score, names, "0.6")
     caption = f"{printing.sentence(part)}; 90 % intervals by resampling sites."
     return {**printing.table_of(own, *columns), "caption": caption}
 

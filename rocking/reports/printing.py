@@ -1,12 +1,12 @@
 """How a value of a row is printed: rounded, with a real minus, never changed otherwise."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
-from itertools import accumulate
 from typing import Any
 
 from rocking.assessment.verdict import NEGLIGIBLE, rests
+from rocking.described import Described
 from rocking.quantities import counted
 from rocking.tables import Row
 
@@ -17,14 +17,11 @@ Column = tuple[str, str, str, Callable[[Any], Cell]]
 
 NOTHING = "–"
 """Printed where a cell is empty."""
-MOST_NAMED, MOST_LETTERS = 12, 300
-"""Structures that the first lines name with one verdict, and their letters; the table below them holds all."""
 _LARGEST_PLAIN = 1e6
 """Numbers up to here are printed without a power of ten."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _CHOSEN = ("scale_factor", "time_step_s", "high_pass_frequency_hz")
 """Fields that somebody chose, which are printed as they were given."""
-_UNIT_IN_NAME = str.maketrans({"/": "_", "²": "2", "³": "3", "°": "deg", "H": "h"})
 
 
 def number(value: float | None, digits: int = 3) -> str:
@@ -78,14 +75,9 @@ def listed(names: Sequence[str], most: int = 6) -> str:
     return ", ".join(names[:most]) + (f" and {counted(more, 'other')}" if more > 0 else "")
 
 
-def headlines(groups: Mapping[str, Sequence[str]]) -> list[dict[str, str]]:
-    """Return the first lines of a report: each verdict with its structures, as many as there is room for."""
-    lines = []
-    for verdict, names in groups.items():
-        room = sum(end <= MOST_LETTERS for end in accumulate(map(len, names)))
-        named = listed(names, max(1, min(MOST_NAMED, room)))
-        lines += [{"verdict": sentence(verdict), "names": named}] if names else []
-    return lines
+def left_out(more: int, noun: str, place: str) -> str:
+    """Return the sentence that says where `more` of a thing stand, or nothing where there are none."""
+    return f" Another {counted(more, noun)} in {place}." if more > 0 else ""
 
 
 def of(part: float, whole: float) -> str:
@@ -119,38 +111,35 @@ def table_of(rows: Iterable[Any], *columns: Column) -> dict[str, object]:
     return table([column[:3] for column in columns], [[show(row) for *_, show in columns] for row in rows])
 
 
-def columns_of(kind: type[Row], names: str, width: str = "", /, **widths: str) -> list[Column]:
+def columns_of(kind: type[Row], fields: str, width: str = "") -> list[Column]:
     """Return columns that show fields of rows of one `kind`, with heading and unit as the row class has them.
 
-    names: of the fields, separated by spaces. width: of all of them, else by their type. widths: of single ones.
+    fields: their names, separated by spaces, each with its width where that is not that of all: "stage message=3".
+    width: of all; if empty, by their type.
     """
+    described = {each.name: each for each in kind.table.columns}
     columns: list[Column] = []
-    for name in names.split():
-        numeric = _described(kind, name).holds in (float, int)
+    for name, _, own_width in (each.partition("=") for each in fields.split()):
+        numeric = described[name].holds in (float, int)
         usual, side = ("0.8", "r") if numeric else ("1", "l")
-        shown = heading(kind, name), widths.get(name, width or usual), side, partial(field_of, name)
-        columns.append(shown)
+        shown = partial(field_of, name)
+        columns.append((_heading(described[name]), own_width or width or usual, side, shown))
     return columns
 
 
-def heading(kind: type[Row], name: str) -> str:
-    """Return the field `name` of a row class in words, with its unit: "Start time [s]"."""
-    described = _described(kind, name)
-    unit = described.unit or ("-" if described.holds is float else "")
-    bare = name.removesuffix("_" + described.unit.translate(_UNIT_IN_NAME))
-    return sentence(bare.replace("_", " ").replace("rotd", "RotD")) + (f" [{unit}]" if unit else "")
+def _heading(column: Described) -> str:
+    """The name of a column in words, with its unit: "Start time [s]"."""
+    unit = column.unit or ("-" if column.holds is float else "")
+    name = column.attribute.replace("_", " ").replace("rotd", "RotD")
+    return sentence(name) + (f" [{unit}]" if unit else "")
 
 
-def field_of(name: str, row: Row) -> str:
+def field_of(name: str, row: Row | None) -> str:
     """Return the field `name` of a row as it is printed: by its type, rotation ratios in words where they are none."""
-    value = getattr(row, name)
+    value = getattr(row, name, None)
     if isinstance(value, float) and name not in _CHOSEN:
         return ratio(value) if name.endswith("rotation_ratio") else number(value)
     return given(value) if isinstance(value, float | int) else words(value)
-
-
-def _described(kind: type[Row], name: str) -> Any:
-    return next(each for each in kind.table.columns if each.name == name)
 
 
 def _typeset(text: str) -> str:

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from importlib.metadata import version
+from itertools import accumulate
 from textwrap import wrap
 from typing import Any
 
@@ -28,7 +29,18 @@ from rocking.reports.document import compile_document
 from rocking.reports.drawings import draw_structure, fallen_rotation, round_length
 from rocking.reports.ground import POINTS, Motion, draw_ground, ground_figure, pulses_figure
 from rocking.reports.panels import draw_rotation, rotation_ratios
-from rocking.reports.printing import Cell, columns_of, number, ratio, short, strong, table, table_of, words
+from rocking.reports.printing import (
+    Cell,
+    columns_of,
+    left_out,
+    number,
+    ratio,
+    short,
+    strong,
+    table,
+    table_of,
+    words,
+)
 from rocking.reports.style import PREDICTED, TEXT_WIDTH, elided, new_figure, panel_at, pictures, styled
 from rocking.structures import Structure
 
@@ -36,6 +48,8 @@ ABOUT = ("study", "client", "author", "date")
 """Settings that stand above the title."""
 MOST_DRAWN = 10
 """Structures of page one and of the histories, the worst first; the tables hold all."""
+MOST_NAMED, MOST_LETTERS = 12, 300
+"""Structures that the first lines name with one verdict, and their letters."""
 MOST_PULSES = 3
 """Ranks of pulses that are shown."""
 MOST_COMPARED = 24
@@ -190,15 +204,11 @@ def _page_one(report: RecordReport) -> dict[str, object]:
         "strip": pictures(
             strip_figure, shown, f"Drawings of the structures in their state: {names}.", report
         ),
-        "strip-note": _left_out(len(report.fates) - len(shown), "other structure", "verdicts"),
+        "strip-note": left_out(len(report.fates) - len(shown), "structure", "the table of verdicts"),
         "headlines": headlines(report.fates),
         "sentences": _sentences(report),
         "notices": _notices(report),
     }
-
-
-def _left_out(many: int, noun: str, table: str) -> str:
-    return f" {counted(many, noun)} in the table of {table}." if many else ""
 
 
 @styled
@@ -299,7 +309,12 @@ def headlines(fates: Sequence[Fate]) -> list[dict[str, str]]:
         remark = fate.leaning or (fate.count if fate.verdict is Verdict.OVERTURNS else "")
         remark = fate.why if fate.verdict is Verdict.UNKNOWN else remark
         groups.setdefault(fate.verdict, []).append(fate.structure + (f" ({remark})" if remark else ""))
-    return printing.headlines(groups)
+    lines = []
+    for verdict, names in groups.items():
+        room = sum(end <= MOST_LETTERS for end in accumulate(map(len, names)))
+        named = printing.listed(names, max(1, min(MOST_NAMED, room)))
+        lines.append({"verdict": printing.sentence(verdict), "names": named})
+    return lines
 
 
 def _sentences(report: RecordReport) -> list[str]:
@@ -382,9 +397,7 @@ def _page_two(report: RecordReport) -> dict[str, object]:
     alt = f"Rotation histories of {counted(len(shown), 'structure')} above the acceleration of the ground."
     return {
         "histories": pictures(histories_figure, shown, alt, report),
-        "histories-note": f" {counted(left, 'structure')} not drawn: at rest, or less demanding."
-        if left
-        else "",
+        "histories-note": left_out(left, "structure", "the table of verdicts, at rest or less demanding"),
     }
 
 
@@ -480,7 +493,7 @@ def _page_three(report: RecordReport) -> dict[str, object]:
     return {
         "pulse-figures": pictures(pulses_figure, with_pulse, "The dominant pulse and its evidence."),
         "comparison": pictures(comparison_figure, drawn, alt, report),
-        "comparison-note": _left_out(len(rows) - len(drawn), "other case", "every method"),
+        "comparison-note": left_out(len(rows) - len(drawn), "case", "the table of every method"),
         "pulse-sentences": [_pulse_sentence(report, motion) for motion in with_pulse],
         "doubts": _doubts(report, rows),
     }
@@ -605,12 +618,8 @@ FACTS = (
 
 def facts_table(rows: Sequence[RecordRow]) -> dict[str, object]:
     """Return what was read, done and measured: one column per component, or two columns of facts for a single one."""
-    shown = [(name, [printing.field_of(name, row) for row in rows]) for name in FACTS.split()]
-    facts = [
-        [printing.heading(RecordRow, name), *texts]
-        for name, texts in shown
-        if set(texts) - {printing.NOTHING}
-    ]
+    shown = [[head, *map(show, rows)] for head, _, _, show in columns_of(RecordRow, FACTS)]
+    facts = [texts for texts in shown if set(texts[1:]) != {printing.NOTHING}]
     if len(rows) == 1:
         facts += [["", ""]] * (len(facts) % 2)
         half = len(facts) // 2
@@ -670,10 +679,8 @@ def _defects(row: StructureRow) -> str:
 
 PULSE_COLUMNS = columns_of(
     PulseRow,
-    "component kind rank amplitude_m_s2 period_s start_time_s gain_ratio explained_energy effective_length_m",
-    component="auto",
-    kind="auto",
-    rank="auto",
+    "component=auto kind=auto rank=auto amplitude_m_s2 period_s start_time_s gain_ratio explained_energy "
+    "effective_length_m",
 )
 
 

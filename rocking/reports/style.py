@@ -9,7 +9,6 @@ from typing import Any
 
 import matplotlib
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ft2font import FT2Font
@@ -74,15 +73,6 @@ def picture(figure: Figure, alt: str) -> Picture:
 def pictures(draw: Callable[..., Figure], things: Sequence[Any], alt: str, *more: Any) -> list[Picture]:
     """Return the figure that `draw` makes of `things`, or nothing where there are none."""
     return [picture(draw(things, *more), alt)] if things else []
-
-
-def shared_legend(figure: Figure, names: Sequence[str], ncols: int) -> None:
-    """Name the lines of all panels once, below them, in the order of `names`."""
-    handles: dict[str, Artist] = {}
-    for panel in figure.axes:
-        handles |= dict(zip(*panel.get_legend_handles_labels()[::-1], strict=True))
-    shown = [name for name in names if name in handles]
-    figure.legend([handles[name] for name in shown], shown, loc="lower center", ncols=ncols)
 
 
 def plain_logarithmic(panel: Axes, which: str) -> None:

@@ -2,8 +2,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import partial
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,7 +17,17 @@ from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.fragility import fragility_table
 from rocking.reports.panels import draw_agreement
-from rocking.reports.printing import NOTHING, Cell, columns_of, given, number, ratio, strong, table_of, words
+from rocking.reports.printing import (
+    NOTHING,
+    columns_of,
+    given,
+    left_out,
+    number,
+    ratio,
+    strong,
+    table_of,
+    words,
+)
 from rocking.reports.record import ABOUT, LOOKS, METHODS, cell_text
 from rocking.reports.style import new_figure, pictures, styled
 from rocking.tables import rows_of
@@ -55,7 +64,6 @@ def summary_data(
     """
     fates = sorted(rows_of(Fate, tables["verdicts"]), key=lambda fate: fate.severity, reverse=True)
     comparison, failures, records = tables["comparison"], tables["failures"], tables["record"]
-    agreements = list(rows_of(AgreementRow, tables["agreement"]))
     unsafe = comparison[comparison["agreement"] == Agreement.TOO_LOW]
     unsafe = unsafe.sort_values("integrated_rotation_ratio", ascending=False, kind="stable")
     both = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]].max(axis=1, skipna=False)
@@ -69,74 +77,41 @@ def summary_data(
         "subtitle": f"{counted(records['record'].nunique(), 'record')}, "
         f"{counted(len(tables['structures']), 'structure')}, {counted(len(comparison), 'case')}.",
         "notices": _notices(records, comparison, len(failures)),
-        "headlines": headlines(fates),
         "map": severity_map(fates, records),
         "methods": method_table(tables),
         "structures": structure_table(fates),
         "scatter": pictures(lambda shown: prediction_scatter(*shown), scatter, alt),
-        "agreement": agreement_table(agreements),
-        "unsafe": case_table(rows_of(ComparisonRow, unsafe.head(MOST_LISTED))),
-        "unsafe-note": _rest(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
+        "agreement": table_of(rows_of(AgreementRow, tables["agreement"]), *AGREEMENT_COLUMNS),
+        "unsafe": table_of(rows_of(ComparisonRow, unsafe.head(MOST_LISTED)), *UNSAFE_COLUMNS),
+        "unsafe-note": left_out(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
         "fragility": [fragility_table(falls, tables["ida"])] if "ida" in tables else [],
         "failures": table_of(rows_of(FailureRow, failures.head(MOST_LISTED)), *FAILURE_COLUMNS),
-        "failures-note": _rest(len(failures) - MOST_LISTED, "failure", "failures.csv"),
+        "failures-note": left_out(len(failures) - MOST_LISTED, "failure", "failures.csv"),
         "records": record_table(list(rows_of(RecordRow, records.head(MOST_RECORDS))), tables["pulses"]),
-        "records-note": _rest(len(records) - MOST_RECORDS, "component", "record.csv"),
+        "records-note": left_out(len(records) - MOST_RECORDS, "component", "record.csv"),
         "trade": list(trade),
         "tolerance": given(float(settings["tolerance"])),
         "acceleration-scale": str(settings["acceleration_scale"]),
     }
 
 
-def _rest(more: int, noun: str, file: str) -> str:
-    """Say what is left out, as a sentence or nothing."""
-    return f" Another {counted(more, noun)} in {file}." if more > 0 else ""
-
-
 def _notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> list[dict[str, object]]:
     """Return the warnings that stand above everything."""
-    integrated = comparison["integrated_rotation_ratio"]
-    told = []
-    if records.empty:
-        told.append("No record could be read, so there is no result; the failures below say why.")
-    elif comparison.empty:
-        told.append("No structure could be assessed under any record; the failures below say why.")
-    elif (integrated == 0).all():
-        told.append("No structure uplifts under any record.")
-    if spared := int(integrated.isna().sum()):
-        told.append(
-            f"{counted(spared, 'case')} answered by a cheaper method than the full integration and left out of what "
-            "compares the two; see answer_method in comparison.csv."
-        )
+    told = {
+        "No record could be read, so there is no result; the failures below say why.": records.empty,
+        "No structure could be assessed under any record; the failures below say why.": comparison.empty,
+        "No structure uplifts under any record.": (comparison["integrated_rotation_ratio"] == 0).all(),
+    }
+    texts = [text for text, holds in told.items() if holds][:1]
     if failures:
-        told.append(f"{counted(failures, 'failure')}, listed below.")
+        texts.append(f"{counted(failures, 'failure')}, listed below.")
     if scaled := sorted(records.loc[records["scale_factor"] != 1, "record"].unique()):
         named = printing.listed(scaled, most=20)
-        told.append(f"Accelerations multiplied by a declared factor, not as recorded: {named}.")
-    return [{"strong": True, "text": text} for text in told]
+        texts.append(f"Accelerations multiplied by a declared factor, not as recorded: {named}.")
+    return [{"strong": True, "text": text} for text in texts]
 
 
 # What becomes of what --------------------------------------------------------------------------------------
-
-
-def headlines(fates: Sequence[Fate]) -> list[dict[str, str]]:
-    """Return the first lines: what overturns under some record, what is undecided at worst, what always stands.
-
-    fates: the worst first.
-    """
-    heads = {
-        Verdict.OVERTURNS: "Overturns",
-        Verdict.UNDECIDED: "Undecided at worst",
-        Verdict.UNKNOWN: "Unknown under some record, standing under the others",
-        Verdict.STANDS: "Stands under every record that could be assessed",
-    }
-    groups: dict[str, list[str]] = {head: [] for head in heads.values()}
-    for name, counts in _counts(fates).items():
-        worst = next(verdict for verdict in ORDER if counts[verdict])
-        certain = worst is Verdict.STANDS or counts.total() == 1
-        share = "" if certain else f" ({counts[worst]} of {counts.total()} records)"
-        groups[heads[worst]].append(name + share)
-    return printing.headlines(groups)
 
 
 def _counts(fates: Sequence[Fate]) -> dict[str, Counter[Verdict]]:
@@ -248,65 +223,35 @@ def prediction_scatter(comparison: "DataFrame") -> Figure:
     return figure
 
 
-def agreement_table(rows: Sequence[AgreementRow]) -> dict[str, object]:
-    """Return how often the closed form was right, by structure."""
-    return table_of(
-        rows,
-        ("Structure", "1.6", "l", lambda row: row.structure or "all"),
-        *columns_of(AgreementRow, "records cases both_rock within_factor_two median_ratio"),
-        ("Overturn", "0.9", "r", lambda row: given(row.overturning)),
-        ("predicted", "0.8", "r", lambda row: given(row.overturning_found)),
-        ("missed", "0.7", "r", lambda row: strong(given(row.overturning_missed), row.overturning_missed > 0)),
-        ("only predicted", "0.9", "r", lambda row: given(row.overturning_false)),
-    )
+# Lists -----------------------------------------------------------------------------------------------------
 
-
-def case_table(cases: Iterable[ComparisonRow]) -> dict[str, object]:
-    """Return single cases of the comparison table."""
-    return table_of(
-        cases,
-        *columns_of(
-            ComparisonRow, "record component structure", record="1.4", component="auto", structure="1.4"
-        ),
-        ("Closed form", "auto", "r", lambda row: ratio(row.predicted_rotation_ratio)),
-        ("Full integration", "auto", "r", lambda row: strong(ratio(row.integrated_rotation_ratio))),
-        ("Its regime", "0.9", "l", lambda row: words(row.regime)),
-        ("The closed form", "1.6", "l", lambda row: words(row.prediction_in_words)),
-    )
-
-
-# Fragility, failures and records ---------------------------------------------------------------------------
-
-
-FAILURE_COLUMNS = columns_of(
-    FailureRow, "record component structure stage message", component="auto", stage="0.6", message="3"
+AGREEMENT_COLUMNS = columns_of(
+    AgreementRow,
+    "structure=1.4 records=0.7 cases=0.6 both_rock=0.7 within_factor_two=0.8 median_ratio=0.7 overturning=1 "
+    "overturning_found=1 overturning_missed=1 overturning_false=1",
 )
+UNSAFE_COLUMNS = columns_of(
+    ComparisonRow,
+    "record=1.4 component=auto structure=1.4 predicted_rotation_ratio integrated_rotation_ratio regime "
+    "prediction_in_words=1.6",
+)
+FAILURE_COLUMNS = columns_of(FailureRow, "record component=auto structure stage=0.6 message=3")
 
 
 def record_table(records: Sequence[RecordRow], pulses: "DataFrame") -> dict[str, object]:
     """Return the records with their dominant pulses."""
     dominant = pulses[(pulses["kind"] == "alternative") & (pulses["rank"] == 1)]
     of_records = dominant[dominant["record"].isin([row.record for row in records])]
-    by_component = {(row.record, row.component): row for row in rows_of(PulseRow, of_records)}
-
-    def of_pulse(show: Callable[[PulseRow], Cell], row: RecordRow) -> Cell:
-        pulse = by_component.get((row.record, row.component))
-        return NOTHING if pulse is None else show(pulse)
-
-    of_pulses = columns_of(PulseRow, "amplitude_m_s2 period_s explained_energy flags", flags="1.2")
-    return table_of(
-        records,
-        *columns_of(RecordRow, "record component", record="1.6", component="auto"),
-        ("Declared factor", "0.7", "r", lambda row: _factor(row.scale_factor)),
-        ("PGA [m/s²]", "0.8", "r", lambda row: number(row.peak_acceleration_m_s2)),
-        ("PGV [m/s]", "0.8", "r", lambda row: number(row.peak_velocity_m_s)),
-        *(
-            (f"Pulse {head.lower()}", width, side, partial(of_pulse, show))
-            for head, width, side, show in of_pulses
-        ),
-    )
-
-
-def _factor(scale_factor: float) -> Cell:
-    scaled = scale_factor != 1
-    return strong(("×\u00a0" if scaled else "") + given(scale_factor), scaled)
+    pulse_of = {(row.record, row.component): row for row in rows_of(PulseRow, of_records)}
+    measures = "record=1.6 component=auto scale_factor peak_acceleration_m_s2 peak_velocity_m_s"
+    of_pulse = columns_of(PulseRow, "amplitude_m_s2 period_s explained_energy flags=1.2")
+    columns = [
+        (
+            f"Pulse {head.lower()}",
+            width,
+            side,
+            lambda row, show=show: show(pulse_of.get((row.record, row.component))),
+        )
+        for head, width, side, show in of_pulse
+    ]
+    return table_of(records, *columns_of(RecordRow, measures), *columns)

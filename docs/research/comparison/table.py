@@ -30,7 +30,7 @@ from rocking.assessment.variations import cracks
 from rocking.errors import MotionError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
-from rocking.reports.style import new_figure, picture, shared_legend, styled
+from rocking.reports.style import new_figure, picture, styled
 from rocking.structures import Mechanism
 from rocking.tables import Row, column, row
 
@@ -259,5 +259,7 @@ def work_figure(rows: Sequence[CodeRow]) -> Figure:
         panel.set(xscale="log", yscale="log", title=structure, xlabel="processor time of a response (s)")
         panel.grid(True)
     panels[0].set_ylabel("relative error of the largest rotation")
-    shared_legend(figure, names, ncols=3)
+    lines = {line.get_label(): line for panel in panels for line in panel.lines}
+    named = [lines[name] for name in names if name in lines]
+    figure.legend(handles=named, loc="lower center", ncols=3)
     return figure

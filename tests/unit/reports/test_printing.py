@@ -35,7 +35,8 @@ def test_a_ratio_says_what_became_of_the_structure(value, printed):
 
 
 def test_a_column_has_the_heading_unit_and_digits_of_its_field():
-    columns = printing.columns_of(PulseRow, "component start_time_s gain_m2_s3 gain_ratio rank")
+    columns = printing.columns_of(PulseRow, "component=auto start_time_s gain_m2_s3 gain_ratio rank")
     heads = ["Component", "Start time [s]", "Gain [m²/s³]", "Gain ratio [-]", "Rank"]
     assert [column[0] for column in columns] == heads
+    assert [column[1] for column in columns] == ["auto", "0.8", "0.8", "0.8", "0.8"]
     assert "".join(side for *_, side, _ in columns) == "lrrrr"
