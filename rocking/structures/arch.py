@@ -27,7 +27,7 @@ from rocking.structures.arch_mechanism import (
     static_onset,
     thrust_line,
 )
-from rocking.structures.arch_ring import FOOT, PATTERN, Bars, Fill, PierRing, Ring
+from rocking.structures.arch_ring import PATTERN, Bars, Fill, Piers, Ring
 from rocking.structures.drawing import Path, plane, span, swept
 from rocking.structures.fields import Value, count, length, restitution_value
 from rocking.structures.linkage import STILL, Restitution
@@ -151,22 +151,26 @@ class Arch(Crackable):
         return tuple(sorted(others, key=lambda each: each.multiplier))
 
     def _hinge_text(self, angle: float) -> str:
+        foot = self.ring.feet(angle - self.embrace_angle / 2)
+        if foot:
+            return "the left foot" if foot < 0 else "the right foot"
         return f"{abs(np.degrees(angle)):.0f}°"  # candidates lie several degrees apart
 
     def _static_onset(self) -> Onset:
         try:
             return static_onset(self.ring)
-        except TooThin:
-            bound = minimum_thickness(self.embrace_angle, self.voussoirs, self._fill) * self.radius
-            raise StructureError(
-                f"{self._sentence} stands only above a thickness of {bound:.9g} m."
-            ) from None
-        except NoMechanism:
-            bound = maximum_thickness(self.embrace_angle, self.voussoirs, self._fill) * self.radius
-            raise StructureError(
-                f"{self._sentence} has a four-hinge mechanism only below a thickness of {bound:.9g} m; "
-                "make it thinner or the embrace angle larger."
-            ) from None
+        except (TooThin, NoMechanism) as reason:
+            raise StructureError(f"{self._sentence} {self._refusal(isinstance(reason, TooThin))}.") from None
+
+    def _refusal(self, too_thin: bool) -> str:
+        bound = minimum_thickness if too_thin else maximum_thickness
+        limit = bound(self.embrace_angle, self.voussoirs, self._fill) * self.radius
+        if too_thin:
+            return f"stands only above a thickness of {limit:.9g} m"
+        return (
+            f"has a four-hinge mechanism only below a thickness of {limit:.9g} m; make it thinner or the embrace "
+            "angle larger"
+        )
 
     @property
     def _sentence(self) -> str:
@@ -185,7 +189,10 @@ class Arch(Crackable):
         """
         sections = self._hinge_sections
         points = self.radius * self.ring.contact_points(sections, PATTERN)
-        linkage = FourBar(points, self._bars(sections), self.radius, self.ring.mass, self._joint_angles())
+        foot = self.ring.feet(sections)
+        # the thrust runs along the arch at a hinge, up through the left foot and down through the right one
+        joints = np.where(foot == 0, -sections, -np.pi / 2 * foot)
+        linkage = FourBar(points, self._bars(sections), self.radius, self.ring.mass, joints)
         if not linkage.gravity(linkage.end_rotation) < 0:
             raise StructureError(
                 f"{self._sentence} finds no unstable equilibrium before its hinges come into line."
@@ -223,10 +230,6 @@ class Arch(Crackable):
         edges = np.unique(np.clip(edges, *self._ends))
         return edges[np.append(True, np.diff(edges) > 1e-9)]  # type: ignore[no-any-return]
 
-    def _joint_angles(self) -> np.ndarray:
-        """(4,) angles [rad] at which the thrust runs square through the joints of the hinges, from left to right."""
-        return -self._hinge_sections
-
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         """What stays at the springings, the bars, or the voussoirs of both; about the centre of the arch."""
         parts = []
@@ -253,8 +256,13 @@ class Arch(Crackable):
         }
 
     def thrust_line(self, count: int = 200) -> np.ndarray:
-        """Return the line of thrust at the onset to the positive side: (count, 2) in m, from springing to springing."""
-        return self.radius * plane(thrust_line(self.ring, self.onset, np.linspace(*self._ends, count)))
+        """Return the line of thrust at the onset to the positive side, (k, 2) in m: `count` points along the arch.
+
+        On piers it starts and ends with a point more, at the foot of each.
+        """
+        inside = np.linspace(*self._ends, count)
+        sections = np.unique(np.concatenate([self.ring.ends, inside]))
+        return self.radius * plane(thrust_line(self.ring, self.onset, sections))
 
 
 @dataclass(frozen=True)
@@ -285,14 +293,10 @@ class ArchOnPiers(Arch):
     ] = field(default=1.0, kw_only=True)
 
     @property
-    def ring(self) -> PierRing:
+    def ring(self) -> Ring:
         """Arch and piers with a centreline radius of 1."""
-        return PierRing(
-            **vars(super().ring),
-            pier_width=self.pier_width / self.radius,
-            pier_height=self.pier_height / self.radius,
-            pier_density=self.pier_density_ratio,
-        )
+        piers = Piers(self.pier_width / self.radius, self.pier_height / self.radius, self.pier_density_ratio)
+        return replace(super().ring, piers=piers)
 
     def _static_onset(self) -> Onset:
         """λ of the mechanism that governs and its hinges (angles from the left springing; a foot is beyond it)."""
@@ -301,14 +305,12 @@ class ArchOnPiers(Arch):
             raise StructureError(
                 f"pier_width is {self.pier_width!r} m, but must be at least {needed:.6g} m to carry the springing."
             )
-        try:
-            return static_onset(self.ring)
-        except TooThin:
-            raise StructureError(f"{self._sentence} does not stand; make the piers wider or lower.") from None
-        except NoMechanism:
-            raise StructureError(
-                f"{self._sentence} has no four-hinge mechanism; make the arch thinner."
-            ) from None
+        return super()._static_onset()
+
+    def _refusal(self, too_thin: bool) -> str:
+        if too_thin:
+            return "does not stand; make the piers wider or lower"
+        return "has no four-hinge mechanism; make the arch thinner"
 
     @property
     def _sentence(self) -> str:
@@ -317,41 +319,14 @@ class ArchOnPiers(Arch):
             f"arch of radius {self.radius!r} m and thickness {self.thickness!r} m"
         )
 
-    def _hinge_text(self, angle: float) -> str:
-        if 0 <= angle <= self.embrace_angle * (1 + 1e-9):
-            return super()._hinge_text(angle)
-        return "the left foot" if angle < 0 else "the right foot"
-
-    def thrust_line(self, count: int = 200) -> np.ndarray:
-        """Return the line of thrust at the onset: (count + 2,) points in m, from foot to foot."""
-        line = thrust_line(self.ring, self.onset, np.linspace(*self._ends, count))
-        feet = [self._foot_thrust(side) for side in (-1.0, 1.0)]
-        return self.radius * plane(np.concatenate([feet[:1], line, feet[1:]]))
-
-    def _foot_thrust(self, side: float) -> complex:
-        """Where the thrust crosses the foot of a pier, over r: the moment about its inner corner over its weight."""
-        ring, section = self.ring, np.array([side * (self.embrace_angle / 2 + FOOT)])
-        unknowns = np.array([*self.onset.reaction, self.onset.multiplier, 1.0])
-        inner, outer = (ring.contact_points(section, np.array([contact]))[0] for contact in (1.0, -1.0))
-        at_inner, at_outer = (
-            float((ring.gaps(section, np.array([contact])) @ unknowns)[0]) for contact in (1.0, -1.0)
-        )
-        share = at_inner / (at_inner + at_outer)
-        return complex(inner + share * (outer - inner))
-
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         """The piers, then the parts of the arch."""
-        feet = np.abs(self._hinge_sections) > self.embrace_angle / 2 + FOOT / 2
+        feet = self.ring.feet(self._hinge_sections)
         piers = [
             (bar if feet[hinge] else STILL, self.radius * self.ring.pier(side))
             for side, hinge, bar in ((-1.0, 0, 0), (1.0, -1, 2))
         ]
         return piers + super()._parts()
-
-    def _joint_angles(self) -> np.ndarray:
-        """Up through the left foot and down through the right one; along the arch elsewhere."""
-        beyond = np.abs(self._hinge_sections) > self.embrace_angle / 2 + FOOT / 2
-        return np.where(beyond, -np.pi / 2 * np.sign(self._hinge_sections), super()._joint_angles())
 
     def _dimensions(self) -> dict[str, Path]:
         inner_foot, outer_foot, outer_head, _ = self.radius * plane(self.ring.pier(1.0))

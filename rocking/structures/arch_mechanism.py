@@ -2,9 +2,9 @@
 
 Inertia forces act to the right. The loads are 1 downwards and λ to the right on each radian of the ring, at
 the radius of an element's centroid. λ is the largest multiplier whose thrust line stays inside the ring. With the
-reaction at the left springing u = (M₀, V, H) that is a linear programme in (u, λ), solved by exchange of the four
-sections where the line touches; between joints (a continuous ring) each touching section then slides to where the line
-is tangent. The tests compare it with the smallest multiplier over all four-hinge mechanisms, by virtual work.
+reaction at the left springing u = (M₀, V, H) that is a linear programme in (u, λ), which tells the four sections where
+the line touches; between joints (a continuous ring) each of them then slides to where the line is tangent. The tests
+compare it with the smallest multiplier over all four-hinge mechanisms, by virtual work.
 
 The hinges make a four-bar linkage A-B-C-D; φ is the clockwise rotation of bar AB about A; A and D follow the ground.
 """
@@ -132,6 +132,9 @@ def mirror_balance(bars: Bars, middles: np.ndarray, linkage: FourBar, hinges: np
 
 _DOWN = np.array([0.0, 0.0, 0.0, -1.0])
 _ROUNDS = 100
+_ACCURATELY = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
+_INFEASIBLE = 2
+"""What scipy's linear programme says of constraints that contradict each other."""
 _CLEARANCE = 1e-12
 """A gap (of order t/r) that is zero to rounding."""
 _ASIDE = 1e-5
@@ -169,23 +172,20 @@ def static_onset(ring: Ring) -> Onset:
     Raises TooThin when no thrust line fits, NoMechanism when no four alternating hinges limit the multiplier.
     """
     sections, contacts = np.tile(ring.sections(), 2), np.repeat([INTRADOS, EXTRADOS], ring.sections().size)
-    rows = ring.gaps(sections, contacts)
-    basis = _first_basis(rows)
     for _ in range(_ROUNDS):
-        basis, unknowns = _exchange(rows, basis)
-        basis = basis[np.argsort(sections[basis])]
-        hinges = sections[basis]
-        if not np.array_equal(contacts[basis], PATTERN):
+        rows = ring.gaps(sections, contacts)
+        touching = _weakest(rows)
+        touching = touching[np.argsort(sections[touching], kind="stable")]
+        if not np.array_equal(contacts[touching], PATTERN):
             raise NoMechanism
+        hinges, unknowns = sections[touching], _touching_line(rows[touching])
         if ring.voussoirs is None:
             hinges, unknowns = _slide_to_tangency(ring, hinges)
         if np.any(np.diff(hinges) < _APART):
             raise NoMechanism
         if ring.voussoirs is not None or (rows @ unknowns).min() > -_CLEARANCE:
             break
-        basis = sections.size + np.arange(4)
         sections, contacts = np.append(sections, hinges), np.append(contacts, PATTERN)
-        rows = ring.gaps(sections, contacts)
     if not unknowns[3] > 0:
         raise TooThin
     return Onset(float(unknowns[3]), hinges + ring.embrace_angle / 2, unknowns[:3])
@@ -201,9 +201,9 @@ def onset_at(ring: Ring, hinges: np.ndarray) -> Onset:
     if outside or np.any(np.diff(hinges) < _APART):
         raise NoMechanism
     rows = ring.gaps(sections, PATTERN)
-    if _multipliers(rows, np.arange(4)).min() < 0:
-        raise NoMechanism
     unknowns = _touching_line(rows)
+    if np.linalg.solve(rows[:, :4].T, _DOWN).min() < 0:
+        raise NoMechanism
     if not unknowns[3] > 0:
         raise TooThin
     return Onset(float(unknowns[3]), hinges, unknowns[:3])
@@ -235,27 +235,6 @@ def other_hinges(ring: Ring, onset: Onset, count: int) -> list[np.ndarray]:
     return [each + ring.embrace_angle / 2 for each in taken[1:]]
 
 
-def _first_basis(rows: np.ndarray) -> np.ndarray:
-    """Four rows that limit λ at all: hinges I, E, I, E on a coarse choice of sections."""
-    count = len(rows) // 2
-    last = count - 1
-    tries = sorted({0, 1, 2, 3, *(round(last * share / 12) for share in range(1, 12))} & set(range(last)))
-    for first in tries[: len(tries) // 2 + 1]:
-        for second, third in combinations([k for k in reversed(tries) if k > first], 2):
-            basis = np.array([first, count + third, second, count + last])
-            if _multipliers(rows, basis).min() >= 0:
-                return basis
-    raise NoMechanism
-
-
-def _multipliers(rows: np.ndarray, basis: np.ndarray) -> np.ndarray:
-    """Lagrange multipliers of four touching rows: the relative rotations of the hinges, up to a factor."""
-    try:
-        return np.linalg.solve(rows[basis, :4].T, _DOWN)
-    except np.linalg.LinAlgError:
-        return np.full(4, -np.inf)
-
-
 def _touching_line(rows: np.ndarray) -> np.ndarray:
     """The thrust line that touches four contacts: (M₀, V, H, λ, 1)."""
     try:
@@ -264,26 +243,16 @@ def _touching_line(rows: np.ndarray) -> np.ndarray:
         raise NoMechanism from None
 
 
-def _exchange(rows: np.ndarray, basis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Dual simplex: let the row most violated replace one of the basis until none is. Returns (basis, unknowns)."""
-    basis = basis.copy()
-    for _ in range(_ROUNDS):
-        touching = rows[basis]
-        unknowns = _touching_line(touching)
-        gaps = rows @ unknowns
-        entering = int(np.argmin(gaps))
-        if gaps[entering] > -_CLEARANCE or entering in basis:
-            return basis, unknowns
-        columns = np.stack([_DOWN, rows[entering, :4]], axis=1)
-        try:
-            multipliers, change = np.linalg.solve(touching[:, :4].T, columns).T
-        except np.linalg.LinAlgError:
-            raise NoMechanism from None
-        if not (change > 0).any():
-            raise TooThin
-        ratios = np.where(change > 0, multipliers / np.where(change > 0, change, 1.0), np.inf)
-        basis[int(np.argmin(ratios))] = entering
-    raise NoMechanism
+def _weakest(rows: np.ndarray) -> np.ndarray:
+    """The four rows that limit λ, in order: those whose dual does not vanish."""
+    from scipy.optimize import linprog  # slow to import, and needed by arches only
+
+    solved = linprog(
+        _DOWN, -rows[:, :4], rows[:, 4], bounds=(None, None), method="highs-ds", options=_ACCURATELY
+    )
+    if solved.status:
+        raise TooThin if solved.status == _INFEASIBLE else NoMechanism
+    return np.sort(np.argsort(solved.ineqlin.marginals)[:4])
 
 
 def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -313,14 +282,13 @@ def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.n
 def thrust_line(ring: Ring, onset: Onset, sections: np.ndarray) -> np.ndarray:
     """Return where the thrust of a static onset crosses `sections` (k,): (k,) complex points.
 
-    From the gap at the intrados, the normal force times the distance of the thrust from it.
+    A gap is the normal force times the distance of the thrust from the contact point.
     """
     unknowns = np.array([*onset.reaction, onset.multiplier, 1.0])
-    gap = ring.gaps(sections, np.full(sections.shape, INTRADOS)) @ unknowns
-    _, vertical, horizontal = onset.reaction
-    load = ring.loads(sections)[0][0]
-    normal = (horizontal + onset.multiplier * load) * np.cos(sections) - (vertical - load) * np.sin(sections)
-    return (ring.contact_radius(INTRADOS) + gap / normal) * 1j * np.exp(-1j * sections)
+    contacts = [np.full(sections.shape, contact) for contact in (INTRADOS, EXTRADOS)]
+    inner, outer = (ring.contact_points(sections, contact) for contact in contacts)
+    from_inner, from_outer = (ring.gaps(sections, contact) @ unknowns for contact in contacts)
+    return inner + from_inner / (from_inner + from_outer) * (outer - inner)
 
 
 def minimum_thickness(embrace_angle: float, voussoirs: int | None = None, fill: Fill | None = None) -> float:
@@ -334,7 +302,7 @@ def maximum_thickness(embrace_angle: float, voussoirs: int | None = None, fill: 
 
 
 def _boundary(ring: Ring, failure: type[StructureError], below: bool) -> float:
-    """Bisect the t/r at which static_onset starts (below) or stops (above) to fail in one way."""
+    """The t/r at which static_onset starts (below) or stops (above) to fail in one way."""
 
     def fails(thickness: float) -> bool:
         try:

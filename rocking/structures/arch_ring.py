@@ -55,6 +55,9 @@ INTRADOS, EXTRADOS = 1.0, -1.0
 PATTERN = np.array([INTRADOS, EXTRADOS, INTRADOS, EXTRADOS])
 """Contacts of the hinges A, B, C, D when the inertia forces act to the right."""
 
+FOOT = 1.0
+"""Place of a foot beyond its springing, rad: a name for a section, not an angle."""
+
 CONTINUOUS_SECTIONS = 49
 """Sections at which a continuous ring is first tried; the tangent sections between them are found exactly."""
 
@@ -68,16 +71,34 @@ class Bars(NamedTuple):
 
 
 @dataclass(frozen=True)
+class Piers:
+    """Two equal rectangular piers, flush with the intrados at the springings.
+
+    width, height: over r. density: over that of the arch.
+    """
+
+    width: float
+    height: float
+    density: float
+
+
+@dataclass(frozen=True)
 class Ring:
     """A circular ring of centreline radius 1: thickness t/r, embrace_angle β [rad], voussoirs (None: continuous).
 
-    fill: what lies on its extrados and moves with it, or None.
+    fill: what lies on its extrados and moves with it, or None. piers: below its springings, or None.
     """
 
     thickness: float
     embrace_angle: float
     voussoirs: int | None = None
     fill: Fill | None = None
+    piers: Piers | None = None
+
+    @property
+    def ends(self) -> np.ndarray:
+        """The springings, (2,) angles from the vertical; on piers their feet."""
+        return np.array([-0.5, 0.5]) * self.embrace_angle + np.array([-FOOT, FOOT]) * (self.piers is not None)
 
     @property
     def centroid_radius(self) -> float:
@@ -86,22 +107,47 @@ class Ring:
 
     @property
     def mass(self) -> float:
-        """Of ring and fill, per t·r."""
-        edge = self.embrace_angle / 2
-        return float(self.bars(np.array([-edge, edge])).masses.sum())
+        """Of ring, fill and piers, per t·r."""
+        return float(self.bars(self.ends).masses.sum())
 
     def sections(self) -> np.ndarray:
         """The joints, or the sections at which a continuous ring is first tried: angles from the vertical."""
         count = CONTINUOUS_SECTIONS if self.voussoirs is None else self.voussoirs + 1
-        return np.linspace(-self.embrace_angle / 2, self.embrace_angle / 2, count)
+        joints = np.linspace(-self.embrace_angle / 2, self.embrace_angle / 2, count)
+        return joints if self.piers is None else np.array([self.ends[0], *joints, self.ends[1]])
 
-    def contact_radius(self, contact: ArrayLike) -> np.ndarray:
-        """Radius of the intrados (contact = 1) or extrados (−1)."""
-        return 1 - np.asarray(contact) * self.thickness / 2
+    def feet(self, section: ArrayLike) -> np.ndarray:
+        """Return −1 for the left foot, 1 for the right one, 0 for a section of the ring."""
+        return np.sign(section) * (np.abs(section) > self.embrace_angle / 2 + FOOT / 2)
+
+    def on_arch(self, section: ArrayLike) -> np.ndarray:
+        """Sections moved back between the springings."""
+        return np.clip(section, -self.embrace_angle / 2, self.embrace_angle / 2)
+
+    def kept(self, section: np.ndarray) -> np.ndarray:
+        """Sections moved back onto the ring; feet stay."""
+        foot = self.feet(section)
+        return np.where(foot == 0, self.on_arch(section), foot * self.ends[1])
+
+    def pier(self, side: float) -> np.ndarray:
+        """The corners of the left (side −1) or right (1) pier, complex: inner and outer foot, outer and inner head."""
+        assert self.piers is not None
+        springing = (1 - self.thickness / 2) * 1j * np.exp(-0.5j * self.embrace_angle)
+        inner, top = springing.real, springing.imag
+        outer, low = inner + self.piers.width, top - self.piers.height
+        return np.array(
+            [side * x + 1j * y for x, y in ((inner, low), (outer, low), (outer, top), (inner, top))]
+        )
 
     def contact_points(self, section: np.ndarray, contact: ArrayLike) -> np.ndarray:
-        """The points of the intrados (contact = 1) or extrados (−1) on those sections, complex."""
-        return self.contact_radius(contact) * 1j * np.exp(-1j * section)
+        """The points of the intrados (contact = 1) or extrados (−1), at a foot the inner or outer corner; complex."""
+        contact = np.asarray(contact)
+        points = (1 - contact * self.thickness / 2) * 1j * np.exp(-1j * section)
+        if self.piers is None:
+            return points  # type: ignore[no-any-return]
+        foot, (inner, outer) = self.feet(section), self.pier(1.0)[:2]
+        corner = np.where(contact > 0, inner.real, outer.real)
+        return np.where(foot == 0, points, foot * corner + 1j * inner.imag)
 
     def sector(self, first: float, last: float) -> np.ndarray:
         """The outline of the ring between two sections, complex, an arc of points every two degrees."""
@@ -110,34 +156,54 @@ class Ring:
         return np.concatenate([inner, outer[::-1]])
 
     def bars(self, edges: np.ndarray) -> Bars:
-        """The annular sectors between successive sections `edges` (k + 1,), each with the fill on it."""
-        masses = np.diff(edges)
+        """The annular sectors between successive sections `edges` (k + 1,), with the fill and the pier on each."""
+        on_arch = self.on_arch(edges)
+        masses = np.diff(on_arch)
         # a pier that turns about its springing has no part of the ring: 0/0
-        turns = np.diff(np.exp(-1j * edges))
+        turns = np.diff(np.exp(-1j * on_arch))
         centroids: np.ndarray = -self.centroid_radius * turns / np.where(masses > 0, masses, 1.0)
         about_centre = masses * (1 + self.thickness**2 / 4)
         if self.fill is not None:
-            weight, x, y = np.diff(self.fill.loads(self.thickness, edges)[0])
+            weight, x, y = np.diff(self.fill.loads(self.thickness, on_arch)[0])
             moments = masses * centroids + x + 1j * y
             masses = masses + weight
             centroids = moments / np.where(masses > 0, masses, 1.0)
             about_centre = about_centre + weight * (1 + self.thickness / 2) ** 2
+        if self.piers is not None:
+            mass, centre, own = self._pier_body()
+            left, right = self.feet(edges)[[0, -1]] * (-1.0, 1.0) * mass
+            at_ends = np.zeros((2, masses.size))
+            at_ends[0, 0], at_ends[1, -1] = left, right
+            moments = masses * centroids + at_ends[0] * -centre.conjugate() + at_ends[1] * centre
+            masses = masses + at_ends.sum(axis=0)
+            centroids = moments / masses
+            about_centre = about_centre + at_ends.sum(axis=0) * (own + abs(centre) ** 2)
         return Bars(masses, centroids, about_centre - masses * np.abs(centroids) ** 2)
 
+    def _pier_body(self) -> tuple[float, complex, float]:
+        """Mass of a pier per t·r, centre of mass of the right one, inertia about it per mass."""
+        assert self.piers is not None
+        width, height = self.piers.width, self.piers.height
+        mass = self.piers.density * width * height / self.thickness
+        return mass, complex(self.pier(1.0).mean()), (width**2 + height**2) / 12
+
     def loads(self, section: np.ndarray) -> Loads:
-        """Return what lies left of `section`."""
-        start, radius = -self.embrace_angle / 2, self.centroid_radius
-        sine, cosine = np.sin(section), np.cos(section)
-        total = np.stack(
-            [section - start, radius * (np.cos(start) - cosine), radius * (sine - np.sin(start))]
-        )
+        """Return what lies left of `section`; at a foot with its pier, and without change."""
+        at, start, radius = self.on_arch(section), -self.embrace_angle / 2, self.centroid_radius
+        sine, cosine = np.sin(at), np.cos(at)
+        total = np.stack([at - start, radius * (np.cos(start) - cosine), radius * (sine - np.sin(start))])
         rate = np.stack([np.ones_like(sine), radius * sine, radius * cosine])
-        if self.fill is None:
-            return total, rate
-        (filled, more), (before, _) = (
-            self.fill.loads(self.thickness, np.asarray(each)) for each in (section, start)
-        )
-        return total + (filled.T - before).T, rate + more
+        if self.fill is not None:
+            (filled, more), (before, _) = (
+                self.fill.loads(self.thickness, np.asarray(each)) for each in (at, start)
+            )
+            total, rate = total + (filled.T - before).T, rate + more
+        if self.piers is not None:
+            foot, (mass, centre, _) = self.feet(section), self._pier_body()
+            one = np.ones_like(foot)
+            total = total + foot * mass * np.stack([one, foot * centre.real, one * centre.imag])
+            rate = (foot == 0) * rate
+        return total, rate
 
     def gaps(self, section: np.ndarray, contact: np.ndarray) -> np.ndarray:
         """Rows (a, b) with gap = a·(M₀, V, H, λ) + b, shape (k, 5).
@@ -150,16 +216,12 @@ class Ring:
         return -contact[..., None] * _moment(1.0, point, self.loads(section)[0])
 
     def gap_slopes(self, section: np.ndarray, contact: np.ndarray) -> np.ndarray:
-        """Derivatives of `gaps` with the section, (k, 5)."""
+        """Derivatives of `gaps` with the section, (k, 5); 0 for a foot, which does not move."""
         load, rate = self.loads(section)
         point = self.contact_points(section, contact)
         of_loads = np.array([0.0, 0.0, 0.0, 1.0, 1.0]) * _moment(1.0, point, rate)
-        return -contact[..., None] * (_moment(0.0, -1j * point, load) + of_loads)  # type: ignore[no-any-return]
-
-    def kept(self, hinges: np.ndarray) -> np.ndarray:
-        """Sections moved back onto the ring."""
-        edge = self.embrace_angle / 2
-        return np.clip(hinges, -edge, edge)
+        slopes = -contact[..., None] * (_moment(0.0, -1j * point, load) + of_loads)
+        return np.where((self.feet(section) != 0)[..., None], 0.0, slopes)
 
 
 def _moment(one: float, point: np.ndarray, load: np.ndarray) -> np.ndarray:
@@ -167,96 +229,3 @@ def _moment(one: float, point: np.ndarray, load: np.ndarray) -> np.ndarray:
     x, y = point.real, point.imag
     weight, of_x, of_y = load
     return np.stack([np.full_like(x, one), -x, y, y * weight - one * of_y, x * weight - one * of_x], axis=-1)
-
-
-FOOT = 1.0
-"""Place of a foot beyond its springing, rad: a name for a section, not an angle."""
-
-
-@dataclass(frozen=True)
-class PierRing(Ring):
-    """A ring on equal rectangular piers, flush with its intrados at the springings.
-
-    pier_width, pier_height: over r. pier_density: over that of the arch.
-    """
-
-    pier_width: float = 0.0
-    pier_height: float = 0.0
-    pier_density: float = 1.0
-
-    @property
-    def pier_mass(self) -> float:
-        """Of one pier, per t·r."""
-        return self.pier_density * self.pier_width * self.pier_height / self.thickness
-
-    @property
-    def mass(self) -> float:
-        """Of ring, fill and both piers, per t·r."""
-        return super().mass + 2 * self.pier_mass
-
-    @property
-    def springing(self) -> complex:
-        """The right springing's point on the intrados: the inner corner of the pier's head."""
-        return complex((1 - self.thickness / 2) * 1j * np.exp(-0.5j * self.embrace_angle))
-
-    def pier(self, side: float) -> np.ndarray:
-        """The corners of the left (side −1) or right (1) pier, complex: inner and outer foot, outer and inner head."""
-        inner, top = self.springing.real, self.springing.imag
-        low = top - self.pier_height
-        outer = inner + self.pier_width
-        return np.array(
-            [side * x + 1j * y for x, y in ((inner, low), (outer, low), (outer, top), (inner, top))]
-        )
-
-    def pier_centre(self, side: float) -> complex:
-        """Its centre of mass."""
-        return complex(self.pier(side).mean())
-
-    def _foot(self, section: np.ndarray) -> np.ndarray:
-        """−1 at the left foot, 1 at the right one, 0 on the ring."""
-        beyond = np.abs(section) > self.embrace_angle / 2 + FOOT / 2
-        return np.sign(section) * beyond
-
-    def sections(self) -> np.ndarray:
-        """Those of the ring, with the feet of both piers."""
-        ring, edge = super().sections(), self.embrace_angle / 2 + FOOT
-        return np.concatenate([[-edge], ring, [edge]])
-
-    def kept(self, hinges: np.ndarray) -> np.ndarray:
-        """Sections moved back onto the ring; feet stay."""
-        foot = self._foot(hinges)
-        return np.where(foot == 0, super().kept(hinges), foot * (self.embrace_angle / 2 + FOOT))
-
-    def contact_points(self, section: np.ndarray, contact: ArrayLike) -> np.ndarray:
-        """The points of the intrados (1) or extrados (−1), at a foot the inner or the outer corner, complex."""
-        foot, contact = self._foot(np.asarray(section)), np.asarray(contact)
-        inner, outer = self.pier(1.0)[:2]
-        corner = np.where(contact > 0, inner.real, outer.real)
-        return np.where(foot == 0, super().contact_points(section, contact), foot * corner + 1j * inner.imag)
-
-    def loads(self, section: np.ndarray) -> Loads:
-        """As for a ring; at a foot with its pier, and without change."""
-        foot = self._foot(np.asarray(section))
-        total, rate = super().loads(super().kept(np.asarray(section)))
-        centre = np.where(foot < 0, self.pier_centre(-1.0), self.pier_centre(1.0))
-        pier = foot * self.pier_mass * np.stack([np.ones_like(foot), centre.real, centre.imag])
-        return total + pier, (foot == 0) * rate
-
-    def gap_slopes(self, section: np.ndarray, contact: np.ndarray) -> np.ndarray:
-        """As for a ring; a foot does not move."""
-        return np.where((self._foot(section) != 0)[..., None], 0.0, super().gap_slopes(section, contact))
-
-    def bars(self, edges: np.ndarray) -> Bars:
-        """Those of the ring, the first and the last with their pier where it rocks."""
-        bars = super().bars(super().kept(edges))
-        masses, moments = bars.masses.copy(), bars.masses * bars.centroids
-        about = bars.inertias + bars.masses * np.abs(bars.centroids) ** 2
-        for place, side in ((0, -1.0), (-1, 1.0)):
-            if self._foot(edges[place : place + 1 or None])[0] == side:
-                centre, mass = self.pier_centre(side), self.pier_mass
-                masses[place] += mass
-                moments[place] += mass * centre
-                own = (self.pier_width**2 + self.pier_height**2) / 12
-                about[place] += mass * (own + abs(centre) ** 2)
-        centroids = moments / masses
-        return Bars(masses, centroids, about - masses * np.abs(centroids) ** 2)
