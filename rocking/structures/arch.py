@@ -129,13 +129,11 @@ class Arch(Crackable):
                 "at the first and the third and about the extrados at the others; leave it out for those of statics."
             ) from None
 
-    def candidates(self, count: int = 11) -> tuple[Candidate, ...]:
+    def _may_form(self, count: int) -> tuple[Candidate, ...]:
         """The mechanism of statics, that of the hinges as given, and the weakest with other hinges.
 
         To the other side the mirror image of each rocks.
         """
-        if self.crack == "known":
-            return super().candidates(count)
         static = self._static_onset()
         hinges = [static.hinges, *other_hinges(self.ring, static, count - 1)]
         if self.hinge_angles is not None:

@@ -152,19 +152,18 @@ class Facade(Tied):
         return super()._impact(mirrored)
 
     def _hung(self, mirrored: bool) -> list[Hung]:
-        outwards, hung = -1.0 if mirrored else 1.0, []
-
-        def part(height: float) -> int:
-            return 0 if height > self.crack_height else STILL
-
-        for point, load in self._bearings(mirrored):
-            start = complex(outwards * point.real, point.imag)
-            hung.append(self._load(start, 0, load, self.loads_held))
+        outwards = -1.0 if mirrored else 1.0
+        hung = [
+            self._load(complex(outwards * bearing.real, bearing.imag), 0, load, self.loads_held)
+            for bearing, load in self._bearings(mirrored)
+        ]
         if self.thrust:
             height = self.height if self.thrust_height is None else self.thrust_height
-            hung.append(Hung("thrust", 1j * height, part(height), complex(outwards * self.thrust)))
+            part = 0 if height > self.crack_height else STILL
+            hung.append(Hung("thrust", 1j * height, part, complex(outwards * self.thrust)))
         for height in self.tie_heights:
-            hung.append(Hung("tie", 1j * height, part(height), 0j if mirrored else self._tie))
+            part = 0 if height > self.crack_height else STILL
+            hung.append(Hung("tie", 1j * height, part, tie=None if mirrored else self._tie))
         return hung
 
     def _bearings(self, mirrored: bool) -> list[tuple[complex, float]]:

@@ -13,7 +13,7 @@ from types import NoneType
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
-from annotated_types import Ge, Gt, Le, Lt, MinLen
+from annotated_types import Interval, MinLen
 
 from rocking.described import Described
 from rocking.errors import StructureError
@@ -29,7 +29,6 @@ _OUTWARD: dict[str, Callable[[Any], Any]] = {
     **dict.fromkeys(_KILO, lambda value: value / 1e3),
 }
 """From the unit of the file to SI and back; units that are not here are SI."""
-_LIMITS: dict[str, Callable[[Any], Any]] = {"ge": Ge, "gt": Gt, "le": Le, "lt": Lt}
 
 PHRASE = "{name} {value}"
 
@@ -171,9 +170,10 @@ class Form:
             options = {n: each for n, each in taken.items() if each.default is not Parameter.empty}
             taken = dict(signature(method).parameters) | options
         taken["restitution_range"] = taken.pop("restitution_range")  # the last word
-        described = [
-            _field(name, hints[name], taken[name].default) for name in taken if _value(hints.get(name))
-        ]
+        described = []
+        for name, parameter in taken.items():
+            for value in getattr(hints.get(name), "__metadata__", ()):
+                described.append(_field(name, hints[name].__origin__, value, parameter.default))
         return cls(meaning, make, tuple(described))
 
     @property
@@ -193,26 +193,19 @@ def constructor(kind: Any) -> Form:
     return Form.of(kind, "", "")
 
 
-def _value(hint: Any) -> Value | None:
-    return next((each for each in getattr(hint, "__metadata__", ()) if isinstance(each, Value)), None)
-
-
-def _field(name: str, hint: Any, default: Any) -> Field:
-    value = _value(hint)
-    assert value is not None
+def _field(name: str, hint: Any, value: Value, default: Any) -> Field:
     required = default is Parameter.empty
-    limits = tuple(_LIMITS[bound](limit) for bound, limit in value.bounds.items())
 
     def kind_of(hint: Any) -> Any:
         if hint in (float, int):
-            return Annotated[hint, value, *limits]  # type: ignore[valid-type]
+            return Annotated[hint, Interval(**value.bounds)]
         if hint is str:
             return Literal[value.names] if value.names else None
         if get_origin(hint) is tuple:
             return Annotated[tuple[kind_of(float), ...], MinLen(int(required))]  # type: ignore[misc]
         return hint
 
-    options = get_args(hint.__origin__) if NoneType in get_args(hint.__origin__) else (hint.__origin__,)
+    options = get_args(hint) if NoneType in get_args(hint) else (hint,)
     kinds = [kind_of(each) for each in options if each is not NoneType]
     kind: Any = reduce(or_, [each for each in kinds if each is not None])
     return Field(name, kind, value.meaning, value.unit, default=... if required else default, value=value)

@@ -1,6 +1,6 @@
 """The symmetric rocking frame of equal columns under a rigid beam (Makris and Vassiliou 2013; theory: section 3)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -10,7 +10,7 @@ from rocking.structures.block import Block
 from rocking.structures.contacts import Contacts, MotionState, UnknownContacts
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, count, length, restitution_value
-from rocking.structures.linkage import Linkage, Motion, PointMotion, Restitution, Turning, keeps_last
+from rocking.structures.linkage import Hung, Motion, PointMotion, Restitution, Turning, keeps_last
 from rocking.structures.structure import Structure
 
 Columns = Annotated[int, count("How many columns", 4, 2, 1000)]
@@ -102,46 +102,36 @@ class Frame(Structure):
 
 
 class FrameLinkage(Turning):
-    """Columns of mass 1 that all turn by the same φ, and the beam on them, which does not turn.
+    """Columns of mass 1 that all turn by the same φ as the first does, and the beam that rests on their heads.
 
-    The centre of the beam is taken on its lower edge, at the left top corner of the first column.
+    The beam does not turn: it moves as its point at the left top corner of the first column.
     """
 
     def __init__(self, column: Block, axes: np.ndarray, beam_mass_ratio: float) -> None:
-        half, height = column.breadth / 2, column.height
-        self._feet, self._diagonal = axes + half, -2 * half + 1j * height
-        beam = axes.size * beam_mass_ratio
-        self.masses = np.append(np.ones(axes.size), beam)
-        self.inertias = np.append(np.full(axes.size, (4 * half**2 + height**2) / 12), 0.0)
-        self.rest = np.append(self._feet + self._diagonal / 2, self._feet[0] + self._diagonal)
-        self.unit = (axes.size + 2 * beam) * column.semi_diagonal
-        self.critical = self.slenderness = column.slenderness
-        self.end_rotation = np.pi / 2
-        share = (1 + 3 * beam_mass_ratio) / (1 + 2 * beam_mass_ratio)
-        self.inertia_length = 4 * column.semi_diagonal / 3 * share
+        half, height, number = column.breadth / 2, column.height, axes.size
+        self._apart, self._head = axes - axes[0], axes[0] - half + 1j * height
+        super().__init__(
+            axes[0] + half,
+            [number],
+            [axes[0] + 0.5j * height],
+            [number * ((2 * half) ** 2 + height**2) / 12],
+            [Hung("load", self._head, 0, mass=number * beam_mass_ratio)],
+            slenderness=column.slenderness,
+        )
 
     @keeps_last
     def motion(self, rotation: np.ndarray) -> Motion:
-        """Return columns and beam at `rotation`; hinges at the feet and the heads of all columns, in two runs."""
-        feet = np.multiply.outer(self._feet, np.ones(rotation.shape))
-        diagonal = self._diagonal * np.exp(-1j * rotation)
-        turning = np.multiply.outer(np.append(np.ones(self._feet.size), 0.0), np.ones(rotation.shape))
-        arms = (
-            1 - turning / 2
-        ) * diagonal  # of a column to its middle, of the beam to the head that bears it
-        return Motion(
-            hinges=np.concatenate([feet, feet + diagonal]),
-            angles=-turning * rotation,
-            spins=-turning,
-            spin_slopes=0 * turning,
-            centroids=np.concatenate([feet, feet[:1]]) + arms,
-            velocities=-1j * arms,
-            accelerations=-arms,
-        )
+        """Return the first column and the beam; hinges at the feet and the heads of all columns, in two runs."""
+        first = super().motion(rotation)
+        foot, head = self.corner, self.corner + (self._head - self.corner) * np.exp(-1j * rotation)
+        runs = [np.add.outer(self._apart, start + 0 * rotation) for start in (foot, head)]
+        return replace(first, hinges=np.concatenate(runs))
 
     def carried(self, part: int, start: complex | np.ndarray, motion: Motion) -> PointMotion:
-        """Return how points of one column or of the beam have moved."""
-        return Linkage.carried(self, part, start, motion)
+        """Return how points of a column, by its number, or of the beam, whose number is the next, have moved."""
+        if part == self._apart.size:
+            return super().carried(0, self._head + 0 * start, motion)
+        return super().carried(0, start - self._apart[part], motion)
 
     def contacts(self, state: MotionState) -> Contacts:
         """Raise UnknownContacts: each column stands between two contacts that share its load as they like."""

@@ -10,7 +10,6 @@ it, so ⟨η v − u, v⟩ = 0 in the mass inner product and η = ⟨u, v⟩ / �
 1 − 1.5 sin²α, for the mid-height wall (1 − 4.5 sin²α)/(1 + 3 sin²α), for the frame Makris and Vassiliou's value.
 """
 
-import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -20,7 +19,7 @@ from typing import Literal, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.errors import StructureError, StructureWarning
+from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.mechanism import Side
@@ -61,20 +60,21 @@ STILL = -1
 class Hung(NamedTuple):
     """What hangs on a part at a point: a constant force, a tie, or a mass that moves along.
 
-    start: the point at rest. part: its number, or STILL. force: towards the side of rocking and
-    upwards, growing and falling with g + ü_v, or a tie; 0 where it does not act on this side.
+    start: the point at rest. part: its number, or STILL. force: towards the side of rocking and upwards, growing and
+    falling with g + ü_v. tie: None where it does not act on this side.
     """
 
     kind: Literal["load", "thrust", "tie"]
     start: complex
     part: int
-    force: complex | Tie = 0j
+    force: complex = 0j
     mass: float = 0.0
+    tie: Tie | None = None
 
     @property
     def acts(self) -> bool:
         """Whether it does anything on this side."""
-        return self.part != STILL and bool(self.force or self.mass)
+        return self.part != STILL and bool(self.force or self.mass or self.tie)
 
 
 def keeps_last(method: Callable[[Owner, np.ndarray], Motion]) -> Callable[[Owner, ArrayLike], Motion]:
@@ -166,50 +166,42 @@ class Linkage(ABC):
 
     def untied_gravity(self, rotation: ArrayLike) -> np.ndarray:
         """G without the ties."""
+        motion = self.motion(rotation)
         powers = [
-            (force.conjugate() * point.velocity).real for force, point in self._pushed(self.motion(rotation))
+            (each.force.conjugate() * point.velocity).real
+            for each, point in self._hanging(motion)
+            if each.force
         ]
         return self.weight(rotation) - sum(powers, np.zeros(())) / self.unit
 
     def gravity_slope(self, rotation: ArrayLike) -> np.ndarray:
         """dG/dφ; of a tie between yield and rupture that of the force it keeps."""
-        motion = self.motion(rotation)
-        slopes = [-(force.conjugate() * point.acceleration).real for force, point in self._pushed(motion)]
-        slopes += [tie.slope(*(each.real for each in point)) for tie, point in self._tied(motion)]
+        slopes = []
+        for each, point in self._hanging(self.motion(rotation)):
+            if each.tie:
+                slopes.append(each.tie.slope(*(coordinate.real for coordinate in point)))
+            elif each.force:
+                slopes.append(-(each.force.conjugate() * point.acceleration).real)
         return self.weight_slope(rotation) + sum(slopes, np.zeros(())) / self.unit
 
-    def _pushed(self, motion: Motion) -> Iterator[tuple[complex, PointMotion]]:
-        """The constant forces and the motions of their points."""
+    def _hanging(self, motion: Motion) -> Iterator[tuple[Hung, PointMotion]]:
+        """What hangs on it and the motions of their points."""
         for each in self.hung:
-            if not isinstance(each.force, Tie):
-                yield each.force, self.carried(each.part, each.start, motion)
-
-    def _tied(self, motion: Motion) -> Iterator[tuple[Tie, PointMotion]]:
-        """The ties and the motions of their points."""
-        for each in self.hung:
-            if isinstance(each.force, Tie):
-                yield each.force, self.carried(each.part, each.start, motion)
-
-    def tie_stretches(self, rotation: float) -> dict[float, float]:
-        """Return how far the point of each tie has moved outwards [m] at `rotation` ≥ 0 [rad], by its height."""
-        heights = [each.start.imag for each in self.hung if isinstance(each.force, Tie)]
-        points = [point for _, point in self._tied(self.motion(rotation))]
-        return {z: float(point.moved.real) for z, point in zip(heights, points, strict=True)}
+            yield each, self.carried(each.part, each.start, motion)
 
     @cached_property
     def ties(self) -> tuple[SideTie, ...]:
         """The ties as the side has them, in the unit of G per m."""
 
-        def side_tie(number: int, tie: Tie) -> SideTie:
+        def side_tie(each: Hung, tie: Tie) -> SideTie:
             def point(rotation: np.ndarray) -> PointMotion:
-                return list(self._tied(self.motion(rotation)))[number][1]
+                return self.carried(each.part, each.start, self.motion(rotation))
 
             return SideTie(
                 tie.over(self.unit), lambda phi: point(phi).moved.real, lambda phi: point(phi).velocity.real
             )
 
-        still = self.motion(0.0)
-        return tuple(side_tie(number, tie) for number, (tie, _) in enumerate(self._tied(still)))
+        return tuple(side_tie(each, each.tie) for each in self.hung if each.tie)
 
     def side(self, restitution: float) -> Side:
         """Return the side of rocking."""
@@ -254,15 +246,13 @@ class Linkage(ABC):
         centre = motion.accelerations * state.velocity**2 + motion.velocities * state.acceleration
         spin = motion.spin_slopes * state.velocity**2 + motion.spins * state.acceleration
         forces, couples = -self.masses[:, None] * (centre + state.pull), -self.inertias[:, None] * spin
-        for each in self.hung:
-            moved = self.carried(each.part, each.start, motion).moved
-            if isinstance(each.force, Tie):
+        for each, point in self._hanging(motion):
+            force: np.ndarray = each.force * state.pull.imag
+            if each.tie:
                 largest = self.carried(each.part, each.start, furthest).moved
-                force = -each.force.tension(moved.real, largest.real) * GRAVITY + 0j
-            else:
-                force = each.force * state.pull.imag
+                force = -each.tie.tension(point.moved.real, largest.real) * GRAVITY + 0j
             forces[each.part] += force
-            couples[each.part] += cross(each.start + moved - motion.centroids[each.part], force)
+            couples[each.part] += cross(each.start + point.moved - motion.centroids[each.part], force)
         return forces, couples
 
 
@@ -295,7 +285,7 @@ class Turning(Linkage):
         self.slenderness = (
             float(np.arctan2(-moment.real, moment.imag)) if slenderness is None else slenderness
         )
-        self.critical = None if any(each.force for each in self.hung) else self.slenderness
+        self.critical = None if any(each.force or each.tie for each in self.hung) else self.slenderness
         inertia = self.inertias.sum() + self.masses @ np.abs(self.rest - corner) ** 2
         self.inertia_length = float(inertia / self.unit)
 
@@ -325,7 +315,6 @@ class Turning(Linkage):
         return np.full(np.shape(rotation), self.inertia_length)
 
     def inertia_slope(self, rotation: ArrayLike) -> np.ndarray:
-        """0."""
         return np.zeros(np.shape(rotation))
 
     def weight(self, rotation: ArrayLike) -> np.ndarray:
@@ -365,23 +354,3 @@ def momentum_balance(
     (u, turn), (v, turn_after) = arriving, leaving
     shared = masses @ (u * v).real + inertias @ (turn * turn_after)
     return float(shared / (masses @ np.abs(v) ** 2 + inertias @ turn_after**2))
-
-
-def resolve_restitution(value: float | str, balance: Callable[[], float]) -> float:
-    """Return η in [0, 1]: `value`, or what the `balance` gives where it is a name.
-
-    A balance below zero is not physical (the body would not reach the other side): η becomes 0 and a
-    StructureWarning says so.
-    """
-    if not isinstance(value, str):
-        return float(value)
-    ratio = balance()
-    if ratio >= 0:
-        return min(ratio, 1.0)
-    warnings.warn(
-        f"restitution by {value} balance is {ratio:.4g} for this geometry, which is not physical; 0 is "
-        "used instead (the structure is too squat to rock from side to side), so give a measured value.",
-        StructureWarning,
-        stacklevel=4,
-    )
-    return 0.0

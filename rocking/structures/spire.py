@@ -67,12 +67,10 @@ class Spire(Crackable):
 
     def _linkage(self, mirrored: bool) -> Turning:
         """All above the crack, the outer solid less the similar inner one, until the flank lies on the ground."""
-        mass, first, second, across = self._solid(self.half_width)
+        solid = self._solid(self.half_width)
         if self.wall_thickness is not None:
-            inner = self._solid(max(self.half_width - self.wall_thickness, 0.0))
-            mass, first, second, across = (
-                whole - hole for whole, hole in zip((mass, first, second, across), inner, strict=True)
-            )
+            solid -= self._solid(max(self.half_width - self.wall_thickness, 0.0))
+        mass, first, second, across = solid
         centre = first / mass
         return Turning(
             self.half_width + 1j * self.crack_height,
@@ -82,16 +80,11 @@ class Spire(Crackable):
             end_rotation=float(np.pi - np.arctan2(2 * self.height, self.width)),
         )
 
-    def _solid(self, half_width: float) -> tuple[float, float, float, float]:
+    def _solid(self, half_width: float) -> np.ndarray:
         """Volume and integrals of z, z² and x² of a solid of that half width and this spire's slope, up to a factor."""
         height = 2 * half_width / self.width * self.height
-        volume = half_width**2 * height
-        return (
-            volume,
-            volume * height / 4,
-            volume * height**2 / 10,
-            volume * _SPREAD[self.plan] * half_width**2,
-        )
+        moments = np.array([1.0, height / 4, height**2 / 10, _SPREAD[self.plan] * half_width**2])
+        return half_width**2 * height * moments
 
     def _crack_heights(self, count: int) -> np.ndarray:
         """From the base to a share of the height."""

@@ -22,7 +22,6 @@ from rocking.structures.linkage import (
     Motion,
     Restitution,
     momentum_balance,
-    resolve_restitution,
 )
 from rocking.structures.mechanism import Mechanism
 
@@ -252,8 +251,8 @@ class Structure(ABC):
         acceleration; the joints of a wall or an arch are statically indeterminate and their forces nan.
         Raises UnknownContacts, in words, where they are not known (a frame's are indeterminate).
         """
-        given = np.broadcast_arrays(rotation, angular_velocity, ground, vertical)
-        phi, velocity, push, lift = (np.atleast_1d(np.asarray(values, dtype=float)) for values in given)
+        states = np.broadcast_arrays(rotation, angular_velocity, ground, vertical)
+        phi, velocity, push, lift = (np.atleast_1d(np.asarray(values, dtype=float)) for values in states)
         so_far = largest_so_far(phi) if largest is None else np.maximum(np.abs(phi), largest)
         free = angular_acceleration is None
         resting = free & (phi == 0) & (velocity == 0)
@@ -304,9 +303,23 @@ class Structure(ABC):
     def candidates(self, count: int = 11) -> "tuple[Candidate, ...]":
         """Return the mechanisms that may form, `count` or one more; first the one that statics chooses, of least λ.
 
-        One, the structure as given, where the crack is known or there is none.
+        One, the structure as given, where the crack is known or there is none. The same objects at every call, as they
+        keep what they compute.
         """
-        return (Candidate("as given", np.nan, self),)
+        if count not in self._candidates:
+            known = getattr(self, "crack", "known") == "known"
+            self._candidates[count] = (
+                (Candidate("as given", np.nan, self),) if known else self._may_form(count)
+            )
+        return self._candidates[count]
+
+    @cached_property
+    def _candidates(self) -> "dict[int, tuple[Candidate, ...]]":
+        return {}
+
+    def _may_form(self, count: int) -> "tuple[Candidate, ...]":
+        """The candidates of an unknown crack."""
+        raise NotImplementedError
 
     def cracked_at(self, height: float) -> "Structure":
         """Return this structure with its crack or hinge at `height` [m] above the base, if it can have one there."""
@@ -340,8 +353,7 @@ class Structure(ABC):
     @property
     def remarks(self) -> tuple[str, ...]:
         """A sentence for each size beyond its plausible range."""
-        sentences = (each.remark(self.type_name, value) for each, value, _ in self._given)
-        return tuple(filter(None, sentences))
+        return tuple(filter(None, (each.remark(self.type_name, value) for each, value, _ in self._given)))
 
     def as_config(self) -> dict[str, object]:
         """Return the mapping of a structure list that describes it, without a name."""
@@ -353,7 +365,9 @@ class Structure(ABC):
 
     @cached_property
     def _mechanism(self) -> Mechanism:
-        built = replace(self._build(), restitution_range=self.restitution_range)
+        """I, J, G, B of the moving parts."""
+        positive, *others = (each.side(self._impact(bool(n))) for n, each in enumerate(self.linkages))
+        built = Mechanism(positive, others[0] if others else None, self.one_sided, self.restitution_range)
         object.__setattr__(built, "structure", self)  # what it is built again from after pickling
         return built
 
@@ -364,34 +378,36 @@ class Structure(ABC):
         if typed is not None:
             return [(each, *typed[each.key]) for each in self.form.fields if each.key in typed]
         defaults = {each.name: each.default for each in constructor(type(self)).fields}
-        values = [(each, getattr(self, each.name)) for each in self.form.fields]
-        given = [
-            (each, each.outward(value))
-            for each, value in values
-            if each.required or (value is not None and value != defaults.get(each.name))
-        ]
-        return [(each, value, typed_text(value, "{:.6g}")) for each, value in given]
-
-    def _build(self) -> Mechanism:
-        """Reduce the moving parts to I, J, G, B."""
-        positive, *others = (each.side(self._impact(bool(n))) for n, each in enumerate(self.linkages))
-        return Mechanism(positive, others[0] if others else None, self.one_sided)
+        given = []
+        for each in self.form.fields:
+            value = getattr(self, each.name)
+            if each.required or (value is not None and value != defaults.get(each.name)):
+                outside = each.outward(value)
+                given.append((each, outside, typed_text(outside, "{:.6g}")))
+        return given
 
     def _impact(self, mirrored: bool) -> float:
-        """η of the impact that ends rocking on one side."""
+        """η of the impact that ends rocking on one side: the number, or that of a balance where it is a name."""
         given: Restitution = getattr(self, "restitution", None)
         chosen = self.usual_restitution if given is None else given
-        return resolve_restitution(chosen, lambda: self._momentum_balance(mirrored))
+        if not isinstance(chosen, str):
+            return float(chosen)
+        ratio = self._momentum_balance(mirrored)
+        if ratio < 0:
+            warnings.warn(
+                f"restitution by {chosen} balance is {ratio:.4g} for this geometry, which is not physical; 0 is "
+                "used instead (the structure is too squat to rock from side to side), so give a measured value.",
+                StructureWarning,
+                stacklevel=4,
+            )
+        return min(max(ratio, 0.0), 1.0)
 
     def _momentum_balance(self, mirrored: bool) -> float:
         arriving, leaving = (self.linkages * 2)[:2][:: -1 if mirrored else 1]
-        before, after = arriving.motion(0.0), leaving.motion(0.0)
-        return momentum_balance(
-            arriving.masses,
-            arriving.inertias,
-            (before.velocities, before.spins),
-            (after.velocities, after.spins),
+        before, after = (
+            (each.velocities, each.spins) for each in (arriving.motion(0.0), leaving.motion(0.0))
         )
+        return momentum_balance(arriving.masses, arriving.inertias, before, after)
 
     @abstractmethod
     def _linkage(self, mirrored: bool) -> Linkage:
@@ -442,14 +458,12 @@ class Crackable(Structure):
         """About `count` heights above the base [m] at which it may open."""
         return np.empty(0)
 
-    def candidates(self, count: int = 11) -> tuple[Candidate, ...]:
-        """Those of an unknown crack, each with its own momentum balance where no restitution is given.
+    def _may_form(self, count: int) -> tuple[Candidate, ...]:
+        """Each has its own momentum balance where no restitution is given.
 
         Where λ has its least value between two of the heights, the height of that is one more. A crack at which what
         holds the structure leaves no mechanism is left out.
         """
-        if self.crack == "known":
-            return super().candidates(count)
         given = float(getattr(self, f"{self.crack_name}_height"))
         heights = sorted({*map(float, self._crack_heights(count)), given})
         cracked = [each for each in map(self._candidate, heights) if each]

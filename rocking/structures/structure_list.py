@@ -4,6 +4,7 @@ Degrees, metres and kilonewtons outside, SI and radians inside. A YAML list is r
 message, and each size is remembered as it was typed. The JSON schema follows from the forms of the types.
 """
 
+import json
 import warnings
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
@@ -14,7 +15,7 @@ from typing import Any
 import yaml
 
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
-from rocking.structures.fields import Field, Form, article
+from rocking.structures.fields import Form, article
 from rocking.structures.structure import Structure, typed_text
 from rocking.tables.yaml_file import read_yaml
 
@@ -121,40 +122,27 @@ def structures_schema() -> dict[str, object]:
 
 def structures_schema_file() -> str:
     """Return the schema as the YAML file of the workflow."""
-    return _HEAD + yaml.dump(
-        structures_schema(), Dumper=_PlainDumper, sort_keys=False, allow_unicode=True, width=110
-    )
-
-
-class _PlainDumper(yaml.SafeDumper):
-    """Every value in its place, without anchors."""
-
-    def ignore_aliases(self, data: object) -> bool:
-        return True
+    plain = json.loads(json.dumps(structures_schema()))  # no part twice, which YAML would write as an anchor
+    return _HEAD + yaml.safe_dump(plain, sort_keys=False, allow_unicode=True, width=110)
 
 
 def _definition(kind: str, form: Form) -> dict[str, object]:
-    properties = {each.key: _property(each) for each in form.fields}
+    properties = {}
+    for each in form.fields:
+        unit = f", {each.unit}" if each.unit else ""
+        low, high = each.value.usual or (None, None)
+        usual = f"; usually {low:g} to {high:g}" if each.unit and each.value.usual else ""
+        properties[each.key] = {**each.schema, "description": f"{each.meaning}{unit}{usual}"}
     return {
         "description": form.meaning,
         "type": "object",
         "additionalProperties": False,
         "required": ["name", "type", *form.required],
-        "properties": {"name": dict(_NAME), "type": {"const": kind}, **properties},
+        "properties": {"name": _NAME, "type": {"const": kind}, **properties},
         "examples": [
             {"name": f"my {kind}", "type": kind, **{each.key: each.value.example for each in form.fields}}
         ],
     }
-
-
-def _property(each: Field) -> dict[str, object]:
-    usual = (
-        f"; usually {each.value.usual[0]:g} to {each.value.usual[1]:g}"
-        if each.value.usual and each.unit
-        else ""
-    )
-    unit = f", {each.unit}" if each.unit else ""
-    return {**each.schema, "description": f"{each.meaning}{unit}{usual}"}
 
 
 def load_structures(path: str | Path) -> dict[str, Structure]:
@@ -166,7 +154,12 @@ def load_structures(path: str | Path) -> dict[str, Structure]:
     structures: dict[str, Structure] = {}
     names: list[object] = []
     defects = []
-    for number, (entry, texts) in enumerate(_entries(Path(path)), start=1):
+    entries, node = read_yaml(Path(path), ConfigurationError, "structure list")
+    if not isinstance(entries, list) or not entries:
+        raise ConfigurationError(
+            f"{path}: the file holds {type(entries).__name__}, but must hold a list of structures."
+        )
+    for number, (entry, texts) in enumerate(zip(entries, map(_texts, node.value), strict=True), start=1):
         name = entry.get("name") if isinstance(entry, Mapping) else None
         where = f"{path}: structure {number}" + (f" ({name})" if name else "")
         if not isinstance(name, str) or not name.strip():
@@ -186,23 +179,11 @@ def load_structures(path: str | Path) -> dict[str, Structure]:
     return structures
 
 
-def _entries(path: Path) -> list[tuple[object, dict[str, str]]]:
-    """Each entry of the list, with the values of its keys as they were typed."""
-    entries, node = read_yaml(path, ConfigurationError, "structure list")
-    if not isinstance(entries, list) or not entries:
-        raise ConfigurationError(
-            f"{path}: the file holds {type(entries).__name__}, but must hold a list of structures."
-        )
-    return list(zip(entries, map(_texts, node.value), strict=True))
-
-
 def _texts(node: yaml.Node) -> dict[str, str]:
     """The scalars and the lists of scalars of a mapping, as they were typed."""
-    pairs = node.value if isinstance(node, yaml.MappingNode) else ()
-    texts = {key.value: value.value for key, value in pairs if isinstance(value, yaml.ScalarNode)}
-    for key, value in pairs:
-        if isinstance(value, yaml.SequenceNode):
-            texts[key.value] = ", ".join(
-                each.value for each in value.value if isinstance(each, yaml.ScalarNode)
-            )
+    texts = {}
+    for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
+        each = value.value if isinstance(value, yaml.SequenceNode) else [value]
+        if isinstance(value, yaml.ScalarNode | yaml.SequenceNode):
+            texts[key.value] = ", ".join(one.value for one in each if isinstance(one, yaml.ScalarNode))
     return texts

@@ -105,14 +105,14 @@ class Tied(Crackable):
 
     def tie_events(self, rotation: float) -> str:
         tie, events = self._tie, []
-        for height, stretch in self.linkage.tie_stretches(max(rotation, 0.0)).items():
+        heights = [each.start.imag for each in self.linkage.hung if each.tie]
+        for height, side_tie in zip(heights, self.linkage.ties, strict=True):
+            stretch = float(side_tie.stretch(np.asarray(max(rotation, 0.0))))
             if stretch > tie.rupture_stretch:
                 events.append(f"the tie at {height:.6g} m breaks")
             elif stretch > tie.yield_stretch:
-                events.append(
-                    f"the tie at {height:.6g} m yields by {stretch - tie.yield_stretch:.3g} m of "
-                    f"{tie.plastic_elongation:.6g} m"
-                )
+                plastic = f"{stretch - tie.yield_stretch:.3g} m of {tie.plastic_elongation:.6g} m"
+                events.append(f"the tie at {height:.6g} m yields by {plastic}")
         return "; ".join(events)
 
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
@@ -123,8 +123,12 @@ class Tied(Crackable):
             moved = 0j if each.part == STILL else linkage.carried(each.part, each.start, motion).moved
             head = plane(np.asarray(each.start + moved), mirrored)
             tail = {"load": [0.0, size], "thrust": [-size, 0.0], "tie": [anchorage - head[0], 0.0]}[each.kind]
-            force = 0.0 if isinstance(each.force, Tie) else abs(each.force) + each.mass
-            text = self._tie_text if each.kind == "tie" else f"{force / 1e3:.6g} kN/m"
+            text = f"{(abs(each.force) + each.mass) / 1e3:.6g} kN/m"
+            if each.kind == "tie":
+                text = f"{self.tie_stiffness / 1e3:.6g} kN/m²"
+                if self.tie_strength is not None:
+                    end = "yields" if self.tie_plastic_elongation else "breaks"
+                    text += f", {end} at {self.tie_strength / 1e3:.6g} kN/m"
             drawn.append(Mark(each.kind, text, np.array([head + tail, head])))
         return tuple(drawn)
 
@@ -133,15 +137,6 @@ class Tied(Crackable):
         """Each tie."""
         strength = np.inf if self.tie_strength is None else self.tie_strength
         return Tie(self.tie_stiffness, self.tie_pretension, strength, self.tie_plastic_elongation)
-
-    @property
-    def _tie_text(self) -> str:
-        """What a drawing says of each tie."""
-        text = f"{self.tie_stiffness / 1e3:.6g} kN/m²"
-        if self.tie_strength is None:
-            return text
-        does = "yields" if self.tie_plastic_elongation else "breaks"
-        return f"{text}, {does} at {self.tie_strength / 1e3:.6g} kN/m"
 
     def _check_ties(self) -> None:
         """Refuse ties that do not hang together."""

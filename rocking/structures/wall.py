@@ -86,20 +86,18 @@ class WallLinkage(Linkage):
             velocities=np.stack([-1j * lower, -2j * lower + 1j * ratio * upper]),
             accelerations=np.stack([-lower, -2 * lower + (1j * curvature - ratio**2) * upper]),
         )
-        if not self._loads:
-            return blocks
-        moves = [self.carried(1, each.start, blocks) for each in self._loads]
-        still = np.zeros((len(moves), *across.shape))
-        bearings = self.rest[2:].reshape(-1, *[1] * across.ndim)
-        moved, velocities, accelerations = (1j * np.stack([each[n].imag for each in moves]) for n in range(3))
+        # a load on the top rises with its bearing and moves to no side
+        lifts = [1j * np.imag(self.carried(1, each.start, blocks)) for each in self._loads]
+        bearings = [each.start + lift[0] for each, lift in zip(self._loads, lifts, strict=True)]
+        still = np.zeros((len(lifts), *across.shape))
         return Motion(
             hinges=blocks.hinges,
             angles=np.concatenate([blocks.angles, still]),
             spins=np.concatenate([blocks.spins, still]),
             spin_slopes=np.concatenate([blocks.spin_slopes, still]),
-            centroids=np.concatenate([blocks.centroids, bearings + moved]),
-            velocities=np.concatenate([blocks.velocities, velocities]),
-            accelerations=np.concatenate([blocks.accelerations, accelerations]),
+            centroids=np.stack([*blocks.centroids, *bearings]),
+            velocities=np.stack([*blocks.velocities, *(lift[1] for lift in lifts)]),
+            accelerations=np.stack([*blocks.accelerations, *(lift[2] for lift in lifts)]),
         )
 
     def contacts(self, state: MotionState) -> Contacts:
@@ -308,7 +306,8 @@ class LoadedWall(CrackedWall, Tied):
             hung.append(self._load(complex(across, self.height), 1, self.top_load, self.load_held))
         for height in self.tie_heights:
             part = 0 if height <= self.lower_height else 1
-            hung.append(Hung("tie", complex(outwards * half, height), part, 0j if mirrored else self._tie))
+            start = complex(outwards * half, height)
+            hung.append(Hung("tie", start, part, tie=None if mirrored else self._tie))
         return hung
 
     def _dimensions(self) -> dict[str, Path]:

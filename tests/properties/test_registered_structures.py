@@ -20,7 +20,6 @@ from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.structures.contacts import UnknownContacts
 from rocking.structures.structure_list import TYPES, load_structures, structure_from_config, structures_schema
-from rocking.structures.ties import Tie
 
 FEW = settings(
     max_examples=12,
@@ -83,13 +82,12 @@ def held_work(linkage, at):
     total = np.zeros(at.shape)
     for each in linkage.hung:
         moved = linkage.carried(each.part, each.start, linkage.motion(at)).moved
-        if not isinstance(each.force, Tie):
-            total -= (each.force.conjugate() * moved).real
-            continue
-        stretch = np.minimum(moved.real, each.force.rupture_stretch)
-        elastic = np.minimum(stretch, each.force.yield_stretch)
-        total += each.force.pretension * elastic + each.force.stiffness * elastic**2 / 2
-        total += np.where(stretch > elastic, each.force.strength, 0.0) * (stretch - elastic)
+        total -= (each.force.conjugate() * moved).real
+        if tie := each.tie:
+            stretch = np.minimum(moved.real, tie.rupture_stretch)
+            elastic = np.minimum(stretch, tie.yield_stretch)
+            total += tie.pretension * elastic + tie.stiffness * elastic**2 / 2
+            total += np.where(stretch > elastic, tie.strength, 0.0) * (stretch - elastic)
     return total
 
 
