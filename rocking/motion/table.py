@@ -6,18 +6,19 @@ G̃ = G/√(I I(0)) and B̃ = B/√(I I(0)). For a rigid body I is constant and 
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 from weakref import WeakKeyDictionary
 
 import numpy as np
+from numpy.polynomial.polynomial import polyvander
 
-from rocking.errors import MotionError
+from rocking.errors import MotionError, StructureError
 from rocking.motion.compiled import REST_ENERGY
 from rocking.motion.forcing import Forcing
 from rocking.motion.nonlinear_kernel import Sides, Ties
 from rocking.quantities import GRAVITY
-from rocking.structures.equivalent_block import Arc, Function, RotationMap, arc_of
+from rocking.structures.equivalent_block import Arc, Function, RotationMap
 from rocking.structures.mechanism import CUTS, EquivalentBlock, Mechanism, Side
 from rocking.structures.ties import SideTie
 
@@ -139,12 +140,17 @@ def side_table(side: Side, apart: bool = False) -> SideTable:
 
     Raises MotionError when it cannot be.
     """
+    try:
+        arc, inverse = side.arc
+    except StructureError as error:
+        raise MotionError(str(error)) from None
     for cut in CUTS:
         last = side.end_rotation - cut * (side.end_rotation - side.critical_rotation)
-        with np.errstate(all="ignore"):
-            table = _tabulated(side, last, apart)
-        if table is not None:
-            return table
+        if last <= arc.last:
+            with np.errstate(all="ignore"):
+                table = _tabulated(side, arc, inverse, last, apart)
+            if table is not None:
+                return table
     raise MotionError(
         f"the mechanism's functions cannot be tabulated to {ACCURACY:g} of their maximum up to a rotation of "
         f"{last!r} rad; they must be smooth up to there."
@@ -152,13 +158,13 @@ def side_table(side: Side, apart: bool = False) -> SideTable:
 
 
 def _functions(
-    side: Side, arc: Arc, gravity: Function, ties: Sequence[SideTie]
+    side: Side, rotation_at: Function, gravity: Function, ties: Sequence[SideTie]
 ) -> Callable[[np.ndarray], np.ndarray]:
     """Return (3 + 3 n, ...) G̃, B̃, φ/q, and D̃, u D̃ and u of the n `ties`, as functions of the arc."""
     rest = side.at("inertia", 0.0)
 
     def functions(arcs: np.ndarray) -> np.ndarray:
-        rotation = arc.rotation(arcs)
+        rotation = rotation_at(arcs)
         scale = np.sqrt(side.inertia(rotation) * rest)
         values = [gravity(rotation) / scale, side.ground(rotation) / scale, rotation / arcs]
         for tie in ties:
@@ -169,14 +175,12 @@ def _functions(
     return functions
 
 
-def _tabulated(side: Side, last: float, apart: bool) -> SideTable | None:
+def _tabulated(side: Side, arc: Arc, inverse: RotationMap, last: float, apart: bool) -> SideTable | None:
     """The table over the rotations up to `last`, ties apart or not, or None where it does not reach ACCURACY."""
-    arc = arc_of(side.inertia, last, AIM)
-    if arc is None:
-        return None
+    rotation_at = partial(arc.rotation, inverse=inverse)
     gravity = side.untied_gravity if apart and side.untied_gravity is not None else side.gravity
     ties = side.ties if apart else ()
-    functions = _functions(side, arc, gravity, ties)
+    functions = _functions(side, rotation_at, gravity, ties)
     end, critical = float(arc.at(last)), float(arc.at(side.critical_rotation))
     split = min(2 * critical, (critical + end) / 2)
     largest = np.abs(functions(np.linspace(end / 1000, end, 1000))).max(axis=1)
@@ -196,8 +200,8 @@ def _tabulated(side: Side, last: float, apart: bool) -> SideTable | None:
         pieces=powers[:2].transpose(1, 2, 0).reshape(powers.shape[1], -1),
         grid=grid,
         lift=lift,
-        hold=_hold(gravity, side.ground, arc.rotation, starts),
-        critical=_standing(gravity, arc.rotation, critical) if apart else critical,
+        hold=_hold(gravity, side.ground, rotation_at, starts),
+        critical=_standing(gravity, rotation_at, critical) if apart else critical,
         end=end,
         rest_speed=_reaching_speed(side, rest) * REST_ENERGY**0.5,
         longest_step=1 / np.sqrt(GRAVITY * slope),
@@ -350,9 +354,9 @@ def _fit(
     places, probes = ((low + high) / 2 + (high - low) / 2 * each for each in (_NODES, _PROBES))
     everywhere = functions(centres + half * np.concatenate([places, probes], axis=1))
     values, between = everywhere[..., : _NODES.size], everywhere[..., _NODES.size :]
-    powers = np.linalg.solve(places[..., None] ** np.arange(DEGREE + 1), np.moveaxis(values, 0, -1))
+    powers = np.linalg.solve(polyvander(places, DEGREE), np.moveaxis(values, 0, -1))
     powers = np.moveaxis(powers, -1, 0)
-    fit = np.einsum("fmp,mqp->fmq", powers, probes[..., None] ** np.arange(DEGREE + 1))
+    fit = np.einsum("fmp,mqp->fmq", powers, polyvander(probes, DEGREE))
     errors = np.abs(fit - between).max(axis=(1, 2))
     return powers / half ** np.arange(DEGREE + 1), errors, np.abs(values).max(axis=(1, 2))
 

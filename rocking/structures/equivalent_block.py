@@ -29,42 +29,47 @@ _SQUARED_IS_ROUNDING = 1e-9
 class Arc:
     """The arc of one side over the rotations [0, last].
 
-    stretch: dq/dφ at a rotation. integrals: Chebyshev coefficients (16, m) of the arc over m equal pieces of rotation,
-    starts: (m + 1,) the arc at their ends. rigid: dq/dφ is 1 throughout, so that q = φ.
+    stretch: dq/dφ at a rotation. means: Chebyshev coefficients (16, m) of q/φ over m equal pieces of rotation, which
+    keep the relative accuracy of small rotations. rigid: dq/dφ is 1 throughout, so that q = φ.
     """
 
     stretch: Function
     last: float
-    integrals: np.ndarray
-    starts: np.ndarray
+    means: np.ndarray
     rigid: bool
 
     def at(self, rotation: np.ndarray | float) -> np.ndarray:
-        """Return the arc at `rotation` [rad], any shape; small rotations keep their relative accuracy."""
+        """Return the arc at `rotation` [rad], any shape."""
         rotation = np.asarray(rotation, dtype=float)
-        if self.rigid:
-            return rotation
-        piece, x = _placed(rotation / self.last, self.starts.size - 1)
-        arc = self.starts[piece] + _clenshaw(self.integrals, piece, x)
-        first = piece == 0
-        if np.any(first):
-            small = rotation[first]
-            arc = np.array(arc)
-            arc[first] = small * (self.stretch(small[..., None] * (_GAUSS + 1) / 2) @ _WEIGHTS / 2)
-        return arc
+        return rotation if self.rigid else rotation * _clenshaw(self.means, *self._placed(rotation))
 
-    def rotation(self, arc: np.ndarray) -> np.ndarray:
-        """Return the rotation [rad] at `arc`, any shape, by Newton's method."""
+    def rotation(self, arc: np.ndarray, inverse: "RotationMap | None" = None) -> np.ndarray:
+        """Return the rotation [rad] at `arc`, any shape, by Newton's method. inverse: where that begins."""
         arc = np.asarray(arc, dtype=float)
         if self.rigid:
             return np.clip(arc, 0.0, self.last)
-        rotation = np.interp(arc, self.starts, np.linspace(0.0, self.last, self.starts.size))
+        if inverse is None:
+            ends = np.linspace(0.0, self.last, self.means.shape[1] + 1)
+            rotation = np.interp(arc, self.at(ends), ends)
+        else:
+            rotation = inverse.rotation(np.minimum(arc, inverse.end))
         for _ in range(6):
-            step = (self.at(rotation) - arc) / self.stretch(rotation)
+            piece, x = self._placed(rotation)
+            mean = _clenshaw(self.means, piece, x)
+            slope = mean + rotation * _clenshaw(self._rise, piece, x)
+            step = (rotation * mean - arc) / slope
             rotation = np.clip(rotation - step, 0.0, self.last)
             if np.all(np.abs(step) <= _SQUARED_IS_ROUNDING * rotation):
                 break
         return rotation
+
+    @cached_property
+    def _rise(self) -> np.ndarray:
+        """d(q/φ)/dφ, as `means`."""
+        return chebyshev.chebder(self.means) * 2 * self.means.shape[1] / self.last
+
+    def _placed(self, rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return _placed(rotation / self.last, self.means.shape[1])
 
 
 def arc_of(inertia: Function, last: float, accuracy: float) -> Arc | None:
@@ -78,9 +83,14 @@ def arc_of(inertia: Function, last: float, accuracy: float) -> Arc | None:
     if series is None:
         return None
     coefficients, values = series
-    integrals = chebyshev.chebint(coefficients, lbnd=-1) * (last / coefficients.shape[1] / 2)
-    starts = np.concatenate([[0.0], np.cumsum(integrals.sum(axis=0))])
-    return Arc(stretch, last, integrals, starts, bool(np.all(values == 1)))
+    count = coefficients.shape[1]
+    integrals = chebyshev.chebint(coefficients, lbnd=-1) * (last / count / 2)
+    starts = np.concatenate([[0.0], np.cumsum(integrals.sum(axis=0))[:-1]])
+    rotations = (2 * np.arange(count)[:, None] + 1 + _NODES) * (last / count / 2)
+    means = (starts[:, None] + chebyshev.chebval(_NODES, integrals)) / rotations
+    # In the first piece by Gauss, whose relative error is no larger near rest.
+    means[0] = stretch(rotations[0][:, None] * (_GAUSS + 1) / 2) @ _WEIGHTS / 2
+    return Arc(stretch, last, chebyshev.chebfit(_NODES, means.T, _ORDER), bool(np.all(values == 1)))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -140,7 +150,7 @@ class RotationMap:
 
 def rotation_map(arc: Arc, accuracy: float) -> RotationMap | None:
     """Return the inverse of an arc, or None where it is not smooth enough for `accuracy` (relative)."""
-    end = float(arc.starts[-1])
+    end = float(arc.at(arc.last))
 
     def ratio(arcs: np.ndarray) -> np.ndarray:
         return arc.rotation(arcs) / arcs

@@ -159,7 +159,7 @@ class Side:
                 return arc, inverse
         raise StructureError(
             f"the mechanism's inertia is not smooth up to {self.critical_rotation!r} rad, its critical_rotation, but "
-            "must be for a block that is exact at rest; take the one linearised about φ_cr."
+            "must be to be followed, or for a block exact at rest; take the block linearised about φ_cr."
         )
 
     def equivalent_block(self, scale: Scale = "rest") -> EquivalentBlock:
