@@ -14,6 +14,7 @@ from rocking.sine_pulse import (
     overturning_amplitudes,
     predict_maxima,
     predict_maximum,
+    pulse_end_energy,
     pulse_spectrum,
 )
 from rocking.structures import Outcome
@@ -74,6 +75,11 @@ def spectrum(frequencies: list, amplitudes: list, restitution: float = 0.9) -> n
         (lambda: spectrum([1.0], [2.0, -1.0]), r"amplitude_ratios holds -1\.0, but every value must lie"),
         (lambda: spectrum([[1.0]], [1.0]), r"frequency_ratios has the shape \(1, 1\)"),
         (lambda: spectrum([1.0], [2.0], 1.5), r"restitution is 1\.5"),
+        (lambda: pulse_end_energy(0.0, 2.0), "frequency_ratio"),
+        (lambda: pulse_end_energy(math.nan, 2.0), "frequency_ratio"),
+        (lambda: pulse_end_energy("1", 2.0), "frequency_ratio"),
+        (lambda: pulse_end_energy(1.0, 1.0), "amplitude_ratio"),
+        (lambda: pulse_end_energy(1.0, math.inf), "amplitude_ratio"),
     ],
 )
 def test_what_no_structure_has_is_refused_with_the_bound(call, message: str) -> None:
