@@ -1,4 +1,4 @@
-"""Processor time of whole studies: python bench_suite.py [10 100 1000 ...] [KEY=VALUE ...]; KEY=VALUE changes a setting.
+"""Processor time of whole studies: python bench_suite.py [10 100 1000 ...] [KEY=VALUE ...], which changes a setting.
 
 With ROCKING_RECORDS, the shipped example (asked, once compiled: 12 s) and 42 records of FEMA P-695 with the shipped
 structures and ensembles, without PDFs (25 s) and with them (70 s). Then how the cost grows with the records: studies of
