@@ -5,16 +5,18 @@ the lognormal one, with intervals by station; and how well an intensity measure 
 """
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import partial
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from scipy.special import betaincinv, erfcx, ndtr, stdtr, stdtrit
 
 from rocking.assessment.ensemble import GroundMotions, drawn, lattice
-from rocking.assessment.intensity import INTENSITY_MEASURES, IntensityMeasure, per_velocity
+from rocking.assessment.intensity import IntensityMeasure, peak_velocity, per_velocity
 from rocking.assessment.intensity import intensity_measure as measure_named
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.variations import cracks
@@ -39,8 +41,6 @@ MEMBERS = 16
 """Of each ensemble, where a case is not taken as it is."""
 REPLICATES = 1000
 """Samples of the stations behind the interval of a median."""
-CURVES = tuple(f"{law}{end}" for law in ("probability", "lognormal") for end in ("", "_low", "_high"))
-"""What stands at every level, by the names of fields and of columns."""
 DISPERSIONS = (0.02, 3.0)
 """Between which a dispersion is kept: outcomes that a level parts cleanly would fit ever smaller ones."""
 _FARTHEST = 8.0
@@ -60,9 +60,8 @@ class Fragility:
     median, interval: level at which the rising curve next to the empirical one crosses one half, and its 90 % interval;
     inf where it does not reach one half. exceedance: (r, k) share of each record's members above the threshold.
     stations: (r,) what counts as one independent record. lognormal_median, dispersion: the two parameters of the
-    lognormal curve, by maximum likelihood. lognormal, lognormal_low, lognormal_high: (k,) that curve and its 90 %
-    interval by the scatter between stations, too narrow where the fragility is no lognormal, as on real stations.
-    misfit: largest distance of the lognormal from the empirical curve.
+    lognormal curve, by maximum likelihood. lognormal: (k,) that curve. misfit: its largest distance from the empirical
+    one.
 
     >>> records = rocking.read("records/20161113_110259_WTMC_20.V2A")[:2]
     >>> curve = rocking.fragility(records, rocking.Block(2.0, 0.2), stations=["a", "b"], levels=[0.2, 0.6, 1.0])
@@ -70,9 +69,6 @@ class Fragility:
     ('pgv', [0.2, 0.6, 1.0], [0.0, 0.0, 1.0])
     """
 
-    measure: str
-    unit: str
-    threshold: float
     levels: np.ndarray
     probability: np.ndarray
     probability_low: np.ndarray
@@ -80,13 +76,14 @@ class Fragility:
     median: float
     interval: tuple[float, float]
     lognormal: np.ndarray
-    lognormal_low: np.ndarray
-    lognormal_high: np.ndarray
     lognormal_median: float
     dispersion: float
     misfit: float
     exceedance: np.ndarray
     stations: tuple[str, ...]
+    measure: str = ""
+    unit: str = ""
+    threshold: float = np.inf
 
     def __repr__(self) -> str:
         low, high = self.interval
@@ -113,15 +110,7 @@ class Fragility:
         return plot(self, axes)
 
 
-def fragility_of(
-    levels: np.ndarray,
-    exceedance: np.ndarray,
-    stations: Sequence[str],
-    *,
-    measure: str = "",
-    unit: str = "",
-    threshold: float = np.inf,
-) -> Fragility:
+def fragility_of(levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[str]) -> Fragility:
     """Return the curve of outcomes at `levels` (k,) > 0, ascending.
 
     exceedance: (r, k) shares in [0, 1], one row a record, nan where it was not tried. stations: (r,) names; the records
@@ -139,30 +128,20 @@ def fragility_of(
     resampled = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
     crossings = [_crossing(levels, weights @ over, weights @ trials) for weights in resampled]
     logs, middle = np.log(levels), np.log(levels).mean()
-    terms = np.column_stack([np.ones(levels.size), logs - middle])
-    (offset, slope), covariance = _probit(
-        [np.broadcast_to(terms[:, 1], exceedance.shape)], exceedance, stations
-    )
+    (offset, slope), _ = _probit([np.broadcast_to(logs - middle, exceedance.shape)], exceedance, stations)
     dispersion = float(np.clip(1 / slope if slope > 0 else np.inf, *DISPERSIONS))
-    deviates = (logs - middle) / dispersion + offset
-    variance = np.einsum("ki,ij,kj->k", terms, covariance, terms)
-    reach = stdtrit(count - 1, 0.95) * np.sqrt(np.maximum(variance, 0.0))
+    lognormal = ndtr((logs - middle) / dispersion + offset)
     return Fragility(
-        measure=measure,
-        unit=unit,
-        threshold=threshold,
         levels=levels,
         probability=probability,
         probability_low=low,
         probability_high=high,
         median=_crossing(levels, over.sum(axis=0), trials.sum(axis=0)),
         interval=_interval(crossings, count),
-        lognormal=ndtr(deviates),
-        lognormal_low=ndtr(deviates - reach),
-        lognormal_high=ndtr(deviates + reach),
+        lognormal=lognormal,
         lognormal_median=float(np.exp(middle - offset * dispersion)),
         dispersion=dispersion,
-        misfit=float(np.nanmax(np.abs(probability - ndtr(deviates)))),
+        misfit=float(np.nanmax(np.abs(probability - lognormal))),
         exceedance=exceedance,
         stations=tuple(stations),
     )
@@ -307,12 +286,12 @@ def dependence(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class IncrementalDynamicAnalysis:
-    """The largest rotations of one mechanism under records at levels of an intensity measure.
+    """The largest rotations of a structure under records at levels of an intensity measure.
 
-    measure: of the levels. levels: (k,) ascending. rotation_ratios: (r, k, m) of every record, level and member;
-    inf overturns, nan where a cloud holds no such case. intensities: (r,) of the records as they are.
-    stations: (r,) what counts as one independent record. governing: the same with the worst of the cracks that may
-    form, member by member, where they were followed.
+    measure: of the levels. levels: (k,) ascending. rotation_ratios: (r, k, m) of every record, level and member, with
+    the crack that statics chooses where some may form; inf overturns or cannot be followed, nan where a cloud holds no
+    such case. governing_ratios: the same with the worst of all cracks, member by member; None where they were not
+    followed. intensities: (r,) of the records as they are. stations: (r,) what counts as one independent record.
     """
 
     measure: IntensityMeasure
@@ -320,20 +299,21 @@ class IncrementalDynamicAnalysis:
     rotation_ratios: np.ndarray
     intensities: np.ndarray
     stations: tuple[str, ...]
-    governing: "IncrementalDynamicAnalysis | None" = None
+    governing_ratios: np.ndarray | None = None
 
     def __repr__(self) -> str:
         records, levels, members = self.rotation_ratios.shape
         shape = f"{records} records at {levels} levels of {self.measure.name}, {members} members each"
         return f"<IncrementalDynamicAnalysis: {shape}>"
 
-    def fragility(self, threshold: float = np.inf) -> Fragility:
-        """Return the curve of exceeding a rotation ratio; inf: of overturning."""
-        ratios, measure = self.rotation_ratios, self.measure
-        above = np.isinf(ratios) if np.isinf(threshold) else ratios > threshold
+    def fragility(self, threshold: float = np.inf, *, governing: bool = False) -> Fragility:
+        """Return the curve of exceeding a rotation ratio; inf: of overturning. governing: with the worst crack."""
+        worst = self.governing_ratios if governing else None
+        ratios = self.rotation_ratios if worst is None else worst
+        above = np.isinf(ratios) | (ratios > threshold)
         exceedance = np.where(np.isnan(ratios), np.nan, above).mean(axis=2)
-        said = {"measure": measure.name, "unit": measure.unit, "threshold": threshold}
-        return fragility_of(self.levels, exceedance, self.stations, **said)  # type: ignore[arg-type]
+        curve, measure = fragility_of(self.levels, exceedance, self.stations), self.measure
+        return replace(curve, measure=measure.name, unit=measure.unit, threshold=threshold)
 
 
 def incremental_dynamic_analysis(
@@ -354,9 +334,9 @@ def incremental_dynamic_analysis(
     as recorded, and the levels are then those of the records. levels: ascending, in the unit of the measure; by default
     40 that lie where the probability of overturning moves. stations: what counts as one independent record, by default
     event and station. ensemble: ranges of the uncertain inputs; each case then has MEMBERS members.
-    over_cracks: whether the cracks that may form are followed beside the one that statics chooses, as `governing`.
-    Raises ConfigurationError for fewer than two stations, levels out of order, a measure that a record lacks, or a
-    record that cannot be followed.
+    over_cracks: whether the cracks that may form are followed beside the one that statics chooses, as governing_ratios.
+    What cannot be followed counts as overturning. Raises ConfigurationError for fewer than two stations, levels out of
+    order, or a measure that a record lacks.
     """
     if method == "cloud" and levels is not None:
         raise ConfigurationError("levels are given, but a cloud has those of its records; leave them out.")
@@ -364,24 +344,28 @@ def incremental_dynamic_analysis(
     if isinstance(reduced, EquivalentBlock):
         raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
     names = _checked_stations(records, stations)
-    (_, mechanism), *others = cracks(structure) if isinstance(structure, Structure) else [("", reduced)]
+    (_, mechanism), *others = cracks(structure if isinstance(structure, Structure) else reduced)
     intensities = np.array([measure.of(record, mechanism) for record in records])
-    cases = _Cases(records, mechanism, intensities, ensemble, tolerance)
+    follow = partial(_rotation_ratios, records, ensemble, tolerance)
     if method == "cloud":
-        chosen, ratios = cases.cloud()
-    elif levels is None:
-        chosen, ratios = cases.at_adapted_levels()
+        factors = np.ones((len(records), 1))
+        # Equal intensities are moved apart by rounding size, so that each stays a level of its own.
+        chosen = np.sort(intensities) * (1 + 1e-12 * np.arange(len(records)))
+        followed = [follow(mechanism, factors)]
     else:
-        chosen = _checked_levels(levels)
-        ratios = cases.at_levels(chosen)
-    analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, names)
-    if not (over_cracks and others):
-        return analysis
-    for _, other in others:
-        cracked = replace(cases, mechanism=other)
-        more = cracked.cloud()[1] if method == "cloud" else cracked.at_levels(chosen, ratios)
-        ratios = np.maximum(ratios, more)
-    return replace(analysis, governing=replace(analysis, rotation_ratios=ratios))
+        chosen, ratios = _at_levels(partial(follow, mechanism), mechanism, records, intensities, levels)
+        factors, followed = chosen / intensities[:, None], [ratios]
+    if over_cracks and others:
+        worst = followed[0]
+        for _, other in others:
+            worst = follow(other, factors, worst)
+        followed.append(worst)
+    if method == "cloud":
+        order = np.argsort(intensities, kind="stable")
+        for place, alone in enumerate(followed):
+            followed[place] = np.full((order.size, *alone[:, 0].shape), np.nan)
+            followed[place][order, np.arange(order.size)] = alone[order, 0]
+    return IncrementalDynamicAnalysis(measure, chosen, followed[0], intensities, names, *followed[1:])
 
 
 def fragility(
@@ -400,16 +384,14 @@ def fragility(
     [0.0, 0.0, 0.0, 1.0]
     """
     analysis = incremental_dynamic_analysis(records, structure, **how)
-    return (analysis.governing or analysis).fragility(threshold)
+    return analysis.fragility(threshold, governing=True)
 
 
 def _checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> tuple[str, ...]:
     """The stations, those of the records by default. Raises ConfigurationError for fewer than two."""
     if stations is None:
-        stations = [
-            f"{record.event}; {record.station}" if record.event or record.station else f"record {place}"
-            for place, record in enumerate(records)
-        ]
+        known = [f"{record.event}; {record.station}" for record in records]
+        stations = [f"record {place}" if name == "; " else name for place, name in enumerate(known)]
     if len(stations) != len(records):
         raise ConfigurationError(
             f"stations names {len(stations)}, but must name one for each of {len(records)} records."
@@ -421,76 +403,74 @@ def _checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] |
     return tuple(map(str, stations))
 
 
-@dataclass(frozen=True, eq=False)
-class _Cases:
-    """One mechanism under each record at any scale. intensities: (r,) of the records as they are."""
+def _rotation_ratios(
+    records: Sequence[Accelerogram],
+    ensemble: EnsembleSettings | None,
+    tolerance: float,
+    mechanism: Mechanism,
+    factors: np.ndarray,
+    before: np.ndarray | None = None,
+) -> np.ndarray:
+    """(r, k, m) of every record at its factors (r, k), and at least those `before` of another mechanism.
 
-    records: Sequence[Accelerogram]
-    mechanism: Mechanism
-    intensities: np.ndarray
-    ensemble: EnsembleSettings | None
-    tolerance: float
+    Where all members overturn with that one nothing is followed. A member without an answer counts as one that
+    overturns.
+    """
+    points = lattice(MEMBERS)
+    known = np.zeros((*factors.shape, len(points) if ensemble else 1)) if before is None else before
 
-    def cloud(self) -> tuple[np.ndarray, np.ndarray]:
-        """The levels of the records, and (r, r, m) with each record at its own level alone."""
-        order = np.argsort(self.intensities, kind="stable")
-        alone = np.array([self._ratios(k, np.ones(1))[0] for k in range(order.size)])
-        ratios = np.full((order.size, *alone.shape), np.nan)
-        ratios[order, np.arange(order.size)] = alone[order]
-        # Equal intensities are moved apart by rounding size, so that each stays a level of its own.
-        return self.intensities[order] * (1 + 1e-12 * np.arange(order.size)), ratios
+    def follow(record: Accelerogram, scales: np.ndarray, own: np.ndarray) -> np.ndarray:
+        is_open = ~np.isinf(own).all(axis=1)
+        if not is_open.any():
+            return own
+        if ensemble is None:
+            single = integrate_batch([mechanism], record, scales[is_open], tolerance=tolerance, workers=1)
+            ratios = single[0][:, None]
+        else:
+            motions = [GroundMotions.of(record.scaled(float(scale))) for scale in scales[is_open]]
+            made = [drawn(mechanism, each, points, ensemble, tolerance=tolerance) for each in motions]
+            ratios = np.array([each.rotation_ratios for each in made])
+        after = own.copy()
+        after[is_open] = np.maximum(own[is_open], np.nan_to_num(ratios, nan=np.inf, posinf=np.inf))
+        return after
 
-    def at_levels(self, levels: np.ndarray, least: np.ndarray | None = None) -> np.ndarray:
-        """(r, k, m) for every record scaled to every level; at `least` those of another mechanism, where all of whose
-        members overturn nothing is followed. Raises ConfigurationError where one cannot be followed.
-        """
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        return np.array(list(pool.map(follow, records, factors, known)))
 
-        def follow(record: int) -> np.ndarray:
-            before = np.zeros((levels.size, 1)) if least is None else least[record]
-            open_to = ~np.isinf(before).all(axis=1)
-            if not open_to.any():
-                return before
-            ratios = self._ratios(record, levels[open_to] / self.intensities[record])
-            if np.isnan(ratios).any():
-                named = self.records[record].source.path or self.records[record].station or "a record"
-                raise ConfigurationError(f"{named} cannot be followed at every level; leave it out.")
-            after = np.full((levels.size, max(before.shape[1], *ratios.shape[1:])), np.inf)
-            after[open_to] = np.maximum(before[open_to], ratios)
-            return after
 
-        with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-            return np.array(list(pool.map(follow, range(len(self.records)))))
+def _at_levels(
+    follow: Callable[[np.ndarray], np.ndarray],
+    mechanism: Mechanism,
+    records: Sequence[Accelerogram],
+    intensities: np.ndarray,
+    levels: Sequence[float] | np.ndarray | None,
+) -> tuple[np.ndarray, np.ndarray]:
+    """The levels and (r, k, m) of what `follow` gives at the factors (r, k) that take every record to each of them.
 
-    def at_adapted_levels(self) -> tuple[np.ndarray, np.ndarray]:
-        """LEVELS: spread from the first uplift to where nearly all overturn, and the rest where the share moves."""
-        peaks = np.array([record.peak_acceleration for record in self.records])
-        lowest = float((self.intensities * self.mechanism.uplift_multiplier * GRAVITY / peaks).min())
-        severities = per_velocity(self.mechanism.equivalent_block("rest")) * np.array(
-            [INTENSITY_MEASURES["pgv"].of_record(record) for record in self.records]
-        )
-        highest = float((self.intensities * SEVERE / severities).max())
-        levels = np.geomspace(lowest, max(highest, 2 * lowest), COARSE)
-        ratios = self.at_levels(levels)
-        while np.isinf(ratios[:, -1]).mean() < NEARLY_ALL and levels.size < MOST_SPREAD:
-            more = levels[-1] * np.array([1.5, 2.25])
-            levels, ratios = np.concatenate([levels, more]), np.hstack([ratios, self.at_levels(more)])
-        between = _where_it_moves(levels, np.isinf(ratios).mean(axis=(0, 2)), LEVELS - levels.size)
-        levels, ratios = np.concatenate([levels, between]), np.hstack([ratios, self.at_levels(between)])
-        order = np.argsort(levels)
-        return levels[order], ratios[:, order]
+    By default LEVELS: spread from the first uplift to where nearly all overturn, and the rest where the share moves.
+    """
 
-    def _ratios(self, record: int, factors: np.ndarray) -> np.ndarray:
-        """(k, m) at each scale factor."""
-        if self.ensemble is None:
-            motion = self.records[record]
-            ratios = integrate_batch([self.mechanism], motion, factors, tolerance=self.tolerance, workers=1)
-            return ratios[0][:, None]
-        points = lattice(MEMBERS)
-        motions = [GroundMotions.of(self.records[record].scaled(float(factor))) for factor in factors]
-        made = [
-            drawn(self.mechanism, each, points, self.ensemble, tolerance=self.tolerance) for each in motions
-        ]
-        return np.array([each.rotation_ratios for each in made])
+    def at(some: np.ndarray) -> np.ndarray:
+        return follow(some / intensities[:, None])
+
+    if levels is not None:
+        chosen = _checked_levels(levels)
+        return chosen, at(chosen)
+    peaks = np.array([record.peak_acceleration for record in records])
+    lowest = float((intensities * mechanism.uplift_multiplier * GRAVITY / peaks).min())
+    severities = per_velocity(mechanism.equivalent_block("rest")) * np.array(
+        list(map(peak_velocity, records))
+    )
+    highest = float((intensities * SEVERE / severities).max())
+    chosen = np.geomspace(lowest, max(highest, 2 * lowest), COARSE)
+    ratios = at(chosen)
+    while np.isinf(ratios[:, -1]).mean() < NEARLY_ALL and chosen.size < MOST_SPREAD:
+        more = chosen[-1] * np.array([1.5, 2.25])
+        chosen, ratios = np.concatenate([chosen, more]), np.hstack([ratios, at(more)])
+    between = _where_it_moves(chosen, np.isinf(ratios).mean(axis=(0, 2)), LEVELS - chosen.size)
+    chosen, ratios = np.concatenate([chosen, between]), np.hstack([ratios, at(between)])
+    order = np.argsort(chosen)
+    return chosen[order], ratios[:, order]
 
 
 def _where_it_moves(levels: np.ndarray, share: np.ndarray, count: int) -> np.ndarray:
@@ -503,11 +483,9 @@ def _where_it_moves(levels: np.ndarray, share: np.ndarray, count: int) -> np.nda
 def _checked_levels(levels: Sequence[float] | np.ndarray) -> np.ndarray:
     """The levels as an array. Raises ConfigurationError unless they ascend and are greater than 0."""
     array = np.asarray(levels, dtype=float)
-    if array.ndim != 1 or array.size < 2 or not np.all(np.isfinite(array)) or not np.all(array > 0):
+    if array.ndim != 1 or array.size < 2 or not np.all(np.isfinite(array) & (array > 0)):
         raise ConfigurationError("levels must be at least two finite numbers greater than 0.")
-    if np.any(np.diff(array) <= 0):
-        place = int(np.flatnonzero(np.diff(array) <= 0)[0])
-        raise ConfigurationError(
-            f"levels hold {array[place + 1]:g} after {array[place]:g}, but must ascend; sort them."
-        )
+    for before, level in pairwise(array):
+        if level <= before:
+            raise ConfigurationError(f"levels hold {level:g} after {before:g}, but must ascend; sort them.")
     return array

@@ -42,7 +42,6 @@ def write_fragility_report(folder: Path, pdf: Path, image: Path) -> None:
 
 def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") -> dict[str, object]:
     """Return what the template is given. The tables are fragility, fragility_summary and ida."""
-    falls = summary[summary["rotation_ratio"] == math.inf]
     stations = int(summary["stations"].max()) if len(summary) else 0
     scaled = (
         "Each record of the study is scaled up until the structure overturns; a level counts by its stations."
@@ -59,7 +58,7 @@ def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") 
     )
     parts = [
         {"text": scaled + few * (stations < FEW_STATIONS)},
-        fragility_table(falls, ida) | {"caption": caption},
+        fragility_table(summary, ida) | {"caption": caption},
     ]
     names = list(dict.fromkeys(curves["structure"]))
     for first in range(0, len(names), ON_A_PAGE):
@@ -70,42 +69,43 @@ def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") 
     records = f"{counted(ida['record'].nunique(), 'record')} of {counted(stations, 'station')}"
     return {
         "title": "Fragility",
-        "subtitle": f"{records}; {counted(len(falls), 'structure')}.",
+        "subtitle": f"{records}; {counted(len(names), 'structure')}.",
         "parts": parts,
     }
 
 
-def fragility_table(falls: "DataFrame", ida: "DataFrame") -> dict[str, object]:
-    """Return one row per structure: its median and what overturns it first."""
-    governing = governing_records(ida)
+def fragility_table(summary: "DataFrame", ida: "DataFrame") -> dict[str, object]:
+    """Return one row per structure: its median, that with the worst crack, and what overturns it first."""
+    falls = list(rows_of(FragilitySummaryRow, summary[summary["threshold"] == math.inf]))
+    worst = {row.structure: row for row in falls if row.governing}
+    records = governing_records(ida)
     first = "First to overturn it, and at what level"
-    worst: Column = ("Median with the worst crack", "1.0", "l", _governing)
+
+    def of_worst(row: FragilitySummaryRow) -> str:
+        return _with_interval(worst[row.structure]) if row.structure in worst else NOTHING
+
+    with_worst: Column = ("Median with the worst crack", "1.0", "l", of_worst)
     rate: Column = ("Annual rate [1/year]", "0.7", "r", lambda row: number(row.annual_rate, 2))
     return table_of(
-        rows_of(FragilitySummaryRow, falls),
+        [row for row in falls if not row.governing],
         ("Structure", "1.3", "l", lambda row: row.structure),
         ("Median and its 90 % interval", "1.3", "l", _median),
-        *([worst] if falls["governing_median"].notna().any() else []),
+        *([with_worst] if worst else []),
         ("Disper\u00adsion [-]", "0.6", "r", lambda row: number(row.dispersion, 2)),
         ("Sta\u00adtions", "auto", "r", lambda row: given(row.stations)),
-        (first, "2.2", "l", lambda row: words(governing.get(row.structure))),
+        (first, "2.2", "l", lambda row: words(records.get(row.structure))),
         ("Stand again, scaled up", "0.6", "r", lambda row: given(row.reversals)),
-        *([rate] if falls["annual_rate"].notna().any() else []),
+        *([rate] if any(row.annual_rate > 0 for row in falls) else []),
     )
 
 
 def _median(row: FragilitySummaryRow) -> str:
     """The median with interval, name and unit of its intensity measure."""
-    interval = f"{number(row.median_low, 2)}–{number(row.median_high, 2)}"
-    return f"{row.intensity_measure} {number(row.median, 2)} ({interval}) {_unit(row.intensity_measure)}"
+    return f"{row.intensity_measure} {_with_interval(row)} {_unit(row.intensity_measure)}"
 
 
-def _governing(row: FragilitySummaryRow) -> str:
-    """The median with the worst of the cracks that may form, with its interval."""
-    if math.isnan(row.governing_median):
-        return NOTHING
-    interval = f"{number(row.governing_median_low, 2)}–{number(row.governing_median_high, 2)}"
-    return f"{number(row.governing_median, 2)} ({interval})"
+def _with_interval(row: FragilitySummaryRow) -> str:
+    return f"{number(row.median, 2)} ({number(row.median_low, 2)}–{number(row.median_high, 2)})"
 
 
 def _unit(measure: str) -> str:
@@ -124,7 +124,8 @@ def governing_records(ida: "DataFrame") -> dict[str, str]:
 
 @styled
 def fragility_figure(curves: "DataFrame", summary: "DataFrame") -> Figure:
-    """Draw the curves of each structure from the tables fragility and fragility_summary."""
+    """Draw the curves of each structure from the tables fragility and fragility_summary, with the crack of statics."""
+    curves, summary = (table[~table["governing"]] for table in (curves, summary))
     names = list(dict.fromkeys(curves["structure"]))
     rows = math.ceil(len(names) / _COLUMNS)
     figure = new_figure(_HEIGHT * rows + 20, margins=(16, 3, 12, 11))
@@ -136,7 +137,7 @@ def fragility_figure(curves: "DataFrame", summary: "DataFrame") -> Figure:
         panel.set_ylabel("probability [-]")
     for name, panel in zip(names, panels.flat, strict=False):
         of_structure = curves[curves["structure"] == name]
-        for place, (threshold, curve) in enumerate(of_structure.groupby("rotation_ratio")):
+        for place, (threshold, curve) in enumerate(of_structure.groupby("threshold")):
             overturns = math.isinf(float(threshold))  # type: ignore[arg-type]
             draw_probability(
                 panel,
@@ -147,7 +148,7 @@ def fragility_figure(curves: "DataFrame", summary: "DataFrame") -> Figure:
                 "overturns" if overturns else f"φ > {threshold:g} φcr",
                 "black" if overturns else _COLOURS[place % len(_COLOURS)],
             )
-        own = summary[(summary["structure"] == name) & (summary["rotation_ratio"] == math.inf)]
+        own = summary[(summary["structure"] == name) & (summary["threshold"] == math.inf)]
         falls = next(rows_of(FragilitySummaryRow, own))
         panel.set_title(f"{elided(name, 60)}\nmedian {_median(falls)}", fontsize=8)
         panel.set_xlabel(f"{falls.intensity_measure} [{_unit(falls.intensity_measure)}]")

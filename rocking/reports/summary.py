@@ -5,7 +5,6 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from rocking.assessment.fate import ORDER, Fate, worst_first
@@ -69,7 +68,6 @@ def summary_data(
     both = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]].max(axis=1, skipna=False)
     scatter = [comparison] if (both > 0).sum() >= FEWEST_POINTS else []
     summary = tables.get("fragility_summary")
-    falls = None if summary is None else summary[np.isinf(summary["rotation_ratio"])]
     alt = "Scatter of predicted against integrated rotation ratio, with factor-two lines."
     return {
         "title": "Rocking assessment: summary",
@@ -84,7 +82,7 @@ def summary_data(
         "agreement": table_of(rows_of(AgreementRow, tables["agreement"]), *AGREEMENT_COLUMNS),
         "unsafe": table_of(rows_of(ComparisonRow, unsafe.head(MOST_LISTED)), *UNSAFE_COLUMNS),
         "unsafe-note": left_out(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
-        "fragility": [fragility_table(falls, tables["ida"])] if "ida" in tables else [],
+        "fragility": [fragility_table(summary, tables["ida"])] if summary is not None else [],
         "failures": table_of(rows_of(FailureRow, failures.head(MOST_LISTED)), *FAILURE_COLUMNS),
         "failures-note": left_out(len(failures) - MOST_LISTED, "failure", "failures.csv"),
         "records": record_table(list(rows_of(RecordRow, records.head(MOST_RECORDS))), tables["pulses"]),

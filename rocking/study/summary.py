@@ -166,10 +166,10 @@ def write_fragility(
         )
         tables[IdaRow] += ida_rows(name, names, analysis)
         for threshold in ROTATION_RATIOS:
-            curve = analysis.fragility(threshold)
-            governing = analysis.governing.fragility(threshold) if analysis.governing else None
-            tables[FragilityRow] += fragility_rows(name, curve, governing)
-            tables[FragilitySummaryRow].append(fragility_summary_row(name, curve, governing, hazard))
+            for governing in (False, True) if analysis.governing_ratios is not None else (False,):
+                curve = analysis.fragility(threshold, governing=governing)
+                tables[FragilityRow] += fragility_rows(name, curve, governing)
+                tables[FragilitySummaryRow].append(fragility_summary_row(name, curve, governing, hazard))
         tables[IntensityMeasureRow] += intensity_measure_rows(
             name, structure.mechanism(), accelerograms, analysis
         )

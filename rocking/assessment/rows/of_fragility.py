@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rocking.assessment.fragility import CURVES, Fragility, IncrementalDynamicAnalysis, dependence, efficiency
+from rocking.assessment.fragility import Fragility, IncrementalDynamicAnalysis, dependence, efficiency
 from rocking.assessment.intensity import INTENSITY_MEASURES, MEASURES_IN_WORDS, IntensityMeasure
 from rocking.assessment.rows.of_record import RECORD, STRUCTURE
 from rocking.errors import ConfigurationError
@@ -19,7 +19,7 @@ _STEPS = 400
 ROTATION_RATIOS = (0.1, 0.3, 0.5, math.inf)
 """Largest rotations over the critical one whose exceedance has a curve; inf: overturning."""
 _THRESHOLD = "Rotation over critical rotation that is exceeded; INF: overturning"
-_GOVERNED = "with the worst crack that may form; empty where none else may"
+_GOVERNING = "Whether the worst crack that may form counts, instead of the one that statics chooses"
 _MEASURE = f"Intensity measure: {MEASURES_IN_WORDS}"
 
 
@@ -96,9 +96,9 @@ class IdaRow(Row):
     level: float = column("Level to which the record is scaled")
     scale_factor: float = column("What the record is multiplied by to reach it")
     members: int = column("Members that were followed")
-    rotation_ratio: float = column("Median of their largest rotation over critical rotation; INF overturns")
+    rotation_ratio_median: float = column("Median of their largest rotation over critical rotation")
     overturning_share: float = column("Share of them that overturn")
-    governing_overturning_share: float = column(f"Share of them that overturn {_GOVERNED}")
+    governing_overturning_share: float = column("The same with the worst crack that may form, if others may")
 
 
 @row("fragility")
@@ -106,18 +106,14 @@ class FragilityRow(Row):
     """One row per structure, rotation that is exceeded and level: the curves with 90 % intervals."""
 
     structure: str = column(STRUCTURE)
+    governing: bool = column(_GOVERNING)
     intensity_measure: str = column(_MEASURE)
-    rotation_ratio: float = column(_THRESHOLD)
+    threshold: float = column(_THRESHOLD)
     level: float = column("Level of the intensity measure")
     probability: float = column("Share of the stations that exceed the rotation")
     probability_low: float = column("Lower end of its 90 % interval, by stations")
     probability_high: float = column("Upper end of its 90 % interval, by stations")
     lognormal: float = column("Lognormal curve fitted by maximum likelihood")
-    lognormal_low: float = column("Lower end of its 90 % interval, too narrow where no lognormal holds")
-    lognormal_high: float = column("Upper end of its 90 % interval, too narrow where no lognormal holds")
-    governing_probability: float = column(f"The same share {_GOVERNED}")
-    governing_probability_low: float = column("Lower end of its 90 % interval")
-    governing_probability_high: float = column("Upper end of its 90 % interval")
 
 
 @row("fragility_summary")
@@ -125,8 +121,9 @@ class FragilitySummaryRow(Row):
     """One row per structure and rotation that is exceeded: what its curve comes down to."""
 
     structure: str = column(STRUCTURE)
+    governing: bool = column(_GOVERNING)
     intensity_measure: str = column(_MEASURE)
-    rotation_ratio: float = column(_THRESHOLD)
+    threshold: float = column(_THRESHOLD)
     records: int = column("Records behind it")
     stations: int = column("Stations behind it")
     median: float = column(
@@ -144,12 +141,6 @@ class FragilitySummaryRow(Row):
     annual_rate_left_out: float = column(
         "Most that the rate may lack, as curve and hazard end before shaking does", unit="1/year"
     )
-    governing_median: float = column(f"The median {_GOVERNED}")
-    governing_median_low: float = column("Lower end of its 90 % interval")
-    governing_median_high: float = column("Upper end of its 90 % interval")
-    governing_annual_rate: float = column(f"The annual rate {_GOVERNED}", unit="1/year")
-    governing_annual_rate_low: float = column("From the lower ends of that curve's interval", unit="1/year")
-    governing_annual_rate_high: float = column("From the upper ends of that curve's interval", unit="1/year")
 
 
 @row("intensity_measures")
@@ -176,12 +167,12 @@ def ida_rows(
     structure: str, records: Sequence[str], analysis: IncrementalDynamicAnalysis
 ) -> Iterator[IdaRow]:
     """Yield a row for each record and level that was followed."""
-    governing, measure = analysis.governing, analysis.measure.name
+    worst, measure = analysis.governing_ratios, analysis.measure.name
     for place, (name, station) in enumerate(zip(records, analysis.stations, strict=True)):
         for step, level in enumerate(analysis.levels.tolist()):
             ratios = analysis.rotation_ratios[place, step]
             if not np.isnan(ratios).all():
-                yield IdaRow.of(
+                yield IdaRow(
                     structure=structure,
                     record=name,
                     station=station,
@@ -189,46 +180,38 @@ def ida_rows(
                     level=level,
                     scale_factor=level / float(analysis.intensities[place]),
                     members=ratios.size,
-                    rotation_ratio=float(np.sort(ratios)[(ratios.size - 1) // 2]),
+                    rotation_ratio_median=float(np.sort(ratios)[(ratios.size - 1) // 2]),
                     overturning_share=float(np.isinf(ratios).mean()),
-                    governing_overturning_share=governing
-                    and float(np.isinf(governing.rotation_ratios[place, step]).mean()),
+                    governing_overturning_share=math.nan
+                    if worst is None
+                    else float(np.isinf(worst[place, step]).mean()),
                 )
 
 
-def fragility_rows(structure: str, curve: Fragility, governing: Fragility | None) -> Iterator[FragilityRow]:
-    """Yield a row for each level. governing: the curve with the worst of the cracks that may form."""
+def fragility_rows(structure: str, curve: Fragility, governing: bool) -> Iterator[FragilityRow]:
+    """Yield a row for each level. governing: whether it is the curve with the worst of the cracks that may form."""
+    names = ("probability", "probability_low", "probability_high", "lognormal")
     for place, level in enumerate(curve.levels.tolist()):
-        of_worst = {
-            f"governing_{name}": float(getattr(governing, name)[place]) for name in CURVES[:3] if governing
-        }
         yield FragilityRow.of(
-            of_worst,
+            curve,
             structure=structure,
+            governing=governing,
             intensity_measure=curve.measure,
-            rotation_ratio=curve.threshold,
             level=level,
-            **{name: float(getattr(curve, name)[place]) for name in CURVES},
+            **{name: float(getattr(curve, name)[place]) for name in names},
         )
 
 
 def fragility_summary_row(
-    structure: str, curve: Fragility, governing: Fragility | None, hazard: Sequence[HazardRow] | None
+    structure: str, curve: Fragility, governing: bool, hazard: Sequence[HazardRow] | None
 ) -> FragilitySummaryRow:
-    """Return what a curve comes down to, and `governing`, the one with the worst crack. hazard: of its measure."""
-    of_worst: dict[str, float] = {}
-    if governing:
-        names = ("governing_median", "governing_median_low", "governing_median_high")
-        of_worst = dict(zip(names, (governing.median, *governing.interval), strict=True))
-        rates = annual_rate(governing, hazard) if hazard else {}
-        of_worst |= {f"governing_{name}": rate for name, rate in rates.items()}
+    """Return what a curve comes down to. hazard: of its intensity measure."""
     return FragilitySummaryRow.of(
         curve,
         annual_rate(curve, hazard) if hazard else {},
-        of_worst,
         structure=structure,
+        governing=governing,
         intensity_measure=curve.measure,
-        rotation_ratio=curve.threshold,
         records=len(curve.stations),
         stations=curve.independent,
         median_low=curve.interval[0],

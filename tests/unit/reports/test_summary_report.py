@@ -213,7 +213,7 @@ def test_a_scatter_of_many_cases_does_not_grow_with_them():
 
 
 SHARES = {"a": (0.0, 0.4, 1.0), "b": (0.2, 0.6, 0.3), "c": (0.0, 0.0, 0.1), "d": (1, 1, 1)}
-PIER = {"structure": "pier", "intensity_measure": "pgv", "rotation_ratio": math.inf}
+PIER = {"structure": "pier", "governing": False, "intensity_measure": "pgv", "threshold": math.inf}
 FRAGILITY = {
     "ida": pandas.DataFrame(
         [

@@ -55,23 +55,21 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
         name: list(read_rows(each, tmp_path / "out" / each.table.file_name))
         for name, each in FRAGILITY_TABLES.items()
     }
-    curves = [
-        row for row in rows["fragility"] if row.structure == "slender" and math.isinf(row.rotation_ratio)
-    ]
+    curves = [row for row in rows["fragility"] if row.structure == "slender" and math.isinf(row.threshold)]
     for curve in curves:
         outcomes = [row for row in rows["ida"] if row.structure == "slender" and row.level == curve.level]
         assert (
-            curve.probability == sum(math.isinf(row.rotation_ratio) for row in outcomes) / len(outcomes)
+            curve.probability == sum(row.overturning_share for row in outcomes) / len(outcomes)
             and len(outcomes) == 2
         )
     assert {row.records for row in rows["fragility_summary"]} == {2}
+    of_statics, governing = {}, {}
     for row in rows["fragility"]:
-        other_cracks = row.structure == "spire"
-        assert math.isnan(row.governing_probability) is not other_cracks
-        assert not other_cracks or row.governing_probability >= row.probability
-    medians = {
-        row.structure: row.median for row in rows["fragility_summary"] if math.isinf(row.rotation_ratio)
-    }
+        of_which = governing if row.governing else of_statics
+        of_which[row.structure, row.threshold, row.level] = row.probability
+    assert {structure for structure, *_ in governing} == {"spire"}
+    assert all(probability >= of_statics[place] for place, probability in governing.items())
+    medians = {row.structure: row.median for row in rows["fragility_summary"] if math.isinf(row.threshold)}
     assert medians["slender"] < medians["stout"]
     assert {row.intensity_measure for row in rows["intensity_measures"]} == set(INTENSITY_MEASURES)
     write_fragility_report(tmp_path / "out", tmp_path / "curves.pdf", tmp_path / "curves.svg")
