@@ -21,7 +21,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import displacement
 from rocking.reports import printing
 from rocking.reports.panels import rotation_ratios
-from rocking.reports.record import cell_text, worst_cases
+from rocking.reports.record import cell_text, warnings_of, worst_cases
 from rocking.structures import Mechanism, Structure
 
 Content = dict[str, Any]
@@ -56,12 +56,10 @@ def record_content(
     worst = worst_cases(tables.comparison)
     fates = {fate.structure: fate for fate in tables.verdicts}
     components = {row.component for row in worst.values()}
-    warnings = [each for row in tables.record for each in row.warnings]
-    warnings += [row.warning for row in tables.comparison if row.warning]
     return {
         "id": record,
         "failure": " ".join(failure.message for failure in tables.failures),
-        "warnings": list(dict.fromkeys(warnings)),
+        "warnings": warnings_of(tables),
         "pga": _number(
             max((row.peak_acceleration_m_s2 / GRAVITY for row in tables.record), default=math.nan)
         ),

@@ -95,9 +95,9 @@ def sentence(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-def strong(text: str, really: bool = True) -> Cell:
-    """Return a table cell whose text is set in bold, or plain where it is not `really` meant to be."""
-    return {"text": text, "strong": True} if really else text
+def strong(text: str, really: bool = True) -> dict[str, object]:
+    """Return a table cell whose text is set in bold, where it is `really` meant to be."""
+    return {"text": text, "strong": really}
 
 
 def table(columns: Sequence[tuple[str, str, str]], rows: Iterable[Sequence[Cell]]) -> dict[str, object]:
@@ -137,6 +137,8 @@ def _heading(column: Described) -> str:
 def field_of(name: str, row: Row | None) -> str:
     """Return the field `name` of a row as it is printed: by its type, rotation ratios in words where they are none."""
     value = getattr(row, name, None)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if isinstance(value, float) and name not in _CHOSEN:
         return ratio(value) if name.endswith("rotation_ratio") else number(value)
     return given(value) if isinstance(value, float | int) else words(value)

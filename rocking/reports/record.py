@@ -30,7 +30,7 @@ from rocking.reports.drawings import draw_structure, fallen_rotation, round_leng
 from rocking.reports.ground import POINTS, Motion, draw_ground, ground_figure, pulses_figure
 from rocking.reports.panels import draw_rotation, rotation_ratios
 from rocking.reports.printing import (
-    Cell,
+    Column,
     columns_of,
     left_out,
     number,
@@ -54,8 +54,6 @@ MOST_PULSES = 3
 """Ranks of pulses that are shown."""
 MOST_COMPARED = 24
 """Cases whose comparison is drawn, those with the largest rotations."""
-_LETTERS = 27
-"""Of a line below a drawing."""
 LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
     Verdict.OVERTURNS: ("▲", "#7a2400", "white", "xxxx"),
     Verdict.UNDECIDED: ("?", "#f0a030", "black", "///"),
@@ -63,16 +61,16 @@ LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
     Verdict.STANDS: ("●", "#dceaf7", "black", ""),
 }
 """Sign, colour, colour of letters on it, and pattern of each verdict: in print without colour the others tell it."""
-_COLUMNS, _DRAWN, _LINE = 5, (30.0, 27.0), 3.2
-"""Structures of a row of page one; width and height of each drawing, and height of a line below it, mm."""
+_COLUMNS, _DRAWN = 5, (30.0, 27.0)
+"""Structures of a row of page one; width and height of each drawing, mm."""
+_LINE, _LETTERS = 3.2, 27
+"""Height of a line below a drawing, mm, and its letters."""
 _HISTORIES, _HIGHEST_ROW = 160.0, 30.0
 """Height of all histories together, and of one at most, mm."""
 _STILL, _HIGHEST = 0.01, 1.25
 """Share of the largest rotation below which a history is cut; rotation ratio beyond which it is not drawn."""
-_SMALLEST, _FALLEN = 1e-3, 2.2
+_SMALLEST, _FALLEN = 1e-3, 3.0
 """Rotation ratios at the left end of the comparison, and where overturning stands."""
-NO_BLOCK = 1.0
-"""Defect from which on the block means nothing: it is as large as what is described."""
 METHODS = {
     Method.PRINTED: "Eq. 15 as printed",
     Method.CLOSED_FORM: "Closed form",
@@ -152,10 +150,19 @@ class RecordReport:
     @cached_property
     def scale_note(self) -> str:
         """The declared scale factors for captions and the running head, or nothing."""
-        factors = dict.fromkeys(
+        factors = _each(
             printing.given(row.scale_factor) for row in self.tables.record if row.scale_factor != 1
         )
-        return f" Accelerations ×\u00a0{', '.join(factors)}, declared." if factors else ""
+        return f" Accelerations ×\u00a0{factors}, declared." if factors else ""
+
+    def label(self, structure: str) -> str:
+        """Return number and name of a structure."""
+        return f"{self.numbers[structure]} {structure}"
+
+
+def _each(texts: Iterable[str]) -> str:
+    """Each of the texts once."""
+    return ", ".join(dict.fromkeys(filter(None, texts)))
 
 
 def cell_text(fate: Fate | None) -> str:
@@ -243,7 +250,7 @@ def _draw_state(axes: Axes, report: RecordReport, fate: Fate, middle: float, top
     look = {"facecolor": colour, "hatch": hatch, "edgecolor": "0.25", "linewidth": 0.6}
     draw_structure(axes, structure, rotation, look=look, place=place)
     axes.plot([middle - 15, middle + 15], [foot[1]] * 2, color="0.5", linewidth=0.6, zorder=0)
-    label = elided(f"{report.numbers[fate.structure]} {fate.structure}", 23)
+    label = elided(report.label(fate.structure), 23)
     axes.text(middle, top - 1, label, ha="center", va="top", fontweight="bold")
     bar = round_length(0.5 * _DRAWN[0] / scale)
     axes.plot([middle - bar * scale / 2, middle + bar * scale / 2], [foot[1] - 2.0] * 2, "k", linewidth=1.5)
@@ -326,36 +333,36 @@ def _sentences(report: RecordReport) -> list[str]:
         if any(map(math.isinf, done)) and any(map(math.isfinite, done)):
             depends.append(fate.structure)
     remarks = [f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."]
-    warnings = [each for row in report.tables.record for each in row.warnings]
-    warnings += [row.warning for row in report.tables.comparison if row.warning]
-    return [*remarks[: len(depends)], *dict.fromkeys(warnings)]
+    return [*remarks[: len(depends)], *warnings_of(report.tables)]
+
+
+def warnings_of(tables: RecordTables) -> list[str]:
+    """Return what file and integrations warn of, each once."""
+    of_files = [each for row in tables.record for each in row.warnings]
+    return list(dict.fromkeys([*of_files, *(row.warning for row in tables.comparison if row.warning)]))
 
 
 def _notices(report: RecordReport) -> list[dict[str, object]]:
     """Return the warnings that stand above everything: scale factor, nothing moves, what failed."""
     tables = report.tables
+    cases = tables.comparison
     scaled = "; ".join(
         f"component {words(row.component)}: ×\u00a0{printing.given(row.scale_factor)}"
         for row in tables.record
         if row.scale_factor != 1
     )
-    multiplied = f"The accelerations of the file were multiplied by a declared factor ({scaled})."
-    loud = [f"Not the recorded amplitude. {multiplied}"] if scaled else []
-    if not tables.comparison:
-        loud.append("No structure could be assessed under this record.")
-    failing = dict.fromkeys(
-        f"{row.structure} ({failure})" for row in tables.comparison if (failure := _contact_failure(row))
-    )
-    if failing:
-        loud.append(
-            f"The model does not hold, because a contact fails, for {printing.listed(list(failing))}."
-        )
-    if not tables.pulses:
-        loud.append("No pulse could be sought in this record, so there is no closed-form prediction.")
-    loud += [f"{row.structure or row.component}: {row.message}" for row in tables.failures]
+    failing = [f"{row.structure} ({failure})" for row in cases if (failure := _contact_failure(row))]
+    named = printing.listed(list(dict.fromkeys(failing)))
     still = "No structure uplifts: the ground acceleration never reaches an uplift acceleration."
-    quiet = [still] if tables.comparison and all(fate.rotation_ratio == 0 for fate in report.fates) else []
-    return [{"strong": text in loud, "text": text} for text in [*quiet, *loud]]
+    told = {
+        still: bool(cases) and all(fate.rotation_ratio == 0 for fate in report.fates),
+        f"Not the recorded amplitude. The file was multiplied by a declared factor ({scaled}).": scaled,
+        "No structure could be assessed under this record.": not cases,
+        f"The model does not hold, because a contact fails, for {named}.": failing,
+        "No pulse could be sought in this record, so there is no closed-form prediction.": not tables.pulses,
+    }
+    told |= {f"{row.structure or row.component}: {row.message}": True for row in tables.failures}
+    return [{"strong": text != still, "text": text} for text, holds in told.items() if holds]
 
 
 def _contact_failure(row: ComparisonRow) -> str:
@@ -364,15 +371,14 @@ def _contact_failure(row: ComparisonRow) -> str:
 
 
 def _subtitle(rows: Sequence[RecordRow]) -> str:
+    distances = [row.epicentral_distance_m / 1000 for row in rows if row.epicentral_distance_m]
     parts = {
-        "{}": [row.event for row in rows],
-        "station {}": [row.station for row in rows],
-        "magnitude {}": [printing.given(row.magnitude) for row in rows if row.magnitude],
-        "{} km from the epicentre": [
-            printing.given(row.epicentral_distance_m / 1000) for row in rows if row.epicentral_distance_m
-        ],
+        "{}": (row.event for row in rows),
+        "station {}": (row.station for row in rows),
+        "magnitude {}": (printing.given(row.magnitude) for row in rows if row.magnitude),
+        "{} km from the epicentre": map(printing.given, distances),
     }
-    texts = [text.format(each) for text, many in parts.items() for each in dict.fromkeys(many) if each]
+    texts = [text.format(each) for text, many in parts.items() if (each := _each(many))]
     return " · ".join(texts) or "The file names no event and no station."
 
 
@@ -390,8 +396,18 @@ def _key_numbers(row: RecordRow) -> str:
 # Page two --------------------------------------------------------------------------------------------------
 
 
+History = tuple[Fate, ComparisonRow, np.ndarray, np.ndarray]
+"""What became of a structure, the case that turns it farthest, times [s] and rotation ratio of that (k,)."""
+
+
 def _page_two(report: RecordReport) -> dict[str, object]:
-    histories = [history for fate in report.fates if (history := _history(report, fate)) is not None]
+    histories: list[History] = []
+    for fate in report.fates:
+        row = report.worst.get(fate.structure)
+        response = report.responses.get(row.case) if row else None
+        if row and response and row.integrated_rotation_ratio > NEGLIGIBLE:
+            history = rotation_ratios(response, report.structures[fate.structure].mechanism())
+            histories += [(fate, row, *history)] if history else []
     shown = histories[:MOST_DRAWN]
     left = len(report.fates) - len(shown)
     alt = f"Rotation histories of {counted(len(shown), 'structure')} above the acceleration of the ground."
@@ -399,27 +415,6 @@ def _page_two(report: RecordReport) -> dict[str, object]:
         "histories": pictures(histories_figure, shown, alt, report),
         "histories-note": left_out(left, "structure", "the table of verdicts, at rest or less demanding"),
     }
-
-
-@dataclass(frozen=True, eq=False)
-class History:
-    """How a structure moves under the component that turns it farthest: rotation ratio (k,) over time (k,) s."""
-
-    fate: Fate
-    row: ComparisonRow
-    times: np.ndarray
-    ratio: np.ndarray
-    impacts: int
-
-
-def _history(report: RecordReport, fate: Fate) -> History | None:
-    """The history of a structure; None where it rests."""
-    row = report.worst.get(fate.structure)
-    response = report.responses.get(row.case) if row else None
-    if row is None or response is None or not row.integrated_rotation_ratio > NEGLIGIBLE:
-        return None
-    history = rotation_ratios(response, report.structures[fate.structure].mechanism())
-    return None if history is None else History(fate, row, *history, response.impacts)
 
 
 @styled
@@ -435,10 +430,10 @@ def histories_figure(histories: Sequence[History], report: RecordReport) -> Figu
     for place, history in enumerate(histories):
         _draw_history(panel, report, history, -place)
     # the time in which anything moves
-    sizes = [np.abs(history.ratio) for history in histories]
-    moving = [each.times[size > _STILL * size.max()] for each, size in zip(histories, sizes, strict=True)]
-    begin, end = (float(extreme(np.concatenate(moving))) for extreme in (np.min, np.max))
-    span = max(0.0, begin - 0.05 * (end - begin)), end + 0.05 * (end - begin) + 1e-3
+    sizes = [(times, np.abs(ratio)) for _, _, times, ratio in histories]
+    moving = np.concatenate([times[size > _STILL * size.max()] for times, size in sizes])
+    margin = 0.05 * (moving.max() - moving.min())
+    span = max(0.0, moving.min() - margin), moving.max() + margin + 1e-3
     panel.set(xlim=span, ylim=(0.5 - len(histories), 0.5), xticks=[], yticks=[])
     panel.spines[["left", "bottom"]].set_visible(False)
     for place, motion in enumerate(report.motions):
@@ -448,25 +443,25 @@ def histories_figure(histories: Sequence[History], report: RecordReport) -> Figu
 
 
 def _draw_history(panel: Axes, report: RecordReport, history: History, level: int) -> None:
-    fate, row = history.fate, history.row
+    fate, row, times, ratios = history
     predicted = row.predicted_rotation_ratio
-    largest = (each for each in (float(np.abs(history.ratio).max()), predicted) if 0 < each < math.inf)
+    largest = (each for each in (float(np.abs(ratios).max()), predicted) if 0 < each < math.inf)
     reach = min(1.25 * max(largest, default=1.0), _HIGHEST)
-    low, high = (min(each, reach) for each in (fate.rotation_ratio_low, fate.rotation_ratio_high))
+    band = min(fate.rotation_ratio_low, reach), min(fate.rotation_ratio_high, reach)
     draw_rotation(
         panel,
-        history.times,
-        np.clip(history.ratio, -reach, reach),
+        times,
+        np.clip(ratios, -reach, reach),
         predicted if predicted <= reach else math.inf,
-        (low, high) if fate.members else None,
+        band if fate.members else None,
         level=level,
         scale=0.45 / reach,
         most=POINTS,
     )
     component = f", {elided_component(row.component)}" if len(report.motions) > 1 else ""
-    label = f"{elided(f'{report.numbers[fate.structure]} {fate.structure}', 22)}\n± {reach:.2g}"
+    label = f"{elided(report.label(fate.structure), 22)}\n± {reach:.2g}"
     remark = (
-        f"{ratio(row.integrated_rotation_ratio, 2)}{component}, {counted(history.impacts, 'impact')}\n"
+        f"{ratio(row.integrated_rotation_ratio, 2)}{component}, {counted(row.impacts or 0, 'impact')}\n"
         f"closed form: {ratio(predicted, 2)}"
     )
     beside: dict[str, Any] = {"transform": panel.get_yaxis_transform(), "va": "center", "fontsize": 7}
@@ -517,7 +512,7 @@ def comparison_figure(cases: Sequence[ComparisonRow], report: RecordReport) -> F
     panel.plot(whole, rows, "o", color="black", markersize=3.5, label="mechanism, whole record")
     labels = []
     for place, case in enumerate(cases):
-        name = f"{report.numbers[case.structure]} {case.structure}"
+        name = report.label(case.structure)
         several = len(report.motions) > 1
         labels.append(f"{short(name, 20)}, {elided_component(case.component)}" if several else name)
         remark = case.prediction_in_words
@@ -585,23 +580,23 @@ _BLAME: dict[tuple[bool, ...], str] = {
 
 def _appendix(report: RecordReport) -> dict[str, object]:
     tables, record = report.tables, report.tables.record
+    number_of: Column = ("No.", "auto", "r", lambda row: report.numbers[row.structure])
+    ranked = [row for row in tables.pulses if row.rank <= MOST_PULSES]
     return {
         "facts": facts_table(record),
-        "verdicts": _verdict_table(report),
-        "structures": _structure_table(report),
-        "pulses": table_of([row for row in tables.pulses if row.rank <= MOST_PULSES], *PULSE_COLUMNS),
-        "methods": _method_table(report),
+        "verdicts": table_of(report.fates, number_of, *VERDICT_COLUMNS),
+        "structures": table_of(report.structure_rows, number_of, *STRUCTURE_COLUMNS),
+        "pulses": table_of(ranked, *PULSE_COLUMNS),
+        "methods": table_of(tables.comparison, number_of, *_method_columns(tables.comparison)),
         "tolerance": printing.given(float(report.settings["tolerance"])),
         "acceleration-scale": str(report.settings["acceleration_scale"]),
         "friction": printing.given(report.settings.get("friction_coefficient")),
-        "vertical": ", ".join(dict.fromkeys(row.vertical_component for row in record)),
+        "vertical": _each(row.vertical_component for row in record),
         "arch": any("arch" in row.type for row in report.structure_rows),
         # the time of the run is left out
-        "times": ", ".join(dict.fromkeys(row.start_time for row in record if row.start_time)),
-        "files": "; ".join(
-            dict.fromkeys(f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in record)
-        ),
-        "settings": ", ".join(dict.fromkeys(f"{row.settings_sha256[:16]}…" for row in record)),
+        "times": _each(row.start_time for row in record),
+        "files": _each(f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in record),
+        "settings": _each(f"{row.settings_sha256[:16]}…" for row in record),
         "version": version("rocking"),
     }
 
@@ -629,54 +624,30 @@ def facts_table(rows: Sequence[RecordRow]) -> dict[str, object]:
     return table([("", "auto", "l"), *components], facts)
 
 
-def _verdict_table(report: RecordReport) -> dict[str, object]:
-    """What becomes of every structure, the worst first."""
-    return table_of(
-        report.fates,
-        ("No.", "auto", "r", lambda fate: report.numbers[fate.structure]),
-        ("Structure", "1.4", "l", lambda fate: short(fate.structure)),
-        ("Verdict", "0.7", "l", lambda fate: strong(str(fate.verdict), fate.verdict is not Verdict.STANDS)),
-        ("Members that overturn", "0.8", "l", lambda fate: words(fate.count)),
-        ("As given", "0.7", "l", lambda fate: _printed(fate.rotation_ratio, fate)),
-        ("5 %", "0.75", "r", lambda fate: _printed(fate.rotation_ratio_low, fate)),
-        ("50 %", "0.75", "r", lambda fate: _printed(fate.rotation_ratio_median, fate)),
-        ("95 %", "0.75", "r", lambda fate: _printed(fate.rotation_ratio_high, fate)),
-        (
-            "Worst direction, sign",
-            "1",
-            "l",
-            lambda fate: words(", ".join(filter(None, (fate.direction, fate.polarity)))),
-        ),
-    )
-
-
-def _structure_table(report: RecordReport) -> dict[str, object]:
-    """The structures with their equivalent blocks, and how far they are from the block exact at rest."""
-    properties = "frequency_parameter_rad_s critical_rotation_rad uplift_multiplier"
-    scales = "acceleration_scale_linearised acceleration_scale_uplift restitution"
-    return table_of(
-        report.structure_rows,
-        ("No.", "auto", "r", lambda row: report.numbers[row.structure]),
-        ("Structure, type and geometry", "3.6", "l", _geometry),
-        *columns_of(StructureRow, properties, "0.85"),
-        *columns_of(StructureRow, scales, "1"),
-        ("Block misses [%]", "0.75", "r", _defects),
-    )
-
-
-def _geometry(row: StructureRow) -> Cell:
-    return {"text": short(row.structure), "strong": True, "below": f"{words(row.type)}: {row.geometry}"}
-
-
-def _defects(row: StructureRow) -> str:
-    """By how much the block exact at rest misses restoring and forcing; in words where it is no block at all."""
-    if row.restoring_defect >= NO_BLOCK:
-        return "no block"
-    if math.isnan(row.restoring_defect + row.forcing_defect):
-        return printing.NOTHING
-    return f"{printing.percent(row.restoring_defect)}, {printing.percent(row.forcing_defect)}"
-
-
+VERDICT_COLUMNS: list[Column] = [
+    *columns_of(Fate, "structure=1.3"),
+    ("Verdict", "0.7", "l", lambda fate: strong(str(fate.verdict), fate.verdict is not Verdict.STANDS)),
+    ("Members that overturn", "0.8", "l", lambda fate: words(fate.count)),
+    ("As given", "0.7", "l", lambda fate: _printed(fate.rotation_ratio, fate)),
+    ("5 %", "0.75", "r", lambda fate: _printed(fate.rotation_ratio_low, fate)),
+    ("50 %", "0.75", "r", lambda fate: _printed(fate.rotation_ratio_median, fate)),
+    ("95 %", "0.75", "r", lambda fate: _printed(fate.rotation_ratio_high, fate)),
+    *columns_of(Fate, "direction=1.1 polarity=0.7"),
+]
+STRUCTURE_COLUMNS: list[Column] = [
+    (
+        "Structure, type and geometry",
+        "3.4",
+        "l",
+        lambda row: strong(row.structure) | {"below": f"{words(row.type)}: {row.geometry}"},
+    ),
+    *columns_of(
+        StructureRow,
+        "frequency_parameter_rad_s=0.95 critical_rotation_rad=0.85 uplift_multiplier=0.95 "
+        "acceleration_scale_linearised=1.15 acceleration_scale_uplift=1.15 restitution=1.1 restoring_defect=0.95 "
+        "forcing_defect",
+    ),
+]
 PULSE_COLUMNS = columns_of(
     PulseRow,
     "component=auto kind=auto rank=auto amplitude_m_s2 period_s start_time_s gain_ratio explained_energy "
@@ -684,29 +655,15 @@ PULSE_COLUMNS = columns_of(
 )
 
 
-def _method_table(report: RecordReport) -> dict[str, object]:
-    """Every method beside the others, and what stands behind them, one row per structure and component."""
-    rows = report.tables.comparison
+def _method_columns(rows: Sequence[ComparisonRow]) -> list[Column]:
+    """Every method that gave anything beside the others, and what stands behind them."""
     heads = {RATIO_COLUMNS[method]: head for method, head in METHODS.items()}
     used = [name for name in heads if not all(math.isnan(getattr(row, name)) for row in rows)]
-    whole = RATIO_COLUMNS[Method.MECHANISM_ON_RECORD]
-    return table_of(
-        rows,
-        ("No.", "auto", "r", lambda row: report.numbers[row.structure]),
+    of_methods = columns_of(ComparisonRow, " ".join(used))
+    return [
         ("Comp.", "0.6", "l", lambda row: words(row.component)),
         ("a [-]", "0.5", "r", lambda row: number(row.amplitude_ratio)),
         ("ω/p [-]", "0.5", "r", lambda row: number(row.frequency_ratio)),
-        *(
-            (heads[name], "0.8", "r", lambda row, name=name: strong(ratio(getattr(row, name)), name == whole))
-            for name in used
-        ),
-        ("Peak [s]", "0.5", "r", lambda row: number(row.peak_time_s)),
-        ("Im\u00adpacts", "0.5", "r", lambda row: printing.given(row.impacts)),
-        ("Friction [-]", "0.6", "r", lambda row: number(row.friction_needed, 2)),
-        ("Contacts", "0.7", "l", _contacts),
-    )
-
-
-def _contacts(row: ComparisonRow) -> Cell:
-    failing = _contact_failure(row)
-    return strong(failing or ("hold" if row.slides is False else printing.NOTHING), bool(failing))
+        *((heads[name], *column[1:]) for name, column in zip(used, of_methods, strict=True)),
+        *columns_of(ComparisonRow, "peak_time_s=0.45 impacts friction_needed slides=0.5 bounces", "0.65"),
+    ]

@@ -77,7 +77,7 @@ def test_every_number_that_is_printed_stands_in_a_csv(example, data):
 def test_a_changed_cell_changes_what_is_printed(example):
     comparison = [replace(row, integrated_rotation_ratio=0.123456789) for row in example.tables.comparison]
     table = with_tables(example, comparison=comparison)["methods"]
-    assert all({"text": "0.123", "strong": True} in row for row in table["rows"])
+    assert all("0.123" in row for row in table["rows"])
 
 
 def test_page_one_begins_with_the_verdicts_by_name_and_holds_no_table(example, data):
@@ -190,7 +190,7 @@ def test_a_contact_that_fails_is_told_first(example):
     data = with_tables(example, comparison=comparison)
     failing = f"{next(iter(example.structures))} (slides and bounces)"
     assert any(failing in notice["text"] and notice["strong"] for notice in data["notices"])
-    assert data["methods"]["rows"][0][-1] == {"text": "slides and bounces", "strong": True}
+    assert data["methods"]["rows"][0][-2:] == ["yes", "yes"]
 
 
 def test_a_vertical_component_is_named(example):
