@@ -6,17 +6,16 @@ near-fault sites, named "chosen" here; the other half and all further sites are 
 """
 
 import zlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from docs.research import scores
+from docs.research import scores, sites
 from docs.research.report import publish
 from docs.research.scores import Score
-from docs.research.sites import UPLIFTS, Trial, draw_of, independent, lifting_factor, site_of
 from rocking.assessment.ensemble import CAUSES, Ensemble, GroundMotions, drawn, ensemble, lattice
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
@@ -43,7 +42,7 @@ ALL_DIRECTIONS = 24
 @row(
     "ensemble_trials", "One row per record and structure: the ensemble beside random draws of the same causes"
 )
-class EnsembleTrial(Trial):
+class EnsembleTrial(sites.Trial):
     """One case."""
 
     half: str = column("chosen: a site on which the allowance was chosen; left out: another; or a pair")
@@ -60,10 +59,7 @@ class EnsembleTrial(Trial):
 
 
 def write_ensemble_accuracy(
-    near_fault: Iterable[tuple[str, Accelerogram]],
-    others: Iterable[tuple[str, Accelerogram]],
-    structures: Mapping[str, Structure],
-    folder: Path,
+    near_fault: sites.Records, others: sites.Records, structures: sites.Structures, folder: Path
 ) -> None:
     """Write the trials, their scores and their report into `folder`."""
     trials = list(try_ensembles(near_fault, others, structures))
@@ -73,10 +69,7 @@ def write_ensemble_accuracy(
 
 
 def try_ensembles(
-    near_fault: Iterable[tuple[str, Accelerogram]],
-    others: Iterable[tuple[str, Accelerogram]],
-    structures: Mapping[str, Structure],
-    draws: int = DRAWS,
+    near_fault: sites.Records, others: sites.Records, structures: sites.Structures, draws: int = DRAWS
 ) -> Iterator[EnsembleTrial]:
     """Yield trials of the components that count, and of the pairs, at scales that spread from uplift to overturning.
 
@@ -84,16 +77,16 @@ def try_ensembles(
     """
     first = list(near_fault)
     names = list(structures)
-    near = {site_of(record) for _, record in first}
+    near = {sites.site_of(record) for _, record in first}
     alone: list[tuple[str, str, str, list[Accelerogram]]] = []
     pairs: dict[str, tuple[str, str, str, list[Accelerogram]]] = {}
-    for name, site, record in independent(chain(first, others)):
+    for name, site, record in sites.independent(chain(first, others)):
         odd = zlib.crc32(f"{record.event}; {record.station}".encode()) % 2  # how the halves were once drawn
         alone.append((name, site, CHOSEN if odd and site in near else LEFT_OUT, [record]))
         pairs.setdefault(site, (name, site, PAIRS, []))[-1].append(record)
     for group in (alone, [each for each in pairs.values() if len(each[-1]) > 1]):
         for place, (name, site, half, components) in enumerate(group):
-            draw = draw_of(name)
+            draw = sites.draw_of(name)
             for k in range(STRUCTURES_PER_RECORD):
                 structure = names[(place * STRUCTURES_PER_RECORD + k) % len(names)]
                 about = {"record": name, "site": site, "half": half, "structure": structure}
@@ -109,7 +102,7 @@ def _trial(
 ) -> EnsembleTrial:
     """Return the trial of a structure under one component, or two. about: what names it."""
     mechanism, settings = structure.mechanism(), EnsembleSettings()
-    factor = lifting_factor(components[0], mechanism.uplift_multiplier, UPLIFTS, draw)
+    factor = sites.lifting_factor(components[0], mechanism.uplift_multiplier, sites.UPLIFTS, draw)
     scaled = [each.scaled(factor) for each in components]
     motions = everywhere = GroundMotions.of(scaled[0])
     if len(scaled) > 1:
@@ -143,9 +136,9 @@ def _inside(whole: Ensemble, many: Ensemble) -> float:
 def ensemble_scores(trials: Sequence[EnsembleTrial]) -> Iterator[Score]:
     """Yield every measure on each half of the sites and the reliability of the shares, with intervals."""
     for half, own in pd.DataFrame(trials).groupby("half"):
-        stated, truth, sites = own.share.to_numpy(), own.share_drawn.to_numpy(), own.site.tolist()
-        yield from scores.scored("ensemble", str(half), _measures(own), sites)
-        yield from scores.reliability("ensemble", str(half), stated, truth, sites, EDGES)
+        stated, truth, labels = own.share.to_numpy(), own.share_drawn.to_numpy(), own.site.tolist()
+        yield from scores.scored("ensemble", str(half), _measures(own), labels)
+        yield from scores.reliability("ensemble", str(half), stated, truth, labels, EDGES)
 
 
 def _measures(own: pd.DataFrame) -> Mapping[str, scores.Measured]:

@@ -5,16 +5,15 @@ truth is the curve of all of them, from which few are drawn with repetition; and
 (two apart, a dip, a plateau below one), whose truth is the curve of very many.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 
-from docs.research import scores
+from docs.research import scores, sites
 from docs.research.report import publish
 from docs.research.scores import Score
-from docs.research.sites import independent, structures_tried, timed
 from rocking.assessment.fragility import _crossing, fragility_of, incremental_dynamic_analysis
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.trade import TradeMethod, best_sines
@@ -38,21 +37,21 @@ LEVELS = np.geomspace(0.1, 8.0, 80)
 MANY = 2_000_000
 """Stations whose curve is the truth of a population."""
 TRIED = ("block R 2 m, 0.12 rad", "wall 1.5 + 1.5 m, 0.4 m", "arch 140°, t/r 0.15")
-Tell = Callable[[str], None]
 Draw = Callable[[np.random.Generator, int], np.ndarray]
 """Shares that overturn of so many stations at each level, (n, k)."""
 
 
 def write_fragilities(
-    records: Sequence[Accelerogram], structures: Mapping[str, Structure], folder: Path, tell: Tell
+    records: sites.Records, structures: sites.Structures, folder: Path, tell: sites.Tell
 ) -> None:
-    """Write the scores of every method into `folder`; tell: is given a line for each structure."""
-    sines, searched_s = timed(lambda: [best_sines(record, AssessmentSettings()) for record in records])
+    """Write the scores of every method into `folder`."""
+    motions = [record for _, record in records]
+    sines, searched_s = sites.timed(lambda: [best_sines(each, AssessmentSettings()) for each in motions])
     rows: list[Score] = []
     for name, structure in structures.items():
-        rows += method_scores(name, structure, records, sines)
+        rows += method_scores(name, structure, motions, sines)
         tell(f"fragility of {name}")
-    subtitle = f"{len(records)} components; the sines of all took {searched_s:.0f} s of processor time."
+    subtitle = f"{len(motions)} components; the sines of all took {searched_s:.0f} s of processor time."
     publish(folder, "What accuracy costs in a fragility", subtitle, {Score: rows})
 
 
@@ -78,7 +77,7 @@ def method_scores(
         TradeMethod.ENSEMBLE: lambda: analysis(levels=levels, ensemble=EnsembleSettings()).rotation_ratios,
     }
     for method, run in runs.items():
-        ratios, cpu_s = timed(run)
+        ratios, cpu_s = sites.timed(run)
         shares = np.isinf(ratios).mean(axis=2)
         measures: dict[str, scores.Measured] = {
             "error of the median": partial(_median_error, levels, shares, exact),
@@ -113,10 +112,10 @@ def _by_sines(block: EquivalentBlock, sines: Sequence[Sequence[Pulse]], factors:
     return ratios
 
 
-def write_coverage(records: Iterable[tuple[str, Accelerogram]], folder: Path, tell: Tell) -> None:
-    """Write the scores of the median into `folder`; tell: is given a line for each structure and population."""
-    counted = [(site, record) for _, site, record in independent(records)]
-    tried = {name: each for name, each in structures_tried().items() if name in TRIED}
+def write_coverage(records: sites.Records, folder: Path, tell: sites.Tell) -> None:
+    """Write the scores of the median into `folder`."""
+    counted = [(site, record) for _, site, record in sites.independent(records)]
+    tried = {name: each for name, each in sites.structures_tried().items() if name in TRIED}
     rows: list[Score] = []
     for name, structure in {"stone pier, 2 by 9 m": Block.of_size(2.0, 9.0), **tried}.items():
         rows += real_scores(name, structure, counted)
@@ -132,10 +131,10 @@ def real_scores(
     name: str, structure: Structure, records: Sequence[tuple[str, Accelerogram]]
 ) -> Iterator[Score]:
     """Yield the scores of a structure under `records` by site."""
-    sites, motions = zip(*records, strict=True)
-    analysis = incremental_dynamic_analysis(motions, structure, stations=sites)
+    labels, motions = zip(*records, strict=True)
+    analysis = incremental_dynamic_analysis(motions, structure, stations=labels)
     shares = np.isinf(analysis.rotation_ratios).mean(axis=2)
-    pool = np.array([shares[np.array(sites) == site].mean(axis=0) for site in dict.fromkeys(sites)])
+    pool = np.array([shares[np.array(labels) == site].mean(axis=0) for site in dict.fromkeys(labels)])
     whence = f"of {len(pool)} real ones"
     yield from _scores(name, whence, analysis.levels, pool.mean(axis=0), lambda rng, n: rng.choice(pool, n))
 

@@ -39,17 +39,13 @@ def reference_landings(
 
 
 def event_landings(
-    mechanism: Mechanism,
-    accelerogram: Accelerogram,
-    method: str,
-    relative_tolerance: float,
-    budget: float = math.inf,
+    mechanism: Mechanism, accelerogram: Accelerogram, method: str, tolerance: float, budget: float = math.inf
 ) -> tuple[float, np.ndarray]:
     """Return the same as one writes it with `solve_ivp`: the record interpolated, an event at each impact.
 
     No step is longer than a sample. Overturning is a rotation past the end of the mechanism.
     """
-    return _Run(mechanism, accelerogram, method, relative_tolerance, budget, restart=False).answer()
+    return _Run(mechanism, accelerogram, method, tolerance, budget, restart=False).answer()
 
 
 class _Run:
@@ -58,7 +54,7 @@ class _Run:
     def __init__(
         self,
         mechanism: Mechanism,
-        accelerogram: Accelerogram,
+        record: Accelerogram,
         method: str,
         tolerance: float,
         budget: float,
@@ -71,36 +67,32 @@ class _Run:
             )
         self.method, self.tolerance, self.restart = method, tolerance, restart
         self.budget, self.deadline = budget, process_time() + budget
-        self.ground, self.step = accelerogram.acceleration.tolist(), accelerogram.time_step
-        self.duration = accelerogram.duration
+        self.ground, self.step, self.duration = (
+            record.acceleration.tolist(),
+            record.time_step,
+            record.duration,
+        )
         self.sides = {1: mechanism.positive}
         if not mechanism.one_sided:
             self.sides[-1] = mechanism.negative or mechanism.positive
-        self.peak, self.overturned, self.still_landings = 0.0, False, 0
+        self.peak = 0.0
         self.landings: list[tuple[float, float]] = []
 
     def answer(self) -> tuple[float, np.ndarray]:
         """Follow the motion; return its largest rotation ratio, and time and speed of every landing (k, 2)."""
-        return self._follow(), np.array(self.landings, dtype=float).reshape(-1, 2)
-
-    def _follow(self) -> float:
-        now, side, state = 0.0, 0, (0.0, 0.0)
+        now, sign, state, still_landings = 0.0, 0, (0.0, 0.0), 0
         for until in self._stops():
-            while now < until:
-                if side == 0:
-                    now, side = self._lift(now, until)
-                    if side == 0:
+            while now < until and self.peak < math.inf and still_landings < STILL_LANDINGS:
+                if sign == 0:
+                    now, sign = self._lift(now, until)
+                    if sign == 0:
                         break
-                now, state, landed = self._fly(side, state, now, until)
-                if self.overturned:
-                    return math.inf
+                now, state, landed = self._fly(sign, state, now, until)
                 if landed:
                     self.landings.append((now, -state[1]))
-                    self.still_landings += until > self.duration
-                    if self.still_landings == STILL_LANDINGS:
-                        return self.peak
-                    side, state = self._impact(side, state[1])
-        return self.peak
+                    still_landings += until > self.duration
+                    sign, state = self._impact(sign, state[1])
+        return self.peak, np.array(self.landings, dtype=float).reshape(-1, 2)
 
     def _stops(self) -> Iterator[float]:
         if self.restart:
@@ -108,9 +100,7 @@ class _Run:
         yield self.duration
         yield self.duration + STILL / min(side.frequency_parameter for side in self.sides.values())
 
-    def _acceleration(self, time: float, still: bool) -> float:
-        if still:
-            return 0.0
+    def _acceleration(self, time: float) -> float:
         place = min(int(time / self.step), len(self.ground) - 2)
         before, after = self.ground[place], self.ground[place + 1]
         return before + (after - before) * (time / self.step - place)
@@ -121,16 +111,16 @@ class _Run:
             return until, 0
         inside = np.arange(math.floor(now / self.step) + 1, math.ceil(until / self.step)) * self.step
         times = np.concatenate([[now], inside[(inside > now) & (inside < until)], [until]])
-        ground = np.array([self._acceleration(time, False) for time in times])
-        found = []
+        ground = np.array([self._acceleration(time) for time in times])
+        lifts = []
         for sign, side in self.sides.items():
             excess = -sign * ground - side.uplift_multiplier * GRAVITY
             first = int(np.argmax(excess > 0))
             if excess[first] > 0:
                 low = max(first - 1, 0)
                 share = 0.0 if first == 0 else excess[low] / (excess[low] - excess[first])
-                found.append((float(times[low] + share * (times[first] - times[low])), sign))
-        return min(found, default=(until, 0))
+                lifts.append((float(times[low] + share * (times[first] - times[low])), sign))
+        return min(lifts, default=(until, 0))
 
     def _fly(
         self, sign: int, state: tuple[float, float], now: float, until: float
@@ -148,12 +138,15 @@ class _Run:
             atol=1e-3 * self.tolerance * size * np.array([1, 1 / span]),
             max_step=self.step / (STEPS_PER_SAMPLE if self.restart else 1),
         )
-        peaks = [state[0], solved.y[0, -1], *(y[0] for y in solved.y_events[1])]
-        self.peak = max(self.peak, *(peak / side.critical_rotation for peak in peaks))
-        self.overturned = solved.t_events[2].size > 0
-        if not solved.t_events[0].size:
-            return until, (float(solved.y[0, -1]), float(solved.y[1, -1])), False
-        return float(solved.t[-1]), (0.0, float(solved.y[1, -1])), True
+        landings, turns, ends = solved.y_events
+        peaks = [state[0], solved.y[0, -1], *(y[0] for y in turns)]
+        self.peak = (
+            math.inf if len(ends) else max(self.peak, *(each / side.critical_rotation for each in peaks))
+        )
+        rate = float(solved.y[1, -1])
+        if len(landings):
+            return float(solved.t[-1]), (0.0, rate), True
+        return until, (float(solved.y[0, -1]), rate), False
 
     def _equation(self, sign: int, still: bool) -> Callable[[float, np.ndarray], list[float]]:
         """φ'' = −(s B ü_g + G g + J φ'²) / I, J = I'/2."""
@@ -166,7 +159,8 @@ class _Run:
                     "allow it more."
                 )
             rotation, velocity = y
-            push = sign * side.at("ground", rotation) * self._acceleration(time, still)
+            ground = 0.0 if still else self._acceleration(time)
+            push = sign * side.at("ground", rotation) * ground
             slowing = side.at("inertia_slope", rotation) / 2 * velocity**2
             pull = push + side.at("gravity", rotation) * GRAVITY + slowing
             return [velocity, -pull / side.at("inertia", rotation)]
@@ -194,12 +188,11 @@ def _events(side: Side, now: float) -> tuple[Callable[[float, np.ndarray], float
     def end(_: float, y: np.ndarray) -> float:
         return y[0] - side.end_rotation
 
-    marks = (
+    for event, name, value in (
         (landing, "terminal", True),
         (landing, "direction", -1),
         (turn, "direction", -1),
         (end, "terminal", True),
-    )
-    for event, name, value in marks:
+    ):
         setattr(event, name, value)
     return landing, turn, end

@@ -24,7 +24,7 @@ def main(target, catalogues, mirror, structures, folder, tell):
     elif target == "calibrate_ensemble":
         ensembles.write_ensemble_accuracy(*of_catalogue, made, folder)
     elif target == "trade_fragility":
-        fragilities.write_fragilities([record for _, record in records], made, folder, tell)
+        fragilities.write_fragilities(records, made, folder, tell)
     elif target == "cover":
         fragilities.write_coverage(records, folder, tell)
     elif target == "govern":

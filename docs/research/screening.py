@@ -1,21 +1,19 @@
 """Does the verdict over all cracks that may form miss one? Beside the ensemble of every crack, and fresh draws."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from docs.research import scores
+from docs.research import scores, sites
 from docs.research.report import publish
 from docs.research.scores import Score
-from docs.research.sites import UPLIFTS, Trial, draw_of, independent, lifting_factor, one_of_each
 from rocking.assessment.ensemble import CAUSES, Ensemble, GroundMotions, drawn, ensemble
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import cracks, ensemble_over_cracks
 from rocking.assessment.verdict import Verdict
 from rocking.records import Accelerogram
-from rocking.structures import Structure
 from rocking.tables import column, row
 
 SCALES = 3
@@ -25,7 +23,7 @@ WORST, DRAWS = 2, 512
 
 
 @row("screening", "One row per record and structure: the verdict over all cracks beside the ensembles of all")
-class ScreeningTrial(Trial):
+class ScreeningTrial(sites.Trial):
     """One case."""
 
     verdict: Verdict = column("Verdict over all cracks that may form, followed as they are in a study")
@@ -35,14 +33,11 @@ class ScreeningTrial(Trial):
 
 
 def write_screening(
-    records: Iterable[tuple[str, Accelerogram]],
-    structures: Mapping[str, Structure],
-    folder: Path,
-    tell: Callable[[str], None],
+    records: sites.Records, structures: sites.Structures, folder: Path, tell: sites.Tell
 ) -> None:
-    """Write the trials, their scores and their report into `folder`; tell: is given a line for each record."""
+    """Write the trials, their scores and their report into `folder`."""
     trials: list[ScreeningTrial] = []
-    for name, site, record in one_of_each(independent(records)):
+    for name, site, record in sites.one_of_each(sites.independent(records)):
         trials += screening_trials(name, site, record, structures)
         tell(name)
     tables = {ScreeningTrial: trials, Score: list(screening_scores(trials))}
@@ -50,15 +45,15 @@ def write_screening(
 
 
 def screening_trials(
-    name: str, site: str, record: Accelerogram, structures: Mapping[str, Structure]
+    name: str, site: str, record: Accelerogram, structures: sites.Structures
 ) -> Iterator[ScreeningTrial]:
     """Yield SCALES trials of each structure that may crack elsewhere."""
-    draw = draw_of(name)
+    draw = sites.draw_of(name)
     for structure_name, structure in SCALES * list(structures.items()):
         mechanisms = [mechanism for _, mechanism in cracks(structure)]
         if len(mechanisms) == 1:
             continue
-        factor = lifting_factor(record, mechanisms[0].uplift_multiplier, UPLIFTS, draw)
+        factor = sites.lifting_factor(record, mechanisms[0].uplift_multiplier, sites.UPLIFTS, draw)
         motions = GroundMotions.of(record.scaled(factor))
         of_each = [ensemble(mechanism, motions) for mechanism in mechanisms]
         shares = [each.overturning_share for each in of_each]

@@ -125,24 +125,18 @@ def read_tests(path: Path) -> pd.DataFrame:
 
 
 def _fetched(listed: TableMotion) -> np.ndarray:
-    """The samples of a test from the source; a file that does not hold those of the catalogue is not kept."""
+    """The samples of a test, float32 (n,), g, from the source; a file that does not hold those listed is not kept.
+
+    In TestNNN.txt one header line stands before eight columns: the second is the acceleration along the shaking.
+    """
     path, held = download(listed.source_path, REPOSITORY, COMMIT, listed.source_path), False
     try:
-        samples = converted(path.read_bytes(), path.name)
+        lines = path.read_bytes().decode("ascii").splitlines()[1:]
+        samples = np.array([float(line.split()[1]) for line in lines if line.strip()], dtype="<f4")
         held = listed.holds(samples)
         return samples
+    except (UnicodeDecodeError, IndexError, ValueError) as error:
+        raise RecordError(f"{path.name}: the file is no table of a test, {error}; fetch it again.") from None
     finally:
         if not held:
             path.unlink()
-
-
-def converted(content: bytes, name: str) -> np.ndarray:
-    """Return the acceleration of the table, float32 (n,), g, from a file TestNNN.txt of the source.
-
-    One header line, then eight columns: the second is the acceleration in the direction of shaking.
-    """
-    try:
-        text = content.decode("ascii").splitlines()[1:]
-        return np.array([float(line.split()[1]) for line in text if line.strip()], dtype="<f4")
-    except (UnicodeDecodeError, IndexError, ValueError) as error:
-        raise RecordError(f"{name}: the file is no table of a test, {error}; fetch it again.") from None

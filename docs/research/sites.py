@@ -2,14 +2,12 @@
 
 import re
 import zlib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from time import process_time
 from typing import TypeVar
 
 import numpy as np
 
-from rocking.errors import PulseError
-from rocking.pulses import Pulse, extract_pulses
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Arch, Block, Structure, Wall
@@ -17,6 +15,11 @@ from rocking.tables import Row, column, row
 
 MOST_COMPONENTS = 2
 """Of a site that count."""
+Records = Iterable[tuple[str, Accelerogram]]
+"""Identifier and accelerogram of each component."""
+Structures = Mapping[str, Structure]
+Tell = Callable[[str], None]
+"""Is given a line of progress."""
 SiteRecord = tuple[str, str, Accelerogram]
 """Identifier, site and record of a component that counts."""
 UPLIFTS = (1.3, 8.0)
@@ -47,7 +50,7 @@ def structures_tried() -> dict[str, Structure]:
     return made
 
 
-def independent(records: Iterable[tuple[str, Accelerogram]]) -> Iterator[SiteRecord]:
+def independent(records: Records) -> Iterator[SiteRecord]:
     """Yield identifier, site and record of the components that count, none under two names.
 
     A site is an event and a station. Events are alike in the first four letters, stations where the words of one begin
@@ -107,11 +110,3 @@ def timed(run: Callable[[], T]) -> tuple[T, float]:
 def site_of(record: Accelerogram) -> str:
     """Return the event and the station of a record, which name its site."""
     return f"{record.event}, {record.station}"
-
-
-def dominant_pulse(record: Accelerogram) -> Pulse | None:
-    """Return the dominant sine of a record; None where it has none."""
-    try:
-        return extract_pulses(record).dominant
-    except PulseError:
-        return None

@@ -12,10 +12,9 @@ import numpy as np
 import pandas as pd
 from scipy.special import expit, logit
 
-from docs.research import scores
+from docs.research import scores, sites
 from docs.research.report import publish
 from docs.research.scores import Score
-from docs.research.sites import SiteRecord, independent, one_of_each, structures_tried, timed
 from rocking.assessment import fidelity
 from rocking.assessment.ensemble import GroundMotions, drawn, ensemble, lattice
 from rocking.assessment.fidelity import NUDGES, Tier, TierFit, cheapest_answer, stays_at_rest
@@ -25,7 +24,7 @@ from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import Method, Verdict
 from rocking.motion import integrate, integrate_batch
 from rocking.records import Accelerogram
-from rocking.structures import Mechanism, Outcome, Structure
+from rocking.structures import Mechanism, Outcome
 
 FACTORS = (0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8)
 """On each record, so that it speaks for weaker and stronger shaking of the same shape."""
@@ -38,9 +37,9 @@ ANSWERED_FACTORS = (0.5, 1.0, 2.0)
 """On each record for these."""
 
 
-def write_tiers(records: Iterable[tuple[str, Accelerogram]], folder: Path) -> None:
+def write_tiers(records: sites.Records, folder: Path) -> None:
     """Fit and judge every tier on `records`; write the fits and the scores into `folder`; tiers.json is what ships."""
-    counted = list(independent(records))
+    counted = list(sites.independent(records))
     cases = pd.DataFrame(tier_cases(counted))
     rows = [*tier_scores(cases), *answer_scores(pd.DataFrame(try_answers(counted, cases)))]
     about: dict[str, object] = {"records": cases.record.nunique(), "sites": cases.site.nunique()}
@@ -53,13 +52,13 @@ def write_tiers(records: Iterable[tuple[str, Accelerogram]], folder: Path) -> No
 
 
 def tier_cases(
-    records: Iterable[SiteRecord], structures: Mapping[str, Structure] | None = None
+    records: Iterable[sites.SiteRecord], structures: sites.Structures | None = None
 ) -> Iterator[dict[str, object]]:
     """Yield the cases of each record but those that rest as given, which is certain: what is measured of each.
 
     share: of the members of its ensemble that overturn. The other columns name the case and are the terms of the tiers.
     """
-    mechanisms = {name: s.mechanism() for name, s in (structures or structures_tried()).items()}
+    mechanisms = {name: s.mechanism() for name, s in (structures or sites.structures_tried()).items()}
     blocks = [mechanism.equivalent_block("rest") for mechanism in mechanisms.values()]
     nudged = np.outer(FACTORS, NUDGES)
     for name, site, record in records:
@@ -105,7 +104,7 @@ def left_out(tier: Tier, cases: pd.DataFrame) -> np.ndarray:
 
 def tier_scores(cases: pd.DataFrame) -> Iterator[Score]:
     """Yield the scores and the reliability of each tier on sites left out."""
-    overturned, sites, part = cases.share.to_numpy(), cases.site.tolist(), "sites left out"
+    overturned, labels, part = cases.share.to_numpy(), cases.site.tolist(), "sites left out"
     for tier in Tier:
         stated = left_out(tier, cases)
         measures = {
@@ -113,20 +112,20 @@ def tier_scores(cases: pd.DataFrame) -> Iterator[Score]:
             "Brier skill of the shares themselves": scores.brier_skill(overturned, overturned),
             "calibration slope": scores.logit_slope(logit(stated), overturned),
         }
-        yield from scores.scored(tier, part, measures, sites)
-        yield from scores.reliability(tier, part, stated, overturned, sites, BINS)
+        yield from scores.scored(tier, part, measures, labels)
+        yield from scores.reliability(tier, part, stated, overturned, labels, BINS)
 
 
-def try_answers(records: Iterable[SiteRecord], cases: pd.DataFrame) -> Iterator[dict[str, object]]:
+def try_answers(records: Iterable[sites.SiteRecord], cases: pd.DataFrame) -> Iterator[dict[str, object]]:
     """Yield a trial of each structure at each factor on the first component of each site, with tiers fitted without it.
 
     cases: those of `tier_cases` under `records`.
     """
-    mechanisms = [structure.mechanism() for structure in structures_tried().values()]
-    for _, site, record in one_of_each(records):
+    mechanisms = [structure.mechanism() for structure in sites.structures_tried().values()]
+    for _, site, record in sites.one_of_each(records):
         fits = {tier: fit(tier, cases[cases.site != site]) for tier in Tier}
         for motion in map(record.scaled, ANSWERED_FACTORS):
-            _, velocity_s = timed(lambda motion=motion: peak_velocity(motion))
+            _, velocity_s = sites.timed(lambda motion=motion: peak_velocity(motion))
             for mechanism in mechanisms:
                 trial = _answer_trial(mechanism, motion, fits, velocity_s / len(mechanisms))
                 yield {"site": site, **trial}
@@ -142,11 +141,11 @@ def _answer_trial(
     """
     motions = GroundMotions.of(record)
     asked = partial(cheapest_answer, mechanism, record, risk=RISK, fits=fits)
-    case, mechanism_s = timed(lambda: integrate(mechanism, record))
-    alone, alone_s = timed(asked)
-    beside, beside_s = timed(lambda: asked(ensemble_follows=True))
-    whole, whole_s = timed(lambda: ensemble(mechanism, motions))
-    quick, quick_s = timed(lambda: ensemble(mechanism, motions, verdict_only=True))
+    case, mechanism_s = sites.timed(lambda: integrate(mechanism, record))
+    alone, alone_s = sites.timed(asked)
+    beside, beside_s = sites.timed(lambda: asked(ensemble_follows=True))
+    whole, whole_s = sites.timed(lambda: ensemble(mechanism, motions))
+    quick, quick_s = sites.timed(lambda: ensemble(mechanism, motions, verdict_only=True))
     return {
         "method": beside.method,
         "overturns": case.outcome is Outcome.OVERTURNS,

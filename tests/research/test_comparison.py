@@ -13,11 +13,9 @@ from motion_cases import MECHANISMS, noise
 from oracle import Oracle
 from scipy.constants import g
 
-from docs.research.comparison import lmgc90, table
+from docs.research.comparison import codes, lmgc90, table
 from docs.research.comparison.bodies import properties, rigid_bodies
 from docs.research.comparison.cases import pulse_cases, structures
-from docs.research.comparison.codes import LMGC90, inner_codes, landings_of, outer_codes
-from docs.research.comparison.runs import Answer, landings, limit_of, limit_of_runs, restitution
 from docs.research.comparison.table import code_rows, code_scores, missed
 from docs.research.reference import event_landings, reference_landings
 from rocking.motion import integrate
@@ -53,11 +51,11 @@ def test_events_converge_to_the_reference(method):
 
 def test_the_limit_of_a_known_order():
     first, second = ([0.8 + 0.1 * h**order for h in (4, 2, 1)] for order in (1, 2))
-    assert limit_of(first) == pytest.approx((0.8, 0.1))
-    assert limit_of(second)[0] == pytest.approx(0.8)
-    assert limit_of([0.5, 0.5, 0.5]) == (0.5, 0.0)
-    assert math.isinf(limit_of([math.inf] * 3)[0])
-    assert math.isnan(limit_of([0.9, math.inf, math.inf])[0])
+    assert codes.limit_of(first) == pytest.approx((0.8, 0.1))
+    assert codes.limit_of(second)[0] == pytest.approx(0.8)
+    assert codes.limit_of([0.5, 0.5, 0.5]) == (0.5, 0.0)
+    assert math.isinf(codes.limit_of([math.inf] * 3)[0])
+    assert math.isnan(codes.limit_of([0.9, math.inf, math.inf])[0])
 
 
 @pytest.fixture(scope="module")
@@ -76,13 +74,13 @@ def test_landings_of_a_history_are_the_impacts(block_case):
     inside = expected[expected[:, 0] <= block_case.motion.duration, 0]
     _, by_events = event_landings(block_case.mechanism, block_case.motion, "DOP853", 1e-9)
     assert missed(by_events[:, 0], expected[:, 0], 1e-6) == 0
-    assert landings_of(response).size == response.impacts
-    assert missed(landings_of(response), inside, 1e-6) == 0
+    assert codes.landings_of(response).size == response.impacts
+    assert missed(codes.landings_of(response), inside, 1e-6) == 0
     assert missed(inside[1:], inside, 1e-6) == 1
 
 
 def test_this_package_has_the_reference_s_answer(block_case):
-    ours = {name: code for name, code in inner_codes().items() if name.startswith("rocking")}
+    ours = {name: code for name, code in codes.inner_codes().items() if name.startswith("rocking")}
     reference, *rows = code_rows(block_case, ours)
     assert reference.error == 0.0
     for row, tolerance in zip(rows, (1e-3, 1e-6, 1e-9), strict=True):
@@ -95,8 +93,8 @@ def test_this_package_has_the_reference_s_answer(block_case):
 
 def test_what_solves_another_model_has_no_error(block_case):
     """Its rotation stands beside the reference and beside ours with its own restitution, in a table of its own."""
-    answer = Answer(0.3, 1.0, 0.01, landings=np.empty(0), restitution=0.5)
-    row = table._row(replace(block_case, structure="arch"), LMGC90, answer, 0.4, np.array([1.0]))
+    answer = codes.Answer(0.3, 1.0, 0.01, landings=np.empty(0), restitution=0.5)
+    row = table._row(replace(block_case, structure="arch"), codes.LMGC90, answer, 0.4, np.array([1.0]))
     assert row.another_model
     assert math.isnan(row.error)
     assert row.missed_impacts is None
@@ -132,9 +130,9 @@ def test_restitution_and_landings_of_a_history_that_is_known():
     """Half waves whose energy is the square of their height, each 0.8 of the one before."""
     times = np.linspace(0, 4, 4001)
     rotation = 0.1 * 0.8 ** np.floor(times) * np.sin(np.pi * times) * (times < 3.999)
-    assert landings(times + 1e-4, rotation)[:3] == pytest.approx([1.0, 2.0, 3.0], abs=2e-3)
-    assert restitution(times, rotation, rotation**2, 0.9, 1.0) == pytest.approx(0.8)
-    assert math.isnan(restitution(times, rotation, rotation**2, 2.9, 1.0))
+    assert codes.landings(times + 1e-4, rotation)[:3] == pytest.approx([1.0, 2.0, 3.0], abs=2e-3)
+    assert codes.restitution(times, rotation, rotation**2, 0.9, 1.0) == pytest.approx(0.8)
+    assert math.isnan(codes.restitution(times, rotation, rotation**2, 2.9, 1.0))
 
 
 def test_the_base_of_lmgc90_moves_as_the_accelerogram():
@@ -150,7 +148,7 @@ def test_the_base_of_lmgc90_moves_as_the_accelerogram():
 def test_lmgc90_tends_to_the_same_block(block_case):
     """First order in time, with impacts known to a step: a few percent after extrapolation."""
     pytest.importorskip("compas_lmgc90", reason="install the extra compare to run this test")
-    answer = outer_codes()[LMGC90](block_case)
+    answer = codes.outer_codes()[codes.LMGC90](block_case)
     truth = integrate(block_case.mechanism, block_case.motion, 1e-9).rotation_ratio
     assert answer.reason == ""
     assert answer.rotation_ratio == pytest.approx(truth, rel=0.05)
@@ -186,7 +184,7 @@ def test_the_frame_of_lmgc90_keeps_what_angular_momentum_keeps():
         "frequency_parameter": mechanism.positive.frequency_parameter,
         "critical_rotation": mechanism.critical_rotation,
     }
-    answer = limit_of_runs(lmgc90.runs(given), "")
+    answer = codes.limit_of_runs(lmgc90.runs(given), "")
     truth, _ = reference_landings(mechanism, Accelerogram(pulse, 0.01))
     alpha, gamma = math.atan(0.5 / 4.0), 1.0
     kept = (1 - 1.5 * math.sin(alpha) ** 2 + 3 * gamma * math.cos(2 * alpha)) / (1 + 3 * gamma)

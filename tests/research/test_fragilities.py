@@ -15,12 +15,10 @@ TIMES = np.arange(0, 4, 0.01)
 
 
 def test_the_mechanism_is_its_own_reference(tmp_path):
-    records = [
-        Accelerogram(
-            np.sin(2 * np.pi * TIMES / period) * (period > TIMES), 0.01, event="made", station=str(k)
-        )
-        for k, period in enumerate((0.6, 0.8, 1.0, 1.3))
-    ]
+    records = []
+    for name, period in zip("abcd", (0.6, 0.8, 1.0, 1.3), strict=True):
+        sine = np.sin(2 * np.pi * TIMES / period) * (period > TIMES)
+        records.append((name, Accelerogram(sine, 0.01, event="made", station=name)))
     told: list[str] = []
     write_fragilities(records, {"block": Block(2.0, 0.15)}, tmp_path, told.append)
     rows = read_table(Score, tmp_path)

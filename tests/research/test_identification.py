@@ -7,16 +7,8 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from docs.research import identification
-from docs.research.identification import (
-    PARAMETERS,
-    BlockPrior,
-    fit_mixture,
-    identify,
-    sharpness,
-    two_sided_block,
-    with_unexplained,
-)
+from docs.research import identification as ident
+from docs.research.identification import PARAMETERS, BlockPrior, fit_mixture, identify, two_sided_block
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
@@ -75,7 +67,7 @@ def test_one_candidate_that_falls_and_one_that_stands_share_the_tests():
     outcomes = np.arange(40) < 13
     table = np.column_stack([np.ones(40, bool), np.zeros(40, bool)])
     found = fit_mixture(NONE, table, outcomes, [str(k % 8) for k in range(40)])
-    assert with_unexplained(found.weights[0], found.unexplained) == pytest.approx(13 / 40, abs=2e-3)
+    assert ident.with_unexplained(found.weights[0], found.unexplained) == pytest.approx(13 / 40, abs=2e-3)
 
 
 def test_many_steps_reach_the_largest_likelihood():
@@ -83,15 +75,13 @@ def test_many_steps_reach_the_largest_likelihood():
     draw = np.random.default_rng(4)
     table = draw.random((60, 5)) < draw.random((60, 1))
     outcomes = table[:, 1] ^ (draw.random(60) < 0.1)
-    patterns, _, prior = identification._patterns(table)
+    patterns, _, prior = ident._patterns(table)
     hits = np.where(outcomes[:, None], patterns, 1 - patterns)
-    (weights,) = identification._weights(
-        hits, prior, np.ones((60, 1), np.float32), np.array([0.1]), (20_000,)
-    )
+    (weights,) = ident._weights(hits, prior, np.ones((60, 1), np.float32), np.array([0.1]), (20_000,))
 
     def loss(free):
         w = np.exp(free - np.logaddexp.reduce(free))
-        p = with_unexplained(patterns @ w, 0.1)
+        p = ident.with_unexplained(patterns @ w, 0.1)
         return -np.log(np.where(outcomes, p, 1 - p)).sum()
 
     best = min(minimize(loss, draw.normal(size=len(weights))).fun for _ in range(5))
@@ -115,4 +105,4 @@ def test_probabilities_that_are_too_careful_are_sharpened_and_bold_ones_blunted(
     for factor in (0.7, 1.0, 1.6):
         happened = draw.random(odds.size) < 1 / (1 + np.exp(-factor * odds))
         said = np.where(happened, 1 / (1 + np.exp(-odds)), 1 / (1 + np.exp(odds)))
-        assert sharpness(said) == pytest.approx(factor, abs=0.07)  # three standard errors
+        assert ident.sharpness(said) == pytest.approx(factor, abs=0.07)  # three standard errors

@@ -34,7 +34,7 @@ def made(tmp_path_factory) -> tuple[Path, Path]:
 
 @pytest.fixture(scope="module")
 def measured(made) -> Measured:
-    return measure(Campaign.open(*made), replace(PRIOR, size=128))
+    return measure(Campaign.open(*made), replace(PRIOR, size=128), print)
 
 
 def test_a_test_is_read_as_it_was_measured(made):

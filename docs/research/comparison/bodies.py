@@ -2,13 +2,12 @@
 
 import math
 from dataclasses import dataclass
-from functools import singledispatch
 from itertools import pairwise
 
 import numpy as np
 from scipy.optimize import brentq
 
-from rocking.structures import Arch, Block, Frame, Structure
+from rocking.structures import Arch, Block, Frame
 
 BASE_DEPTH = 0.5
 """Of what moves with the ground, m."""
@@ -62,36 +61,27 @@ def properties(polygon: np.ndarray) -> tuple[float, complex, float]:
     return float(area), complex(centroid), float((cross * squares).sum() / (12 * area) - abs(centroid) ** 2)
 
 
-@singledispatch
-def rigid_bodies(structure: Structure) -> RigidBodies:
+def rigid_bodies(structure: Block | Frame | Arch) -> RigidBodies:
     """Return a block, a frame or an arch of voussoirs as bodies on what moves with the ground."""
-    raise TypeError(f"structure is a {type(structure).__name__}, but must be a Block, a Frame or an Arch.")
+    if isinstance(structure, Block):
+        half = structure.breadth / 2
+        ground = rectangle(-10 * half, 10 * half, -BASE_DEPTH, 0.0)
+        return RigidBodies((ground, rectangle(-half, half, 0.0, structure.height)), (0,))
+    return _frame(structure) if isinstance(structure, Frame) else _arch(structure)
 
 
-@rigid_bodies.register
-def _block(structure: Block) -> RigidBodies:
-    half = structure.breadth / 2
-    body = rectangle(-half, half, 0.0, structure.height)
-    return RigidBodies((rectangle(-10 * half, 10 * half, -BASE_DEPTH, 0.0), body), (0,), (1, 1))
-
-
-@rigid_bodies.register
 def _frame(structure: Frame) -> RigidBodies:
     """The columns, 0.6 of their height apart, and a beam of their material as deep as its mass asks."""
     half, height = structure.column_breadth / 2, structure.column_height
     axes = 0.6 * height * (np.arange(structure.columns) - (structure.columns - 1) / 2)
     edge = axes[-1] + half
     depth = structure.beam_mass_ratio * structure.columns * half * height / edge
+    ground = rectangle(-2 * edge, 2 * edge, -BASE_DEPTH, 0.0)
     columns = (rectangle(axis - half, axis + half, 0.0, height) for axis in axes)
-    bodies = (
-        rectangle(-2 * edge, 2 * edge, -BASE_DEPTH, 0.0),
-        *columns,
-        rectangle(-edge, edge, height, height + depth),
-    )
-    return RigidBodies(bodies, (0,), (1, 1))
+    beam = rectangle(-edge, edge, height, height + depth)
+    return RigidBodies((ground, *columns, beam), (0,))
 
 
-@rigid_bodies.register
 def _arch(structure: Arch) -> RigidBodies:
     """Voussoirs with the joints and the centroids of the annular sectors, on two abutments.
 
@@ -104,19 +94,12 @@ def _arch(structure: Arch) -> RigidBodies:
     joints = np.linspace(structure.embrace_angle / 2, -structure.embrace_angle / 2, count + 1)
     voussoir = _voussoir(inner, outer, structure.embrace_angle / count)
     turned = [_turned(voussoir, (left + right) / 2) for left, right in pairwise(joints)]
-    depth = BASE_DEPTH
-    abutment = np.array(
-        [[inner - depth, 0.0], [outer + depth, 0.0], [outer + depth, depth], [inner - depth, depth]]
-    )
+    abutment = rectangle(inner - BASE_DEPTH, outer + BASE_DEPTH, 0.0, BASE_DEPTH)
     left = _turned(abutment, math.pi / 2 + joints[0])
     right = _turned(abutment[::-1] * [1, -1], math.pi / 2 + joints[-1])
     opened = np.rint(structure.onset.hinges / structure.embrace_angle * count).astype(int)
-    return RigidBodies(
-        (left, *turned, right),
-        (0, count + 1),
-        (1, count),
-        (tuple(opened.tolist()), tuple((count - opened).tolist())),
-    )
+    hinges = tuple(opened.tolist()), tuple((count - opened).tolist())
+    return RigidBodies((left, *turned, right), (0, count + 1), (1, count), hinges)
 
 
 def _voussoir(inner: float, outer: float, angle: float) -> np.ndarray:
@@ -128,11 +111,8 @@ def _voussoir(inner: float, outer: float, angle: float) -> np.ndarray:
         return np.stack([place.real, place.imag], axis=1)
 
     sector = 2 * (outer**3 - inner**3) / (3 * (outer**2 - inner**2)) * np.sinc(angle / (2 * np.pi))
-    return with_peak(
-        brentq(
-            lambda peak: properties(with_peak(peak))[1].imag - sector, outer * math.cos(angle / 2), 2 * outer
-        )
-    )
+    ends = outer * math.cos(angle / 2), 2 * outer
+    return with_peak(brentq(lambda peak: properties(with_peak(peak))[1].imag - sector, *ends))
 
 
 def rectangle(left: float, right: float, low: float, high: float) -> np.ndarray:

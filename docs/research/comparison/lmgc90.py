@@ -11,7 +11,7 @@ from scipy.integrate import cumulative_trapezoid
 
 from docs.research.comparison.bodies import RigidBodies, rigid_bodies
 from docs.research.comparison.cases import structures
-from docs.research.comparison.runs import Answer, landings, run_of, serve, still_from
+from docs.research.comparison.codes import Answer, landings, run_of, serve, still_from
 from rocking.quantities import GRAVITY
 
 STEPS = (2e-3, 1e-3, 5e-4)

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
 from docs.research.comparison.cases import structures
-from docs.research.comparison.runs import Answer, landings, run_of, serve, still_from
+from docs.research.comparison.codes import Answer, landings, run_of, serve, still_from
 from rocking.quantities import GRAVITY
 from rocking.structures import Block, Mechanism
 
@@ -54,20 +54,20 @@ def _run(given: dict, strain: float) -> Answer:
     ops.integrator("Newmark", 0.5, 0.25)
     ops.analysis("Transient")
     still = still_from(given)
-    end = still + STILL / given["frequency_parameter"]
-    times, rotation, ended = _follow(ops, still, end)
-    if not ended:
+    followed = _follow(ops, still, still + STILL / given["frequency_parameter"])
+    if followed is None:
         return Answer(math.nan)
+    times, rotation = followed
     if abs(rotation[-1]) > 1.0:
         return Answer(math.inf, landings=landings(times, rotation))
     return run_of(given, times, rotation, _potential(structure.mechanism(), rotation))
 
 
-def _follow(ops, still: float, end: float) -> tuple[np.ndarray, np.ndarray, bool]:
-    """Times and rotations (n,), and whether it came to an end: overturned, enough reversals, or all the time."""
+def _follow(ops, still: float, end: float) -> np.ndarray | None:
+    """Times and rotations (2, n), until it overturned, reversed often enough, or all the time; None: to no end."""
     step, good, reversals, start = LONGEST, 0, 0, time.process_time()
-    history, ended = [(0.0, 0.0)], True
-    while ended and ops.getTime() < end and abs(history[-1][1]) <= 1.0 and reversals < REVERSALS:
+    history = [(0.0, 0.0)]
+    while ops.getTime() < end and abs(history[-1][1]) <= 1.0 and reversals < REVERSALS:
         if ops.analyze(1, step) == 0:
             good += 1
             history.append((ops.getTime(), ops.nodeDisp(_WATCHED, 3)))
@@ -77,10 +77,10 @@ def _follow(ops, still: float, end: float) -> tuple[np.ndarray, np.ndarray, bool
         elif step > SHORTEST:
             step, good = max(SHORTEST, 0.5 * step), 0
         else:
-            ended = False
-        ended = ended and time.process_time() - start <= BUDGET
-    times, rotation = np.array(history).T
-    return times, rotation, ended
+            return None
+        if time.process_time() - start > BUDGET:
+            return None
+    return np.array(history).T
 
 
 def _potential(mechanism: Mechanism, rotation: np.ndarray) -> np.ndarray:

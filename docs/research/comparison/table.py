@@ -3,13 +3,12 @@
 import math
 import random
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from docs.research import scores
 from docs.research.comparison.cases import SEED, CodeCase, pulse_cases, record_cases, structures
@@ -18,19 +17,19 @@ from docs.research.comparison.codes import (
     LMGC90,
     ROCKING_BC,
     SLOWEST,
+    Answer,
     Code,
     inner_codes,
     outer_codes,
 )
-from docs.research.comparison.runs import Answer
 from docs.research.reference import reference_landings
 from docs.research.report import publish
 from docs.research.scores import Score
+from docs.research.sites import Tell
 from rocking.assessment.variations import cracks
 from rocking.errors import MotionError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
-from rocking.reports.style import new_figure, picture, styled
 from rocking.structures import Mechanism
 from rocking.tables import Row, column, row
 
@@ -41,8 +40,6 @@ SAMPLED = {LMGC90: {"block": 24, "frame": 24, "arch": 12}, ROCKING_BC: {"block":
 """Cases of each structure that a slow code is run on, drawn with the seed of the cases from those that rock visibly."""
 VISIBLE = (0.02, 0.95)
 """Rotation ratios between which a block is said to do so."""
-SMALLEST_ERROR = 1e-15
-"""Smaller errors, down to none, are drawn here."""
 COMPARED = (
     "Errors are those of the largest rotation where both rock. An impact of the reference under moving ground, faster "
     "than p φ_cr/1000, is missed where the code has none within 0.02/p. LMGC90 follows rigid bodies with inelastic "
@@ -85,8 +82,8 @@ class CodeRow(Row):
     reason: str = column("Why there is no number")
 
 
-def write_comparison(records: Sequence[Accelerogram], folder: Path, tell: Callable[[str], None]) -> None:
-    """Write codes.csv, its scores and its report into `folder`; tell: is given a line for each case."""
+def write_comparison(records: Sequence[Accelerogram], folder: Path, tell: Tell) -> None:
+    """Write codes.csv, its scores and its report into `folder`."""
     cases = [*pulse_cases(), *record_cases(records)]
     slow, rows = slow_cases(cases), []
     for case in cases:
@@ -97,11 +94,8 @@ def write_comparison(records: Sequence[Accelerogram], folder: Path, tell: Callab
         f"{pulses} pulses and {len(cases) - pulses} stretches of records on a block, a frame and an arch of seven "
         "voussoirs; the reference is DOP853 of scipy at 1e-12, restarted at every sample and impact."
     )
-    shown = picture(work_figure(rows), "Median error against median processor time of every code.")
-    caption = "Small marks: cases; large ones: medians of a code. No error is drawn at 1e-15."
-    parts = [{**shown, "caption": caption}, {"heading": "What is compared", "text": COMPARED}]
     tables = {CodeRow: rows, Score: list(code_scores(rows))}
-    publish(folder, "Work against precision", subtitle, tables, parts)
+    publish(folder, "Work against precision", subtitle, tables, [{"text": COMPARED}])
 
 
 def code_rows(case: CodeCase, codes: Mapping[str, Code]) -> Iterator[CodeRow]:
@@ -180,19 +174,15 @@ def _kind(ratio: float) -> int:
 
 def code_scores(rows: Sequence[CodeRow]) -> Iterator[Score]:
     """Yield error and work of every code on every structure, with intervals by case."""
-    for (structure, code), own in _frame(rows).groupby(["structure", "code"]):
+    table = pd.DataFrame(rows).astype({"missed_impacts": float})
+    moves = table.reference_rotation_ratio.between(0, math.inf, inclusive="neither")
+    table["rocks"] = table.error.notna() & moves  # there is an error to speak of
+    for (structure, code), own in table.groupby(["structure", "code"]):
         cases = own.case.tolist()
         yield from scores.scored(code, structure, _measures(own), cases)
         if code in SAMPLED:
             part = f"{structure}, what the other codes lose and give"
             yield from scores.scored(code, part, _losses(own), cases)
-
-
-def _frame(rows: Sequence[CodeRow]) -> pd.DataFrame:
-    """The rows, and whether there is an error to speak of: both rock."""
-    table = pd.DataFrame(rows).astype({"missed_impacts": float})
-    moves = table.reference_rotation_ratio.between(0, math.inf, inclusive="neither")
-    return table.assign(rocks=table.error.notna() & moves)
 
 
 def _measures(own: pd.DataFrame) -> Mapping[str, scores.Measured]:
@@ -239,27 +229,3 @@ def _over(own: pd.DataFrame, expected: pd.Series) -> pd.Series:
     """How many times the rotation is as large, where both rock."""
     both = np.isfinite(own.rotation_ratio) & expected.between(0, math.inf, inclusive="neither")
     return (own.rotation_ratio / expected).where(both)
-
-
-@styled
-def work_figure(rows: Sequence[CodeRow]) -> Figure:
-    """Draw error against processor time: small marks are cases, large ones the medians of a code and structure."""
-    figure = new_figure(112, margins=(17, 4, 29, 6))
-    panels = figure.subplots(1, 3, sharex=True, sharey=True, gridspec_kw={"wspace": 0.06})
-    table = _frame(rows)
-    names = [name for name in table.code.unique() if name != REFERENCE]
-    for panel, structure in zip(panels, ("block", "frame", "arch"), strict=True):
-        for k, name in enumerate(names):
-            own = table[(table.structure == structure) & (table.code == name) & table.rocks]
-            if len(own):
-                times, errors = own.duration_s, own.error.clip(lower=SMALLEST_ERROR)
-                look = {"color": f"C{k % 10}", "marker": "osD^vPXH"[k % 8], "linestyle": "none"}
-                panel.plot(times, errors, markersize=1.8, alpha=0.35, **look)
-                panel.plot(times.median(), errors.median(), markersize=6.5, label=name, **look)
-        panel.set(xscale="log", yscale="log", title=structure, xlabel="processor time of a response (s)")
-        panel.grid(True)
-    panels[0].set_ylabel("relative error of the largest rotation")
-    lines = {line.get_label(): line for panel in panels for line in panel.lines}
-    named = [lines[name] for name in names if name in lines]
-    figure.legend(handles=named, loc="lower center", ncols=3)
-    return figure
