@@ -98,7 +98,9 @@ def left_out(tier: Tier, cases: pd.DataFrame) -> np.ndarray:
     for site in cases.site.unique():
         out = (cases.site == site).to_numpy()
         without = fit(tier, cases[~out])
-        stated[out] = (1 - without.lapse) * expit(without.log_odds(_terms(tier, cases[out]))[0])
+        stated[out] = (1 - without.lapse) * expit(
+            without.design(_terms(tier, cases[out])) @ without.coefficients
+        )
     return stated
 
 

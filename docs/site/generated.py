@@ -8,7 +8,7 @@ from typing import Any
 import rocking
 from docs.paper.report import equation_rows, equivalence_figures
 from docs.site.drawings import forms
-from rocking.assessment.rows.of_folder import PER_RECORD
+from rocking.assessment.fate import PER_RECORD
 from rocking.assessment.rows.of_record import HistoryRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES, SpectrumRow
 from rocking.described import described_values, parts_of

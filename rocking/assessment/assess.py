@@ -5,7 +5,6 @@ from dataclasses import dataclass, field, fields, replace
 from math import inf, nan
 from statistics import median
 from time import process_time
-from types import NoneType
 from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.ensemble import Ensemble, GroundMotions
@@ -178,59 +177,41 @@ def _case(
     alone: bool,
 ) -> Case:
     mechanism = structure if isinstance(structure, Mechanism) else structure.mechanism()
-    prediction, durations = None, {}
+    block = mechanism.equivalent_block(settings.acceleration_scale)  # kept: it is no time of the closed form
+    prediction, durations, auto = None, {}, settings.fidelity == "auto"
     if candidates:
-        # The mechanism keeps its block, which is no time of the closed form.
-        mechanism.equivalent_block(settings.acceleration_scale)
         started = process_time()
         prediction = predict(mechanism, candidates, settings)
         durations[Method.CLOSED_FORM] = process_time() - started
-    if settings.fidelity == "full":
-        answer, responses, spent = _compared(mechanism, record, prediction, settings, vertical)
-        durations |= spent
+    responses: dict[Method, Response] = {}
+    if auto:
+        answer = _cheapest(structure, mechanism, record, settings, vertical)
+        if answer.response is not None:
+            responses[Method.MECHANISM_ON_RECORD] = answer.response
     else:
-        answer, responses = _cheapest(structure, mechanism, record, settings, vertical)
-    on_record, check, members = responses.get(Method.MECHANISM_ON_RECORD), UNKNOWN, None
+        runs: dict[Method, tuple[Mechanism | EquivalentBlock, Accelerogram | Pulse, dict[str, Any]]] = {
+            Method.MECHANISM_ON_RECORD: (mechanism, record, {"history": True, "vertical": vertical}),
+            Method.BLOCK_ON_RECORD: (block, record, {"vertical": vertical}),
+        }
+        if prediction is not None:
+            runs[Method.MECHANISM_ON_PULSE] = (mechanism, prediction.pulse, {})
+        for method, (moved, motion, how) in runs.items():
+            started = process_time()
+            responses[method] = integrate(moved, motion, settings.tolerance, **how)
+            durations[method] = process_time() - started
+        answer = Answer.of(responses[Method.MECHANISM_ON_RECORD])
+    on_record, check, members, estimate = responses.get(Method.MECHANISM_ON_RECORD), UNKNOWN, None, None
     if on_record is not None and isinstance(structure, Structure):
         check = check_model(structure, on_record, record, vertical)
     if settings.ensemble.members and answer.method is Method.MECHANISM_ON_RECORD:
         # Of two components the ensemble over their directions decides, so that theirs need not try every crack.
-        covered = structure if alone or settings.fidelity == "auto" else cracks(structure)[0][1]
+        covered = structure if alone or auto else cracks(structure)[0][1]
         motions = GroundMotions.of(record, vertical, processing=settings.ensemble.processing)
-        members = ensemble_over_cracks(covered, motions, settings, verdict_only=settings.fidelity == "auto")
+        members = ensemble_over_cracks(covered, motions, settings, verdict_only=auto)
         members = replace(members, rotation_ratio=answer.rotation_ratio)
-    estimate = None
-    if members is None and vertical is None:
+    elif vertical is None:
         estimate = estimated(Tier.PEAK_VELOCITY, mechanism, record)
     return Case(name, mechanism, prediction, responses, check, answer, members, estimate, durations)
-
-
-def _compared(
-    mechanism: Mechanism,
-    record: Accelerogram,
-    prediction: Prediction | None,
-    settings: AssessmentSettings,
-    vertical: Accelerogram | None,
-) -> tuple[Answer, dict[Method, Response], dict[Method, float]]:
-    """Every method, and the CPU time [s] of each; the mechanism on the record answers."""
-    responses: dict[Method, Response] = {}
-    durations: dict[Method, float] = {}
-
-    def follow(
-        method: Method, moved: Mechanism | EquivalentBlock, motion: Accelerogram | Pulse, **more: Any
-    ) -> None:
-        started = process_time()
-        responses[method] = integrate(moved, motion, settings.tolerance, **more)
-        durations[method] = process_time() - started
-
-    block = mechanism.equivalent_block(settings.acceleration_scale)
-    follow(Method.MECHANISM_ON_RECORD, mechanism, record, history=True, vertical=vertical)
-    follow(Method.BLOCK_ON_RECORD, block, record, vertical=vertical)
-    if prediction is not None:
-        follow(Method.MECHANISM_ON_PULSE, mechanism, prediction.pulse)
-    whole = responses[Method.MECHANISM_ON_RECORD]
-    answer = Answer(Method.MECHANISM_ON_RECORD, whole.rotation_ratio, whole.outcome, whole)
-    return answer, responses, durations
 
 
 def _cheapest(
@@ -239,31 +220,24 @@ def _cheapest(
     record: Accelerogram,
     settings: AssessmentSettings,
     vertical: Accelerogram | None,
-) -> tuple[Answer, dict[Method, Response]]:
-    """What settles the verdict with the least work, and the response of the mechanism where it took part.
+) -> Answer:
+    """What settles the verdict with the least work.
 
     Where other cracks may form, nothing cheaper than the mechanism settles it unless all of them rest, or stand by
     their peak velocities.
     """
-    risk, first = settings.fidelity_risk, mechanism
-    if len(may_form := cracks(structure)) > 1:
-        first = may_form[0][1]
-        estimates = (estimated(Tier.PEAK_VELOCITY, each, record) for _, each in may_form)
+    may_form = [each for _, each in cracks(structure)]
+    risk, first = settings.fidelity_risk, mechanism if len(may_form) == 1 else may_form[0]
+    if len(may_form) > 1:
+        estimates = (estimated(Tier.PEAK_VELOCITY, each, record) for each in may_form)
         if not all(each is not None and each.high <= risk for each in estimates):
             risk = 0.0
-    answer = cheapest_answer(
-        first,
-        record,
-        risk=risk,
-        tolerance=settings.tolerance,
-        vertical=vertical,
-        history=True,
-        ensemble_follows=settings.ensemble.members > 0,
-    )
-    if answer.method is Method.MECHANISM_ON_RECORD and first is not mechanism:
-        whole = integrate(mechanism, record, settings.tolerance, history=True, vertical=vertical)
-        answer = replace(answer, rotation_ratio=whole.rotation_ratio, outcome=whole.outcome, response=whole)
-    return answer, {} if answer.response is None else {Method.MECHANISM_ON_RECORD: answer.response}
+    how: Any = {"tolerance": settings.tolerance, "vertical": vertical, "history": True}
+    follows = settings.ensemble.members > 0
+    answer = cheapest_answer(first, record, risk=risk, ensemble_follows=follows, **how)
+    if answer.method is not Method.MECHANISM_ON_RECORD or first is mechanism:
+        return answer
+    return Answer.of(integrate(mechanism, record, **how), answer.reason)
 
 
 @dataclass(frozen=True)
@@ -311,10 +285,8 @@ class StructureAssessment(Ensemble):
 
     def __repr__(self) -> str:
         other = self.elsewhere
-        given, low, high = (
-            "overturns" if ratio == inf else f"{ratio:.2g}"
-            for ratio in (self.rotation_ratio, self.rotation_ratio_low, self.rotation_ratio_high)
-        )
+        ratios = (self.rotation_ratio, self.rotation_ratio_low, self.rotation_ratio_high)
+        given, low, high = ("overturns" if ratio == inf else f"{ratio:.2g}" for ratio in ratios)
         there = f"; with the {other.crack} in {other.overturning_members} of {other.members}" if other else ""
         return (
             f"<{self.verdict}: overturns in {self.overturning_members} of {self.members} members; as given {given}, "
@@ -325,7 +297,15 @@ class StructureAssessment(Ensemble):
         """One row per method and component: its rotation ratio, and how that stands to the integration, in words."""
         from pandas import DataFrame  # slow to import, and needed by those alone who ask for a frame
 
-        return DataFrame(row for component, case in self.cases.items() for row in _rows(component, case))
+        rows = []
+        for component, case in self.cases.items():
+            ratios = {Method.CLOSED_FORM: case.predicted_rotation_ratio} if case.prediction else {}
+            ratios |= {method: response.rotation_ratio for method, response in case.responses.items()}
+            for method, ratio in ratios.items():
+                whole = method is Method.MECHANISM_ON_RECORD
+                words = "" if whole else ratio_in_words(ratio, case.integrated_rotation_ratio)
+                rows.append((component, str(method), ratio, words))
+        return DataFrame(rows, columns=["component", "method", "rotation_ratio", "in_words"])
 
     def plot(self, axes: "Axes | None" = None) -> "Axes":
         """Draw the rotation of the case as given against time, with the members' 5–95 % beside it; return the axes."""
@@ -359,14 +339,15 @@ def assess(
         record = [each for each in channels if not each.vertical]
         vertical = vertical or next((each for each in channels if each.vertical), None)
     records = _checked_records(record)
+    settings = settings or AssessmentSettings()
     for name, value, allowed, words in (
-        ("structure", structure, (Structure, Mechanism), "a structure or a mechanism"),
-        ("vertical", vertical, (Accelerogram, NoneType), "an accelerogram"),
-        ("settings", settings, (AssessmentSettings, NoneType), "AssessmentSettings"),
+        ("structure", structure, Structure | Mechanism, "a structure or a mechanism"),
+        ("vertical", vertical, Accelerogram | None, "an accelerogram"),
+        ("settings", settings, AssessmentSettings, "AssessmentSettings"),
     ):
         if not isinstance(value, allowed):
             raise ConfigurationError(f"{name} is a {type(value).__name__}, but must be {words}.")
-    settings = replace(settings or AssessmentSettings(), fidelity="full")
+    settings = replace(settings, fidelity="full")
     wanted = settings.ensemble.members if members is None else members
     varied = replace(settings.ensemble, members=wanted or EnsembleSettings().members)
     settings = replace(settings, ensemble=varied)
@@ -386,10 +367,8 @@ def assess(
     if over_all is None:
         motions = GroundMotions.of_pair(records[0], records[1], vertical, processing=varied.processing)
         over_all = ensemble_over_cracks(structure, motions, settings)
-    worse = max(case.integrated_rotation_ratio for case in cases.values())
-    of_all = {each.name: getattr(over_all, each.name) for each in fields(Ensemble)} | {
-        "rotation_ratio": worse
-    }
+    of_all = {each.name: getattr(over_all, each.name) for each in fields(Ensemble)}
+    of_all["rotation_ratio"] = max(case.integrated_rotation_ratio for case in cases.values())
     multiplier = cracks(structure)[0][1].uplift_multiplier
     return StructureAssessment(**of_all, cases=cases, static_multiplier=multiplier)
 
@@ -398,34 +377,12 @@ def _checked_records(record: object) -> list[Accelerogram]:
     """The horizontal components. Raises ConfigurationError unless they are one or two accelerograms."""
     records = [record] if isinstance(record, Accelerogram) else record
     if isinstance(records, str | bytes) or not isinstance(records, Sequence):
-        raise ConfigurationError(
-            f"record is a {type(record).__name__}, but must be an accelerogram, or two horizontal ones; "
-            "rocking.read gives those of a file."
-        )
-    for each in records:
-        if not isinstance(each, Accelerogram):
-            raise ConfigurationError(f"record holds a {type(each).__name__}, but must hold accelerograms.")
-    if len(records) not in (1, 2):
-        raise ConfigurationError(
-            f"record holds {len(records)} accelerograms, but must hold one or two horizontal ones."
-        )
-    return list(records)
-
-
-def _rows(component: str, case: Case) -> list[dict[str, Any]]:
-    integrated = case.responses[Method.MECHANISM_ON_RECORD].rotation_ratio
-    ratios = {method: response.rotation_ratio for method, response in case.responses.items()}
-    if case.prediction is not None:
-        ratios[Method.CLOSED_FORM] = case.prediction.maximum.rotation_ratio
-    return [
-        {
-            "component": component,
-            "method": str(method),
-            "rotation_ratio": ratios[method],
-            "in_words": ""
-            if method is Method.MECHANISM_ON_RECORD
-            else ratio_in_words(ratios[method], integrated),
-        }
-        for method in Method
-        if method in ratios
-    ]
+        wrong = f"is a {type(record).__name__}, but must be an accelerogram, or two horizontal ones; "
+        wrong += "rocking.read gives those of a file"
+    elif odd := [each for each in records if not isinstance(each, Accelerogram)]:
+        wrong = f"holds a {type(odd[0]).__name__}, but must hold accelerograms"
+    elif len(records) not in (1, 2):
+        wrong = f"holds {len(records)} accelerograms, but must hold one or two horizontal ones"
+    else:
+        return list(records)
+    raise ConfigurationError(f"record {wrong}.")

@@ -54,21 +54,9 @@ class Tier(StrEnum):
 
     @property
     def terms(self) -> tuple[str, ...]:
-        """The measures it takes."""
-        return (*_TERMS[self], *STRUCTURE)
-
-
-_TERMS: Mapping[Tier, tuple[str, ...]] = {
-    Tier.PEAK_VELOCITY: ("peak_velocity",),
-    Tier.BLOCK_AT_FIVE_SCALES: (
-        "block",
-        "block_overturns",
-        "block_high",
-        "block_overturning_share",
-        "block_never_overturns",
-        "block_always_overturns",
-    ),
-}
+        """The measures it takes, those of the structure last."""
+        own = ("peak_velocity",) if self is Tier.PEAK_VELOCITY else tuple(from_nudged(np.zeros(len(NUDGES))))
+        return (*own, *STRUCTURE)
 
 
 @dataclass(frozen=True)
@@ -101,27 +89,25 @@ class TierFit:
 
     def unlike(self, measures: Mapping[str, float]) -> bool:
         """Whether a property of a structure lies beyond those behind the fit."""
-        own = [measures[name] for name in ("frequency_parameter", *STRUCTURE)]
-        ends = zip(
-            (self.frequencies[0], *self.least[-3:]), (self.frequencies[1], *self.largest[-3:]), strict=True
+        own = np.array([measures[name] for name in ("frequency_parameter", *STRUCTURE)])
+        least, largest = (
+            np.append(frequency, ends[-3:])
+            for frequency, ends in zip(self.frequencies, (self.least, self.largest), strict=True)
         )
-        return any(
-            not least - _SLACK * (largest - least) <= value <= largest + _SLACK * (largest - least)
-            for value, (least, largest) in zip(own, ends, strict=True)
-        )
+        slack = _SLACK * (largest - least)
+        return not np.all((least - slack <= own) & (own <= largest + slack))
 
-    def log_odds(self, terms: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Log odds of overturning (n,) of terms (n, k), and their standard error."""
-        design = np.column_stack([np.ones(len(terms)), (terms - self.centre) / self.spread])
-        variance = np.einsum("ij,jk,ik->i", design, self.covariance, design)
-        return design @ self.coefficients, np.sqrt(np.maximum(variance, 0.0))
+    def design(self, terms: np.ndarray) -> np.ndarray:
+        """Return 1 and the scaled terms (..., k): times the coefficients, the log odds of overturning."""
+        return np.insert((terms - self.centre) / self.spread, 0, 1.0, axis=-1)
 
     def estimate(self, measures: Mapping[str, float]) -> Estimate | None:
         """Return what the tier says of a case; None of a structure unlike all behind it."""
         if self.unlike(measures):
             return None
-        odds, error = self.log_odds(np.array([[measures[term] for term in self.tier.terms]]))
-        ends = odds[0] + NORMAL_95 * error[0] * np.array([0.0, -1.0, 1.0])
+        design = self.design(np.array([measures[term] for term in self.tier.terms]))
+        error = np.sqrt(max(design @ self.covariance @ design, 0.0))
+        ends = design @ self.coefficients + NORMAL_95 * error * np.array([0.0, -1.0, 1.0])
         kept = np.array([1 - self.lapse, 1 - self.lapse, 1.0])  # the upper end decides what stands
         return Estimate(*(kept / (1 + np.exp(-ends))).tolist())
 
@@ -205,6 +191,11 @@ class Answer:
     reason: str = ""
     estimate: Estimate | None = None
 
+    @classmethod
+    def of(cls, whole: Response, reason: str = "") -> "Answer":
+        """What the mechanism on the record itself says."""
+        return cls(Method.MECHANISM_ON_RECORD, whole.rotation_ratio, whole.outcome, whole, reason)
+
 
 def stays_at_rest(
     mechanism: Mechanism, accelerogram: Accelerogram, vertical: Accelerogram | None = None
@@ -242,8 +233,7 @@ def cheapest_answer(
         if estimate is not None and (estimate.high <= risk or estimate.low >= 1 - risk):
             return _settled(estimate, Method.BLOCK_ON_RECORD, f"the block at {len(NUDGES)} scales", risk)
     whole = integrate(mechanism, record, tolerance, history=history, vertical=vertical)
-    reason = f"{'the block' if ensemble_follows else 'the peak velocity'} does not settle it"
-    return Answer(Method.MECHANISM_ON_RECORD, whole.rotation_ratio, whole.outcome, whole, reason)
+    return Answer.of(whole, f"{'the block' if ensemble_follows else 'the peak velocity'} does not settle it")
 
 
 def estimated(

@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.assessment.fate import Fate
-from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.fate import Fate, RecordTables
 from rocking.assessment.verdict import NEGLIGIBLE
 from rocking.motion.response import Response
 from rocking.quantities import GRAVITY, counted

@@ -15,8 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.transforms import Affine2D
 
-from rocking.assessment.fate import Fate
-from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.fate import Fate, RecordTables
 from rocking.assessment.rows.of_record import RATIO_COLUMNS, ComparisonRow, PulseRow, RecordRow
 from rocking.assessment.rows.of_study import StructureRow, structure_rows
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Method, Verdict, agreement, rests

@@ -14,9 +14,7 @@ from typing import Any
 
 from rocking.assessment.assess import Assessment, Failure, assess_structures
 from rocking.assessment.ensemble import GroundMotions, processed
-from rocking.assessment.fate import BOTH_COMPONENTS
-from rocking.assessment.horizontal_motion import horizontal_motions
-from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.fate import BOTH_COMPONENTS, RecordTables
 from rocking.assessment.rows.of_record import (
     ComponentRow,
     HistoryRow,
@@ -24,6 +22,7 @@ from rocking.assessment.rows.of_record import (
     VariationRow,
     ensemble_row,
     history_rows,
+    horizontal_motions,
     identity_of,
 )
 from rocking.assessment.settings import AssessmentSettings

@@ -10,8 +10,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.assessment.fate import Fate
-from rocking.assessment.rows.of_folder import PER_RECORD, RecordTables
+from rocking.assessment.fate import PER_RECORD, Fate, RecordTables
 from rocking.assessment.rows.of_record import TimingRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
 from rocking.assessment.trade import TradeRow

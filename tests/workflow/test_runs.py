@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rocking.assessment.rows.of_folder import PER_RECORD
+from rocking.assessment.fate import PER_RECORD
 
 
 def test_a_run_makes_every_table_of_every_record(finished, tmp_path: Path) -> None:

@@ -6,8 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rocking.assessment.horizontal_motion import horizontal_motions
-from rocking.assessment.rows.of_record import ComponentRow, record_row
+from rocking.assessment.rows.of_record import ComponentRow, horizontal_motions, record_row
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 

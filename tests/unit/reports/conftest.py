@@ -5,8 +5,7 @@ import pytest
 
 from rocking.assessment.assess import AssessmentSettings, assess_structures
 from rocking.assessment.ensemble import processed
-from rocking.assessment.fate import Fate
-from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.fate import Fate, RecordTables
 from rocking.assessment.rows.of_record import (
     ComparisonRow,
     FailureRow,

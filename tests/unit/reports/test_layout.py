@@ -9,7 +9,7 @@ from html import unescape
 
 import pytest
 
-from rocking.assessment.rows.of_folder import RecordTables
+from rocking.assessment.fate import RecordTables
 from rocking.reports.document import compile_document
 from rocking.reports.summary import summary_report
 

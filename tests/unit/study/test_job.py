@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import assess
-from rocking.assessment.rows.of_folder import PER_RECORD
+from rocking.assessment.fate import PER_RECORD
 from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, HistoryRow, PulseRow
 from rocking.errors import RockingError, StructureError
 from rocking.motion import integrate

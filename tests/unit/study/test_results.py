@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import rocking
-from rocking.assessment.rows.of_folder import PER_RECORD
+from rocking.assessment.fate import PER_RECORD
 from rocking.assessment.rows.of_record import TimingRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES, StructureRow
 from rocking.errors import RockingError
