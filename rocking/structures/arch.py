@@ -21,16 +21,14 @@ from rocking.structures.arch_mechanism import (
     TooThin,
     maximum_thickness,
     minimum_thickness,
-    mirror_balance,
     onset_at,
     other_hinges,
     static_onset,
-    thrust_line,
 )
-from rocking.structures.arch_ring import PATTERN, Bars, Fill, Piers, Ring
-from rocking.structures.drawing import Path, plane, span, swept
+from rocking.structures.arch_ring import EXTRADOS, INTRADOS, PATTERN, Bars, Fill, Piers, Ring
+from rocking.structures.drawing import Path, plane, rectangle, span, swept
 from rocking.structures.fields import Value, count, length, restitution_value
-from rocking.structures.linkage import STILL, Restitution
+from rocking.structures.linkage import STILL, Restitution, momentum_balance
 from rocking.structures.structure import Candidate, Crackable
 
 UNSAFE_MOMENTUM = "unsafe momentum"
@@ -106,13 +104,10 @@ class Arch(Crackable):
     @property
     def ring(self) -> Ring:
         """The arch with a centreline radius of 1."""
-        return Ring(self.thickness / self.radius, self.embrace_angle, self.voussoirs, self._fill)
-
-    @property
-    def _fill(self) -> Fill | None:
-        return (
-            None if self.fill_depth is None else Fill(self.fill_depth / self.radius, self.fill_density_ratio)
-        )
+        fill = None
+        if self.fill_depth is not None:
+            fill = Fill(self.fill_depth / self.radius, self.fill_density_ratio)
+        return Ring(self.thickness / self.radius, self.embrace_angle, self.voussoirs, fill)
 
     @cached_property
     def onset(self) -> Onset:
@@ -162,7 +157,7 @@ class Arch(Crackable):
 
     def _refusal(self, too_thin: bool) -> str:
         bound = minimum_thickness if too_thin else maximum_thickness
-        limit = bound(self.embrace_angle, self.voussoirs, self._fill) * self.radius
+        limit = bound(self.embrace_angle, self.voussoirs, self.ring.fill) * self.radius
         if too_thin:
             return f"stands only above a thickness of {limit:.9g} m"
         return (
@@ -185,12 +180,11 @@ class Arch(Crackable):
         There the left half of the mechanism has snapped through, far below the unstable equilibrium, and the
         bar CD turns back. All functions are smooth up to that rotation.
         """
-        sections = self._hinge_sections
-        points = self.radius * self.ring.contact_points(sections, PATTERN)
-        foot = self.ring.feet(sections)
+        sections, ring = self._hinge_sections, self.ring
+        points, foot = self.radius * ring.contact_points(sections, PATTERN), ring.feet(sections)
         # the thrust runs along the arch at a hinge, up through the left foot and down through the right one
         joints = np.where(foot == 0, -sections, -np.pi / 2 * foot)
-        linkage = FourBar(points, self._bars(sections), self.radius, self.ring.mass, joints)
+        linkage = FourBar(points, self._bars(sections), self.radius, ring.mass, joints)
         if not linkage.gravity(linkage.end_rotation) < 0:
             raise StructureError(
                 f"{self._sentence} finds no unstable equilibrium before its hinges come into line."
@@ -218,9 +212,23 @@ class Arch(Crackable):
 
     def _momentum_balance(self, mirrored: bool) -> float:
         """That of the velocity fields of the mechanism and of its mirror image, whose bars are others."""
-        edges = self._split(-self._hinge_sections)
-        middles = (edges[1:] + edges[:-1]) / 2
-        return mirror_balance(self._bars(edges), middles, self.linkage, self._hinge_sections)  # type: ignore[arg-type]
+        hinges, motion = self._hinge_sections, self.linkage.motion(0.0)
+        edges = self._split(-hinges)
+        parts, middles = self._bars(edges), (edges[1:] + edges[:-1]) / 2
+
+        def velocities(sections: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            bar = np.searchsorted(hinges, sections) - 1
+            moving = (bar >= 0) & (bar <= 2)
+            bar = np.clip(bar, 0, 2)
+            speeds = motion.velocities[bar] + 1j * motion.spins[bar] * (points - motion.centroids[bar])
+            return speeds * moving, motion.spins[bar] * moving
+
+        return momentum_balance(
+            parts.masses,
+            parts.inertias,
+            velocities(middles, parts.centroids),
+            velocities(-middles, -parts.centroids.conj()),
+        )
 
     def _split(self, more: np.ndarray) -> np.ndarray:
         """The ends of the arch, its hinges and `more` sections in order, each once."""
@@ -258,9 +266,14 @@ class Arch(Crackable):
 
         On piers it starts and ends with a point more, at the foot of each.
         """
-        inside = np.linspace(*self._ends, count)
-        sections = np.unique(np.concatenate([self.ring.ends, inside]))
-        return self.radius * plane(thrust_line(self.ring, self.onset, sections))
+        ring, onset = self.ring, self.onset
+        sections = np.unique([*ring.ends, *np.linspace(*self._ends, count)])
+        unknowns = np.array([*onset.reaction, onset.multiplier, 1.0])
+        contacts = [np.full(sections.shape, contact) for contact in (INTRADOS, EXTRADOS)]
+        inner, outer = (ring.contact_points(sections, contact) for contact in contacts)
+        # a gap is the normal force times the distance of the thrust from the contact point
+        from_inner, from_outer = (ring.gaps(sections, contact) @ unknowns for contact in contacts)
+        return self.radius * plane(inner + from_inner / (from_inner + from_outer) * (outer - inner))
 
 
 @dataclass(frozen=True)
@@ -293,8 +306,12 @@ class ArchOnPiers(Arch):
     @property
     def ring(self) -> Ring:
         """Arch and piers with a centreline radius of 1."""
-        piers = Piers(self.pier_width / self.radius, self.pier_height / self.radius, self.pier_density_ratio)
-        return replace(super().ring, piers=piers)
+        ring = super().ring
+        width, height = self.pier_width / self.radius, self.pier_height / self.radius
+        springing = ring.contact_points(np.array(self.embrace_angle / 2), INTRADOS)
+        inner, top = float(springing.real), float(springing.imag)
+        mass = self.pier_density_ratio * width * height / ring.thickness
+        return replace(ring, piers=Piers(rectangle(inner, inner + width, top - height, top), mass))
 
     def _static_onset(self) -> Onset:
         """λ of the mechanism that governs and its hinges (angles from the left springing; a foot is beyond it)."""
@@ -319,15 +336,20 @@ class ArchOnPiers(Arch):
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         """The piers, then the parts of the arch."""
-        feet = self.ring.feet(self._hinge_sections)
+        feet, right = self.ring.feet(self._hinge_sections), self._right_pier
         piers = [
-            (bar if feet[hinge] else STILL, self.radius * self.ring.pier(side))
-            for side, hinge, bar in ((-1.0, 0, 0), (1.0, -1, 2))
+            (0 if feet[0] else STILL, -right.conj()),
+            (2 if feet[-1] else STILL, right),
         ]
         return piers + super()._parts()
 
+    @property
+    def _right_pier(self) -> np.ndarray:
+        assert self.ring.piers is not None
+        return self.radius * self.ring.piers.corners
+
     def _dimensions(self) -> dict[str, Path]:
-        inner_foot, outer_foot, outer_head, _ = self.radius * plane(self.ring.pier(1.0))
+        inner_foot, outer_foot, outer_head, _ = plane(self._right_pier)
         apart = 0.1 * self.pier_height
         return super()._dimensions() | {
             "pier_width": span(inner_foot, outer_foot, [0.0, -apart]),

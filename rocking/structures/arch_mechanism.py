@@ -10,7 +10,6 @@ The hinges make a four-bar linkage A-B-C-D; φ is the clockwise rotation of bar 
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from itertools import combinations
 
 import numpy as np
@@ -18,7 +17,7 @@ import numpy as np
 from rocking.errors import StructureError
 from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Bars, Fill, Ring
 from rocking.structures.contacts import Contacts, MotionState
-from rocking.structures.linkage import Linkage, Motion, cross, keeps_last, momentum_balance
+from rocking.structures.linkage import Linkage, Motion, cross, keeps_last
 
 
 class FourBar(Linkage):
@@ -31,8 +30,10 @@ class FourBar(Linkage):
     def __init__(
         self, hinges: np.ndarray, bars: Bars, radius: float, mass: float, joints: np.ndarray
     ) -> None:
-        self.hinges, self.masses, self._mass, self._joints = hinges, bars.masses, mass, joints
-        self.rest, self.inertias, self.unit = bars.centroids, bars.inertias, radius
+        self.hinges, self._mass, self._joints, self.unit = hinges, mass, joints, radius
+        self.masses, self.rest, self.inertias = bars
+        self._at_rest = np.diff(hinges)
+        self._branch = float(np.sign(cross(hinges[3] - hinges[1], self._at_rest[1])))
         self.end_rotation = self._last_rotation()
 
     @keeps_last
@@ -71,15 +72,6 @@ class FourBar(Linkage):
         to_c = (along + 1j * across) * diagonal / length
         return ab, to_c, diagonal - to_c
 
-    @cached_property
-    def _at_rest(self) -> np.ndarray:
-        return np.diff(self.hinges)
-
-    @cached_property
-    def _branch(self) -> float:
-        diagonal = self.hinges[3] - self.hinges[1]
-        return float(np.sign(cross(diagonal, self._at_rest[1])))
-
     def contacts(self, state: MotionState) -> Contacts:
         """The thrust at B follows from the moments of AB about A and of BC about C; it runs from left to right."""
         motion = self.motion(state.rotation)
@@ -108,26 +100,6 @@ class FourBar(Linkage):
             inertia = self.inertia(places)
         moves = np.isfinite(inertia) & (inertia > 0)
         return float(places[-1] if moves.all() else 0.98 * places[int(np.argmin(moves)) - 1])
-
-
-def mirror_balance(bars: Bars, middles: np.ndarray, linkage: FourBar, hinges: np.ndarray) -> float:
-    """Return η = −⟨u, u_m⟩/⟨u_m, u_m⟩ of the velocity fields for φ' = 1 at φ = 0 of an arch and of its mirror image.
-
-    bars: the parts between the hinges (4,) of both, `middles` (k,) the sections [rad] in the middle of each.
-    """
-
-    def velocities(sections: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        motion = linkage.motion(0.0)
-        bar = np.searchsorted(hinges, sections) - 1
-        moving = (bar >= 0) & (bar <= 2)
-        bar = np.clip(bar, 0, 2)
-        speeds = motion.velocities[bar] + 1j * motion.spins[bar] * (points - motion.centroids[bar])
-        return speeds * moving, motion.spins[bar] * moving
-
-    arriving = velocities(middles, bars.centroids)
-    return momentum_balance(
-        bars.masses, bars.inertias, arriving, velocities(-middles, -bars.centroids.conj())
-    )
 
 
 _DOWN = np.array([0.0, 0.0, 0.0, -1.0])
@@ -277,18 +249,6 @@ def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.n
             break
         hinges = moved
     return hinges, unknowns
-
-
-def thrust_line(ring: Ring, onset: Onset, sections: np.ndarray) -> np.ndarray:
-    """Return where the thrust of a static onset crosses `sections` (k,): (k,) complex points.
-
-    A gap is the normal force times the distance of the thrust from the contact point.
-    """
-    unknowns = np.array([*onset.reaction, onset.multiplier, 1.0])
-    contacts = [np.full(sections.shape, contact) for contact in (INTRADOS, EXTRADOS)]
-    inner, outer = (ring.contact_points(sections, contact) for contact in contacts)
-    from_inner, from_outer = (ring.gaps(sections, contact) @ unknowns for contact in contacts)
-    return inner + from_inner / (from_inner + from_outer) * (outer - inner)
 
 
 def minimum_thickness(embrace_angle: float, voussoirs: int | None = None, fill: Fill | None = None) -> float:

@@ -70,16 +70,25 @@ class Bars(NamedTuple):
     inertias: np.ndarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Piers:
     """Two equal rectangular piers, flush with the intrados at the springings.
 
-    width, height: over r. density: over that of the arch.
+    corners: of the right one, (4,) complex: inner and outer foot, outer and inner head. mass: of each, per t·r.
     """
 
-    width: float
-    height: float
-    density: float
+    corners: np.ndarray
+    mass: float
+
+    @property
+    def centre(self) -> complex:
+        """Centre of mass of the right one."""
+        return complex(self.corners.mean())
+
+    @property
+    def inertia(self) -> float:
+        """About the centre of mass, per mass."""
+        return float(abs(self.corners[2] - self.corners[0]) ** 2 / 12)
 
 
 @dataclass(frozen=True)
@@ -129,23 +138,13 @@ class Ring:
         foot = self.feet(section)
         return np.where(foot == 0, self.on_arch(section), foot * self.ends[1])
 
-    def pier(self, side: float) -> np.ndarray:
-        """The corners of the left (side −1) or right (1) pier, complex: inner and outer foot, outer and inner head."""
-        assert self.piers is not None
-        springing = (1 - self.thickness / 2) * 1j * np.exp(-0.5j * self.embrace_angle)
-        inner, top = springing.real, springing.imag
-        outer, low = inner + self.piers.width, top - self.piers.height
-        return np.array(
-            [side * x + 1j * y for x, y in ((inner, low), (outer, low), (outer, top), (inner, top))]
-        )
-
     def contact_points(self, section: np.ndarray, contact: ArrayLike) -> np.ndarray:
         """The points of the intrados (contact = 1) or extrados (−1), at a foot the inner or outer corner; complex."""
         contact = np.asarray(contact)
         points = (1 - contact * self.thickness / 2) * 1j * np.exp(-1j * section)
         if self.piers is None:
             return points  # type: ignore[no-any-return]
-        foot, (inner, outer) = self.feet(section), self.pier(1.0)[:2]
+        foot, (inner, outer) = self.feet(section), self.piers.corners[:2]
         corner = np.where(contact > 0, inner.real, outer.real)
         return np.where(foot == 0, points, foot * corner + 1j * inner.imag)
 
@@ -170,22 +169,13 @@ class Ring:
             centroids = moments / np.where(masses > 0, masses, 1.0)
             about_centre = about_centre + weight * (1 + self.thickness / 2) ** 2
         if self.piers is not None:
-            mass, centre, own = self._pier_body()
-            left, right = self.feet(edges)[[0, -1]] * (-1.0, 1.0) * mass
-            at_ends = np.zeros((2, masses.size))
-            at_ends[0, 0], at_ends[1, -1] = left, right
+            at_ends, centre = np.zeros((2, masses.size)), self.piers.centre
+            at_ends[[0, 1], [0, -1]] = np.abs(self.feet(edges)[[0, -1]]) * self.piers.mass
             moments = masses * centroids + at_ends[0] * -centre.conjugate() + at_ends[1] * centre
             masses = masses + at_ends.sum(axis=0)
             centroids = moments / masses
-            about_centre = about_centre + at_ends.sum(axis=0) * (own + abs(centre) ** 2)
+            about_centre = about_centre + at_ends.sum(axis=0) * (self.piers.inertia + abs(centre) ** 2)
         return Bars(masses, centroids, about_centre - masses * np.abs(centroids) ** 2)
-
-    def _pier_body(self) -> tuple[float, complex, float]:
-        """Mass of a pier per t·r, centre of mass of the right one, inertia about it per mass."""
-        assert self.piers is not None
-        width, height = self.piers.width, self.piers.height
-        mass = self.piers.density * width * height / self.thickness
-        return mass, complex(self.pier(1.0).mean()), (width**2 + height**2) / 12
 
     def loads(self, section: np.ndarray) -> Loads:
         """Return what lies left of `section`; at a foot with its pier, and without change."""
@@ -199,9 +189,11 @@ class Ring:
             )
             total, rate = total + (filled.T - before).T, rate + more
         if self.piers is not None:
-            foot, (mass, centre, _) = self.feet(section), self._pier_body()
+            foot, centre = self.feet(section), self.piers.centre
             one = np.ones_like(foot)
-            total = total + foot * mass * np.stack([one, foot * centre.real, one * centre.imag])
+            total = total + self.piers.mass * np.stack(
+                [foot, one * np.abs(foot) * centre.real, foot * centre.imag]
+            )
             rate = (foot == 0) * rate
         return total, rate
 

@@ -41,7 +41,6 @@ class Facade(Tied):
 
     type_name: ClassVar[str] = "facade"
     crack_name: ClassVar[str] = "crack"
-    at_joints_only: ClassVar[bool] = True
     described_as: ClassVar[dict[str, str]] = {
         "": "Façade of one storey or several with floor loads, ties and thrust; forces per metre of façade"
     }
@@ -178,13 +177,14 @@ class Facade(Tied):
             bearings.append((complex(across, self.levels[storey + 1]), load))
         return bearings
 
-    def _crack_heights(self, count: int) -> np.ndarray:
+    @property
+    def joints(self) -> np.ndarray:
         """The foot of every storey."""
         return self.levels[:-1]
 
     def cracked_at(self, height: float) -> "Facade":
         """Return this façade cracked at the foot of the storey nearest to `height` [m]."""
-        return replace(self, crack_storey=int(np.argmin(np.abs(self.levels[:-1] - height))) + 1)
+        return replace(self, crack_storey=int(np.argmin(np.abs(self.joints - height))) + 1)
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         return [

@@ -321,10 +321,6 @@ class Turning(Linkage):
         """sin(α − φ)."""
         return np.sin(self.slenderness - np.asarray(rotation))
 
-    def weight_slope(self, rotation: ArrayLike) -> np.ndarray:
-        """−cos(α − φ)."""
-        return -np.cos(self.slenderness - np.asarray(rotation))
-
     def ground(self, rotation: ArrayLike) -> np.ndarray:
         """cos(α − φ)."""
         return np.cos(self.slenderness - np.asarray(rotation))

@@ -98,13 +98,9 @@ class Side:
     @property
     def described(self) -> str:
         """Its four numbers, for a reader."""
-        numbers = {
-            "λ": shown(self.uplift_multiplier),
-            "φ_cr": shown(self.critical_rotation, "rad"),
-            "p": shown(self.frequency_parameter, "rad/s"),
-            "η": shown(self.restitution),
-        }
-        return ", ".join(f"{name} = {number}" for name, number in numbers.items())
+        frequency = shown(self.frequency_parameter, "rad/s")
+        rotation, restitution = shown(self.critical_rotation, "rad"), shown(self.restitution)
+        return f"λ = {shown(self.uplift_multiplier)}, φ_cr = {rotation}, p = {frequency}, η = {restitution}"
 
     def at(self, name: str, rotation: float) -> float:
         """Return one of the five functions, by name, at one rotation [rad], as a float."""
@@ -164,18 +160,17 @@ class Side:
 
     def equivalent_block(self, scale: Scale = "rest") -> EquivalentBlock:
         """Return the linear block that stands for this side alone; see Mechanism.equivalent_block."""
-        frequency_parameter, mapped = 0.0, None
+        mapped = None
         if scale == "rest":
             arc, mapped = self.arc
             stiffness = GRAVITY * self.at("gravity", 0.0) / self.at("inertia", 0.0)
             # p² = g G(0)/(I(0) q_cr) in x = q/q_cr with the arc q (theory: section 9)
-            frequency_parameter = float(np.sqrt(stiffness / arc.at(self.critical_rotation)))
+            frequency = float(np.sqrt(stiffness / arc.at(self.critical_rotation)))
+        else:
+            frequency = self.frequency_parameter
+        scaled = self.scaled_acceleration(scale)
         return EquivalentBlock(
-            frequency_parameter=frequency_parameter or self.frequency_parameter,
-            critical_rotation=self.critical_rotation,
-            acceleration_scale=self.scaled_acceleration(scale),
-            restitution=self.restitution,
-            rotation_map=mapped,
+            frequency, self.critical_rotation, scaled, self.restitution, rotation_map=mapped
         )
 
     @cached_property

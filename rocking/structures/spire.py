@@ -9,7 +9,7 @@ from rocking.errors import StructureError
 from rocking.structures.drawing import Path, span
 from rocking.structures.fields import OneSided, Value, length, restitution_value
 from rocking.structures.linkage import STILL, Restitution, Turning
-from rocking.structures.structure import HIGHEST_SHARE, Crackable
+from rocking.structures.structure import Crackable
 
 _SPREAD = {"circular": 3 / 20, "square": 1 / 5}
 """Mean square of one horizontal coordinate over a solid cone or pyramid, in squares of its half width."""
@@ -85,10 +85,6 @@ class Spire(Crackable):
         height = 2 * half_width / self.width * self.height
         moments = np.array([1.0, height / 4, height**2 / 10, _SPREAD[self.plan] * half_width**2])
         return half_width**2 * height * moments
-
-    def _crack_heights(self, count: int) -> np.ndarray:
-        """From the base to a share of the height."""
-        return self.height * np.linspace(0, HIGHEST_SHARE, count)
 
     def cracked_at(self, height: float) -> "Spire":
         return replace(self, crack_height=height)

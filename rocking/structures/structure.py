@@ -275,14 +275,12 @@ class Structure(ABC):
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
         drawn, paths = [], self._dimensions()
         for each, _, text in self._given:
-            letter, shown = each.value.letter, paths.get(each.name, ())
-            if isinstance(shown, list):
-                for number, (one, path) in enumerate(zip(text.split(", "), shown, strict=True), start=1):
-                    drawn.append(
-                        Dimension(letter + str(number).translate(_SUBSCRIPTS), one + each.suffix, *path)
-                    )
-            elif shown:
+            letter, shown = each.value.letter, paths.get(each.name, [])
+            if not isinstance(shown, list):
                 drawn.append(Dimension(letter, text + each.suffix, *shown))
+                continue
+            for number, (one, path) in enumerate(zip(text.split(", "), shown, strict=False), start=1):
+                drawn.append(Dimension(letter + str(number).translate(_SUBSCRIPTS), one + each.suffix, *path))
         return tuple(drawn)
 
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
@@ -308,9 +306,8 @@ class Structure(ABC):
         """
         if count not in self._candidates:
             known = getattr(self, "crack", "known") == "known"
-            self._candidates[count] = (
-                (Candidate("as given", np.nan, self),) if known else self._may_form(count)
-            )
+            as_given = (Candidate("as given", np.nan, self),)
+            self._candidates[count] = as_given if known else self._may_form(count)
         return self._candidates[count]
 
     @cached_property
@@ -321,14 +318,10 @@ class Structure(ABC):
         """The candidates of an unknown crack."""
         raise NotImplementedError
 
-    def cracked_at(self, height: float) -> "Structure":
-        """Return this structure with its crack or hinge at `height` [m] above the base, if it can have one there."""
-        return self
-
     @cached_property
     def static_multiplier(self) -> float:
         """The least λ of its candidates: the ground acceleration in g at which static limit analysis lets it fall."""
-        return self.candidates()[0].structure.mechanism().uplift_multiplier
+        return self.candidates()[0].multiplier
 
     @property
     def form(self) -> Form:
@@ -451,12 +444,13 @@ class Crackable(Structure):
         Value("Whether the crack or the hinges exist where they are given", "known", phrase="{name} {value}"),
     ] = field(default="unknown", kw_only=True)
 
-    at_joints_only: ClassVar[bool] = False
-    """Whether it opens at the heights of `_crack_heights` and nowhere between them."""
+    lowest_crack: ClassVar[float] = 0.0
+    """Share of the height from which on it may open."""
 
-    def _crack_heights(self, count: int) -> np.ndarray:
-        """About `count` heights above the base [m] at which it may open."""
-        return np.empty(0)
+    @property
+    def joints(self) -> np.ndarray | None:
+        """The heights above the base [m] at which alone it may open; None: between the shares of its height."""
+        return None
 
     def _may_form(self, count: int) -> tuple[Candidate, ...]:
         """Each has its own momentum balance where no restitution is given.
@@ -465,12 +459,14 @@ class Crackable(Structure):
         holds the structure leaves no mechanism is left out.
         """
         given = float(getattr(self, f"{self.crack_name}_height"))
-        heights = sorted({*map(float, self._crack_heights(count)), given})
+        shares, joints = np.linspace(self.lowest_crack, HIGHEST_SHARE, count), self.joints
+        tried = self.height * shares if joints is None else joints  # type: ignore[attr-defined]
+        heights = sorted({*map(float, tried), given})
         cracked = [each for each in map(self._candidate, heights) if each]
         # of equal multipliers, as all along a solid spire, the lowest crack
         order = np.argsort([float(f"{each.multiplier:.9g}") for each in cracked], kind="stable")
         ranked, least = [cracked[place] for place in order], int(order[0])
-        if 0 < least < len(cracked) - 1 and not self.at_joints_only:
+        if 0 < least < len(cracked) - 1 and joints is None:
             weakest = self._weakest_between(cracked[least - 1].position, cracked[least + 1].position)
             if weakest and weakest.multiplier < (1 - 1e-5) * ranked[0].multiplier:
                 ranked.insert(0, weakest)
@@ -492,7 +488,7 @@ class Crackable(Structure):
         with suppress(StructureError), warnings.catch_warnings():
             # a crack next to a support may keep nothing of an impact: nobody asked for that one
             warnings.simplefilter("ignore", StructureWarning)
-            structure = replace(self, crack="known").cracked_at(height)
+            structure = replace(self, crack="known").cracked_at(height)  # type: ignore[attr-defined]
             structure.mechanism()
             return Candidate(f"{self.crack_name} at {height:.4g} m", height, structure)
         return None

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar, Self
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import finite
@@ -55,24 +54,21 @@ class WallLinkage(Linkage):
         reach = min(1.0, diagonals[1] / diagonals[0])
         self.end_rotation = float(min(np.pi / 2, slenderness + np.arcsin(_LINKAGE_MARGIN * reach)))
 
-    def _position(self, rotation: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """S and C of the lower half diagonal, ψ' and ψ''."""
-        sine, cosine = np.sin(rotation), np.cos(rotation)
-        across = self._half_thickness * cosine - self._lower_half * sine
-        up = self._lower_half * cosine + self._half_thickness * sine
-        # R₂² − S² = (h₂/2)² + (b − S)(b + S), without the cancellation of a flat upper block
-        moved = 2 * self._half_thickness * np.sin(np.asarray(rotation) / 2) ** 2 + self._lower_half * sine
-        upper_up = np.sqrt(self._upper_half**2 + moved * (self._half_thickness + across))
-        ratio = up / upper_up
-        return across, up, ratio, across * (1 - ratio**2) / upper_up
-
     @keeps_last
     def motion(self, rotation: np.ndarray) -> Motion:
         """Return the blocks at `rotation` ≥ 0, any shape; hinges at the base, between the blocks and at the top.
 
         The lower block turns clockwise about its right bottom corner, the upper one back about the left edge.
         """
-        across, up, ratio, curvature = self._position(rotation)
+        # S and C of the lower half diagonal, ψ' and ψ''
+        sine, cosine = np.sin(rotation), np.cos(rotation)
+        across = self._half_thickness * cosine - self._lower_half * sine
+        up = self._lower_half * cosine + self._half_thickness * sine
+        # R₂² − S² = (h₂/2)² + (b − S)(b + S), without the cancellation of a flat upper block
+        moved = 2 * self._half_thickness * np.sin(rotation / 2) ** 2 + self._lower_half * sine
+        upper_up = np.sqrt(self._upper_half**2 + moved * (self._half_thickness + across))
+        ratio = up / upper_up
+        curvature = across * (1 - ratio**2) / upper_up
         lower, upper = -across + 1j * up, across + 1j * up / ratio
         base = self._half_thickness + np.zeros_like(lower)
         psi = self._upper_slenderness - np.arctan2(upper.real, upper.imag)
@@ -136,6 +132,7 @@ class CrackedWall(Crackable):
     """A wall cracked into two blocks; base and top follow the ground, the top support slides vertically."""
 
     crack_name: ClassVar[str] = "hinge"
+    lowest_crack: ClassVar[float] = 1 - HIGHEST_SHARE
 
     lower_height: Annotated[float, length("Height below the hinge", 2.0, (0.2, 57), "h₁")]
     upper_height: Annotated[float, length("Height above the hinge", 1.5, (0.1, 57), "h₂")]
@@ -189,10 +186,6 @@ class CrackedWall(Crackable):
 
     def _linkage(self, mirrored: bool) -> WallLinkage:
         return WallLinkage(self.lower_height, self.upper_height, self.thickness)
-
-    def _crack_heights(self, count: int) -> np.ndarray:
-        """Hinges that stay a share of the height away from base and top."""
-        return self.height * np.linspace(1 - HIGHEST_SHARE, HIGHEST_SHARE, count)
 
     def cracked_at(self, height: float) -> Self:
         return replace(self, lower_height=height, upper_height=self.height - height)
