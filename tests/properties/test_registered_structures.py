@@ -158,20 +158,27 @@ def test_energy_of_free_rocking_is_kept_until_the_impact(kind, form):
 
 @registered
 def test_a_drawing_is_finite_closed_and_measured(structure):
-    """Parts are polygons with an area that keep their size and the first hinge; dimensions say what was given."""
-    critical = structure.mechanism().critical_rotation
-    for rotation in (0.0, critical / 2):
-        for part in structure.outline(rotation):
-            x, y = part.T
-            assert part.shape[0] >= 3 and np.isfinite(part).all()
-            assert abs((x * np.roll(y, -1) - np.roll(x, -1) * y).sum()) > 0
-        assert np.isfinite(structure.hinges(rotation)).all()
-        np.testing.assert_allclose(
-            structure.hinges(rotation)[0], structure.hinges()[0], rtol=1e-12, atol=1e-12
-        )
-    for before, after in zip(structure.outline(), structure.outline(critical / 2), strict=True):
-        sides = [np.linalg.norm(part - np.roll(part, 1, axis=0), axis=1) for part in (before, after)]
-        np.testing.assert_allclose(*sides, atol=1e-10 * np.ptp(before, axis=0).max())
+    """Parts are polygons with an area that move rigidly about hinges, points of them; dimensions say what was given."""
+    sides = structure.mechanism().sides
+    for sign in (1.0,) if structure.mechanism().one_sided else (1.0, -1.0):
+        rotations = sign * 1e-300, sign * sides[0 if sign > 0 else -1].critical_rotation / 2
+        for rotation in rotations:
+            parts, hinges = structure.outline(rotation), structure.hinges(rotation)
+            for part in parts:
+                x, y = part.T
+                assert part.shape[0] >= 3 and np.isfinite(part).all()
+                assert abs((x * np.roll(y, -1) - np.roll(x, -1) * y).sum()) > 0
+            corners = np.concatenate(parts)
+            rounding = 1e-12 * np.abs(corners).max()
+            assert all(np.linalg.norm(corners - hinge, axis=1).min() < rounding for hinge in hinges)
+        at_rest, turned = (structure.hinges(rotation)[0] for rotation in rotations)
+        np.testing.assert_allclose(turned, at_rest, rtol=1e-12, atol=1e-12)
+        for before, after in zip(*map(structure.outline, rotations), strict=True):
+            for shift in (1, 2):
+                edges = [
+                    np.linalg.norm(part - np.roll(part, shift, axis=0), axis=1) for part in (before, after)
+                ]
+                np.testing.assert_allclose(*edges, atol=1e-10 * np.ptp(before, axis=0).max())
     points = np.vstack(structure.outline())
     size = np.ptp(points, axis=0).max()
     dimensions = structure.dimensions()

@@ -15,7 +15,7 @@ from rocking.structures.arch_mechanism import (
     minimum_thickness,
     static_onset,
 )
-from rocking.structures.arch_ring import EXTRADOS, INTRADOS, Ring
+from rocking.structures.arch_ring import Ring
 
 GRID = list(
     itertools.product((0.108, 0.12, 0.15, 0.2, 0.28, 0.31, 0.35), (120.0, 135.0, 150.0, 165.0, 180.0))
@@ -33,14 +33,9 @@ def test_static_and_kinematic_multipliers_agree(thickness, embrace):
 
 @pytest.mark.parametrize("voussoirs", [3, 7, 12, 31])
 @pytest.mark.parametrize("thickness, embrace", [(0.15, 157.5), (0.2, 180.0), (0.15, 120.0)])
-def test_voussoir_routes_agree_with_each_other_and_with_a_linear_programme(voussoirs, thickness, embrace):
+def test_voussoir_routes_agree_with_each_other(voussoirs, thickness, embrace):
     ring = Ring(thickness, np.radians(embrace), voussoirs)
-    static = static_onset(ring)
-    assert static.multiplier == pytest.approx(kinematic_onset(ring).multiplier, rel=1e-12)
-    sections = np.tile(ring.sections(), 2)
-    rows = ring.gaps(sections, np.repeat([INTRADOS, EXTRADOS], voussoirs + 1))
-    solved = linprog([0, 0, 0, -1], A_ub=-rows[:, :4], b_ub=rows[:, 4], bounds=[(None, None)] * 4)
-    assert static.multiplier == pytest.approx(solved.x[3], rel=1e-7)  # the solver's own feasibility tolerance
+    assert static_onset(ring).multiplier == pytest.approx(kinematic_onset(ring).multiplier, rel=1e-12)
 
 
 def test_multiplier_and_embrace_angle_share_one_invariant():

@@ -120,14 +120,6 @@ def test_a_file_that_is_no_list_is_refused(tmp_path, text, message):
         load_structures(path)
 
 
-def test_a_bomb_of_aliases_is_refused_at_its_first_anchor(tmp_path):
-    levels = ["a0: &a0 [x, x]"] + [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]" for n in range(1, 12)]
-    path = tmp_path / "structures.yaml"
-    path.write_text("\n".join(levels), encoding="utf-8")
-    with pytest.raises(ConfigurationError, match="line 1"):
-        load_structures(path)
-
-
 def test_sizes_are_said_as_they_were_typed(tmp_path):
     path = tmp_path / "structures.yaml"
     path.write_text(
@@ -157,11 +149,3 @@ def test_what_is_not_usual_is_a_warning_and_not_a_refusal(tmp_path):
         caught[0].message
     )
     assert len(caught) == 3
-
-
-def test_a_structure_may_say_how_well_its_restitution_is_known():
-    given = structure_from_config(
-        {"type": "wall", "height_m": 3, "thickness_m": 0.3, "restitution_range": 0.12}
-    )
-    assert given.mechanism().restitution_range == 0.12
-    assert "restitution known to ± 0.12" in given.description
