@@ -20,9 +20,8 @@ sys.path.append(str(Path(__file__).parents[1] / "unit" / "motion"))
 from conftest import assessed, shaken
 from oracle import Oracle
 
-from rocking import Accelerogram, Arch, Block, Pulse, Wall, integrate, rocking_spectrum
+from rocking import Accelerogram, Arch, Block, Pulse, Wall, integrate
 from rocking.assessment.ensemble import GroundMotions, ensemble
-from rocking.motion import integrate_batch
 from rocking.pulses import extract_pulses
 from rocking.records import read
 from rocking.records.synthetic import SyntheticRecord, at2_text
@@ -75,11 +74,11 @@ def print_parts() -> None:
             print(f"{1e3 * seconds:10.3f} ms  {name}")
 
 
-def lively(mechanism: Mechanism, seconds: float, rounds: int = 1) -> Accelerogram:
-    """The strongest of some records, played so often, under which the structure stands; then still ground."""
+def lively(mechanism: Mechanism, seconds: float) -> Accelerogram:
+    """The strongest of some records under which the structure stands; then still ground."""
     for strength in (3.0, 2.5, 2.2, 2.0, 1.8, 1.6, 1.5, 1.4, 1.3, 1.2, 1.1):
         motion = shaking(seconds, strength * g * mechanism.uplift_multiplier, period=0.3)
-        samples = np.append(np.tile(motion.acceleration, rounds), np.zeros(2000))
+        samples = np.append(motion.acceleration, np.zeros(2000))
         if integrate(mechanism, played := Accelerogram(samples, motion.time_step)).outcome == "rocks":
             return played
     raise RuntimeError("the structure stands under none of the records")
@@ -101,21 +100,6 @@ def beside_scipy() -> None:
         print(f"  DOP853 at 1e-6: error {abs(peak / truth - 1):.0e}, {times:,.0f} times as long")
 
 
-def growth() -> None:
-    """Exponent of the cost against samples and against structures, and the cost of a record spectrum."""
-    block = BLOCK.mechanism()
-    records = [lively(block, 10, rounds) for rounds in (4, 40, 400)]
-    sizes = [record.acceleration.size for record in records]
-    taken = least_cpu(*(lambda r=r: integrate(block, r) for r in records), repeats=5)
-    print(f"cost ~ samples^{np.polyfit(np.log(sizes), np.log(taken), 1)[0]:.3f}")
-    short, counts = lively(block, 4), np.array([100, 1000, 10_000])
-    taken = least_cpu(*(lambda n=n: integrate_batch([block] * n, short) for n in counts), repeats=3)
-    print(f"cost ~ structures^{np.polyfit(np.log(counts), np.log(taken), 1)[0]:.3f}")
-    frequencies, multipliers = np.linspace(0.5, 5, 100), np.linspace(0.05, 0.45, 100)
-    (spent,) = least_cpu(lambda: rocking_spectrum(short, frequencies, multipliers, 0.9), repeats=3)
-    print(f"100 x 100 record spectrum of {short.acceleration.size} samples: {spent:.2f} s")
-
-
 def ensembles() -> None:
     """The ensemble of each shipped structure over one integration of it under the same record."""
     for name, structure in load_structures(STRUCTURES).items():
@@ -133,4 +117,3 @@ if __name__ == "__main__":
     print_parts()
     beside_scipy()
     ensembles()
-    growth()
