@@ -1,7 +1,7 @@
 "use strict";
 (() => {
   const content = JSON.parse(document.getElementById("content").textContent);
-  const { records, structures, reports } = content;
+  const { records, structures } = content;
   const at = (id) => document.getElementById(id);
 
   // Numbers ---------------------------------------------------------------------------------------------
@@ -44,14 +44,13 @@
   }
 
   // What the rows may be ordered by, the largest on top; the sum over a row puts the worst record there
-  const names = records.map((each) => each.id).sort((a, b) => b.localeCompare(a, undefined, { numeric: true }));
   const KEYS = {
     worst: (record) => [structures.reduce((sum, each) => sum + share(caseOf(record, each)), 0)],
-    record: (record) => [names.indexOf(record.id)],
+    record: (record) => [-records.indexOf(record)],
     pga: (record) => [record.pga],
     pgv: (record) => [record.pgv],
   };
-  structures.forEach((each) => { KEYS[`structure ${each.name}`] = (record) => (caseOf(record, each) || { severity: [-9] }).severity; });
+  structures.forEach((each) => { KEYS[each.name + "/"] = (record) => (caseOf(record, each) || { severity: [-9] }).severity; });
 
   function order(by) {
     const keys = records.map(KEYS[by]);
@@ -75,17 +74,17 @@
       cell.dataset.by = by;
       head.append(cell);
     };
-    heading("record", "Record", "order by name");
+    heading("record", "Record", "order of the catalogue");
     heading("pga", "PGA [g]", "order by peak acceleration");
     heading("pgv", "PGV [m/s]", "order by peak velocity");
-    structures.forEach((each) => heading(`structure ${each.name}`, each.name, `${each.type}: ${each.size}`));
-    records.forEach((record, r) => {
+    structures.forEach((each) => heading(each.name + "/", each.name, `${each.type}: ${each.size}`));
+    for (const record of records) {
       const peaks = [record.pga, record.pgv].map((value) => (value === null ? "–" : String(Number(value.toPrecision(2)))));
-      const row = element("tr", {}, element("th", { scope: "row" }, record.id), ...peaks.map((text) => element("td", { className: "peak" }, text)));
-      row.dataset.record = r;
-      row.append(...structures.map((each) => cellOf(record, each)));
+      const cells = peaks.map((text) => element("td", { className: "peak" }, text));
+      const row = element("tr", {}, element("th", { scope: "row" }, record.id), ...cells, ...structures.map((each) => cellOf(record, each)));
+      row.dataset.record = records.indexOf(record);
       body.append(row);
-    });
+    }
     matrix.append(element("thead", {}, head), body);
     order("worst");
   }
@@ -269,7 +268,6 @@
   let show = () => {};
   let playing = 0;
 
-
   function choose(r, s) {
     stop();
     const [record, structure] = [records[r], structures[s]];
@@ -284,7 +282,7 @@
     at("moves").hidden = !each;
     const still = each && !each.history ? "It does not lift enough to be drawn, or its motion was not kept." : "";
     at("facts").textContent = [each ? each.told : `No result. ${record.failure}`, still, ...record.warnings, ""].join(" ");
-    if (reports) at("facts").append(element("a", { href: `../${encodeURIComponent(record.id)}/report.pdf` }, "report.pdf"));
+    at("facts").append(element("a", { href: `../${encodeURIComponent(record.id)}/report.pdf` }, "report.pdf"));
     if (!each) return;
     const motion = record.motions[each.component];
     const span = each.history ? each.history.span : [0, motion ? motion.duration : 1];
@@ -314,9 +312,8 @@
     const [record, structure] = location.hash.slice(1).split("/").map(decodeURIComponent);
     const r = records.findIndex((each) => each.id === record);
     const s = structures.findIndex((each) => each.name === structure);
-    if (r < 0 || s < 0) return false;
-    choose(r, s);
-    return true;
+    if (r >= 0 && s >= 0) choose(r, s);
+    return r >= 0 && s >= 0;
   }
 
   function stop() {

@@ -3,6 +3,7 @@
 import base64
 import json
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from html import escape
@@ -74,22 +75,17 @@ def record_content(
     }
 
 
-def explore_page(
-    records: Iterable[Content], structures: Mapping[str, Structure], title: str = "", reports: bool = True
-) -> bytes:
-    """Return the page as UTF-8 HTML that loads nothing.
+def explore_page(records: Iterable[Content], structures: Mapping[str, Structure], title: str = "") -> bytes:
+    """Return the page as UTF-8 HTML that loads nothing; it stands beside the folders of the records.
 
-    records: their `record_content`, in the order of the catalogue. title: of the study. reports: whether a report.pdf
-    stands in the folder of each record, beside that of the page.
+    records: their `record_content`, in the order of the catalogue. title: of the study.
     """
     shown = list(records)
     drawn = [
         {"name": name, "size": structure.size, "type": structure.type_name} | drawings(structure)
         for name, structure in structures.items()
     ]
-    content = json.dumps(
-        {"records": shown, "structures": drawn, "reports": reports}, allow_nan=False, separators=(",", ":")
-    )
+    content = json.dumps({"records": shown, "structures": drawn}, allow_nan=False, separators=(",", ":"))
     pieces = {
         "title": escape(title or "Rocking of structures under recorded earthquakes"),
         "count": f"{counted(len(shown), 'record')}, {counted(len(drawn), 'structure')}",
@@ -98,12 +94,8 @@ def explore_page(
         # no text of a user can end the element that holds it
         "content": content.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029"),
     }
-    head, *rest = (_HERE / "explore.html").read_text(encoding="utf-8").split("{{")
-    filled = [head]
-    for part in rest:
-        name, _, text = part.partition("}}")
-        filled += [pieces[name.strip()], text]
-    return "".join(filled).encode()
+    page = (_HERE / "explore.html").read_text(encoding="utf-8")
+    return re.sub(r"{{ (\w+) }}", lambda name: pieces[name[1]], page).encode()
 
 
 def _case(
@@ -180,10 +172,8 @@ def drawings(structure: Structure) -> Content:
     """
     mechanism = structure.mechanism()
     frames, points = [], []
-    sides = (
-        {1: mechanism.sides[0]} if mechanism.one_sided else {1: mechanism.sides[0], -1: mechanism.sides[-1]}
-    )
-    for sign, side in sides.items():
+    for sign in (1,) if mechanism.one_sided else (1, -1):
+        side = mechanism.sides[0 if sign > 0 else -1]
         end = min(0.98 * side.end_rotation, _BEYOND * side.critical_rotation, _FARTHEST)
         for rotation in sign * end * np.linspace(1e-6, 1.0, FRAMES):
             outline, hinges = structure.outline(rotation), structure.hinges(rotation)

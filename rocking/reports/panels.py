@@ -162,28 +162,18 @@ def draw_agreement(axes: Axes, integrated: np.ndarray, predicted: np.ndarray) ->
     shown = ~np.isnan(integrated) & ~np.isnan(predicted) & (np.fmax(integrated, predicted) > 0)
     places = np.clip(np.stack([integrated, predicted])[:, shown], 0.7 * _SMALLEST, None)
     places[np.isinf(places)] = _FALLEN
-    axes.plot(
-        *places,
-        "o",
-        color="none",
-        markeredgecolor=PREDICTED,
-        markeredgewidth=0.8,
-        rasterized=places.shape[1] > _MOST_DRAWN,
-        label=f"cases ({places.shape[1]})",
-    )
+    look: dict[str, Any] = {"color": "none", "markeredgecolor": PREDICTED, "markeredgewidth": 0.8}
+    count = places.shape[1]
+    axes.plot(*places, "o", rasterized=count > _MOST_DRAWN, label=f"cases ({count})", **look)
     for edge in (1.25, 0.85 * _SMALLEST):
         axes.axvline(edge, color="0.5", linewidth=0.5)
         axes.axhline(edge, color="0.5", linewidth=0.5)
-    for which in ("x", "y"):
-        plain_logarithmic(axes, which)
     limits = 0.55 * _SMALLEST, 2.1
-    ticks, names = (
-        [0.7 * _SMALLEST, 0.001, 0.01, 0.1, 1.0, _FALLEN],
-        ["", "0.001", "0.01", "0.1", "1", "overturns"],
-    )
-    axes.set(xlim=limits, ylim=limits)
-    axes.set_xticks(ticks, [*names[:-1], "\noverturns"])
-    axes.set_yticks(ticks, names)
+    axes.set(xscale="log", yscale="log", xlim=limits, ylim=limits)
+    axes.minorticks_off()
+    ticks = {0.001: "0.001", 0.01: "0.01", 0.1: "0.1", 1.0: "1"}
+    axes.set_xticks([*ticks, _FALLEN], [*ticks.values(), "\noverturns"])
+    axes.set_yticks([*ticks, _FALLEN], [*ticks.values(), "overturns"])
     axes.set_xlabel("rotation / critical rotation, full integration [-]")
     axes.set_ylabel("rotation / critical rotation, closed form [-]")
     axes.legend(loc="upper left", bbox_to_anchor=(0.03, 0.88))

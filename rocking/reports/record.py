@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import cached_property
 from importlib.metadata import version
 from itertools import accumulate
 from textwrap import wrap
@@ -238,7 +238,9 @@ def strip_figure(fates: Sequence[Fate], report: RecordReport) -> Figure:
 
 def _draw_state(axes: Axes, report: RecordReport, fate: Fate, middle: float, top: float) -> None:
     sign, colour, ink, hatch = LOOKS[fate.verdict]
-    structure = _cracked(report.structures[fate.structure], fate.crack)
+    structure = report.structures[fate.structure]
+    cracked = (each.structure for each in structure.candidates() if each.description == fate.crack)
+    structure = next(cracked, structure)
     rotation = drawn_rotation(structure, fate)
     points = np.vstack([*structure.outline(), *structure.outline(rotation)])
     low, high = points.min(axis=0), points.max(axis=0)
@@ -260,12 +262,6 @@ def _draw_state(axes: Axes, report: RecordReport, fate: Fate, middle: float, top
     axes.add_patch(frame)
     word = f"{sign} {fate.verdict}"
     axes.text(middle, foot[1] - 6.3, word, ha="center", va="center", color=ink, fontweight="bold")
-
-
-@lru_cache(maxsize=100)
-def _cracked(structure: Structure, crack: str) -> Structure:
-    """The structure with one of its cracks, kept because the candidates of an arch take a tenth of a second."""
-    return next((each.structure for each in structure.candidates() if each.description == crack), structure)
 
 
 def drawn_rotation(structure: Structure, fate: Fate) -> float:

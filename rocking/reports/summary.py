@@ -17,7 +17,6 @@ from rocking.reports.document import compile_document
 from rocking.reports.fragility import fragility_table
 from rocking.reports.panels import draw_agreement
 from rocking.reports.printing import (
-    NOTHING,
     columns_of,
     given,
     left_out,
@@ -190,7 +189,7 @@ def method_table(tables: Mapping[str, "DataFrame"]) -> dict[str, object]:
         ("Less than happens", "0.8", "r", lambda row: strong(given(row[3]), row[3] > 0)),
         ("More than happens", "0.8", "r", lambda row: given(row[4])),
         ("Within a factor 2", "0.8", "r", lambda row: printing.of(row[5], row[6])),
-        ("CPU of a case", "0.8", "r", lambda row: _time(spent.get(row[0], math.nan) / max(row[1], 1))),
+        ("CPU of a case [ms]", "0.8", "r", lambda row: number(1e3 * spent.get(row[0], math.nan) / row[1], 1)),
     )
 
 
@@ -202,14 +201,6 @@ def _worth(ratios: "DataFrame", integrated: "DataFrame") -> tuple[int, ...]:
     near = [close for pair in pairs if (close := within_factor_two(*pair)) is not None]
     kinds = (outcomes[kind] for kind in (Agreement.SAME, Agreement.TOO_LOW, Agreement.TOO_HIGH))
     return len(pairs), *kinds, sum(near), len(near)
-
-
-def _time(seconds: float) -> str:
-    """A time to one digit: it differs from run to run."""
-    if math.isnan(seconds) or seconds <= 0:
-        return NOTHING
-    factor, unit = (1.0, "s") if seconds >= 1 else (1e3, "ms") if seconds >= 1e-3 else (1e6, "µs")
-    return f"{float(f'{seconds * factor:.1g}'):g} {unit}"
 
 
 @styled

@@ -88,6 +88,8 @@ def test_drawings_are_those_of_the_structure(study):
         begin, frame = sum(counts[:17]), drawn["frames"][17]
         expected = np.vstack(structure.outline(frame["rotation"]))
         assert len(points) == sum(counts)
+        signs = {each["rotation"] > 0 for each in drawn["frames"]}
+        assert signs == ({True} if structure.mechanism().one_sided else {True, False})
         assert np.allclose(points[begin : begin + len(expected)], expected, atol=np.abs(points).max() / 32767)
 
 

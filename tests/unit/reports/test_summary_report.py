@@ -152,7 +152,7 @@ def test_each_method_is_held_against_the_integration_with_what_it_took(example):
     table = summary_data(tables | {"timings": frame(TimingRow, timings)}, SETTINGS)["methods"]
     rows = {row[0]: row[1:] for row in table["rows"]}
     assert rows["Mechanism, record"][0] == "5" and rows["Mechanism, record"][1] == "5\u00a0of\u00a05"
-    assert rows["Closed form"][-1] == "400 µs" and rows["Block, record"][-1] == "–"
+    assert rows["Closed form"][-1] == "0.4" and rows["Block, record"][-1] == "–"
     missed = [row for row in example.tables.comparison if row.agreement is Agreement.TOO_LOW]
     unsafe = rows["Closed form"][2]
     assert (unsafe["text"] if isinstance(unsafe, dict) else unsafe) == str(len(missed))
