@@ -30,8 +30,6 @@ OPEN = (0.02, 0.98)
 """Shares between which an error of the design matters."""
 ALLOWED = {64: 0.07, 256: 0.035}
 """Error asked of a share, by members."""
-EDGES = (0.0, 0.02, 0.2, 0.4, 0.6, 0.8, 0.98, 1.0)
-"""Of the classes of a reliability diagram."""
 BEYOND = 0.03
 """By how much the share of the opposite may exceed the risk of a verdict."""
 CHOSEN, LEFT_OUT, PAIRS = "chosen", "left out", "pairs, all directions"
@@ -134,15 +132,13 @@ def _inside(whole: Ensemble, many: Ensemble) -> float:
 
 
 def ensemble_scores(trials: Sequence[EnsembleTrial]) -> Iterator[Score]:
-    """Yield every measure on each half of the sites and the reliability of the shares, with intervals."""
+    """Yield every measure on each half of the sites, with intervals."""
     for half, own in pd.DataFrame(trials).groupby("half"):
-        stated, truth, labels = own.share.to_numpy(), own.share_drawn.to_numpy(), own.site.tolist()
-        yield from scores.scored("ensemble", str(half), _measures(own), labels)
-        yield from scores.reliability("ensemble", str(half), stated, truth, labels, EDGES)
+        yield from scores.scored("ensemble", str(half), _measures(own), own.site.tolist())
 
 
 def _measures(own: pd.DataFrame) -> Mapping[str, scores.Measured]:
-    stated, truth = own.share.to_numpy(), own.share_drawn.to_numpy()
+    truth = own.share_drawn.to_numpy()
     is_open = (truth > OPEN[0]) & (truth < OPEN[1])
     decided = (own.verdict != Verdict.UNDECIDED).to_numpy()
     opposite = np.where(own.verdict == Verdict.STANDS, truth, 1 - truth)
@@ -158,7 +154,4 @@ def _measures(own: pd.DataFrame) -> Mapping[str, scores.Measured]:
         ),
         "share of verdicts beyond their risk": np.where(decided, opposite > risk, np.nan),
         "verdicts": lambda rows: float(decided[rows].sum()),
-        "share of cases decided": decided,
-        "Brier score": scores.brier(stated, truth),
-        "Brier score of the draws themselves": scores.brier(truth, truth),
     }

@@ -108,18 +108,16 @@ def _over(statistic: Callable[..., float], values: Sequence[float] | np.ndarray)
     return measure
 
 
-def brier(probability: np.ndarray, shares: np.ndarray) -> np.ndarray:
-    """(P − outcome)², 0 at best, of each case (n,); of a share in [0, 1] the mean over the outcomes it sums up."""
-    return (probability - shares) ** 2 + shares * (1 - shares)
-
-
 def brier_skill(probability: np.ndarray, shares: np.ndarray) -> Measure:
-    """1 − Brier score over that of the mean share of the cases; nan where nothing or everything overturns."""
+    """1 − Brier score over that of the mean share of the cases; nan where nothing or everything overturns.
+
+    The Brier score is the mean of (P − outcome)², over all the outcomes that a share (n,) sums up.
+    """
+    missed_by = (probability - shares) ** 2 + shares * (1 - shares)
 
     def measure(rows: np.ndarray) -> float:
         base = shares[rows].mean()
-        score = float(np.mean(brier(probability[rows], shares[rows])))
-        return 1 - score / float(base * (1 - base)) if 0 < base < 1 else math.nan
+        return 1 - float(np.mean(missed_by[rows])) / float(base * (1 - base)) if 0 < base < 1 else math.nan
 
     return measure
 

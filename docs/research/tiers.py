@@ -144,14 +144,13 @@ def _answer_trial(
     motions = GroundMotions.of(record)
     asked = partial(cheapest_answer, mechanism, record, risk=RISK, fits=fits)
     case, mechanism_s = sites.timed(lambda: integrate(mechanism, record))
-    alone, alone_s = sites.timed(asked)
+    _, alone_s = sites.timed(asked)
     beside, beside_s = sites.timed(lambda: asked(ensemble_follows=True))
     whole, whole_s = sites.timed(lambda: ensemble(mechanism, motions))
     quick, quick_s = sites.timed(lambda: ensemble(mechanism, motions, verdict_only=True))
     return {
         "method": beside.method,
         "overturns": case.outcome is Outcome.OVERTURNS,
-        "alone_overturns": alone.outcome is Outcome.OVERTURNS,
         "beside_overturns": beside.outcome is Outcome.OVERTURNS,
         "overturning_share": whole.overturning_share,
         "verdict": whole.verdict,
@@ -180,9 +179,7 @@ def answer_scores(trials: pd.DataFrame) -> Iterator[Score]:
         "share settled by the block": by_block,
         "members against the verdict of the peak velocity": against.where(by_velocity),
         "members against the verdict of the block": against.where(by_block),
-        "wrong verdicts among all without an ensemble": trials.alone_overturns != trials.overturns,
         "wrong verdicts among those settled": wrong.where(settled),
-        "overturnings called standing among those settled": (wrong & trials.overturns).where(settled),
         "opposite verdict of the ensemble among those settled": (trials.verdict == opposite).where(settled),
         "undecided in the ensemble among those settled": (trials.verdict == Verdict.UNDECIDED).where(settled),
         "verdicts of the ensemble that its early end changes": trials.quick_verdict != trials.verdict,

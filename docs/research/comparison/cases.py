@@ -34,8 +34,6 @@ def structures() -> dict[str, Structure]:
 
 def strongest_stretch(accelerogram: Accelerogram, samples: int) -> Accelerogram:
     """Return the `samples` successive samples of `accelerogram` that hold most of its acceleration energy."""
-    if accelerogram.acceleration.size <= samples:
-        return accelerogram
     spent = np.concatenate([[0.0], np.cumsum(accelerogram.acceleration**2)])
     start = int(np.argmax(spent[samples:] - spent[:-samples]))
     kept = accelerogram.acceleration[start : start + samples]

@@ -11,6 +11,7 @@ import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,6 @@ import numpy as np
 
 from docs.research.comparison.cases import CodeCase
 from docs.research.reference import event_landings
-from rocking.errors import MotionError
 from rocking.motion import integrate
 from rocking.motion.response import Response
 
@@ -29,6 +29,8 @@ VISIBLE = 0.02
 """Largest excursions, over the critical rotation, from which a restitution is read."""
 TIMEOUT = 900.0
 """Seconds that a process of another code may take."""
+TOLERANCES = (1e-3, 1e-6, 1e-9)
+"""Of this package."""
 LMGC90, ROCKING_BC = "LMGC90 (compas_lmgc90), NSCD", "OpenSees RockingBC"
 ANOTHER_MODEL = frozenset({("arch", LMGC90)})
 """What solves a motion other than the reference's: hinges open where they like, and its shocks are its own."""
@@ -62,13 +64,13 @@ Code = Callable[[CodeCase], Answer]
 
 def inner_codes() -> Mapping[str, Code]:
     """Return this package and scipy, which take every case."""
-    ours = {f"rocking, tolerance {tolerance:.0e}": _ours(tolerance) for tolerance in (1e-3, 1e-6, 1e-9)}
-    return ours | {f"scipy {method}, 1e-6": _scipy(method) for method in ("RK45", "DOP853")}
+    ours = {f"rocking, tolerance {tolerance:.0e}": partial(_ours, tolerance) for tolerance in TOLERANCES}
+    return ours | {f"scipy {method}, 1e-6": partial(_scipy, method) for method in ("RK45", "DOP853")}
 
 
 def outer_codes() -> Mapping[str, Code]:
     """Return the other codes, each in a process of its own."""
-    return {name: _outer(module) for name, module in _DRIVERS.items()}
+    return {name: partial(_outer, module) for name, module in _DRIVERS.items()}
 
 
 def landings_of(response: Response) -> np.ndarray:
@@ -79,46 +81,34 @@ def landings_of(response: Response) -> np.ndarray:
     return response.times[:-1][same]
 
 
-def _ours(tolerance: float) -> Code:
-    def run(case: CodeCase) -> Answer:
-        integrate(case.mechanism, case.motion, tolerance)  # the table of the mechanism, and the compiled code
-        start = time.process_time()
-        ratio = integrate(case.mechanism, case.motion, tolerance).rotation_ratio
-        spent = time.process_time() - start
-        history = integrate(case.mechanism, case.motion, tolerance, history=True)
-        return Answer(ratio, spent, landings=landings_of(history))
-
-    return run
+def _ours(tolerance: float, case: CodeCase) -> Answer:
+    integrate(case.mechanism, case.motion, tolerance)  # the table of the mechanism, and the compiled code
+    start = time.process_time()
+    ratio = integrate(case.mechanism, case.motion, tolerance).rotation_ratio
+    spent = time.process_time() - start
+    history = integrate(case.mechanism, case.motion, tolerance, history=True)
+    return Answer(ratio, spent, landings=landings_of(history))
 
 
-def _scipy(method: str) -> Code:
-    def run(case: CodeCase) -> Answer:
-        start = time.process_time()
-        try:
-            ratio, landings = event_landings(case.mechanism, case.motion, method, 1e-6, TIMEOUT)
-        except MotionError as error:
-            return Answer(math.nan, time.process_time() - start, reason=str(error))
-        return Answer(ratio, time.process_time() - start, landings=landings[:, 0])
-
-    return run
+def _scipy(method: str, case: CodeCase) -> Answer:
+    start = time.process_time()
+    ratio, landings = event_landings(case.mechanism, case.motion, method, 1e-6)
+    return Answer(ratio, time.process_time() - start, landings=landings[:, 0])
 
 
-def _outer(module: str) -> Code:
-    def run(case: CodeCase) -> Answer:
-        given = {
-            "structure": case.structure,
-            "critical_rotation": case.mechanism.critical_rotation,
-            "frequency_parameter": case.mechanism.positive.frequency_parameter,
-            "acceleration": case.motion.acceleration.tolist(),
-            "time_step": case.motion.time_step,
-        }
-        answer, reason = ask(module, given)
-        if answer is None:
-            return Answer(math.nan, reason=reason)
-        landings = answer.pop("landings")
-        return Answer(**answer, landings=None if landings is None else np.array(landings))
-
-    return run
+def _outer(module: str, case: CodeCase) -> Answer:
+    given = {
+        "structure": case.structure,
+        "critical_rotation": case.mechanism.critical_rotation,
+        "frequency_parameter": case.mechanism.positive.frequency_parameter,
+        "acceleration": case.motion.acceleration.tolist(),
+        "time_step": case.motion.time_step,
+    }
+    answer, reason = ask(module, given)
+    if answer is None:
+        return Answer(math.nan, reason=reason)
+    landings = answer.pop("landings")
+    return Answer(**answer, landings=None if landings is None else np.array(landings))
 
 
 def ask(module: str, given: Mapping[str, object], timeout: float = TIMEOUT) -> tuple[Any, str]:

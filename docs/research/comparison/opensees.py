@@ -130,9 +130,9 @@ def _solver(ops, test: tuple) -> None:
 
 def _opensees():
     """Import OpenSees; its own libraries first, which it does not find by itself."""
-    found = importlib.util.find_spec("openseespylinux")
-    for name in _LIBRARIES if found and found.origin else ():
-        path = Path(str(found.origin)).parent / "lib" / name
+    package = importlib.util.find_spec("openseespylinux")
+    for name in _LIBRARIES if package else ():
+        path = Path(str(package.origin)).parent / "lib" / name
         if path.is_file():
             ctypes.CDLL(str(path), mode=ctypes.RTLD_GLOBAL)
     import openseespy.opensees as ops
