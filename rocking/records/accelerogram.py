@@ -23,13 +23,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Source:
-    """Where the numbers of an accelerogram came from."""
+    """Where the numbers of an accelerogram came from; unit: theirs, as declared or as the format defines it."""
 
     path: str = ""
     format: str = ""
     sha256: str = ""
     unit: str = ""
-    """Unit of the numbers in the file, as declared or as the format defines it."""
 
 
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
@@ -47,12 +46,16 @@ _KEPT = (
 class Accelerogram:
     """One component of ground acceleration, uniformly sampled, in m/s².
 
-    acceleration: (n,) m/s², n ≥ 2, finite, stored as a read-only float64 copy.
-    time_step: s. scale_factor: what the file's numbers were multiplied by, beyond their unit.
-    processing: the steps that made these numbers from the file's, in order, one sentence each.
-    warnings: what the reader noticed that a user must know, one sentence each.
-    high_pass_frequency: corner in Hz if a high-pass is known to have been applied.
-    Raises RecordError when the numbers cannot stand as an accelerogram.
+    acceleration: (n,) m/s², n ≥ 2, finite, stored as a read-only float64 copy. time_step: s. scale_factor: what the
+    file's numbers were multiplied by, beyond their unit. processing: the steps that made these numbers from the file's,
+    in order; warnings: what the reader noticed that a user must know; one sentence each. high_pass_frequency: corner in
+    Hz if a high-pass is known to have been applied. location: code that tells apart the instruments of one station.
+    start_time: of the first sample, ISO 8601 in universal time. azimuth: direction of positive acceleration, degrees
+    clockwise from north. magnitude, on the scale magnitude_type (Mw, Ms, ML, mb or M), and event_time, as the file
+    prints it: of the earthquake. latitude, longitude, elevation: of the station, degrees north and east, m above the
+    sea. epicentral_distance: m. processed: whether the file says that its numbers are corrected, None where it cannot.
+    initial_velocity, initial_displacement: of the ground at the first sample, m/s and m, where what a filter put before
+    the record was cut off. What is not known is "" or None. Raises RecordError for what is no accelerogram.
     """
 
     acceleration: np.ndarray
@@ -67,31 +70,20 @@ class Accelerogram:
     high_pass_frequency: float | None = None
     network: str = ""
     location: str = ""
-    """Code that tells apart the instruments of one station, if the file has one."""
     start_time: str = ""
-    """ISO 8601 UTC time of the first sample, if the file says it."""
     azimuth: float | None = None
-    """Direction of positive acceleration, degrees clockwise from north; None if unknown."""
     vertical: bool = False
     borehole: bool = False
     magnitude: float | None = None
-    """Of the earthquake, on the scale that the file or the catalogue prefers; None where neither knows it."""
     magnitude_type: str = ""
-    """Scale of the magnitude: Mw, Ms, ML, mb or M; empty where the file does not say it."""
     event_time: str = ""
-    """Origin time or date of the earthquake, as the file prints it."""
     latitude: float | None = None
     longitude: float | None = None
-    """Of the station, degrees north and east; None where the file does not give them."""
     elevation: float | None = None
-    """Of the station, m above the sea."""
     epicentral_distance: float | None = None
-    """m; None where neither the file nor the catalogue gives it."""
     processed: bool | None = False
-    """Whether the file says that its numbers are already corrected; None where it cannot say."""
     initial_velocity: float = 0.0
     initial_displacement: float = 0.0
-    """Of the ground at the first sample, m/s and m: not zero where what a filter put before the record was cut off."""
 
     def __post_init__(self) -> None:
         with about(self.source.path) if self.source.path else nullcontext():
@@ -193,9 +185,9 @@ class Accelerogram:
             if (declared is None) != by_response:
                 state = "both a unit and a response" if by_response else "neither a unit nor a response"
                 raise RecordError(
-                    f"{trace.id} has {state}; give unit= where the samples are acceleration, inventory= for counts."
+                    f"{trace.id} has {state}; give unit= of acceleration, inventory= of counts."
                 )
-            fields: dict[str, Any] = {"processed": False if by_response else None} | names(trace)
+            fields: dict[str, Any] = {"processed": False if by_response else None, **names(trace)}
             fields |= {name: own[name] for name in _KEPT if name in own} | site(trace, inventory)
             with about(trace.id):
                 if by_response:

@@ -190,9 +190,7 @@ def load_catalogue(path: str | Path, mirror: str | Path | None = None) -> tuple[
     for record in records if mirror is not None else ():
         for file in () if record.example_name or record.is_remote else record.files:
             if not any((Path(place) / file.name).is_file() for place in (mirror, record.folder) if place):
-                defects.append(
-                    f"{record.id}: file {file.name!r} is neither in {mirror} nor in {record.folder}."
-                )
+                defects.append(f"{record.id}: file {file.name!r} is neither in {mirror} nor {record.folder}.")
     if defects:
         raise CatalogueError(f"{path.name} has {len(defects)} defects: " + " | ".join(defects))
     return tuple(records)
@@ -202,9 +200,9 @@ def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
     """Return line and cells of each row of the catalogue at `path`. Raises CatalogueError for what is no catalogue."""
     content = read_whole(path, _LARGEST, CatalogueError)
     try:
-        reader = csv.DictReader(
-            StringIO(content.decode("utf-8-sig"), newline=""), restkey="", restval="", strict=True
-        )
+        text = StringIO(content.decode("utf-8-sig"), newline="")
+        text = StringIO(content.decode("utf-8-sig"), newline="")
+        reader = csv.DictReader(text, restkey="", restval="", strict=True)
         rows = [(reader.line_num, row) for row in reader]
         names = list(reader.fieldnames or ())
     except (ValueError, csv.Error) as error:

@@ -48,9 +48,7 @@ def inventory_of(record: CatalogueRecord, mirror: str | Path | None = None) -> P
     with about(record.id):
         path = _beside(record, record.inventory, mirror) if record.inventory else None
         if record.inventory and path is None:
-            raise RecordError(
-                f"inventory {record.inventory!r} is missing; mend the catalogue or add the file."
-            )
+            raise RecordError(f"inventory {record.inventory!r} is missing; mend the row or add the file.")
         return path
 
 

@@ -36,31 +36,21 @@ _SQUARE = 5.0
 """Degrees by which two components may be off a right angle without a word."""
 
 
-@dataclass(frozen=True)
-class ListedChannel:
-    """One channel as it was read: what it says of itself, with two of its samples, so that many fit into memory.
-
-    peak_acceleration: m/s². peak_velocity: m/s, as a study clears the record by default. None where unknown.
-    """
-
-    record: Accelerogram
-    samples: int
-    peak_acceleration: float | None = None
-    peak_velocity: float | None = None
-
-
 @dataclass
 class ListedFile:
     """One file of a folder as it was read, and the id of the catalogue row it stands in, "" if it cannot be used.
 
-    doubts: what is plausibly wrong with it, one sentence each. unread: why it gets no row, or "". apart: why it does
-    not share the row of other files of its station, or "". to_fill: the cells that its row leaves blank and that must
-    be filled before it can be used; declared: those that hold what its header does not say. beside: number of other
-    files in its row. is_again: whether it has the content of an earlier file.
+    channels: with two of their samples, so that many fit into memory; samples: how many they have; peaks: PGA, g, and
+    PGV, m/s, of each as it is listed. doubts: what is plausibly wrong, one sentence each. unread: why it gets no row,
+    apart: why it does not share the row of other files of its station, or "". to_fill: the cells that its row leaves
+    blank and that must be filled; declared: those that hold what its header does not say. beside: number of other files
+    in its row. is_again: whether it has the content of an earlier file.
     """
 
     file: str
-    listed: Sequence[ListedChannel] = ()
+    channels: Sequence[Accelerogram] = ()
+    samples: Sequence[int] = ()
+    peaks: Sequence[tuple[str, str]] = ()
     unread: str = ""
     doubts: tuple[str, ...] = ()
     declared: Row = field(default_factory=dict)
@@ -69,11 +59,6 @@ class ListedFile:
     record: str = ""
     beside: int = 0
     is_again: bool = False
-
-    @property
-    def channels(self) -> list[Accelerogram]:
-        """What its channels say of themselves."""
-        return [each.record for each in self.listed]
 
     @property
     def status(self) -> str:
@@ -167,7 +152,7 @@ def _simultaneous(files: list[ListedFile]) -> list[list[ListedFile]]:
     for place in np.argsort(starts, kind="stable").tolist():
         if not parts or starts[place] >= end:
             parts.append([])
-            end = starts[place] + files[place].listed[0].samples * files[place].channels[0].time_step
+            end = starts[place] + files[place].samples[0] * files[place].channels[0].time_step
         parts[-1].append(place)
     return [[files[place] for place in sorted(part)] for part in parts]
 
@@ -181,7 +166,7 @@ def _why_apart(group: Sequence[ListedFile]) -> str:
     unnamed = (file.file for file in group for channel in file.channels if is_unnamed(channel.component))
     if file := next(unnamed, ""):
         return f"{file} does not name its component"
-    if why := why_apart(channels, [each.samples for file in group for each in file.listed]):
+    if why := why_apart(channels, [size for file in group for size in file.samples]):
         return why
     if len(level) > 2 or len(channels) - len(level) > 1:
         return f"it has {len(level)} horizontal and {len(channels) - len(level)} vertical components"
@@ -220,18 +205,18 @@ def _listed(path: Path, folder: Path, given: Mapping[str, Any]) -> ListedFile:
     remarks = tuple(s if len(of) == len(channels) else f"{', '.join(of)}: {s}" for s, of in doubts.items())
     declared = {_CELLS[name]: f"{given[name]}" for name in missing if given[name]}
     to_fill = tuple(_CELLS[name] for name in missing if not given[name])
-    listed = tuple(_listed_channel(channel, not to_fill) for channel in channels)
-    return ListedFile(file, listed, reason, remarks, declared, to_fill)
+    own = [replace(channel, acceleration=channel.acceleration[:2]) for channel in channels]
+    sizes = [channel.acceleration.size for channel in channels]
+    peaks = [("", "") if to_fill else _peaks(channel) for channel in channels]
+    return ListedFile(file, own, sizes, peaks, reason, remarks, declared, to_fill)
 
 
-def _listed_channel(record: Accelerogram, is_declared: bool) -> ListedChannel:
-    own = replace(record, acceleration=record.acceleration[:2])
-    listed = ListedChannel(own, record.acceleration.size)
+def _peaks(record: Accelerogram) -> tuple[str, str]:
+    """Return PGA, g, and PGV, m/s, as a study clears the record by default."""
+    speed = ""
     with suppress(RecordError):  # it is too short to be processed
-        if is_declared:
-            listed = replace(listed, peak_acceleration=record.peak_acceleration)
-            listed = replace(listed, peak_velocity=float(abs(velocity(process(record))).max()))
-    return listed
+        speed = f"{abs(velocity(process(record))).max():.3g}"
+    return f"{record.peak_acceleration / GRAVITY:.3g}", speed
 
 
 def _passed_over(path: Path) -> bool:
@@ -298,22 +283,20 @@ _ALIGNED = "<<<>>>><"
 
 def listing_text(listed: Sequence[ListedFile]) -> str:
     """Return one line for each channel of each file: format, step, samples, PGA, PGV, component and status."""
-    rows = [_HEAD, *(row for file in listed for row in _lines(file))]
     columns = []
-    for column, widest, side in zip(zip(*rows, strict=True), _WIDEST, _ALIGNED, strict=True):
+    rows = zip(_HEAD, *(row for file in listed for row in _lines(file)), strict=True)
+    for column, widest, side in zip(rows, _WIDEST, _ALIGNED, strict=True):
         cells = [text if len(text) <= widest else f"{text[: widest - 1]}…" for text in column]
         columns.append([f"{text:{side}{max(map(len, cells))}}" for text in cells])
     return "".join("  ".join(row).rstrip() + "\n" for row in zip(*columns, strict=True))
 
 
 def _lines(file: ListedFile) -> list[tuple[str, ...]]:
-    rows = []
-    for each in file.listed:
-        record, peak, speed = each.record, each.peak_acceleration, each.peak_velocity
+    rows: list[tuple[str, ...]] = []
+    for record, samples, peaks in zip(file.channels, file.samples, file.peaks, strict=True):
         step = "" if "time_step_s" in file.to_fill else f"{record.time_step:g}"
-        ground = "" if peak is None else f"{peak / GRAVITY:.3g}", "" if speed is None else f"{speed:.3g}"
-        rows.append(("", record.component, record.source.format, step, str(each.samples), *ground, ""))
-    first, *others = rows or [("",) * 8]
+        rows.append(("", record.component, record.source.format, step, str(samples), *peaks, ""))
+    first, *others = rows or [("",) * len(_HEAD)]
     return [(file.file, *first[1:-1], file.status), *others]
 
 

@@ -79,10 +79,10 @@ def channel_warnings(component: str) -> tuple[str, ...]:
     if not code:
         return ()
     kind = {"H": "high-gain seismometer", "L": "low-gain seismometer", "M": "mass position", "P": "geophone"}
-    return (
-        f"The channel code {component.strip()} is that of a {kind[code[1]]}, which measures velocity and clips in "
-        "strong motion; an accelerometer's code has N in second place.",
+    not_of = (
+        "which measures velocity and clips in strong motion; an accelerometer's code has N in second place"
     )
+    return (f"The channel code {component.strip()} is that of a {kind[code[1]]}, {not_of}.",)
 
 
 _ACCELERATION = re.compile(r"(?<![a-z])(acc|acel|beschl)", re.I)
@@ -109,6 +109,4 @@ def refuse_other_quantity(file: str, text: str) -> None:
     """Raise RecordError when `text`, a header, or the ending of the name `file` speaks of another quantity."""
     suffix = next((word for end, word in _SUFFIXES.items() if file.lower().endswith(end)), None)
     if quantity := other_quantity(text) or suffix:
-        raise RecordError(
-            f"this is a file of {quantity}, not of acceleration; use the acceleration of the same record."
-        )
+        raise RecordError(f"this is a file of {quantity}; use the acceleration of the same record.")

@@ -12,6 +12,7 @@ LARGEST_PEAK = 5 * GRAVITY
 
 RARE_PEAK = 3 * GRAVITY
 """m/s²; a handful of records of the world exceed it."""
+_RARE = "almost no ground moves so"
 SMALLEST_PEAK = 1e-5 * GRAVITY
 """m/s²; below, a record is noise or has a wrong unit."""
 _FACTORS = {
@@ -83,10 +84,8 @@ def scaled(record: Accelerogram, factor: float) -> Accelerogram:
     peak = enlarged.peak_acceleration
     if peak <= max(RARE_PEAK, record.peak_acceleration):
         return enlarged
-    return enlarged.warned(
-        f"Multiplied by {factor:g} the peak acceleration is {peak / GRAVITY:.3g} g, above 3 g: "
-        "almost no ground moves so; check the factor."
-    )
+    enlargement = f"Multiplied by {factor:g} the peak acceleration is {peak / GRAVITY:.3g} g"
+    return enlarged.warned(f"{enlargement}, above 3 g: {_RARE}; check the factor.")
 
 
 def pass_limits(record: Accelerogram) -> tuple[str, ...]:
@@ -95,9 +94,7 @@ def pass_limits(record: Accelerogram) -> tuple[str, ...]:
     if SMALLEST_PEAK <= record.peak_acceleration <= RARE_PEAK:
         return ()
     if RARE_PEAK < record.peak_acceleration <= LARGEST_PEAK:
-        return (
-            f"The peak acceleration is {peak:.3g} g, above 3 g: almost no ground moves so; check the unit.",
-        )
+        return (f"The peak acceleration is {peak:.3g} g, above 3 g: {_RARE}; check unit and file.",)
     is_small = peak < 1
     plausible = {f: _PLAUSIBLE[0] < (peak * f if is_small else peak / f) < _PLAUSIBLE[1] for f in _FACTORS}
     fits = ", ".join(f"by {f:g} ({meaning})" for f, meaning in _FACTORS.items() if plausible[f])
@@ -143,7 +140,7 @@ def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogra
     if differing.std() <= _VELOCITY_OFF * stated.std():
         return record
     return record.warned(
-        "The file's own velocity is not the integral of its acceleration: numbers or a factor are damaged."
+        "The file's own velocity is not the integral of its acceleration: numbers are damaged."
     )
 
 
@@ -181,9 +178,7 @@ def damage_warnings(record: Accelerogram) -> tuple[str, ...]:
     moving = np.flatnonzero(magnitudes[begin : end + 1])
     longest = int(np.diff(moving).max(initial=0)) - 1
     if longest >= _ZEROS:
-        warnings.append(
-            f"Within the strong shaking {longest} samples in a row are zero: a filled gap, perhaps."
-        )
+        warnings.append(f"Within the strong shaking {longest} samples in a row are zero: a filled gap?")
     return tuple(warnings)
 
 

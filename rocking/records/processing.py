@@ -41,9 +41,7 @@ class Processing:
     def __post_init__(self) -> None:
         check_described(RecordError, self)
         if self.high_pass and self.low_pass and self.high_pass >= self.low_pass:
-            raise RecordError(
-                f"high_pass is {self.high_pass!r} Hz, but must be below low_pass = {self.low_pass!r} Hz."
-            )
+            raise RecordError(f"high_pass is {self.high_pass!r} Hz, but low_pass only {self.low_pass!r} Hz.")
 
 
 UNPROCESSED_DEFAULT = Processing(pre_event=1.0, baseline="linear", taper=0.02, high_pass=0.1)
@@ -65,9 +63,7 @@ def process(record: Accelerogram, processing: Processing | None = None) -> Accel
 
 def variants() -> dict[str, Processing]:
     """Return named settings that differ in baseline and corner, to see how much an answer owes to them."""
-    corners = {
-        f"high-pass {corner:g} Hz": Processing(taper=0.02, high_pass=corner) for corner in (0.05, 0.1, 0.2)
-    }
+    corners = {f"high-pass {f:g} Hz": Processing(taper=0.02, high_pass=f) for f in (0.05, 0.1, 0.2)}
     baselines = {f"{kind} baseline": Processing(baseline=kind) for kind in ("linear", "adaptive")}
     return {"unchanged": Processing(), **baselines, **corners}
 
@@ -91,9 +87,8 @@ def _levelled(record: Accelerogram, processing: Processing) -> Accelerogram:
     if processing.pre_event is not None:
         samples = round(processing.pre_event / record.time_step)
         if not 1 <= samples < record.acceleration.size:
-            raise RecordError(
-                f"pre_event is {processing.pre_event!r} s, but must hold a sample and end within the record."
-            )
+            window = f"pre_event is {processing.pre_event!r} s"
+            raise RecordError(f"{window}, but must hold a sample and end within the record.")
         mean = record.acceleration[:samples].mean()
         sentence = f"Mean of the first {processing.pre_event:g} s removed, {mean:.6g} m/s²."
         record = record.processed_by(record.acceleration - mean, sentence)
@@ -206,9 +201,7 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
     ends = np.unique(np.linspace(strong, last, _CANDIDATES).astype(int)).tolist()
 
     def largest(tried: tuple[int, int, np.ndarray]) -> float:
-        course = np.cumsum(
-            velocity - tried[2]
-        )  # which a drift that is left makes larger than the ground's own
+        course = np.cumsum(velocity - tried[2])  # a drift that is left makes it larger than the ground's own
         return max(course.max(), -course.min())
 
     end, degree, drift = min(_drifts(velocity, onset, ends), key=largest)

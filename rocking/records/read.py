@@ -95,9 +95,7 @@ def undressed(content: bytes) -> bytes:
     return kept + b"\n" if ended else kept
 
 
-_DOUBLED = (
-    "The line ends are doubled (CR CR LF), as a faulty conversion leaves them; the numbers are unharmed."
-)
+_DOUBLED = "The line ends are doubled (CR CR LF) by a faulty conversion; the numbers are unharmed."
 
 
 def recognise(content: bytes) -> Format:
@@ -133,9 +131,7 @@ def unpacked(raw: bytes, name: str) -> bytes:
         except zlib.error as error:
             raise RecordError(f"{name}: damaged gzip file, {error}; fetch it again.") from None
         if not unpacker.eof or len(content) > LARGEST_FILE:
-            raise RecordError(
-                f"{name}: the gzip file is truncated or unpacks to more than {LARGEST_FILE} bytes."
-            )
+            raise RecordError(f"{name}: the gzip file is truncated or holds more than {LARGEST_FILE} bytes.")
         raw = unpacker.unused_data
     return content
 

@@ -45,9 +45,8 @@ def open_station(record: CatalogueRecord, mirror: str | Path | None = None) -> S
             path = path_of(record, file, mirror)
             raw = bytes_of(path)
             if file.sha256 and (sha256 := hashlib.sha256(raw).hexdigest()) != file.sha256:
-                raise RecordError(
-                    f"file {path} has sha256 {sha256}, but the catalogue says {file.sha256}; it is another version."
-                )
+                hashes = f"file {path} has sha256 {sha256}, but the catalogue says {file.sha256}"
+                raise RecordError(f"{hashes}; it is another version.")
             options = Options(record.unit or None, record.time_step, inventory, path.parent)
             for channel in read_raw(raw, path, options):
                 channels.append(replace(channel, source=replace(channel.source, path=file.name)))
@@ -96,9 +95,7 @@ def joined(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     first = np.round(late).astype(int).tolist()
     off = np.abs(late - first).max()
     if off > _OFF_GRID:
-        raise RecordError(
-            f"the samples of the files lie {off:.2g} of a step between one another; resample them."
-        )
+        raise RecordError(f"the samples of the files lie {off:.2g} of a step apart; resample them.")
     size = min(channel.acceleration.size - place for channel, place in zip(channels, first, strict=True))
     if size < 2:
         raise RecordError("the files have no span of time in common; give each file a row of its own.")
@@ -131,9 +128,7 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
             sideways = horizontal or [channel for channel in channels if not channel.borehole]
             horizontal = [channel for channel in sideways if channel is not vertical and not channel.vertical]
         if not horizontal:
-            raise RecordError(
-                f"the file holds no horizontal component at the surface, only {held}; name one."
-            )
+            raise RecordError(f"the file holds no horizontal component, only {held}; name one.")
         declared = tuple(_as_declared(channel, record) for channel in horizontal)
         return Station(declared, None if vertical is None else _as_declared(vertical, record))
 

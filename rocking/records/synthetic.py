@@ -43,9 +43,7 @@ class SyntheticRecord:
         for field in ("pulse_amplitude", "pulse_start", "noise_peak"):
             finite(RecordError, field, getattr(self, field))
         if not 16 <= self.duration / self.time_step <= 1e6:
-            raise RecordError(
-                f"duration is {self.duration!r} s, but must hold 16 to 1e6 steps of {self.time_step!r} s."
-            )
+            raise RecordError(f"duration is {self.duration!r} s, but must hold 16 to 1e6 time steps.")
 
 
 def synthetic_record(recipe: SyntheticRecord) -> Accelerogram:
@@ -90,21 +88,16 @@ SHIPPED = SyntheticRecord("synthetic_strong_pulse", 1, 0.55 * GRAVITY, 1.0, 4.0,
 def at2_text(recipe: SyntheticRecord) -> str:
     """Return the record of `recipe` as the text of an AT2 file, in g, five numbers a line."""
     record = synthetic_record(recipe)
-    values = record.acceleration / GRAVITY
-    rows = ("".join(f"{v:15.7e}" for v in values[i : i + 5]) for i in range(0, values.size, 5))
+    values = [f"{value:15.7e}" for value in record.acceleration / GRAVITY]
     head = (
         f"SYNTHETIC ACCELEROGRAM, NOT RECORDED; MADE BY rocking.records.synthetic, SEED {recipe.seed}",
         f"{record.event.split(',')[0]}, 1/1/2000, {recipe.name}, {record.component}",
         "ACCELERATION TIME SERIES IN UNITS OF G",
-        f"NPTS= {values.size:6d}, DT= {record.time_step:8.5f} SEC",
+        f"NPTS= {len(values):6d}, DT= {record.time_step:8.5f} SEC",
     )
-    return "\n".join((*head, *rows)) + "\n"
+    return "\n".join((*head, *("".join(values[i : i + 5]) for i in range(0, len(values), 5)), ""))
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        raise SystemExit("usage: python -m rocking.records.synthetic FOLDER")
-    written = Path(sys.argv[1]) / f"{SHIPPED.name}.AT2"
-    written.parent.mkdir(parents=True, exist_ok=True)
-    written.write_bytes(at2_text(SHIPPED).encode("ascii"))
-    print(written)
+    (target,) = sys.argv[1:]
+    (Path(target) / f"{SHIPPED.name}.AT2").write_bytes(at2_text(SHIPPED).encode("ascii"))

@@ -48,9 +48,8 @@ def calibrated(trace, inventory, response: str) -> tuple[np.ndarray, str]:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            clean = trace.copy().remove_response(
-                inventory=inventory, output="ACC", pre_filt=band, water_level=None
-            )
+            how = {"output": "ACC", "pre_filt": band, "water_level": None}
+            clean = trace.copy().remove_response(inventory=inventory, **how)
     except Exception as error:
         raise RecordError(f"the response of {trace.id} cannot be removed, {error}.") from error
     limits = " and ".join(f"{band[i]:g}-{band[i + 1]:g} Hz" for i in (0, 2))

@@ -38,9 +38,9 @@ def _stream(content: bytes, form: str, **options: Any):
         except RecordError:
             raise
         except Exception as error:
-            reason = first_line(error).partition(": <_io")[
-                0
-            ]  # where memory holds the bytes tells nobody anything
+            reason, _, _ = first_line(error).partition(
+                ": <_io"
+            )  # the address in memory tells nobody anything
             raise RecordError(f"damaged {form} file, {reason}; fetch it again.") from error
     messages = [first_line(each.message) for each in caught]
     if form == "MSEED" and (damage := [text for text in messages if _DAMAGE.search(text)]):
@@ -222,9 +222,7 @@ def _inventory(stats, options: Options):
     if len(naming) != 1:
         several = f"several do: {', '.join(p.name for p in naming)}" if naming else "none beside it does"
         missing = f"no single StationXML describes {stats.network}.{stats.station} ({several})"
-        raise UndeclaredError(
-            f"{missing}; give inventory=, or unit= if the samples are already acceleration."
-        )
+        raise UndeclaredError(f"{missing}; give inventory=, or unit= if the samples are acceleration.")
     return _parse(naming[0])
 
 
@@ -243,9 +241,7 @@ def _parse(path: Path):
 
 
 def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
-    raise RecordError(
-        "a StationXML describes an instrument and holds no samples; read the miniSEED beside it."
-    )
+    raise RecordError("a StationXML holds no samples, but describes an instrument; read the miniSEED.")
 
 
 SAC = Format("SAC", "SAC (IRIS, and many networks)",

@@ -60,9 +60,7 @@ def _are_columns(content: bytes) -> bool:
 def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     pointed = _points_for_commas(content)
     if pointed is None:
-        raise RecordError(
-            "the commas may be decimal signs or part columns; write points, or part with semicolons."
-        )
+        raise RecordError("the commas are decimal signs or part columns; write points, or semicolons.")
     names, width, start = _table(pointed) or ((), 1, 0)  # it was recognised by that
     refuse_other_quantity(options.file, "\n".join(lines(pointed, _HEAD)[:start]))
     body = after_lines(pointed, start)
@@ -75,9 +73,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     if wrapped and counts[-1] < width:  # the last row of a series may be short
         counts = counts[:-1]
     if wrong := next((i for i, size in enumerate(counts, 1) if size != width), 0):
-        raise RecordError(
-            f"row {wrong} of the samples has {counts[wrong - 1]} columns, but the first has {width}."
-        )
+        raise RecordError(f"row {wrong} of the samples has {counts[wrong - 1]} columns, the first {width}.")
     if width == 1 or wrapped:
         label = names[0] if names else ""
         named: dict[str, Any] = {"component": "" if _unit(label) else label, "warnings": _repeats(values)}
@@ -194,9 +190,8 @@ def _title(content: bytes) -> tuple[str, str] | None:
 
 
 def _read_titled(content: bytes, options: Options) -> list[Accelerogram]:
-    return _below_title(
-        content, options, *(_title(content) or ("", "")), event=lines(content, 1)[0].strip()[:60]
-    )
+    samples, step = _title(content) or ("", "")
+    return _below_title(content, options, samples, step, event=lines(content, 1)[0].strip()[:60])
 
 
 def _below_title(

@@ -14,7 +14,8 @@ from rocking.records.formats.text import count, fields, filled
 from rocking.records.plausibility import agree_with_mean_square
 
 _LAYOUT = Layout("", {
-    "station": r"Code:\s*(\S+)", "high_pass": r"filtered below\s+([\d.]+)\s*Hz", "corrected": r"\A(corrected)",
+    "event": r"\A.*\n(?:Rcrd|Record)?[ \t]*(?:of)?[ \t]*(.*)", "station": r"Code:\s*(\S+)",
+    "high_pass": r"filtered below\s+([\d.]+)\s*Hz", "corrected": r"\A(corrected)",
     "location": r"\bLocation:\s*(.*?)\s*$", "event_time": r"^Origin:\s*(\d.*?)\s*(?:\(.*)?$",
     "magnitude": r"^Hypocenter:.*?(M\w=.*)", "latitude": r"^Coords:\s*([-\d.]+)",
     "longitude": r"^Coords:\s*\S+\s+([-\d.]+)",
@@ -55,31 +56,22 @@ def _channel(block: list[str], options: Options, held: int) -> Accelerogram | No
             raise RecordError(f"a channel of {data['quantity']} has units of {by_code} by its code.")
         return None
     if acceleration_factor(by_code or data["unit"]) != acceleration_factor(data["unit"]):
-        raise RecordError(
-            f"the units of a channel are {data['unit']!r}, but their code {data['code']} says {by_code}."
-        )
+        raise RecordError(f"the units are {data['unit']!r}, but their code {data['code']} says {by_code}.")
     head = "\n".join(block[:at])
     reals = _reals(block[:at])
     step = reals[_STEP] / 1000 if 0 < reals[_STEP] < 1e4 else reals[_RECORDER_STEP]
     values = _samples(block[at + 1 :], data)
     length, lasts = reals[_LENGTH], values.size * step
     wrong = 0 < length < 1e5 and abs(length - lasts) > 1.5 * step + 5e-4  # not all agencies fill it
-    places = _ELEVATION, _DISTANCE, _PEAK, _PEAK_TIME
-    elevation, from_epicentre, peak, peak_time = (
-        None if abs(reals[place] - _UNKNOWN) < 1e-3 else reals[place] for place in places
-    )
+    stated = [None if abs(real - _UNKNOWN) < 1e-3 else real for real in reals]
     note = f"The header gives the series a length of {length:g} s, but its samples last {lasts:g} s."
     facts: dict[str, Any] = {
         "component": _component(head),
-        "warnings": (note,) if wrong else (),
         "held": held,
+        "warnings": (note,) if wrong else (),
     }
-    facts |= {"elevation": elevation, "epicentral_distance": distance(from_epicentre)}
-    facts |= {
-        "peak": peak,
-        "peak_time": peak_time,
-        "event": optional(r"(?:Rcrd|Record)?\s*(?:of)?\s*(.*)", block[1]),
-    }
+    facts |= {"elevation": stated[_ELEVATION], "epicentral_distance": distance(stated[_DISTANCE])}
+    facts |= {"peak": stated[_PEAK], "peak_time": stated[_PEAK_TIME]}
     record = _LAYOUT.channel(head, values, options, unit=data["unit"], step=step, **facts)
     if record.processed or len(reals) <= _RMS:
         return record

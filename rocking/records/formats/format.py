@@ -59,9 +59,7 @@ class Options:
             raise UndeclaredError(_UNDECLARED.format("unit", "unit", "unit"))
         factor = acceleration_factor(unit)
         if self.unit is not None and acceleration_factor(self.unit) != factor:
-            raise RecordError(
-                f"unit is {unit!r} in the file, but {self.unit!r} was declared; give the true one."
-            )
+            raise RecordError(f"unit is {unit!r} in the file, but {self.unit!r} was declared.")
         return acceleration_unit(unit) or unit
 
     def time_step_of(self, in_file: float | None) -> float:
@@ -86,9 +84,8 @@ class Options:
         fields = {key: plain(value) if isinstance(value, str) else value for key, value in fields.items()}
         source = Source(unit=self.unit_of(unit))
         step = self.time_step_of(time_step)
-        return Accelerogram(
-            values * acceleration_factor(source.unit), step, source=source, **directed(fields)
-        )
+        samples = values * acceleration_factor(source.unit)
+        return Accelerogram(samples, step, source=source, **directed(fields))
 
 
 @dataclass(frozen=True)
@@ -133,7 +130,5 @@ def without_offset(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
     if abs(offset) * acceleration_factor(unit) > LARGEST_PEAK:
         limit = "above the 5 g that no recorder is off by; declare the true unit"
         raise RecordError(f"the mean of the record is {offset:.6g} {unit}, {limit}.")
-    return (
-        values - offset,
-        f"Mean of the whole record removed, {offset:.6g} {unit}: the offset of the recorder.",
-    )
+    sentence = f"Mean of the whole record removed, {offset:.6g} {unit}: the offset of the recorder."
+    return values - offset, sentence

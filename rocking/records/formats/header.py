@@ -250,14 +250,10 @@ def check_duration(declared: float, samples: int, time_step: float, steps: float
 def check_equal(field: str, first: float, second: float, relative: float = 1e-3) -> None:
     """Check that two places of a header give the same number. Raises RecordError when they do not."""
     if abs(first - second) > relative * abs(first):
-        raise RecordError(
-            f"the header gives {field} as {first:g} and {second:g}; it is damaged, fetch it again."
-        )
+        raise RecordError(f"the header gives {field} as {first:g} and {second:g}: it is damaged.")
 
 
 def check_nothing_left(rows: list[str]) -> None:
     """Check that nothing but blanks follows the last channel. Raises RecordError: a channel is cut."""
     if any(row.strip() for row in rows):
-        raise RecordError(
-            f"{len(rows)} lines follow the last whole channel: another is cut; fetch the whole file."
-        )
+        raise RecordError(f"{len(rows)} lines follow the last whole channel: another is cut; fetch it again.")

@@ -205,9 +205,8 @@ def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[
     parts = [part.strip() for part in optional(key("ORIENTACION"), head).split(";") if part.strip()]
     directions = (part for part in parts if azimuth(part) is not None or is_vertical(part))
     facts: dict[str, Any] = {"warnings": notes, "peak_time": None if place is None else (place - 1) * step}
-    facts["component"] = next(
-        directions, parts[-1]
-    )  # of bearing and sense, "N90E;" or "V;+", one may be blank
+    # Of bearing and sense, "N90E;" or "V;+", one may be blank.
+    facts["component"] = next(directions, parts[-1])
     facts["event_time"] = f"{_UNAM.text('event', head)} {optional(key('HORA EPICENTRO (GMT)'), head)}"
     return _UNAM.channel(head, values, options, step=step, **facts)
 
@@ -234,9 +233,8 @@ def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tupl
     if not (np.array_equal(last, before) or np.all(last == table[declared - 1])):
         return table, ()
     what = "line repeats the end and is" if surplus == 1 else "lines repeat the end and are"
-    return table[:declared], (
-        f"The header declares {declared} samples; the {surplus} surplus {what} left out.",
-    )
+    sentence = f"The header declares {declared} samples; the {surplus} surplus {what} left out."
+    return table[:declared], (sentence,)
 
 
 DYNA = Format("DYNA (ESM, ITACA, AFAD)", "ESM and ITACA (ORFEUS, INGV), AFAD",

@@ -51,9 +51,7 @@ def _is_knet(content: bytes) -> bool:
 def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content, len(_KNET_KEYS))
     if missing := [key for key in _KNET_KEYS if not any(line.startswith(key) for line in text)]:
-        raise RecordError(
-            f"the header has no line {missing[0]!r}; a K-NET header has {len(_KNET_KEYS)} lines."
-        )
+        raise RecordError(f"the header has no line {missing[0]!r}; K-NET's has {len(_KNET_KEYS)} lines.")
     head = "\n".join(text)
     scale = r"^Scale Factor\s*([\d.]+)\s*\(gal\)\s*/\s*([\d.]+)\s*$"
     parts = required("a Scale Factor like 3920(gal)/6182761", scale, head)
@@ -61,12 +59,10 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
     unit = options.unit_of("gal")
     values, offset = without_offset(numbers(after_lines(content, len(_KNET_KEYS))) * (full / counts), unit)
     direction = _KNET.text("component", head)
-    names: dict[str, Any] = {
-        "component": _KIKNET.get(direction, direction),
-        "borehole": direction in _BOREHOLE,
-    }
-    event = f"{_KNET.text('event_time', head)} M{_KNET.text('magnitude', head)}"
-    return [_KNET.channel(head, values, options, event=event, processing=(offset,), **names)]
+    facts: dict[str, Any] = {"processing": (offset,), "borehole": direction in _BOREHOLE}
+    facts["component"] = _KIKNET.get(direction, direction)
+    facts["event"] = f"{_KNET.text('event_time', head)} M{_KNET.text('magnitude', head)}"
+    return [_KNET.channel(head, values, options, **facts)]
 
 
 _JMA = Layout("", {
@@ -208,9 +204,7 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     remarks, samples = (count("a count in the header", f"{integers[at]:.0f}") for at in (_COMMENTS, _SAMPLES))
     first = _SMC_REALS + remarks
     if any(row.startswith("|") != (at < first) for at, row in enumerate(text[_SMC_REALS:], _SMC_REALS)):
-        raise RecordError(
-            f"the header declares {remarks} lines of comment, but others begin with |: it is damaged."
-        )
+        raise RecordError(f"the header declares {remarks} lines of comment, but others begin with |.")
     rate = float(reals[_RATE])
     if not 0 < rate < 1e6:
         raise RecordError(f"samples per second is {rate:g}, but must be greater than 0 and below 1e6.")

@@ -26,9 +26,8 @@ def even_step(times: np.ndarray) -> float | None:
         raise RecordError(f"the times are {step:g} s apart, less than any recorder's {_SMALLEST_STEP:g} s.")
     off = np.abs(times - (times[0] + step * np.arange(times.size))).max()
     shifted = (times * 10.0**digits for digits in range(9))
-    quantum = 10.0 ** -next(
-        (n for n, each in enumerate(shifted) if np.allclose(each, np.round(each), 0, 1e-4)), 9
-    )
+    digits = (n for n, each in enumerate(shifted) if np.allclose(each, np.round(each), 0, 1e-4))
+    quantum = 10.0 ** -next(digits, 9)
     # Half a printed digit for the time itself, and as much for the line through the rounded first and last ones. A
     # digit as coarse as the step rounds nothing: a line that is missing would pass for rounding.
     allowed = max(0.01 * step, 1.02 * quantum if quantum < 0.9 * step else 0.0) + 1e-9 * abs(times[-1])
@@ -46,9 +45,7 @@ def resampled(times: np.ndarray) -> tuple[float, np.ndarray, str]:
     check_no_gap(times, _LONGEST_GAP * step)
     number = int(min((times[-1] - times[0]) / step, 1e12)) + 1 if step > 0 else 0
     if not 2 <= number <= LARGEST_SERIES:
-        raise RecordError(
-            f"the times are uneven and would make {number} samples at their median step {step:g} s."
-        )
+        raise RecordError(f"the times are uneven and would make {number} samples {step:g} s apart.")
     change = f"interpolated linearly to {number} at their median step, {step:g} s"
     sentence = f"The {times.size} samples are unevenly spaced; {change}."
     return step, times[0] + step * np.arange(number), sentence

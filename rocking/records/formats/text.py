@@ -75,9 +75,7 @@ def fields(rows: list[str], width: int, margin: int = 0) -> np.ndarray:
         pieces = [row[i : i + width].strip() for row in rows for i in range(margin, len(row.rstrip()), width)]
         broken = next((piece for piece in pieces if len(piece.split()) != 1), None)
         if broken is not None:
-            raise RecordError(
-                f"a column of {width} characters holds {broken!r}, but must hold one number."
-            ) from None
+            raise RecordError(f"a column of {width} characters holds {broken!r}, not one number.") from None
         return numbers(" ".join(pieces))
 
 
@@ -115,9 +113,7 @@ def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray,
         return values, ()
     stated = f"the header declares {declared} samples, but the file holds {values.size}"
     if values.size < declared:
-        raise RecordError(
-            f"{stated}: it is truncated or its header is another record's; fetch the whole file."
-        )
+        raise RecordError(f"{stated}: it is truncated or its header is another's; fetch the whole file.")
     if values.size > declared + per_line:
         raise RecordError(f"{stated}: more than one line too many; mend the header or cut the file.")
     return values, (f"T{stated[1:]}; all are kept.",)
@@ -132,8 +128,6 @@ def filled(rows: list[str], declared: int, per_line: int, width: int, margin: in
     rows = [row for row in rows if row.strip()]
     if len(rows) < wanted or (len(rows) > wanted and declared > 1):
         state = "truncated" if len(rows) < wanted else "damaged"
-        stated = (
-            f"the header declares {declared} samples, which fill {wanted} lines, but {len(rows)} stand there"
-        )
+        stated = f"the header declares {declared} samples, or {wanted} lines, but {len(rows)} stand there"
         raise RecordError(f"{stated}: lines are missing or repeated, the file is {state}; fetch it again.")
     return whole(fields(rows, width, margin), declared, per_line=0)[0]

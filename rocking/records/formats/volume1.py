@@ -129,15 +129,12 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
     if not is_number(printed):
         note = f"The header gives a rate of {printed!r}, which is no number: the file may be damaged."
     elif 1 <= rate <= 1e4 and abs(rate * step - 1) > 1e-3:
-        note = (
-            f"The header gives a rate of {rate:g} Hz, but duration and number of points a step of {step:g} s."
-        )
+        note = f"The header gives a rate of {rate:g} Hz, but duration and count a step of {step:g} s."
     letter = _BHRC.text("component", head)[:1].upper()
     facts: dict[str, Any] = {"processing": (offset,), "warnings": (note,) if note else ()}
     facts["vertical"] = is_vertical(letter)
-    facts["azimuth"] = (
-        optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", head) if letter in ("L", "T") else None
-    )
+    if letter in ("L", "T"):
+        facts["azimuth"] = optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", head)
     return _BHRC.channel(head, values, options, step=step, **facts)
 
 
@@ -162,9 +159,8 @@ def _is_csmip(content: bytes) -> bool:
 
 
 def _read_csmip(content: bytes, options: Options) -> list[Accelerogram]:
-    *channels, rest = (
-        text.split("\n") for text in re.split(r"^/&.*\n?", content.decode("latin-1"), flags=re.M)
-    )
+    parts = re.split(r"^/&.*\n?", content.decode("latin-1"), flags=re.M)
+    *channels, rest = (text.split("\n") for text in parts)
     if any(_announcement(line) or _VOLUME_1.match(line) for line in rest):
         channels.append(rest)
     else:
@@ -182,9 +178,7 @@ def _csmip(block: list[str], options: Options, held: int) -> Accelerogram:
         return _digitised(_FILM, block, options, held)
     facts: dict[str, Any] = announced[0][1].groupdict() if announced else {}
     if not announced or (facts.get("quantity") or "accel").lower() != "accel":
-        raise RecordError(
-            "no line announces points of acceleration; the file is cut, or of velocity or displacement."
-        )
+        raise RecordError("no line announces points of acceleration: the file is cut or of velocity.")
     parts = []
     for (i, data), end in zip(announced, [*(i for i, _ in announced[1:]), len(block)], strict=True):
         rows, declared = block[i + 1 : end], count("number of points", data["n"])
