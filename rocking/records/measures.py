@@ -64,7 +64,6 @@ def record_measures(accelerogram: Accelerogram) -> RecordMeasures:
 
 PERIODS = np.geomspace(0.04, 8.0, 70)
 """Periods of the oscillators, s: nine for each doubling."""
-DAMPING = 0.05
 STEPS_PER_PERIOD = 20
 """Steps in which an oscillator's period is followed at least: a peak between two of them is then missed by 1.2 %."""
 
@@ -91,7 +90,7 @@ class ResponseSpectrum:
 
 
 def response_spectrum(
-    accelerogram: Accelerogram, periods: np.ndarray | None = None, damping: float = DAMPING
+    accelerogram: Accelerogram, periods: np.ndarray | None = None, damping: float = 0.05
 ) -> ResponseSpectrum:
     """Return the response spectrum of an acceleration that is linear between its samples and zero outside them.
 

@@ -25,7 +25,7 @@ _NEAR = 0.02
 """How close a ratio must come to a factor between units to be explained by it."""
 _PLAUSIBLE = (0.005, 1.5)
 _NEIGHBOURS = 3
-"""Samples by which the stated time of a peak may be off: it is printed with few digits, and counts from 0 or from 1."""
+"""Samples by which the stated time of a peak may be off: it has few digits, and counts from 0 or from 1."""
 
 
 def agree_with_header(
@@ -39,10 +39,9 @@ def agree_with_header(
 ) -> Accelerogram:
     """Return `record` after comparing its peak with the one its header states in `unit`, within 1 % or half a digit.
 
-    A peak that is more than 0.1 % off, or out of its place, is a warning of the record. at: time of the stated peak,
-    s after the first sample. samples: (n,) m/s² as the file holds them, where the record's are cleared of an offset or
-    resampled. Nothing is checked when the header states no peak or zero. Raises RecordError with the factor that would
-    explain it.
+    A peak that is more than 0.1 % off, or out of its place, is a warning; without a stated peak nothing is checked.
+    at: time of the stated peak, s after the first sample. samples: (n,) m/s² as the file holds them, where the record's
+    are resampled. Raises RecordError with the factor that would explain the difference.
     """
     if not peak:
         return record

@@ -95,7 +95,7 @@ def joined(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     first = np.round(late).astype(int).tolist()
     off = np.abs(late - first).max()
     if off > _OFF_GRID:
-        raise RecordError(f"the samples of the files lie {off:.2g} of a step apart; resample them.")
+        raise RecordError(f"resample the files: their samples lie {off:.2g} of a step between one another.")
     size = min(channel.acceleration.size - place for channel, place in zip(channels, first, strict=True))
     if size < 2:
         raise RecordError("the files have no span of time in common; give each file a row of its own.")
@@ -136,10 +136,9 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
 def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
     """Return a channel with what its row says of name, scale, station, event, corner, magnitude and distance."""
     facts: dict[str, Any] = {
-        "station": record.station or channel.station,
-        "event": record.event or channel.event,
-        "high_pass_frequency": record.high_pass or channel.high_pass_frequency,
+        name: getattr(record, name) or getattr(channel, name) for name in ("station", "event")
     }
+    facts["high_pass_frequency"] = record.high_pass or channel.high_pass_frequency
     if record.magnitude is not None:
         facts |= {"magnitude": record.magnitude, "magnitude_type": ""}
     if record.epicentral_distance is not None:

@@ -23,9 +23,7 @@ _LAYOUT = Layout("", {
 _FIRST = re.compile(r"(Corrected|Uncorrected)\s+(acceleration|velocity|displacement)\s+\(Format v", re.I)
 _DATA = re.compile(
     r"^\s*(?P<n>\d+)\s+(?P<quantity>\w+)\s+pts,.*?units\s*=\s*(?P<unit>[\w/^]+)\.?\s*(?:\((?P<code>\d+)\))?\s*,?"
-    r"\s*Format\s*=\s*\(\s*(?P<per_line>\d+)[FE](?P<width>\d+)",
-    re.I,
-)
+    r"\s*Format\s*=\s*\(\s*(?P<per_line>\d+)[FE](?P<width>\d+)", re.I)  # fmt: skip
 _REALS = re.compile(r"^\s*(\d+)\s+Real-header values follow on\s+(\d+)\s+lines.*?\d+[FE](\d+)", re.I)
 _END = re.compile(r"\s*(End-of-data|/&)", re.I)
 _ELEVATION, _DISTANCE, _RECORDER_STEP, _STEP, _LENGTH, _PEAK, _PEAK_TIME, _RMS = 2, 16, 33, 61, 62, 63, 64, 83

@@ -241,9 +241,11 @@ def check_duration(declared: float, samples: int, time_step: float, steps: float
     """Check `samples` against a duration, s, within `steps` and `rounding`, s. Raises RecordError for another."""
     lasts = samples * time_step
     if abs(lasts - declared) > steps * time_step + rounding:
+        stated = (
+            f"the header declares a duration of {declared:g} s, but the {samples} samples last {lasts:g} s"
+        )
         raise RecordError(
-            f"the header declares a duration of {declared:g} s, but the {samples} samples last {lasts:g} s: the file "
-            "is truncated or its header belongs to another record; fetch the whole file."
+            f"{stated}: the file is truncated or its header is another's; fetch the whole file."
         )
 
 

@@ -66,9 +66,7 @@ def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError(f"DATA_TYPE is {kind!r}, but must be ACCELERATION; use the ACC file of the record.")
     values, notes = whole(numbers("\n".join(text[length:])), _DYNA.count(head), per_line=1)
     date = optional(key("EVENT_DATE_YYYYMMDD"), head)
-    scales = " ".join(
-        f"{scale}={optional(key(f'MAGNITUDE_{scale[1].upper()}'), head)}" for scale in ("Mw", "ML")
-    )
+    scales = f"Mw={optional(key('MAGNITUDE_W'), head)} ML={optional(key('MAGNITUDE_L'), head)}"
     facts: dict[str, Any] = {"warnings": notes, **typed_magnitude(scales)}
     facts["event"] = f"{optional(key('EVENT_NAME'), head)} {date}"
     facts["event_time"] = f"{date} {optional(key('EVENT_TIME_HHMMSS'), head)}"

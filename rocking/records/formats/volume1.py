@@ -100,10 +100,10 @@ def _digitised(
     duration = number("duration", optional(_LENGTH, head))
     # The length may count a last step or not.
     if abs(duration - times[-1]) > 2 * np.ptp(times) / (times.size - 1) + 0.001:
-        raise RecordError(
-            f"the header declares a length of {duration:g} s, but the last sample stands at {times[-1]:g} s; "
-            "the file is damaged or its header belongs to another record."
+        stated = (
+            f"the header declares a length of {duration:g} s, but the last sample stands at {times[-1]:g} s"
         )
+        raise RecordError(f"{stated}; the file is damaged or its header is another's.")
     step = even_step(times)
     if step is not None:
         return layout.channel(head, values, options, step=step, held=held)

@@ -1,16 +1,10 @@
-"""Magnitude and distance: what headers say of them, and what a catalogue adds."""
-
-import hashlib
-from pathlib import Path
+"""Magnitude, distance and place: what headers say of them."""
 
 import pytest
 
-from rocking.errors import CatalogueError
-from rocking.records import load_catalogue, open_record, read
+from rocking.records import read
 from rocking.records.formats.header import typed_magnitude
 
-TABLE = b"time,NS\n0.00,0.1\n0.01,0.3\n0.02,0.2\n0.03,0.1\n"
-SHA = hashlib.sha256(TABLE).hexdigest()
 SAID = {
     "formats_esm_dyna/HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC":
         (4.6, "ML", 88.1, "20190728 160908", (37.6349, 22.7293, 34.0)),  # M_W is empty
@@ -48,42 +42,10 @@ def test_what_a_header_says(real_records, file):
     assert (found.latitude, found.longitude, found.elevation) == pytest.approx(place)
 
 
-@pytest.mark.parametrize(
-    ("text", "found"),
-    [
-        ("/mb=6.1/Mw=7.1", (7.1, "Mw")),
-        ("mb 6.1 Ms 6.9 ML 6.4", (6.9, "Ms")),
-        ("5.2 (Ml)", (5.2, "ML")),
-        ("mb      Ms      Mw6.1   M        ML", (6.1, "Mw")),
-        ("6.2", (6.2, "")),
-        ("Mw= ML=4.6", (4.6, "ML")),
-        ("0", (None, "")),
-        ("-999", (None, "")),
-        ("32767", (None, "")),
-    ],
-)
+@pytest.mark.parametrize(("text", "found"), [
+    ("/mb=6.1/Mw=7.1", (7.1, "Mw")), ("mb 6.1 Ms 6.9 ML 6.4", (6.9, "Ms")), ("5.2 (Ml)", (5.2, "ML")),
+    ("mb      Ms      Mw6.1   M        ML", (6.1, "Mw")), ("6.2", (6.2, "")), ("Mw= ML=4.6", (4.6, "ML")),
+    ("0", (None, "")), ("-999", (None, "")), ("32767", (None, "")),
+])  # fmt: skip
 def test_a_moment_magnitude_comes_before_one_of_body_waves(text, found):
     assert tuple(typed_magnitude(text).values()) == found
-
-
-def catalogue(folder: Path, cells: str) -> Path:
-    (folder / "table.csv").write_bytes(TABLE)
-    path = folder / "catalogue.csv"
-    head = "id,file,sha256,unit,magnitude,epicentral_distance_km"
-    path.write_text(f"{head}\none,table.csv,{SHA},m/s2,{cells}\n", encoding="utf-8")
-    return path
-
-
-def test_a_catalogue_says_what_the_file_does_not(tmp_path):
-    (record,) = load_catalogue(catalogue(tmp_path, "6.7,0"))
-    (found,) = open_record(record)
-    assert (found.magnitude, found.epicentral_distance) == (6.7, 0.0)
-
-
-@pytest.mark.parametrize(
-    ("cells", "field"),
-    [("11,5", "magnitude is 11"), ("6,-3", "epicentral_distance_km is -3"), ("big,5", "magnitude is 'big'")],
-)
-def test_what_no_earthquake_has_is_refused(tmp_path, cells, field):
-    with pytest.raises(CatalogueError, match=field):
-        load_catalogue(catalogue(tmp_path, cells))

@@ -1,5 +1,6 @@
 """Formats that obspy opens for us: miniSEED with StationXML, SAC, EVT; directions, and the obspy plug-ins."""
 
+import dataclasses
 import io
 import os
 from importlib.metadata import entry_points
@@ -7,9 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from obspy import Stream, Trace, UTCDateTime, read_inventory
+from obspy import read as obspy_read
+from obspy.core.util.base import get_example_file
 
 from rocking.errors import RecordError, RockingError, UndeclaredError
-from rocking.records import load_catalogue, read
+from rocking.records import Accelerogram, load_catalogue, read
 from rocking.records.folder import list_folder
 from rocking.records.formats import FORMATS
 from rocking.records.instrument import azimuth, is_vertical
@@ -32,16 +36,11 @@ XML = """<?xml version="1.0" encoding="UTF-8"?>
 COUNTS = np.round(1e5 * np.sin(np.arange(4000) / 30) * np.hanning(4000)).astype(np.int32) + 777
 
 
-def trace(start: str = "2020-01-01", counts: np.ndarray = COUNTS):
-    obspy = pytest.importorskip("obspy")
-    header = {
-        "network": "XX",
-        "station": "MADE",
-        "channel": "HNE",
-        "delta": 0.01,
-        "starttime": obspy.UTCDateTime(start),
-    }
-    return obspy.Trace(counts, header=header)
+NAMES = {"network": "XX", "station": "MADE", "delta": 0.01, "starttime": UTCDateTime("2020-01-01T00:00:10.5")}
+
+
+def trace(values: np.ndarray = COUNTS, channel: str = "HNE") -> Trace:
+    return Trace(values, NAMES | {"channel": channel})
 
 
 @pytest.fixture
@@ -75,7 +74,7 @@ def test_the_full_response_is_removed_to_acceleration(miniseed: Path) -> None:
 
 
 def test_counts_without_an_instrument_are_refused(miniseed: Path) -> None:
-    trace(counts=COUNTS // 1000).write(str(miniseed), format="MSEED")
+    trace(COUNTS // 1000).write(str(miniseed), format="MSEED")
     with pytest.raises(RecordError, match=r"no single StationXML describes XX\.MADE"):
         read(miniseed)
     assert read(miniseed, unit="gal")[0].source.unit == "gal"
@@ -99,7 +98,7 @@ def test_inventories_that_do_not_serve(miniseed: Path, xml: str, message: str) -
 
 def test_sac_needs_a_unit_and_loses_its_offset(tmp_path: Path) -> None:
     path = tmp_path / "record.sac"
-    trace(counts=(COUNTS / 1e6).astype(np.float32)).write(str(path), format="SAC")
+    trace((COUNTS / 1e6).astype(np.float32)).write(str(path), format="SAC")
     with pytest.raises(UndeclaredError, match="unit"):
         read(path)
     (record,) = read(path, unit="m/s2")
@@ -111,8 +110,6 @@ def test_sac_needs_a_unit_and_loses_its_offset(tmp_path: Path) -> None:
 
 def test_obspys_own_records() -> None:
     """AKT013: the header of the file states 4.383 gal. STNA: 63 365 counts of 2.5 V / 2.5025 V/g / 2²³."""
-    from obspy.core.util.base import get_example_file
-
     (akita,) = read(get_example_file("test.knet"))
     assert (akita.station, akita.component, akita.time_step) == ("AKT013", "E-W", 0.01)
     assert (
@@ -171,3 +168,73 @@ def test_an_input_that_is_no_file_is_refused_and_not_waited_for(miniseed: Path, 
     with pytest.raises(RecordError, match="none beside it does"):
         read(miniseed)
     assert [file.file for file in list_folder(miniseed.parent)[0]] == ["record.mseed"]
+
+
+def test_there_and_back_nothing_changes() -> None:
+    rng = np.random.default_rng(3)
+    stream = Stream([trace(rng.normal(size=200), channel) for channel in ("HNE", "HNN", "HNZ")])
+    records = Accelerogram.from_obspy(stream, unit="m/s2")
+    assert [(r.component, r.azimuth, r.vertical) for r in records] == [
+        ("HNE", 90.0, False), ("HNN", 0.0, False), ("HNZ", None, True),
+    ]  # fmt: skip
+    back = Stream([record.to_obspy() for record in records])
+    for before, after in zip(stream, back, strict=True):
+        assert np.array_equal(before.data, after.data) and before.id == after.id
+        assert (before.stats.delta, before.stats.starttime) == (after.stats.delta, after.stats.starttime)
+    for first, again in zip(records, Accelerogram.from_obspy(back), strict=True):
+        pairs = ((getattr(first, f.name), getattr(again, f.name)) for f in dataclasses.fields(first)[1:])
+        assert all(one == other for one, other in pairs if not hasattr(one, "sha256"))
+        assert first.sha256 == again.sha256
+
+
+def test_what_a_stream_leaves_open_is_refused() -> None:
+    values = np.sin(np.arange(50.0))
+    late = trace(values)
+    late.stats.starttime += 5
+    counts = trace(values)
+    counts.stats.response = object()
+    for given, unit, word in (
+        (trace(values), None, "neither a unit nor a response"),
+        (counts, "g", "both a unit and a response"),
+        (Stream([trace(values), late]), "g", "has a gap at"),
+        (Stream(), "g", "holds no trace"),
+        (trace(values), "furlong", "unit is 'furlong'"),
+    ):
+        with pytest.raises(RecordError, match=word):
+            Accelerogram.from_obspy(given, unit=unit)
+
+
+@pytest.mark.real_records
+def test_a_stored_answer_of_a_data_centre_reads_as_its_files_do(real_records: Path) -> None:
+    folder = real_records / "formats_mseed_stationxml"
+    files = sorted(folder.glob("*.mseed"))
+    stream = sum((obspy_read(str(file), format="MSEED") for file in files), Stream())
+    inventory = read_inventory(str(folder / "CI.CLC.xml"), format="STATIONXML")
+    found = Accelerogram.from_obspy(stream, inventory)
+    assert [r.sha256 for r in found] == [read(file)[0].sha256 for file in files]
+
+
+@pytest.mark.real_records
+def test_obspy_reads_our_text_formats(real_records: Path) -> None:
+    assert len(PLUGINS) == 14
+    for file in ("formats_peer_at2/NIS090.AT2", "formats_smc/0111a.smc", "formats_bhrc/5529-1.V1"):
+        stream, records = obspy_read(str(real_records / file)), read(real_records / file)
+        for one, record in zip(stream, records, strict=True):
+            assert np.array_equal(one.data, record.acceleration)
+            assert one.stats.delta == record.time_step
+
+
+@pytest.mark.parametrize("samples", [
+    np.ma.masked_array([1.0, 2.0, 3.0], [0, 1, 0]), np.array([1j, 2]), np.array([True, False]), np.array(["1", "2"]),
+    np.array([[1.0, 2.0]]), np.array([1.0, np.nan]), [1.0],
+])  # fmt: skip
+def test_an_array_that_is_no_accelerogram_is_refused(samples) -> None:
+    """The gaps of a masked array became samples."""
+    with pytest.raises(RecordError, match="sample"):
+        Accelerogram(samples, 0.01)
+
+
+@pytest.mark.parametrize("name", ["a\0b", "\u202egnp.exe", "\udce9", "two\nlines"])
+def test_names_that_cannot_be_printed_are_refused(name: str) -> None:
+    with pytest.raises(RecordError, match="printable"):
+        Accelerogram(np.arange(3.0), 0.01, station=name)

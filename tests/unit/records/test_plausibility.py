@@ -11,9 +11,8 @@ from rocking.records.plausibility import agree_with_header, damage_warnings, exc
 
 def record(peak: float) -> Accelerogram:
     """A record whose peak is `peak` m/s²."""
-    return Accelerogram(
-        np.array([0.0, peak, -peak / 2]), 0.01, component="NS", source=Source(path="file.x", unit="g")
-    )
+    source = Source(path="file.x", unit="g")
+    return Accelerogram(np.array([0.0, peak, -peak / 2]), 0.01, component="NS", source=source)
 
 
 def test_the_header_is_believed_within_one_percent() -> None:
@@ -72,9 +71,7 @@ def test_zeros_within_shaking_and_long_steps_are_told() -> None:
         gap[180 : 180 + zeros] = 0.0
         assert bool(damage_warnings(Accelerogram(gap, 0.01))) == told
     still = np.concatenate([np.zeros(300), SHAKING + 1e-9, np.zeros(300)])
-    assert (
-        damage_warnings(Accelerogram(still, 0.1)) == () == damage_warnings(Accelerogram(np.zeros(400), 0.1))
-    )
+    assert not damage_warnings(Accelerogram(still, 0.1)) + damage_warnings(Accelerogram(np.zeros(400), 0.1))
     assert "6.01 s" in damage_warnings(Accelerogram(SHAKING, 6.01))[0]
 
 

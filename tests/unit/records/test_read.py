@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tracemalloc
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -38,9 +39,7 @@ def test_reads_what_is_written(tmp_path: Path) -> None:
         45.0,
         "Station",
     )
-    assert (
-        record.source.path == str(path) and record.source.format == "PEER AT2" and record.source.unit == "g"
-    )
+    assert (record.source.path, record.source.format, record.source.unit) == (str(path), "PEER AT2", "g")
     assert len(record.source.sha256) == 64 and record.processed
 
 
@@ -134,7 +133,7 @@ def test_times_rounded_in_print_are_even_and_uneven_ones_are_resampled(tmp_path:
     ("0.00 1\n0.01 2\n0.01 3\n0.02 1\n", "times must increase"),
     ("time,a(g)\n0.00,1\n0.01,\n0.02,3\n", "no reader recognises"),
     ("time,a(g)\n0.00,1\n0.01,2,3\n0.02,3\n", "no reader recognises|columns"),
-    ("t,NS,EW\n0,5,6\n1,8,9\n2,2\n", "row 3 of the samples has 2 columns, but the first has 3|no reader"),
+    ("t,NS,EW\n0,5,6\n1,8,9\n2,2\n", "row 3 of the samples has 2 columns, the first 3|no reader"),
     ("E\n7\n9\n1 2\n", "no reader recognises"),
     ("1\n" * 40 + "1 2\n" + "3\n", "row 41 of the samples has 2 columns, but the first has 1"),
     ("1 2 3\n" * 40 + "1 2\n" + "3 3 3\n", "row 41 of the samples has 2 columns, but the first has 3"),
@@ -156,14 +155,21 @@ def test_wrapped_series_and_single_column(tmp_path: Path) -> None:
 
 def test_declarations_are_checked(tmp_path: Path) -> None:
     path = written(tmp_path, at2(["0.1", "0.2"]))
-    with pytest.raises(RecordError, match="unit is 'furlong'"):
-        read(path, unit="furlong")
-    with pytest.raises(RecordError, match="unit is 'g' in the file, but 'gal' was declared"):
-        read(path, unit="gal")
-    with pytest.raises(RecordError, match="time_step is -1"):
-        read(path, time_step=-1)
-    with pytest.raises(RecordError, match="response is 'partly'"):
-        read(path, response="partly")  # type: ignore[arg-type]
+    options: list[dict[str, Any]] = [
+        {"unit": "furlong"},
+        {"unit": "gal"},
+        {"time_step": -1},
+        {"response": "partly"},
+    ]
+    words = (
+        "unit is 'furlong'",
+        "unit is 'g' in the file, but 'gal' was",
+        "time_step is -1",
+        "response is 'partly'",
+    )
+    for wrong, word in zip(options, words, strict=True):
+        with pytest.raises(RecordError, match=word):
+            read(path, **wrong)
     assert read(path, unit="G", time_step=0.01)[0].time_step == 0.01
 
 

@@ -37,9 +37,8 @@ def test_peaks_over_directions() -> None:
     second = Accelerogram(wave * np.sin(np.radians(60)), 0.01, azimuth=90)
     peaks = rotd(first, second)
     assert peaks.azimuth == 60 and peaks.rotd100 == pytest.approx(np.abs(wave).max())
-    assert peaks.rotd50 == pytest.approx(
-        np.abs(wave).max() / np.sqrt(2), rel=0.01
-    )  # 1° steps: half a degree of slope
+    # 1° steps: half a degree of slope
+    assert peaks.rotd50 == pytest.approx(np.abs(wave).max() / np.sqrt(2), rel=0.01)
     oblique = rotd(component(260), component(345))
     assert oblique.rotd100 == pytest.approx(rotd(component(0), component(90)).rotd100)
     assert rotd(component(None), component(None)).rotd100 > 0

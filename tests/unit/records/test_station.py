@@ -91,9 +91,7 @@ def test_a_folder_joins_the_files_of_a_station_and_says_why_not(station):
 def test_records_beside_the_catalogue_that_it_does_not_name_are_told(station):
     (station / "notes.txt").write_text("Dear Sir or Madam\n")
     (station / "catalogue.csv").write_text("id,file\na,e.asc;n.asc\n")
-    assert unlisted(station / "catalogue.csv")[0].startswith(
-        "z.asc is not in the catalogue; rocking catalogue"
-    )
+    assert unlisted(station / "catalogue.csv")[0].startswith("z.asc is not in the catalogue; rocking")
     _written(station, "more.asc", "HNE", VALUES)
     assert unlisted(station / "catalogue.csv")[0].startswith("2 files are")
     (station / "other.csv").write_text("id,file\nb,z.asc\nc,more.asc\n")
