@@ -131,7 +131,7 @@ def unpacked(raw: bytes, name: str) -> bytes:
         except zlib.error as error:
             raise RecordError(f"{name}: damaged gzip file, {error}; fetch it again.") from None
         if not unpacker.eof or len(content) > LARGEST_FILE:
-            raise RecordError(f"{name}: the gzip file is truncated or holds more than {LARGEST_FILE} bytes.")
+            raise RecordError(f"{name}: the gzip file is cut or unpacks to more than {LARGEST_FILE} bytes.")
         raw = unpacker.unused_data
     return content
 

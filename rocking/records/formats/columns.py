@@ -23,6 +23,7 @@ _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
 _DECIMALS = re.compile(r"[.]?(\d*)(?:[eE][+-]?\d+)?\s*$")
 _HEAD, _TAIL = 12, 4000
 """Lines and bytes that are looked at, of the beginning and of the end."""
+_BLANK, _LINE_END = 32, 10
 _COMMENTED_FORMAT = b"#Earthquake Information"
 """CWB's header, which looks like comments above columns."""
 
@@ -69,11 +70,16 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     spaced = body.replace(b",", b" ").replace(b";", b" ")
     values = numbers(spaced)
     wrapped = width > 2 and not names and not _time_first(values, width)
-    counts = [size for row in spaced.split(b"\n") if (size := len(row.split()))]
+    octets = np.frombuffer(b"\n" + spaced + b"\n", dtype=np.uint8)
+    begun = np.cumsum((octets[1:] > _BLANK) & (octets[:-1] <= _BLANK))  # numbers, up to each octet
+    counts = np.diff(begun[octets[1:] == _LINE_END], prepend=0)
+    counts = counts[counts > 0]
     if wrapped and counts[-1] < width:  # the last row of a series may be short
         counts = counts[:-1]
-    if wrong := next((i for i, size in enumerate(counts, 1) if size != width), 0):
-        raise RecordError(f"row {wrong} of the samples has {counts[wrong - 1]} columns, the first {width}.")
+    for row in np.flatnonzero(counts != width)[:1]:
+        raise RecordError(
+            f"row {row + 1} of the samples has {counts[row]} columns, but the first has {width}."
+        )
     if width == 1 or wrapped:
         label = names[0] if names else ""
         named: dict[str, Any] = {"component": "" if _unit(label) else label, "warnings": _repeats(values)}

@@ -53,7 +53,7 @@ def test_gzip_is_unpacked_and_its_own_hash_kept(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("content", "message"), [
     (b"", "record.AT2: the file is empty"),
     (b"\n \r\n", "record.AT2: the file is empty"),
-    (b"\x1f\x8b\x08\x00rubbish", "damaged gzip|truncated"),
+    (b"\x1f\x8b\x08\x00rubbish", "damaged gzip|is cut"),
     (gzip.compress(b"\0" * (LARGEST_FILE + 10)), "unpacks to more"),
     (at2(["0.1", "0.2"], npts=500), "declares 500 samples, but the file holds 2"),
     (at2(["0.1"] * 30, npts=3), "declares 3 samples, but the file holds 30"),
@@ -133,7 +133,7 @@ def test_times_rounded_in_print_are_even_and_uneven_ones_are_resampled(tmp_path:
     ("0.00 1\n0.01 2\n0.01 3\n0.02 1\n", "times must increase"),
     ("time,a(g)\n0.00,1\n0.01,\n0.02,3\n", "no reader recognises"),
     ("time,a(g)\n0.00,1\n0.01,2,3\n0.02,3\n", "no reader recognises|columns"),
-    ("t,NS,EW\n0,5,6\n1,8,9\n2,2\n", "row 3 of the samples has 2 columns, the first 3|no reader"),
+    ("t,NS,EW\n0,5,6\n1,8,9\n2,2\n", "row 3 of the samples has 2 columns, but the first has 3|no reader"),
     ("E\n7\n9\n1 2\n", "no reader recognises"),
     ("1\n" * 40 + "1 2\n" + "3\n", "row 41 of the samples has 2 columns, but the first has 1"),
     ("1 2 3\n" * 40 + "1 2\n" + "3 3 3\n", "row 41 of the samples has 2 columns, but the first has 3"),
