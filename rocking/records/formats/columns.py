@@ -76,10 +76,9 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     counts = counts[counts > 0]
     if wrapped and counts[-1] < width:  # the last row of a series may be short
         counts = counts[:-1]
-    for row in np.flatnonzero(counts != width)[:1]:
-        raise RecordError(
-            f"row {row + 1} of the samples has {counts[row]} columns, but the first has {width}."
-        )
+    if (counts != width).any():
+        at = int(np.argmax(counts != width))
+        raise RecordError(f"row {at + 1} of the samples has {counts[at]} columns, but the first has {width}.")
     if width == 1 or wrapped:
         label = names[0] if names else ""
         named: dict[str, Any] = {"component": "" if _unit(label) else label, "warnings": _repeats(values)}
