@@ -43,10 +43,10 @@ class Fate(MembersRow):
     rotation_ratio: float = column(
         "Largest rotation over critical rotation of the run as recorded, worst component; INF if it overturns"
     )
-    direction: str = column("Direction in which it rotates most; empty with one direction")
-    polarity: str = column("Sign of the motion with which it rotates most: as recorded or reversed, or empty")
+    direction: str = column("Direction of the largest rotation; empty with one")
+    polarity: str = column("Sign of the motion of the largest rotation: as recorded, reversed; or empty")
     peak_side: int | None = column(rows.PEAK_SIDE)
-    why: str = column("What the verdict rests on")
+    why: str = column("Reason for the verdict")
 
     @property
     def severity(self) -> tuple[float, ...]:

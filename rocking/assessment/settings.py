@@ -19,20 +19,20 @@ class EnsembleSettings:
 
     members: int = described(
         64,
-        "members, up to the next of 16, 64, 256, 1024 and 4096; 0: none",
+        "number of members, rounded up to 16, 64, 256, 1024 or 4096; 0: no ensemble",
         ge=0,
         le=4096,
     )
-    amplitude_range: float = described(0.05, "uncertainty of the amplitude, ± a share", ge=0, le=0.9)
+    amplitude_range: float = described(0.05, "uncertainty of the amplitude, ± this share", ge=0, le=0.9)
     restitution_range: float = described(
         0.05,
-        "plus or minus of the restitution, where a structure says none",
+        "uncertainty of the restitution, ±, where a structure states none",
         ge=0,
         le=1,
     )
-    polarity: bool = described(True, "whether the sign of the motion is unknown, of unlike sides")
-    processing: bool = described(True, "whether the processing of a raw record is unknown")
-    risk: float = described(0.05, "largest probability of the opposite of a verdict", gt=0, le=0.45)
+    polarity: bool = described(True, "whether the sign of the motion varies, for unlike sides")
+    processing: bool = described(True, "whether the processing of a raw record varies")
+    risk: float = described(0.05, "largest probability of the outcome opposite to a verdict", gt=0, le=0.45)
 
     def __post_init__(self) -> None:
         check_described(ConfigurationError, self)
@@ -68,17 +68,17 @@ class AssessmentSettings:
         "with uplift (a_sc,alt), linearised (a_sc) or mean",
     )
     tolerance: float = described(
-        1e-6, "of the nonlinear integration, relative to the critical rotation", ge=1e-13, le=0.1
+        1e-6, "tolerance of the integration, relative to the critical rotation", ge=1e-13, le=0.1
     )
     pulse: PredictingPulse = PredictingPulse()
     ensemble: EnsembleSettings = EnsembleSettings()
-    friction_coefficient: float = described(0.6, "friction beyond which a contact slides", gt=0)
+    friction_coefficient: float = described(0.6, "friction coefficient beyond which a contact slides", gt=0)
     fidelity: Literal["full", "auto"] = described(
         "full",
-        "full: every method, to compare them; auto: per case what settles the verdict, where no PDF reports are made",
+        "full runs every method, to compare them; auto runs what settles the verdict of a case, where no PDFs are made",
     )
     fidelity_risk: float = described(
-        0.01, "for auto: largest probability of a wrong verdict with which it stops; 0: none", ge=0, le=0.2
+        0.01, "largest probability of a wrong verdict with which fidelity: auto stops; 0: none", ge=0, le=0.2
     )
 
     def __post_init__(self) -> None:
@@ -94,9 +94,7 @@ class FragilitySettings:
         f"of the levels: {MEASURES_IN_WORDS}",
         one_of=lambda: tuple(INTENSITY_MEASURES),
     )
-    members: bool = described(
-        True, "whether each case is an ensemble, with the ranges above, instead of itself"
-    )
+    members: bool = described(True, "whether a case counts by the share of its members that overturn")
     hazard: str | None = described(
         None, "CSV of a hazard curve with the columns intensity and annual_rate, ascending, or null"
     )

@@ -29,14 +29,14 @@ class PulseSettings:
     5.0
     """
 
-    lowest_frequency: float = described(0.15, "lowest frequency of the pulses sought", "Hz", gt=0)
-    highest_frequency: float = described(5.0, "highest frequency of the pulses sought", "Hz", gt=0)
-    frequencies_per_octave: int = described(24, "frequencies scanned in one octave", ge=4, le=200)
-    candidates: int = described(10, "maxima of the scan that are refined", ge=1)
-    alternatives: int = described(5, "pulses reported, the dominant one among them", ge=1)
-    pursuit: int = described(3, "pulses of the pursuit sequence", ge=1)
-    overlap: float = described(0.5, "common over joint time from which two pulses count as one", gt=0)
-    samples_per_cycle: float = described(8.0, "fewest samples that can carry one cycle", gt=0)
+    lowest_frequency: float = described(0.15, "lowest frequency of the search for pulses", "Hz", gt=0)
+    highest_frequency: float = described(5.0, "highest frequency of the search for pulses", "Hz", gt=0)
+    frequencies_per_octave: int = described(24, "number of frequencies per octave", ge=4, le=200)
+    candidates: int = described(10, "number of maxima that the search refines", ge=1)
+    alternatives: int = described(5, "number of ranked pulses in the report", ge=1)
+    pursuit: int = described(3, "number of pulses of the pursuit sequence", ge=1)
+    overlap: float = described(0.5, "ratio of common to joint time from which two pulses are one", gt=0)
+    samples_per_cycle: float = described(8.0, "smallest number of samples in one cycle", gt=0)
 
     def __post_init__(self) -> None:
         check_described(PulseError, self)

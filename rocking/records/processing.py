@@ -24,19 +24,19 @@ class Processing:
     """
 
     pre_event: float | None = described(
-        None, "window at the start whose mean is removed from the record", "s", gt=0
+        None, "time at the start of the record whose mean is removed", "s", gt=0
     )
     baseline: Baseline = described(
         "none",
-        "none; linear: the least-squares line is removed; adaptive: the drift of velocity before and after shaking",
+        "none; linear: removes the least-squares line; adaptive: removes the drift of velocity before and after shaking",
     )
     taper: float = described(0.0, "share of the record that a cosine taper covers at each end", ge=0, le=0.5)
-    high_pass: float | None = described(None, "corner of the acausal Butterworth high-pass", "Hz", gt=0)
-    low_pass: float | None = described(None, "corner of the acausal Butterworth low-pass", "Hz", gt=0)
+    high_pass: float | None = described(None, "corner frequency of the acausal high-pass filter", "Hz", gt=0)
+    low_pass: float | None = described(None, "corner frequency of the acausal low-pass filter", "Hz", gt=0)
     order: int = described(4, "order of the filters", ge=1, le=10)
-    padding: bool = described(True, "whether zeros stand before and after while filtering")
-    keep_padding: bool = described(False, "whether those zeros stay")
-    time_step: float | None = described(None, "to which the record is resampled at last", "s", gt=0)
+    padding: bool = described(True, "whether zeros are added before and after while filtering")
+    keep_padding: bool = described(False, "whether these zeros are kept")
+    time_step: float | None = described(None, "time step to which the record is resampled", "s", gt=0)
 
     def __post_init__(self) -> None:
         check_described(RecordError, self)

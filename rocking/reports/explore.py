@@ -109,7 +109,7 @@ def _case(
     band = (
         f" (5 to 95 % of the members: {low if low == high else f'{low} to {high}'})" if fate.members else ""
     )
-    crack = f" What opens, as statics chooses it: {fate.crack}." if fate.crack else ""
+    crack = f" Crack that statics chooses: {fate.crack}." if fate.crack else ""
     case: Content = {
         "verdict": str(fate.verdict),
         "cell": cell_text(fate),

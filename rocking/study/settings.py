@@ -32,7 +32,7 @@ class StudyProcessing(Processing):
     """Which records are processed, and how."""
 
     apply: Literal["raw", "always", "never"] = described(
-        "raw", "raw: records whose file says they are uncorrected; always: all; never: none"
+        "raw", "which records are processed: raw ones, whose file says so; always; never"
     )
 
 
@@ -40,14 +40,14 @@ class StudyProcessing(Processing):
 class StudyFragility(FragilitySettings):
     """What fragility is measured with, and when."""
 
-    in_every_run: bool = described(False, "measure it in every run")
+    in_every_run: bool = described(False, "whether every run measures the fragility")
 
 
 @dataclass(frozen=True)
 class StudyTrade:
     """When error is measured against time."""
 
-    in_summary: bool = described(False, "measure it in every run, and draw it in summary.pdf")
+    in_summary: bool = described(False, "whether every run measures the trade and draws it in summary.pdf")
 
     def __post_init__(self) -> None:
         check_described(ConfigurationError, self)
@@ -58,29 +58,27 @@ class Settings(AssessmentSettings):
     """What a study is made with; the names and their units are the keys of config.yaml."""
 
     study: str | None = described("", "title of the study")
-    client: str | None = described("", "for whom it is made")
-    author: str | None = described("", "who makes it")
-    date: str | None = described("", "of the reports, as it is to stand there")
-    catalogue: str = described("records/catalogue.csv", "which accelerograms, one row each")
-    structures: str = described("structures.yaml", "which structures, SI units and degrees")
+    client: str | None = described("", "client of the study")
+    author: str | None = described("", "author of the study")
+    date: str | None = described("", "date of the reports, as they print it")
+    catalogue: str = described("records/catalogue.csv", "catalogue of the records, one row per station")
+    structures: str = described("structures.yaml", "list of the structures, in metres and degrees")
     results: str = described("results", "folder of the results")
     mirror: str | None = described(None, "folder that already holds the files of remote records")
     processing: StudyProcessing = StudyProcessing(pre_event=1.0, baseline="linear", taper=0.02, high_pass=0.1)
-    vertical: bool = described(False, "let the vertical component act too, where a record has one")
+    vertical: bool = described(False, "whether the vertical component acts as well, where a record has one")
     candidates: int = described(
-        11, "heights tried for the hinge of a wall or the crack of a spire; 0: none", ge=0, le=1000
+        11, "number of heights tried for the hinge of a wall or the crack of a spire", ge=0, le=1000
     )
-    processing_variants: bool = described(
-        True, "also meet the record with other baselines and corner frequencies"
-    )
+    processing_variants: bool = described(True, "whether other baselines and corner frequencies are tried")
     fragility: StudyFragility = StudyFragility()
     trade: StudyTrade = StudyTrade()
-    reports: bool = described(True, "PDF reports; the tables are written either way")
+    reports: bool = described(True, "whether PDF reports are written beside the tables")
     histories: bool = described(
-        False, "rotation histories of every response too, as histories.csv of each record"
+        False, "whether each record gets histories.csv, the rotation of every response"
     )
     records_per_job: int | None = described(
-        None, "about; null: twelve, an eighth of their number from 96, 200 from 1600", ge=1
+        None, "number of records per job; null: 12, an eighth of all from 96 on, 200 from 1600 on", ge=1
     )
 
     def numbers(self) -> dict[str, Any]:

@@ -28,7 +28,7 @@ class HazardRow(Row):
     """One row per level of the intensity measure, ascending."""
 
     intensity: float = column("Level, in the unit of the intensity measure")
-    annual_rate: float = column("Annual rate at which it is exceeded", unit="1/year")
+    annual_rate: float = column("Annual rate of exceedance of the level", unit="1/year")
 
 
 def read_hazard(path: Path) -> list[HazardRow]:
@@ -91,14 +91,14 @@ class IdaRow(Row):
 
     structure: str = column(STRUCTURE)
     record: str = column(RECORD)
-    station: str = column("Event and station; what counts as one independent record")
+    station: str = column("Event and station, which count as one independent record")
     intensity_measure: str = column(_MEASURE)
     level: float = column("Level to which the record is scaled")
-    scale_factor: float = column("What the record is multiplied by to reach it")
-    members: int = column("Members that were followed")
-    rotation_ratio_median: float = column("Median of their largest rotation over critical rotation")
-    overturning_share: float = column("Share of them that overturn")
-    governing_overturning_share: float = column("The same with the worst crack that may form, if others may")
+    scale_factor: float = column("Factor on the record to reach the level")
+    members: int = column("Number of members")
+    rotation_ratio_median: float = column("Median of largest rotation over critical rotation")
+    overturning_share: float = column("Share of the members that overturn")
+    governing_overturning_share: float = column("Share of the members that overturn with the worst crack")
 
 
 @row("fragility")
@@ -111,9 +111,9 @@ class FragilityRow(Row):
     threshold: float = column(_THRESHOLD)
     level: float = column("Level of the intensity measure")
     probability: float = column("Share of the stations that exceed the rotation")
-    probability_low: float = column("Lower end of its 90 % interval, by stations")
-    probability_high: float = column("Upper end of its 90 % interval, by stations")
-    lognormal: float = column("Lognormal curve fitted by maximum likelihood")
+    probability_low: float = column("Lower end of the 90 % interval of the probability")
+    probability_high: float = column("Upper end of the 90 % interval of the probability")
+    lognormal: float = column("Probability by the lognormal curve of maximum likelihood")
 
 
 @row("fragility_summary")
@@ -124,22 +124,24 @@ class FragilitySummaryRow(Row):
     governing: bool = column(_GOVERNING)
     intensity_measure: str = column(_MEASURE)
     threshold: float = column(_THRESHOLD)
-    records: int = column("Records behind it")
-    stations: int = column("Stations behind it")
+    records: int = column("Number of records")
+    stations: int = column("Number of stations")
     median: float = column(
         "Level at which the empirical curve crosses one half, each station with the same weight; INF: it does not"
     )
     median_low: float = column("Lower end of the 90 % interval of the median, by resampling stations")
     median_high: float = column("Upper end of the 90 % interval of the median; INF: none at the levels tried")
     lognormal_median: float = column("Median of the lognormal curve, for those who need two parameters")
-    dispersion: float = column("Of the lognormal curve: standard deviation of the logarithm")
+    dispersion: float = column("Standard deviation of the logarithm, lognormal curve")
     misfit: float = column("Largest distance of the lognormal from the empirical curve")
-    reversals: int = column("Records that, scaled up, let stand again what they had overturned")
-    annual_rate: float = column("Of exceedance, with the hazard curve; empty without one", unit="1/year")
-    annual_rate_low: float = column("From the lower ends of the curve's interval", unit="1/year")
-    annual_rate_high: float = column("From the upper ends of the curve's interval", unit="1/year")
+    reversals: int = column(
+        "Number of records under which the structure stands again when they are scaled up"
+    )
+    annual_rate: float = column("Annual rate of exceedance; empty without a hazard curve", unit="1/year")
+    annual_rate_low: float = column("Annual rate by the lower ends of the interval", unit="1/year")
+    annual_rate_high: float = column("Annual rate by the upper ends of the interval", unit="1/year")
     annual_rate_left_out: float = column(
-        "Most that the rate may lack, as curve and hazard end before shaking does", unit="1/year"
+        "Most that the rate may lack beyond the ends of curve and hazard", unit="1/year"
     )
 
 
@@ -151,12 +153,12 @@ class IntensityMeasureRow(Row):
     intensity_measure: str = column(_MEASURE)
     efficiency: float = column("Dispersion of the level that overturns: standard deviation of its logarithm")
     figure: str = column("Figure of the record that may say more: PGV/PGA, magnitude or ln of the distance")
-    records: int = column("Records that have the measure and the figure")
-    stations: int = column("Their stations")
+    records: int = column("Number of records with the measure and the figure")
+    stations: int = column("Number of stations")
     slope: float = column(
         "Change of the logarithm of the level that overturns, for one standard deviation of the figure"
     )
-    p_value: float = column("Of no such change; below 0.05 the measure does not suffice")
+    p_value: float = column("p-value of no change; below 0.05 the measure does not suffice")
     power: float = column(
         "Share of samples of as many stations that would show a slope of this size; where it is low, a large p-value "
         "says little"

@@ -33,7 +33,7 @@ from rocking.tables import Row, column, row
 RECORD = "Identifier of the record in the catalogue"
 COMPONENT = "Component of the ground motion, as the file names it"
 STRUCTURE = "Name of the structure in the structure list"
-SCALE_FACTOR = "What the accelerations of the file were multiplied by, beyond their unit"
+SCALE_FACTOR = "Factor of the catalogue on the accelerations of the file"
 RECORD_SHA256 = "SHA-256 of the file the record was read from"
 PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift"
 
@@ -73,19 +73,17 @@ class CaseRow(ComponentRow):
 class MembersRow(CaseRow):
     """A row about the members of the ensemble that speaks for a case."""
 
-    verdict: Verdict = column("stands, overturns, undecided, or unknown where a component gave no result")
-    overturning_members: int = column("Members that overturn")
-    members: int = column("Members that were followed; 0 without an ensemble")
+    verdict: Verdict = column("stands, overturns, undecided, or unknown: a component failed")
+    overturning_members: int = column("Number of members that overturn")
+    members: int = column("Number of members; 0 without an ensemble")
     overturning_share: float = column("Share of the members that overturn; of a single run 0 or 1")
-    crack: str = column(
-        "What opens, as statics chooses it among the cracks that may form; empty for one alone"
-    )
-    elsewhere_crack: str = column("Another crack that may form and with which it does not stand; or empty")
-    elsewhere_overturning_members: int | None = column("Members that overturn where it cracks there")
-    elsewhere_members: int | None = column("Members that were followed there; 0: of a single run")
+    crack: str = column("Crack of least λ, which statics chooses; empty where only one may form")
+    elsewhere_crack: str = column("Another crack, with which the structure does not stand")
+    elsewhere_overturning_members: int | None = column("Members that overturn with that crack")
+    elsewhere_members: int | None = column("Members with that crack; 0 for a single run")
     rotation_ratio_low: float = column("5 % quantile of largest rotation over critical rotation")
-    rotation_ratio_median: float = column("Median of the same")
-    rotation_ratio_high: float = column("95 % quantile of the same; INF if more than 5 % overturn")
+    rotation_ratio_median: float = column("Median of largest rotation over critical rotation")
+    rotation_ratio_high: float = column("95 % quantile of the same ratio; INF if it overturns")
 
 
 @row("record")
@@ -93,41 +91,41 @@ class RecordRow(ComponentRow):
     """One row per component: what was read and what was done to it before use."""
 
     event: str = column("Earthquake")
-    magnitude: float | None = column("Magnitude of the earthquake, where file or catalogue know it")
-    epicentral_distance_m: float | None = column("Distance to the epicentre, where file or catalogue give it")
-    magnitude_type: str = column("Scale of the magnitude, where the file says it")
+    magnitude: float | None = column("Magnitude of the earthquake; empty where nothing states it")
+    epicentral_distance_m: float | None = column("Distance to the epicentre; empty where nothing states it")
+    magnitude_type: str = column("Scale of the magnitude; empty where nothing states it")
     event_time: str = column("Time or date of the earthquake, as the file prints it")
     station: str = column("Recording station")
     station_latitude_deg: float | None = column("Latitude of the station, north")
     station_longitude_deg: float | None = column("Longitude of the station, east")
     start_time: str = column("Time of the first sample, as the file states it")
-    file: str = column("File the record was read from")
-    format: str = column("Format that recognised the file")
+    file: str = column("File of the record")
+    format: str = column("Format of the file")
     unit: str = column("Unit of the numbers in the file")
     licence: str = column("Licence of the record, as the catalogue declares it")
-    vertical_component: str = column("Vertical component that acts too; empty where none does")
+    vertical_component: str = column("Vertical component that acts as well; empty where none acts")
     vertical_peak_acceleration_m_s2: float = column("Largest magnitude of the vertical acceleration")
     samples: int = column("Number of samples")
     time_step_s: float = column("Time step")
     duration_s: float = column("Time from the first to the last sample")
     peak_acceleration_m_s2: float = column("Largest magnitude of the acceleration")
-    peak_velocity_m_s: float = column("Largest magnitude of the velocity by trapezoid")
-    peak_displacement_m: float = column("Largest magnitude of the displacement by trapezoid")
+    peak_velocity_m_s: float = column("Largest magnitude of the velocity, by the trapezoidal rule")
+    peak_displacement_m: float = column("Largest magnitude of the displacement, by the same rule")
     arias_intensity_m_s: float = column("Arias intensity", equation="π/(2g) ∫a² dt")
     significant_duration_s: float = column("Time between 5 and 95 % of the Arias intensity (D5–95)")
-    rotd50_peak_acceleration_m_s2: float = column("Median over all directions of the pair's peak")
-    rotd100_peak_acceleration_m_s2: float = column("Largest peak of the pair in any direction")
+    rotd50_peak_acceleration_m_s2: float = column("Peak acceleration of the pair, median over directions")
+    rotd100_peak_acceleration_m_s2: float = column("Peak acceleration of the pair, largest over directions")
     velocity_pulse_period_s: float = column("Period T_p of the velocity pulse (Shahi & Baker 2014)")
     velocity_pulse_peak_velocity_m_s: float = column("Peak velocity along the axis of the velocity pulse")
-    velocity_pulse_orientation_rad: float = column("Its axis, from the first of the pair to the second")
-    velocity_pulse_azimuth_deg: float = column("The same clockwise from north, where that is known")
+    velocity_pulse_orientation_rad: float = column("Axis of the velocity pulse, from the first component")
+    velocity_pulse_azimuth_deg: float = column("Axis of the velocity pulse, clockwise from north")
     velocity_pulse_indicator: float = column("Pulse indicator of Shahi & Baker (2014)")
-    velocity_pulse_like: bool | None = column("Whether their criterion calls the motion pulse-like")
+    velocity_pulse_like: bool | None = column("Whether Shahi & Baker call the motion pulse-like")
     pulse_period_ratio: float = column("Period of the dominant sine pulse over T_p")
-    pulse_periods_unlike: bool | None = column("Whether the two differ by more than a factor 2")
-    high_pass_frequency_hz: float | None = column("Corner of the high-pass known to have been applied")
+    pulse_periods_unlike: bool | None = column("Whether these periods differ by more than a factor of 2")
+    high_pass_frequency_hz: float | None = column("Corner of the high-pass that the file or catalogue states")
     processing: tuple[str, ...] = column("Steps applied to the numbers of the file, in order")
-    warnings: tuple[str, ...] = column("What the reader noticed")
+    warnings: tuple[str, ...] = column("Warnings of the reader about the file")
 
 
 @row("pulses")
@@ -138,16 +136,16 @@ class PulseRow(ComponentRow):
         "alternative: ranked on the record; sequence: pursued on the residual of the pulses before it; "
         "predicting: the pulse that predicts, where it is no alternative"
     )
-    rank: int = column("Place in its kind, from 1")
-    amplitude_m_s2: float = column("Signed amplitude a_g")
+    rank: int = column("Rank among the pulses of its kind, from 1")
+    amplitude_m_s2: float = column("Signed amplitude a_g of the pulse")
     circular_frequency_rad_s: float = column("Circular frequency of the pulse")
     period_s: float = column("Period of the pulse")
     start_time_s: float = column("Start of the pulse after the first sample")
     gain_m2_s3: float = column("Energy gain of the matched filter")
     gain_ratio: float = column("Energy gain over that of the dominant pulse")
     explained_energy: float = column("Share of the acceleration energy that the pulse explains (EVa)")
-    effective_length_m: float = column("Amplitude times period squared")
-    flags: tuple[str, ...] = column("What makes the pulse doubtful")
+    effective_length_m: float = column("Length scale: amplitude times period squared")
+    flags: tuple[str, ...] = column("Reasons to doubt the pulse")
 
     @property
     def ranked(self) -> bool:
@@ -167,35 +165,37 @@ class ComparisonRow(CaseRow):
     The columns from the impacts to the warning are those of the integration.
     """
 
-    predicted_rotation_ratio: float = column("Exact maximum of the equivalent block under the dominant pulse")
-    integrated_rotation_ratio: float = column("Mechanism on the record; empty where less settled it")
+    predicted_rotation_ratio: float = column("Rotation ratio of the equivalent block under the pulse")
+    integrated_rotation_ratio: float = column("Rotation ratio of the mechanism under the record")
     prediction_over_integration: float = column("Predicted over integrated rotation ratio, where both rock")
-    prediction_in_words: str = column("How the prediction stands to the integration, in words")
-    within_factor_two: bool | None = column("Whether that ratio lies between 1/2 and 2, where both rock")
+    prediction_in_words: str = column("Prediction beside integration, in words")
+    within_factor_two: bool | None = column("Whether their ratio lies between 1/2 and 2")
     agreement: Agreement = column("Closed form against integration: same outcome, too low or too high")
-    regime: Regime | None = column("Regime of the closed form in which the prediction was made")
-    printed_rotation_ratio: float = column("The same block under the same pulse", equation="Eq. 15")
-    block_on_record_rotation_ratio: float = column("Equivalent block under the whole record")
-    mechanism_on_pulse_rotation_ratio: float = column("Mechanism under the dominant pulse")
+    regime: Regime | None = column("Regime of the closed form")
+    printed_rotation_ratio: float = column(
+        "Rotation ratio of the block by Eq. 15 as printed", equation="Eq. 15"
+    )
+    block_on_record_rotation_ratio: float = column("Rotation ratio of the block under the record")
+    mechanism_on_pulse_rotation_ratio: float = column("Rotation ratio of the mechanism under the pulse")
     pulse_rank: int | None = column("Rank of the pulse that predicts among those of its method")
-    amplitude_ratio: float = column("a = a_g/(gλ) of that pulse", equation="Eq. 16")
-    frequency_ratio: float = column("Circular frequency of that pulse over p", equation="Eq. 16")
-    impacts: int | None = column("Number of impacts")
+    amplitude_ratio: float = column("Amplitude ratio a = a_g/(gλ) of the pulse", equation="Eq. 16")
+    frequency_ratio: float = column("Circular frequency of the pulse over p", equation="Eq. 16")
+    impacts: int | None = column("Number of impacts in the integration")
     peak_side: int | None = column(PEAK_SIDE)
     peak_time_s: float = column("Time of the largest rotation after the first sample")
-    friction_needed: float = column("Largest friction a contact needs; INF where it is not pressed")
-    slides: bool | None = column("Whether that exceeds the friction of the settings: the model does not hold")
-    bounces: bool | None = column("Whether a contact would have to pull: the model does not hold")
+    friction_needed: float = column("Largest friction that a contact needs; INF without pressure")
+    slides: bool | None = column("Whether a contact slides, so that the model fails")
+    bounces: bool | None = column("Whether a contact lifts off, so that the model fails")
     ties: str = column("Which ties yield or break on the way to the largest rotation")
-    warning: str = column("What the model leaves out under this motion; empty for nothing")
-    answer_method: Method = column("What settled the verdict: the mechanism on the record, or with auto less")
-    answer_outcome: Outcome = column("What that says: no uplift, rocks or overturns")
-    answer_reason: str = column("Why that one settled it, where fidelity: auto chose it")
+    warning: str = column("Warning about what the model leaves out; or empty")
+    answer_method: Method = column("Method that settled the verdict; see the setting fidelity")
+    answer_outcome: Outcome = column("Outcome of that method: no uplift, rocks or overturns")
+    answer_reason: str = column("Reason why that method sufficed, with fidelity: auto")
     overturning_estimate: float = column(
-        "Share of members that overturn, estimated from p PGV/(gλ) where no ensemble ran"
+        "Estimate of the overturning share from p PGV/(gλ), where no ensemble ran"
     )
-    overturning_estimate_low: float = column("Lower end of its 90 % interval")
-    overturning_estimate_high: float = column("Upper end of its 90 % interval")
+    overturning_estimate_low: float = column("Lower end of the 90 % interval of the estimate")
+    overturning_estimate_high: float = column("Upper end of the 90 % interval of the estimate")
 
     @property
     def spared(self) -> bool:
@@ -217,24 +217,24 @@ RATIO_COLUMNS = {
 class EnsembleRow(MembersRow):
     """One row per structure: what becomes of it when what is not known varies; component 'both' for all directions."""
 
-    failed_members: int = column("Members that could not be followed")
-    risk: float = column("Largest probability of the opposite that the verdict may bear")
-    amplitude_range: float = column("The motion varied by plus or minus this share")
-    restitution_range: float = column("The restitution varied by plus or minus this much")
-    worst_direction: str = column("Direction in which it rotates most on average; empty with one direction")
-    worst_polarity: str = column("Sign with which it rotates most on average: as recorded, reversed")
-    worst_processing: str = column("Processing under which it rotates most on average; empty with one")
+    failed_members: int = column("Number of members whose integration failed")
+    risk: float = column("Largest probability of an opposite outcome in a verdict")
+    amplitude_range: float = column("Range of the amplitude: plus or minus this share")
+    restitution_range: float = column("Range of the restitution: plus or minus this number")
+    worst_direction: str = column("Direction of the largest mean rotation; empty with one")
+    worst_polarity: str = column("Sign of the largest mean rotation: as recorded, reversed")
+    worst_processing: str = column("Processing of the largest mean rotation; empty with one")
 
 
 @row("variations")
 class VariationRow(CaseRow):
     """One row per crack that may form, and one per processing of the record: the case with this changed alone."""
 
-    crack: str = column("What opens, and where; empty as the structure is given")
-    position_m: float = column("Height of the hinge or crack above the base; empty where none tells it")
-    processing: str = column("What else was done to the record; empty as it is used")
-    predicted_rotation_ratio: float = column("Exact maximum of its equivalent block under the dominant pulse")
-    integrated_rotation_ratio: float = column("Its mechanism under the whole record")
+    crack: str = column("Crack and its place; empty for the crack of the list")
+    position_m: float = column("Height of the crack above the base; empty where it has none")
+    processing: str = column("Processing of the record; empty for that of the settings")
+    predicted_rotation_ratio: float = column("Rotation ratio of its equivalent block under the pulse")
+    integrated_rotation_ratio: float = column("Rotation ratio of its mechanism under the record")
 
 
 @row("histories")
@@ -246,7 +246,7 @@ class HistoryRow(Row):
     structure: str = column(STRUCTURE)
     time_s: float = column("Time after the first sample")
     rotation_rad: float = column("Rotation, signed by the side; zero before uplift")
-    angular_velocity_rad_s: float = column("Its derivative, after the impact where there is one")
+    angular_velocity_rad_s: float = column("Angular velocity, at an impact the one after it")
 
 
 @row("failures")
@@ -257,7 +257,7 @@ class FailureRow(Row):
     component: str = column(COMPONENT)
     structure: str = column(STRUCTURE)
     stage: str = column("Stage that failed")
-    message: str = column("What is wrong, what is allowed and what to do")
+    message: str = column("Sentence: what is wrong, what is allowed, what to do")
 
 
 @row("timings")
@@ -265,7 +265,7 @@ class TimingRow(Row):
     """One row per record and stage; differs between runs of the same input."""
 
     record: str = column(RECORD)
-    stage: str = column("Stage, or a method, whose time is part of that of the stage responses")
+    stage: str = column("Stage of the work, or a method within the stage responses")
     duration_s: float = column("CPU time")
 
 

@@ -36,20 +36,24 @@ class StructureRow(Row):
 
     structure: str = column(rows.STRUCTURE)
     type: str = column("Type of the structure, as in the structure list")
-    geometry: str = column("Its sizes with units, as they were given")
-    crack: str = column("What opens, in a word: hinge, crack; empty where nothing else may open")
+    geometry: str = column("Sizes of the structure with their units")
+    crack: str = column("Hinge or crack, whose place is open; empty where none is")
     frequency_parameter_rad_s: float = column(_P, equation="Eq. 11")
     critical_rotation_rad: float = column("Critical rotation")
     uplift_multiplier: float = column("Uplift acceleration in g", equation="Eq. 7")
-    static_multiplier: float = column("Least of all cracks: static limit analysis lets it fall at this g")
-    acceleration_scale_linearised: float = column("a_sc", equation="Eq. 11")
-    acceleration_scale_uplift: float = column("a_sc,alt", equation="Eq. 13")
+    static_multiplier: float = column("Least uplift acceleration in g over all cracks")
+    acceleration_scale_linearised: float = column(
+        "Acceleration scale a_sc of the linearised block", equation="Eq. 11"
+    )
+    acceleration_scale_uplift: float = column(
+        "Acceleration scale a_sc,alt of the true uplift", equation="Eq. 13"
+    )
     linearised_over_true_uplift: float = column(
-        "Uplift of the linearised block over the true one", equation="Eq. 12"
+        "Uplift acceleration of the linearised block over the true one", equation="Eq. 12"
     )
     restitution: float = column(_ETA, equation="Eq. 2")
-    restoring_defect: float = column("Largest restoring error of the block exact at rest, over that at rest")
-    forcing_defect: float = column("Growth of the forcing up to φ_cr that it leaves out; above 0 is unsafe")
+    restoring_defect: float = column("Largest error of the block's restoring force, relative")
+    forcing_defect: float = column("Growth of the forcing up to φ_cr; unsafe where above 0")
 
 
 @row("capacity")
@@ -57,12 +61,12 @@ class CapacityRow(Row):
     """One row per structure, side and rotation: the static load multiplier against displacement."""
 
     structure: str = column(rows.STRUCTURE)
-    side: str = column("positive or negative: the side to which it rocks")
+    side: str = column("Side of the rotation: positive or negative")
     rotation_rad: float = column("Rotation")
-    multiplier: float = column("Horizontal acceleration in g that just holds it there", equation="G/B")
-    displacement_m: float = column("Of the control point, the corner that moves furthest sideways")
-    effective_displacement_m: float = column("d* = d_k Σ P δ²/(δ_k Σ P δ), of the equivalent system")
-    participating_mass_ratio: float = column("e* = (Σ P δ)²/(Σ P · Σ P δ²), mass that takes part")
+    multiplier: float = column("Horizontal acceleration in g that holds the balance", equation="G/B")
+    displacement_m: float = column("Displacement of the corner that moves farthest sideways")
+    effective_displacement_m: float = column("Displacement d* = d_k Σ P δ²/(δ_k Σ P δ)")
+    participating_mass_ratio: float = column("Mass ratio e* = (Σ P δ)²/(Σ P · Σ P δ²)")
 
 
 @row("agreement")
@@ -70,15 +74,15 @@ class AgreementRow(Row):
     """One row per structure and one for all: the closed form under the dominant pulse against the full integration."""
 
     structure: str = column("Name of the structure in the structure list; empty for all together")
-    records: int = column("Records behind the row")
-    cases: int = column("Components and structures with both a prediction and an integration")
-    both_rock: int = column("Cases in which both rock and stay up")
-    within_factor_two: int = column("Those whose predicted over integrated rotation lies in [1/2, 2]")
+    records: int = column("Number of records")
+    cases: int = column("Number of cases with a prediction and an integration")
+    both_rock: int = column("Number of cases in which both rock")
+    within_factor_two: int = column("Number of these with a ratio between 1/2 and 2")
     median_ratio: float = column("Median of predicted over integrated rotation where both rock")
-    overturning: int = column("Cases that overturn in the integration")
-    overturning_found: int = column("Those in which the closed form overturns too")
-    overturning_missed: int = column("Those in which it does not")
-    overturning_false: int = column("Cases in which the closed form alone overturns")
+    overturning: int = column("Number of cases that overturn in the integration")
+    overturning_found: int = column("Number of these that overturn in the closed form")
+    overturning_missed: int = column("Number of these that stand in the closed form")
+    overturning_false: int = column("Number of cases that overturn in the closed form alone")
 
 
 @row("spectrum")
