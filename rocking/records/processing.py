@@ -28,7 +28,7 @@ class Processing:
     )
     baseline: Baseline = described(
         "none",
-        "none; linear: removes the least-squares line; adaptive: removes the drift of velocity before and after shaking",
+        "none; linear: removes the least-squares line; adaptive: removes the drift of velocity around the shaking",
     )
     taper: float = described(0.0, "share of the record that a cosine taper covers at each end", ge=0, le=0.5)
     high_pass: float | None = described(None, "corner frequency of the acausal high-pass filter", "Hz", gt=0)
