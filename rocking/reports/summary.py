@@ -232,7 +232,7 @@ def record_table(records: Sequence[RecordRow], pulses: "DataFrame") -> dict[str,
     dominant = pulses[(pulses["kind"] == "alternative") & (pulses["rank"] == 1)]
     of_records = dominant[dominant["record"].isin([row.record for row in records])]
     pulse_of = {(row.record, row.component): row for row in rows_of(PulseRow, of_records)}
-    measures = "record=1.6 component=auto scale_factor peak_acceleration_m_s2 peak_velocity_m_s"
+    measures = "record=1.6 component=auto scale_factor peak_acceleration_m_s2=0.95 peak_velocity_m_s"
     of_pulse = columns_of(PulseRow, "amplitude_m_s2 period_s explained_energy flags=1.2")
     columns = [
         (
