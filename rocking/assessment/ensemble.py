@@ -33,10 +33,10 @@ FIRST, MOST_NEAR_A_LIMIT = 16, 256
 UNANIMOUS = 64
 """Members of which none overturns, or none stands, that settle a verdict."""
 FAR = 0.3
-"""Largest rotation ratio of fewer members up to which they settle that it stands: of 16 on the sites for choosing, no
-case up to it overturned in more than 2 % of 64. docs/research measures what it does on all sites."""
+"""Largest rotation ratio of fewer members up to which they settle that it stands. The target `calibrate` measures on
+sites left out which verdicts that changes."""
 LATTICE_ERROR = 4.0
-"""Members times the error of a probability that 95 in 100 cases stay below; see docs/research/ensembles.py."""
+"""Members times the error of a probability that all but few cases stay below; `calibrate_ensemble` counts them."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -147,8 +147,8 @@ AS_IT_IS = "unchanged"
 
 
 DIRECTIONS = 8
-"""Of the motion of two components, spread evenly over half a turn; the other half is that of the sign. Of 73
-decided verdicts on 50 sites none goes beyond its risk in 24 directions; over three, 7 of 53 did."""
+"""Of the motion of two components, spread evenly over half a turn; the other half is that of the sign. The target
+`calibrate_ensemble` holds their verdicts against draws over three times as many directions."""
 
 
 @lru_cache(maxsize=2)  # the two components of a record

@@ -40,7 +40,7 @@ SHORT_SHARE = 0.1
 """Share of a step's tolerance that the short series may take.
 
 Its estimate is sharper than that of the long one, which overrates the error a thousandfold. With this share as many
-responses keep to the tolerance as with the long series alone (0.2 % do not, being chaotic); with all, 0.7 % do not."""
+responses keep to the tolerance as with the long series alone; with all of it, fewer do."""
 
 
 class Ties(NamedTuple):

@@ -34,8 +34,8 @@ class Response:
     second one, at a tolerance of 1e-9 and with the motion scaled by 1 + 1e-9, differs by more than 1e-5. The number
     is then one of many. None if not asked for.
     warning: one sentence where the vertical motion takes away all of gravity, else "".
-    steps: integration steps taken. tolerance: the one asked for, missed at 1e-6 by
-    2 to 3 % of the lively responses to real records, all fragile, most after hundreds of impacts; 0.0: exact.
+    steps: integration steps taken. tolerance: the one asked for, which a response of many impacts may miss that is
+    fragile; 0.0: exact.
     With history: times (k,) s, rotation (k,) rad signed, angular_velocity (k,) rad/s signed.
 
     >>> from rocking import Block, Pulse, integrate

@@ -62,14 +62,6 @@ def test_known_structures_are_found_and_predicted_under_motions_that_took_no_par
         identify([still], [True, False], PRIOR)
 
 
-def test_one_candidate_that_falls_and_one_that_stands_share_the_tests():
-    """With both, (1 − ε) w + ε/2 must be the observed share: the likelihood of a coin."""
-    outcomes = np.arange(40) < 13
-    table = np.column_stack([np.ones(40, bool), np.zeros(40, bool)])
-    found = fit_mixture(NONE, table, outcomes, [str(k % 8) for k in range(40)])
-    assert ident.with_unexplained(found.weights[0], found.unexplained) == pytest.approx(13 / 40, abs=2e-3)
-
-
 def test_many_steps_reach_the_largest_likelihood():
     """The problem is convex, so a general optimiser must find the same likelihood."""
     draw = np.random.default_rng(4)
