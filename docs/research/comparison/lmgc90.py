@@ -48,7 +48,7 @@ def follow(given: dict, bodies: RigidBodies, step: float) -> tuple[np.ndarray, n
     solver = Solver(dt=step, theta=0.5, density=2000.0)
     depths = bodies.depths or (1.0,) * len(bodies.polygons)
     solver.geometry_from_v_f(list(map(_prism, bodies.polygons, depths)))
-    times, speed = _base(given, step)
+    times, speed = base_speed(given, step)
     for body in (*bodies.driven, *bodies.guided):
         for component in ("Vy", "Vz", "Rx", "Ry", "Rz"):
             if component != "Vz" or body in bodies.driven:
@@ -83,8 +83,8 @@ def _energy(bodies: RigidBodies, times: np.ndarray, turns: np.ndarray, centres: 
     return moving + GRAVITY * (centres[:, :, 1] - centres[0, :, 1]) @ masses
 
 
-def _base(given: dict, step: float) -> tuple[np.ndarray, np.ndarray]:
-    """Times and velocity of the base, the acceleration linear between its samples."""
+def base_speed(given: dict, step: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return times [s] and velocity [m/s] of the base (n,), the acceleration linear between its samples."""
     acceleration, sample = np.array(given["acceleration"]), given["time_step"]
     velocity = cumulative_trapezoid(acceleration, dx=sample, initial=0.0)
     end = still_from(given) + STILL / given["frequency_parameter"]
