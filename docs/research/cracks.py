@@ -19,9 +19,8 @@ import numpy as np
 
 from docs.research import scores
 from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, properties, rectangle
-from docs.research.comparison.codes import ask
+from docs.research.comparison.codes import ask, still_from
 from docs.research.comparison.lmgc90 import FALLEN, base_speed, follow
-from docs.research.comparison.runs import still_from
 from docs.research.report import publish
 from docs.research.sites import independent, lifting_factor, one_of_each
 from docs.research.stacks import largest_turns
