@@ -112,10 +112,7 @@ class Ensemble:
     @property
     def verdict(self) -> Verdict:
         """What can be said of the structure: undecided, too, where it stands only as statics lets it crack."""
-        if self.members and np.all(self._followed <= NEGLIGIBLE):
-            alone = Verdict.STANDS
-        else:
-            alone = verdict(self.overturning_share, self.probability_error, self.settings.risk)
+        alone = verdict(self.overturning_share, self.probability_error, self.settings.risk)
         return Verdict.UNDECIDED if alone is Verdict.STANDS and self.elsewhere is not None else alone
 
     @property
@@ -285,23 +282,21 @@ def ensemble(
     for size in (settings.size,) if whether_it_stands else (settings.size, MOST_NEAR_A_LIMIT):
         done = made.rotation_ratios.size
         if size > done and (done == FIRST or _near_a_limit(made)):
-            made = _joined(made, drawn(structure, motions, points[done:size], settings, tolerance=tolerance))
+            more = drawn(structure, motions, points[done:size], settings, tolerance=tolerance)
+            made = replace(
+                made,
+                rotation_ratios=np.concatenate([made.rotation_ratios, more.rotation_ratios]),
+                causes={
+                    name: np.concatenate([each, more.causes[name]]) for name, each in made.causes.items()
+                },
+                reasons={**made.reasons, **{done + k: reason for k, reason in more.reasons.items()}},
+            )
     return made
 
 
 def _near_a_limit(made: Ensemble) -> bool:
     opposite = min(made.overturning_share, 1 - made.overturning_share)
     return made.verdict is Verdict.UNDECIDED and opposite - made.probability_error <= made.settings.risk
-
-
-def _joined(first: Ensemble, more: Ensemble) -> Ensemble:
-    count = first.rotation_ratios.size
-    return replace(
-        first,
-        rotation_ratios=np.concatenate([first.rotation_ratios, more.rotation_ratios]),
-        causes={name: np.concatenate([values, more.causes[name]]) for name, values in first.causes.items()},
-        reasons={**first.reasons, **{count + k: reason for k, reason in more.reasons.items()}},
-    )
 
 
 def drawn(

@@ -35,16 +35,14 @@ class IntensityMeasure:
 
     def of(self, record: Accelerogram, mechanism: Mechanism) -> float:
         """Return the measure of `record`. Raises ConfigurationError where the record has none."""
+        name = record.source.path or record.station or "a record"
         try:
             value = self.remembered(record)
         except RockingError as error:
-            raise ConfigurationError(
-                f"{record.source.path or record.station or 'a record'} has no {self.name}: {error}"
-            ) from None
+            raise ConfigurationError(f"{name} has no {self.name}: {error}") from None
         if not (np.isfinite(value) and value > 0):
             raise ConfigurationError(
-                f"{record.source.path or record.station or 'a record'} has a {self.name} of {value!r}, but must have "
-                "one greater than 0; leave the record out."
+                f"{name} has a {self.name} of {value!r}, but must have one greater than 0; leave the record out."
             )
         return value / self.per(mechanism)
 

@@ -18,17 +18,11 @@ class EnsembleSettings:
     """What is not known of a case, and how much of it a verdict bears. Raises ConfigurationError."""
 
     members: int = described(
-        64,
-        "number of members, rounded up to 16, 64, 256, 1024 or 4096; 0: no ensemble",
-        ge=0,
-        le=4096,
+        64, "number of members, rounded up to 16, 64, 256, 1024 or 4096; 0: no ensemble", ge=0, le=4096
     )
     amplitude_range: float = described(0.05, "uncertainty of the amplitude, ± this share", ge=0, le=0.9)
     restitution_range: float = described(
-        0.05,
-        "uncertainty of the restitution, ±, where a structure states none",
-        ge=0,
-        le=1,
+        0.05, "uncertainty of the restitution, ±, where a structure states none", ge=0, le=1
     )
     polarity: bool = described(True, "whether the sign of the motion varies, for unlike sides")
     processing: bool = described(True, "whether the processing of a raw record varies")
@@ -90,9 +84,7 @@ class FragilitySettings:
     """What fragility is measured with. Raises ConfigurationError when a value is outside what is allowed."""
 
     intensity_measure: str = described(
-        "pgv",
-        f"of the levels: {MEASURES_IN_WORDS}",
-        one_of=lambda: tuple(INTENSITY_MEASURES),
+        "pgv", f"of the levels: {MEASURES_IN_WORDS}", one_of=lambda: tuple(INTENSITY_MEASURES)
     )
     members: bool = described(True, "whether a case counts by the share of its members that overturn")
     hazard: str | None = described(

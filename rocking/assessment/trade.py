@@ -112,19 +112,23 @@ def _runs(
     """What each method computes of one case; no closed form for a record without pulses."""
     block = mechanism.equivalent_block("rest")
 
-    def worst(some: Sequence[Pulse]) -> Callable[[], float]:
-        return lambda: max(predict_maximum(block, pulse).rotation_ratio for pulse in some)
+    def worst(some: Sequence[Pulse]) -> float:
+        return max(predict_maximum(block, pulse).rotation_ratio for pulse in some)
 
-    def rotation(structure: EquivalentBlock | Mechanism, tolerance: float) -> Callable[[], float]:
-        return lambda: integrate(structure, record, tolerance).rotation_ratio
+    def rotation(structure: EquivalentBlock | Mechanism, tolerance: float) -> float:
+        return integrate(structure, record, tolerance).rotation_ratio
 
     def middle() -> float:
         members = ensemble(mechanism, GroundMotions.of(record), settings.ensemble)
         return math.inf if members.overturning_share > 0.5 else members.rotation_ratio_median
 
-    closed = {TradeMethod.ONE_SINE: worst(sines[:1]), TradeMethod.SINES: worst(sines)} if sines else {}
-    followed = {method: rotation(mechanism, tolerance) for method, tolerance in TOLERANCES.items()}
-    return closed | {TradeMethod.BLOCK: rotation(block, 1e-6)} | followed | {TradeMethod.ENSEMBLE: middle}
+    by_sines = {TradeMethod.ONE_SINE: sines[:1], TradeMethod.SINES: sines} if sines else {}
+    return {
+        **{method: partial(worst, some) for method, some in by_sines.items()},
+        TradeMethod.BLOCK: partial(rotation, block, 1e-6),
+        **{method: partial(rotation, mechanism, tolerance) for method, tolerance in TOLERANCES.items()},
+        TradeMethod.ENSEMBLE: middle,
+    }
 
 
 def _row(

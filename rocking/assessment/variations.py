@@ -27,7 +27,6 @@ from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import Mechanism, Structure
-from rocking.structures.structure import Candidate
 
 CRACKS = 11
 """Mechanisms that are tried where more than one may form; those of settings that ask for as many are the same."""
@@ -110,13 +109,7 @@ def cracks(structure: Structure | Mechanism) -> tuple[tuple[str, Mechanism], ...
     """Return the mechanisms that may form, each with what opens in words; the one that statics chooses first."""
     if isinstance(structure, Mechanism):
         return (("", structure),)
-    return tuple((each.description, each.structure.mechanism()) for each in _candidates(structure, CRACKS))
-
-
-@lru_cache(maxsize=256)
-def _candidates(structure: Structure, count: int) -> tuple[Candidate, ...]:
-    """The same objects at every call, whose mechanisms keep their tables."""
-    return structure.candidates(count) if count else ()
+    return tuple((each.description, each.structure.mechanism()) for each in structure.candidates(CRACKS))
 
 
 def candidates(
@@ -130,7 +123,7 @@ def candidates(
 
     Raises RockingError where one of them cannot be followed.
     """
-    others = sorted(_candidates(structure, count), key=lambda each: each.position)
+    others = sorted(structure.candidates(count) if count else (), key=lambda each: each.position)
     if len(others) < 2:
         return []
     integrated = _rotation_ratios([each.structure for each in others], accelerogram, settings)
