@@ -111,11 +111,11 @@ def assess_structures(
     structures: Mapping[str, Structure | Mechanism],
     settings: AssessmentSettings | None = None,
     vertical: Accelerogram | None = None,
-    alone: bool = False,
+    alone: bool = True,
 ) -> Assessment:
     """Predict and integrate every structure under `accelerogram`; one that fails costs no other.
 
-    alone: whether the record has no other component, so that its ensemble decides and covers other cracks too.
+    alone: whether no ensemble over the directions of the record follows, which says more than an estimate.
     """
     settings = settings or AssessmentSettings()
     started = process_time()
@@ -204,12 +204,10 @@ def _case(
     if on_record is not None and isinstance(structure, Structure):
         check = check_model(structure, on_record, record, vertical)
     if settings.ensemble.members and answer.method is Method.MECHANISM_ON_RECORD:
-        # Of two components the ensemble over their directions decides, so that theirs need not try every crack.
-        covered = structure if alone or auto else cracks(structure)[0][1]
         motions = GroundMotions.of(record, vertical, processing=settings.ensemble.processing)
-        members = ensemble_over_cracks(covered, motions, settings, verdict_only=auto)
+        members = ensemble_over_cracks(structure, motions, settings, verdict_only=auto)
         members = replace(members, rotation_ratio=answer.rotation_ratio)
-    elif vertical is None:
+    elif vertical is None and alone:
         estimate = estimated(Tier.PEAK_VELOCITY, mechanism, record)
     return Case(name, mechanism, prediction, responses, check, answer, members, estimate, durations)
 

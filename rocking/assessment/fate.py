@@ -99,7 +99,9 @@ def fates(
     an ensemble, one that overturns leaves undecided what stands as given.
     """
     by_pair = _by_pair(cases)
-    failed = _by_pair(each for each in failures if each.stage == "responses" and each.structure)
+    failed = _by_pair(
+        each for each in failures if each.stage in ("responses", "directions") and each.structure
+    )
     governing = {pair: max(several, key=_weight) for pair, several in _by_pair(ensembles).items()}
     fallen = _by_pair(
         each for each in variations if each.crack and math.isinf(each.integrated_rotation_ratio)

@@ -193,13 +193,11 @@ def _assess(assessed: Assessed, study: Study, durations: dict[str, float]) -> No
     with _timed(durations, "velocity pulse"):
         motions = horizontal_motions(assessed.accelerograms)
     pair = _pair(assessed, settings)
-    # What settles a verdict with least work needs no ensemble of a component beside that over all directions.
-    spared = pair is not None and settings.fidelity == "auto"
-    of_each = replace(settings, ensemble=replace(settings.ensemble, members=0)) if spared else settings
+    # The ensemble over the directions of a pair speaks for its components.
+    of_each = replace(settings, ensemble=replace(settings.ensemble, members=0)) if pair else settings
     for accelerogram, motion in zip(assessed.accelerograms, motions, strict=True):
         beside = None if assessed.vertical is None else aligned(assessed.vertical, accelerogram)
-        alone = len(motions) == 1
-        assessment = assess_structures(accelerogram, study.structures, of_each, beside, alone)
+        assessment = assess_structures(accelerogram, study.structures, of_each, beside, alone=pair is None)
         identity = identity_of(record.id, accelerogram, study.settings_sha256)
         tables.add(identity, assessment, settings, record.licence, beside, motion)
         for case in assessment.cases:

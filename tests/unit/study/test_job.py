@@ -167,7 +167,7 @@ def test_a_pair_has_the_ensemble_over_its_directions_that_assess_has(tmp_path: P
     (*alone, both) = assess_record(_record(tmp_path), study, (pair, None)).tables.ensemble
     joined = assess(pair, block)
     assert both.component == "both" and both.verdict is joined.verdict
-    assert [row.component for row in alone] == (["x", "y"] if fidelity == "full" else [])
+    assert not alone, "it speaks for its components"
     if fidelity == "full":
         same = ("members", "overturning_members", "rotation_ratio_low", "rotation_ratio_high")
         assert all(getattr(both, name) == getattr(joined, name) for name in same)
