@@ -184,9 +184,7 @@ class Accelerogram:
             declared = unit or (None if by_response else own.get("unit"))
             if (declared is None) != by_response:
                 state = "both a unit and a response" if by_response else "neither a unit nor a response"
-                raise RecordError(
-                    f"{trace.id} has {state}; give unit= of acceleration, inventory= of counts."
-                )
+                raise RecordError(f"{trace.id} has {state}; give unit= or the inventory= of counts.")
             fields: dict[str, Any] = {"processed": False if by_response else None, **names(trace)}
             fields |= {name: own[name] for name in _KEPT if name in own} | site(trace, inventory)
             with about(trace.id):

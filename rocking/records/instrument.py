@@ -54,13 +54,9 @@ def directed(fields: dict[str, Any]) -> dict[str, Any]:
 
 _STRUCTURE = re.compile(
     r"\b(roof|floor|fl|flr|storey|story|penthouse|mezzanine|attic|deck|bent|column|girder|abutment|pier|crest|tower|"
-    r"dam|gallery|basement|bsmt|bldg|building|bridge)\b",
-    re.I,
-)
+    r"dam|gallery|basement|bsmt|bldg|building|bridge)\b", re.I)  # fmt: skip
 _FREE = re.compile(r"\bfree[- ]?field\b", re.I)
-_DOWN_HOLE = re.compile(
-    r"\b(down-?hole|bore-?hole|depth|below (?:ground|surface))\b|-\s*\d+(?:\.\d+)?\s*m\b", re.I
-)
+_DOWN_HOLE = re.compile(r"(?i)\b(down-?hole|bore-?hole|depth|below (ground|surface))\b|-\s*\d+(\.\d+)?\s*m\b")
 _CODE = re.compile(r"[A-Z]([HLMP])[ENZ123](\d\d)?")
 
 
@@ -79,9 +75,7 @@ def channel_warnings(component: str) -> tuple[str, ...]:
     if not code:
         return ()
     kind = {"H": "high-gain seismometer", "L": "low-gain seismometer", "M": "mass position", "P": "geophone"}
-    not_of = (
-        "which measures velocity and clips in strong motion; an accelerometer's code has N in second place"
-    )
+    not_of = "which measures velocity and clips in strong motion; an accelerometer has N in second place"
     return (f"The channel code {component.strip()} is that of a {kind[code[1]]}, {not_of}.",)
 
 

@@ -138,9 +138,7 @@ def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogra
     differing = differing - differing.mean() - times * (times @ differing) / (times @ times)
     if differing.std() <= _VELOCITY_OFF * stated.std():
         return record
-    return record.warned(
-        "The file's own velocity is not the integral of its acceleration: numbers are damaged."
-    )
+    return record.warned("The file's own velocity is not the integral of its acceleration: it is damaged.")
 
 
 _ALONE = 3.0, 2.0

@@ -135,9 +135,8 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
 
 def _as_declared(channel: Accelerogram, record: CatalogueRecord) -> Accelerogram:
     """Return a channel with what its row says of name, scale, station, event, corner, magnitude and distance."""
-    facts: dict[str, Any] = {
-        name: getattr(record, name) or getattr(channel, name) for name in ("station", "event")
-    }
+    facts: dict[str, Any] = {"station": record.station or channel.station}
+    facts["event"] = record.event or channel.event
     facts["high_pass_frequency"] = record.high_pass or channel.high_pass_frequency
     if record.magnitude is not None:
         facts |= {"magnitude": record.magnitude, "magnitude_type": ""}

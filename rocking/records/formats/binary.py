@@ -38,9 +38,7 @@ def _stream(content: bytes, form: str, **options: Any):
         except RecordError:
             raise
         except Exception as error:
-            reason, _, _ = first_line(error).partition(
-                ": <_io"
-            )  # the address in memory tells nobody anything
+            reason, _, _ = first_line(error).partition(": <_io")  # what an address in memory follows
             raise RecordError(f"damaged {form} file, {reason}; fetch it again.") from error
     messages = [first_line(each.message) for each in caught]
     if form == "MSEED" and (damage := [text for text in messages if _DAMAGE.search(text)]):
@@ -50,9 +48,8 @@ def _stream(content: bytes, form: str, **options: Any):
     notes |= {f"obspy: {text}." for text in messages}
     for _, station, _, channel, _, begin, length, _ in result.get_gaps():
         if length < 0:
-            notes.add(
-                f"Blocks of {station} {channel} overlap by {-length:g} s at {begin}: repeated or overwritten."
-            )
+            overlap = f"overlap by {-length:g} s at {begin}: repeated or overwritten"
+            notes.add(f"Blocks of {station} {channel} {overlap}.")
     return joined(result), tuple(sorted(notes))
 
 
@@ -190,10 +187,6 @@ _FIXED_HEADER = re.compile(rb"[0-9 \0]{6}[DRQM][ \0]")
 _LARGEST_XML = 32 * 2**20
 
 
-def _is_miniseed(content: bytes) -> bool:
-    return len(content) >= 128 and bool(_FIXED_HEADER.match(content))
-
-
 def _read_miniseed(content: bytes, options: Options) -> list[Accelerogram]:
     """The samples are counts, turned into acceleration by the StationXML that describes the instrument."""
     traces, warnings = _stream(content, "MSEED")
@@ -249,6 +242,6 @@ SAC = Format("SAC", "SAC (IRIS, and many networks)",
 EVT = Format("Kinemetrics EVT", "Kinemetrics recorders", "KMI mark at the start of the file",
     lambda content: content[:1] == b"K" and content[:32].count(b"KMI") == 1, _read_evt)  # fmt: skip
 MINISEED = Format("miniSEED", "FDSN data centres", "miniSEED fixed header (six digits, then D, R, Q or M)",
-    _is_miniseed, _read_miniseed)  # fmt: skip
+    lambda content: len(content) >= 128 and bool(_FIXED_HEADER.match(content)), _read_miniseed)  # fmt: skip
 STATIONXML = Format("StationXML", "FDSN data centres", "FDSNStationXML element",
     lambda content: b"<FDSNStationXML" in content[:2000], _refuse)  # fmt: skip

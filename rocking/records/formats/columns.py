@@ -15,9 +15,7 @@ from rocking.records.formats.text import after_lines, count, is_number, lines, n
 from rocking.records.instrument import other_quantity, refuse_other_quantity
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
-_TIME = re.compile(
-    r"t|(time|zeit|tiempo|temps|tempo|zaman|seconds?)\b.*|[^()\[\]]*[(\[]\s*s(ec)?\s*[)\]]", re.I
-)
+_TIME = re.compile(r"(?i)t|(time|zeit|tiempo|temp[os]|zaman|seconds?)\b.*|[^()\[\]]*[(\[]\s*s(ec)?\s*[)\]]")
 _UNIT = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
 _DECIMALS = re.compile(r"[.]?(\d*)(?:[eE][+-]?\d+)?\s*$")
@@ -199,15 +197,13 @@ def _read_titled(content: bytes, options: Options) -> list[Accelerogram]:
     return _below_title(content, options, samples, step, event=lines(content, 1)[0].strip()[:60])
 
 
-def _below_title(
-    content: bytes, options: Options, samples: str, step: str, **names: str
-) -> list[Accelerogram]:
+def _below_title(content: bytes, options: Options, size: str, step: str, **names: str) -> list[Accelerogram]:
     title, second, *rows = lines(content, _HEAD)
     refuse_other_quantity(options.file, f"{title}\n{second}")
     words = (match[1] for match in _UNIT_IN_WORDS.finditer(f"{title}\n{second}"))
     unit = next(filter(None, map(acceleration_unit, words)), None)
     per_line = max(len(row.split()) for row in rows)
-    values, notes = whole(numbers(after_lines(content, 2)), count("number of samples", samples), per_line)
+    values, notes = whole(numbers(after_lines(content, 2)), count("number of samples", size), per_line)
     seconds = number("time step", step)
     return [options.accelerogram(unit, values, seconds, warnings=notes, processed=None, **names)]
 

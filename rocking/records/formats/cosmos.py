@@ -63,14 +63,10 @@ def _channel(block: list[str], options: Options, held: int) -> Accelerogram | No
     wrong = 0 < length < 1e5 and abs(length - lasts) > 1.5 * step + 5e-4  # not all agencies fill it
     stated = [None if abs(real - _UNKNOWN) < 1e-3 else real for real in reals]
     note = f"The header gives the series a length of {length:g} s, but its samples last {lasts:g} s."
-    facts: dict[str, Any] = {
-        "component": _component(head),
-        "held": held,
-        "warnings": (note,) if wrong else (),
-    }
+    facts: dict[str, Any] = {"component": _component(head), "warnings": (note,) if wrong else ()}
     facts |= {"elevation": stated[_ELEVATION], "epicentral_distance": distance(stated[_DISTANCE])}
     facts |= {"peak": stated[_PEAK], "peak_time": stated[_PEAK_TIME]}
-    record = _LAYOUT.channel(head, values, options, unit=data["unit"], step=step, **facts)
+    record = _LAYOUT.channel(head, values, options, unit=data["unit"], step=step, held=held, **facts)
     if record.processed or len(reals) <= _RMS:
         return record
     return agree_with_mean_square(record, reals[_RMS], data["unit"], digit=1e-6)

@@ -120,14 +120,14 @@ class Layout:
         table: np.ndarray,
         labels: Sequence[str],
         options: Options,
-        peaks: Any = None,
+        *,
+        peaks=None,
         **fields: Any,
     ) -> list[Accelerogram]:
         """Return channel() of each column of `table` (n, channels), named by `labels`; peaks: stated of each."""
-        columns = zip(labels, table.T, peaks or [None] * len(labels), strict=True)
-        return [
-            self.channel(head, x, options, component=label, peak=peak, **fields) for label, x, peak in columns
-        ]
+        named = zip(labels, table.T, peaks or [None] * len(labels), strict=True)
+        columns = (({"component": label, "peak": peak} | fields, values) for label, values, peak in named)
+        return [self.channel(head, values, options, **facts) for facts, values in columns]
 
     def _facts(self, head: str) -> dict[str, Any]:
         north, east, height = (self.number(name, head) for name in ("latitude", "longitude", "elevation"))
@@ -197,9 +197,7 @@ def distance(kilometres: float | None) -> float | None:
 
 _SCALES = {scale.lower(): scale for scale in ("Mw", "Ms", "M", "ML", "mb")}
 """Of magnitude, the preferred one first."""
-_TYPED = re.compile(
-    r"\b(M[wslb]?)(?![a-z])\W{0,3}(\d\d?(?:\.\d+)?)|(\d\d?(?:\.\d+)?)\s*\(?(M[wslb]?)\b", re.I
-)
+_TYPED = re.compile(r"(?i)\b(M[wslb]?)(?![a-z])\W{0,3}(\d\d?(?:\.\d+)?)|(\d\d?(?:\.\d+)?)\s*\(?(M[wslb]?)\b")
 
 
 def typed_magnitude(text: str) -> dict[str, Any]:
@@ -241,12 +239,8 @@ def check_duration(declared: float, samples: int, time_step: float, steps: float
     """Check `samples` against a duration, s, within `steps` and `rounding`, s. Raises RecordError for another."""
     lasts = samples * time_step
     if abs(lasts - declared) > steps * time_step + rounding:
-        stated = (
-            f"the header declares a duration of {declared:g} s, but the {samples} samples last {lasts:g} s"
-        )
-        raise RecordError(
-            f"{stated}: the file is truncated or its header is another's; fetch the whole file."
-        )
+        stated = f"the header declares a duration of {declared:g} s, but {samples} samples last {lasts:g} s"
+        raise RecordError(f"{stated}: the file is truncated or its header another's; fetch it again.")
 
 
 def check_equal(field: str, first: float, second: float, relative: float = 1e-3) -> None:

@@ -68,7 +68,7 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
 _JMA = Layout("", {
     "rate": r"^\s*SAMPLING RATE\s*=\s*([\d.]+)\s*Hz", "station": r"^SITE CODE=\s*([\x21-\x7e]+)",
     "latitude": r"^\s*LAT\.=\s*(.*)", "longitude": r"^\s*LON\.=\s*(.*)",
-    "start": r"^\s*INITIAL TIME\s*=\s*([\d ]+)",
+    "start": r"^\s*INITIAL TIME\s*=\s*([\d ]+)", "magnitude": r"^SITE CODE=(?:[^,]*,){4}\s*([\d.]+)",
 }, ahead=_JAPAN, code="JMA")  # fmt: skip
 _JMA_HEADER, _JMA_NAMES = 7, "NS,EW,UD"
 
@@ -172,9 +172,7 @@ _SMC = Layout("cm/s2", {
 })  # fmt: skip
 _SMC_KINDS = {"0": "unknown", "1": "uncorrected accelerogram", "2": "corrected accelerogram", "3": "velocity",
               "4": "displacement", "5": "response spectrum", "6": "Fourier spectrum"}  # fmt: skip
-_SMC_FIRST = re.compile(
-    r"([0-6]) (UNKNOWN|UNCORRECTED ACC|CORRECTED ACC|VELOCITY|DISPLACEMENT|RESPONSE|FOURIER)", re.I
-)
+_SMC_FIRST = re.compile(r"(?i)[0-6] (UNKNOWN|(UN)?CORRECTED ACC|VELOCITY|DISPLACEMENT|RESPONSE|FOURIER)")
 _SMC_TEXT, _SMC_INTEGERS, _SMC_REALS = 11, 17, 27
 """Lines at which each part of the header ends."""
 _COMMENTS, _SAMPLES = 15, 16

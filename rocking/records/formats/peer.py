@@ -20,7 +20,7 @@ _UNITS = (
 )
 _VELOCITY_UNIT = re.compile(r"\bUNITS (OF|ARE) \(?(CM|M|IN)/S(EC)?\b(?!\s*[/*^\d])")
 _SERIES = re.compile(
-    r"^(?!.*\bACC(?:EL|\b)).*\b(VELOCITY|DISPLACEMENT)\b.*\b(?:TIME|HISTORY|UNITS?|CM|IN)\b", re.M
+    r"(?m)^(?!.*\bACC(?:EL|\b)).*\b(VELOCITY|DISPLACEMENT)\b.*\b(?:TIME|HISTORY|UNITS?|CM|IN)\b"
 )
 _LAYOUT = Layout("", {
     "event_time": r"\A.*\n.*?(\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?)", "peak": r"PGA\s*=\s*([0-9.]+)\s*G\b",

@@ -60,7 +60,8 @@ _BHRC = Layout("g/10", _SIZE | {
 })  # fmt: skip
 _CSMIP = {
     "component": r"^Chan\s*\d+:\s*(\S+)", "station": r"^Station No\.\s*(\S+)", "place": r"^Station No\.\s*\S+\s+(.*)",
-    "location": r"\bLocation:\s*(.*?)\s*$", "event_time": r"^(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)",
+    "location": r"\bLocation:\s*(.*?)\s*$",  # of the times the earthquake's own, else that of the record
+    "event_time": r"^(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)(?:[^|]*?\(Origin:\s*(\d[^)\n]*?)\s*\))?",
     "event": r"^(?:(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)|\s*(\S.*\bEARTHQUAKE\b.*))",
     "peak": r"Max\s*=\s*(-?[\d.]+)\s*g",
 }  # fmt: skip
@@ -100,9 +101,7 @@ def _digitised(
     duration = number("duration", optional(_LENGTH, head))
     # The length may count a last step or not.
     if abs(duration - times[-1]) > 2 * np.ptp(times) / (times.size - 1) + 0.001:
-        stated = (
-            f"the header declares a length of {duration:g} s, but the last sample stands at {times[-1]:g} s"
-        )
+        stated = f"the header declares a length of {duration:g} s, but the last sample is at {times[-1]:g} s"
         raise RecordError(f"{stated}; the file is damaged or its header is another's.")
     step = even_step(times)
     if step is not None:
@@ -206,9 +205,7 @@ def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
     raise RecordError("this is a Volume 3 file of spectra, not a time history; use the V1 or V2 file.")
 
 
-def _volume1(
-    name: str, origin: str, sought: str, first: str, read: Any, plugin: str, mark: str = ""
-) -> Format:
+def _volume1(name: str, origin: str, sought: str, first: str, read, plugin: str, mark: str = "") -> Format:
     """Return the format whose channels start with a line like `first`; `mark` stands in the text below it."""
     pattern = re.compile(first, re.I)
 

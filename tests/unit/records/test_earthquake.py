@@ -21,7 +21,7 @@ SAID = {
     "formats_unam/ACAC1709.191": (7.1, "M", None, "2017/09/19 18:14:40", (16.84851, -99.85157, 13.0)),
     "formats_cosmos/Cosmos12TimeSeriesTest.v1":
         (4.8, "Mw", 45.03, "06/16/2005, 20:53:26.1 UTC", (34.046, -117.035, 15.0)),
-    "formats_jma/Q4149CF2.csv": (None, "", None, "", (32.6476, 130.6842, None)),
+    "formats_jma/Q4149CF2.csv": (6.5, "", None, "", (32.6476, 130.6842, None)),
     "formats_resorce/16833_H1.cor.acc": (None, "", None, "2009-04-06 01:32:39", (None, None, None)),
     "formats_csmip/CE89146.V2": (None, "", None, "Mon Feb 13, 2012 13:06:45.0 PST", (40.941, -123.633, None)),
     "formats_mseed_stationxml/CI.CLC..HNE.mseed": (None, "", None, "", (35.81574, -117.59751, 775.0)),
