@@ -20,10 +20,8 @@ def peak_time() -> float:
 
 
 def columns(values: np.ndarray, per_line: int, form: str) -> str:
-    rows = (
-        "".join(format(v, form) for v in values[i : i + per_line]) for i in range(0, values.size, per_line)
-    )
-    return "\n".join(rows) + "\n"
+    lines = (values[i : i + per_line] for i in range(0, values.size, per_line))
+    return "".join("".join(format(v, form) for v in line) + "\n" for line in lines)
 
 
 def peer() -> str:
@@ -42,12 +40,8 @@ def cosmos(stated: float = 1.0) -> str:
     reals = np.full(100, -999.0)
     gal = 100 * TRUE
     place = np.abs(gal).argmax()
-    reals[33], reals[61], reals[62] = (
-        STEP / 2,
-        1000 * STEP,
-        N * STEP,
-    )  # the recorder's step is not the series'
-    reals[63], reals[64] = stated * gal[place], place * STEP
+    reals[33] = STEP / 2  # the recorder's, which is not the series'
+    reals[61:65] = 1000 * STEP, N * STEP, stated * gal[place], place * STEP
     return (
         "Corrected acceleration    (Format v01.20 with 13 text lines) Src: made.txt\nRcrd of Some Day\n"
         "Hypocenter:\nOrigin:\nStatn No: 01-1  Code:CE-J1  Made\nCoords:\nRecorder:\nRcrd start time:\n"
@@ -77,24 +71,14 @@ def csmip(stated: float = 1.0) -> str:
 def smc(stated: float = 1.0) -> str:
     integers, reals = np.full(48, -32768), np.full(50, 1.7e38)
     integers[15], integers[16] = 1, N
-    reals[1], reals[29], reals[31], reals[32] = (
-        1 / STEP,
-        stated * 100 * TRUE.max(),
-        stated * 100 * TRUE.min(),
-        0.1,
-    )
+    reals[[1, 29, 31, 32]] = 1 / STEP, stated * 100 * TRUE.max(), stated * 100 * TRUE.min(), 0.1
     text = (
         "2 CORRECTED ACCELEROGRAM\n*\nMADE\n     1989  10  18    0004 Quake\n*\nstation = Made     component=     45\n"
         + "*\n" * 5
     )
     # Two digits of exponent and a sign in front: the columns touch, as they do in the real files.
-    return (
-        text
-        + columns(integers, 8, "10d")
-        + columns(reals, 5, "15.7E")
-        + "| one\n"
-        + columns(100 * TRUE, 8, "10.3E")
-    )
+    head = text + columns(integers, 8, "10d") + columns(reals, 5, "15.7E")
+    return head + "| one\n" + columns(100 * TRUE, 8, "10.3E")
 
 
 def volume1(first: str, chan: str, units: str, last: str, rate: float = 0.0) -> str:
@@ -112,9 +96,8 @@ def pairs() -> np.ndarray:
 
 
 def usc() -> str:
-    head = volume1(
-        "FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:", "COMP N45E", "UNITS ARE SEC AND G/10", ""
-    )
+    first = "FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:"
+    head = volume1(first, "COMP N45E", "UNITS ARE SEC AND G/10", "")
     body = columns(pairs(), 10, "7.3f").replace("\n", "\n ")
     return head.format(" " + body[:-1])
 
@@ -123,17 +106,16 @@ def renadic(stated: float = 1.0) -> str:
     peak = stated * np.abs(TRUE).max() / 9.80665
     units = f"UNITS OF UNCOR ACCEL ARE SEC AND G/10.     MAX  = {peak:6.3f} G, AT   1 SEC"
     first = "UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 1/1/11"
-    return volume1(first, "CHAN  1: EW       (STA CHN:  1)", units, "/&  END OF DATA\n").format(
-        columns(pairs(), 10, "7.3f")
-    )
+    text = volume1(first, "CHAN  1: EW       (STA CHN:  1)", units, "/&  END OF DATA\n")
+    return text.format(columns(pairs(), 10, "7.3f"))
 
 
 def bhrc() -> str:
     head = volume1("* VOL1DS FILE:  1/01", "COMP L1", "UNITS ARE SECONDS AND G/10", "/&\n", rate=1 / STEP)
-    head = head.replace("RECORD LENGTH =", "DURATION =").replace(
-        "1/2/99\n1\n", "1/2/99\nAzimuth L 45 T 135\n"
+    head = head.replace("RECORD LENGTH =", "DURATION =")
+    return head.replace("1/2/99\n1\n", "1/2/99\nAzimuth L 45 T 135\n").format(
+        columns(TRUE / 0.980665, 10, "13.6E")
     )
-    return head.format(columns(TRUE / 0.980665, 10, "13.6E"))
 
 
 def knet(stated: float = 1.0) -> str:
@@ -181,9 +163,8 @@ def emod3d() -> str:
 
 def afad(stated: float = 1.0) -> str:
     gal = np.column_stack([100 * TRUE, -50 * TRUE, 10 * TRUE])
-    peaks = " ".join(
-        f"({n}) {p:.6f}" for n, p in zip(("N-S", "E-W", "U-D"), stated * np.abs(gal).max(axis=0), strict=True)
-    )
+    north, east, up = stated * np.abs(gal).max(axis=0)
+    peaks = f"(N-S) {north:.6f} (E-W) {east:.6f} (U-D) {up:.6f}"
     return (
         f"STRONG GROUND MOTION RECORDS OF TURKIYE\nSTATION ID              : 0921\nNUMBER OF DATA          : {N}\n"
         f"SAMPLING INTERVAL (sec) : {STEP}\nRAW PGA VALUES (gal)    : {peaks}\nCopyright\n   N-S   E-W   U-D\n"
@@ -288,9 +269,8 @@ def csmip_raw(stated: float = 1.0) -> str:
         "UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 06/16/98, CDMG 23583", "CHAN  1:  45 DEG",
         f"UNITS OF UNCOR ACCEL IS G.                 MAX  =  {peak:6.3f} G, AT   9.425 SEC.", "",
     )  # fmt: skip
-    body = f"{N} POINTS OF ACCEL DATA EQUALLY SPACED AT {STEP:.3f} SEC.  (UNITS: G)\n" + columns(
-        TRUE / 9.80665, 8, "9.6f"
-    )
+    body = f"{N} POINTS OF ACCEL DATA EQUALLY SPACED AT {STEP:.3f} SEC.  (UNITS: G)\n"
+    body += columns(TRUE / 9.80665, 8, "9.6f")
     made = head.replace("UNIVERSIDAD DE CHILE - RENADIC", "MADE EARTHQUAKE").format(body)
     return made + "/&  ----- END OF DATA FOR CHANNEL  1 -----\n"
 
@@ -303,9 +283,8 @@ def csmip_film(stated: float = 1.0) -> str:
         f"UNITS OF UNCOR ACCEL ARE SEC AND G/10.     MAX  =  {peak:6.3f} G, AT  11.576 SEC.",
         "/&  ----- END OF DATA FOR CHANNEL  1 -----\n",
     )  # fmt: skip
-    return head.replace("UNIVERSIDAD DE CHILE - RENADIC", "MADE EARTHQUAKE").format(
-        columns(pairs(), 10, "7.3f")
-    )
+    head = head.replace("UNIVERSIDAD DE CHILE - RENADIC", "MADE EARTHQUAKE")
+    return head.format(columns(pairs(), 10, "7.3f"))
 
 
 def unam_with_blank_block(stated: float = 1.0) -> str:
@@ -324,9 +303,8 @@ def unam_with_repeats(stated: float = 1.0) -> str:
 
 def two_headers() -> str:
     """A title with the unit, then number of samples and step, then eight numbers a line: files like KOBE.000."""
-    return f"Made, Kobe 000, acceleration in g\n{N} points, dt = {STEP} sec\n" + columns(
-        TRUE / 9.80665, 8, "12.7f"
-    )
+    head = f"Made, Kobe 000, acceleration in g\n{N} points, dt = {STEP} sec\n"
+    return head + columns(TRUE / 9.80665, 8, "12.7f")
 
 
 def miniseed() -> bytes:
@@ -358,12 +336,10 @@ def evt() -> bytes:
     struct.pack_into(">ff", head, 0x2C8 + 32, full_scale, sensitivity)
     parts = [_tagged(1, bytes(head), b"")]
     for i in range(frames):
-        frame = struct.pack(
-            ">BBHHLHHBBHB13s", 3, 9, 1, 32, 10**9, 1, round(1 / STEP), 128, 0, 100 * i, 0, b""
-        )
-        body = b"".join(
-            int(c).to_bytes(3, "big", signed=True) for c in counts[i * samples : (i + 1) * samples]
-        )
+        times = 32, 10**9, 1, round(1 / STEP), 128, 0, 100 * i
+        frame = struct.pack(">BBHHLHHBBHB13s", 3, 9, 1, *times, 0, b"")
+        held = counts[i * samples : (i + 1) * samples]
+        body = b"".join(int(count).to_bytes(3, "big", signed=True) for count in held)
         parts.append(_tagged(2, frame, body))
     return b"".join(parts)
 

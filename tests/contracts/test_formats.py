@@ -48,10 +48,11 @@ def time_series(manifest: list[dict[str, str]]) -> dict[str, list[dict[str, str]
     return files
 
 
+Series = dict[str, tuple[list[dict[str, str]], list[Accelerogram]]]
+
+
 @pytest.fixture(scope="module")
-def series(
-    real_records: Path, manifest: list[dict[str, str]]
-) -> dict[str, tuple[list[dict[str, str]], list[Accelerogram]]]:
+def series(real_records: Path, manifest: list[dict[str, str]]) -> Series:
     """File → its rows, and what is read from it."""
     files = time_series(manifest).items()
     return {file: (rows, read(real_records / file, **declared(rows[0]))) for file, rows in files}

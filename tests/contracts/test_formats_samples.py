@@ -160,12 +160,6 @@ def test_obspy_is_told_the_format_of_each_file_it_opens() -> None:
     for path in sorted(Path(rocking.__file__).parent.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             name = ast.unparse(node.func) if isinstance(node, ast.Call) else ""
-            if name in (
-                "obspy.read",
-                "read_inventory",
-                "obspy.read_inventory",
-                "read_events",
-                "obspy.read_events",
-            ):
+            if name.removeprefix("obspy.") in ("read_inventory", "read_events") or name == "obspy.read":
                 calls.append((path.name, {word.arg for word in node.keywords}))
     assert len(calls) >= 3 and all("format" in words for _, words in calls), calls

@@ -19,6 +19,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 
@@ -55,19 +56,13 @@ class Whole:
 def made() -> list[Whole]:
     """Return a file of each format, made with more samples than the contract tests take."""
     times = np.arange(SAMPLES) * made_files.STEP
-    before = made_files.N, made_files.TRUE
-    made_files.N = SAMPLES
-    made_files.TRUE = 0.9 * np.sin(7 * times) * np.exp(-((times - 2) ** 2)) + 0.01 * np.sin(61 * times)
-    try:
-        contents = {
-            label: make() for label, (make, _, _) in (made_files.MADE | made_files.MADE_BINARY).items()
-        }
-    finally:
-        made_files.N, made_files.TRUE = before
+    values = 0.9 * np.sin(7 * times) * np.exp(-((times - 2) ** 2)) + 0.01 * np.sin(61 * times)
+    every = made_files.MADE | made_files.MADE_BINARY
+    with patch.multiple(made_files, N=SAMPLES, TRUE=values):
+        contents = {label: make() for label, (make, _, _) in every.items()}
     return [
-        Whole(label, made if isinstance(made, bytes) else made.encode("latin-1"), options)
-        for label, made in contents.items()
-        for _, _, options in [(made_files.MADE | made_files.MADE_BINARY)[label]]
+        Whole(label, text if isinstance(text, bytes) else text.encode("latin-1"), every[label][2])
+        for label, text in contents.items()
     ]
 
 

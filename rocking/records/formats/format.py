@@ -59,7 +59,7 @@ class Options:
             raise UndeclaredError(_UNDECLARED.format("unit", "unit", "unit"))
         factor = acceleration_factor(unit)
         if self.unit is not None and acceleration_factor(self.unit) != factor:
-            raise RecordError(f"unit is {unit!r} in the file, but {self.unit!r} was declared.")
+            raise RecordError(f"unit is {unit!r} in the file, but {self.unit!r} was declared; omit it.")
         return acceleration_unit(unit) or unit
 
     def time_step_of(self, in_file: float | None) -> float:

@@ -112,10 +112,8 @@ def test_obspys_own_records() -> None:
     """AKT013: the header of the file states 4.383 gal. STNA: 63 365 counts of 2.5 V / 2.5025 V/g / 2²³."""
     (akita,) = read(get_example_file("test.knet"))
     assert (akita.station, akita.component, akita.time_step) == ("AKT013", "E-W", 0.01)
-    assert (
-        akita.peak_acceleration == pytest.approx(0.04383, abs=5e-6)
-        and akita.start_time == "1996-08-10T18:12:24Z"
-    )
+    assert akita.peak_acceleration == pytest.approx(0.04383, abs=5e-6)
+    assert akita.start_time == "1996-08-10T18:12:24Z"
     channels = read(get_example_file("STNA.20020722.044649.evt.gz"))
     assert [(c.component, c.vertical) for c in channels] == [("X", False), ("Y", False), ("Z", True)]
     stated = 63364.613 * 2.5 / 2.502500057 / 2**23 * 9.80665
@@ -133,10 +131,9 @@ def test_directions(name: str, degrees: float | None, vertical: bool) -> None:
 
 
 def test_every_plug_in_is_declared_and_refuses_quietly(tmp_path: Path) -> None:
-    declared = {
-        point.name for point in entry_points(group="obspy.plugin.waveform") if "rocking" in point.value
-    }
-    assert declared == set(PLUGINS) and set(PLUGINS.values()) <= {form.name for form in FORMATS}
+    points = entry_points(group="obspy.plugin.waveform")
+    assert {point.name for point in points if "rocking" in point.value} == set(PLUGINS)
+    assert set(PLUGINS.values()) <= {form.name for form in FORMATS}
     rubbish = tmp_path / "rubbish"
     rubbish.write_bytes(b"\x1f\x8b\xff\x00nonsense")
 

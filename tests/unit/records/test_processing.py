@@ -9,15 +9,8 @@ from scipy.interpolate import CubicHermiteSpline
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
-from rocking.records.processing import (
-    UNPROCESSED_DEFAULT,
-    Processing,
-    adaptive_baseline,
-    displacement,
-    process,
-    variants,
-    velocity,
-)
+from rocking.records import processing as steps
+from rocking.records.processing import Processing, adaptive_baseline, displacement, process, velocity
 from rocking.records.synthetic import SHIPPED, synthetic_record
 
 DT = 0.01
@@ -36,7 +29,7 @@ def test_nothing_is_done_to_a_processed_record_unless_asked() -> None:
     assert process(done) is done
     treated = process(raw)
     assert len(treated.processing) == 3 and abs(treated.acceleration.mean()) < 0.01
-    assert np.array_equal(process(done, UNPROCESSED_DEFAULT).acceleration, treated.acceleration)
+    assert np.array_equal(process(done, steps.UNPROCESSED_DEFAULT).acceleration, treated.acceleration)
     assert process(raw, Processing()) is raw
 
 
@@ -59,9 +52,7 @@ def test_a_line_is_removed_exactly_and_only_a_line() -> None:
 @pytest.mark.parametrize(("setting", "passed", "stopped"), [
     ({"high_pass": 0.5}, 4.0, 0.05), ({"low_pass": 5.0}, 0.5, 40.0),
 ])  # fmt: skip
-def test_filters_pass_without_shift_and_halve_at_the_corner(
-    setting: dict, passed: float, stopped: float
-) -> None:
+def test_filters_pass_without_shift_and_halve_at_the_corner(setting, passed: float, stopped: float) -> None:
     """Run both ways a Butterworth filter has gain 1/(1 + (f/f_c)^2n) and no phase: a half at its corner."""
     middle = slice(1500, 2500)
     corner = next(iter(setting.values()))
@@ -125,7 +116,7 @@ def test_velocity_and_displacement_by_trapezoid() -> None:
 def test_variants_differ_and_all_run() -> None:
     samples = np.concatenate([np.zeros(600), synthetic_record(SHIPPED).acceleration]) + 0.01
     wave = Accelerogram(samples, SHIPPED.time_step)
-    results = {name: process(wave, settings) for name, settings in variants().items()}
+    results = {name: process(wave, settings) for name, settings in steps.variants().items()}
     assert {"unchanged", "adaptive baseline", "high-pass 0.1 Hz"} <= set(results)
     assert len({result.sha256 for result in results.values()}) == len(results) == 6
 
@@ -191,11 +182,8 @@ def test_the_drift_that_leaves_the_smallest_displacement_is_removed(values: np.n
     strong = max(onset + 16, int(np.argmax(passed >= 0.95)))
     last = min(strong + int(0.85 * (values.size - strong)), values.size - 16)
     ends = {int(end) for end in np.linspace(strong, last, 20)}
-    left = {
-        (end, degree): wandering(velocity - drift_of(velocity, onset, end, degree))
-        for end in ends
-        for degree in (1, 2)
-    }
+    places = [(end, degree) for end in ends for degree in (1, 2)]
+    left = {place: wandering(velocity - drift_of(velocity, onset, *place)) for place in places}
     corrected, sentence = adaptive_baseline(values, DT)
     told = re.search(r"before (\S+) s and after (\S+) s \(degree (\d)\)", sentence)
     assert told and round(float(told[1]) / DT) == onset
