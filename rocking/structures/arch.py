@@ -26,7 +26,7 @@ from rocking.structures.arch_mechanism import (
     static_onset,
 )
 from rocking.structures.arch_ring import EXTRADOS, INTRADOS, PATTERN, Bars, Fill, Piers, Ring
-from rocking.structures.drawing import Path, plane, rectangle, span, swept
+from rocking.structures.drawing import Path, plane, span, swept
 from rocking.structures.fields import Value, count, length, restitution_value
 from rocking.structures.linkage import STILL, Restitution, momentum_balance
 from rocking.structures.structure import Candidate, Crackable
@@ -200,18 +200,14 @@ class Arch(Crackable):
     def _hinge_sections(self) -> np.ndarray:
         return self.onset.hinges - self.embrace_angle / 2
 
-    def _impact(self, mirrored: bool) -> float:
-        if self.restitution == UNSAFE_MOMENTUM:
-            warnings.warn(
-                "restitution of the arch by momentum balance rests on an impulse line that leaves the ring; "
-                "compare it with a measured value.",
-                StructureWarning,
-                stacklevel=4,
-            )
-        return super()._impact(mirrored)
-
     def _momentum_balance(self, mirrored: bool) -> float:
         """That of the velocity fields of the mechanism and of its mirror image, whose bars are others."""
+        warnings.warn(
+            "restitution of the arch by momentum balance rests on an impulse line that leaves the ring; "
+            "compare it with a measured value.",
+            StructureWarning,
+            stacklevel=4,
+        )
         hinges, motion = self._hinge_sections, self.linkage.motion(0.0)
         edges = self._split(-hinges)
         parts, middles = self._bars(edges), (edges[1:] + edges[:-1]) / 2
@@ -308,10 +304,9 @@ class ArchOnPiers(Arch):
         """Arch and piers with a centreline radius of 1."""
         ring = super().ring
         width, height = self.pier_width / self.radius, self.pier_height / self.radius
-        springing = ring.contact_points(np.array(self.embrace_angle / 2), INTRADOS)
-        inner, top = float(springing.real), float(springing.imag)
+        springing = complex(ring.contact_points(np.array(self.embrace_angle / 2), INTRADOS))
         mass = self.pier_density_ratio * width * height / ring.thickness
-        return replace(ring, piers=Piers(rectangle(inner, inner + width, top - height, top), mass))
+        return replace(ring, piers=Piers(springing, width, height, mass))
 
     def _static_onset(self) -> Onset:
         """λ of the mechanism that governs and its hinges (angles from the left springing; a foot is beyond it)."""

@@ -10,6 +10,7 @@ The hinges make a four-bar linkage A-B-C-D; φ is the clockwise rotation of bar 
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import combinations
 
 import numpy as np
@@ -138,6 +139,7 @@ class NoMechanism(StructureError):
     """No four-hinge mechanism exists: the ring would slide, or carry any horizontal load."""
 
 
+@lru_cache(maxsize=64)
 def static_onset(ring: Ring) -> Onset:
     """Return the largest multiplier whose thrust line stays inside the ring, and where it touches.
 
@@ -253,26 +255,21 @@ def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.n
 
 def minimum_thickness(embrace_angle: float, voussoirs: int | None = None, fill: Fill | None = None) -> float:
     """Return the smallest t/r at which the ring stands under its own weight (λ = 0), to 1e-13."""
-    return _boundary(Ring(1.0, embrace_angle, voussoirs, fill), TooThin, below=True)
+    return _boundary(Ring(1.0, embrace_angle, voussoirs, fill), TooThin, 0.0, 2.0)
 
 
 def maximum_thickness(embrace_angle: float, voussoirs: int | None = None, fill: Fill | None = None) -> float:
     """Return the largest t/r at which a four-hinge mechanism exists; a thicker ring slides instead, to 1e-13."""
-    return _boundary(Ring(1.0, embrace_angle, voussoirs, fill), NoMechanism, below=False)
+    return _boundary(Ring(1.0, embrace_angle, voussoirs, fill), NoMechanism, 2.0, 0.0)
 
 
-def _boundary(ring: Ring, failure: type[StructureError], below: bool) -> float:
-    """The t/r at which static_onset starts (below) or stops (above) to fail in one way."""
-
-    def fails(thickness: float) -> bool:
+def _boundary(ring: Ring, failure: type[StructureError], fails: float, passes: float) -> float:
+    """The t/r between two at which static_onset stops to fail in one way."""
+    while abs(passes - fails) > 1e-13:
+        middle = (fails + passes) / 2
         try:
-            static_onset(replace(ring, thickness=thickness))
+            static_onset(replace(ring, thickness=middle))
+            passes = middle
         except (TooThin, NoMechanism) as reason:
-            return isinstance(reason, failure)
-        return False
-
-    low, high = 0.0, 2.0
-    while high - low > 1e-13:
-        middle = (low + high) / 2
-        low, high = (middle, high) if fails(middle) == below else (low, middle)
-    return (low + high) / 2
+            fails, passes = (middle, passes) if isinstance(reason, failure) else (fails, middle)
+    return (fails + passes) / 2

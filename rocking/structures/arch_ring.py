@@ -13,6 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rocking.structures.drawing import rectangle
+
 Loads = tuple[np.ndarray, np.ndarray]
 """Weight, ∫ x and ∫ y of what loads the ring (3, ...), and their derivatives with the section."""
 
@@ -70,25 +72,28 @@ class Bars(NamedTuple):
     inertias: np.ndarray
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Piers:
-    """Two equal rectangular piers, flush with the intrados at the springings.
+    """Two equal rectangular piers. springing: inner corner of the right one's head. width, height: over r.
 
-    corners: of the right one, (4,) complex: inner and outer foot, outer and inner head. mass: of each, per t·r.
+    mass: of each, per t·r.
     """
 
-    corners: np.ndarray
+    springing: complex
+    width: float
+    height: float
     mass: float
+
+    @property
+    def corners(self) -> np.ndarray:
+        """Of the right one, (4,) complex: inner and outer foot, outer and inner head."""
+        inner, top = self.springing.real, self.springing.imag
+        return rectangle(inner, inner + self.width, top - self.height, top)
 
     @property
     def centre(self) -> complex:
         """Centre of mass of the right one."""
         return complex(self.corners.mean())
-
-    @property
-    def inertia(self) -> float:
-        """About the centre of mass, per mass."""
-        return float(abs(self.corners[2] - self.corners[0]) ** 2 / 12)
 
 
 @dataclass(frozen=True)
@@ -174,7 +179,8 @@ class Ring:
             moments = masses * centroids + at_ends[0] * -centre.conjugate() + at_ends[1] * centre
             masses = masses + at_ends.sum(axis=0)
             centroids = moments / masses
-            about_centre = about_centre + at_ends.sum(axis=0) * (self.piers.inertia + abs(centre) ** 2)
+            own = (self.piers.width**2 + self.piers.height**2) / 12
+            about_centre = about_centre + at_ends.sum(axis=0) * (own + abs(centre) ** 2)
         return Bars(masses, centroids, about_centre - masses * np.abs(centroids) ** 2)
 
     def loads(self, section: np.ndarray) -> Loads:

@@ -7,6 +7,7 @@ import pytest
 from kinematic_onset import kinematic_onset
 from scipy.optimize import linprog
 
+from rocking.errors import StructureWarning
 from rocking.structures.arch import Arch
 from rocking.structures.arch_mechanism import (
     NoMechanism,
@@ -76,9 +77,9 @@ def test_momentum_balance_against_a_sum_over_many_small_masses():
 
     arriving, mirrored = field(middle, points), -field(-middle, -points.conj()).conj()
     expected = -(arriving.conj() * mirrored).real.sum() / (np.abs(mirrored) ** 2).sum()
-    assert arch._momentum_balance(False) == pytest.approx(
-        expected, rel=1e-3
-    )  # midpoint rule, hinges inside cells
+    with pytest.warns(StructureWarning, match="leaves the ring"):
+        balance = arch._momentum_balance(False)
+    assert balance == pytest.approx(expected, rel=1e-3)  # midpoint rule, hinges inside cells
 
 
 def test_bounds_of_thickness_are_sharp():
