@@ -332,10 +332,7 @@ class ArchOnPiers(Arch):
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         """The piers, then the parts of the arch."""
         feet, right = self.ring.feet(self._hinge_sections), self._right_pier
-        piers = [
-            (0 if feet[0] else STILL, -right.conj()),
-            (2 if feet[-1] else STILL, right),
-        ]
+        piers = [(0 if feet[0] else STILL, -right.conj()), (2 if feet[-1] else STILL, right)]
         return piers + super()._parts()
 
     @property

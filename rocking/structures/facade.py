@@ -152,10 +152,15 @@ class Facade(Tied):
 
     def _hung(self, mirrored: bool) -> list[Hung]:
         outwards = -1.0 if mirrored else 1.0
-        hung = [
-            self._load(complex(outwards * bearing.real, bearing.imag), 0, load, self.loads_held)
-            for bearing, load in self._bearings(mirrored)
-        ]
+        hung, last = [], len(self.floor_loads) - 1
+        for storey, load in enumerate(self.floor_loads):
+            if storey < self.crack_storey - 1 or not load:
+                continue
+            across = -self.thicknesses[storey] / 2 - self.eccentricity
+            if storey == last and self.top_slab == "flat":
+                across = 0.0 if mirrored else -self.thicknesses[storey]
+            bearing = complex(outwards * across, self.levels[storey + 1])
+            hung.append(self._load(bearing, 0, load, self.loads_held))
         if self.thrust:
             height = self.height if self.thrust_height is None else self.thrust_height
             part = 0 if height > self.crack_height else STILL
@@ -164,18 +169,6 @@ class Facade(Tied):
             part = 0 if height > self.crack_height else STILL
             hung.append(Hung("tie", 1j * height, part, tie=None if mirrored else self._tie))
         return hung
-
-    def _bearings(self, mirrored: bool) -> list[tuple[complex, float]]:
-        """The points of the loads above the crack, and the loads."""
-        bearings, last = [], len(self.floor_loads) - 1
-        for storey, load in enumerate(self.floor_loads):
-            if storey < self.crack_storey - 1 or not load:
-                continue
-            across = -self.thicknesses[storey] / 2 - self.eccentricity
-            if storey == last and self.top_slab == "flat":
-                across = 0.0 if mirrored else -self.thicknesses[storey]
-            bearings.append((complex(across, self.levels[storey + 1]), load))
-        return bearings
 
     @property
     def joints(self) -> np.ndarray:
@@ -194,17 +187,11 @@ class Facade(Tied):
             )
         ]
 
-    def _dimensions(self) -> dict[str, Path | list[Path]]:
-        apart, levels = 0.12 * self.height, self.levels
-        borne = [point for point, _ in self._bearings(mirrored=False)]
-        middles = {levels[n + 1]: -t / 2 for n, t in enumerate(self.thicknesses)}
-        off = [z for z in borne if np.isclose(z.real, middles[z.imag] - self.eccentricity)][-1:]
-        eccentricity = [span([middles[z.imag], z.imag], [z.real, z.imag], [0.0, -0.25 * apart]) for z in off]
+    def _dimensions(self) -> dict[str, list[Path]]:
+        levels = self.levels
+        apart = [0.12 * self.height, 0.0]
+        middles = zip(self.thicknesses, (levels[1:] + levels[:-1]) / 2, strict=True)
         return {
-            **({"eccentricity": eccentricity[0]} if eccentricity and self.eccentricity else {}),
-            "storey_heights": [span([0.0, low], [0.0, high], [apart, 0.0]) for low, high in pairwise(levels)],
-            "thicknesses": [
-                span([-t, z], [0.0, z])
-                for t, z in zip(self.thicknesses, (levels[1:] + levels[:-1]) / 2, strict=False)
-            ],
+            "storey_heights": [span([0.0, low], [0.0, high], apart) for low, high in pairwise(levels)],
+            "thicknesses": [span([-thickness, z], [0.0, z]) for thickness, z in middles],
         }

@@ -30,8 +30,6 @@ _OUTWARD: dict[str, Callable[[Any], Any]] = {
 }
 """From the unit of the file to SI and back; units that are not here are SI."""
 
-PHRASE = "{name} {value}"
-
 
 @dataclass(frozen=True, eq=False)
 class Value:
@@ -47,17 +45,15 @@ class Value:
     unit: str = ""
     usual: tuple[float, float] | None = None
     letter: str = ""
-    phrase: str = PHRASE
+    phrase: str = "{name} {value}"
     bounds: Mapping[str, float] = field(default_factory=lambda: {"ge": 0})
     names: tuple[str, ...] = ()
 
 
-def length(
-    meaning: str, example: float, usual: tuple[float, float], letter: str = "", phrase: str = PHRASE
-) -> Value:
+def length(meaning: str, example: float, usual: tuple[float, float], letter: str = "", **more: Any) -> Value:
     """Return what is said of a length in m."""
     low, high = LENGTHS
-    return Value(meaning, example, "m", usual, letter, phrase, {"ge": low, "le": high})
+    return Value(meaning, example, "m", usual, letter, bounds={"ge": low, "le": high}, **more)
 
 
 def count(meaning: str, example: int, low: int, high: int) -> Value:

@@ -16,13 +16,7 @@ from rocking.quantities import within
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Dimension, Mark, Path, plane
 from rocking.structures.fields import Field, Form, Value, constructor
-from rocking.structures.linkage import (
-    STILL,
-    Linkage,
-    Motion,
-    Restitution,
-    momentum_balance,
-)
+from rocking.structures.linkage import STILL, Linkage, Motion, Restitution, momentum_balance
 from rocking.structures.mechanism import Mechanism
 
 if TYPE_CHECKING:

@@ -24,7 +24,7 @@ _CLASSES = (
     "rocking.structures.wall.Wall",
     "rocking.structures.arch.Arch",
     "rocking.structures.frame.Frame",
-    "rocking.structures.spire.Spire",
+    "rocking.structures.block.Spire",
     "rocking.structures.block.RigidBody",
     "rocking.structures.facade.Facade",
     "rocking.structures.wall.LoadedWall",

@@ -17,7 +17,7 @@ from rocking.structures.ties import Tie
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"gt": 0})]
 Eccentricity = Annotated[
     float,
-    Value("Distance of the bearing inwards from the middle of the wall", 0.05, "m", (-1, 1), "e", bounds={}),
+    Value("Distance of the bearing inwards from the middle of the wall", 0.05, "m", (-1, 1), bounds={}),
 ]
 TopSlab = Annotated[
     Literal["hinged", "flat"],

@@ -302,10 +302,3 @@ class LoadedWall(CrackedWall, Tied):
             start = complex(outwards * half, height)
             hung.append(Hung("tie", start, part, tie=None if mirrored else self._tie))
         return hung
-
-    def _dimensions(self) -> dict[str, Path]:
-        drawn = super()._dimensions()
-        if self.eccentricity and self.top_load and self.top_slab == "hinged":
-            bearing = [-self.eccentricity, self.height]
-            drawn["eccentricity"] = span([0.0, self.height], bearing, [0.0, -0.03 * self.height])
-        return drawn

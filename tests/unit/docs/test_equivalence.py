@@ -9,10 +9,9 @@ from scipy.integrate import solve_ivp
 from docs.paper.equivalence import block_overturning_time, natural_period, overturning_time
 from rocking.quantities import GRAVITY
 from rocking.structures.arch import Arch
-from rocking.structures.block import Block, RigidBody
+from rocking.structures.block import Block, RigidBody, Spire
 from rocking.structures.frame import Frame
 from rocking.structures.mechanism import Mechanism
-from rocking.structures.spire import Spire
 from rocking.structures.wall import Wall
 
 STRUCTURES = {

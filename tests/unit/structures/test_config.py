@@ -9,16 +9,7 @@ import pytest
 import yaml
 
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
-from rocking.structures import (
-    Arch,
-    Block,
-    Facade,
-    Frame,
-    Spire,
-    Wall,
-    load_structures,
-    structure_from_config,
-)
+from rocking.structures import Arch, Block, Facade, Frame, Spire, Wall, load_structures, structure_from_config
 from rocking.structures.structure_list import structures_schema, structures_schema_file
 
 WORKFLOW = Path(__file__).parents[3] / "workflow"

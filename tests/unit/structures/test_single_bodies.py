@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from rocking.structures.block import RigidBody
-from rocking.structures.spire import Spire
+from rocking.structures.block import RigidBody, Spire
 
 
 def test_momentum_balance_of_an_off_centre_body_keeps_angular_momentum_about_the_new_corner():
