@@ -1,4 +1,4 @@
-"""Rigid bodies that rock about a corner (theory: section 2): the rectangular block (Housner 1963), a spire, any other."""
+"""Rigid bodies that rock about a corner (theory: section 2): rectangular block (Housner 1963), spire, any other."""
 
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar, Literal
