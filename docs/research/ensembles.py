@@ -19,8 +19,8 @@ from docs.research.scores import Score
 from rocking.assessment.ensemble import CAUSES, Ensemble, GroundMotions, drawn, ensemble, lattice
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
-from rocking.pulses import rotated
 from rocking.records import Accelerogram
+from rocking.records.rotation import rotate
 from rocking.structures import Structure
 from rocking.tables import column, row
 
@@ -106,7 +106,7 @@ def _trial(
     if len(scaled) > 1:
         motions = GroundMotions.of_pair(*scaled)
         angles = np.pi * np.arange(ALL_DIRECTIONS) / ALL_DIRECTIONS
-        everywhere = GroundMotions({(str(each), ""): rotated(*scaled, each) for each in angles.tolist()})
+        everywhere = GroundMotions({(str(each), ""): rotate(*scaled, angle=each) for each in angles.tolist()})
     few, more = (drawn(mechanism, motions, lattice(size), settings) for size in ALLOWED)
     many = drawn(mechanism, everywhere, draw.random((draws, len(CAUSES))), settings)
     whole = ensemble(mechanism, motions, settings)

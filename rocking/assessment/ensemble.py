@@ -19,11 +19,10 @@ from rocking.errors import MotionError, RecordError
 from rocking.motion.forcing import forcing_of
 from rocking.motion.integration import TOLERANCES, Rocking, reduce
 from rocking.motion.members import follow_factors
-from rocking.pulses import rotated
 from rocking.quantities import within
 from rocking.records import Accelerogram
 from rocking.records.processing import process, variants
-from rocking.records.rotation import aligned
+from rocking.records.rotation import aligned, rotate
 from rocking.structures import Mechanism
 
 CAUSES = ("amplitude", "restitution", "polarity", "direction", "processing", "vertical")
@@ -197,7 +196,7 @@ class GroundMotions:
         horizontal: dict[tuple[str, str], Accelerogram] = {}
         for processed_as, (one, other) in _processings(processing, first, second).items():
             for place in range(DIRECTIONS):
-                motion = rotated(one, other, np.pi * place / DIRECTIONS)
+                motion = rotate(one, other, angle=np.pi * place / DIRECTIONS)
                 horizontal[names.get(place, motion.component), processed_as] = motion
         along = next(iter(horizontal.values()))
         return cls(horizontal, None if vertical is None else aligned(vertical, along))

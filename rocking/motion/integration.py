@@ -202,10 +202,10 @@ def _initial_arc(table: Table, start: Start) -> Start:
     """The initial state in the arc; raises MotionError beyond the end of the mechanism."""
     rotation, velocity, sign = start
     side = table.side(sign)
-    arc = float(side.arc(np.array(rotation)))
+    arc = side.arc(rotation)
     if not arc < side.end:
         raise MotionError(f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.")
-    return arc, velocity / float(side.slope(arc)), sign
+    return arc, velocity / float(side.slope(np.array(arc))), sign
 
 
 def _answer(
@@ -256,9 +256,8 @@ def _states(table: Table, log: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.n
     for sign, rows in ((1, ~negative), (-1, negative)):
         side = table.side(sign)
         within_end = np.minimum(np.abs(arcs[rows]), side.end)
-        turned = side.rotation(within_end)
-        rotation[rows] = sign * turned
-        velocity[rows] = speeds[rows] * side.slope(within_end, turned)
+        rotation[rows] = sign * side.rotation(within_end)
+        velocity[rows] = speeds[rows] * side.slope(within_end)
     return times, rotation, velocity
 
 

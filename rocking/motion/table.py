@@ -4,7 +4,7 @@ In the arc q the term J φ'² drops out of the equation of motion (J = I'/2), an
 G̃ = G/√(I I(0)) and B̃ = B/√(I I(0)). For a rigid body I is constant and q = φ.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from itertools import pairwise
@@ -36,69 +36,40 @@ _GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(40)
 class SideTable:
     """One side, in two zones of equal pieces: an inner one up to 2 φ_cr, and an outer one up to the end.
 
-    kernel: what the kernel takes of it, an array of one side each. ratios: (m, 8) φ/q by power of the distance from the
-    centre of each piece. arc and stretch: q and dq/dφ at a rotation. rotation_map: that of an equivalent block, which
-    stands for ratios and stretch. Ties that are kept apart are not in G̃, nor in what follows from it.
+    kernel: what the kernel takes of it, an array of one side each. rotation_map: φ of the arc; None where φ = q. Ties
+    that are kept apart are not in G̃, nor in what follows from it.
     """
 
     kernel: Sides
-    ratios: np.ndarray
     restitution: float
     critical_rotation: float
-    arc: Function
-    stretch: Function
-    rotation_map: RotationMap | None = None
+    rotation_map: RotationMap | None
 
     @property
     def end(self) -> float:
         """The arc at which the table ends."""
         return float(self.kernel.end[0])
 
-    def rotation(self, arc: np.ndarray | float) -> np.ndarray:
-        """Return the rotation [rad] at `arc`, any shape, within the table; inf beyond the end of a rotation_map."""
-        arc = np.asarray(arc, dtype=float)
-        if self.rotation_map is not None:
-            return self.rotation_map.rotation(arc)
-        split, inner, inner_count, _, outer, outer_count, *_ = self.kernel.grid[0].tolist()
-        within = np.minimum((arc / inner).astype(int), int(inner_count) - 1)
-        beyond = np.minimum(np.maximum((arc - split) / outer, 0.0).astype(int), int(outer_count) - 1)
-        inside = arc < split
-        centre = np.where(inside, (within + 0.5) * inner, split + (beyond + 0.5) * outer)
-        row = self.ratios[np.where(inside, within, int(inner_count) + beyond)]
-        ratio = row[..., -1]
-        for power in range(DEGREE - 1, -1, -1):
-            ratio = row[..., power] + (arc - centre) * ratio
-        return arc * ratio
+    def arc(self, rotation: float) -> float:
+        """Return the arc at one rotation [rad]; that of the end beyond it."""
+        return rotation if self.rotation_map is None else self.rotation_map.arc(rotation)
 
-    def rotation_at(self, arc: float) -> float:
-        """The same of one arc, to the last bit, in a few microseconds."""
-        if self.rotation_map is not None:
-            return self.rotation_map.rotation_at(arc)
-        split, inner, inner_count, _, outer, outer_count, *_ = self.kernel.grid[0].tolist()
-        if arc < split:
-            row = min(int(arc / inner), int(inner_count) - 1)
-            centre = (row + 0.5) * inner
-        else:
-            beyond = min(int((arc - split) / outer), int(outer_count) - 1)
-            row, centre = int(inner_count) + beyond, split + (beyond + 0.5) * outer
-        ratio = 0.0
-        for coefficient in self.ratios[row].tolist()[::-1]:
-            ratio = coefficient + (arc - centre) * ratio
-        return float(arc * ratio)
+    def rotation(self, arcs: np.ndarray) -> np.ndarray:
+        """Return the rotation [rad] at `arcs`, any shape; inf beyond the end of the rotation_map."""
+        return arcs if self.rotation_map is None else self.rotation_map.rotation(arcs)
 
     def rotation_ratio(self, arc: float) -> float:
-        """Return φ/φ_cr of one arc; 0 for none."""
-        return self.rotation_at(arc) / self.critical_rotation if arc > 0 else 0.0
+        """Return φ/φ_cr of one arc."""
+        rotation = arc if self.rotation_map is None else self.rotation_map.rotation_at(arc)
+        return rotation / self.critical_rotation
 
     def rotation_ratios(self, arcs: np.ndarray) -> np.ndarray:
         """The same of many, any shape."""
         return self.rotation(arcs) / self.critical_rotation
 
-    def slope(self, arc: np.ndarray | float, rotation: np.ndarray | None = None) -> np.ndarray:
-        """Return dφ/dq at `arc`, any shape; `rotation` there may be given."""
-        if self.rotation_map is not None:
-            return self.rotation_map.slope(np.asarray(arc))
-        return 1 / self.stretch(self.rotation(arc) if rotation is None else rotation)
+    def slope(self, arcs: np.ndarray) -> np.ndarray:
+        """Return dφ/dq at `arcs`, any shape."""
+        return np.ones_like(arcs) if self.rotation_map is None else self.rotation_map.slope(arcs)
 
 
 def linear_side(block: EquivalentBlock) -> SideTable:
@@ -108,9 +79,9 @@ def linear_side(block: EquivalentBlock) -> SideTable:
     scale = critical / block.uplift_multiplier
     width, count = critical / 8, 513  # the last one is the outer zone, which has no end
     starts = np.arange(count) * width
-    pieces, ratios = np.zeros((count, 2 * DEGREE + 2)), np.zeros((count, DEGREE + 1))
+    pieces = np.zeros((count, 2 * DEGREE + 2))
     pieces[:, 0] = square * (critical - starts - width / 2)
-    pieces[:, 1], pieces[:, 2], ratios[:, 0] = square * scale, -square, 1.0
+    pieces[:, 1], pieces[:, 2] = square * scale, -square
     near = np.array([[critical, (1 - _NEAR) * critical], [scale, scale]]) * square
     kernel = _kernel(
         pieces=pieces,
@@ -123,10 +94,7 @@ def linear_side(block: EquivalentBlock) -> SideTable:
         longest_step=1 / block.frequency_parameter,
         near=(*_near_rest(critical * _NEAR, near), 0.0),
     )
-    arc = np.asarray if block.rotation_map is None else np.vectorize(block.rotation_map.arc)
-    return SideTable(
-        kernel, ratios, block.restitution, block.critical_rotation, arc, np.ones_like, block.rotation_map
-    )
+    return SideTable(kernel, block.restitution, block.critical_rotation, block.rotation_map)
 
 
 def _kernel(ties: Ties | None = None, **values: np.ndarray | float | tuple[float, ...]) -> Sides:
@@ -157,16 +125,14 @@ def side_table(side: Side, apart: bool = False) -> SideTable:
     )
 
 
-def _functions(
-    side: Side, rotation_at: Function, gravity: Function, ties: Sequence[SideTie]
-) -> Callable[[np.ndarray], np.ndarray]:
-    """Return (3 + 3 n, ...) G̃, B̃, φ/q, and D̃, u D̃ and u of the n `ties`, as functions of the arc."""
+def _functions(side: Side, rotation_at: Function, gravity: Function, ties: Sequence[SideTie]) -> Function:
+    """Return (2 + 3 n, ...) G̃, B̃, and D̃, u D̃ and u of the n `ties`, as functions of the arc."""
     rest = side.at("inertia", 0.0)
 
     def functions(arcs: np.ndarray) -> np.ndarray:
         rotation = rotation_at(arcs)
         scale = np.sqrt(side.inertia(rotation) * rest)
-        values = [gravity(rotation) / scale, side.ground(rotation) / scale, rotation / arcs]
+        values = [gravity(rotation) / scale, side.ground(rotation) / scale]
         for tie in ties:
             stretch, pull = tie.stretch(rotation), tie.stretch_slope(rotation) / scale
             values += [pull, stretch * pull, stretch]
@@ -185,7 +151,7 @@ def _tabulated(side: Side, arc: Arc, inverse: RotationMap, last: float, apart: b
     split = min(2 * critical, (critical + end) / 2)
     largest = np.abs(functions(np.linspace(end / 1000, end, 1000))).max(axis=1)
     rest = side.at("inertia", 0.0)
-    least = np.array([0.0] * 3 + [_STILL / rest, _STILL**2 / rest, _STILL] * len(ties))
+    least = np.array([0.0] * 2 + [_STILL / rest, _STILL**2 / rest, _STILL] * len(ties))
     inner = fitted(functions, 0.0, split, largest, least)
     outer = fitted(functions, split, end, largest, least)
     if inner is None or outer is None:
@@ -193,10 +159,10 @@ def _tabulated(side: Side, arc: Arc, inverse: RotationMap, last: float, apart: b
     powers = np.concatenate([inner, outer], axis=1)
     grid, starts = _grid(split, end, inner.shape[1], outer.shape[1])
     lift = float(gravity(np.asarray(0.0))) / rest, side.at("ground", 0.0) / rest
-    near = np.column_stack([lift, functions(np.linspace(0, critical * _NEAR, 65)[1:])[:2]])
+    near = functions(np.linspace(0, critical * _NEAR, 65))[:2]
     slope = max(_steepest(side, functions, critical, apart), lift[0] / critical)
     kernel = _kernel(
-        ties=_ties(side, arc, powers[3:]) if ties else None,
+        ties=_ties(side, arc, powers[2:]) if ties else None,
         pieces=powers[:2].transpose(1, 2, 0).reshape(powers.shape[1], -1),
         grid=grid,
         lift=lift,
@@ -210,8 +176,7 @@ def _tabulated(side: Side, arc: Arc, inverse: RotationMap, last: float, apart: b
             sum(_slope_near_rest(side, tie, arc, critical * _NEAR) for tie in ties),
         ),
     )
-    ratios = np.ascontiguousarray(powers[2])
-    return SideTable(kernel, ratios, side.restitution, side.critical_rotation, arc.at, arc.stretch)
+    return SideTable(kernel, side.restitution, side.critical_rotation, inverse)
 
 
 def _steepest(side: Side, functions: Function, critical: float, apart: bool) -> float:
@@ -314,7 +279,7 @@ _PROBES = np.linspace(-0.99, 0.99, 16)
 
 
 def fitted(
-    functions: Callable[[np.ndarray], np.ndarray],
+    functions: Function,
     start: float,
     end: float,
     largest: np.ndarray,
@@ -344,7 +309,7 @@ def fitted(
 
 
 def _fit(
-    functions: Callable[[np.ndarray], np.ndarray], start: float, end: float, count: int
+    functions: Function, start: float, end: float, count: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Interpolate on `count` pieces; also the largest error between the nodes, and the largest value, (f,) each."""
     half = (end - start) / count / 2

@@ -13,6 +13,4 @@ from rocking.pulses.methods import PULSE_METHODS as PULSE_METHODS
 from rocking.pulses.methods import predicting_pulse as predicting_pulse
 from rocking.pulses.pulse import Pulse as Pulse
 from rocking.pulses.velocity_pulse import VelocityPulse as VelocityPulse
-from rocking.pulses.velocity_pulse import azimuth_of_axis as azimuth_of_axis
-from rocking.pulses.velocity_pulse import rotated as rotated
 from rocking.pulses.velocity_pulse import velocity_pulse as velocity_pulse

@@ -16,6 +16,7 @@ from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import integral
+from rocking.records.rotation import paired
 
 SUPPORT = 7.0
 """Length of db4 in its own time; its centre frequency is 5 cycles over it."""
@@ -72,53 +73,15 @@ class VelocityPulse:
         return max(ratio, 1 / ratio) > UNLIKE_PERIODS
 
 
-def same_sampling(first: Accelerogram, second: Accelerogram) -> np.ndarray:
-    """Return both accelerations, (2, n) m/s², over the samples they share from the first on.
-
-    Components of one recording often differ by a few samples at the end; those are dropped.
-    Raises PulseError when the time steps differ or one is vertical.
-    """
-    if first.vertical or second.vertical:
-        raise PulseError("One of the two components is vertical, but a direction needs two horizontal ones.")
-    if not math.isclose(first.time_step, second.time_step, rel_tol=1e-9):
-        raise PulseError(
-            f"The time steps are {first.time_step:g} and {second.time_step:g} s, but two components must share one; "
-            "resample one of them."
-        )
-    count = min(first.acceleration.size, second.acceleration.size)
-    return np.array([first.acceleration[:count], second.acceleration[:count]])
-
-
-def rotated(first: Accelerogram, second: Accelerogram, angle: float) -> Accelerogram:
-    """Return the motion along an axis at `angle`, rad, from the first component towards the second, as a record."""
-    one, two = same_sampling(first, second)
-    return first.processed_by(
-        one * math.cos(angle) + two * math.sin(angle),
-        f"Rotated by {math.degrees(angle):.2f}° from component {first.component or 'one'} "
-        f"towards component {second.component or 'two'}.",
-        component=f"{math.degrees(angle):.0f}° from {first.component or 'one'}",
-        azimuth=azimuth_of_axis(first.azimuth, second.azimuth, angle),
-    )
-
-
-def azimuth_of_axis(first: float | None, second: float | None, angle: float) -> float | None:
-    """Azimuth in degrees of the rotated axis; None unless the components are known to be square to each other."""
-    if first is None or second is None:
-        return None
-    apart = (second - first) % 360
-    if not math.isclose(min(apart, 360 - apart), 90, abs_tol=1.0):
-        return None
-    return (first + math.degrees(angle) * (1 if apart < 180 else -1)) % 360
-
-
 def velocity_pulse(first: Accelerogram, second: Accelerogram | None = None) -> VelocityPulse:
     """Return the velocity pulse of two horizontal components: the largest that is pulse-like, else the largest.
 
     Without a second component it is the pulse of the first alone, of orientation 0, to which the criterion was not
-    fitted. Raises PulseError when the components differ in time step or no pulse of the shortest period fits.
+    fitted. Raises RecordError when the components do not fit together, PulseError when no pulse of the shortest period
+    fits.
     """
     step = first.time_step
-    pair = first.acceleration[np.newaxis] if second is None else same_sampling(first, second)
+    pair = first.acceleration[np.newaxis] if second is None else np.array(paired(first, second))
     velocities = _velocities(pair, step)
     scales = searched_scales(step, velocities.shape[1])
     places = _largest(velocities, scales)

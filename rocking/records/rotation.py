@@ -1,6 +1,7 @@
 """The components of one station: a horizontal pair seen from another direction, and the vertical one beside it."""
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -26,37 +27,58 @@ class RotD:
     azimuth: float
 
 
-def rotate(first: Accelerogram, second: Accelerogram, azimuth: float) -> Accelerogram:
-    """Return the horizontal motion along `azimuth` (degrees clockwise from north), from two components.
+def rotate(
+    first: Accelerogram, second: Accelerogram, azimuth: float | None = None, *, angle: float = 0.0
+) -> Accelerogram:
+    """Return the horizontal motion along one axis, from two components of one time step and one start.
 
-    The components need known azimuths at least 30° apart, one time step and one start; the longer is cut to the
-    shorter. They need not be orthogonal.
-    Raises RecordError when they do not fit together.
+    azimuth: degrees clockwise from north; the components then need known azimuths at least 30° apart, and need not be
+    orthogonal. angle: in its stead, rad from the first component towards the second, taken as orthogonal.
+    The longer component is cut to the shorter. Raises RecordError when they do not fit together.
     """
-    azimuth = finite(RecordError, "azimuth", azimuth, "degrees")
-    if first.azimuth is None or second.azimuth is None:
-        raise RecordError(
-            "a component has no known azimuth; give one with dataclasses.replace(record, azimuth=...)."
-        )
-    a, b = _paired(first, second)
-    one, two, wanted = np.radians([first.azimuth, second.azimuth, azimuth])
-    base = np.sin(two - one)
-    if abs(base) < _FLATTEST:
-        raise RecordError(
-            f"the azimuths are {first.azimuth:g}° and {second.azimuth:g}°, but must differ by 30° or more."
-        )
-    shares = np.sin(two - wanted) / base, np.sin(wanted - one) / base
-    motion = shares[0] * a + shares[1] * b
-    sentence = (
-        f"Rotated from {first.azimuth:g}° and {second.azimuth:g}° to {azimuth:g}° clockwise from north."
-    )
+    a, b = paired(first, second)
+    if azimuth is None:
+        angle = finite(RecordError, "angle", angle, "rad")
+        shares = np.cos(angle), np.sin(angle)
+        one, other, degrees = first.component or "one", second.component or "two", np.degrees(angle)
+        sentence = f"Rotated by {degrees:.2f}° from component {one} towards component {other}."
+        component = f"{degrees:.0f}° from {one}"
+        azimuth = azimuth_of_axis(first.azimuth, second.azimuth, angle)
+    else:
+        shares = _shares(first.azimuth, second.azimuth, finite(RecordError, "azimuth", azimuth, "degrees"))
+        origin = f"{first.azimuth:g}° and {second.azimuth:g}°"
+        sentence = f"Rotated from {origin} to {azimuth:g}° clockwise from north."
+        component, azimuth = f"{azimuth:g}", azimuth % 360
     short, long = sorted((first.acceleration.size, second.acceleration.size))
     cut = f"The components hold {short} and {long} samples; the longer was cut to the shorter."
     warnings = dict.fromkeys((*first.warnings, *second.warnings, *([cut] if short < long else [])))
-    turned = {"component": f"{azimuth:g}", "azimuth": azimuth % 360, "warnings": tuple(warnings)}
+    changed: dict[str, Any] = {"component": component, "azimuth": azimuth, "warnings": tuple(warnings)}
     for name in ("initial_velocity", "initial_displacement"):
-        turned[name] = shares[0] * getattr(first, name) + shares[1] * getattr(second, name)
-    return first.processed_by(motion, sentence, **turned)
+        changed[name] = shares[0] * getattr(first, name) + shares[1] * getattr(second, name)
+    return first.processed_by(shares[0] * a + shares[1] * b, sentence, **changed)
+
+
+def _shares(first: float | None, second: float | None, azimuth: float) -> tuple[float, float]:
+    """What the components along two azimuths contribute to the motion along a third, degrees."""
+    if first is None or second is None:
+        raise RecordError(
+            "a component has no known azimuth; give one with dataclasses.replace(record, azimuth=...)."
+        )
+    one, two, wanted = np.radians([first, second, azimuth])
+    base = np.sin(two - one)
+    if abs(base) < _FLATTEST:
+        raise RecordError(f"the azimuths are {first:g}° and {second:g}°, but must differ by 30° or more.")
+    return np.sin(two - wanted) / base, np.sin(wanted - one) / base
+
+
+def azimuth_of_axis(first: float | None, second: float | None, angle: float) -> float | None:
+    """Return the azimuth of an axis at `angle` [rad] from the first component; None unless they are square, to 1°."""
+    if first is None or second is None:
+        return None
+    apart = (second - first) % 360
+    if abs(min(apart, 360 - apart) - 90) > 1:
+        return None
+    return float((first + np.degrees(angle) * (1 if apart < 180 else -1)) % 360)
 
 
 def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
@@ -70,7 +92,7 @@ def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
     """
     if not 0 < step <= 90:
         raise RecordError(f"step is {step!r} degrees, but must be above 0 and at most 90.")
-    a, b = _paired(first, second)
+    a, b = paired(first, second)
     if first.azimuth is not None and second.azimuth is not None:
         north, east = rotate(first, second, 0.0), rotate(first, second, 90.0)
         a, b = north.acceleration, east.acceleration
@@ -79,7 +101,8 @@ def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
     return RotD(float(np.median(peaks)), float(peaks.max()), float(angles[peaks.argmax()]))
 
 
-def _paired(first: Accelerogram, second: Accelerogram) -> tuple[np.ndarray, np.ndarray]:
+def paired(first: Accelerogram, second: Accelerogram) -> tuple[np.ndarray, np.ndarray]:
+    """Return both accelerations, m/s², over the samples they share. Raises RecordError where they do not fit."""
     if abs(first.time_step / second.time_step - 1) > 1e-9:
         raise RecordError(
             f"time_step is {first.time_step!r} s and {second.time_step!r} s, but must be one; resample first."

@@ -5,8 +5,9 @@ import pytest
 from scipy import signal
 from scipy.constants import g
 
-from rocking.pulses import PulseSettings, extract_pulses, rotated, velocity_pulse
+from rocking.pulses import PulseSettings, extract_pulses, velocity_pulse
 from rocking.records import Accelerogram, read
+from rocking.records.rotation import rotate
 
 # record, |a_g| [g], T_g [s], t₀ [s], EVa, G₂/G₁; mean of the first 0.5 s removed, acausal 0.05 Hz high-pass, 0.12–5 Hz
 REGRESSION = [
@@ -107,7 +108,7 @@ def test_orientation_and_size_of_the_velocity_pulse(velocity_pulses):
     for row, (first, second), found in velocity_pulses:
         if not row["pulse_orient_sb2014_deg"] or row["rsn"] in VELOCITY_PULSE_EXCEPTIONS:
             continue
-        azimuth = rotated(first, second, found.orientation).azimuth
+        azimuth = rotate(first, second, angle=found.orientation).azimuth
         if azimuth is not None:
             turned[row["rsn"]] = (azimuth - float(row["pulse_orient_sb2014_deg"]) + 90) % 180 - 90
             sizes[row["rsn"]] = 100 * found.peak_velocity / float(row["pgv_sb2014_cm_s"]) - 1

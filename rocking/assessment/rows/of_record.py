@@ -21,11 +21,11 @@ from rocking.pulses import (
     PulseAnalysis,
     PulseEvidence,
     VelocityPulse,
-    azimuth_of_axis,
     velocity_pulse,
 )
 from rocking.records import Accelerogram, RotD, rotd
 from rocking.records.measures import record_measures
+from rocking.records.rotation import azimuth_of_axis
 from rocking.sine_pulse import Regime
 from rocking.structures import Outcome
 from rocking.tables import Row, column, row

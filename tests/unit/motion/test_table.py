@@ -6,7 +6,7 @@ from motion_cases import MECHANISMS
 
 from rocking.errors import MotionError
 from rocking.motion import nonlinear_kernel
-from rocking.motion.table import ACCURACY, linear_table, table_of
+from rocking.motion.table import ACCURACY, table_of
 from rocking.structures import Arch, Wall
 from rocking.structures.mechanism import Mechanism, Side
 from tests.parts import callable_parts
@@ -43,9 +43,9 @@ def test_table_equals_direct_evaluation(name):
         own = table.sides[k]
         rotation = np.concatenate([
             np.linspace(0, side.critical_rotation, 301),
-            np.linspace(0, own.rotation(np.float64(own.end)) * (1 - 1e-12), 301)
+            np.linspace(0, float(own.rotation(np.array(own.end))) * (1 - 1e-12), 301)
         ])  # fmt: skip
-        found = evaluated(table, k, own.arc(rotation))
+        found = evaluated(table, k, np.vectorize(own.arc)(rotation))
         scale = np.sqrt(side.inertia(rotation) * side.at("inertia", 0.0))
         for values, function in zip(found, (side.gravity, side.ground), strict=True):
             truth = function(rotation) / scale
@@ -55,10 +55,12 @@ def test_table_equals_direct_evaluation(name):
 @pytest.mark.parametrize("name", ALL)
 def test_hold_bounds_every_rotation_further_out(name):
     side, own = ALL[name].positive, table_of(ALL[name]).side(1)
-    rotation = np.linspace(0, float(own.rotation(np.float64(own.end))), 2001)
+    rotation = np.linspace(0, float(own.rotation(np.array(own.end))), 2001)
     balance = -side.gravity(rotation) / np.abs(side.ground(rotation))
     grid = table_of(ALL[name]).kernel.grid
-    for q, lowest in zip(own.arc(rotation), np.minimum.accumulate(balance[::-1])[::-1], strict=True):
+    for q, lowest in zip(
+        np.vectorize(own.arc)(rotation), np.minimum.accumulate(balance[::-1])[::-1], strict=True
+    ):
         j, _, _ = _place(grid, 0, q)
         assert own.kernel.hold[0, j] <= lowest + 1e-12
 
@@ -74,9 +76,15 @@ def test_functions_with_a_kink_are_refused():
 
 
 @pytest.mark.parametrize("name", MECHANISMS)
-def test_one_rotation_is_that_of_many_to_the_last_bit(name):
+def test_rotations_of_arcs_are_those_of_the_integral_one_as_many(name):
+    """q = ∫ √(I/I(0)) dφ, its slope and its inverse, to 1e-13; one rotation ratio is that of many to the last bit."""
     mechanism = MECHANISMS[name]
-    block = mechanism.equivalent_block()
-    for side in (*table_of(mechanism).sides, *linear_table(block).sides):
-        arcs = np.random.default_rng(5).uniform(0, min(side.end, 3 * side.kernel.critical[0]), 200)
-        assert [side.rotation_at(float(arc)) for arc in arcs] == side.rotation(arcs).tolist()
+    for side, own in zip(mechanism.sides, table_of(mechanism).sides, strict=True):
+        arcs = np.append(np.random.default_rng(5).uniform(0, own.end, 200), [0.0, 1e-9 * own.end])
+        rotations = own.rotation(arcs)
+        stretch = np.sqrt(side.inertia(rotations) / side.at("inertia", 0.0))
+        assert own.slope(arcs) * stretch == pytest.approx(1, abs=1e-12)
+        nodes, weights = np.polynomial.legendre.leggauss(40)
+        inner = np.sqrt(side.inertia(rotations[:, None] * (nodes + 1) / 2) / side.at("inertia", 0.0))
+        assert rotations * (inner @ weights / 2) == pytest.approx(arcs, rel=1e-13)
+        assert [own.rotation_ratio(arc) for arc in arcs.tolist()] == own.rotation_ratios(arcs).tolist()

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import pywt
 
-from rocking.errors import PulseError
-from rocking.pulses import Pulse, rotated, velocity_pulse
+from rocking.errors import PulseError, RecordError
+from rocking.pulses import Pulse, velocity_pulse
 from rocking.pulses.velocity_pulse import (
     _late,
     coefficient_at,
@@ -18,6 +18,7 @@ from rocking.pulses.velocity_pulse import (
     transform,
 )
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.rotation import rotate
 
 STEP = 0.005
 TIMES = np.arange(8000) * STEP
@@ -89,17 +90,17 @@ def test_a_pulse_is_late_by_the_energy_that_went_before(share, late, unit):
 @pytest.mark.parametrize(("azimuths", "expected"), [((20, 110), 50), ((20, 290), 350), ((20, 60), None)])
 def test_the_azimuth_of_the_axis(azimuths, expected):
     first, second = (Accelerogram(np.ones(50), STEP, azimuth=a) for a in azimuths)
-    azimuth = rotated(first, second, math.radians(30)).azimuth
+    azimuth = rotate(first, second, angle=math.radians(30)).azimuth
     assert azimuth == (None if expected is None else pytest.approx(expected))
 
 
 def test_components_share_the_samples_that_both_have_or_are_refused():
     first, second = (Accelerogram(np.arange(n, dtype=float), STEP) for n in (50, 43))
-    assert np.array_equal(rotated(first, second, math.pi / 2).acceleration.round(9), np.arange(43))
-    with pytest.raises(PulseError, match=r"time steps are 0\.005 and 0\.01 s"):
-        rotated(first, Accelerogram(second.acceleration, 2 * STEP), 0.0)
-    with pytest.raises(PulseError, match="vertical"):
-        rotated(first, Accelerogram(second.acceleration, STEP, vertical=True), 0.0)
+    assert np.array_equal(rotate(first, second, angle=math.pi / 2).acceleration.round(9), np.arange(43))
+    with pytest.raises(RecordError, match=r"time_step is 0\.005 s and 0\.01 s"):
+        velocity_pulse(first, Accelerogram(second.acceleration, 2 * STEP))
+    with pytest.raises(RecordError, match="vertical"):
+        velocity_pulse(first, Accelerogram(second.acceleration, STEP, vertical=True))
 
 
 def plain(velocities, scale):
