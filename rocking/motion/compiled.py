@@ -21,6 +21,10 @@ SETTLED = 1e-10
 
 IMPACT_LIMIT = 5_000_000
 
+STATUS, IMPACTS, UPLIFT, SIDE, STEPS, PEAKS, TIMES, COLUMNS = 0, 1, 2, 3, 4, 5, 7, 9
+"""Columns of the results: how the run ended, impacts, the time of uplift, the last side, steps, and by side (positive
+first) the largest arc and its time; how many columns there are."""
+
 INSTANT, PAUSE = 1e-14, 1e-9
 """A landing sooner than INSTANT after an uplift is a rounding: it rests for PAUSE. Both are shares of a sample."""
 
@@ -73,6 +77,14 @@ def forget(best, side, arc):
     if side != 0:
         slot = 0 if side > 0 else 1
         best[0, slot], best[1, slot] = arc, 0.0
+
+
+@compiled
+def conclude(row, status, impacts, uplift, side, steps, best):
+    """Write a row of the results."""
+    row[STATUS], row[IMPACTS], row[UPLIFT], row[SIDE], row[STEPS] = status, impacts, uplift, side, steps
+    for slot in range(2):
+        row[PEAKS + slot], row[TIMES + slot] = best[0, slot], best[1, slot]
 
 
 @compiled

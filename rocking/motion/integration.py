@@ -9,7 +9,20 @@ import numpy as np
 
 from rocking.errors import MotionError
 from rocking.motion import linear_kernel, nonlinear_kernel
-from rocking.motion.compiled import IMPACT_LIMIT, OVERTURNS, ROCKS, TOO_MANY_IMPACTS
+from rocking.motion.compiled import (
+    COLUMNS,
+    IMPACT_LIMIT,
+    IMPACTS,
+    OVERTURNS,
+    PEAKS,
+    ROCKS,
+    SIDE,
+    STATUS,
+    STEPS,
+    TIMES,
+    TOO_MANY_IMPACTS,
+    UPLIFT,
+)
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.response import Response
 from rocking.motion.table import SideTable, Table, linear_table, table_of
@@ -28,6 +41,8 @@ class Structure(Protocol):
 Rocking = Mechanism | EquivalentBlock | Structure
 Start = tuple[float, float, int]
 """Magnitude of the rotation, its rate (> 0 outward), and the side; side 0 is rest."""
+
+REST: Start = (0.0, 0.0, 0)
 
 TOLERANCES = (1e-13, 0.1)
 """Smallest and largest relative tolerance."""
@@ -82,18 +97,18 @@ def integrate(
     start = _start(structure, initial_rotation, initial_velocity)
     forcing = forcing_of(motion, vertical)
     reduced = reduce(structure)
-    response = _follow(reduced, forcing, tolerance, start, history)
+    response = _response(reduced, forcing, tolerance, start, history)
     if not sensitivity:
         return response
     change = within(MotionError, "fragility_change", fragility_change, 0, 0.5)
-    again = _follow(reduced, forcing.scaled(1 + _AGAIN), min(tolerance, _AGAIN), start)
+    again = _response(reduced, forcing.scaled(1 + _AGAIN), min(tolerance, _AGAIN), start)
     close = math.isclose(again.rotation_ratio, response.rotation_ratio, rel_tol=_REPRODUCIBLE)
     return replace(
         response,
         sensitivity=_sensitivity(reduced, forcing, start) if response.outcome is Outcome.ROCKS else math.nan,
         fragile=not close
         or any(
-            _follow(reduced, forcing.scaled(factor), tolerance, start).outcome is not response.outcome
+            _response(reduced, forcing.scaled(factor), tolerance, start).outcome is not response.outcome
             for factor in (1 - change, 1 + change)
         ),
     )
@@ -112,13 +127,52 @@ def reduce(structure: Rocking) -> Mechanism | EquivalentBlock:
 
 
 def solvable_exactly(block: EquivalentBlock, forcing: Forcing) -> bool:
-    """Whether the closed form per sample holds: a sampled record, no vertical component, a sane p Δt."""
+    """Whether the closed form per sample holds without a vertical component: a sampled record, a sane p Δt."""
     frequency = max(each.frequency_parameter for each in block.sides)
-    return (
-        forcing.ground.circular_frequency == 0
-        and not forcing.vertical
-        and frequency * forcing.ground.time_step <= LARGEST_GROWTH
-    )
+    ground = forcing.ground
+    return ground.circular_frequency == 0 and frequency * ground.time_step <= LARGEST_GROWTH
+
+
+def follow(
+    reduced: Mechanism | EquivalentBlock,
+    forcing: Forcing,
+    horizontal: np.ndarray,
+    vertical: np.ndarray,
+    restitution: np.ndarray | None,
+    tolerance: float,
+    *,
+    start: Start = REST,
+    settle: bool = True,
+    log: np.ndarray = NO_LOG,
+) -> tuple[Sequence[SideTable | EquivalentBlock], np.ndarray]:
+    """Follow a structure once for every member: what measures its sides, and the results (m, 9) of the kernel.
+
+    horizontal, vertical: factors (m,) of the components. restitution: (m, 2), or None for its own. settle, log: as the
+    kernels take them. Without vertical motion an EquivalentBlock is followed through a record exactly.
+    """
+    results, eta = np.zeros((horizontal.size, COLUMNS)), np.empty((horizontal.size, 2))
+    own = reduced.sides[0].restitution, reduced.sides[-1].restitution
+    eta[:] = own if restitution is None else restitution
+    scratch = np.empty((2, 2)), log, results
+    if isinstance(reduced, EquivalentBlock) and solvable_exactly(reduced, forcing) and not vertical.any():
+        sides, ground = reduced.sides, forcing.ground
+        takeable = np.empty((len(sides), 2, forcing.samples))
+        takeable[..., -1] = -1.0  # to be filled
+        samples = linear_kernel.Samples(ground.horizontal, ground.time_step, takeable)
+        motion = linear_kernel.Motion(0, 0.0, 0.0, 0.0, 0)
+        if start[2]:
+            side = sides[0 if start[2] > 0 else -1]
+            arc, speed = _initial_arc(linear_table(reduced), start)
+            motion = motion._replace(x=arc / side.critical_arc, w=speed / side.velocity_scale, side=start[2])
+        linear_kernel.rock_linear(blocks_of(reduced), samples, horizontal, eta, motion, settle, *scratch)
+        return sides, results
+    table = table_of(reduced, forcing.vertical)
+    kernel = table.kernel_of(forcing)
+    arc, speed = _initial_arc(table, start) if start[2] else (0.0, 0.0)
+    begin = nonlinear_kernel.Motion(0, 0.0, arc, speed, start[2], arc, abs(speed))
+    how = STEP_SHARE * tolerance, settle, nonlinear_kernel.memory(kernel.ties)
+    nonlinear_kernel.rock(kernel, forcing.ground, horizontal, vertical, eta, begin, *how, *scratch)
+    return table.sides, results
 
 
 def blocks_of(block: EquivalentBlock) -> linear_kernel.Blocks:
@@ -132,21 +186,11 @@ def blocks_of(block: EquivalentBlock) -> linear_kernel.Blocks:
     )
 
 
-def samples_of(sides: Sequence[EquivalentBlock], forcing: Forcing) -> linear_kernel.Samples:
-    """What the linear kernel takes of a record, for these sides of a block."""
-    ground, time_step = forcing.ground.horizontal, forcing.ground.time_step
-    takeable = np.empty((len(sides), 2, ground.size))
-    for side, both in zip(sides, takeable, strict=True):
-        for sign, out in zip((1, -1), both, strict=True):
-            linear_kernel.takeback(ground, time_step, side.frequency_parameter, sign, out)
-    return linear_kernel.Samples(ground, time_step, takeable)
-
-
-def failure(status: int, impacts: int) -> MotionError:
+def failure(status: float, impacts: float) -> MotionError:
     """Why a run has no answer."""
     if status == TOO_MANY_IMPACTS:
         return MotionError(
-            f"the structure met {impacts} impacts before the motion ended, but at most "
+            f"the structure met {impacts:.0f} impacts before the motion ended, but at most "
             f"{IMPACT_LIMIT} are followed; a restitution below 1 brings it to rest."
         )
     return MotionError("the motion left the range of floating-point numbers; check the record's amplitude.")
@@ -163,88 +207,53 @@ def _start(structure: Rocking, rotation: float, velocity: float) -> Start:
     return abs(rotation), side * velocity, side
 
 
-def _follow(
+def _initial_arc(table: Table, start: Start) -> tuple[float, float]:
+    """The initial arc and its rate; raises MotionError beyond the end of the mechanism."""
+    rotation, velocity, sign = start
+    side = table.side(sign)
+    arc = side.arc(rotation)
+    if not arc < side.end:
+        raise MotionError(f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.")
+    return arc, velocity / float(side.slope(np.array(arc)))
+
+
+def _response(
     reduced: Mechanism | EquivalentBlock,
     forcing: Forcing,
     tolerance: float,
     start: Start,
     history: bool = False,
 ) -> Response:
-    if isinstance(reduced, EquivalentBlock) and solvable_exactly(reduced, forcing):
-        return _exact(reduced, forcing, start, history)
-    table = table_of(reduced, forcing.vertical)
-    sides = table.kernel_of(forcing)
-    arc, speed, side = _initial_arc(table, start) if start[2] else (0.0, 0.0, 0)
-    begin = nonlinear_kernel.Motion(0, 0.0, arc, speed, side, arc, abs(speed))
-    lift = forcing.factor if forcing.vertical else 0.0
-    member = nonlinear_kernel.Member(forcing.factor, lift, table.restitution)
-    phase = nonlinear_kernel.memory(sides.ties)
-    arguments = sides, forcing.ground, member, begin, STEP_SHARE * tolerance, False, phase
-    return _answer(
-        nonlinear_kernel.rock, arguments, table.sides, forcing, tolerance, table if history else None
-    )
-
-
-def _exact(block: EquivalentBlock, forcing: Forcing, start: Start, history: bool) -> Response:
-    """Follow the block through a record in closed form: no time-stepping error, only event times are iterated."""
-    sides, begin = block.sides, linear_kernel.Motion(0, 0.0, 0.0, 0.0, 0)
-    if start[2]:
-        own = sides[0 if start[2] > 0 else -1]
-        arc, speed, side = _initial_arc(linear_table(block), start)
-        begin = linear_kernel.Motion(0, 0.0, arc / own.critical_arc, speed / own.velocity_scale, side)
-    restitution = sides[0].restitution, sides[-1].restitution
-    arguments = blocks_of(block), samples_of(sides, forcing), forcing.factor, restitution, begin, False
-    table = linear_table(block) if history else None
-    return _answer(linear_kernel.rock_linear, arguments, sides, forcing, 0.0, table)
-
-
-def _initial_arc(table: Table, start: Start) -> Start:
-    """The initial state in the arc; raises MotionError beyond the end of the mechanism."""
-    rotation, velocity, sign = start
-    side = table.side(sign)
-    arc = side.arc(rotation)
-    if not arc < side.end:
-        raise MotionError(f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.")
-    return arc, velocity / float(side.slope(np.array(arc))), sign
-
-
-def _answer(
-    run: Any,
-    arguments: tuple[Any, ...],
-    sides: Sequence[SideTable | EquivalentBlock],
-    forcing: Forcing,
-    tolerance: float,
-    table: Table | None,
-) -> Response:
-    """The Response of the compiled `run`, overturned where a side is past its end; with a table, its history as well.
-
-    Raises MotionError for a run that has no answer.
-    """
-    peaks, log = np.empty((2, 2)), NO_LOG if table is None else np.zeros((2 * forcing.samples + 1001, 3))
-    status, impacts, uplift, last_side, steps = run(*arguments, peaks, log)
-    if table is not None and log[0, 0] >= log.shape[0]:
+    """The Response to the motion as it is; overturned, too, where a side is past its end. Raises MotionError."""
+    factor = np.array([forcing.factor])
+    lift = factor if forcing.vertical else np.zeros(1)
+    log = np.zeros((2 * forcing.samples + 1001, 3)) if history else NO_LOG
+    how: Any = {"start": start, "settle": False}
+    sides, results = follow(reduced, forcing, factor, lift, None, tolerance, **how, log=log)
+    if history and log[0, 0] >= log.shape[0]:
         log = np.zeros((int(log[0, 0]) + 1, 3))
-        run(*arguments, peaks, log)
-    if status not in OUTCOMES:
-        raise failure(status, impacts)
-    ratios = [sides[k].rotation_ratio(float(peaks[0, k])) for k in (0, -1)]
-    outcome = OUTCOMES[status] if math.isfinite(max(ratios)) else Outcome.OVERTURNS
+        follow(reduced, forcing, factor, lift, None, tolerance, **how, log=log)
+    row = results[0].tolist()
+    if row[STATUS] not in OUTCOMES:
+        raise failure(row[STATUS], row[IMPACTS])
+    ratios = sides[0].rotation_ratio(row[PEAKS]), sides[-1].rotation_ratio(row[PEAKS + 1])
+    outcome = OUTCOMES[row[STATUS]] if math.isfinite(max(ratios)) else Outcome.OVERTURNS
     largest = 0 if ratios[0] >= ratios[1] else 1
-    rocks = outcome is Outcome.ROCKS
-    times, rotation, velocity = (None, None, None) if table is None else _states(table, log)
+    rocks, begin = outcome is Outcome.ROCKS, forcing.start_time
+    states = _states(table_of(reduced, forcing.vertical), log) if history else (None, None, None)
     return Response(
         rotation_ratio=math.inf if outcome is Outcome.OVERTURNS else ratios[largest],
         outcome=outcome,
-        impacts=impacts,
-        peak_time=forcing.start_time + float(peaks[1, largest]) if rocks else math.nan,
-        uplift_time=forcing.start_time + uplift,
-        peak_side=(1, -1)[largest] if rocks else last_side,
-        steps=steps,
-        tolerance=tolerance,
+        impacts=int(row[IMPACTS]),
+        peak_time=begin + row[TIMES + largest] if rocks else math.nan,
+        uplift_time=begin + row[UPLIFT],
+        peak_side=(1, -1)[largest] if rocks else int(row[SIDE]),
+        steps=int(row[STEPS]),
+        tolerance=0.0 if isinstance(sides[0], EquivalentBlock) else tolerance,
         warning=WEIGHTLESS if forcing.weightless else "",
-        times=None if times is None else times + forcing.start_time,
-        rotation=rotation,
-        angular_velocity=velocity,
+        times=None if states[0] is None else states[0] + begin,
+        rotation=states[1],
+        angular_velocity=states[2],
     )
 
 
@@ -265,7 +274,7 @@ def _sensitivity(reduced: Mechanism | EquivalentBlock, forcing: Forcing, start: 
     """d ln φ_max / d ln a, by a central difference of two tightly integrated neighbours; inf where one overturns."""
     factors = (1 - _NUDGE, 1 + _NUDGE)
     below, above = (
-        _follow(reduced, forcing.scaled(factor), _TIGHT, start).rotation_ratio for factor in factors
+        _response(reduced, forcing.scaled(factor), _TIGHT, start).rotation_ratio for factor in factors
     )
     if not (0 < below < math.inf and 0 < above < math.inf):
         return math.inf

@@ -24,6 +24,7 @@ from rocking.motion.compiled import (
     SETTLED,
     TOO_MANY_IMPACTS,
     compiled,
+    conclude,
     crossing,
     entry,
     forget,
@@ -49,9 +50,10 @@ class Blocks(NamedTuple):
 
 
 class Samples(NamedTuple):
-    """A record: ü_g (n,), the time step, and what the rest of it can take back, from `takeback`.
+    """A record: ü_g (n,), the time step, and what the rest of it can take back, from `_takeback`.
 
-    takeable: (k, 2, n), of side k where positive ü_g pushes it back, then where negative ü_g does.
+    takeable: (k, 2, n), of side k where positive ü_g pushes it back, then where negative ü_g does; filled when it is
+    needed where its last value is negative.
     """
 
     ground: np.ndarray
@@ -199,8 +201,8 @@ def _sample_events(x, w, drive, ramp, span):
     return -1.0, peak, at
 
 
-@entry
-def takeback(ground, time_step, frequency, side, out):
+@compiled
+def _takeback(ground, time_step, frequency, side, out):
     """Fill out (n,) with what the rest of the record can take from the unstable coordinate x − 1 + x'/p.
 
     The largest, over all later instants T, of p ∫ s ü_g exp(−p (t − t_i)) dt up to T: a backward recursion. Divided by
@@ -391,15 +393,9 @@ def _meet(blocks, samples, factor, restitution, k, motion, sample, unstable, tak
     return Motion(i + 1, 0.0, sample.x, sample.w, side), OVERTURNS if falls else ROCKS, 0
 
 
-@entry
-def rock_linear(blocks, samples, factor, restitution, start, settle, best, log):
-    """Follow an equivalent block through a record and on, exactly: per sample in closed form, events by iteration.
-
-    factor: of ü_g. restitution: η of the positive and of the negative side. settle: whether a chain of impacts that
-    provably dies out is left out, with its impacts. best: (2, 2), filled with the largest x of the positive and of the
-    negative side, and their times. log: (1 + m, 3) for the history, whose lines the first row counts, or no rows.
-    Returns status, impacts, uplift time, last side, steps.
-    """
+@compiled
+def _rock(blocks, samples, factor, restitution, start, settle, best, log):
+    """Follow an equivalent block through a record and on. Returns status, impacts, uplift time, last side, steps."""
     ground, time_step, last = samples.ground, samples.time_step, blocks.frequency.size - 1
     whole = _weights(blocks.frequency[0] * time_step), _weights(blocks.frequency[last] * time_step)
     _begin(blocks, start, best, log)
@@ -418,10 +414,10 @@ def rock_linear(blocks, samples, factor, restitution, start, settle, best, log):
             continue
         k = 0 if side > 0 else last
         p, push, span = blocks.frequency[k], blocks.push[k], blocks.span[k]
-        unstable, takeable = (
-            push * abs(factor) * (1 + 1e-12),
-            samples.takeable[k, 0 if side * factor > 0 else 1],
-        )
+        pushed = 0 if side * factor > 0 else 1
+        unstable, takeable = push * abs(factor) * (1 + 1e-12), samples.takeable[k, pushed]
+        if takeable[-1] < 0:
+            _takeback(ground, time_step, p, 1 - 2 * pushed, takeable)
         motion, sample, fallen, passed = _glide(
             ground, takeable, time_step, p, side * push * factor, unstable, whole[k], motion, side * span, log
         )
@@ -441,33 +437,16 @@ def rock_linear(blocks, samples, factor, restitution, start, settle, best, log):
 
 
 @entry
-def rock_linear_members(
-    frequency, push, span, one_sided, samples, factors, restitution, best, log, status, peaks, impacts
-):
-    """`rock_linear` from rest for every member (m,): fill status, peaks (m, 2), the largest x by side, and impacts.
+def rock_linear(blocks, samples, factors, restitution, start, settle, best, log, results):
+    """Follow an equivalent block through a record and on, exactly, once for every member (m,): fill results (m, 9).
 
-    frequency, push, span: (m, k), a row of Blocks for each member. samples: with negative `takeable`, which is filled
-    where a member needs it. factors: (m,) of ü_g. restitution: (m, 2), of the positive and of the negative side. best,
-    log: scratch, (2, 2) and no rows. status, peaks, impacts: 0. Chains of impacts that provably die out are not
-    followed, nor counted.
+    factors: (m,) of ü_g. restitution: (m, 2), η of the positive and of the negative side. settle: whether a chain of
+    impacts that provably dies out is left out, with its impacts. best: (2, 2), scratch for the largest x of both sides
+    and their times. log: (1 + m, 3) for the history, whose lines the first row counts, or no rows.
     """
-    ground, time_step = samples.ground, samples.time_step
-    settle = factors.size > 0  # for literals `rock_linear` would be compiled once more
-    begin = Motion(0, 0.0, 0.0, 0.0, 0)
     for m in range(factors.size):
-        for k in range(frequency.shape[1]):
-            if m > 0 and frequency[m, k] != frequency[m - 1, k]:
-                samples.takeable[k, 0, -1] = samples.takeable[k, 1, -1] = -1.0
-        blocks = Blocks(frequency[m], push[m], span[m], one_sided)
-        i, tau, side = _uplift(blocks, ground, factors[m], time_step, begin.interval, begin.offset)
-        if side != 0:
-            for other in (1, -1):
-                k, sign = 0 if other > 0 else blocks.frequency.size - 1, other if factors[m] > 0 else -other
-                takeable = samples.takeable[k, 0 if sign > 0 else 1]
-                if takeable[-1] < 0:
-                    takeback(ground, time_step, blocks.frequency[k], sign, takeable)
-            start, eta = Motion(i, tau, 0.0, 0.0, side), (restitution[m, 0], restitution[m, 1])
-            status[m], impacts[m], _, _, _ = rock_linear(
-                blocks, samples, factors[m], eta, start, settle, best, log
-            )
-            peaks[m, 0], peaks[m, 1] = best[0, 0], best[0, 1]
+        eta = restitution[m, 0], restitution[m, 1]
+        status, impacts, uplift, side, steps = _rock(
+            blocks, samples, factors[m], eta, start, settle, best, log
+        )
+        conclude(results[m], status, impacts, uplift, side, steps, best)

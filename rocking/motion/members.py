@@ -1,26 +1,15 @@
 """Many responses of one structure to one ground motion in one compiled call: the members of an ensemble."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from rocking.errors import MotionError
-from rocking.motion import linear_kernel, nonlinear_kernel
-from rocking.motion.compiled import OVERTURNS, ROCKS
+from rocking.motion.compiled import IMPACTS, OVERTURNS, PEAKS, ROCKS, STATUS
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
-from rocking.motion.integration import (
-    NO_LOG,
-    STEP_SHARE,
-    TOLERANCES,
-    Rocking,
-    blocks_of,
-    failure,
-    reduce,
-    solvable_exactly,
-)
-from rocking.motion.table import SideTable, table_of
+from rocking.motion.integration import TOLERANCES, Rocking, failure, follow, reduce, solvable_exactly
 from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
@@ -160,51 +149,30 @@ def follow_factors(
 
     horizontal, vertical: factors (m,) of the two components; None: no vertical component. restitution: (m, 2) or None.
     """
-    count, sides = horizontal.size, reduced.sides
-    lift, still = np.zeros(count) if vertical is None else vertical, replace(forcing, vertical=False)
-    own = (sides[0].restitution, sides[-1].restitution) if restitution is None else restitution
-    eta, best = np.full((count, 2), own), np.zeros((2, 2))
-    results = np.zeros(count, int), np.zeros((count, 2)), np.zeros(count, int)
-    block = reduced if isinstance(reduced, EquivalentBlock) and solvable_exactly(reduced, still) else None
-    if block and not lift.any():
-        one, takeable = blocks_of(block), np.empty((len(sides), 2, forcing.samples))
-        takeable[..., -1] = -1.0  # to be filled
-        rows = (np.tile(values, (count, 1)) for values in (one.frequency, one.push, one.span))
-        samples = linear_kernel.Samples(forcing.ground.horizontal, forcing.ground.time_step, takeable)
-        linear_kernel.rock_linear_members(
-            *rows, one.one_sided, samples, horizontal, eta, best, NO_LOG, *results
-        )
-        return _concluded(block.sides, *results)
-    if block and not lift.all():  # members with and without vertical motion each go their own way
-        ratio, side = np.empty(count), np.empty(count, int)
-        reasons: dict[int, str] = {}
+    lift = np.zeros(horizontal.size) if vertical is None else vertical
+    exact = isinstance(reduced, EquivalentBlock) and solvable_exactly(reduced, forcing)
+    reasons: dict[int, str] = {}
+    if exact and 0 < np.count_nonzero(lift) < lift.size:
+        # Members with and without vertical motion each go their own way.
+        ratio, side = np.empty(lift.size), np.empty(lift.size, int)
         for places in (np.flatnonzero(lift == 0), np.flatnonzero(lift)):
-            some = follow_factors(reduced, forcing, horizontal[places], lift[places], eta[places], tolerance)
+            eta = None if restitution is None else restitution[places]
+            some = follow_factors(reduced, forcing, horizontal[places], lift[places], eta, tolerance)
             ratio[places], side[places] = some.rotation_ratio, some.peak_side
             reasons |= {int(places[k]): reason for k, reason in some.reasons.items()}
         return MemberResponses(ratio, side, reasons)
-    table = table_of(reduced, forcing.vertical)
-    kernel, step_tolerance = table.kernel_of(forcing), STEP_SHARE * tolerance
-    scratch = nonlinear_kernel.memory(kernel.ties), best, NO_LOG
-    nonlinear_kernel.rock_members(
-        kernel, forcing.ground, horizontal, lift, eta, step_tolerance, *scratch, *results
-    )
-    return _concluded(table.sides, *results)
-
-
-def _concluded(
-    sides: Sequence[SideTable | EquivalentBlock], status: np.ndarray, peaks: np.ndarray, impacts: np.ndarray
-) -> MemberResponses:
-    """status, peaks, impacts: (m,), (m, 2) and (m,) as the kernels leave them. sides: one where they are mirrored."""
-    peaks[status != ROCKS] = 0.0
+    sides, results = follow(reduced, forcing, horizontal, lift, restitution, tolerance)
+    status = results[:, STATUS]
+    arcs = np.where(status == ROCKS, results[:, PEAKS : PEAKS + 2].T, 0.0)
     if len(sides) == 1:
-        side, ratio = np.where(peaks[:, 0] >= peaks[:, 1], 1, -1), sides[0].rotation_ratios(peaks.max(axis=1))
+        one, other = sides[0].rotation_ratios(arcs)
     else:
-        one, other = (side.rotation_ratios(peaks[:, column]) for column, side in enumerate(sides))
-        side, ratio = np.where(one >= other, 1, -1), np.maximum(one, other)
+        one, other = (each.rotation_ratios(own) for each, own in zip(sides, arcs, strict=True))
+    ratio, side = np.maximum(one, other), np.where(one >= other, 1, -1)
     side[status == 0] = 0
-    ratio[status == OVERTURNS] = np.inf  # as it is where it passed the end of the mechanism
-    failed = np.flatnonzero(status > OVERTURNS)
-    ratio[failed], side[failed] = np.nan, 0
-    reasons = {int(k): str(failure(int(status[k]), int(impacts[k]))) for k in failed}
+    if status.max(initial=ROCKS) > ROCKS:
+        ratio[status == OVERTURNS] = np.inf  # as it is where it passed the end of the mechanism
+        failed = np.flatnonzero(status > OVERTURNS)
+        ratio[failed], side[failed] = np.nan, 0
+        reasons = {int(k): str(failure(*results[k, [STATUS, IMPACTS]])) for k in failed}
     return MemberResponses(ratio, side, reasons)

@@ -28,6 +28,7 @@ from rocking.motion.compiled import (
     SETTLED,
     TOO_MANY_IMPACTS,
     compiled,
+    conclude,
     crossing,
     entry,
     forget,
@@ -861,15 +862,9 @@ def _strike(sides, phase, ground, member, k, motion, step, settle, best, log):
     return Motion(i, tau, 0.0, speed, side, 0.0, speed)
 
 
-@entry
-def rock(sides, ground, member, start, tolerance, settle, phase, best, log):
-    """Follow a mechanism through a ground motion and on until no larger peak can come.
-
-    settle: whether a chain of impacts that provably dies out is left out, with its impacts. phase: room for the memory
-    of the ties. best: (2, 2), filled with the largest arc of the positive and of the negative side, and their times.
-    log: (1 + m, 3) for the history, whose lines the first row counts, or no rows.
-    Returns status, impacts, uplift time, last side, steps.
-    """
+@compiled
+def _rock(sides, ground, member, start, tolerance, settle, phase, best, log):
+    """Follow a mechanism through a ground motion and on. Returns status, impacts, uplift time, last side, steps."""
     time_step, motion = ground.time_step, start
     _begin(sides, phase, start, best, log)
     impacts, steps, turns = 0, 0, 0
@@ -909,20 +904,19 @@ def rock(sides, ground, member, start, tolerance, settle, phase, best, log):
 
 
 @entry
-def rock_members(
-    sides, ground, horizontal, vertical, restitution, tolerance, phase, best, log, status, peaks, impacts
+def rock(
+    sides, ground, horizontal, vertical, restitution, start, tolerance, settle, phase, best, log, results
 ):
-    """`rock` for every member (m,): fill status, peaks (m, 2), the largest arc of each side, and impacts.
+    """Follow a mechanism through a ground motion, until no larger peak can come, for every member: fill results (m, 9).
 
-    horizontal, vertical: (m,) factors of ü_g and ü_v. restitution: (m, 2), of the positive and of the negative side.
-    phase, best, log: scratch as `rock` takes it, the log without rows. Chains of impacts that provably die out are not
-    followed, nor counted.
+    horizontal, vertical: (m,) factors of ü_g and ü_v. restitution: (m, 2), η of the positive and of the negative side.
+    settle: whether a chain of impacts that provably dies out is left out, with its impacts. phase: room for the memory
+    of the ties. best: (2, 2), scratch for the largest arc of both sides and their times. log: (1 + m, 3) for the
+    history, whose lines the first row counts, or no rows.
     """
-    settle = horizontal.size > 0  # for a literal True `rock` would be compiled once more
-    start = Motion(0, 0.0, 0.0, 0.0, 0, 0.0, 0.0)
     for m in range(horizontal.size):
         member = Member(horizontal[m], vertical[m], (restitution[m, 0], restitution[m, 1]))
-        status[m], impacts[m], _, _, _ = rock(
+        status, impacts, uplift, side, steps = _rock(
             sides, ground, member, start, tolerance, settle, phase, best, log
         )
-        peaks[m, 0], peaks[m, 1] = best[0, 0], best[0, 1]
+        conclude(results[m], status, impacts, uplift, side, steps, best)
