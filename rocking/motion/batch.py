@@ -11,9 +11,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rocking.errors import MotionError, RockingError
-from rocking.motion.forcing import GroundMotion, forcing_of
-from rocking.motion.integration import LARGEST_GROWTH, TOLERANCES, Rocking, reduce
-from rocking.motion.members import Members, follow_factors
+from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
+from rocking.motion.integration import (
+    LARGEST_GROWTH,
+    TOLERANCES,
+    Rocking,
+    follow_blocks,
+    reduce,
+    solvable_exactly,
+)
+from rocking.motion.members import Members, concluded, follow_factors
 from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import EquivalentBlock
@@ -57,7 +64,12 @@ def integrate_batch(
     workers = workers or os.cpu_count() or 1
 
     def run(job: Sequence[tuple[int, slice]]) -> None:
-        for index, some in job:
+        places, some = [index for index, _ in job], job[0][1]
+        if blocks := _plain_blocks([structures[index] for index in places], forcing):
+            responses = concluded(blocks[0].sides, follow_blocks(blocks, forcing, factors[some]))
+            ratios[places, some] = responses.rotation_ratio.reshape(len(places), -1)
+            return
+        for index in places:
             with suppress(RockingError):
                 lift = factors[some] if forcing.vertical else None
                 reduced = reduce(structures[index])
@@ -70,8 +82,26 @@ def integrate_batch(
     return ratios
 
 
+def _plain_blocks(structures: Sequence[Rocking], forcing: Forcing) -> list[EquivalentBlock]:
+    """The structures, where they are blocks that one call can follow: alike, exact, and without a rotation_map."""
+    blocks = [each for each in structures if isinstance(each, EquivalentBlock)]
+    kinds = {(len(each.sides), each.one_sided) for each in blocks}
+    plain = all(
+        solvable_exactly(each, forcing) and all(side.rotation_map is None for side in each.sides)
+        for each in blocks
+    )
+    return (
+        blocks
+        if len(blocks) == len(structures) and len(kinds) == 1 and plain and not forcing.vertical
+        else []
+    )
+
+
 def _shared_out(structures: int, factors: int, workers: int) -> list[list[tuple[int, slice]]]:
-    """Jobs of calls, each a structure's place and which factors: as many as are worth a thread, and keep all busy."""
+    """Jobs of calls, each a structure's place and which factors, the same ones within a job.
+
+    As many calls as are worth a thread, and jobs as keep all of them busy.
+    """
     parts = max(1, -(-2 * workers // max(structures, 1))) if workers > 1 else 1
     chunk = max(_SMALLEST_CHUNK, -(-factors // parts))
     slices = [slice(start, start + chunk) for start in range(0, factors, chunk)]

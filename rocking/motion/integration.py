@@ -150,40 +150,56 @@ def follow(
     horizontal, vertical: factors (m,) of the components. restitution: (m, 2), or None for its own. settle, log: as the
     kernels take them. Without vertical motion an EquivalentBlock is followed through a record exactly.
     """
-    results, eta = np.zeros((horizontal.size, COLUMNS)), np.empty((horizontal.size, 2))
-    own = reduced.sides[0].restitution, reduced.sides[-1].restitution
-    eta[:] = own if restitution is None else restitution
-    scratch = np.empty((2, 2)), log, results
-    if isinstance(reduced, EquivalentBlock) and solvable_exactly(reduced, forcing) and not vertical.any():
-        sides, ground = reduced.sides, forcing.ground
-        takeable = np.empty((len(sides), 2, forcing.samples))
-        takeable[..., -1] = -1.0  # to be filled
-        samples = linear_kernel.Samples(ground.horizontal, ground.time_step, takeable)
-        motion = linear_kernel.Motion(0, 0.0, 0.0, 0.0, 0)
-        if start[2]:
-            side = sides[0 if start[2] > 0 else -1]
-            arc, speed = _initial_arc(linear_table(reduced), start)
-            motion = motion._replace(x=arc / side.critical_arc, w=speed / side.velocity_scale, side=start[2])
-        linear_kernel.rock_linear(blocks_of(reduced), samples, horizontal, eta, motion, settle, *scratch)
-        return sides, results
-    table = table_of(reduced, forcing.vertical)
-    kernel = table.kernel_of(forcing)
+    exact = isinstance(reduced, EquivalentBlock) and solvable_exactly(reduced, forcing)
+    if isinstance(reduced, EquivalentBlock) and exact and not vertical.any():
+        results = follow_blocks(
+            [reduced], forcing, horizontal, restitution, start=start, settle=settle, log=log
+        )
+        return reduced.sides, results
+    table, results = table_of(reduced, forcing.vertical), np.zeros((horizontal.size, COLUMNS))
+    kernel, eta = table.kernel_of(forcing), np.empty((horizontal.size, 2))
+    eta[:] = table.restitution if restitution is None else restitution
     arc, speed = _initial_arc(table, start) if start[2] else (0.0, 0.0)
     begin = nonlinear_kernel.Motion(0, 0.0, arc, speed, start[2], arc, abs(speed))
-    how = STEP_SHARE * tolerance, settle, nonlinear_kernel.memory(kernel.ties)
-    nonlinear_kernel.rock(kernel, forcing.ground, horizontal, vertical, eta, begin, *how, *scratch)
+    how = STEP_SHARE * tolerance, settle, nonlinear_kernel.memory(kernel.ties), np.empty((2, 2)), log
+    nonlinear_kernel.rock(kernel, forcing.ground, horizontal, vertical, eta, begin, *how, results)
     return table.sides, results
 
 
-def blocks_of(block: EquivalentBlock) -> linear_kernel.Blocks:
-    """What the linear kernel takes of a block."""
-    sides = block.sides
-    return linear_kernel.Blocks(
-        frequency=np.array([each.frequency_parameter for each in sides]),
-        push=np.array([1 / (GRAVITY * each.uplift_multiplier) for each in sides]),
-        span=np.array([each.critical_arc for each in sides]),
-        one_sided=block.one_sided,
+def follow_blocks(
+    blocks: Sequence[EquivalentBlock],
+    forcing: Forcing,
+    factors: np.ndarray,
+    restitution: np.ndarray | None = None,
+    *,
+    start: Start = REST,
+    settle: bool = True,
+    log: np.ndarray = NO_LOG,
+) -> np.ndarray:
+    """Follow b blocks, alike in their sides, exactly through a record times each of m factors: results (b m, 9).
+
+    restitution, start, settle, log: as `follow` takes them, of one block.
+    """
+    sides, ground, count = [block.sides for block in blocks], forcing.ground, len(blocks)
+    eta = np.empty((count, factors.size, 2))
+    own = np.array([(each[0].restitution, each[-1].restitution) for each in sides])
+    eta[:] = own[:, None] if restitution is None else restitution
+    rows = linear_kernel.Blocks(
+        frequency=np.array([[side.frequency_parameter for side in each] for each in sides]),
+        push=np.array([[1 / (GRAVITY * side.uplift_multiplier) for side in each] for each in sides]),
+        span=np.array([[side.critical_arc for side in each] for each in sides]),
+        one_sided=blocks[0].one_sided,
     )
+    takeable = np.empty((len(sides[0]), 2, forcing.samples))
+    samples = linear_kernel.Samples(ground.horizontal, ground.time_step, takeable)
+    begin, which = linear_kernel.Motion(0, 0.0, 0.0, 0.0, 0), np.repeat(np.arange(count), factors.size)
+    if start[2]:
+        side = sides[0][0 if start[2] > 0 else -1]
+        arc, speed = _initial_arc(linear_table(blocks[0]), start)
+        begin = begin._replace(x=arc / side.critical_arc, w=speed / side.velocity_scale, side=start[2])
+    results, moved = np.zeros((which.size, COLUMNS)), (np.tile(factors, count), eta.reshape(-1, 2))
+    linear_kernel.rock_linear(rows, which, samples, *moved, begin, settle, np.empty((2, 2)), log, results)
+    return results
 
 
 def failure(status: float, impacts: float) -> MotionError:

@@ -10,6 +10,7 @@ from rocking.errors import MotionError
 from rocking.motion.compiled import IMPACTS, OVERTURNS, PEAKS, ROCKS, STATUS
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.integration import TOLERANCES, Rocking, failure, follow, reduce, solvable_exactly
+from rocking.motion.table import SideTable
 from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
@@ -151,18 +152,22 @@ def follow_factors(
     """
     lift = np.zeros(horizontal.size) if vertical is None else vertical
     exact = isinstance(reduced, EquivalentBlock) and solvable_exactly(reduced, forcing)
-    reasons: dict[int, str] = {}
     if exact and 0 < np.count_nonzero(lift) < lift.size:
         # Members with and without vertical motion each go their own way.
         ratio, side = np.empty(lift.size), np.empty(lift.size, int)
+        reasons: dict[int, str] = {}
         for places in (np.flatnonzero(lift == 0), np.flatnonzero(lift)):
             eta = None if restitution is None else restitution[places]
             some = follow_factors(reduced, forcing, horizontal[places], lift[places], eta, tolerance)
             ratio[places], side[places] = some.rotation_ratio, some.peak_side
             reasons |= {int(places[k]): reason for k, reason in some.reasons.items()}
         return MemberResponses(ratio, side, reasons)
-    sides, results = follow(reduced, forcing, horizontal, lift, restitution, tolerance)
-    status = results[:, STATUS]
+    return concluded(*follow(reduced, forcing, horizontal, lift, restitution, tolerance))
+
+
+def concluded(sides: Sequence[SideTable | EquivalentBlock], results: np.ndarray) -> MemberResponses:
+    """Return what the results (m, 9) of a kernel say; sides: one where they are mirrored."""
+    status, reasons = results[:, STATUS], {}
     arcs = np.where(status == ROCKS, results[:, PEAKS : PEAKS + 2].T, 0.0)
     if len(sides) == 1:
         one, other = sides[0].rotation_ratios(arcs)
