@@ -8,21 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from rocking.errors import MotionError
-from rocking.motion import linear_kernel, nonlinear_kernel
-from rocking.motion.compiled import (
-    COLUMNS,
-    IMPACT_LIMIT,
-    IMPACTS,
-    OVERTURNS,
-    PEAKS,
-    ROCKS,
-    SIDE,
-    STATUS,
-    STEPS,
-    TIMES,
-    TOO_MANY_IMPACTS,
-    UPLIFT,
-)
+from rocking.motion import linear_kernel, nonlinear_kernel, runs
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.response import Response
 from rocking.motion.table import SideTable, Table, linear_table, table_of
@@ -48,7 +34,7 @@ TOLERANCES = (1e-13, 0.1)
 """Smallest and largest relative tolerance."""
 STEP_SHARE = 0.03
 """Share of the tolerance that one step may spend: each flight amplifies the errors of those before it."""
-OUTCOMES = {0: Outcome.NO_UPLIFT, ROCKS: Outcome.ROCKS, OVERTURNS: Outcome.OVERTURNS}
+OUTCOMES = {0: Outcome.NO_UPLIFT, runs.ROCKS: Outcome.ROCKS, runs.OVERTURNS: Outcome.OVERTURNS}
 WEIGHTLESS = (
     "the vertical motion takes away more than gravity for an instant, so that bodies would fly; the model keeps them "
     "on the ground."
@@ -156,7 +142,7 @@ def follow(
             [reduced], forcing, horizontal, restitution, start=start, settle=settle, log=log
         )
         return reduced.sides, results
-    table, results = table_of(reduced, forcing.vertical), np.zeros((horizontal.size, COLUMNS))
+    table, results = table_of(reduced, forcing.vertical), np.zeros((horizontal.size, runs.COLUMNS))
     kernel, eta = table.kernel_of(forcing), np.empty((horizontal.size, 2))
     eta[:] = table.restitution if restitution is None else restitution
     arc, speed = _initial_arc(table, start) if start[2] else (0.0, 0.0)
@@ -197,17 +183,17 @@ def follow_blocks(
         side = sides[0][0 if start[2] > 0 else -1]
         arc, speed = _initial_arc(linear_table(blocks[0]), start)
         begin = begin._replace(x=arc / side.critical_arc, w=speed / side.velocity_scale, side=start[2])
-    results, moved = np.zeros((which.size, COLUMNS)), (np.tile(factors, count), eta.reshape(-1, 2))
+    results, moved = np.zeros((which.size, runs.COLUMNS)), (np.tile(factors, count), eta.reshape(-1, 2))
     linear_kernel.rock_linear(rows, which, samples, *moved, begin, settle, np.empty((2, 2)), log, results)
     return results
 
 
 def failure(status: float, impacts: float) -> MotionError:
     """Why a run has no answer."""
-    if status == TOO_MANY_IMPACTS:
+    if status == runs.TOO_MANY_IMPACTS:
         return MotionError(
             f"the structure met {impacts:.0f} impacts before the motion ended, but at most "
-            f"{IMPACT_LIMIT} are followed; a restitution below 1 brings it to rest."
+            f"{runs.IMPACT_LIMIT} are followed; a restitution below 1 brings it to rest."
         )
     return MotionError("the motion left the range of floating-point numbers; check the record's amplitude.")
 
@@ -250,21 +236,21 @@ def _response(
         log = np.zeros((int(log[0, 0]) + 1, 3))
         follow(reduced, forcing, factor, lift, None, tolerance, **how, log=log)
     row = results[0].tolist()
-    if row[STATUS] not in OUTCOMES:
-        raise failure(row[STATUS], row[IMPACTS])
-    ratios = sides[0].rotation_ratio(row[PEAKS]), sides[-1].rotation_ratio(row[PEAKS + 1])
-    outcome = OUTCOMES[row[STATUS]] if math.isfinite(max(ratios)) else Outcome.OVERTURNS
+    if row[runs.STATUS] not in OUTCOMES:
+        raise failure(row[runs.STATUS], row[runs.IMPACTS])
+    ratios = sides[0].rotation_ratio(row[runs.PEAKS]), sides[-1].rotation_ratio(row[runs.PEAKS + 1])
+    outcome = OUTCOMES[row[runs.STATUS]] if math.isfinite(max(ratios)) else Outcome.OVERTURNS
     largest = 0 if ratios[0] >= ratios[1] else 1
     rocks, begin = outcome is Outcome.ROCKS, forcing.start_time
     states = _states(table_of(reduced, forcing.vertical), log) if history else (None, None, None)
     return Response(
         rotation_ratio=math.inf if outcome is Outcome.OVERTURNS else ratios[largest],
         outcome=outcome,
-        impacts=int(row[IMPACTS]),
-        peak_time=begin + row[TIMES + largest] if rocks else math.nan,
-        uplift_time=begin + row[UPLIFT],
-        peak_side=(1, -1)[largest] if rocks else int(row[SIDE]),
-        steps=int(row[STEPS]),
+        impacts=int(row[runs.IMPACTS]),
+        peak_time=begin + row[runs.TIMES + largest] if rocks else math.nan,
+        uplift_time=begin + row[runs.UPLIFT],
+        peak_side=(1, -1)[largest] if rocks else int(row[runs.SIDE]),
+        steps=int(row[runs.STEPS]),
         tolerance=0.0 if isinstance(sides[0], EquivalentBlock) else tolerance,
         warning=WEIGHTLESS if forcing.weightless else "",
         times=None if states[0] is None else states[0] + begin,

@@ -12,26 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.motion.compiled import (
-    IMPACT_LIMIT,
-    INSTANT,
-    LOOK_AHEAD,
-    NOT_FINITE,
-    OVERTURNS,
-    PAUSE,
-    REST_ENERGY,
-    ROCKS,
-    SETTLED,
-    TOO_MANY_IMPACTS,
-    compiled,
-    conclude,
-    crossing,
-    entry,
-    forget,
-    keep,
-    part,
-    write,
-)
+from rocking.motion import runs
+from rocking.motion.runs import compiled, entry, part
 
 NEAR = 1 / 16
 """Largest x of a chain of impacts that is looked at as a whole."""
@@ -99,7 +81,7 @@ def _uplift(blocks, ground, factor, time_step, i, tau):
         return i, tau, (1 if positive >= negative else -1)
     while i < count:
         next_positive, next_negative = _margins(blocks, factor * ground[i + 1])
-        share, side = crossing(positive, negative, next_positive, next_negative)
+        share, side = runs.crossing(positive, negative, next_positive, next_negative)
         if side != 0:
             return i, tau + share * (time_step - tau), side
         positive, negative, tau = next_positive, next_negative, 0.0
@@ -152,11 +134,11 @@ def _exact(x, w, drive, ramp, y):
 
 @compiled
 def _exact_root(x, w, drive, ramp, low, high, first, last, of_velocity):
-    """The zero of w (or of x) between two scaled times where it is `first` and `last`, to rounding."""
+    """The zero of w (of_velocity > 0) or of x between two scaled times where it is `first` and `last`, to rounding."""
     y = low + (high - low) * (first / (first - last))
     for _ in range(100):
         a, b, c = _exact(x, w, drive, ramp, y)
-        value, slope = (b, c) if of_velocity else (a, b)
+        value, slope = (b, c) if of_velocity > 0 else (a, b)
         if (value > 0) == (last > 0):
             high = y
         else:
@@ -165,7 +147,7 @@ def _exact_root(x, w, drive, ramp, low, high, first, last, of_velocity):
         if not low <= new <= high:
             new = 0.5 * (low + high)
         move, y = abs(new - y), new
-        if move <= SETTLED * y:
+        if move <= runs.SETTLED * y:
             break
     return y
 
@@ -185,18 +167,18 @@ def _sample_events(x, w, drive, ramp, span):
             bound = span
         height, end, _ = _exact(x, w, drive, ramp, bound)
         if speed > 0 >= end:
-            turn = _exact_root(x, w, drive, ramp, low, bound, speed, end, True)
+            turn = _exact_root(x, w, drive, ramp, low, bound, speed, end, 1.0)
             floor, _, _ = _exact(x, w, drive, ramp, turn)
             if floor > peak:
                 peak, at = floor, turn
             low = turn
         elif speed < 0 <= end:
-            turn = _exact_root(x, w, drive, ramp, low, bound, speed, end, True)
+            turn = _exact_root(x, w, drive, ramp, low, bound, speed, end, 1.0)
             bottom, _, _ = _exact(x, w, drive, ramp, turn)
             if bottom <= 0:
-                return _exact_root(x, w, drive, ramp, low, turn, floor, bottom, False), peak, at
+                return _exact_root(x, w, drive, ramp, low, turn, floor, bottom, 0.0), peak, at
         if height <= 0 and end < 0:
-            return _exact_root(x, w, drive, ramp, low, bound, floor, height, False), peak, at
+            return _exact_root(x, w, drive, ramp, low, bound, floor, height, 0.0), peak, at
         low, floor, speed = bound, height, end
     return -1.0, peak, at
 
@@ -233,7 +215,7 @@ def _dies_out(blocks, ground, factor, time_step, restitution, i, tau, speed, bes
     last = blocks.span.shape[0] - 1
     eta, strongest, steepest = max(restitution[0], restitution[1]), 0.0, 0.0
     peak = max(best[0], best[1]) if last == 0 else min(best[0], best[1])
-    for j in range(i, min(i + LOOK_AHEAD, ground.size - 1)):
+    for j in range(i, min(i + runs.LOOK_AHEAD, ground.size - 1)):
         now, then = abs(factor * ground[j]), abs(factor * ground[j + 1])
         strongest, steepest = (
             max(strongest, now, then),
@@ -272,26 +254,26 @@ def _free(motion, time, blocks, restitution, best, log):
     for _ in range(last + 2):
         unstable, stable = x - 1 + w, x - 1 - w
         if unstable >= 0:
-            return OVERTURNS, impacts, side
+            return runs.OVERTURNS, impacts, side
         energy = w * w + x * (2 - x)
         if w > 0:
             peak = energy / (1 + math.sqrt(max(1 - energy, 0.0)))
-            keep(best, log, side, peak, span[k], time + 0.5 * math.log(stable / unstable) / frequency[k])
+            runs.keep(best, log, side, peak, span[k], time + 0.5 * math.log(stable / unstable) / frequency[k])
             turns += 1
             if turns > last:
                 break
         arrival = math.sqrt(energy)
         time += math.log((-1 - arrival) / unstable) / frequency[k]
-        write(log, time, 0.0, -side * arrival * span[k] * frequency[k])
+        runs.write(log, time, 0.0, -side * arrival * span[k] * frequency[k])
         impacts += 1
         w = arrival * restitution[0 if side > 0 else 1] * frequency[k] * span[k]
         if not blocks.one_sided:
             side, k = -side, last - k
         w /= frequency[k] * span[k]
         x = 0.0
-        if w * w <= REST_ENERGY:
+        if w * w <= runs.REST_ENERGY:
             break
-    return ROCKS, impacts, side
+    return runs.ROCKS, impacts, side
 
 
 @part
@@ -324,7 +306,7 @@ def _glide(ground, bound, time_step, p, scale, limit, full, motion, span, log):
         growth, decay, up, up_end, down, down_end = full
         width = p * time_step
         passed += 1
-        write(log, i * time_step, span * x, span * w * p)
+        runs.write(log, i * time_step, span * x, span * w * p)
         fallen = q - 1 > limit * bound[i]
         if fallen or i == ground.size - 1:
             return Motion(i, tau, x, w, side), Sample(drive, final, new, pull), fallen, passed
@@ -333,10 +315,10 @@ def _glide(ground, bound, time_step, p, scale, limit, full, motion, span, log):
 @part
 def _begin(blocks, start, best, log):
     """Forget what `best` held, and write down the start."""
-    forget(best, start.side, start.x)
+    runs.forget(best, start.side, start.x)
     k = 0 if start.side > 0 else blocks.frequency.size - 1
     rotation, velocity = start.side * start.x * blocks.span[k], start.side * start.w * blocks.span[k]
-    write(log, 0.0, rotation, velocity * blocks.frequency[k])
+    runs.write(log, 0.0, rotation, velocity * blocks.frequency[k])
 
 
 @part
@@ -345,7 +327,7 @@ def _lift(blocks, samples, factor, motion, log):
     time_step = samples.time_step
     i, tau, side = _uplift(blocks, samples.ground, factor, time_step, motion.interval, motion.offset)
     if side != 0:
-        write(log, i * time_step + tau, 0.0, 0.0)
+        runs.write(log, i * time_step + tau, 0.0, 0.0)
     return Motion(i, tau, 0.0, 0.0, side)
 
 
@@ -354,17 +336,17 @@ def _strike(blocks, samples, factor, restitution, k, motion, w, landing, settle,
     """The motion after the impact, met with w, at the scaled time `landing`."""
     i, tau, _, _, side = motion
     ground, time_step, span, p = samples.ground, samples.time_step, blocks.span, blocks.frequency
-    instant = landing <= INSTANT * (p[k] * (time_step - tau))
+    instant = landing <= runs.INSTANT * (p[k] * (time_step - tau))
     tau += landing / p[k]
-    write(log, i * time_step + tau, 0.0, side * w * span[k] * p[k])
+    runs.write(log, i * time_step + tau, 0.0, side * w * span[k] * p[k])
     w *= -restitution[0 if side > 0 else 1] * p[k] * span[k]
     if not blocks.one_sided:
         side, k = -side, p.size - 1 - k
     w /= p[k] * span[k]
-    write(log, i * time_step + tau, 0.0, side * w * span[k] * p[k])
-    if not w * w > REST_ENERGY or w < 0:
+    runs.write(log, i * time_step + tau, 0.0, side * w * span[k] * p[k])
+    if not w * w > runs.REST_ENERGY or w < 0:
         side = 0
-        tau += PAUSE * time_step if instant else 0.0
+        tau += runs.PAUSE * time_step if instant else 0.0
     elif settle and w < NEAR:
         speed = w * p[k] * span[k]
         if _dies_out(blocks, ground, factor, time_step, restitution, i, tau, speed, best[0]):
@@ -381,16 +363,16 @@ def _meet(blocks, samples, factor, restitution, k, motion, sample, unstable, tak
     ramp = (sample.final - sample.drive) / y
     landing, peak, at = _sample_events(x, w, sample.drive, ramp, y)
     if peak > 0:
-        keep(best, log, side, peak, span, i * samples.time_step + tau + at / p)
+        runs.keep(best, log, side, peak, span, i * samples.time_step + tau + at / p)
     if landing >= 0:
         _, w, _ = _exact(x, w, sample.drive, ramp, landing)
         motion = _strike(blocks, samples, factor, restitution, k, motion, w, landing, settle, best, log)
-        return motion, ROCKS, 1
+        return motion, runs.ROCKS, 1
     if not abs(sample.x) < np.inf:
-        return motion, NOT_FINITE, 0
-    write(log, (i + 1) * samples.time_step, side * sample.x * span, side * sample.w * span * p)
+        return motion, runs.NOT_FINITE, 0
+    runs.write(log, (i + 1) * samples.time_step, side * sample.x * span, side * sample.w * span * p)
     falls = sample.x + sample.w - 1 > unstable * takeable[i + 1]
-    return Motion(i + 1, 0.0, sample.x, sample.w, side), OVERTURNS if falls else ROCKS, 0
+    return Motion(i + 1, 0.0, sample.x, sample.w, side), runs.OVERTURNS if falls else runs.ROCKS, 0
 
 
 @compiled
@@ -400,14 +382,14 @@ def _rock(blocks, samples, factor, restitution, start, settle, best, log):
     whole = _weights(blocks.frequency[0] * time_step), _weights(blocks.frequency[last] * time_step)
     _begin(blocks, start, best, log)
     motion, impacts, steps, count = start, 0, 0, ground.size - 1
-    status, uplift = (ROCKS, 0.0) if start.side != 0 else (0, np.nan)
-    while motion.interval < count and status <= ROCKS:
+    status, uplift = (runs.ROCKS, 0.0) if start.side != 0 else (0, np.nan)
+    while motion.interval < count and status <= runs.ROCKS:
         if motion.side == 0:
             motion = _lift(blocks, samples, factor, motion, log)
             if motion.side == 0:
                 break
             if status == 0:
-                status, uplift = ROCKS, motion.interval * time_step + motion.offset
+                status, uplift = runs.ROCKS, motion.interval * time_step + motion.offset
         i, tau, x, w, side = motion
         if time_step - tau <= 0:
             motion = Motion(i + 1, 0.0, x, w, side)
@@ -423,14 +405,14 @@ def _rock(blocks, samples, factor, restitution, start, settle, best, log):
         )
         steps += passed
         if fallen:
-            status = OVERTURNS
+            status = runs.OVERTURNS
         elif motion.interval < count:
             motion, status, landed = _meet(
                 blocks, samples, factor, restitution, k, motion, sample, unstable, takeable, settle, best, log
             )
             steps, impacts = steps + 1, impacts + landed
-            status = TOO_MANY_IMPACTS if impacts >= IMPACT_LIMIT else status
-    if motion.side == 0 or status != ROCKS or motion.interval < count:
+            status = runs.TOO_MANY_IMPACTS if impacts >= runs.IMPACT_LIMIT else status
+    if motion.side == 0 or status != runs.ROCKS or motion.interval < count:
         return status, impacts, uplift, motion.side, steps
     status, bounces, side = _free(motion, count * time_step, blocks, restitution, best, log)
     return status, impacts + bounces, uplift, side, steps
@@ -452,4 +434,4 @@ def rock_linear(blocks, which, samples, factors, restitution, start, settle, bes
                 samples.takeable[k, 0, -1] = samples.takeable[k, 1, -1] = -1.0
         own = Blocks(blocks.frequency[b], blocks.push[b], blocks.span[b], blocks.one_sided)
         status, impacts, uplift, side, steps = _rock(own, samples, factors[m], eta, start, settle, best, log)
-        conclude(results[m], status, impacts, uplift, side, steps, best)
+        runs.conclude(results[m], status, impacts, uplift, side, steps, best)

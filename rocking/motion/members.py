@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.errors import MotionError
-from rocking.motion.compiled import IMPACTS, OVERTURNS, PEAKS, ROCKS, STATUS
+from rocking.motion import runs
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.integration import TOLERANCES, Rocking, failure, follow, reduce, solvable_exactly
 from rocking.motion.table import SideTable
@@ -167,17 +167,17 @@ def follow_factors(
 
 def concluded(sides: Sequence[SideTable | EquivalentBlock], results: np.ndarray) -> MemberResponses:
     """Return what the results (m, 9) of a kernel say; sides: one where they are mirrored."""
-    status, reasons = results[:, STATUS], {}
-    arcs = np.where(status == ROCKS, results[:, PEAKS : PEAKS + 2].T, 0.0)
+    status, reasons = results[:, runs.STATUS], {}
+    arcs = np.where(status == runs.ROCKS, results[:, runs.PEAKS : runs.PEAKS + 2].T, 0.0)
     if len(sides) == 1:
         one, other = sides[0].rotation_ratios(arcs)
     else:
         one, other = (each.rotation_ratios(own) for each, own in zip(sides, arcs, strict=True))
     ratio, side = np.maximum(one, other), np.where(one >= other, 1, -1)
     side[status == 0] = 0
-    if status.max(initial=ROCKS) > ROCKS:
-        ratio[status == OVERTURNS] = np.inf  # as it is where it passed the end of the mechanism
-        failed = np.flatnonzero(status > OVERTURNS)
+    if status.max(initial=runs.ROCKS) > runs.ROCKS:
+        ratio[status == runs.OVERTURNS] = np.inf  # as it is where it passed the end of the mechanism
+        failed = np.flatnonzero(status > runs.OVERTURNS)
         ratio[failed], side[failed] = np.nan, 0
-        reasons = {int(k): str(failure(*results[k, [STATUS, IMPACTS]])) for k in failed}
+        reasons = {int(k): str(failure(*results[k, [runs.STATUS, runs.IMPACTS]])) for k in failed}
     return MemberResponses(ratio, side, reasons)

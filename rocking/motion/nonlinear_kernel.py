@@ -17,25 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.motion.compiled import (
-    IMPACT_LIMIT,
-    INSTANT,
-    LOOK_AHEAD,
-    NOT_FINITE,
-    OVERTURNS,
-    PAUSE,
-    ROCKS,
-    SETTLED,
-    TOO_MANY_IMPACTS,
-    compiled,
-    conclude,
-    crossing,
-    entry,
-    forget,
-    keep,
-    part,
-    write,
-)
+from rocking.motion import runs
+from rocking.motion.runs import compiled, entry, part
 
 SHORT_SHARE = 0.1
 """Share of a step's tolerance that the short series may take.
@@ -172,7 +155,7 @@ def _uplift(sides, ground, member, i, tau, held):
     while i < count:
         next_push, next_weight = _accelerations(ground, member, i + 1)
         next_positive, next_negative = _margins(sides, held, next_push, next_weight)
-        share, side = crossing(positive, negative, next_positive, next_negative)
+        share, side = runs.crossing(positive, negative, next_positive, next_negative)
         if side != 0:
             return i, tau + share * (ground.time_step - tau), side
         positive, negative, tau = next_positive, next_negative, 0.0
@@ -317,7 +300,7 @@ def _slack_arc(ties, grid, k, row, target, high):
         if not low <= new <= high:
             new = 0.5 * (low + high)
         move, arc = abs(new - arc), new
-        if move <= SETTLED * arc:
+        if move <= runs.SETTLED * arc:
             break
     return arc
 
@@ -581,47 +564,42 @@ def _glide(sides, phase, ground, member, k, motion, tolerance, log):
             break
         i, arc, speed, push, weight = i + 1, new, pull, next_push, next_weight
         farthest, fastest = max(farthest, arc), max(fastest, abs(speed))
-        write(log, i * h, side * arc, side * speed)
+        runs.write(log, i * h, side * arc, side * speed)
     return Motion(i, tau, arc, speed, side, farthest, fastest)
 
 
 @compiled
-def _turning(x, h):
-    """The zero of the speed within the step, to rounding."""
-    low, high, end = 0.0, h, _speed(x, h)
-    t = h * x[0] / (x[0] - end)
+def _zero(x, arc, low, high, t, last, of_speed):
+    """When the speed (of_speed > 0), or the arc, passes zero between two times, from t on, to rounding.
+
+    last: a value of its sign at `high`.
+    """
     for _ in range(100):
         speed = _speed(x, t)
-        if (speed > 0) == (end > 0):
+        value, slope = (speed, _acceleration(x, t)) if of_speed > 0 else (arc + _displacement(x, t), speed)
+        if (value > 0) == (last > 0):
             high = t
         else:
             low = t
-        new = t - speed / _acceleration(x, t)
+        new = t - value / slope
         if not low <= new <= high:
             new = 0.5 * (low + high)
         move, t = abs(new - t), new
-        if move <= SETTLED * t:
+        if move <= runs.SETTLED * t:
             break
     return t
 
 
 @compiled
+def _turning(x, h, pull):
+    """When the step turns; pull: the speed at its end, h."""
+    return _zero(x, 0.0, 0.0, h, h * x[0] / (x[0] - pull), pull, 1.0)
+
+
+@compiled
 def _landing(x, arc, low, high):
-    """The zero of the arc between the times low (above zero) and high (at or below), to rounding."""
-    t = high
-    for _ in range(100):
-        height = arc + _displacement(x, t)
-        if height > 0:
-            low = t
-        else:
-            high = t
-        new = t - height / _speed(x, t)
-        if not low <= new <= high:
-            new = 0.5 * (low + high)
-        move, t = abs(new - t), new
-        if move <= SETTLED * t:
-            break
-    return t
+    """When the arc passes zero between the times low, where it is above, and high, where it is at zero or below."""
+    return _zero(x, arc, low, high, high, -1.0, 0.0)
 
 
 @part
@@ -629,9 +607,9 @@ def _events(x, h, arc, speed, new, pull):
     """When the step turns and when it lands; −1 where it does not."""
     turn = landing = -1.0
     if speed > 0 >= pull:
-        turn = _turning(x, h)
+        turn = _turning(x, h, pull)
     elif speed < 0 <= pull:
-        turn = _turning(x, h)
+        turn = _turning(x, h, pull)
         if arc + _displacement(x, turn) <= 0:
             return turn, _landing(x, arc, 0.0, turn)
     if not new > 0 and pull < 0:
@@ -718,7 +696,7 @@ def _dies_out(sides, ground, member, i, tau, speed, best):
     peak = best[0] if sides.one_sided else min(best[0], best[1])
     if last == 0 and sides.ties is None:
         peak = max(best[0], best[1])
-    for j in range(i, min(i + LOOK_AHEAD, count)):
+    for j in range(i, min(i + runs.LOOK_AHEAD, count)):
         push, weight = _accelerations(ground, member, j)
         next_push, next_weight = _accelerations(ground, member, j + 1)
         lightest, heaviest = min(lightest, weight, next_weight), max(heaviest, weight, next_weight)
@@ -774,13 +752,13 @@ def _row(sides, side):
 def _begin(sides, phase, start, best, log):
     """Forget what `best` and the ties held, and write down the start."""
     _forget(sides.ties, phase)
-    forget(best, start.side, start.arc)
+    runs.forget(best, start.side, start.arc)
     side = start.side
     if side != 0:
         _enter(sides.ties, sides.grid, phase, side, _row(sides, side), start.arc, 1.0)
         if start.speed < 0:  # it came that far and turned: what yielded there lets go elastically
             _enter(sides.ties, sides.grid, phase, side, _row(sides, side), start.arc, -1.0)
-    write(log, 0.0, side * start.arc, side * start.speed)
+    runs.write(log, 0.0, side * start.arc, side * start.speed)
 
 
 @part
@@ -788,7 +766,7 @@ def _lift(sides, phase, ground, member, motion, log):
     """The motion at its next uplift; at rest still if there is none."""
     i, tau, side = _next_uplift(sides, phase, ground, member, motion.interval, motion.offset)
     if side != 0:
-        write(log, i * ground.time_step + tau, 0.0, 0.0)
+        runs.write(log, i * ground.time_step + tau, 0.0, 0.0)
         _enter(sides.ties, sides.grid, phase, side, _row(sides, side), 0.0, 1.0)
     return Motion(i, tau, 0.0, 0.0, side, 0.0, 0.0)
 
@@ -812,9 +790,9 @@ def _step(sides, phase, ground, member, k, motion, tolerance, left):
     until, leaves = _leaves(sides.ties, phase, slot, x, h, arc, speed, new, turn, landing)
     if leaves != 0:
         h = until
-        if leaves != 2 and until <= INSTANT * ground.time_step:
+        if leaves != 2 and until <= runs.INSTANT * ground.time_step:
             # a rounding: what is beyond is entered after a moment
-            h, leaves = min(PAUSE * ground.time_step, left), 0
+            h, leaves = min(runs.PAUSE * ground.time_step, left), 0
         new, pull, landing = arc + _displacement(x, h), _speed(x, h), -1.0
         turn = turn if turn <= h else -1.0
     return Step(x, h, new, pull, turn, landing, leaves)
@@ -826,7 +804,7 @@ def _carry_on(sides, phase, ground, member, k, motion, step, left, log):
     i, tau, _, _, side, farthest, fastest = motion
     arc, speed, h, leaves, slot = step.arc, step.speed, step.length, step.leaves, 0 if side > 0 else 1
     if not arc > 0 and not abs(arc) < np.inf:
-        return motion, NOT_FINITE
+        return motion, runs.NOT_FINITE
     now = i * ground.time_step + tau
     if leaves == 1 or leaves == -1:
         arc = phase[slot, HIGH if leaves > 0 else LOW]
@@ -835,9 +813,9 @@ def _carry_on(sides, phase, ground, member, k, motion, step, left, log):
         way = 1.0 if leaves == 1 or (leaves == 0 and speed > 0) else -1.0
         _enter(sides.ties, sides.grid, phase, side, k, arc, way)
     i, tau = (i + 1, 0.0) if h == left else (i, tau + h)
-    write(log, now + h, side * arc, side * speed)
+    runs.write(log, now + h, side * arc, side * speed)
     motion = Motion(i, tau, arc, speed, side, max(farthest, arc), max(fastest, abs(speed)))
-    return motion, OVERTURNS if _lost(sides, phase, ground, member, k, motion) else ROCKS
+    return motion, runs.OVERTURNS if _lost(sides, phase, ground, member, k, motion) else runs.ROCKS
 
 
 @part
@@ -847,16 +825,16 @@ def _strike(sides, phase, ground, member, k, motion, step, settle, best, log):
     landing, arrival = step.landing, -_speed(step.series, step.landing)
     now = i * ground.time_step + tau + landing
     tau += landing
-    write(log, now, 0.0, -side * arrival)
+    runs.write(log, now, 0.0, -side * arrival)
     speed = arrival * member.restitution[0 if side > 0 else 1]
     if not sides.one_sided:
         side, k = -side, sides.pieces.shape[0] - 1 - k
-    write(log, now, 0.0, side * speed)
+    runs.write(log, now, 0.0, side * speed)
     _enter(sides.ties, sides.grid, phase, side, k, 0.0, 1.0)
     if not speed > sides.rest_speed[k]:
         side = 0
-        if landing <= INSTANT * ground.time_step:
-            tau += PAUSE * ground.time_step
+        if landing <= runs.INSTANT * ground.time_step:
+            tau += runs.PAUSE * ground.time_step
     elif settle and speed < sides.near[k, 6] and _dies_out(sides, ground, member, i, tau, speed, best[0]):
         side = 0
     return Motion(i, tau, 0.0, speed, side, 0.0, speed)
@@ -868,14 +846,14 @@ def _rock(sides, ground, member, start, tolerance, settle, phase, best, log):
     time_step, motion = ground.time_step, start
     _begin(sides, phase, start, best, log)
     impacts, steps, turns = 0, 0, 0
-    status, uplift = (ROCKS, 0.0) if start.side != 0 else (0, np.nan)
-    while status <= ROCKS:
+    status, uplift = (runs.ROCKS, 0.0) if start.side != 0 else (0, np.nan)
+    while status <= runs.ROCKS:
         if motion.side == 0:
             motion = _lift(sides, phase, ground, member, motion, log)
             if motion.side == 0:
                 break
             if status == 0:
-                status, uplift = ROCKS, motion.interval * time_step + motion.offset
+                status, uplift = runs.ROCKS, motion.interval * time_step + motion.offset
         k = _row(sides, motion.side)
         if time_step - motion.offset <= 0 and not _over(ground, motion.interval):
             _, _, arc, speed, side, farthest, fastest = motion
@@ -890,7 +868,7 @@ def _rock(sides, ground, member, start, tolerance, settle, phase, best, log):
         if motion.speed > 0 and step.turn >= 0:
             peak = motion.arc + _displacement(step.series, step.turn)
             when = motion.interval * time_step + motion.offset + step.turn
-            keep(best, log, motion.side, peak, 1.0, when)
+            runs.keep(best, log, motion.side, peak, 1.0, when)
             turns += _over(ground, motion.interval)
             if turns >= sides.pieces.shape[0]:
                 break
@@ -899,7 +877,7 @@ def _rock(sides, ground, member, start, tolerance, settle, phase, best, log):
         else:
             motion = _strike(sides, phase, ground, member, k, motion, step, settle, best, log)
             impacts += 1
-            status = TOO_MANY_IMPACTS if impacts >= IMPACT_LIMIT else status
+            status = runs.TOO_MANY_IMPACTS if impacts >= runs.IMPACT_LIMIT else status
     return status, impacts, uplift, motion.side, steps
 
 
@@ -919,4 +897,4 @@ def rock(
         status, impacts, uplift, side, steps = _rock(
             sides, ground, member, start, tolerance, settle, phase, best, log
         )
-        conclude(results[m], status, impacts, uplift, side, steps, best)
+        runs.conclude(results[m], status, impacts, uplift, side, steps, best)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.polynomial.polynomial import polyvander
 
 from rocking.errors import MotionError, StructureError
-from rocking.motion.compiled import REST_ENERGY
+from rocking.motion import runs
 from rocking.motion.forcing import Forcing
 from rocking.motion.nonlinear_kernel import Sides, Ties
 from rocking.quantities import GRAVITY
@@ -90,7 +90,7 @@ def linear_side(block: EquivalentBlock) -> SideTable:
         hold=(starts - critical) / scale,
         critical=critical,
         end=np.inf if block.rotation_map is None else block.rotation_map.end,
-        rest_speed=block.velocity_scale * REST_ENERGY**0.5,
+        rest_speed=block.velocity_scale * runs.REST_ENERGY**0.5,
         longest_step=1 / block.frequency_parameter,
         near=(*_near_rest(critical * _NEAR, near), 0.0),
     )
@@ -169,7 +169,7 @@ def _tabulated(side: Side, arc: Arc, inverse: RotationMap, last: float, apart: b
         hold=_hold(gravity, side.ground, rotation_at, starts),
         critical=_standing(gravity, rotation_at, critical) if apart else critical,
         end=end,
-        rest_speed=_reaching_speed(side, rest) * REST_ENERGY**0.5,
+        rest_speed=_reaching_speed(side, rest) * runs.REST_ENERGY**0.5,
         longest_step=1 / np.sqrt(GRAVITY * slope),
         near=(
             *_near_rest(critical * _NEAR, near),
