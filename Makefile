@@ -58,6 +58,10 @@ check: $(TOOLS)
 schema: setup
 	$(BIN)/python -c "from rocking.structures.structure_list import structures_schema_file as text; print(text(), end='')" \
 	  > workflow/schemas/structures.schema.yaml
+	$(BIN)/python -c "from rocking.study.settings import schema_file as text; print(text(), end='')" \
+	  > workflow/schemas/config.schema.yaml
+	$(BIN)/python -c "from rocking.study.settings import EXAMPLE, commented_yaml as text; print(text(EXAMPLE), end='')" \
+	  > workflow/config.yaml
 
 paper: setup
 	$(BIN)/snakemake --workflow-profile workflow/profiles/default paper

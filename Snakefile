@@ -42,4 +42,4 @@ onstart:
 
 # The tables stand all the same, and say why; but a study of which nothing could be read has not succeeded.
 onsuccess:
-    check_any_read(SUMMARY, PLAN.records)
+    check_any_read(Path(SUMMARY), PLAN.records)

@@ -117,9 +117,8 @@ def _run(options: argparse.Namespace) -> int:
 def _tables(options: argparse.Namespace) -> None:
     from rocking.study.results import open_results
 
-    results = open_results(options.results)
     for record in options.record:
-        print(results.write_record(record)[0].parent)
+        print(open_results(options.results).write_record(record)[0].parent)
 
 
 def _read(options: argparse.Namespace) -> None:
@@ -176,10 +175,8 @@ def _spectrum(options: argparse.Namespace) -> None:
     from rocking.assessment.rows.of_study import SpectrumRow, spectrum_rows
     from rocking.tables import write_rows
 
-    frequency_parameters = np.geomspace(0.5, 10, 40)
-    uplift_multipliers = np.geomspace(0.02, 1, 40)
-    accelerograms = _accelerograms(options)
-    rows = spectrum_rows(accelerograms, frequency_parameters, uplift_multipliers, options.restitution)
+    axes = np.geomspace(0.5, 10, 40), np.geomspace(0.02, 1, 40)  # p in rad/s, and uplift multiplier
+    rows = spectrum_rows(_accelerograms(options), *axes, options.restitution)
     write_rows(SpectrumRow, rows, options.output)
     print(options.output)
 

@@ -83,11 +83,19 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     Raises ConfigurationError with every defect of the three, and of the place for the results, in one message.
     """
     defects: list[str] = []
-    settings = _collect(defects, lambda: read_settings(config)) or named_files(config)
-    listed = _collect(defects, lambda: load_catalogue(settings.catalogue)) or ()
-    structures = _collect(defects, lambda: load_structures(settings.structures))
-    _collect(defects, lambda: check_writable(Path(settings.results)))
-    if defects or structures is None:
+
+    def collected(load: Callable[..., T], *arguments: Any) -> T | None:
+        try:
+            return load(*arguments)
+        except RockingError as error:
+            defects.append(str(error))
+            return None
+
+    settings = collected(read_settings, config) or named_files(config)
+    listed = collected(load_catalogue, settings.catalogue) or ()
+    structures = collected(load_structures, settings.structures) or {}
+    collected(_check_writable, Path(settings.results))
+    if defects:
         raise ConfigurationError("\n".join(defects))
     records = {record.id: filled(record, settings.mirror) for record in listed}
     return Plan(
@@ -116,8 +124,7 @@ def check_config_file(path: Path) -> dict[str, Any]:
     return content or {}
 
 
-def check_writable(results: Path) -> None:
-    """Raise ConfigurationError when no folder can be made, or nothing be written, at `results`."""
+def _check_writable(results: Path) -> None:
     there = next(path for path in (results.absolute(), *results.absolute().parents) if path.exists())
     if not there.is_dir():
         raise ConfigurationError(f"setting results: {there} is a file, but must be a folder.")
@@ -204,11 +211,3 @@ def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, 
         place = int.from_bytes(hashlib.sha256(identifier.encode()).digest()[:4], "big") % count
         shared.setdefault(f"{place:05d}_of_{count:05d}", []).append(identifier)
     return {name: tuple(shared[name]) for name in sorted(shared)}
-
-
-def _collect(defects: list[str], load: Callable[[], T]) -> T | None:
-    try:
-        return load()
-    except RockingError as error:
-        defects.append(str(error))
-        return None

@@ -1,12 +1,13 @@
 """The results of a study: each job writes the rows of its records into tables of its own, gathered and read here."""
 
 import csv
+import heapq
 import json
 import re
 import shutil
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
-from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -42,14 +43,13 @@ def written_part(folder: Path) -> Iterator[Callable[[RecordTables, Mapping[str, 
     It takes the tables of the record and, where there is one, what the page to explore shows of it.
     """
     with written_together(), ExitStack() as stack:
-        tables = [
-            (each, stack.enter_context(rows_written(each, folder / each.table.file_name)))
-            for each in IN_PARTS
-        ]
+        tables = {
+            each: stack.enter_context(rows_written(each, folder / each.table.file_name)) for each in IN_PARTS
+        }
         page = stack.enter_context(whole(folder / PAGE))
 
         def add(record: RecordTables, content: Mapping[str, Any] | None) -> None:
-            for each, write in tables:
+            for each, write in tables.items():
                 write(getattr(record, each.table.name))
             if content is not None:
                 page.write(json.dumps(content, allow_nan=False, separators=(",", ":")).encode() + b"\n")
@@ -64,32 +64,20 @@ def page_contents(folders: Iterable[Path], records: Iterable[str]) -> list[dict[
     return [contents[record] for record in records if record in contents]
 
 
-def gathered(row_class: type[Row], folders: Iterable[Path], records: Collection[str]) -> Iterator[bytes]:
+def gathered(row_class: type[Row], folders: Iterable[Path], records: Iterable[str]) -> Iterator[bytes]:
     """Yield a table of `records` in their order, head first, from the parts in `folders`, which keep that order."""
+    place = {record: number for number, record in enumerate(records)}
+
+    def placed(path: Path) -> Iterator[tuple[int, str]]:
+        with readable(path) as stream:
+            check_columns(row_class.table, next(csv.reader(stream), []), path)
+            for line in stream:  # a row is one line, and begins with the identifier
+                if (record := line.partition(",")[0]) in place:
+                    yield place[record], line
+
     yield from (line.encode() for line in csv_lines(row_class, ()))
-    wanted = set(records)
-    waiting: dict[str, tuple[Iterator[str], Iterator[Any]]] = {}
-
-    def advance(part: Iterator[tuple[str, Iterator[str]]]) -> None:
-        for record, lines in part:
-            if record in wanted:
-                waiting[record] = lines, part
-                break
-
-    for folder in folders:
-        advance(_by_record(row_class, folder / row_class.table.file_name))
-    for record in records:
-        if record in waiting:
-            lines, part = waiting.pop(record)
-            yield from (line.encode() for line in lines)
-            advance(part)
-
-
-def _by_record(row_class: type[Row], path: Path) -> Iterator[tuple[str, Iterator[str]]]:
-    """Each record of a table with its lines: a row is one line, and begins with the identifier."""
-    with readable(path) as stream:
-        check_columns(row_class.table, next(csv.reader(stream), []), path)
-        yield from groupby(stream, key=lambda line: line.partition(",")[0])
+    parts = (placed(folder / row_class.table.file_name) for folder in folders)
+    yield from (line.encode() for _, line in heapq.merge(*parts, key=itemgetter(0)))
 
 
 def remove_copies(folder: Path) -> None:

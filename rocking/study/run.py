@@ -26,8 +26,6 @@ from rocking.tables import read_table
 
 _LOCK = Path(".snakemake") / "rocking_run.lock"
 """Held by the process that schedules the jobs of a study, in the folder of the study."""
-_WIDEST = 24
-"""Columns for the name of a record; after a longer one its verdict follows at once."""
 _ANSWERS = re.compile(
     r"(-[nhvlSDt]|--(dry-?run|help|version|list|list-rules|list-changes|lint|dag|rulegraph|filegraph|d3dag|summary|"
     r"detailed-summary|report|unlock|touch|archive|delete-all-output|print-compilation))(=.*)?"
@@ -45,14 +43,9 @@ def run(folder: Path, options: Sequence[str]) -> int:
     The status is 0, or 1 when a record or a job failed. Raises ConfigurationError, before snakemake starts, when the
     folder holds no study or the study has defects; RockingError when another run works in it.
     """
-    config = config_file(folder)
-    if config is None:
-        raise ConfigurationError(
-            f"{folder} holds no config.yaml; start a study there first: rocking start {folder}"
-        )
+    plan = _plan(folder)
     if any(option.startswith("--trust") for option in options):
         raise ConfigurationError("--trust-io-cache would run what .snakemake/iocache holds; leave it out.")
-    plan = _plan(folder, config)
     home = workflow_folder()
     sys.path.append(str(home / "workflow" / "logger"))
     arguments = [
@@ -66,7 +59,8 @@ def run(folder: Path, options: Sequence[str]) -> int:
         return _snakemake(arguments)
     hold(folder.resolve())
     results = folder / plan.settings.results
-    log = results / "summary" / "logs" / "run.log"
+    summary = results / "summary"
+    log = summary / "logs" / "run.log"
     log.parent.mkdir(parents=True, exist_ok=True)
     with contextlib.chdir(folder):
         doubts = plan.doubts
@@ -77,9 +71,8 @@ def run(folder: Path, options: Sequence[str]) -> int:
         sep="\n",
         flush=True,
     )
-    with _logged(log) as stream:
-        jobs = {f"assess_{job}": len(records) for job, records in plan.jobs.items()}
-        progress = Progress(jobs, min(_WIDEST, max(map(len, plan.records))), stream)
+    with _logged(log) as terminal:
+        progress = Progress({f"assess_{job}": len(records) for job, records in plan.jobs.items()}, terminal)
         with progress.followed():
             status = _snakemake(arguments)
     if _STOPS:
@@ -96,7 +89,6 @@ def run(folder: Path, options: Sequence[str]) -> int:
     if options and not options[0].startswith("-"):
         print(f"Finished: {options[0]}; what it wrote lies in {results}")
         return 0
-    summary = results / "summary"
     failures = read_table(FailureRow, summary)
     verdicts = read_table(Fate, summary)
     for line in (*closing_lines(verdicts, failures), *paths_to_read(results, verdicts)):
@@ -104,7 +96,12 @@ def run(folder: Path, options: Sequence[str]) -> int:
     return int(bool(failures))
 
 
-def _plan(folder: Path, config: Path) -> Plan:
+def _plan(folder: Path) -> Plan:
+    config = config_file(folder)
+    if config is None:
+        raise ConfigurationError(
+            f"{folder} holds no config.yaml; start a study there first: rocking start {folder}"
+        )
     close_doors(folder)
     if find_spec("snakemake") is None:
         raise RockingError(
@@ -154,28 +151,26 @@ def begin(plan: Plan) -> None:
     hold(Path.cwd())
     with JOBS.open("a") as jobs:
         fcntl.flock(jobs, fcntl.LOCK_EX)
-    graceful = signal.getsignal(
-        signal.SIGTERM
-    )  # of snakemake: starts no more jobs, and waits for those that work
+    # Of snakemake: starts no more jobs, and waits for those that work.
+    graceful: Any = signal.getsignal(signal.SIGTERM)
+
+    def end_jobs() -> None:
+        import psutil  # comes with snakemake
+
+        graceful()
+        for process in psutil.Process().children(recursive=True):
+            with contextlib.suppress(psutil.NoSuchProcess):
+                if not process.children():  # a shell that started one waits for it
+                    process.terminate()
 
     def stop(number: int, _: object) -> None:
         _STOPS.append(number)
-        if len(_STOPS) == 1:  # in a thread, because the scheduler may be at its own lock
-            Thread(target=_end_jobs, args=(graceful,)).start()
+        if len(_STOPS) == 1:
+            Thread(target=end_jobs).start()  # the scheduler may be at its own lock
 
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, stop)
     plan.fill_hashes()
-
-
-def _end_jobs(graceful: Any) -> None:
-    import psutil  # comes with snakemake
-
-    graceful()
-    for process in psutil.Process().children(recursive=True):
-        with contextlib.suppress(psutil.NoSuchProcess):
-            if not process.children():  # a shell that started one waits for it
-                process.terminate()
 
 
 @cache

@@ -1,13 +1,11 @@
 """The settings of a study: those of each part of the package, and what is the study's own.
 
 Each says its type, unit, bounds and meaning where it is declared. config.yaml is read and checked as a whole, and
-written, with its JSON schema, from these. After a change: python -m rocking.study.settings workflow
+written, with its JSON schema, from these. After a change: make schema
 """
 
-import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any, Literal
 
 import yaml
@@ -23,7 +21,6 @@ from rocking.described import (
 )
 from rocking.errors import ConfigurationError
 from rocking.records.processing import Processing
-from rocking.tables import write_whole
 from rocking.tables.yaml_file import said_by
 
 
@@ -81,13 +78,13 @@ class Settings(AssessmentSettings):
         None, "number of records per job; null: 12, an eighth of all from 96 on, 200 from 1600 on", ge=1
     )
 
-    def numbers(self) -> dict[str, Any]:
-        """The settings that change a number of a table."""
-        return {name: value for name, value in self.mapping().items() if name not in _NO_NUMBER}
-
     def mapping(self) -> dict[str, Any]:
         """All settings by their names."""
         return asdict(self)
+
+    def numbers(self) -> dict[str, Any]:
+        """Those that change a number of a table."""
+        return {name: value for name, value in self.mapping().items() if name not in _NO_NUMBER}
 
     @property
     def about(self) -> tuple[str | None, ...]:
@@ -140,72 +137,58 @@ def named_files(config: Mapping[str, Any]) -> Settings:
 
 
 def json_schema(section: Any = None) -> dict[str, Any]:
-    """Return the JSON schema of config.yaml, for editors and for other programs."""
-    whole = section or Settings()
+    """Return the JSON schema of config.yaml, for editors and for other programs; section: of this part alone."""
     head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": "Settings of a study"}
     return {
-        **({"description": " ".join((whole.__doc__ or "").split())} if section else head),
+        **({"description": " ".join((section.__doc__ or "").split())} if section else head),
         "type": "object",
         "additionalProperties": False,
         "properties": {
             key: json_schema(value)
             if description is None
             else {**description.schema, "description": _meaning(description), "default": value}
-            for key, description, value in _entries(whole)
+            for key, (description, value) in _entries(section or Settings()).items()
         },
     }
 
 
+def schema_file() -> str:
+    """Return the text of workflow/schemas/config.schema.yaml: the schema, and what writes it."""
+    return "# Written from rocking.study.settings by: make schema\n" + yaml.safe_dump(
+        json_schema(), sort_keys=False, allow_unicode=True, width=117
+    )
+
+
 def commented_yaml(settings: Settings) -> str:
     """Return `settings` as a config.yaml in which every line says what it sets."""
-    head = "# Every setting with its unit. What is left out keeps the value that it has here.\n"
-    head += "# Paths are relative to the folder in which the study runs.\n"
-    entries = {entry[0]: entry for entry in _entries(settings)}
+    lines = ["# Every setting with its unit. What is left out keeps the value that it has here."]
+    lines += ["# Paths are relative to the folder in which the study runs."]
     for heading, names in LAYOUT.items():
-        head += f"\n# {heading} ".ljust(106, "-") + "\n"
-        head += "".join(f"{line}\n" for name in names for line in _yaml_lines(*entries[name]))
-    return head
+        lines += ["", f"# {heading} ".ljust(105, "-"), *_yaml_lines(settings, names)]
+    return "\n".join([*lines, ""])
 
 
-def _entries(section: Any) -> Iterator[tuple[str, Described | None, Any]]:
-    """Each key of a section, what is said of it (None: it is a section of its own), and its value."""
-    for name in parts_of(section.__class__):
-        yield name, None, getattr(section, name)
-    for name, description in described_values(section.__class__).items():
-        yield description.key, description, getattr(section, name)
+def _yaml_lines(section: Any, names: Iterable[str] = (), indent: str = "") -> Iterator[str]:
+    entries = _entries(section)
+    for key in names or entries:
+        description, value = entries[key]
+        if description is None:
+            yield f"{indent}{key}:"
+            yield from _yaml_lines(value, indent=indent + "  ")
+        else:
+            optional = description.optional and "null" not in description.meaning and value != ""
+            scalar = yaml.safe_dump(value).splitlines()[0]
+            yield f"{indent}{key}: {scalar} ".ljust(48) + f"# {_meaning(description)}{', or null' * optional}"
 
 
-def _yaml_lines(key: str, description: Described | None, value: Any, indent: str = "") -> Iterator[str]:
-    if description is not None:
-        optional = description.optional and "null" not in description.meaning and value != ""
-        null = ", or null" * optional
-        yield f"{indent}{key}: {_scalar(value)} ".ljust(48) + f"# {_meaning(description)}{null}"
-    else:
-        yield f"{indent}{key}:"
-        for entry in _entries(value):
-            yield from _yaml_lines(*entry, indent + "  ")
+def _entries(section: Any) -> dict[str, tuple[Described | None, Any]]:
+    """By each key of a section what is said of it (None: it is a section of its own), and its value."""
+    kind = section.__class__
+    values = described_values(kind).items()
+    return {name: (None, getattr(section, name)) for name in parts_of(kind)} | {
+        description.key: (description, getattr(section, name)) for name, description in values
+    }
 
 
 def _meaning(description: Described) -> str:
     return f"{description.meaning}, {description.unit}" if description.unit else description.meaning
-
-
-def _scalar(value: object) -> str:
-    if isinstance(value, float) and value and not 1e-4 <= abs(value) < 1e6:
-        mantissa, exponent = f"{value:e}".split("e")
-        return f"{float(mantissa)}e{int(exponent)}"
-    return yaml.safe_dump(value).splitlines()[0]
-
-
-def write_settings(workflow: Path) -> None:
-    """Write config.yaml and schemas/config.schema.yaml of the shipped workflow into its folder."""
-    schema = yaml.safe_dump(json_schema(), sort_keys=False, allow_unicode=True, width=117)
-    head = (
-        "# Written from rocking.study.settings; edit that, then: python -m rocking.study.settings workflow\n"
-    )
-    write_whole(workflow / "config.yaml", commented_yaml(EXAMPLE).encode())
-    write_whole(workflow / "schemas" / "config.schema.yaml", (head + schema).encode())
-
-
-if __name__ == "__main__":
-    write_settings(Path(sys.argv[1]))

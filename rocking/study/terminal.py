@@ -1,15 +1,16 @@
-"""What a run says: its progress, which jobs and scheduler send as JSON lines, and what came of the records."""
+"""What a run says: its progress, which jobs send as JSON lines, and what came of the records."""
 
 import json
 import os
 import sys
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from threading import Thread
-from typing import Any, BinaryIO, TextIO
+from typing import BinaryIO, TextIO
 
 from rocking.assessment.fate import ORDER, Fate, worst_first
 from rocking.assessment.rows.of_record import FailureRow
@@ -20,7 +21,13 @@ from rocking.tables import read_table
 
 _MOST = 6
 """Rows of a list at the end; a screen should hold it beside the lines of a dozen records."""
+_FEW = 3
+"""Undecided structures that the line of a record names; of more it tells the number."""
 _MARKS = {Verdict.UNDECIDED: "?", Verdict.UNKNOWN: "–"}
+_PIPE = "ROCKING_PROGRESS"
+"""The variable of the environment that names the pipe from the jobs to the one who waits."""
+_LONGEST = 1000
+"""Characters of a line: what the system writes to a pipe at once, by whatever process, is at least 4096 bytes."""
 
 
 def record_line(verdicts: Iterable[Fate], failures: Iterable[FailureRow]) -> str:
@@ -29,15 +36,19 @@ def record_line(verdicts: Iterable[Fate], failures: Iterable[FailureRow]) -> str
     The numbers are members of the ensemble that overturn, or the largest rotation over the critical one of the worst
     component. What could not be assessed comes first.
     """
-    parts: dict[str, list[str]] = {word: [] for word in ("failed", *ORDER)}
-    for failure in failures:
-        of = f"{failure.structure}: " if failure.structure else ""
-        parts["failed"].append(of + failure.message.removeprefix(f"{failure.record}: "))
+    reasons = (
+        (f"{each.structure}: " if each.structure else "") + each.message.removeprefix(f"{each.record}: ")
+        for each in failures
+    )
+    parts: dict[str, list[str]] = {"failed": [" ".join(reasons)], **{word: [] for word in ORDER}}
     for fate in sorted(verdicts, key=lambda fate: fate.severity, reverse=True):
         number = f" {fate.rotation_ratio:.2g}" if rocks(fate.rotation_ratio) else ""
-        parts[fate.verdict].append(fate.structure + (f" ({fate.leaning})" if fate.leaning else number))
-    parts["failed"] = [" ".join(parts["failed"])] if parts["failed"] else []
-    return "; ".join(f"{word}: {', '.join(names)}" for word, names in parts.items() if names)
+        if fate.verdict is Verdict.UNDECIDED:
+            number = " (with another crack)" if fate.elsewhere_crack else f" ({fate.count})"
+        parts[fate.verdict].append(fate.structure + number)
+    if len(undecided := parts[Verdict.UNDECIDED]) > _FEW:
+        parts[Verdict.UNDECIDED] = [str(len(undecided)), f"in {Fate.table.file_name}"]
+    return "; ".join(f"{word}: {text}" for word, names in parts.items() if (text := ", ".join(names)))
 
 
 def closing_lines(verdicts: Sequence[Fate], failures: Iterable[FailureRow]) -> Iterator[str]:
@@ -45,26 +56,21 @@ def closing_lines(verdicts: Sequence[Fate], failures: Iterable[FailureRow]) -> I
 
     Below it stand the records that failed.
     """
-    of_structure: dict[str, list[Fate]] = {}
-    for fate in sorted(verdicts, key=lambda fate: fate.severity, reverse=True):
-        if fate.verdict is not Verdict.STANDS:
-            of_structure.setdefault(fate.structure, []).append(fate)
-
-    def count(name: str, verdict: Verdict) -> int:
-        return sum(fate.verdict is verdict for fate in of_structure[name])
-
-    ordered = sorted(
-        of_structure, key=lambda name: (-count(name, Verdict.OVERTURNS), -len(of_structure[name]))
-    )
+    worst = sorted(verdicts, key=lambda fate: fate.severity, reverse=True)
+    doubtful = [fate for fate in worst if fate.verdict is not Verdict.STANDS]
+    of_all = Counter(fate.structure for fate in doubtful)
+    counts = Counter((fate.structure, fate.verdict) for fate in doubtful)
+    ordered = sorted(of_all, key=lambda name: (-counts[name, Verdict.OVERTURNS], -of_all[name]))
     records = counted(len({fate.record for fate in verdicts}), "record")
     if ordered:
         width = max(9, *map(len, ordered[:_MOST]))
         yield f"Of {records}:"
         yield f"  {'':<{width}}  overturns  undecided  records (?: undecided, –: unknown)"
         for name in ordered[:_MOST]:
-            names = ", ".join(fate.record + _MARKS.get(fate.verdict, "") for fate in of_structure[name])
-            counts = (count(name, Verdict.OVERTURNS), count(name, Verdict.UNDECIDED))
-            yield f"  {name:<{width}}  {counts[0]:>9}  {counts[1]:>9}  {names}"
+            of_it = (fate for fate in doubtful if fate.structure == name)
+            names = ", ".join(fate.record + _MARKS.get(fate.verdict, "") for fate in of_it)
+            numbers = (counts[name, verdict] for verdict in (Verdict.OVERTURNS, Verdict.UNDECIDED))
+            yield f"  {name:<{width}}  {'  '.join(f'{number:>9}' for number in numbers)}  {names}"
         if len(ordered) > _MOST:
             yield f"  and {counted(len(ordered) - _MOST, 'more structure')}, in {Fate.table.file_name}"
     elif verdicts:
@@ -73,19 +79,14 @@ def closing_lines(verdicts: Sequence[Fate], failures: Iterable[FailureRow]) -> I
         yield f"{counted(len(failed), 'record')} failed, wholly or in part: {', '.join(failed)}"
 
 
-def check_any_read(summary: str | Path, records: Collection[str]) -> None:
-    """Raise RecordError when the summary in a folder says of each of `records` that it could not be read.
-
-    Without a summary, as where another target was asked for, nothing is said.
-    """
-    if not (Path(summary) / FailureRow.table.file_name).is_file():
-        return
-    unread = {row.record: row for row in read_table(FailureRow, Path(summary)) if row.stage == "read"}
-    if set(unread) >= set(records):
-        first = next(iter(unread.values()))
-        raise RecordError(
-            f"none of {counted(len(records), 'record')} could be read; the first: {first.message}"
-        )
+def check_any_read(summary: Path, records: Collection[str]) -> None:
+    """Raise RecordError when a summary, where one was asked for, says of each record that it could not be read."""
+    written = (summary / FailureRow.table.file_name).is_file()
+    rows = read_table(FailureRow, summary) if written else []
+    unread = {row.record: row.message for row in rows if row.stage == "read"}
+    if written and set(unread) >= set(records):
+        number = counted(len(records), "record")
+        raise RecordError(f"none of {number} could be read; the first: {next(iter(unread.values()))}")
 
 
 def paths_to_read(results: Path, verdicts: Iterable[Fate]) -> Iterator[str]:
@@ -98,51 +99,18 @@ def paths_to_read(results: Path, verdicts: Iterable[Fate]) -> Iterator[str]:
         yield f"Report of the worst record: {report}"
 
 
-PIPE = "ROCKING_PROGRESS"
-"""The variable of the environment that names the pipe; where there is none, nothing is sent."""
-_LONGEST = 1000
-"""Characters of a message: what the system writes to a pipe at once, by whatever process, is at least 4096 bytes."""
-
-
-def send(**event: Any) -> None:
-    """Send what happened to the one who waits, if there is one."""
-    text = json.dumps(
-        {name: each[:_LONGEST] if isinstance(each, str) else each for name, each in event.items()}
-    )
-    with suppress(KeyError, OSError):  # without blocking: the one who waited may be gone
-        pipe = os.open(os.environ[PIPE], os.O_WRONLY | os.O_NONBLOCK)
-        try:
-            os.write(pipe, text.encode() + b"\n")
-        finally:
-            os.close(pipe)
-
-
-def line_writer(log: Path) -> Callable[[str], None]:
-    """Return what adds a line to `log`, begun anew, and shows it to the one who waits, or else on the terminal."""
-    log.write_text("", encoding="utf-8")
-
-    def add(line: str) -> None:
-        with log.open("a", encoding="utf-8") as stream:
-            print(line, file=stream)
-        if PIPE in os.environ:
-            send(job=log.stem, line=line)
-        else:
-            print(line, file=sys.stderr, flush=True)
-
-    return add
-
-
 class Progress:
-    """Turns what jobs and scheduler send into lines for a person, and counts what is done.
+    """Turns what jobs and scheduler tell into lines for a person, and counts what is done.
 
-    records: how many each job takes, by the name of its rule. width: of their longest identifier. On a terminal, lines
-    are cut to its width, and "12 of 44 records, about 1 min left" stands below them.
+    records: how many each job takes, by the name of its rule. On a terminal, lines are cut to its width, and "12 of 44
+    records, about 1 min left" stands below them.
     """
 
-    def __init__(self, records: Mapping[str, int], width: int, stream: TextIO) -> None:
+    in_this_process: "Progress | None" = None
+
+    def __init__(self, records: Mapping[str, int], stream: TextIO) -> None:
         self._records = records
-        self._width = width
-        self.stream = stream
+        self._stream = stream
         self._back = "\r\x1b[K" if stream.isatty() else ""  # to the begin of the line, and the line empty
         self._total = 0
         self._done = 0
@@ -151,9 +119,10 @@ class Progress:
 
     @contextmanager
     def followed(self) -> Iterator[None]:
-        """Show what is sent meanwhile, all of it before the end."""
+        """Show what is told meanwhile, all of it before the end."""
+        Progress.in_this_process = self
         with tempfile.TemporaryDirectory() as folder:
-            pipe = os.environ[PIPE] = str(Path(folder) / "progress")
+            pipe = os.environ[_PIPE] = str(Path(folder) / "progress")
             os.mkfifo(pipe)
             with os.fdopen(os.open(pipe, os.O_RDWR), "rb") as lines:
                 reader = Thread(target=self._follow, args=(lines,))
@@ -163,36 +132,56 @@ class Progress:
                 finally:
                     os.write(lines.fileno(), b"\n")
                     reader.join()
-                    del os.environ[PIPE]
-        print(self._back, end="", file=self.stream, flush=True)
+                    del os.environ[_PIPE]
+                    Progress.in_this_process = None
+        print(self._back, end="", file=self._stream, flush=True)
 
     def _follow(self, lines: BinaryIO) -> None:
         for line in iter(lines.readline, b"\n"):
-            self.tell(json.loads(line))
+            self.tell_line(*json.loads(line))
 
-    def tell(self, event: Mapping[str, Any]) -> None:
-        """Show an event, if it is for a reader."""
-        if "planned" in event:
-            self._total = sum(self._records.get(rule, 0) for rule in event["planned"])
-        elif event.get("begun") == "compile":
-            self._show("The integration is compiled, once on this machine: about half a minute.")
-        elif "error" in event:
-            self.errors.append(event["error"])
-        elif event.get("job") in self._records:
-            self._done += 1
-            record, _, text = event["line"].partition(": ")
-            self._show(f"{record:<{self._width}}  {text}")
-        elif "line" in event:
-            self._show(f"{event['job']}: {event['line']}")
+    def tell_plan(self, jobs: Iterable[str]) -> None:
+        """Take up which jobs will run."""
+        self._total = sum(self._records.get(job, 0) for job in jobs)
+        self._show()
+
+    def tell_line(self, job: str, line: str) -> None:
+        """Show a line of a job; those that assess tell one for each record."""
+        self._done += job in self._records
+        self._show(line if job in self._records else f"{job}: {line}")
+
+    def _show(self, *lines: str) -> None:
+        for line in lines:
+            print(self._back + fitting(line, self._stream), file=self._stream, flush=True)
         if self._back and self._done < self._total:
             text = f"{self._done} of {counted(self._total, 'record')}"
             if self._done:
                 left = (time.monotonic() - self._began) / self._done * (self._total - self._done)
                 text += f", about {left / 60:.0f} min left" if left > 90 else f", about {left:.0f} s left"
-            print(self._back + fitting(text, self.stream), end="", file=self.stream, flush=True)
+            print(self._back + fitting(text, self._stream), end="", file=self._stream, flush=True)
 
-    def _show(self, line: str) -> None:
-        print(self._back + fitting(line, self.stream), file=self.stream, flush=True)
+
+def tell(job: str, line: str) -> None:
+    """Tell the one who waits for a job, another process, or else the terminal."""
+    try:
+        pipe = os.open(os.environ[_PIPE], os.O_WRONLY | os.O_NONBLOCK)  # who waited may be gone
+    except (KeyError, OSError):
+        print(line, file=sys.stderr, flush=True)
+        return
+    with os.fdopen(pipe, "wb", buffering=0) as stream:
+        stream.write(json.dumps([job, line[:_LONGEST]], ensure_ascii=False).encode() + b"\n")
+
+
+def line_writer(log: Path) -> Callable[[str], None]:
+    """Return what adds a line to `log`, begun anew, and tells it."""
+    log.write_text("", encoding="utf-8")
+
+    def add(line: str) -> None:
+        with log.open("a", encoding="utf-8") as stream:
+            print(line, file=stream)
+        tell(log.stem, line)
+
+    return add
 
 
 def fitting(line: str, stream: TextIO) -> str:

@@ -2,7 +2,6 @@
 
 import math
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 from rocking.assessment.rows.of_record import ComparisonRow
@@ -32,17 +31,16 @@ def start(folder: Path) -> list[Path]:
     Raises ConfigurationError, before anything is written, when one of the files stands there already.
     """
     contents = {
-        "config.yaml": commented_yaml(Settings()).encode(),
-        "structures.yaml": (workflow_folder() / "workflow" / "structures.yaml").read_bytes(),
+        folder / "config.yaml": commented_yaml(Settings()).encode(),
+        folder / "structures.yaml": (workflow_folder() / "workflow" / "structures.yaml").read_bytes(),
     }
-    paths = [folder / name for name in contents]
-    for path in paths:
+    for path in contents:
         if path.exists():
             raise ConfigurationError(f"{path} exists already; choose another folder or remove it first.")
-    for path, content in zip(paths, contents.values(), strict=True):
+    for path, content in contents.items():
         write_whole(path, content)
     (folder / "records").mkdir(exist_ok=True)
-    return paths
+    return list(contents)
 
 
 def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: float | None) -> str:
@@ -62,24 +60,19 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
         columns = dict.fromkeys([*(standing[0] if standing else COLUMNS), *used])
         write_whole(target, catalogue_text([*standing, *rows], list(columns)).encode())
     there = {file.record for file in listed}
-    gone = (
-        f"{row['id']}: its row stays in the catalogue, but its file is not there; remove the row or add the file.\n"
-        for row in standing
-        if row["id"] not in there
-        and not row.get("source_repository")
-        and not row["file"].startswith("obspy:")
-    )
+    of_folder = (each for each in standing if not (each.get("source_repository") or "obspy:" in each["file"]))
+    gone = "{}: its row stays in the catalogue, but its file is not there; remove the row or add the file.\n"
+    told = "".join(gone.format(each["id"]) for each in of_folder if each["id"] not in there)
     count = counted(len(standing) + len(rows), "record")
-    return f"{listing_text(listed)}{''.join(gone)}{target}: {count}, {len(rows)} of them new"
+    return f"{listing_text(listed)}{told}{target}: {count}, {len(rows)} of them new"
 
 
 def read_own(
     path: Path, unit: str | None, time_step: float | None, scale_factor: float, component: str
 ) -> tuple[CatalogueRecord, list[Accelerogram]]:
-    """Read a single file and return the row that a catalogue would hold for it, and every channel of it.
+    """Return the row that a catalogue would hold for a single file, and every channel of it; component: to use.
 
-    unit and time_step [s]: where the file does not say them. component: channels to use (";" between).
-    Raises RecordError.
+    unit and time_step [s]: where the file does not say them. Raises RecordError.
     """
     channels = read(path, unit=unit, time_step=time_step)
     name = re.sub(r"[^A-Za-z0-9._-]+", "_", path.stem).strip("._-")[:70]
@@ -105,9 +98,8 @@ def assess_file(
 ) -> list[str]:
     """Assess the structure `name` (None: all) of a list under one record and return lines of text.
 
-    output: a folder for the tables and report.pdf of the record, laid out like the results of a study.
-    Raises RecordError or ConfigurationError, before anything is written, when the list cannot be read or the
-    record does not hold what is asked of it.
+    output: a folder for report.pdf and the tables, laid out like the results of a study. Raises RecordError or
+    ConfigurationError before anything is written.
     """
     listed = load_structures(structures)
     if name not in (None, *listed):
@@ -120,24 +112,23 @@ def assess_file(
         write_report(assessed, study, output / record.id)
         rows = {StructureRow: structure_rows(chosen), CapacityRow: capacity_rows(chosen)}
         write_tables(rows, output / "summary")
+    lines = [_told(row) for row in assessed.tables.comparison]
     failures = assessed.tables.failures
-    return [
-        *("; ".join(_facts(row)) for row in assessed.tables.comparison),
-        *(f"not assessed: {each.structure or each.stage}: {each.message}" for each in failures),
-    ]
+    return lines + [f"not assessed: {each.structure or each.stage}: {each.message}" for each in failures]
 
 
-def _facts(row: ComparisonRow) -> Iterator[str]:
-    """What became of a structure under a component."""
+def _told(row: ComparisonRow) -> str:
+    """What became of a structure under a component, and what one pulse predicts."""
     outcome = str(row.answer_outcome)
     if row.spared:
         settled = "overturns" if row.answer_outcome is Outcome.OVERTURNS else "does not overturn"
         outcome = f"{settled} ({row.answer_reason})"
-    yield f"{row.component or 'component not named'}, {row.structure}: {outcome}"
+    facts = [f"{row.component or 'component not named'}, {row.structure}: {outcome}"]
     if math.isfinite(row.integrated_rotation_ratio):  # overturning stands in the outcome
-        yield f"largest rotation {row.integrated_rotation_ratio:.4g} of the critical one"
+        facts += [f"largest rotation {row.integrated_rotation_ratio:.4g} of the critical one"]
     if not math.isnan(predicted := row.predicted_rotation_ratio):
         words = "overturning" if math.isinf(predicted) else f"{predicted:.4g}"
-        yield f"one pulse predicts {words} ({row.regime})"
+        facts += [f"one pulse predicts {words} ({row.regime})"]
     if row.scale_factor != 1:
-        yield f"the accelerations of the file were multiplied by {row.scale_factor:g}"
+        facts += [f"the accelerations of the file were multiplied by {row.scale_factor:g}"]
+    return "; ".join(facts)

@@ -5,12 +5,12 @@ from pathlib import Path
 
 from rocking import motion
 from rocking.study.job import planned, run_job
-from rocking.study.terminal import line_writer, send
+from rocking.study.terminal import line_writer, tell
 
 if __name__ == "__main__":
     study, records = planned(snakemake.config, snakemake.params)
     part, results = Path(snakemake.output[0]).parent, Path(study.settings.results)
     cached = any(Path(motion.__path__[0], "__pycache__").glob("*.nbi")) or "NUMBA_CACHE_DIR" in os.environ
     if not cached:  # where a lone job compiles for itself
-        send(begun="compile")
+        tell("compile", "The integration is compiled, once on this machine: about half a minute.")
     run_job(records, study, part, results, line_writer(Path(snakemake.log[0])))

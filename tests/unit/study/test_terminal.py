@@ -11,7 +11,7 @@ from rocking.assessment.rows.of_record import ComparisonRow, EnsembleRow, Failur
 from rocking.assessment.verdict import Verdict
 from rocking.structures import Outcome
 from rocking.study import terminal
-from rocking.study.terminal import Progress, closing_lines, line_writer, paths_to_read, record_line, send
+from rocking.study.terminal import Progress, closing_lines, line_writer, paths_to_read, record_line
 
 
 def _case(record: str, structure: str, ratio: float) -> ComparisonRow:
@@ -52,7 +52,7 @@ def test_the_worst_component_counts() -> None:
     assert record_line(fates(cases), []) == "overturns: pier; stands: wall 0.25, arch"
 
 
-def test_undecided_is_ordered_by_share_and_says_what_it_leans_to() -> None:
+def test_undecided_is_ordered_by_share_and_counted_where_there_is_much_of_it() -> None:
     cases = [_case("a", name, 0.25) for name in ("pier", "wall", "arch")]
     ensembles = [
         _ensemble("a", "pier", Verdict.UNDECIDED, 5),
@@ -60,8 +60,12 @@ def test_undecided_is_ordered_by_share_and_says_what_it_leans_to() -> None:
         _ensemble("a", "arch", Verdict.STANDS, 0),
     ]
     assert record_line(fates(cases, ensembles), []) == (
-        "undecided: wall (leans to overturns, overturns in 60 of 64), "
-        "pier (leans to stands, overturns in 5 of 64); stands: arch 0.25"
+        "undecided: wall (60 of 64), pier (5 of 64); stands: arch 0.25"
+    )
+    many = [_ensemble("a", f"pier {number}", Verdict.UNDECIDED, 5) for number in range(7)]
+    cases += [_case("a", each.structure, 0.25) for each in many]
+    assert (
+        record_line(fates(cases, ensembles + many), []) == "undecided: 9, in verdicts.csv; stands: arch 0.25"
     )
 
 
@@ -106,17 +110,13 @@ def test_the_paths_are_those_that_exist(tmp_path: Path) -> None:
 
 def test_what_is_sent_stands_in_the_log_and_on_the_terminal(tmp_path: Path) -> None:
     (tmp_path / "assess_a.log").write_text("of an older run\n")
-    progress = Progress({"assess_a": 2}, width=6, stream=io.StringIO())
-    with progress.followed():
+    stream = io.StringIO()
+    with Progress({"assess_a": 2}, stream).followed():
         line_writer(tmp_path / "assess_a.log")("one: rests: pier")
         line_writer(tmp_path / "trade.log")("1 of 12: one, pier: 14 runs")
-        send(error="it broke")
-        send(begun="compile")
     line_writer(tmp_path / "trade.log")("first")  # nobody reads any more, and nobody waits for it
     assert (tmp_path / "assess_a.log").read_text() == "one: rests: pier\n"
-    *lines, compiling = progress.stream.getvalue().splitlines()
-    assert "compiled" in compiling and lines == ["one     rests: pier", "trade: 1 of 12: one, pier: 14 runs"]
-    assert progress.errors == ["it broke"]
+    assert stream.getvalue().splitlines() == ["one: rests: pier", "trade: 1 of 12: one, pier: 14 runs"]
 
 
 class Terminal(io.StringIO):
@@ -126,9 +126,9 @@ class Terminal(io.StringIO):
 
 def test_on_a_terminal_it_says_how_far_it_has_come(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(terminal, "fitting", lambda line, stream: line)
-    progress = Progress({"assess_a": 40}, width=3, stream=Terminal())
-    progress.tell({"planned": {"assess_a": 1, "summarise": 1}})
-    assert progress.stream.getvalue().endswith("0 of 40 records")
+    progress = Progress({"assess_a": 40}, stream := Terminal())
+    progress.tell_plan(["assess_a", "summarise"])
+    assert stream.getvalue().endswith("0 of 40 records")
     progress._began -= 600  # ten minutes for the first record
-    progress.tell({"job": "assess_a", "line": "one: stands: pier"})
-    assert progress.stream.getvalue().endswith("1 of 40 records, about 390 min left")
+    progress.tell_line("assess_a", "one: stands: pier")
+    assert stream.getvalue().endswith("1 of 40 records, about 390 min left")

@@ -3,19 +3,19 @@
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
-from rocking.study.terminal import send
+from rocking.study.terminal import Progress
 
 
 class LogHandler(LogHandlerBase):
-    """Sends the plan and the errors of a run; snakemake's own log stays as it is."""
+    """Tells the plan and the errors of a run; snakemake's own log stays as it is."""
 
     writes_to_stream = writes_to_file = needs_rulegraph = False
     has_filter = has_formatter = True
 
     def emit(self, record):
-        """Send what the reader of a terminal wants to know of an event."""
-        event = getattr(record, "event", None)
-        if event == LogEvent.RUN_INFO:
-            send(planned={name: number for name, number in record.stats.items() if name != "total"})
-        elif event == LogEvent.ERROR:
-            send(error=record.getMessage())
+        """Tell what the reader of a terminal wants to know of an event."""
+        event, progress = getattr(record, "event", None), Progress.in_this_process
+        if progress and event == LogEvent.RUN_INFO:
+            progress.tell_plan(record.stats)
+        elif progress and event == LogEvent.ERROR:
+            progress.errors.append(record.getMessage())
