@@ -18,8 +18,8 @@ rule all:
 
 
 include: "workflow/rules/compile.smk"
-include: "workflow/rules/assess.smk"
 include: "workflow/rules/summarise.smk"
+include: "workflow/rules/assess.smk"
 include: "workflow/rules/trade.smk"
 include: "workflow/rules/fragility.smk"
 include: "workflow/rules/paper.smk"

@@ -19,6 +19,7 @@ for JOB, RECORDS in PLAN.jobs.items():
                 )
                 for path in own_of(JOB)
             ],
+            SUMMARIES if ALONE else [],
         log:
             f"{SUMMARY}/logs/assess_{JOB}.log",
         benchmark:
@@ -26,6 +27,7 @@ for JOB, RECORDS in PLAN.jobs.items():
         params:
             **PLAN.params(JOB),
             reports=SETTINGS.reports and SETTINGS.about,
+            summary=ALONE and OF_SUMMARY,
         message:
             f"Assess {len(RECORDS)} records (job {JOB})"
         script:

@@ -5,46 +5,51 @@ DOCUMENTS = {
     "prediction_against_integration.svg": ("scatter", "prediction against integration"),
     "study.html": ("explore", "page to explore the study"),
 }
+SUMMARIES = [
+    report(
+        f"{SUMMARY}/{table.file_name}",
+        caption="../report/table.rst",
+        category="Tables",
+        labels={"table": table.file_name, "content": table.description},
+    )
+    for table in (each.table for each in SUMMARY_TABLES)
+]
+SUMMARIES += [
+    report(
+        f"{SUMMARY}/{name}",
+        caption=f"../report/{caption}.rst",
+        category="Study",
+        labels={"document": label},
+    )
+    for name, (caption, label) in (DOCUMENTS.items() if SETTINGS.reports else ())
+]
+SUMMARIES += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json", f"{RESULTS}/datapackage.json"]
+OF_SUMMARY = {
+    "jobs": list(PLAN.jobs),
+    "settings": SETTINGS.mapping(),
+    # Where the target fragility is run by hand, its curves come into the report with the next run.
+    "fragility_sha256": "" if SETTINGS.fragility.in_every_run else PLAN.hashes.of(Path(FRAGILITY)),
+}
+# A lone job has in memory what a process of its own would take two seconds to import.
+ALONE = len(PLAN.jobs) == 1 and not (SETTINGS.trade.in_summary or SETTINGS.fragility.in_every_run)
 
+if not ALONE:
 
-rule summarise:
-    input:
-        parts=[path for job in PLAN.jobs for path in part_of(job)],
-        trade=f"{SUMMARY}/trade.csv" if SETTINGS.trade.in_summary else [],
-        fragility=FRAGILITY if SETTINGS.fragility.in_every_run else [],
-    output:
-        [
-            report(
-                f"{SUMMARY}/{table.file_name}",
-                caption="../report/table.rst",
-                category="Tables",
-                labels={"table": table.file_name, "content": table.description},
-            )
-            for table in (each.table for each in SUMMARY_TABLES)
-        ],
-        [
-            report(
-                f"{SUMMARY}/{name}",
-                caption=f"../report/{caption}.rst",
-                category="Study",
-                labels={"document": label},
-            )
-            for name, (caption, label) in (DOCUMENTS.items() if SETTINGS.reports else ())
-        ],
-        f"{SUMMARY}/provenance.json",
-        f"{SUMMARY}/datapackage.json",
-        f"{RESULTS}/datapackage.json",
-    log:
-        f"{SUMMARY}/logs/summarise.log",
-    benchmark:
-        f"{SUMMARY}/benchmarks/summarise.tsv"
-    params:
-        **PLAN.params(),
-        jobs=list(PLAN.jobs),
-        settings=SETTINGS.mapping(),
-        # Where the target fragility is run by hand, its curves come into the report with the next run.
-        fragility_sha256="" if SETTINGS.fragility.in_every_run else PLAN.hashes.of(Path(FRAGILITY)),
-    message:
-        "Summarise all records"
-    script:
-        "../scripts/summarise.py"
+    rule summarise:
+        input:
+            parts=[path for job in PLAN.jobs for path in part_of(job)],
+            trade=f"{SUMMARY}/trade.csv" if SETTINGS.trade.in_summary else [],
+            fragility=FRAGILITY if SETTINGS.fragility.in_every_run else [],
+        output:
+            SUMMARIES,
+        log:
+            f"{SUMMARY}/logs/summarise.log",
+        benchmark:
+            f"{SUMMARY}/benchmarks/summarise.tsv"
+        params:
+            **PLAN.params(),
+            **OF_SUMMARY,
+        message:
+            "Summarise all records"
+        script:
+            "../scripts/summarise.py"

@@ -1,4 +1,4 @@
-"""Assess and report the records of one job: snakemake.* onto rocking.study.job."""
+"""Assess and report the records of one job, and of a study with no other all: snakemake.* onto rocking.study."""
 
 import os
 from pathlib import Path
@@ -14,3 +14,7 @@ if __name__ == "__main__":
     if not cached:  # where a lone job compiles for itself
         tell("compile", "The integration is compiled, once on this machine: about half a minute.")
     run_job(records, study, part, results, line_writer(Path(snakemake.log[0])))
+    if snakemake.params.summary:
+        from rocking.study.summary import summarise  # of which one job of many has no need
+
+        summarise(study, records, snakemake.params.summary["jobs"], snakemake.params)
