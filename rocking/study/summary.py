@@ -6,22 +6,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from typing import Any
 
-from rocking.assessment.fragility import incremental_dynamic_analysis
-from rocking.assessment.intensity import intensity_measure
-from rocking.assessment.rows.of_fragility import (
-    FRAGILITY_TABLES,
-    ROTATION_RATIOS,
-    FragilityRow,
-    FragilitySummaryRow,
-    IdaRow,
-    IntensityMeasureRow,
-    fragility_rows,
-    fragility_summary_row,
-    ida_rows,
-    intensity_measure_rows,
-    read_hazard,
-)
 from rocking.assessment.rows.of_record import ComparisonRow
 from rocking.assessment.rows.of_study import (
     AGREEMENT_COLUMNS,
@@ -42,38 +28,42 @@ from rocking.tables import Row, data_package, frame, write_tables, write_whole
 
 _GOVERNING = ("structure", "record", "level", "overturning_share")
 _SHOWN = ("record", "pulses", "comparison", "verdicts", "structures", "agreement", "failures", "timings")
+_LIBRARIES = ("rocking", "obspy", "numpy", "scipy", "pandas", "matplotlib", "numba", "snakemake", "typst")
 
 
-def summarise(
-    study: Study, records: Mapping[str, str], jobs: Sequence[str], hashes: Mapping[str, str]
-) -> None:
-    """Write everything that stands over all records into the folder of the results.
+def summarise(study: Study, records: Iterable[CatalogueRecord], jobs: Sequence[str], params: Any) -> None:
+    """Write everything that stands over all records, in their order, into the folder of the results.
 
-    records: sha256 by identifier, in the order in which their rows are to stand. hashes: of settings and package.
+    params: what `Plan.params` planned; its hashes name the settings and the package.
     """
     results = Path(study.settings.results)
     target = results / "summary"
     parts = [part(results, job) for job in jobs]
-    write_summary(parts, list(records), study.structures, target)
+    hashes = {record.id: record.sha256 for record in records}
+    write_summary(parts, list(hashes), study.structures, target)
     # Two descriptions of every column, because a data package may not name files outside its own folder.
     of_summary = {each: each.table.file_name for each in SUMMARY_TABLES}
     folders = [each.relative_to(results).as_posix() for each in parts]
     of_jobs = {each: [f"{folder}/{each.table.file_name}" for folder in folders] for each in IN_PARTS}
     write_whole(target / "datapackage.json", data_package("rocking-study-summary", of_summary))
     write_whole(results / "datapackage.json", data_package("rocking-study", of_jobs))
+    versions = {"python": platform.python_version()}
+    for library in _LIBRARIES:
+        with suppress(PackageNotFoundError):
+            versions[library] = version(library)
     provenance = {
-        "versions": _versions(),
+        "versions": versions,
         "settings": study.settings.mapping(),
-        "hashes": dict(hashes),
-        "records": dict(records),
+        "hashes": {"settings": params.settings_sha256, "package": params.package_sha256},
+        "records": hashes,
     }
     text = json.dumps(provenance, indent=1, sort_keys=True, default=str)
     write_whole(target / "provenance.json", (text + "\n").encode())
     if study.settings.reports:
-        from rocking.reports.explore import explore_page  # where matplotlib is imported anyway
+        from rocking.reports.explore import explore_page  # matplotlib takes half a second to import
 
         _report(target, study, results / "fragility")
-        page = explore_page(page_contents(parts, records), study.structures, study.settings.study or "")
+        page = explore_page(page_contents(parts, hashes), study.structures, study.settings.study or "")
         write_whole(target / "study.html", page)
     remove_other_parts(results, jobs)
 
@@ -81,10 +71,7 @@ def summarise(
 def write_summary(
     parts: Sequence[Path], records: Sequence[str], structures: Mapping[str, Structure], target: Path
 ) -> None:
-    """Write the summary tables of a study into `target`, from the tables of its jobs in `parts`.
-
-    records: the identifiers in the order in which their rows are to stand.
-    """
+    """Write the tables of the summary into `target`: of `records`, in their order, from their jobs in `parts`."""
     for each in SUMMARY_TABLES:
         if each in IN_PARTS:
             write_whole(target / each.table.file_name, gathered(each, parts, records))
@@ -97,26 +84,19 @@ def write_summary(
     write_tables(tables, target)
 
 
-def _versions() -> dict[str, str]:
-    versions = {"python": platform.python_version()}
-    for name in ("rocking", "obspy", "numpy", "scipy", "pandas", "matplotlib", "numba", "snakemake", "typst"):
-        with suppress(PackageNotFoundError):
-            versions[name] = version(name)
-    return versions
-
-
 def _report(folder: Path, study: Study, fragility: Path) -> None:
     """Write summary.pdf and its figure beside the summary tables in `folder`, with fragility and trade if measured."""
-    from rocking.reports.style import svg  # matplotlib takes half a second to import
+    from rocking.reports.style import svg  # as above
     from rocking.reports.summary import prediction_scatter, summary_report
     from rocking.reports.trade import trade_picture
 
     shown = {each.table.name: each for each in SUMMARY_TABLES if each.table.name in _SHOWN}
     tables = {name: frame(each, folder / each.table.file_name) for name, each in shown.items()}
-    if (fragility / FragilitySummaryRow.table.file_name).exists():
-        path = fragility / FragilitySummaryRow.table.file_name
-        tables["fragility_summary"] = frame(FragilitySummaryRow, path)
-        tables["ida"] = frame(IdaRow, fragility / IdaRow.table.file_name, _GOVERNING)
+    if (fragility / "fragility_summary.csv").exists():
+        from rocking.assessment.rows.of_fragility import FragilitySummaryRow, IdaRow  # a quarter of a second
+
+        tables["fragility_summary"] = frame(FragilitySummaryRow, fragility / "fragility_summary.csv")
+        tables["ida"] = frame(IdaRow, fragility / "ida.csv", _GOVERNING)
     trade = trade_picture(folder) if study.settings.trade.in_summary else []
     write_whole(folder / "summary.pdf", summary_report(tables, study.settings.mapping(), trade))
     scatter = svg(prediction_scatter(tables["comparison"])).encode()
@@ -135,8 +115,13 @@ def write_fragility(
     Raises ConfigurationError, before anything is written, where the records that are left come from fewer than two
     stations, or the hazard curve is none.
     """
+    # A quarter of a second that a summary has no need of.
+    from rocking.assessment.fragility import incremental_dynamic_analysis
+    from rocking.assessment.intensity import intensity_measure
+    from rocking.assessment.rows import of_fragility as rows
+
     settings = study.settings.fragility
-    hazard = read_hazard(Path(settings.hazard)) if settings.hazard else None
+    hazard = rows.read_hazard(Path(settings.hazard)) if settings.hazard else None
     measure = intensity_measure(settings.intensity_measure)
     mechanism = next(iter(study.structures.values())).mechanism()
     names, accelerograms, unused = [], [], []
@@ -154,7 +139,7 @@ def write_fragility(
         raise ConfigurationError(
             "no record of the catalogue can be used, but a fragility needs two stations; the log says why."
         )
-    tables: dict[type[Row], list[Row]] = {each: [] for each in FRAGILITY_TABLES.values()}
+    tables: dict[type[Row], list[Row]] = {each: [] for each in rows.FRAGILITY_TABLES.values()}
     for count, (name, structure) in enumerate(study.structures.items(), start=1):
         analysis = incremental_dynamic_analysis(
             accelerograms,
@@ -164,15 +149,15 @@ def write_fragility(
             ensemble=study.assessment.ensemble if settings.members else None,
             tolerance=study.assessment.tolerance,
         )
-        tables[IdaRow] += ida_rows(name, names, analysis)
-        for threshold in ROTATION_RATIOS:
+        tables[rows.IdaRow] += rows.ida_rows(name, names, analysis)
+        for threshold in rows.ROTATION_RATIOS:
             for governing in (False, True) if analysis.governing_ratios is not None else (False,):
                 curve = analysis.fragility(threshold, governing=governing)
-                tables[FragilityRow] += fragility_rows(name, curve, governing)
-                tables[FragilitySummaryRow].append(fragility_summary_row(name, curve, governing, hazard))
-        tables[IntensityMeasureRow] += intensity_measure_rows(
-            name, structure.mechanism(), accelerograms, analysis
-        )
+                summed = rows.fragility_summary_row(name, curve, governing, hazard)
+                tables[rows.FragilityRow] += rows.fragility_rows(name, curve, governing)
+                tables[rows.FragilitySummaryRow].append(summed)
+        of_measures = rows.intensity_measure_rows(name, structure.mechanism(), accelerograms, analysis)
+        tables[rows.IntensityMeasureRow] += of_measures
         tell(f"{count} of {len(study.structures)}: {name}")
     write_tables(tables, folder, "rocking-fragility")
     return unused

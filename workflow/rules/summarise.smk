@@ -5,22 +5,19 @@ DOCUMENTS = {
     "prediction_against_integration.svg": ("scatter", "prediction against integration"),
     "study.html": ("explore", "page to explore the study"),
 }
+
+
+def in_report(name, caption, category, **labels):
+    """A file of the summary, with its place in the page that snakemake --report makes."""
+    return report(f"{SUMMARY}/{name}", caption=f"../report/{caption}.rst", category=category, labels=labels)
+
+
 SUMMARIES = [
-    report(
-        f"{SUMMARY}/{table.file_name}",
-        caption="../report/table.rst",
-        category="Tables",
-        labels={"table": table.file_name, "content": table.description},
-    )
+    in_report(table.file_name, "table", "Tables", table=table.file_name, content=table.description)
     for table in (each.table for each in SUMMARY_TABLES)
 ]
 SUMMARIES += [
-    report(
-        f"{SUMMARY}/{name}",
-        caption=f"../report/{caption}.rst",
-        category="Study",
-        labels={"document": label},
-    )
+    in_report(name, caption, "Study", document=label)
     for name, (caption, label) in (DOCUMENTS.items() if SETTINGS.reports else ())
 ]
 SUMMARIES += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json", f"{RESULTS}/datapackage.json"]
