@@ -40,7 +40,12 @@ def acceleration_factor(unit: str) -> float:
 
 def finite(error: type[RockingError], field: str, value: float, unit: str = "") -> float:
     """Return `value` as a finite float, or raise `error` naming `field`."""
-    number = _number(error, field, value)
+    if isinstance(value, bool | str | bytes):
+        raise error(f"{field} is {value!r}, but must be a number.")
+    try:
+        number = float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise error(f"{field} is {value!r}, but must be a number.") from None
     if not math.isfinite(number):
         raise error(f"{field} is {value!r}, but must be a finite number{_in(unit)}.")
     return number
@@ -84,15 +89,6 @@ def shown(value: float, unit: str = "") -> str:
 def counted(number: int, name: str) -> str:
     """Return "1 impact", "2 impacts"."""
     return f"{number} {name}" if number == 1 else f"{number} {name}s"
-
-
-def _number(error: type[RockingError], field: str, value: float) -> float:
-    if isinstance(value, bool | str | bytes):
-        raise error(f"{field} is {value!r}, but must be a number.")
-    try:
-        return float(value)
-    except (TypeError, ValueError, OverflowError):
-        raise error(f"{field} is {value!r}, but must be a number.") from None
 
 
 def _in(unit: str) -> str:

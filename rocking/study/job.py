@@ -12,12 +12,12 @@ from pathlib import Path
 from time import process_time
 from typing import Any
 
-from rocking.assessment.assess import Assessment, Failure, assess_structures
+from rocking.assessment.assess import Failure, assess_structures
 from rocking.assessment.ensemble import GroundMotions, processed
 from rocking.assessment.fate import BOTH_COMPONENTS, RecordTables
 from rocking.assessment.rows.of_record import (
-    ComponentRow,
     HistoryRow,
+    HorizontalMotion,
     TimingRow,
     VariationRow,
     ensemble_row,
@@ -26,7 +26,7 @@ from rocking.assessment.rows.of_record import (
     identity_of,
 )
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.variations import candidates, ensemble_over_cracks, processed_variants
+from rocking.assessment.variations import Variation, candidates, ensemble_over_cracks, processed_variants
 from rocking.assessment.verdict import Method
 from rocking.errors import ConfigurationError, RockingError
 from rocking.motion.response import Response
@@ -89,9 +89,8 @@ def planned(config: Mapping[str, Any], params: Any) -> tuple[Study, list[Catalog
     """
     with contextlib.suppress(OSError):
         fcntl.flock(os.open(JOBS, os.O_RDWR | os.O_CREAT), fcntl.LOCK_SH)  # never closed: held to the end
-        signal.signal(
-            signal.SIGINT, signal.SIG_IGN
-        )  # of the terminal, which the scheduler passes on as SIGTERM
+        # Ctrl-C comes from the scheduler, as SIGTERM.
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, signal.default_int_handler)
     settings = read_settings(config)
     structures = load_structures(settings.structures)
@@ -111,10 +110,67 @@ class Assessed:
     """One record in memory: its components as they acted, every row, and the responses by component and structure."""
 
     record: CatalogueRecord
-    accelerograms: list[Accelerogram]
-    vertical: Accelerogram | None
-    tables: RecordTables
+    study: Study
+    accelerograms: list[Accelerogram] = field(default_factory=list)
+    tables: RecordTables = field(default_factory=RecordTables)
     responses: dict[tuple[str, str], Response] = field(default_factory=dict)
+    durations: dict[str, float] = field(default_factory=lambda: defaultdict(float))
+
+    @contextlib.contextmanager
+    def stage(self, name: str, component: str = "", structure: str = "") -> Iterator[None]:
+        """Add the CPU time of what is done within to that of a stage, s; its error becomes a row of the failures."""
+        started = process_time()
+        try:
+            yield
+        except RockingError as error:
+            self.tables.fail(self.record.id, component, Failure(name, structure, str(error)))
+        finally:
+            self.durations[name] += process_time() - started
+
+    def assess(
+        self,
+        accelerogram: Accelerogram,
+        motion: HorizontalMotion | None,
+        vertical: Accelerogram | None,
+        settings: AssessmentSettings,
+        alone: bool,
+    ) -> None:
+        """Append what one component gives: cases, other cracks, other processing. motion: of the pair, if it is one."""
+        study, tables, component = self.study, self.tables, accelerogram.component
+        beside = None if vertical is None else aligned(vertical, accelerogram)
+        assessment = assess_structures(accelerogram, study.structures, settings, beside, alone)
+        identity = identity_of(self.record.id, accelerogram, study.settings_sha256)
+        tables.add(identity, assessment, study.assessment, self.record.licence, beside, motion)
+        for stage, duration in assessment.durations.items():
+            self.durations[stage] += duration
+        varied: dict[str, list[Variation]] = {}
+        for case in assessment.cases:
+            if response := case.responses.get(Method.MECHANISM_ON_RECORD):
+                self.responses[component, case.structure] = response
+            pulse = case.prediction.pulse if case.prediction else None
+            structure = study.structures[case.structure]
+            with self.stage("variations", component, case.structure):
+                number = study.settings.candidates
+                varied[case.structure] = candidates(structure, accelerogram, pulse, number, study.assessment)
+        if study.settings.processing_variants:
+            as_recorded = {case.structure: case.integrated_rotation_ratio for case in assessment.cases}
+            structures = {name: study.structures[name] for name in as_recorded}
+            with self.stage("variations", component):
+                recorded = processed(accelerogram)
+                of_each = processed_variants(structures, recorded, study.assessment, as_recorded, beside)
+                varied = {name: varied.get(name, []) + of_each[name] for name in of_each}
+        for name, several in varied.items():
+            tables.variations.extend(VariationRow.of(identity, each, structure=name) for each in several)
+
+    def assess_directions(self, pair: GroundMotions) -> None:
+        """Append the ensembles over all directions of a record that has two horizontal components."""
+        settings = self.study.assessment
+        identity = identity_of(self.record.id, self.accelerograms[0], self.study.settings_sha256)
+        for name in dict.fromkeys(case.structure for case in self.tables.comparison):
+            structure, quick = self.study.structures[name], settings.fidelity == "auto"
+            with self.stage("directions", BOTH_COMPONENTS, name):
+                members = ensemble_over_cracks(structure, pair, settings, verdict_only=quick)
+                self.tables.ensemble.append(ensemble_row(identity, name, members, BOTH_COMPONENTS))
 
 
 def run_job(
@@ -136,7 +192,7 @@ def run_job(
             if study.settings.reports:
                 from rocking.reports.explore import record_content  # matplotlib takes a second to import
 
-                write_report(assessed, study, folder)
+                write_report(assessed, folder)
                 shown = (assessed.accelerograms, study.structures, tables, assessed.responses)
                 content = record_content(record.id, *shown)
             else:
@@ -148,11 +204,11 @@ def run_job(
             tell(f"{record.id}: {record_line(tables.verdicts, tables.failures)}")
 
 
-def write_report(assessed: Assessed, study: Study, folder: Path) -> None:
+def write_report(assessed: Assessed, folder: Path) -> None:
     """Write report.pdf of one record into `folder`, beside the tables that it names."""
     from rocking.reports.record import RecordReport, failure_report  # matplotlib takes a second to import
 
-    tables, record = assessed.tables, assessed.record.id
+    tables, record, study = assessed.tables, assessed.record.id, assessed.study
     tables.write(folder)
     if tables.comparison:
         shown = (study.structures, tables, study.settings.mapping(), assessed.responses)
@@ -164,100 +220,33 @@ def write_report(assessed: Assessed, study: Study, folder: Path) -> None:
 
 def assess_record(record: CatalogueRecord, study: Study, opened: Opened | None = None) -> Assessed:
     """Read and assess `record`; what fails becomes a row of its failures. opened: its components, if they were read."""
-    durations: dict[str, float] = defaultdict(float)
-    try:
-        with _timed(durations, "read"):
-            assessed = Assessed(record, *(opened or study.open(record)), RecordTables())
-    except RockingError as error:
-        assessed = Assessed(record, [], None, RecordTables())
-        assessed.tables.fail(record.id, "", Failure("read", "", str(error)))
-    else:
-        _assess(assessed, study, durations)
-    for stage, duration in durations.items():
+    assessed = Assessed(record, study)
+    horizontal: list[Accelerogram] = assessed.accelerograms
+    vertical = None
+    with assessed.stage("read"):
+        components, vertical = opened or study.open(record)
+        horizontal += components
+    if horizontal:
+        with assessed.stage("velocity pulse"):
+            motions = horizontal_motions(horizontal)
+        pair = _pair(assessed, vertical)
+        none = replace(study.assessment.ensemble, members=0)
+        for accelerogram, motion in zip(horizontal, motions, strict=True):
+            # The ensemble over the directions of a pair speaks for its components.
+            settings = replace(study.assessment, ensemble=none) if pair else study.assessment
+            assessed.assess(accelerogram, motion, vertical, settings, alone=pair is None)
+        if pair:
+            assessed.assess_directions(pair)
+    for stage, duration in assessed.durations.items():
         assessed.tables.timings.append(TimingRow(record=record.id, stage=stage, duration_s=duration))
     return assessed
 
 
-@contextlib.contextmanager
-def _timed(durations: dict[str, float], stage: str) -> Iterator[None]:
-    """Add the CPU time of what is done within to that of a stage, s."""
-    started = process_time()
-    try:
-        yield
-    finally:
-        durations[stage] += process_time() - started
-
-
-def _assess(assessed: Assessed, study: Study, durations: dict[str, float]) -> None:
-    record, tables, settings = assessed.record, assessed.tables, study.assessment
-    with _timed(durations, "velocity pulse"):
-        motions = horizontal_motions(assessed.accelerograms)
-    pair = _pair(assessed, settings)
-    # The ensemble over the directions of a pair speaks for its components.
-    of_each = replace(settings, ensemble=replace(settings.ensemble, members=0)) if pair else settings
-    for accelerogram, motion in zip(assessed.accelerograms, motions, strict=True):
-        beside = None if assessed.vertical is None else aligned(assessed.vertical, accelerogram)
-        assessment = assess_structures(accelerogram, study.structures, of_each, beside, alone=pair is None)
-        identity = identity_of(record.id, accelerogram, study.settings_sha256)
-        tables.add(identity, assessment, settings, record.licence, beside, motion)
-        for case in assessment.cases:
-            if response := case.responses.get(Method.MECHANISM_ON_RECORD):
-                assessed.responses[accelerogram.component, case.structure] = response
-        with _timed(durations, "variations"):
-            _vary(identity, assessment, study, tables, beside)
-        for stage, duration in assessment.durations.items():
-            durations[stage] += duration
-    if pair is not None:
-        with _timed(durations, "directions"):
-            _assess_directions(assessed, study, pair)
-
-
-def _pair(assessed: Assessed, settings: AssessmentSettings) -> GroundMotions | None:
+def _pair(assessed: Assessed, vertical: Accelerogram | None) -> GroundMotions | None:
     """The motions of both horizontal components; None without two of them that belong together, or an ensemble."""
-    if len(assessed.accelerograms) != 2 or not settings.ensemble.members:
-        return None
-    first, second = assessed.accelerograms
-    processing = settings.ensemble.processing
-    try:
-        return GroundMotions.of_pair(first, second, assessed.vertical, processing=processing)
-    except RockingError as error:
-        assessed.tables.fail(assessed.record.id, BOTH_COMPONENTS, Failure("directions", "", str(error)))
-        return None
-
-
-def _assess_directions(assessed: Assessed, study: Study, pair: GroundMotions) -> None:
-    """Append the ensembles over directions of a record that has two horizontal components."""
-    tables, settings = assessed.tables, study.assessment
-    identity = identity_of(assessed.record.id, assessed.accelerograms[0], study.settings_sha256)
-    quick = settings.fidelity == "auto"
-    for name in dict.fromkeys(case.structure for case in tables.comparison):
-        try:
-            members = ensemble_over_cracks(study.structures[name], pair, settings, verdict_only=quick)
-            tables.ensemble.append(ensemble_row(identity, name, members, BOTH_COMPONENTS))
-        except RockingError as error:
-            tables.fail(identity.record, BOTH_COMPONENTS, Failure("directions", name, str(error)))
-
-
-def _vary(
-    identity: ComponentRow,
-    assessment: Assessment,
-    study: Study,
-    tables: RecordTables,
-    vertical: Accelerogram | None,
-) -> None:
-    """Append the rows of cracks and processing, for every structure that gave a result."""
-    record, cases = assessment.accelerogram, {case.structure: case for case in assessment.cases}
-    structures, settings = {name: study.structures[name] for name in cases}, study.assessment
-    varied = {}
-    for name, case in cases.items():
-        pulse = case.prediction.pulse if case.prediction else None
-        try:
-            varied[name] = candidates(structures[name], record, pulse, study.settings.candidates, settings)
-        except RockingError as error:
-            tables.fail(identity.record, record.component, Failure("variations", name, str(error)))
-    if study.settings.processing_variants:
-        as_recorded = {name: case.integrated_rotation_ratio for name, case in cases.items()}
-        of_processing = processed_variants(structures, processed(record), settings, as_recorded, vertical)
-        varied = {name: varied.get(name, []) + of_processing[name] for name in cases}
-    for name, several in varied.items():
-        tables.variations.extend(VariationRow.of(identity, each, structure=name) for each in several)
+    ensemble = assessed.study.assessment.ensemble
+    if len(assessed.accelerograms) == 2 and ensemble.members:
+        first, second = assessed.accelerograms
+        with assessed.stage("directions", BOTH_COMPONENTS):
+            return GroundMotions.of_pair(first, second, vertical, processing=ensemble.processing)
+    return None

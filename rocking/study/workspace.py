@@ -109,7 +109,7 @@ def assess_file(
     study = Study(chosen, Settings(), settings_sha256(Settings(), listed))
     assessed = assess_record(record, study, study.open(record, channels))
     if output is not None:
-        write_report(assessed, study, output / record.id)
+        write_report(assessed, output / record.id)
         rows = {StructureRow: structure_rows(chosen), CapacityRow: capacity_rows(chosen)}
         write_tables(rows, output / "summary")
     lines = [_told(row) for row in assessed.tables.comparison]

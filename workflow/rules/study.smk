@@ -46,7 +46,7 @@ def own_of(job):
 
 TARGETS = [f"{SUMMARY}/{each.table.file_name}" for each in SUMMARY_TABLES]
 TARGETS += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json"]
-TARGETS += [path for job in PLAN.jobs for path in own_of(job)]
+TARGETS += [path for job in PLAN.jobs for path in (*part_of(job), *own_of(job))]
 if SETTINGS.reports:
     TARGETS += [
         f"{SUMMARY}/{name}" for name in ("summary.pdf", "prediction_against_integration.svg", "study.html")

@@ -73,16 +73,12 @@ def test_a_factor_that_takes_the_peak_above_three_g_is_told(record, capsys, scal
     assert (f"Multiplied by {float(scale):g} the peak acceleration is" in text) == warned
 
 
-def test_read_says_what_a_file_is(record, capsys):
+def test_read_and_pulse_say_what_is_in_a_file(record, capsys):
     assert main(["read", str(record), "--unit", "g"]) == 0
+    assert main(["pulse", str(record), "--unit", "g"]) == 0
     text = capsys.readouterr().out
     assert "1001 samples every 0.01 s" in text
     assert f"peak {0.5 * 9.80665:.4g} m/s² = 0.5 g" in text
-
-
-def test_pulse_recovers_the_sine_in_the_file(record, capsys):
-    assert main(["pulse", str(record), "--unit", "g"]) == 0
-    text = capsys.readouterr().out
     assert "= 0.5 g, period 1 s, start 3.000 s, explains 100%" in text
 
 
@@ -93,9 +89,16 @@ def test_assess_tells_overturning_from_no_uplift(record, blocks, capsys):
     assert [line.split(": ")[1].split(";")[0] for line in lines] == ["overturns", "no uplift"]
 
 
-def test_assess_writes_report_and_tables_like_a_study(record, blocks, tmp_path, capsys):
+def test_assess_opens_a_file_once_and_writes_report_and_tables_like_a_study(
+    record, blocks, tmp_path, capsys, monkeypatch
+):
+    opened, real = [], os.open
+    monkeypatch.setattr(
+        os, "open", lambda path, *mode, **more: opened.append(path) or real(path, *mode, **more)
+    )
     arguments = ["assess", str(record), str(blocks), "squat", "--unit", "g", "--scale", "1.5"]
     assert main([*arguments, "--output", str(tmp_path / "out")]) == 0
+    assert opened.count(record) == 1
     assert "multiplied by 1.5" in capsys.readouterr().out
     folder = tmp_path / "out" / "own_record"
     assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
@@ -103,16 +106,6 @@ def test_assess_writes_report_and_tables_like_a_study(record, blocks, tmp_path, 
     assert [row["structure"] for row in comparison] == ["squat"]
     assert comparison[0]["scale_factor"] == "1.5"
     assert rows(tmp_path / "out" / "summary" / "structures.csv")[0]["structure"] == "squat"
-
-
-def test_a_single_file_is_opened_once(record, blocks, tmp_path, monkeypatch):
-    opened = []
-    real = os.open
-    monkeypatch.setattr(
-        os, "open", lambda path, *mode, **more: (opened.append(path), real(path, *mode, **more))[1]
-    )
-    assert main(["assess", str(record), str(blocks), "--unit", "g", "--output", str(tmp_path / "out")]) == 0
-    assert opened.count(record) == 1
 
 
 def test_spectrum_agrees_with_the_integration_of_one_block(record, tmp_path):
@@ -129,16 +122,6 @@ def test_spectrum_agrees_with_the_integration_of_one_block(record, tmp_path):
     assert float(chosen["rotation_ratio"]) == pytest.approx(response.rotation_ratio, rel=1e-9)
 
 
-def test_catalogue_lists_what_reads_and_names_what_does_not(study, capsys):
-    (study / "records" / "letter.txt").write_text("Dear Sir or Madam\n", encoding="utf-8")
-    catalogue = study / "records" / "catalogue.csv"
-    catalogue.unlink()
-    assert main(["catalogue", str(study / "records"), "--unit", "g"]) == 0
-    printed = capsys.readouterr().out
-    assert "1 record, 1 of them new" in printed and "not read: letter.txt: " in printed
-    assert [row["unit"] for row in rows(catalogue)] == ["g"]
-
-
 def test_a_catalogue_keeps_what_was_typed_in_and_adds_what_is_new(study, capsys):
     catalogue = study / "records" / "catalogue.csv"
     before, (first,) = catalogue.read_bytes(), rows(catalogue)
@@ -148,9 +131,11 @@ def test_a_catalogue_keeps_what_was_typed_in_and_adds_what_is_new(study, capsys)
     text = "time,NS (g)\n" + "".join(f"{i / 100},{i % 5}\n" for i in range(99))
     (study / "records" / "more.csv").write_text(text, encoding="utf-8")
     (study / "records" / name).rename(study / "records" / f".{name}")
+    (study / "records" / "letter.txt").write_text("Dear Sir or Madam\n", encoding="utf-8")
     assert main(["catalogue", str(study / "records")]) == 0
     printed = capsys.readouterr().out
     assert "1 of them new" in printed and "its file is not there" in printed
+    assert "not read: letter.txt: " in printed
     after = rows(catalogue)
     assert [row["file"] for row in after] == [name, "more.csv"]
     assert after[0] == dict.fromkeys(after[0], "") | first

@@ -181,7 +181,7 @@ def test_a_job_reads_each_file_once_and_writes_all_from_what_it_has(
     study = replace(study, settings=replace(study.settings, reports=True, histories=True))
     opened, real = [], os.open
     monkeypatch.setattr(
-        os, "open", lambda path, *more, **named: (opened.append(str(path)), real(path, *more, **named))[1]
+        os, "open", lambda path, *more, **named: opened.append(str(path)) or real(path, *more, **named)
     )
     run_job([record], study, tmp_path / "part", tmp_path / "results")
     assert opened.count(str(tmp_path / "made.AT2")) == 1
