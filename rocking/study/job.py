@@ -4,6 +4,7 @@ import contextlib
 import fcntl
 import os
 import signal
+import sys
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -28,7 +29,7 @@ from rocking.assessment.rows.of_record import (
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import Variation, candidates, ensemble_over_cracks, processed_variants
 from rocking.assessment.verdict import Method
-from rocking.errors import ConfigurationError, RockingError
+from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.motion.response import Response
 from rocking.records import Accelerogram, CatalogueRecord, aligned, load_catalogue, open_station
 from rocking.records.processing import process
@@ -37,7 +38,7 @@ from rocking.structures import Structure, load_structures
 from rocking.study.plan import JOBS, sha256_of, structures_sha256
 from rocking.study.results import remove_copies, written_part
 from rocking.study.settings import Settings, read_settings
-from rocking.study.terminal import record_line
+from rocking.study.terminal import record_line, tell_error
 from rocking.tables import write_rows, write_whole
 
 Opened = tuple[list[Accelerogram], Accelerogram | None]
@@ -87,6 +88,7 @@ def planned(config: Mapping[str, Any], params: Any) -> tuple[Study, list[Catalog
     The next run waits for the end of this process, should its scheduler be killed. Raises ConfigurationError when the
     structure list or the catalogue says something else than it did then.
     """
+    sys.excepthook = tell_error
     with contextlib.suppress(OSError):
         fcntl.flock(os.open(JOBS, os.O_RDWR | os.O_CREAT), fcntl.LOCK_SH)  # never closed: held to the end
         # Ctrl-C comes from the scheduler, as SIGTERM.
@@ -179,11 +181,13 @@ def run_job(
     part: Path,
     results: Path,
     tell: Callable[[str], object] = lambda _: None,
+    files: Iterable[str] = (),
 ) -> None:
     """Assess `records`, one after another: their tables and what the page to explore shows of them go into `part`.
 
     Where the settings ask for it, the report, the tables that it names and the histories of each go into its folder
-    below `results`. tell: takes a line for each record.
+    below `results`. tell: takes a line for each record. files: must still be there at the end, lest a folder that went
+    away for a while be taken for records that cannot be read. Raises RecordError, and leaves nothing, when one is not.
     """
     with written_part(part) as add:
         for record in records:
@@ -202,6 +206,8 @@ def run_job(
                 write_rows(HistoryRow, rows, folder / HistoryRow.table.file_name)
             add(tables, content)
             tell(f"{record.id}: {record_line(tables.verdicts, tables.failures)}")
+        if gone := [path for path in files if not os.path.isfile(path)]:
+            raise RecordError(f"{gone[0]}: the file went away while the study ran; bring it back.")
 
 
 def write_report(assessed: Assessed, folder: Path) -> None:

@@ -59,18 +59,19 @@ class Plan:
         """Write the hashes that the catalogue leaves blank: the files are checked against them from now on."""
         fill_hashes(self.settings.catalogue, self.settings.mirror)
 
-    def params(self, *jobs: str) -> dict[str, Any]:
-        """Return what the results of `jobs`, or of all, depend on: snakemake remembers and compares it.
+    def files(self, records: Iterable[str]) -> dict[str, str]:
+        """Return the sha256 of each file on this machine from which `records` are read; "" where it is not there."""
+        mirror = self.settings.mirror
+        paths = sorted({path for record in records for path in local_files(self.records[record], mirror)})
+        return {str(path): self.hashes.of(path) for path in paths}
 
-        The files that count are those on this machine from which the records are read, StationXML among them.
-        """
+    def params(self, *jobs: str) -> dict[str, Any]:
+        """Return what the results of `jobs`, or of all, depend on: snakemake remembers and compares it."""
         names = [name for job in jobs for name in self.jobs[job]] if jobs else list(self.records)
-        records = [self.records[name] for name in names]
-        files = sorted({path for record in records for path in local_files(record, self.settings.mirror)})
         return {
             "records": names,
-            "records_sha256": sha256_of(*records),
-            "files_sha256": sha256_of(*((str(path), self.hashes.of(path)) for path in files)),
+            "records_sha256": sha256_of(*(self.records[name] for name in names)),
+            "files_sha256": sha256_of(*self.files(names).items()),
             "structures_sha256": self.structures_sha256,
             "settings_sha256": self.settings_sha256,
             "package_sha256": self.package_sha256,

@@ -31,8 +31,12 @@ _ANSWERS = re.compile(
     r"detailed-summary|report|unlock|touch|archive|delete-all-output|print-compilation))(=.*)?"
 )
 """Options with which snakemake answers a question instead of running the study: its answer is shown as it is."""
-_ERRORS = re.compile(r"^[ \w.]*Error(?:: | in file .*\n)(?!Command )(.+)", re.MULTILINE)
-"""Sentences of this package in a log: in a traceback, and as snakemake tells what a Snakefile raised."""
+_REFUSED = {
+    "--trust-io-cache": "would run what .snakemake/iocache holds",
+    "--configfiles": "would name settings besides those of config.yaml",
+}
+_RAISED = re.compile(r"Error in file .*\n(?!Command )(.+)")
+"""How snakemake tells what a Snakefile raised."""
 _STOPS: list[int] = []
 """The signals by which somebody asked this process to stop."""
 
@@ -44,8 +48,10 @@ def run(folder: Path, options: Sequence[str]) -> int:
     folder holds no study or the study has defects; RockingError when another run works in it.
     """
     plan = _plan(folder)
-    if any(option.startswith("--trust") for option in options):
-        raise ConfigurationError("--trust-io-cache would run what .snakemake/iocache holds; leave it out.")
+    for name in (option.partition("=")[0] for option in options):
+        for refused, why in _REFUSED.items():  # snakemake takes the begin of a name for the whole
+            if name[:3] == refused[:3] and refused.startswith(name) and name != "--config":
+                raise ConfigurationError(f"{refused} {why}; leave it out.")
     home = workflow_folder()
     sys.path.append(str(home / "workflow" / "logger"))
     arguments = [
@@ -79,11 +85,9 @@ def run(folder: Path, options: Sequence[str]) -> int:
         print(f"Stopped; what was finished stays. To go on: rocking run {folder}")
         return 128 + _STOPS[0]
     if status:
-        # The folder of the results may be gone.
-        text = log.read_text(encoding="utf-8", errors="replace") if log.exists() else ""
-        sentences = dict.fromkeys(" ".join(match[1].split()) for match in _ERRORS.finditer(text))
-        last = progress.errors[-1:] or text.strip().splitlines()[-1:] or ["snakemake gave no reason"]
-        reason = "; ".join(sentences) or " ".join(last[0].split())
+        raised = _RAISED.findall("\n".join(progress.errors))
+        reasons = progress.reasons or raised or progress.errors[-1:] or [f"see {log}"]
+        reason = "; ".join(dict.fromkeys(" ".join(each.split()) for each in reasons))
         print(f"Not finished: {reason}\nMend that, then go on: rocking run {folder}")
         return 1
     if options and not options[0].startswith("-"):

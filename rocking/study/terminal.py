@@ -10,12 +10,13 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from contextlib import contextmanager
 from pathlib import Path
 from threading import Thread
+from types import TracebackType
 from typing import BinaryIO, TextIO
 
 from rocking.assessment.fate import ORDER, Fate, worst_first
 from rocking.assessment.rows.of_record import FailureRow
 from rocking.assessment.verdict import Verdict, rocks
-from rocking.errors import RecordError
+from rocking.errors import RecordError, RockingError
 from rocking.quantities import counted
 from rocking.tables import read_table
 
@@ -116,6 +117,7 @@ class Progress:
         self._done = 0
         self._began = time.monotonic()
         self.errors: list[str] = []
+        self.reasons: list[str] = []
 
     @contextmanager
     def followed(self) -> Iterator[None]:
@@ -146,7 +148,10 @@ class Progress:
         self._show()
 
     def tell_line(self, job: str, line: str) -> None:
-        """Show a line of a job; those that assess tell one for each record."""
+        """Show a line of a job; those that assess tell one for each record. Keep the reason why one failed."""
+        if job == "error":
+            self.reasons.append(line)
+            return
         self._done += job in self._records
         self._show(line if job in self._records else f"{job}: {line}")
 
@@ -182,6 +187,14 @@ def line_writer(log: Path) -> Callable[[str], None]:
         tell(log.stem, line)
 
     return add
+
+
+def tell_error(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+    """Tell why this process fails, before Python does: in place of sys.excepthook."""
+    if isinstance(error, RockingError | OSError):
+        place = f"{getattr(error, 'filename', None) or 'a file'}: " * isinstance(error, OSError)
+        tell("error", place + (getattr(error, "strerror", None) or str(error)))
+    sys.__excepthook__(kind, error, trace)
 
 
 def fitting(line: str, stream: TextIO) -> str:

@@ -1,10 +1,11 @@
 """Every column of every table holds something somewhere: a misspelt one would stay empty without a word."""
 
 import csv
-from collections import defaultdict
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from rocking.assessment.settings import EnsembleSettings
+from rocking.errors import StructureError
 from rocking.records.catalogue import CatalogueRecord
 from rocking.structures import load_structures
 from rocking.study.job import Study, run_job
@@ -15,36 +16,53 @@ from tests.workflow.conftest import ROOT
 STRUCTURES = """
 - {name: facade, type: block, breadth_m: 0.5, height_m: 6.0, one_sided: true, restitution: 0.5}
 - {name: wall, type: wall, height_m: 3.2, thickness_m: 0.25}
+- {name: spire, type: spire, width_m: 3.0, height_m: 15.0, wall_thickness_m: 0.25, crack_height_m: 5.0}
+- {name: tied, type: facade, storey_heights_m: [3.5, 3.0], thicknesses_m: [0.6, 0.5], unit_weight_kN_m3: 20,
+   floor_loads_kN_m: [12, 6], tie_heights_m: [3.4], tie_stiffness_kN_m2: 1000, tie_strength_kN_m: 4}
 """
-EMPTY: dict[tuple[str, str], str] = {}
-"""Columns that stay empty here, with the reason."""
+EMPTY = {("intensity_measures.csv", name) for name in ("p_value", "power", "slope")}
+"""What stays empty here: a regression needs more stations than two."""
+
+
+@dataclass(frozen=True)
+class Impossible:
+    """A structure that cannot be described."""
+
+    def mechanism(self) -> None:
+        raise StructureError("it cannot stand.")
 
 
 def test_every_column_is_filled_somewhere(tmp_path: Path) -> None:
     """By a raw record with all its channels, one of two components, a pulse that nothing survives, and no record."""
     (tmp_path / "structures.yaml").write_text(STRUCTURES, encoding="utf-8")
     (tmp_path / "broken.txt").write_bytes(b"no record")
+    (tmp_path / "hazard.txt").write_text("intensity,annual_rate\n0.01,0.1\n10,0.00001\n")
+    pulse = CatalogueRecord("pulse", "synthetic_strong_pulse.AT2", folder=ROOT / "records", unit="g")
     records = [
         CatalogueRecord(
             "raw", "obspy:STNA.20020722.044649.evt.gz", scale_factor=50.0, licence="free", note="raw"
         ),
-        CatalogueRecord("WTMC_2016", "20161113_110259_WTMC_20.V2A", folder=ROOT / "records"),
-        CatalogueRecord("synthetic", "synthetic_strong_pulse.AT2", folder=ROOT / "records", unit="g"),
+        CatalogueRecord("pair", "20161113_110259_WTMC_20.V2A", folder=ROOT / "records"),
+        pulse,
         CatalogueRecord("broken", "broken.txt", folder=tmp_path),
     ]
-    settings = Settings(reports=False, histories=True, vertical=True, fragility=StudyFragility(members=False))
+    fragility = StudyFragility(members=False, hazard=str(tmp_path / "hazard.txt"))
+    settings = Settings(reports=False, histories=True, vertical=True, fragility=fragility)
     study = Study(load_structures(tmp_path / "structures.yaml"), settings, "made")
     part = tmp_path / "summary" / "jobs" / "00000_of_00001"
     run_job(records, study, part, tmp_path)
     write_summary([part], [record.id for record in records], study.structures, tmp_path / "summary")
-    quick = replace(settings, fidelity="auto", histories=False)
-    run_job(records[1:3], replace(study, settings=quick), tmp_path / "auto", tmp_path)
+    alone = replace(settings, fidelity="auto", histories=False, ensemble=EnsembleSettings(members=0))
+    failing = {"facade": study.structures["facade"], "impossible": Impossible()}
+    run_job(
+        [records[1], replace(pulse, scale_factor=6.0)], Study(failing, alone), tmp_path / "auto", tmp_path
+    )
     write_fragility(records[1:3], study, tmp_path / "fragility")
-    empty: dict[tuple[str, str], bool] = defaultdict(lambda: True)
+    columns, filled = set(), set()
     for path in tmp_path.rglob("*.csv"):
         with path.open(encoding="utf-8", newline="") as stream:
-            for row in csv.DictReader(stream):
-                for name, text in row.items():
-                    empty[path.name, name] &= text == ""
-    assert {column for column, nothing in empty.items() if nothing} == set(EMPTY)
-    assert len({name for name, _ in empty}) > 15
+            rows = csv.DictReader(stream)
+            columns |= {(path.name, name) for name in rows.fieldnames or ()}
+            filled |= {(path.name, name) for row in rows for name, text in row.items() if text}
+    assert columns - filled == EMPTY
+    assert len({name for name, _ in columns}) == 17

@@ -27,6 +27,7 @@ for JOB, RECORDS in PLAN.jobs.items():
         params:
             **PLAN.params(JOB),
             reports=SETTINGS.reports and SETTINGS.about,
+            files=[path for path, sha256 in PLAN.files(RECORDS).items() if sha256],
             summary=ALONE and OF_SUMMARY,
         message:
             f"Assess {len(RECORDS)} records (job {JOB})"

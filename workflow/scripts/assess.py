@@ -13,8 +13,9 @@ if __name__ == "__main__":
     cached = any(Path(motion.__path__[0], "__pycache__").glob("*.nbi")) or "NUMBA_CACHE_DIR" in os.environ
     if not cached:  # where a lone job compiles for itself
         tell("compile", "The integration is compiled, once on this machine: about half a minute.")
-    run_job(records, study, part, results, line_writer(Path(snakemake.log[0])))
-    if snakemake.params.summary:
+    params, tell_line = snakemake.params, line_writer(Path(snakemake.log[0]))
+    run_job(records, study, part, results, tell_line, params.files)
+    if params.summary:
         from rocking.study.summary import summarise  # of which one job of many has no need
 
-        summarise(study, records, snakemake.params.summary["jobs"], snakemake.params)
+        summarise(study, records, params.summary["jobs"], params)
