@@ -108,7 +108,7 @@ def test_all_defects_stand_in_one_message_each_with_its_value_and_what_is_allowe
     ("config", "words"),
     [
         ({"pulse": {"lowest_frequency_hz": 6}}, "highest_frequency is 5 Hz, but must be above"),
-        ({"processing": {"low_pass_hz": 0.05}}, "high_pass is 0.1 Hz, but must be below"),
+        ({"processing": {"low_pass_hz": 0.05}}, "high_pass is 0.1 Hz, but low_pass"),
         ([], "must be a mapping"),
     ],
 )
