@@ -37,9 +37,7 @@ ALL_DIRECTIONS = 24
 """Between which the draws of a pair choose."""
 
 
-@row(
-    "ensemble_trials", "One row per record and structure: the ensemble beside random draws of the same causes"
-)
+@row("ensemble_trials", "One row per record and structure: the ensemble beside random draws of its causes")
 class EnsembleTrial(sites.Trial):
     """One case."""
 
@@ -51,9 +49,7 @@ class EnsembleTrial(sites.Trial):
     share_256: float = column("Share of 256 members that overturn")
     share_drawn: float = column("Share of the random draws that overturn")
     draws: int = column("Random draws")
-    inside_band: float = column(
-        "Share of the draws within the 5-95 % band of the ensemble; empty where it rests or may overturn"
-    )
+    inside_band: float = column("Share of the draws in its 5-95 % band; empty: it rests or may overturn")
 
 
 def write_ensemble_accuracy(
@@ -138,20 +134,17 @@ def ensemble_scores(trials: Sequence[EnsembleTrial]) -> Iterator[Score]:
 
 
 def _measures(own: pd.DataFrame) -> Mapping[str, scores.Measured]:
-    truth = own.share_drawn.to_numpy()
-    is_open = (truth > OPEN[0]) & (truth < OPEN[1])
-    decided = (own.verdict != Verdict.UNDECIDED).to_numpy()
-    opposite = np.where(own.verdict == Verdict.STANDS, truth, 1 - truth)
-    risk = EnsembleSettings().risk
+    truth, risk = own.share_drawn, EnsembleSettings().risk
+    is_open = truth.between(*OPEN, inclusive="neither")
+    decided = own.verdict != Verdict.UNDECIDED
+    opposite = truth.where(own.verdict == Verdict.STANDS, 1 - truth).where(decided)
     measures: dict[str, scores.Measured] = {}
     for size, allowed in ALLOWED.items():
-        within = np.abs(own[f"share_{size}"] - truth) <= allowed
+        within = (own[f"share_{size}"] - truth).abs() <= allowed
         measures[f"share within {allowed} with {size} members (0.95 is asked)"] = within.where(is_open)
+    for more, asked in ((BEYOND, f" by more than {BEYOND} (0 is asked)"), (0.0, "")):
+        measures[f"share of verdicts beyond their risk{asked}"] = (opposite > risk + more).where(decided)
     return measures | {
         "share of draws inside the 5-95 % band (0.87 to 0.93 is asked)": own.inside_band,
-        f"share of verdicts beyond their risk by more than {BEYOND} (0 is asked)": np.where(
-            decided, opposite > risk + BEYOND, np.nan
-        ),
-        "share of verdicts beyond their risk": np.where(decided, opposite > risk, np.nan),
-        "verdicts": lambda rows: float(decided[rows].sum()),
+        "verdicts": lambda rows: float(decided.to_numpy()[rows].sum()),
     }

@@ -44,10 +44,7 @@ Fitted = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """Probabilities (k,) of tests (k,) after a fit to the tests (n,), both by index."""
 
 
-@row(
-    "predictions",
-    "One row per specimen, method and test: what a fit to the other motions stated, and the outcome",
-)
+@row("predictions", "One row per specimen, method and test, its motion left out of the fit")
 class PredictionRow(Row):
     """One method on one test."""
 
@@ -93,12 +90,10 @@ def write_validation(catalogue: Path, mirror: Path | None, folder: Path, tell: T
         part, ours = f"specimen {specimen}", probability[IDENTIFIED]
         for method, values in probability.items():
             rows += scores.scored(method, part, _measures(values, ours, outcomes), motions)
-            about = {"specimen": specimen, "method": method}
-            for test, motion, value, fell in zip(tests.test, motions, values, outcomes, strict=True):
-                each = PredictionRow(
-                    test=int(test), motion=motion, probability=float(value), overturned=bool(fell), **about
-                )
-                predictions.append(each)
+            facts = zip(tests.test.tolist(), motions, values.tolist(), outcomes.tolist(), strict=True)
+            for test, motion, stated, fell in facts:
+                about = {"specimen": specimen, "method": method, "test": test, "motion": motion}
+                predictions.append(PredictionRow(**about, probability=stated, overturned=fell))
         rows += scores.reliability(part, "motions left out", ours, outcomes, motions, EDGES)
         population = fit_mixture(measured.parameters, measured.overturns, outcomes, motions)
         for name, (low, middle, high) in population.ranges().items():

@@ -11,17 +11,8 @@ import numpy as np
 import pandas as pd
 
 from docs.research import scores
+from docs.research.comparison import codes
 from docs.research.comparison.cases import SEED, CodeCase, pulse_cases, record_cases, structures
-from docs.research.comparison.codes import (
-    ANOTHER_MODEL,
-    LMGC90,
-    ROCKING_BC,
-    SLOWEST,
-    Answer,
-    Code,
-    inner_codes,
-    outer_codes,
-)
 from docs.research.reference import reference_landings
 from docs.research.report import publish
 from docs.research.scores import Score
@@ -33,7 +24,7 @@ from rocking.structures import Mechanism
 from rocking.tables import Row, column, row
 
 REFERENCE = "scipy DOP853, 1e-12 (reference)"
-SAMPLED = {LMGC90: {"block": 24, "frame": 24, "arch": 12}, ROCKING_BC: {"block": 8}}
+SAMPLED = {codes.LMGC90: {"block": 24, "frame": 24, "arch": 12}, codes.ROCKING_BC: {"block": 8}}
 """Cases of each structure that a slow code is run on, drawn with the seed of the cases from those that rock visibly."""
 VISIBLE = (0.02, 0.95)
 """Rotation ratios between which a block is said to do so."""
@@ -46,10 +37,7 @@ COMPARED = (
 )
 
 
-@row(
-    "codes",
-    "One row per case and code: error against scipy's DOP853 at 1e-12, and work; times differ between runs",
-)
+@row("codes", "One row per case and code: error against scipy's DOP853 at 1e-12, and processor time")
 class CodeRow(Row):
     """One code on one case."""
 
@@ -64,17 +52,13 @@ class CodeRow(Row):
     error: float = column("Relative error where both rock; 0 where neither does; empty for another model")
     verdict_agrees: bool | None = column("Whether it rocks, overturns or stays as the reference says")
     duration_s: float = column("Processor time of one response")
-    reference_impacts: int = column(
-        "Impacts of the reference while the ground moves, faster than p φ_cr/1000"
-    )
+    reference_impacts: int = column("Impacts of the reference under moving ground, faster than p φ_cr/1000")
     missed_impacts: int | None = column("Those without an impact of the code within 0.02/p; empty: untold")
     reference_restitution: float = column("Restitution of the reference")
     restitution: float = column("Of a reversal on still ground: root of the ratio of energies of excursions")
     restitution_error: float = column("Half width of its error bar")
     same_restitution_rotation_ratio: float = column("Rotation ratio by this package with that restitution")
-    envelope_rotation_ratio: float = column(
-        "Largest by this package over the cracks that may form; for other models"
-    )
+    envelope_rotation_ratio: float = column("Of another model: largest of ours over the cracks that may form")
     outside_hinges: float = column("Share of all joint rotation outside the hinges of the mechanism")
     reason: str = column("Why there is no number")
 
@@ -84,7 +68,7 @@ def write_comparison(records: Sequence[Accelerogram], folder: Path, tell: Tell) 
     cases = [*pulse_cases(), *record_cases(records)]
     slow, rows = slow_cases(cases), []
     for case in cases:
-        rows += code_rows(case, {**inner_codes(), **slow.get(case.name, {})})
+        rows += code_rows(case, {**codes.inner_codes(), **slow.get(case.name, {})})
         tell(case.name)
     pulses = sum(case.kind == "pulse" for case in cases)
     subtitle = (
@@ -95,15 +79,15 @@ def write_comparison(records: Sequence[Accelerogram], folder: Path, tell: Tell) 
     publish(folder, "Work against precision", subtitle, tables, [{"text": COMPARED}])
 
 
-def code_rows(case: CodeCase, codes: Mapping[str, Code]) -> Iterator[CodeRow]:
+def code_rows(case: CodeCase, asked: Mapping[str, codes.Code]) -> Iterator[CodeRow]:
     """Yield the rows of one case, the reference first."""
     start = time.process_time()
     truth, landings = reference_landings(case.mechanism, case.motion)
     spent, side = time.process_time() - start, case.mechanism.positive
     forced = landings[landings[:, 0] <= case.motion.duration]
-    fast = forced[forced[:, 1] > SLOWEST * side.frequency_parameter * side.critical_rotation, 0]
-    yield _row(case, REFERENCE, Answer(truth, spent, landings=fast), truth, fast)
-    for name, code in codes.items():
+    fast = forced[forced[:, 1] > codes.SLOWEST * side.frequency_parameter * side.critical_rotation, 0]
+    yield _row(case, REFERENCE, codes.Answer(truth, spent, landings=fast), truth, fast)
+    for name, code in asked.items():
         yield _row(case, name, code(case), truth, fast)
 
 
@@ -114,14 +98,14 @@ def missed(landings: np.ndarray, expected: np.ndarray, within: float) -> int:
     return int((np.abs(expected[:, None] - landings).min(axis=1) > within).sum())
 
 
-def slow_cases(cases: Sequence[CodeCase]) -> Mapping[str, Mapping[str, Code]]:
+def slow_cases(cases: Sequence[CodeCase]) -> Mapping[str, Mapping[str, codes.Code]]:
     """Return by case the slow codes that take it, of each code its sample."""
     rocking: dict[str, list[str]] = {}
     for case in cases:
         if VISIBLE[0] < integrate(case.mechanism, case.motion).rotation_ratio < VISIBLE[1]:
             rocking.setdefault(case.structure, []).append(case.name)
-    chosen: dict[str, dict[str, Code]] = {}
-    for name, code in outer_codes().items():
+    chosen: dict[str, dict[str, codes.Code]] = {}
+    for name, code in codes.outer_codes().items():
         for structure, most in SAMPLED[name].items():
             names = rocking.get(structure, [])
             for case_name in random.Random(SEED).sample(names, min(most, len(names))):
@@ -129,7 +113,7 @@ def slow_cases(cases: Sequence[CodeCase]) -> Mapping[str, Mapping[str, Code]]:
     return chosen
 
 
-def _row(case: CodeCase, code: str, answer: Answer, truth: float, expected: np.ndarray) -> CodeRow:
+def _row(case: CodeCase, code: str, answer: codes.Answer, truth: float, expected: np.ndarray) -> CodeRow:
     ratio, side = answer.rotation_ratio, case.mechanism.positive
     agrees = None if math.isnan(ratio) else _kind(ratio) == _kind(truth)
     error = abs(ratio / truth - 1) if agrees and 0 < truth < math.inf else 0.0 if agrees else math.nan
@@ -149,7 +133,7 @@ def _row(case: CodeCase, code: str, answer: Answer, truth: float, expected: np.n
     if 0 <= answer.restitution <= 1:
         same = integrate(Mechanism(replace(side, restitution=answer.restitution)), case.motion)
         made = replace(made, same_restitution_rotation_ratio=same.rotation_ratio)
-    if (case.structure, code) in ANOTHER_MODEL:
+    if (case.structure, code) in codes.ANOTHER_MODEL:
         mechanisms = [mechanism for _, mechanism in cracks(structures()[case.structure])]
         envelope = max(integrate(each, case.motion).rotation_ratio for each in mechanisms)
         return replace(made, another_model=True, error=math.nan, envelope_rotation_ratio=envelope)
