@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from docs.research.ensembles import CHOSEN, LEFT_OUT, EnsembleTrial, ensemble_scores, try_ensembles
+from docs.research.ensembles import CHOSEN, LEFT_OUT, PAIRS, EnsembleTrial, ensemble_scores, try_ensembles
+from docs.research.screening import ScreeningTrial, screening_scores
 from rocking.assessment.verdict import Verdict
 from rocking.records import Accelerogram
 from rocking.structures import Block
@@ -29,6 +30,13 @@ def test_trials_are_the_same_at_every_call_and_scatter_about_the_draws():
         assert abs(trial.share_256 - trial.share_drawn) < spread, "four standard errors of the draws"
 
 
+def test_two_components_of_a_site_are_tried_as_a_pair_too():
+    pair = [(name, replace(record, component=name, station="0")) for name, record in RECORDS[:2]]
+    trials = list(try_ensembles([], pair, STRUCTURES, draws=400))
+    assert [trial.half for trial in trials] == [LEFT_OUT] * 6 + [PAIRS] * 3
+    assert [trial.record for trial in trials[::3]] == ["made 0", "made 1", "made 0"]
+
+
 def test_each_measure_counts_what_it_names():
     shares = {f"share{which}": 0.5 for which in ("", "_64", "_256", "_drawn")}
     names = {"record": "a", "site": "s", "half": CHOSEN, "structure": "b", "verdict": Verdict.UNDECIDED}
@@ -40,6 +48,19 @@ def test_each_measure_counts_what_it_names():
     assert found["share within 0.035 with 256 members (0.95 is asked)"] == pytest.approx(1 / 3)
     assert found["share of verdicts beyond their risk by more than 0.03 (0 is asked)"] == 1
     assert found["verdicts"] == 1
+
+
+def test_each_measure_of_the_screen_counts_what_it_names():
+    stands, overturns, undecided = Verdict.STANDS, Verdict.OVERTURNS, Verdict.UNDECIDED
+    cases = [(stands, stands, 0.06), (stands, stands, 0.04), (stands, overturns, np.nan)]
+    cases += [(undecided, stands, 0.01), (overturns, overturns, np.nan)]
+    about = {"record": "r", "structure": "wall", "scale_factor": 1.0, "largest_share": 0.0}
+    trials = [
+        ScreeningTrial(verdict=verdict, exhaustive=exhaustive, fresh_share=fresh, site=f"{k}", **about)
+        for k, (verdict, exhaustive, fresh) in enumerate(cases)
+    ]
+    values = [row.value for row in screening_scores(trials) if row.part == "wall"]
+    assert values == pytest.approx([3 / 5, 1 / 3, 1 / 3, 2 / 5])
 
 
 def test_a_site_counts_once_and_what_came_later_is_left_out():

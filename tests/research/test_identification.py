@@ -42,6 +42,20 @@ def campaign(seeds: range, scatter: float) -> tuple[list[Accelerogram], list[boo
     return records, outcomes
 
 
+def test_the_blocks_of_a_prior_fill_its_box():
+    """Evenly in the logarithm: half of them lie below the geometric mean; of η below the mean."""
+    first, second, frequency, restitution = (
+        BlockPrior((0.06, 0.2), (2.5, 8.0), 1.5, (0.7, 0.9), 256).parameters().T
+    )
+    ranges = ((np.sqrt(first * second), 0.06, 0.2), (first / second, 1 / 1.5, 1.5), (frequency, 2.5, 8.0))
+    for values, low, high in (
+        *((np.log(each), *np.log(ends)) for each, *ends in ranges),
+        (restitution, 0.7, 0.9),
+    ):
+        quartiles = np.quantile(values, (0, 0.25, 0.5, 0.75, 1))
+        assert quartiles == pytest.approx(np.linspace(low, high, 5), abs=(high - low) / 100)
+
+
 def test_known_structures_are_found_and_predicted_under_motions_that_took_no_part():
     records, outcomes = campaign(range(12), 0.05)
     found = identify(records, outcomes, PRIOR, motions=[each.event for each in records])

@@ -43,6 +43,13 @@ def test_the_covariance_is_that_of_the_coefficients():
     assert np.diag(said) == pytest.approx(np.diag(spread), rel=0.25)
 
 
+def test_the_covariance_of_a_coin_is_known():
+    """Of n tosses with shares p and q: 1/(p q (n − 1)), each toss a group."""
+    heads = np.arange(10) < 3
+    (odds,), ((variance,),) = logistic(np.ones((10, 1)), heads, np.arange(10))
+    assert odds == pytest.approx(np.log(3 / 7)) and variance == pytest.approx(1 / (0.3 * 0.7 * 9))
+
+
 def test_what_is_said_as_it_is_has_slope_one():
     design, fallen, _ = planted(20_000)
     odds = 2 * design[:, 1] - 1

@@ -67,6 +67,12 @@ def test_where_an_ensemble_would_follow_the_block_may_settle_it():
     assert found.method is Method.BLOCK_ON_RECORD and found.response is None
     assert found.estimate.high <= 0.01
     assert ensemble(MECHANISM, GroundMotions.of(motion)).verdict is Verdict.STANDS
+    falls = cheapest_answer(MECHANISM, record(40.0), ensemble_follows=True, risk=0.1)
+    assert (
+        falls.method is Method.BLOCK_ON_RECORD
+        and falls.rotation_ratio == np.inf
+        and falls.estimate.low >= 0.9
+    )
     (case,) = assess_structures(motion, {"block": BLOCK}, AssessmentSettings(fidelity="auto")).cases
     assert case.answer.method is Method.BLOCK_ON_RECORD and case.ensemble is None
 
