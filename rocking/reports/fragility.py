@@ -4,14 +4,16 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rocking.assessment.intensity import INTENSITY_MEASURES
-from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow, IdaRow
+from rocking.assessment.rows.of_fragility import ROTATION_RATIOS, FragilityRow, FragilitySummaryRow, IdaRow
 from rocking.quantities import counted
 from rocking.reports.document import compile_document
 from rocking.reports.panels import draw_probability
-from rocking.reports.printing import NOTHING, Column, given, number, table_of, words
+from rocking.reports.printing import Column, given, number, table_of, words
 from rocking.reports.style import elided, new_figure, picture, styled, svg
 from rocking.tables import frame, rows_of, write_whole
 
@@ -22,11 +24,12 @@ ON_A_PAGE = 8
 """Structures whose curves stand on one page."""
 FEW_STATIONS = 20
 """Below so many stations the curves are called rough."""
-_COLUMNS, _HEIGHT = 2, 52.0
+_COLUMNS, _HEIGHT = 2, 46.0
 """Panels of a row, and its height, mm."""
 _GOVERNING, _HALF = 3, 0.5
 """Records that are named for each structure; share of the members from which on a record overturns it."""
-_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
+_COLOURS = dict(zip(ROTATION_RATIOS, ("#56B4E9", "#0072B2", "#009E73"), strict=False))
+_WORST = "#D55E00"
 _READ = ("structure", "record", "station", "level", "overturning_share")
 
 
@@ -35,7 +38,7 @@ def write_fragility_report(folder: Path, pdf: Path, image: Path) -> None:
     curves, summary = (
         frame(each, folder / each.table.file_name) for each in (FragilityRow, FragilitySummaryRow)
     )
-    write_whole(image, svg(fragility_figure(curves, summary)).encode())
+    write_whole(image, svg(fragility_figure(curves)).encode())
     ida = frame(IdaRow, folder / IdaRow.table.file_name, _READ)
     write_whole(pdf, compile_document("plain.typ", fragility_data(curves, summary, ida)))
 
@@ -48,13 +51,14 @@ def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") 
     )
     few = f" With {counted(stations, 'station')} the curves are rough and their intervals wide: take more."
     caption = (
-        "Level that half of the stations overturn each structure at, with its 90 % interval by stations; dispersion of "
-        "the lognormal curve; records under which it overturns first, with the level of each: they govern the lower "
-        "end of its curve; and how many records, scaled up, let it stand again."
+        "Level that half of the stations overturn each structure at, with its 90 % interval by stations, for the crack "
+        "that statics chooses and for the worst of those that may form; dispersion of the lognormal curve; records "
+        "under which it overturns first, with the level of each: they govern the lower end of its curve; and how many "
+        "records, scaled up, let it stand again."
     )
     of_curves = (
-        "Share of the stations that exceed a rotation (overturns, or a share of the critical rotation φcr), its 90 % "
-        "interval by stations for overturning (shaded) and the lognormal curve (dashed)."
+        "Share of the stations that exceed a rotation (overturns, or a share of the critical rotation φcr) with the "
+        "crack that statics chooses, and that overturn it with the worst of the cracks that may form."
     )
     parts = [
         {"text": scaled + few * (stations < FEW_STATIONS)},
@@ -63,7 +67,7 @@ def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") 
     names = list(dict.fromkeys(curves["structure"]))
     for first in range(0, len(names), ON_A_PAGE):
         page = names[first : first + ON_A_PAGE]
-        drawn = fragility_figure(*(table[table["structure"].isin(page)] for table in (curves, summary)))
+        drawn = fragility_figure(curves[curves["structure"].isin(page)])
         alt = f"Fragility curves of {counted(len(page), 'structure')} with 90 % intervals."
         parts.append(picture(drawn, alt) | {"caption": of_curves})
     records = f"{counted(ida['record'].nunique(), 'record')} of {counted(stations, 'station')}"
@@ -77,14 +81,15 @@ def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") 
 def fragility_table(summary: "DataFrame", ida: "DataFrame") -> dict[str, object]:
     """Return one row per structure: its median, that with the worst crack, and what overturns it first."""
     falls = list(rows_of(FragilitySummaryRow, summary[summary["threshold"] == math.inf]))
-    worst = {row.structure: row for row in falls if row.governing}
+    worst = {row.structure: _with_interval(row) for row in falls if row.governing}
     records = governing_records(ida)
     first = "First to overturn it, and at what level"
-
-    def of_worst(row: FragilitySummaryRow) -> str:
-        return _with_interval(worst[row.structure]) if row.structure in worst else NOTHING
-
-    with_worst: Column = ("Median with the worst crack", "1.0", "l", of_worst)
+    with_worst: Column = (
+        "Median with the worst crack",
+        "1.0",
+        "l",
+        lambda row: words(worst.get(row.structure)),
+    )
     rate: Column = ("Annual rate [1/year]", "0.7", "r", lambda row: number(row.annual_rate, 2))
     return table_of(
         [row for row in falls if not row.governing],
@@ -123,34 +128,38 @@ def governing_records(ida: "DataFrame") -> dict[str, str]:
 
 
 @styled
-def fragility_figure(curves: "DataFrame", summary: "DataFrame") -> Figure:
-    """Draw the curves of each structure from the tables fragility and fragility_summary, with the crack of statics."""
-    curves, summary = (table[~table["governing"]] for table in (curves, summary))
+def fragility_figure(curves: "DataFrame") -> Figure:
+    """Draw the curves of each structure from the table fragility, and that of overturning with the worst crack."""
     names = list(dict.fromkeys(curves["structure"]))
     rows = math.ceil(len(names) / _COLUMNS)
-    figure = new_figure(_HEIGHT * rows + 20, margins=(16, 3, 12, 11))
+    figure = new_figure(_HEIGHT * rows + 18, margins=(16, 3, 10, 15))
     spaced = {"hspace": 0.45, "wspace": 0.08}
     panels = figure.subplots(rows, _COLUMNS, squeeze=False, sharey=True, gridspec_kw=spaced)
     for panel in panels.flat[len(names) :]:
         panel.set_axis_off()
     for panel in panels[:, 0]:
         panel.set_ylabel("probability [-]")
+    shown = curves[~curves["governing"] | np.isinf(curves["threshold"])]
     for name, panel in zip(names, panels.flat, strict=False):
-        of_structure = curves[curves["structure"] == name]
-        for place, (threshold, curve) in enumerate(of_structure.groupby("threshold")):
-            overturns = math.isinf(float(threshold))  # type: ignore[arg-type]
-            draw_probability(
-                panel,
-                curve["level"].to_numpy(),
-                curve["probability"].to_numpy(),
-                (curve["probability_low"], curve["probability_high"]) if overturns else None,
-                curve["lognormal"].to_numpy() if overturns else None,
-                "overturns" if overturns else f"φ > {threshold:g} φcr",
-                "black" if overturns else _COLOURS[place % len(_COLOURS)],
-            )
-        own = summary[(summary["structure"] == name) & (summary["threshold"] == math.inf)]
-        falls = next(rows_of(FragilitySummaryRow, own))
-        panel.set_title(f"{elided(name, 60)}\nmedian {_median(falls)}", fontsize=8)
-        panel.set_xlabel(f"{falls.intensity_measure} [{_unit(falls.intensity_measure)}]")
-        panel.legend(loc="upper left", fontsize=7)
+        of_structure = shown[shown["structure"] == name]
+        for _, curve in of_structure.groupby(["threshold", "governing"]):
+            _draw_curve(panel, curve)
+        measure = of_structure["intensity_measure"].iloc[0]
+        panel.set(title=elided(name, 60), xlabel=f"{measure} [{_unit(measure)}]")
+    named = (panel.get_legend_handles_labels() for panel in panels.flat)
+    handles = {label: handle for each in named for handle, label in zip(*each, strict=True)}
+    figure.legend(handles.values(), handles.keys(), loc="upper center", ncols=4)
     return figure
+
+
+def _draw_curve(panel: Axes, curve: "DataFrame") -> None:
+    """Draw one curve, that of overturning with its interval and lognormal curve."""
+    threshold, governing = float(curve["threshold"].iloc[0]), bool(curve["governing"].iloc[0])
+    columns = ["level", "probability", "probability_low", "probability_high", "lognormal"]
+    levels, probability, low, high, lognormal = curve[columns].to_numpy(dtype=float).T
+    if threshold < math.inf:
+        label = f"φ > {threshold:g} φcr"
+        draw_probability(panel, levels, probability, label=label, colour=_COLOURS[threshold])
+    else:
+        label, colour = ("overturns, worst crack", _WORST) if governing else ("overturns", "black")
+        draw_probability(panel, levels, probability, (low, high), lognormal, label, colour)

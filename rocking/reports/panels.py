@@ -218,7 +218,7 @@ def draw_probability(
         )
     axes.plot(levels, probability, ".-", color=colour, linewidth=0.9, markersize=3, label=label)
     if lognormal is not None:
-        axes.plot(levels, lognormal, "--", color="black", linewidth=0.7, label="lognormal")
+        axes.plot(levels, lognormal, "--", color=colour, linewidth=0.7, label="lognormal")
     plain_logarithmic(axes, "x")
     axes.set_ylim(-0.02, 1.02)
 
@@ -263,7 +263,7 @@ def _plot_assessment(assessment: "StructureAssessment", axes: Axes) -> None:
     share = f"{100 * assessment.overturning_share:.0f} %"
     axes.set(xlabel=TIME, ylabel=RATIO, ylim=(-1.15, 1.15))
     axes.set_title(f"{assessment.verdict}: overturns in {share} of the members")
-    axes.legend(loc="upper right")
+    axes.legend(loc="upper left")
 
 
 def _plot_fragility(fragility: "Fragility", axes: Axes) -> None:

@@ -172,7 +172,10 @@ FRAGILITY = {
     "fragility": frame(
         FragilityRow,
         [
-            FragilityRow.of(PIER, level=level, probability=level, probability_low=0.0, probability_high=1.0)
+            FragilityRow.of(
+                {"governing": governing}, PIER, level=level, probability=level, probability_low=0.0
+            )
+            for governing in (False, True)
             for level in (0.1, 0.2, 0.4)
         ],
     ),
@@ -184,7 +187,8 @@ def test_the_document_of_the_fragility_names_records_stations_units_and_what_gov
     data = fragility_data(FRAGILITY["fragility"], FRAGILITY["fragility_summary"], FRAGILITY["ida"])
     assert data["subtitle"] == "4 records of 3 stations; 1 structure."
     text, table, figure = data["parts"]
-    assert "With 3 stations the curves are rough" in text["text"] and "pgv [m/s]" in figure["svg"]
+    assert "With 3 stations the curves are rough" in text["text"]
+    assert "pgv [m/s]" in figure["svg"] and ">overturns, worst crack</text>" in figure["svg"]
     (row,) = table["rows"]
     assert row[:2] == ["pier", "pgv 0.20 (0.13–0.31) m/s"] and row[3] == "3"
     # d overturns it at 0.1 in all members, b at 0.2 in most of them, a at 0.4, and c nowhere
@@ -196,7 +200,5 @@ def test_the_document_of_the_fragility_names_records_stations_units_and_what_gov
 
 @pytest.mark.parametrize("measure", INTENSITY_MEASURES)
 def test_every_intensity_measure_is_drawn_with_its_unit(measure):
-    curves, summary = (
-        FRAGILITY[name].assign(intensity_measure=measure) for name in ("fragility", "fragility_summary")
-    )
-    assert f">{measure} [" in svg(fragility_figure(curves, summary))
+    curves = FRAGILITY["fragility"].assign(intensity_measure=measure)
+    assert f">{measure} [" in svg(fragility_figure(curves))
