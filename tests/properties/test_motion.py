@@ -80,8 +80,7 @@ def test_inserted_samples_change_nothing(name, seed):
     fine = Accelerogram(np.interp(times, record.times, record.acceleration), record.time_step / 5)
     for structure in (mechanism, mechanism.equivalent_block()):
         coarse, dense = integrate(structure, record, 1e-9, sensitivity=True), integrate(structure, fine, 1e-9)
-        if abs(coarse.sensitivity) > 100:  # chaotic: the rounding of the inserted samples alone shows
-            continue
+        assume(not abs(coarse.sensitivity) > 100)  # else the rounding of the inserted samples alone shows
         assert coarse.outcome is dense.outcome
         assert dense.rotation_ratio == pytest.approx(coarse.rotation_ratio, rel=1e-8)
 

@@ -44,13 +44,17 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("sign", [1.0, -1.0])
+SIDES = [
+    (case, sign)
+    for case, (structure, _) in CASES.items()
+    for sign in ((1.0,) if structure.mechanism().one_sided else (1.0, -1.0))
+]
+
+
+@pytest.mark.parametrize(("case", "sign"), SIDES)
 def test_acceleration_is_that_of_positions_and_energy(case, sign):
     structure, lagrangian = CASES[case]
     mechanism = structure.mechanism()
-    if sign < 0 and mechanism.one_sided:
-        return
     oracle = lagrangian(structure, sign)
     side = mechanism.sides[0 if sign > 0 else -1]
     for share, velocity, ground in ((0.05, 0.3, 1.7), (0.4, -0.8, -2.5), (0.9, 0.5, 0.6)):
