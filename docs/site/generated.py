@@ -23,7 +23,7 @@ from rocking.tables import Table
 
 def formats() -> str:
     """The formats that are read, where each comes from, and what it is recognised by."""
-    rows = ((form.name, form.origin, form.sought, "yes" if form.plugin else "") for form in FORMATS)
+    rows = ((form.name, form.origin, form.signature, "yes" if form.plugin else "") for form in FORMATS)
     return table(("format", "origin", "recognised by", "offered to obspy"), rows)
 
 

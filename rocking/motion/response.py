@@ -103,20 +103,20 @@ class Response:
 class ModelCheck:
     """The contacts of a structure along one response, up to its critical rotation.
 
-    friction_needed: largest friction coefficient that any contact needs while it rocks; inf where one is not pressed,
+    required_friction: largest friction coefficient that any contact needs while it rocks; inf where one is not pressed,
     nan where `reason` says why nothing is known of it. bounces: whether a contact would open, or None.
     reason: why nothing is known, in words; "" where it is. ties: which ties yield or break on the way to the largest
     rotation to the positive side, in words; "" where none does.
     """
 
-    friction_needed: float = math.nan
+    required_friction: float = math.nan
     bounces: bool | None = None
     reason: str = ""
     ties: str = ""
 
     def slides(self, friction_coefficient: float) -> bool | None:
         """Whether a contact needs more friction than `friction_coefficient`; None where the forces are not known."""
-        return None if math.isnan(self.friction_needed) else self.friction_needed > friction_coefficient
+        return None if math.isnan(self.required_friction) else self.required_friction > friction_coefficient
 
 
 UNKNOWN = ModelCheck(reason="contact forces are found along the mechanism on the record only")
@@ -153,7 +153,7 @@ def check_model(
         return ModelCheck(reason=str(why))
     largest = min(float(rotation.max()), structure.mechanism().positive.end_rotation)
     return ModelCheck(
-        float(np.max(contacts.friction_needed)),
+        float(np.max(contacts.required_friction)),
         bool(contacts.opens.any()),
         ties=structure.tie_events(largest),
     )

@@ -115,7 +115,7 @@ def recognise(content: bytes) -> Format:
     raise UnknownFormatError(
         f"no reader recognises this file, which begins with {(words if words.isprintable() else head[:8])!r}; "
         "rocking read --details says what each of them looked for.",
-        details=tuple(f"{form.name}: no {form.sought}" for form in FORMATS),
+        details=tuple(f"{form.name}: no {form.signature}" for form in FORMATS),
     )
 
 

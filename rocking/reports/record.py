@@ -660,5 +660,5 @@ def _method_columns(rows: Sequence[ComparisonRow]) -> list[Column]:
         ("a [-]", "0.5", "r", lambda row: number(row.amplitude_ratio)),
         ("ω/p [-]", "0.5", "r", lambda row: number(row.frequency_ratio)),
         *((heads[name], *column[1:]) for name, column in zip(used, of_methods, strict=True)),
-        *columns_of(ComparisonRow, "peak_time_s=0.45 impacts friction_needed slides=0.5 bounces", "0.65"),
+        *columns_of(ComparisonRow, "peak_time_s=0.45 impacts required_friction slides=0.5 bounces", "0.65"),
     ]

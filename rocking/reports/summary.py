@@ -217,7 +217,7 @@ def prediction_scatter(comparison: "DataFrame") -> Figure:
 AGREEMENT_COLUMNS = columns_of(
     AgreementRow,
     "structure=1.4 records=0.7 cases=0.6 both_rock=0.7 within_factor_two=0.8 median_ratio=0.7 overturning=1 "
-    "overturning_found=1 overturning_missed=1 overturning_false=1",
+    "overturning_hits=1 overturning_misses=1 overturning_false_alarms=1",
 )
 UNSAFE_COLUMNS = columns_of(
     ComparisonRow,

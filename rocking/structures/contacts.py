@@ -53,7 +53,7 @@ class Contacts:
         return cls(names, along.real, along.imag)
 
     @property
-    def friction_needed(self) -> np.ndarray:
+    def required_friction(self) -> np.ndarray:
         """Smallest friction coefficient that prevents sliding, (h, k); inf where not pressed, nan where not known."""
         pressed = self.normal > 0
         needed = np.abs(self.tangential) / np.where(pressed, self.normal, 1.0)

@@ -61,7 +61,7 @@ def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> dict[str, 
 
     Below its levels the fragility counts as 0, above them as its last value; beyond the last point of the hazard curve
     all is counted there. The low and the high rate come from the ends of the curve's 90 % interval at every level at
-    once, which is wider than 90 % of the rate. annual_rate_left_out is the most that the rate may lack: because the
+    once, which is wider than 90 % of the rate. annual_rate_remainder is the most that the rate may lack: because the
     curve ends below a probability of 1, and because levels below the first point of the hazard curve are left out,
     which occur as often as the hazard curve, continued by its first slope, says.
     """
@@ -82,7 +82,7 @@ def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> dict[str, 
     below = np.interp((lower[1:] + lower[:-1]) / 2, levels, probability, left=0.0) @ -np.diff(continued)
     ends = {"": probability, "_low": fragility.probability_low, "_high": fragility.probability_high}
     rates_by_end = {f"annual_rate{end}": total(curve) for end, curve in ends.items()}
-    return rates_by_end | {"annual_rate_left_out": float(above + below)}
+    return rates_by_end | {"annual_rate_remainder": float(above + below)}
 
 
 @row("ida")
@@ -140,7 +140,7 @@ class FragilitySummaryRow(Row):
     annual_rate: float = column("Annual rate of exceedance; empty without a hazard curve", unit="1/year")
     annual_rate_low: float = column("Annual rate by the lower ends of the interval", unit="1/year")
     annual_rate_high: float = column("Annual rate by the upper ends of the interval", unit="1/year")
-    annual_rate_left_out: float = column(
+    annual_rate_remainder: float = column(
         "Most that the rate may lack beyond the ends of curve and hazard", unit="1/year"
     )
 

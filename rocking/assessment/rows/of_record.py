@@ -183,7 +183,7 @@ class ComparisonRow(CaseRow):
     impacts: int | None = column("Number of impacts in the integration")
     peak_side: int | None = column(PEAK_SIDE)
     peak_time_s: float = column("Time of the largest rotation after the first sample")
-    friction_needed: float = column("Largest friction that a contact needs; INF without pressure")
+    required_friction: float = column("Largest friction that a contact needs; INF without pressure")
     slides: bool | None = column("Whether a contact slides, so that the model fails")
     bounces: bool | None = column("Whether a contact lifts off, so that the model fails")
     ties: str = column("Which ties yield or break on the way to the largest rotation")

@@ -80,9 +80,9 @@ class AgreementRow(Row):
     within_factor_two: int = column("Number of these with a ratio between 1/2 and 2")
     median_ratio: float = column("Median of predicted over integrated rotation where both rock")
     overturning: int = column("Number of cases that overturn in the integration")
-    overturning_found: int = column("Number of these that overturn in the closed form")
-    overturning_missed: int = column("Number of these that stand in the closed form")
-    overturning_false: int = column("Number of cases that overturn in the closed form alone")
+    overturning_hits: int = column("Number of these that overturn in the closed form")
+    overturning_misses: int = column("Number of these that stand in the closed form")
+    overturning_false_alarms: int = column("Number of cases that overturn in the closed form alone")
 
 
 @row("spectrum")
@@ -163,9 +163,9 @@ def agreement_rows(comparison: "DataFrame") -> Iterator[AgreementRow]:
             within_factor_two=int(cases["within_factor_two"].sum()),
             median_ratio=float(cases["prediction_over_integration"].median()),
             overturning=int(integrated.sum()),
-            overturning_found=int((predicted & integrated).sum()),
-            overturning_missed=int((integrated & ~predicted).sum()),
-            overturning_false=int((predicted & ~integrated).sum()),
+            overturning_hits=int((predicted & integrated).sum()),
+            overturning_misses=int((integrated & ~predicted).sum()),
+            overturning_false_alarms=int((predicted & ~integrated).sum()),
         )
 
 

@@ -92,7 +92,7 @@ class Options:
 class Format:
     """One kind of file.
 
-    origin: who publishes records in it. sought: what the recogniser looks for, as the end of "no ...".
+    origin: who publishes records in it. signature: what the recogniser looks for, as the end of "no ...".
     recognise: whole content to bool, never raises; or a pattern of the first line that is not empty.
     read: (content, options) to accelerograms; raises RecordError only, whose message need not name the file.
     plugin: its name among obspy's formats, where it is offered to obspy.
@@ -100,7 +100,7 @@ class Format:
 
     name: str
     origin: str
-    sought: str
+    signature: str
     first: Callable[[bytes], bool] | re.Pattern[str]
     read: Callable[[bytes, Options], list[Accelerogram]]
     plugin: str = ""

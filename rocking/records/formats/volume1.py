@@ -205,7 +205,7 @@ def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
     raise RecordError("this is a Volume 3 file of spectra, not a time history; use the V1 or V2 file.")
 
 
-def _volume1(name: str, origin: str, sought: str, first: str, read, plugin: str, mark: str = "") -> Format:
+def _volume1(name: str, origin: str, signature: str, first: str, read, plugin: str, mark: str = "") -> Format:
     """Return the format whose channels start with a line like `first`; `mark` stands in the text below it."""
     pattern = re.compile(first, re.I)
 
@@ -216,7 +216,7 @@ def _volume1(name: str, origin: str, sought: str, first: str, read, plugin: str,
         channels = blocks(content, pattern)
         return [read(block, options, len(channels)) for block in channels]
 
-    return Format(name, origin, sought, recognise, read_all, plugin)
+    return Format(name, origin, signature, recognise, read_all, plugin)
 
 
 USC = _volume1("USC Volume 1", "University of Southern California",

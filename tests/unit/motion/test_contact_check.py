@@ -23,17 +23,17 @@ def _check(structure, record=RECORD):
 def test_a_block_needs_at_least_the_friction_that_lifts_it(slenderness):
     # At uplift, φ = 0, the ground pushes with λ m g = tan α · m g and the weight presses with m g
     check = _check(Block(2.0, slenderness), RECORD.scaled(slenderness / 0.2))
-    assert check.friction_needed >= math.tan(slenderness) * (1 - 1e-9)
-    assert check.slides(check.friction_needed * 1.01) is False
-    assert check.slides(check.friction_needed * 0.99) is True
+    assert check.required_friction >= math.tan(slenderness) * (1 - 1e-9)
+    assert check.slides(check.required_friction * 1.01) is False
+    assert check.slides(check.required_friction * 0.99) is True
 
 
 def test_nothing_is_claimed_without_motion_or_where_forces_are_not_known():
     still = _check(Block(2.0, 0.2), RECORD.scaled(0.1))
-    assert math.isnan(still.friction_needed) and still.bounces is None
+    assert math.isnan(still.required_friction) and still.bounces is None
     assert still.reason == "nothing rocks below the critical rotation"
     frame = _check(Frame(Block(2.0, 0.2), 3, 0.2))
-    assert math.isnan(frame.friction_needed)
+    assert math.isnan(frame.required_friction)
     assert frame.slides(0.5) is None
     assert frame.reason == "contact forces of a frame are statically indeterminate"
     silent = check_model(Block(2.0, 0.2), integrate(Block(2.0, 0.2), RECORD), RECORD)

@@ -79,7 +79,7 @@ def test_an_unknown_file_is_told_what_was_looked_for(tmp_path: Path) -> None:
     with pytest.raises(UnknownFormatError) as long:
         read(written(tmp_path, "x" * 900 + "\n", "n" * 250))
     assert len(str(long.value)) <= 300
-    assert caught.value.details == tuple(f"{form.name}: no {form.sought}" for form in FORMATS)
+    assert caught.value.details == tuple(f"{form.name}: no {form.signature}" for form in FORMATS)
 
 
 class _Trap:

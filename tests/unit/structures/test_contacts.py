@@ -13,7 +13,7 @@ def test_at_rest_the_base_carries_the_weight_and_needs_the_ground_acceleration_a
     assert found.normal[0, 0] == pytest.approx(GRAVITY, rel=1e-14)
     assert found.normal[1, 0] == pytest.approx(GRAVITY / 2, rel=1e-14)
     block = Block(2.0, 0.2).contact_forces(0.0, 0.0, 0.0, [0.5, -1.0])
-    np.testing.assert_allclose(block.friction_needed[0], np.array([0.5, 1.0]) / GRAVITY, rtol=1e-14)
+    np.testing.assert_allclose(block.required_friction[0], np.array([0.5, 1.0]) / GRAVITY, rtol=1e-14)
 
 
 def test_at_zero_rotation_the_velocity_chooses_the_side():
