@@ -205,27 +205,27 @@ class Linkage(ABC):
 
     def side(self, restitution: float) -> Side:
         """Return the side of rocking."""
-        ties = self.ties
-        bends = [bend for tie in ties for bend in tie.bends(self.end_rotation)]
-        critical = self._first_zero(bends) if self.critical is None else self.critical
+        critical = self._first_zero() if self.critical is None else self.critical
         functions = self.inertia, self.inertia_slope, self.gravity, self.gravity_slope, self.ground
-        return Side(*functions, critical, self.end_rotation, restitution, ties, self.untied_gravity)
+        return Side(*functions, critical, self.end_rotation, restitution, self.ties, self.untied_gravity)
 
-    def _first_zero(self, bends: Sequence[float]) -> float:
-        """Where G first vanishes on (0, end_rotation), or falls below zero at one of the `bends` of its ties, rad.
+    def _first_zero(self) -> float:
+        """Where G first vanishes on (0, end_rotation), or falls below zero where a tie yields or breaks, rad.
 
         Raises StructureError when G does not restore at rest, or does not vanish.
         """
         from scipy.optimize import brentq  # slow to import, and not needed by what has a formula
 
-        places = np.linspace(0.0, self.end_rotation, 513)
-        if bends:
-            places = np.unique(np.concatenate([places, bends, np.nextafter(bends, np.inf)]))
+        bends = [bend for tie in self.ties for bend in tie.bends(self.end_rotation)]
+        steps = np.linspace(0.0, self.end_rotation, 513)
+        places = np.unique(np.concatenate([steps, bends, np.nextafter(bends, np.inf)]))
         falls = np.flatnonzero(self.gravity(places) <= 0)
         if not falls.size:
+            lifts = float(self.gravity(0.0) / self.ground(0.0))
             raise StructureError(
-                f"the structure has no unstable equilibrium up to a rotation of {self.end_rotation:.6g} rad: "
-                "what holds it never lets go; make it weaker, or say at which strength its ties yield."
+                f"the structure lifts at {lifts:.4g} g but cannot overturn: up to {self.end_rotation:.4g} rad, where its"
+                " geometry ends, what holds it never lets go; give elastic ties the tie_strength at which they yield or "
+                "break, or make what holds it weaker."
             )
         if falls[0] == 0:
             raise StructureError("the structure does not stand: what acts on it at rest turns it over.")

@@ -56,6 +56,10 @@ def facade(**changes):
         (lambda: facade(thrust_height=12.0), "thrust_height is 12.0 m, but must lie on the wall"),
         (lambda: facade(crack_storey=4), "crack_storey is 4, but must be a whole number from 1 to 3"),
         (lambda: LoadedWall(2.0, -1.4, 0.3, 19e3), "upper_height is -1.4 m"),
+        (
+            lambda: LoadedWall(1.9, 1.3, 0.25, 20e3, tie_heights=(1.6,), tie_stiffness=1e9),
+            "lifts at 0.2632 g but cannot overturn: .* never lets go; give elastic ties the tie_strength",
+        ),
     ],
 )
 def test_sizes_that_do_not_go_together_are_refused_in_one_sentence(make, message):
