@@ -219,11 +219,8 @@ class EquivalentBlock:
     rotation_map: RotationMap | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
-        for name, unit in (
-            ("frequency_parameter", "rad/s"),
-            ("critical_rotation", "rad"),
-            ("acceleration_scale", ""),
-        ):
+        units = {"frequency_parameter": "rad/s", "critical_rotation": "rad", "acceleration_scale": ""}
+        for name, unit in units.items():
             object.__setattr__(self, name, positive(StructureError, name, getattr(self, name), unit))
         object.__setattr__(self, "restitution", within(StructureError, "restitution", self.restitution, 0, 1))
         if self.other_side is not None and (self.one_sided or self.other_side.other_side is not None):

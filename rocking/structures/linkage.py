@@ -223,9 +223,9 @@ class Linkage(ABC):
         if not falls.size:
             lifts = float(self.gravity(0.0) / self.ground(0.0))
             raise StructureError(
-                f"the structure lifts at {lifts:.4g} g but cannot overturn: up to {self.end_rotation:.4g} rad, where its"
-                " geometry ends, what holds it never lets go; give elastic ties the tie_strength at which they yield or "
-                "break, or make what holds it weaker."
+                f"the structure lifts at {lifts:.4g} g but cannot overturn: up to {self.end_rotation:.4g} rad, where "
+                "its geometry ends, what holds it never lets go; give elastic ties the tie_strength at which they "
+                "yield or break, or make what holds it weaker."
             )
         if falls[0] == 0:
             raise StructureError("the structure does not stand: what acts on it at rest turns it over.")

@@ -160,15 +160,13 @@ class Side:
 
     def equivalent_block(self, scale: Scale = "rest") -> EquivalentBlock:
         """Return the linear block that stands for this side alone; see Mechanism.equivalent_block."""
-        mapped = None
+        frequency, mapped, scaled = 0.0, None, self.scaled_acceleration(scale)
         if scale == "rest":
             arc, mapped = self.arc
-            stiffness = GRAVITY * self.at("gravity", 0.0) / self.at("inertia", 0.0)
             # p² = g G(0)/(I(0) q_cr) in x = q/q_cr with the arc q (theory: section 9)
+            stiffness = GRAVITY * self.at("gravity", 0.0) / self.at("inertia", 0.0)
             frequency = float(np.sqrt(stiffness / arc.at(self.critical_rotation)))
-        else:
-            frequency = self.frequency_parameter
-        scaled = self.scaled_acceleration(scale)
+        frequency = frequency or self.frequency_parameter
         return EquivalentBlock(
             frequency, self.critical_rotation, scaled, self.restitution, rotation_map=mapped
         )
@@ -189,13 +187,9 @@ class Side:
 
     def scaled_acceleration(self, scale: Scale) -> float:
         """a_sc, a_sc,alt = φ_cr/λ (Eq. 13), or their mean; that of the block exact at rest is a_sc,alt."""
-        alternative = self.critical_rotation / self.uplift_multiplier
-        scales = {
-            "rest": alternative,
-            "linearised": self.acceleration_scale,
-            "uplift": alternative,
-            "mean": (self.acceleration_scale + alternative) / 2,
-        }
+        linearised, alternative = self.acceleration_scale, self.critical_rotation / self.uplift_multiplier
+        mean = (linearised + alternative) / 2
+        scales = {"rest": alternative, "linearised": linearised, "uplift": alternative, "mean": mean}
         if scale not in scales:
             raise StructureError(f"scale is {scale!r}, but must be one of {', '.join(scales)}.")
         return scales[scale]

@@ -186,12 +186,11 @@ class Structure(ABC):
         Raises StructureError for a side to which it does not rock, or fewer than two points.
         """
         mechanism = self.mechanism()
-        if side not in (1, -1) or (side == -1 and mechanism.one_sided):
+        if side not in (1, -1) or (side == -1 and mechanism.one_sided) or count < 2:
             raise StructureError(
-                f"side is {side!r}, but must be 1, or -1 where the structure rocks to both sides."
+                f"side is {side!r} and count {count!r}, but side must be 1, or -1 where the structure rocks to both "
+                "sides, and count 2 or more."
             )
-        if count < 2:
-            raise StructureError(f"count is {count!r}, but must be 2 or more.")
         of = mechanism.sides[0 if side > 0 else -1]
         rotation = np.linspace(0.0, of.critical_rotation, count)
         if of.remembers:
@@ -201,12 +200,8 @@ class Structure(ABC):
         # the control point is the corner that moves furthest sideways
         linkage = self.linkages[0 if side > 0 else -1]
         motion, at_rest = linkage.motion(rotation), linkage.motion(0.0)
-        corners = [
-            (part, corner)
-            for part, part_corners in self._seen(side < 0)
-            for corner in part_corners
-            if part != STILL
-        ]
+        parts = [(part, corners) for part, corners in self._seen(side < 0) if part != STILL]
+        corners = [(part, corner) for part, of_part in parts for corner in of_part]
         moved = np.array([linkage.carried(*each, motion).moved.real for each in corners])
         control = int(np.argmax(moved[:, rotation.size // 2]))
         displacement = moved[control] - moved[control, 0]  # which is rounding

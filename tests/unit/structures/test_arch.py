@@ -5,7 +5,6 @@ import itertools
 import numpy as np
 import pytest
 from kinematic_onset import kinematic_onset
-from scipy.optimize import linprog
 
 from rocking.errors import StructureWarning
 from rocking.structures.arch import Arch
@@ -91,52 +90,3 @@ def test_bounds_of_thickness_are_sharp():
         static_onset(Ring(most * (1 + 1e-9), embrace))
     assert static_onset(Ring(least * (1 + 1e-9), embrace)).multiplier > 0
     assert static_onset(Ring(most * (1 - 1e-6), embrace)).multiplier > 0
-
-
-def multiplier_by_programme(arch, hinges=None):
-    """Livesley's programme of free voussoirs: the largest λ at which the thrust leaves no joint on the wrong side.
-
-    hinges: the only joints that may open, the first and the third beyond the intrados, the others beyond the extrados;
-    None: every joint to both sides. Shares nothing with the product.
-    """
-    count, half = arch.voussoirs, arch.embrace_angle / 2
-    joints, t = np.linspace(-half, half, count + 1), arch.thickness
-    inner, outer = arch.radius - t / 2, arch.radius + t / 2
-    each = arch.embrace_angle / count
-    weight = each * (outer**2 - inner**2) / 2
-    distance = (outer**3 - inner**3) / 3 * 2 * np.sin(each / 2) / weight
-    # unknowns: force (x, y) and couple about the middle of each joint on what lies to its right, then λ
-    equal, right_side = np.zeros((3 * count, 3 * (count + 1) + 1)), np.zeros(3 * count)
-    for k in range(count):
-        centre = distance * np.array([np.sin(joints[k] + each / 2), np.cos(joints[k] + each / 2)])
-        for joint, sign in ((k, 1.0), (k + 1, -1.0)):
-            x, y = arch.radius * np.sin(joints[joint]), arch.radius * np.cos(joints[joint])
-            own = slice(3 * joint, 3 * joint + 3)
-            equal[3 * k : 3 * k + 3, own] += sign * np.array([[1, 0, 0], [0, 1, 0], [-y, x, 1]])
-        equal[3 * k : 3 * k + 3, -1] = weight * np.array([1, 0, -centre[1]])
-        right_side[3 * k : 3 * k + 3] = weight * np.array([0, 1, centre[0]])
-    rows = []
-    for joint, angle in enumerate(joints):
-        normal = np.array([np.cos(angle), -np.sin(angle)]) * t / 2
-        for side in (1.0, -1.0):
-            place = None if hinges is None else np.flatnonzero(np.isclose(hinges, angle + half))
-            if place is None or (place.size and (place[0] % 2 == 0) == (side > 0)):
-                rows.append(np.zeros(equal.shape[1]))
-                rows[-1][3 * joint : 3 * joint + 3] = [-normal[0], -normal[1], side]
-    aim = np.zeros(equal.shape[1])
-    aim[-1] = -1.0
-    found = linprog(aim, np.array(rows), np.zeros(len(rows)), equal, right_side, bounds=(None, None))
-    return found.x[-1]
-
-
-@pytest.mark.parametrize("voussoirs, thickness, embrace", [(7, 1.5, 157.5), (12, 1.4, 170.0)])
-def test_other_mechanisms_have_the_multiplier_of_a_linear_programme(voussoirs, thickness, embrace):
-    """To the tolerance of the solver; none is weaker than the one that statics chooses."""
-    arch = Arch(10.0, thickness, np.radians(embrace), voussoirs)
-    static, *others = arch.candidates(9)
-    assert static.multiplier == pytest.approx(multiplier_by_programme(arch), rel=1e-7)
-    assert len(others) == 8
-    for each in (static, *others):
-        hinges = each.structure.onset.hinges
-        assert each.multiplier == pytest.approx(multiplier_by_programme(arch, hinges), rel=1e-7)
-        assert each.multiplier >= static.multiplier

@@ -56,7 +56,11 @@ def test_thrust_line_runs_from_foot_to_foot_inside_arch_and_piers(arch):
         assert np.linalg.norm(line - hinge, axis=1).min() < 1e-2
 
 
-@pytest.mark.parametrize("arch", [FILLED, ONE, UNDER_FILL], ids=["fill", "one pier", "piers under fill"])
+@pytest.mark.parametrize(
+    "arch",
+    [FILLED, ONE, UNDER_FILL, Arch(10.0, 1.5, np.radians(157.5), 7), Arch(10.0, 1.4, np.radians(170), 12)],
+    ids=["fill", "one pier", "piers under fill", "7 voussoirs", "12 voussoirs"],
+)
 def test_other_mechanisms_have_the_multiplier_of_virtual_work(arch):
     """Of masses from quadrature, with fill and with piers that turn or stand still."""
     found = arch.candidates(6)
