@@ -170,12 +170,14 @@ def follow_blocks(
     eta = np.empty((count, factors.size, 2))
     own = np.array([(each[0].restitution, each[-1].restitution) for each in sides])
     eta[:] = own[:, None] if restitution is None else restitution
-    rows = linear_kernel.Blocks(
-        frequency=np.array([[side.frequency_parameter for side in each] for each in sides]),
-        push=np.array([[1 / (GRAVITY * side.uplift_multiplier) for side in each] for each in sides]),
-        span=np.array([[side.critical_arc for side in each] for each in sides]),
-        one_sided=blocks[0].one_sided,
-    )
+    frequency = np.array([[side.frequency_parameter for side in each] for each in sides])
+    push = np.array([[1 / (GRAVITY * side.uplift_multiplier) for side in each] for each in sides])
+    span = np.array([[side.critical_arc for side in each] for each in sides])
+    near = np.zeros((*span.shape, 8))
+    near[..., 0], near[..., 4] = linear_kernel.NEAR * span, frequency**2 / GRAVITY
+    near[..., 1] = span * near[..., 4] * (1 - linear_kernel.NEAR)
+    near[..., 3] = span * frequency**2 * push
+    rows = linear_kernel.Blocks(frequency, push, span, near, blocks[0].one_sided)
     takeable = np.empty((len(sides[0]), 2, forcing.samples))
     samples = linear_kernel.Samples(ground.horizontal, ground.time_step, takeable)
     begin, which = linear_kernel.Motion(0, 0.0, 0.0, 0.0, 0), np.repeat(np.arange(count), factors.size)

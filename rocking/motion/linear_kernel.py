@@ -14,6 +14,7 @@ import numpy as np
 
 from rocking.motion import runs
 from rocking.motion.runs import compiled, entry, part
+from rocking.quantities import GRAVITY
 
 NEAR = 1 / 16
 """Largest x of a chain of impacts that is looked at as a whole."""
@@ -22,12 +23,14 @@ NEAR = 1 / 16
 class Blocks(NamedTuple):
     """An equivalent block, by side k (one if they mirror, else the positive first), or a row of each of many alike.
 
-    frequency: (k,) p, rad/s. push: (k,) 1/(gλ). span: (k,) angular velocity at φ = 0 per x'. one_sided: it leans.
+    frequency: (k,) p, rad/s. push: (k,) 1/(gλ). span: (k,) angular velocity at φ = 0 per x'. near: (k, 8) what
+    `runs.dies_out` takes of it. one_sided: it leans.
     """
 
     frequency: np.ndarray
     push: np.ndarray
     span: np.ndarray
+    near: np.ndarray
     one_sided: bool
 
 
@@ -205,41 +208,13 @@ def _takeback(ground, time_step, frequency, side, out):
 
 @compiled
 def _dies_out(blocks, ground, factor, time_step, restitution, i, tau, speed, best):
-    """Whether the chain of impacts that starts with `speed` (angular) provably ends before the ground can lift again.
-
-    While |ü_g| stays below a bound, a flight from speed v decelerates by at least d: it lasts 2v/d and rises v²/2d at
-    most. Within it the deceleration varies by Δ at most, so it lands with at most v (1 + Δ/2d), and each flight
-    multiplies v by at most ρ = η (1 + Δ/2d). With ρ < 1 all flights together last 2v/(d (1 − ρ)). The chain is over if
-    the bound holds for as long, and of no account if it stays below the peaks on record.
-    """
-    last = blocks.span.shape[0] - 1
-    eta, strongest, steepest = max(restitution[0], restitution[1]), 0.0, 0.0
-    peak = max(best[0], best[1]) if last == 0 else min(best[0], best[1])
-    for j in range(i, min(i + runs.LOOK_AHEAD, ground.size - 1)):
-        now, then = abs(factor * ground[j]), abs(factor * ground[j + 1])
-        strongest, steepest = (
-            max(strongest, now, then),
-            max(steepest, abs(factor * (ground[j + 1] - ground[j]))),
-        )
-        d = np.inf
-        for k in range(last + 1):
-            scale = blocks.span[k] * blocks.frequency[k] ** 2
-            d = min(d, scale * (1 - NEAR - blocks.push[k] * strongest))
-        if not d > 0:
-            return False
-        flight, rise, spread = 2 * speed / d, speed * speed / (2 * d), 0.0
-        for k in range(last + 1):
-            if rise > min(NEAR, peak) * blocks.span[k]:
-                return False
-            square = blocks.frequency[k] ** 2
-            in_time = blocks.span[k] * square * blocks.push[k] * steepest / time_step * flight
-            spread = max(spread, in_time + square * rise)
-        shrink = eta * (1 + spread / (2 * d))
-        if shrink >= 1:
-            return False
-        if flight / (1 - shrink) <= (j + 1 - i) * time_step - tau:
-            return True
-    return False
+    """Whether the chain of impacts that starts with `speed` (angular) provably ends, below the peaks, in time."""
+    span, peak = blocks.span, min(best[0], best[1])
+    if span.shape[0] == 1:
+        peak = max(best[0], best[1])
+    peak *= min(span[0], span[span.shape[0] - 1])
+    shaking = ground, ground, factor, 0.0, GRAVITY
+    return runs.dies_out(blocks.near, restitution, shaking, time_step, i, tau, speed, peak)
 
 
 @compiled
@@ -432,6 +407,6 @@ def rock_linear(blocks, which, samples, factors, restitution, start, settle, bes
         if m == 0 or b != which[m - 1]:
             for k in range(blocks.frequency.shape[1]):
                 samples.takeable[k, 0, -1] = samples.takeable[k, 1, -1] = -1.0
-        own = Blocks(blocks.frequency[b], blocks.push[b], blocks.span[b], blocks.one_sided)
+        own = Blocks(blocks.frequency[b], blocks.push[b], blocks.span[b], blocks.near[b], blocks.one_sided)
         status, impacts, uplift, side, steps = _rock(own, samples, factors[m], eta, start, settle, best, log)
         runs.conclude(results[m], status, impacts, uplift, side, steps, best)

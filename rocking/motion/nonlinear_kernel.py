@@ -666,57 +666,13 @@ def _drive(ground, member, i, tau):
 
 
 @compiled
-def _spread(sides, changes, heaviest, strongest, rise):
-    """By how much the deceleration near rest varies at most within a flight; inf where it rises beyond that.
-
-    changes: of ü_v and of ü_g within it.
-    """
-    spread = 0.0
-    for k in range(sides.near.shape[0]):
-        if rise > sides.near[k, 0]:
-            return np.inf
-        in_time = sides.near[k, 2] * changes[0] + sides.near[k, 3] * changes[1]
-        in_place = sides.near[k, 4] * heaviest + sides.near[k, 5] * strongest + sides.near[k, 7]
-        spread = max(spread, in_time + in_place * rise)
-    return spread
-
-
-@compiled
 def _dies_out(sides, ground, member, i, tau, speed, best):
-    """Whether the chain of impacts that starts with `speed` provably ends before the ground can lift the structure.
-
-    While ü_g and ü_v stay below bounds, a flight from speed v decelerates by at least d: it lasts 2v/d and rises v²/2d
-    at most. Within it the deceleration varies by Δ at most, so it lands with at most v (1 + Δ/2d), and each flight
-    multiplies v by at most ρ = η (1 + Δ/2d). With ρ < 1 all flights together last 2v/(d (1 − ρ)). The chain is over if
-    those bounds hold for as long, and of no account if it stays below the peaks on record.
-    """
-    count, step, last = ground.horizontal.size - 1, ground.time_step, sides.near.shape[0] - 1
-    eta = max(member.restitution[0], member.restitution[1])
-    lightest, heaviest, strongest, steepest, steepest_up = np.inf, 0.0, 0.0, 0.0, 0.0
+    """Whether the chain of impacts that starts with `speed` provably ends, below the peaks on record, in time."""
     peak = best[0] if sides.one_sided else min(best[0], best[1])
-    if last == 0 and sides.ties is None:
+    if sides.near.shape[0] == 1 and sides.ties is None:
         peak = max(best[0], best[1])
-    for j in range(i, min(i + runs.LOOK_AHEAD, count)):
-        push, weight = _accelerations(ground, member, j)
-        next_push, next_weight = _accelerations(ground, member, j + 1)
-        lightest, heaviest = min(lightest, weight, next_weight), max(heaviest, weight, next_weight)
-        strongest = max(strongest, abs(push), abs(next_push))
-        steepest = max(steepest, abs(next_push - push))
-        steepest_up = max(steepest_up, abs(next_weight - weight))
-        d = np.inf
-        for k in range(last + 1):
-            d = min(d, sides.near[k, 1] * lightest - sides.near[k, 3] * strongest)
-        if not d > 0:
-            return False
-        flight, rise = 2 * speed / d, speed * speed / (2 * d)
-        rates = steepest_up / step * flight, steepest / step * flight
-        spread = _spread(sides, rates, heaviest, strongest, rise)
-        shrink = eta * (1 + spread / (2 * d))
-        if rise > peak or shrink >= 1:
-            return False
-        if flight / (1 - shrink) <= (j + 1 - i) * step - tau:
-            return True
-    return False
+    shaking = ground.horizontal, ground.vertical, member.horizontal, member.vertical, ground.gravity
+    return runs.dies_out(sides.near, member.restitution, shaking, ground.time_step, i, tau, speed, peak)
 
 
 @part

@@ -6,6 +6,7 @@ numba compiles a kernel anew when the kernel's own file changes: after a change 
 import math
 from typing import Any
 
+import numpy as np
 from numba import njit
 
 ROCKS, OVERTURNS, TOO_MANY_IMPACTS, NOT_FINITE = 1, 2, 3, 4
@@ -95,3 +96,42 @@ def crossing(positive, negative, next_positive, next_negative):
     if next_positive > 0 or next_negative > 0:
         return min(to_positive, to_negative), 1 if to_positive <= to_negative else -1
     return 0.0, 0
+
+
+@compiled
+def dies_out(near, restitution, shaking, time_step, i, tau, speed, peak):
+    """Whether the chain of impacts that starts with `speed` provably ends before the ground can lift the structure.
+
+    near: (k, 8) by side, of the motion near rest: an arc; up to it the least and the largest G̃, the largest |B̃|,
+    |dG̃/dq| and |dB̃/dq|, a speed, the slope of ties. shaking: ü_g and ü_v (n,), their factors, g. peak: the arc that
+    the chain must not exceed. While ü_g and ü_v stay below bounds, a flight from speed v decelerates by at least d: it
+    lasts 2v/d and rises v²/2d at most. Within it the deceleration varies by Δ at most, so it lands with at most
+    v (1 + Δ/2d), and each flight multiplies v by at most ρ = η (1 + Δ/2d). With ρ < 1 all flights together last
+    2v/(d (1 − ρ)). The chain is over if those bounds hold for as long, and of no account below `peak`.
+    """
+    horizontal, vertical, factor, lift, gravity = shaking
+    eta = max(restitution[0], restitution[1])
+    lightest, heaviest, strongest, steepest, steepest_up = np.inf, 0.0, 0.0, 0.0, 0.0
+    for j in range(i, min(i + LOOK_AHEAD, horizontal.size - 1)):
+        push, weight = factor * horizontal[j], gravity + lift * vertical[j]
+        next_push, next_weight = factor * horizontal[j + 1], gravity + lift * vertical[j + 1]
+        lightest, heaviest = min(lightest, weight, next_weight), max(heaviest, weight, next_weight)
+        strongest = max(strongest, abs(push), abs(next_push))
+        steepest = max(steepest, abs(next_push - push))
+        steepest_up = max(steepest_up, abs(next_weight - weight))
+        d, spread = np.inf, 0.0
+        for k in range(near.shape[0]):
+            d = min(d, near[k, 1] * lightest - near[k, 3] * strongest)
+        if not d > 0:
+            return False
+        flight, rise = 2 * speed / d, speed * speed / (2 * d)
+        for k in range(near.shape[0]):
+            in_time = (near[k, 2] * steepest_up + near[k, 3] * steepest) / time_step * flight
+            in_place = near[k, 4] * heaviest + near[k, 5] * strongest + near[k, 7]
+            spread = max(spread, in_time + in_place * rise) if rise <= near[k, 0] else np.inf
+        shrink = eta * (1 + spread / (2 * d))
+        if rise > peak or shrink >= 1:
+            return False
+        if flight / (1 - shrink) <= (j + 1 - i) * time_step - tau:
+            return True
+    return False

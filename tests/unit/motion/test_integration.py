@@ -15,10 +15,6 @@ BLOCK = Block(1.0, 0.25, restitution=0.85)
 RECORD = noise(1, 300, 0.01, 1.6 * g * BLOCK.mechanism().uplift_multiplier)
 
 
-def test_a_structure_and_its_mechanism_are_the_same():
-    assert integrate(BLOCK, RECORD).rotation_ratio == integrate(BLOCK.mechanism(), RECORD).rotation_ratio
-
-
 @pytest.mark.parametrize("tolerance", [0.0, 9e-14, 0.11, -1e-6, np.nan, np.inf, "fine", None])
 def test_tolerance_outside_its_bounds_is_refused(tolerance):
     for follow in (

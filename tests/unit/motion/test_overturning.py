@@ -33,42 +33,6 @@ BOTH = pytest.mark.parametrize(
 )
 
 
-def sine(strength, ratio=5.0):
-    return Pulse(strength * g * UNIT.uplift_multiplier, ratio * UNIT.frequency_parameter)
-
-
-@pytest.mark.parametrize(
-    "stands, falls",
-    [(3.01, 3.02), (6.32, 6.31), (7.16, 7.17)],
-    ids=["first threshold", "safe island begins", "falls for good"],
-)
-def test_one_sine_on_the_linear_block(stands, falls):
-    """η = 0.9, ω/p = 5: overturning is not monotone in amplitude."""
-    assert not overturns(UNIT, sine(stands))
-    assert overturns(UNIT, sine(falls))
-
-
-def test_last_threshold_of_the_linear_block():
-    """Without impact it falls iff D₀ ≤ 0 while rising (Eq. 16): 7.168129 by the closed form."""
-    assert bisected(7.0, 7.3, lambda a: overturns(UNIT, sine(a), 1e-13)) == pytest.approx(7.168129, abs=5e-7)
-
-
-@pytest.mark.parametrize("ratio, threshold", [(1, 1.322397), (3, 2.293872), (6, 3.788155), (10, 5.786522)])
-def test_half_sine_without_impact(ratio, threshold):
-    """Closed form of a block under half a sine from uplift on; a whole sine's second half is cut off here.
-
-    The half sine is sampled so finely that linear interpolation errs by (ω Δt)²/12 < 1e-8.
-    """
-    times = np.linspace(0, np.pi / (ratio * 2.0), 10_001)
-    shape = np.sin(ratio * 2.0 * times) * g * UNIT.uplift_multiplier
-    shape[-1] = 0.0
-
-    def falls(a):
-        return overturns(UNIT, Accelerogram(a * shape, times[1]))
-
-    assert bisected(threshold * 0.95, threshold * 1.05, falls) == pytest.approx(threshold, abs=6e-7)
-
-
 def cosine(strength):
     times = np.linspace(0, 2, 40_001)
     return Accelerogram(strength * g * np.cos(np.pi * times), times[1])
