@@ -1,7 +1,7 @@
 """The ground motion as the kernel sees it: samples joined by straight lines, or one exact sine pulse."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -17,16 +17,14 @@ GroundMotion = Accelerogram | Pulse
 
 @dataclass(frozen=True, eq=False)
 class Forcing:
-    """A ground motion with the factors of its horizontal and of its vertical component.
+    """What the kernel takes of a ground motion.
 
-    ground: what the kernel takes of it. factor, vertical_factor: 1 for the motion itself. vertical: whether it has a
-    vertical component. start_time: s, added to every time of the response.
+    start_time: s, added to every time of the response. vertical: whether it has a vertical component.
     """
 
     ground: Ground
-    start_time: float = 0.0
-    vertical: bool = False
-    factor: float = 1.0
+    start_time: float
+    vertical: bool
 
     @property
     def samples(self) -> int:
@@ -36,17 +34,13 @@ class Forcing:
     @property
     def weightless(self) -> bool:
         """Whether g + ü_v falls below zero."""
-        return self.vertical and self.ground.gravity + self.factor * float(self.ground.lightest[0]) < 0
+        return self.ground.gravity + float(self.ground.lightest[0]) < 0
 
     @property
     def excitation(self) -> float:
         """The largest |ü_g|/(g + ü_v), whatever the phase of the two; inf where gravity may vanish."""
-        least = self.ground.gravity + self.factor * self.ground.lightest[0]
-        return float(abs(self.factor) * self.ground.strongest[0] / least) if least > 0 else math.inf
-
-    def scaled(self, factor: float) -> "Forcing":
-        """The same motion with its accelerations, vertical one included, multiplied by `factor`."""
-        return replace(self, factor=self.factor * factor)
+        least = self.ground.gravity + self.ground.lightest[0]
+        return float(self.ground.strongest[0] / least) if least > 0 else math.inf
 
 
 def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Forcing:

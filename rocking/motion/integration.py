@@ -87,14 +87,14 @@ def integrate(
     if not sensitivity:
         return response
     change = within(MotionError, "fragility_change", fragility_change, 0, 0.5)
-    again = _response(reduced, forcing.scaled(1 + _AGAIN), min(tolerance, _AGAIN), start)
+    again = _response(reduced, forcing, min(tolerance, _AGAIN), start, factor=1 + _AGAIN)
     close = math.isclose(again.rotation_ratio, response.rotation_ratio, rel_tol=_REPRODUCIBLE)
     return replace(
         response,
         sensitivity=_sensitivity(reduced, forcing, start) if response.outcome is Outcome.ROCKS else math.nan,
         fragile=not close
         or any(
-            _response(reduced, forcing.scaled(factor), tolerance, start).outcome is not response.outcome
+            _response(reduced, forcing, tolerance, start, factor=factor).outcome is not response.outcome
             for factor in (1 - change, 1 + change)
         ),
     )
@@ -227,16 +227,17 @@ def _response(
     tolerance: float,
     start: Start,
     history: bool = False,
+    factor: float = 1.0,
 ) -> Response:
-    """The Response to the motion as it is; overturned, too, where a side is past its end. Raises MotionError."""
-    factor = np.array([forcing.factor])
-    lift = factor if forcing.vertical else np.zeros(1)
+    """The Response to the motion times `factor`; overturned, too, where a side is past its end. Raises MotionError."""
+    horizontal = np.array([factor])
+    lift = horizontal if forcing.vertical else np.zeros(1)
     log = np.zeros((2 * forcing.samples + 1001, 3)) if history else NO_LOG
     how: Any = {"start": start, "settle": False}
-    sides, results = follow(reduced, forcing, factor, lift, None, tolerance, **how, log=log)
+    sides, results = follow(reduced, forcing, horizontal, lift, None, tolerance, **how, log=log)
     if history and log[0, 0] >= log.shape[0]:
         log = np.zeros((int(log[0, 0]) + 1, 3))
-        follow(reduced, forcing, factor, lift, None, tolerance, **how, log=log)
+        follow(reduced, forcing, horizontal, lift, None, tolerance, **how, log=log)
     row = results[0].tolist()
     if row[runs.STATUS] not in OUTCOMES:
         raise failure(row[runs.STATUS], row[runs.IMPACTS])
@@ -278,7 +279,7 @@ def _sensitivity(reduced: Mechanism | EquivalentBlock, forcing: Forcing, start: 
     """d ln φ_max / d ln a, by a central difference of two tightly integrated neighbours; inf where one overturns."""
     factors = (1 - _NUDGE, 1 + _NUDGE)
     below, above = (
-        _response(reduced, forcing.scaled(factor), _TIGHT, start).rotation_ratio for factor in factors
+        _response(reduced, forcing, _TIGHT, start, factor=factor).rotation_ratio for factor in factors
     )
     if not (0 < below < math.inf and 0 < above < math.inf):
         return math.inf

@@ -331,7 +331,6 @@ class Table:
     """What the kernel takes of a mechanism, stacked over its sides (positive first; one if they mirror)."""
 
     sides: tuple[SideTable, ...]
-    one_sided: bool
     kernel: Sides
     """What the kernel takes of them."""
     restitution: tuple[float, float]
@@ -389,7 +388,7 @@ def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
     kernel = Sides(
         **arrays, one_sided=one_sided, ties=stacked_ties([side.kernel.ties for side in sides], most)
     )
-    return Table(sides, one_sided, kernel, (sides[0].restitution, sides[-1].restitution))
+    return Table(sides, kernel, (sides[0].restitution, sides[-1].restitution))
 
 
 def stacked_ties(sides: Sequence[Ties | None], pieces: int) -> Ties | None:

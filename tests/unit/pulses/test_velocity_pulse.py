@@ -45,6 +45,7 @@ def test_a_planted_wavelet_is_found(scale, angle):
 def test_the_period_is_not_that_of_the_acceleration_pulse():
     motion = Pulse(3.0, math.pi, 10.0).acceleration(TIMES)
     found = velocity_pulse(Accelerogram(motion, STEP), Accelerogram(0 * motion, STEP))
+    assert found == velocity_pulse(Accelerogram(motion, STEP))
     # T_p / T_g of a pure sine, computed with the same two methods by other code: 1.93
     assert found.period / 2.0 == pytest.approx(1.93, rel=0.01)
     assert not found.is_unlike(Pulse(3.0, math.pi, 10.0))
