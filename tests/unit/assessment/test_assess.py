@@ -1,12 +1,14 @@
 """A record against structures: what is compared with what, and what a failure costs."""
 
 import math
+from time import process_time
 
 import numpy as np
 import pytest
 
 from rocking.assessment.assess import AssessmentSettings, Method, assess_structures, predict
 from rocking.assessment.rows.of_record import RATIO_COLUMNS, ComponentRow, comparison_row, pulse_rows
+from rocking.assessment.rows.of_study import capacity_rows
 from rocking.assessment.settings import EnsembleSettings, PredictingPulse
 from rocking.assessment.verdict import NEGLIGIBLE, agreement, ratio, rests, within_factor_two
 from rocking.errors import StructureError
@@ -14,7 +16,7 @@ from rocking.motion import integrate
 from rocking.pulses import PULSE_METHODS, Pulse, extract_pulses
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum, printed_maximum
-from rocking.structures import Block, Outcome
+from rocking.structures import Block, Facade, Outcome
 
 STEP = 0.01
 PULSE = Pulse(3.0, 2 * np.pi / 0.8, 2.0)
@@ -89,6 +91,27 @@ def test_a_record_without_a_pulse_is_integrated_all_the_same():
     assert found.failures[0].stage == "pulses"
     assert found.cases[0].prediction is None
     assert found.cases[0].responses[Method.MECHANISM_ON_RECORD].outcome is Outcome.NO_UPLIFT
+
+
+def test_what_is_timed_adds_up_to_no_more_than_was_spent(case):
+    started = process_time()
+    found = assess_structures(RECORD, {"block": BLOCK, "stout": Block(2.0, 0.3)}, SETTINGS)
+    spent = process_time() - started
+    stages = [found.durations.pop(name) for name in ("pulses", "responses")]
+    assert min(stages) > 0 and sum(stages) <= spent
+    assert set(found.durations) == {*found.cases[0].responses, Method.CLOSED_FORM}
+    assert 0 < sum(found.durations.values()) <= stages[1]
+    assert case.prediction.pulse == extract_pulses(RECORD).dominant, "which predicts by default"
+
+
+def test_the_sides_of_a_capacity_curve_are_those_to_which_it_rocks():
+    """A tie holds the façade on one side alone, where it stands up to another rotation."""
+    facade = Facade((3.5,), (0.6,), 20e3, tie_heights=(3.4,), tie_stiffness=1e4)
+    rows, (positive, negative) = list(capacity_rows({"facade": facade})), facade.mechanism().sides
+    assert positive.critical_rotation != pytest.approx(negative.critical_rotation, rel=1e-3)
+    for name, side in (("positive", positive), ("negative", negative)):
+        *_, last = (row.rotation_rad for row in rows if row.side == name)
+        assert last == pytest.approx(side.critical_rotation, rel=1e-9)
 
 
 def test_choice_by_demand_never_asks_less_than_choice_by_energy():

@@ -24,6 +24,7 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import Verdict, ratio_in_words, verdict
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
+from rocking.motion.members import follow_factors
 from rocking.records import Accelerogram
 from rocking.records.accelerogram import Source
 from rocking.records.processing import Processing, process
@@ -144,6 +145,23 @@ def test_the_processing_of_a_raw_record_is_a_cause():
 def test_the_processing_of_another_record_is_none(record, settings):
     found = assess(record, BLOCK, settings=AssessmentSettings(ensemble=settings))
     assert "processing" not in found.causes
+
+
+@pytest.mark.parametrize(("stated", "most"), [(0.987, 0.999), (0.9995, 0.9995), (1.0, 1.0), (0.9, 0.95)])
+def test_no_member_bounces_better_than_it_may(stated, most, monkeypatch):
+    """A range of ±0.05 reaches beyond 1, where a member would rock for ever."""
+    seen = []
+
+    def kept(reduced, forcing, horizontal, vertical, restitution, tolerance):
+        seen.append(restitution)
+        return follow_factors(reduced, forcing, horizontal, vertical, restitution, tolerance)
+
+    monkeypatch.setattr("rocking.assessment.ensemble.follow_factors", kept)
+    block = Block(2.0, 0.2, restitution=stated)
+    drawn(block, GroundMotions.of(_record(0.5)), lattice(64), EnsembleSettings())
+    # of 64 points one stands in each 64th of the range
+    assert seen[0].max() == pytest.approx(most, abs=0.1 / 64) and seen[0].max() <= most
+    assert seen[0].min() == pytest.approx(stated - 0.05, abs=0.1 / 64)
 
 
 def test_a_structure_may_say_how_well_its_restitution_is_known():

@@ -6,7 +6,7 @@ from scipy.constants import g
 
 from rocking.assessment.assess import AssessmentSettings, Method, assess_structures
 from rocking.assessment.ensemble import GroundMotions, ensemble
-from rocking.assessment.fidelity import cheapest_answer, stays_at_rest
+from rocking.assessment.fidelity import NUDGES, Tier, cheapest_answer, estimated, stays_at_rest
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import Verdict
 from rocking.motion.integration import integrate
@@ -75,6 +75,24 @@ def test_where_an_ensemble_would_follow_the_block_may_settle_it():
     )
     (case,) = assess_structures(motion, {"block": BLOCK}, AssessmentSettings(fidelity="auto")).cases
     assert case.answer.method is Method.BLOCK_ON_RECORD and case.ensemble is None
+
+
+def test_an_estimate_settles_up_to_the_risk_and_on_the_side_where_it_lies():
+    """The ends of the estimate are the risks at which it begins to settle: its upper end that it stands."""
+    motion = record(1.1)
+    high = estimated(Tier.PEAK_VELOCITY, MECHANISM, motion).high
+    for risk, method in ((high, Method.PEAK_VELOCITY), (0.99 * high, Method.MECHANISM_ON_RECORD)):
+        assert cheapest_answer(MECHANISM, motion, risk=risk).method is method
+    strong = record(40.0)
+    doubt = 1 - estimated(Tier.BLOCK_AT_FIVE_SCALES, MECHANISM, strong).low
+    found = cheapest_answer(MECHANISM, strong, risk=1.001 * doubt, ensemble_follows=True)
+    assert (found.method, found.outcome) == (Method.BLOCK_ON_RECORD, Outcome.OVERTURNS)
+    assert np.isinf(found.rotation_ratio) and np.isinf(integrate(MECHANISM, strong).rotation_ratio)
+    assert cheapest_answer(MECHANISM, strong, risk=0.99 * doubt, ensemble_follows=True).response is not None
+
+
+def test_the_scales_of_the_block_lie_evenly_around_the_motion_as_given():
+    assert np.allclose(np.diff(NUDGES), np.diff(NUDGES)[0]) and NUDGES[len(NUDGES) // 2] == 1.0
 
 
 def test_a_block_unlike_its_mechanism_settles_nothing_and_gets_no_estimate():

@@ -1,6 +1,7 @@
 """Fragility: fits against scipy's own maximum, intervals against known truths, curves against responses one by one."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,11 +9,13 @@ from scipy.optimize import minimize
 from scipy.stats import beta, norm
 
 import rocking
+from rocking.assessment.ensemble import drawn
 from rocking.assessment.fragility import fragility, fragility_of
 from rocking.assessment.intensity import INTENSITY_MEASURES
 from rocking.assessment.settings import EnsembleSettings
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
+from rocking.motion.batch import integrate_batch
 from rocking.records import Accelerogram
 from rocking.structures import Block
 
@@ -26,6 +29,7 @@ def _record(period: float, station: str) -> Accelerogram:
     return Accelerogram(wave, STEP, component="made", event="made", station=station)
 
 
+PEAK = int(_record(0.9, "").acceleration.argmax())
 RECORDS = [_record(period, f"{k // 2}") for k, period in enumerate((0.6, 0.7, 0.9, 1.0, 1.3, 1.5))]
 
 
@@ -113,6 +117,31 @@ def test_levels_of_their_own_reach_from_rest_to_overturning():
     assert found.interval[0] < found.median < found.interval[1]
     assert found.independent == 3
     assert found.plot().get_xlabel() == "pgv [m/s]"
+
+
+@pytest.mark.parametrize("ensemble", [None, EnsembleSettings()])
+def test_a_case_without_an_answer_counts_as_one_that_falls_and_costs_no_other(ensemble, monkeypatch):
+    levels = [0.2, 0.3]
+    whole = fragility(RECORDS, BLOCK, levels=levels, ensemble=ensemble)
+    assert not whole.exceedance.any()
+
+    def failing_batch(structures, record, factors, **how):
+        ratios = integrate_batch(structures, record, factors, **how)
+        return np.where(record is RECORDS[2], np.nan, ratios)
+
+    def failing_members(structure, motions, *more, **how):
+        made = drawn(structure, motions, *more, **how)
+        (motion,) = motions.horizontal.values()
+        lost = np.isclose(motion.acceleration, motion.acceleration.max()).argmax() == PEAK
+        return replace(
+            made, rotation_ratios=np.where(lost & (np.arange(16) == 3), np.nan, made.rotation_ratios)
+        )
+
+    monkeypatch.setattr("rocking.assessment.fragility.integrate_batch", failing_batch)
+    monkeypatch.setattr("rocking.assessment.fragility.drawn", failing_members)
+    found = fragility(RECORDS, BLOCK, levels=levels, ensemble=ensemble)
+    assert found.exceedance[2].tolist() == [1.0 if ensemble is None else 1 / 16] * 2
+    assert not np.delete(found.exceedance, 2, axis=0).any()
 
 
 def test_members_make_shares_of_the_outcomes():

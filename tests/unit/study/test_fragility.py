@@ -63,6 +63,7 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
             and len(outcomes) == 2
         )
     assert {row.records for row in rows["fragility_summary"]} == {2}
+    assert {row.threshold for row in rows["fragility"]} == {0.1, 0.3, 0.5, math.inf}
     of_statics, governing = {}, {}
     for row in rows["fragility"]:
         of_which = governing if row.governing else of_statics
