@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from scipy.stats import norm
+from scipy.stats import t as student
 
 from rocking.assessment.fragility import dependence, efficiency
 
@@ -25,6 +27,9 @@ def test_a_second_component_that_says_the_same_adds_nothing():
     again = [np.repeat(each, 2, axis=0) for each in (levels, falls, figures)]
     twice = dependence(*again, np.repeat(names, 2).tolist())
     assert twice.p_value == pytest.approx(once.p_value, rel=1e-6)
+    # Student's law for 12 stations less three, by which the power counts as well
+    size, limit = student.isf([once.p_value / 2, 0.025], 9)
+    assert once.power == pytest.approx(norm.cdf(size - limit) + norm.cdf(-size - limit), rel=1e-9)
     assert efficiency(*again[:2], np.repeat(names, 2).tolist()) == pytest.approx(
         efficiency(levels, falls, names), rel=1e-6
     )
