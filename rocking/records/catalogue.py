@@ -25,8 +25,7 @@ _RESERVED = re.compile(
 _HASH, _COMMIT = re.compile(r"[0-9a-f]{64}"), re.compile(r"[0-9a-f]{40}")
 _REPOSITORY = re.compile(r"(?!\.+/)[\w.-]+/(?!\.+$)[\w.-]+", re.ASCII)
 _PROSE = ("event", "station", "licence", "note")
-_LARGEST = 16 * 2**20
-"""Bytes of a catalogue: a hundred thousand rows."""
+_LARGEST = 16 * 2**20  # bytes of a catalogue: a hundred thousand rows
 
 
 @dataclass(frozen=True)

@@ -28,12 +28,10 @@ _BAD_NAME = "its name holds a character that a catalogue does not allow, or a bl
 _STAND_INS: dict[str, Any] = {"unit": "mm/s2", "time_step": 0.01}
 """With which a file that declares none is looked at; the unit is small enough for counts."""
 _UPWARDS = re.compile(r"(?:^|[-_. ])(UP|UD|DN|DWN|DOWN|VER|VERT|VERTICAL)(?=[-_. ]|$)", re.I)
-_FORMULA = "=+-@"
-"""Signs that make a spreadsheet compute what comes after them."""
+_FORMULA = "=+-@"  # signs that make a spreadsheet compute what comes after them
 _ENDING = re.compile(r"\.(at2|txt|csv|asc|dat|acc|gz)$", re.I)
 _RSN = re.compile(r"(RSN\d+)_")
-_SQUARE = 5.0
-"""Degrees by which two components may be off a right angle without a word."""
+_SQUARE = 5.0  # degrees by which two components may be off a right angle without a word
 
 
 @dataclass
@@ -300,8 +298,7 @@ def _lines(file: ListedFile) -> list[tuple[str, ...]]:
     return [(file.file, *first[1:-1], file.status), *others]
 
 
-_LOOKED_AT = 200
-"""Files beside a catalogue that are opened, at most, to see whether they are records."""
+_LOOKED_AT = 200  # files beside a catalogue that are opened, at most, to see whether they are records
 
 
 def unlisted(catalogue: Path) -> tuple[str, ...]:

@@ -84,8 +84,7 @@ _OTHER = {
     "velocity": re.compile(r"(?<![a-z])vel(oc\w*|\b)|(?<![\w/])(cm|m|mm|in)/s(ec)?\b(?!\s*[/^*²2])", re.I),
     "displacement": re.compile(r"(?<![a-z])displ?(ac\w*|\b)", re.I),
 }
-_OF_THE_GROUND = re.compile(r"shear|wave|vs[ _,]?30", re.I)
-"""The velocity of a site is no record."""
+_OF_THE_GROUND = re.compile(r"shear|wave|vs[ _,]?30", re.I)  # the velocity of a site is no record
 _SUFFIXES = {
     ".vt2": "velocity", ".vel": "velocity", ".vtx": "velocity",
     ".dt2": "displacement", ".dis": "displacement", ".disp": "displacement",

@@ -21,8 +21,7 @@ _FACTORS = {
 }  # fmt: skip
 _ROUNDING = 1e-3
 """Share by which a stated peak may be off for its rounding, beyond its last digit: fifty times what real files show."""
-_NEAR = 0.02
-"""How close a ratio must come to a factor between units to be explained by it."""
+_NEAR = 0.02  # how close a ratio must come to a factor between units to be explained by it
 _PLAUSIBLE = (0.005, 1.5)
 _NEIGHBOURS = 3
 """Samples by which the stated time of a peak may be off: it has few digits, and counts from 0 or from 1."""
@@ -148,8 +147,7 @@ Of the strongest real records a peak reaches 2.6 and 1.1, or 1.7 and 1.6 times.
 """
 _ZEROS = 50
 """Exact zeros in a row that no recorder writes while the ground shakes; real files hold at most 14."""
-_LONGEST_STEP = 0.1
-"""s; a longer step leaves out what makes a structure rock."""
+_LONGEST_STEP = 0.1  # s; a longer step leaves out what makes a structure rock
 
 
 def damage_warnings(record: Accelerogram) -> tuple[str, ...]:

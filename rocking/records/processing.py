@@ -173,8 +173,7 @@ def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:
 
 _CANDIDATES, _DEGREES = 20, (1, 2)
 """Places at which shaking may end, and degrees of the polynomial after each."""
-_FEWEST, _LEFT = 64, 16
-"""Samples of the record and after shaking, at least: fewer say nothing of a drift."""
+_FEWEST, _LEFT = 64, 16  # samples of the record and after shaking, at least: fewer say nothing of a drift
 
 
 def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.ndarray, str]:

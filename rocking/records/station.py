@@ -20,8 +20,7 @@ from rocking.records.plausibility import scaled
 from rocking.records.read import bytes_of, is_unnamed, read_raw
 
 _SIDEWAYS = "Component {} is vertical, but the catalogue takes it as horizontal."
-_OFF_GRID = 0.1
-"""Share of a time step by which the samples of two files may lie between one another."""
+_OFF_GRID = 0.1  # share of a time step by which the samples of two files may lie between one another
 
 
 @dataclass(frozen=True)
@@ -81,10 +80,7 @@ def why_apart(channels: Sequence[Accelerogram], samples: Collection[int]) -> str
 
 
 def joined(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
-    """Return the channels of several files on the span that is common to them.
-
-    Raises RecordError when two have one name or unlike time steps, or when their lengths differ and a start is unknown.
-    """
+    """Return the channels of several files on their common span. Raises RecordError when they do not fit together."""
     if why := why_apart(channels, [channel.acceleration.size for channel in channels]):
         raise RecordError(f"its files do not fit together: {why}; give each file a row of its own.")
     if not all(channel.start_time for channel in channels):

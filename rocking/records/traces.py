@@ -28,8 +28,7 @@ def joined(result):
 def calibrated(trace, inventory, response: str) -> tuple[np.ndarray, str]:
     """Return (acceleration (n,) m/s², the sentence that says how) of a trace of counts.
 
-    inventory: obspy's; None where the trace holds its response itself. response: as read() takes it.
-    Raises RecordError when there is no response, or none that can be removed.
+    inventory: obspy's; None where the trace holds its response itself. Raises RecordError where none can be removed.
     """
     stats = trace.stats
     try:

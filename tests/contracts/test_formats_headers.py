@@ -139,6 +139,12 @@ def test_times_of_jma_and_afad_are_utc() -> None:
     assert record.start_time == "2023-02-06T01:17:07.332030Z"
 
 
+def test_the_origin_of_an_earthquake_comes_before_the_time_of_a_record() -> None:
+    times = "Rcrd of Tue Aug 28, 2018 19:33:00.0 PDT\nCSMIP Processing   (Origin: 8/29/18, 02:33:28.0 UTC)\nStation No."
+    (record,) = read_text(MADE["CSMIP V1/V2"][0]().replace("Station No.", times))
+    assert (record.event_time, record.event) == ("8/29/18, 02:33:28.0 UTC", "Tue Aug 28, 2018 19:33:00.0 PDT")
+
+
 def test_names_of_columns_are_components_without_their_unit() -> None:
     text = table().replace("time,acc_NS(m/s2),acc_EW(m/s2)", "time [s];a_N10E [g];quake [cm/s^2]")
     one, two = read_text(text.replace(",", ";"))

@@ -68,7 +68,7 @@ def test_a_cut_file_is_refused(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", MADE)
-@pytest.mark.parametrize("token", ["nan", "inf", "1_0", "x"])
+@pytest.mark.parametrize("token", ["nan", "inf", "1_0", "x", "1.#I"])
 def test_what_is_no_number_is_refused(name: str, token: str) -> None:
     lines = MADE[name][0]().rstrip("\n").split("\n")
     at = max(i for i, line in enumerate(lines) if line.strip() and line.strip()[0] in "-.0123456789")
@@ -83,7 +83,7 @@ def test_what_is_no_number_is_refused(name: str, token: str) -> None:
     ("4", "NS", 0.0, False), ("5", "EW", 90.0, False), ("6", "UD", None, False),
 ])  # fmt: skip
 def test_the_directions_of_kiknet(code: str, component: str, azimuth: float | None, borehole: bool) -> None:
-    """1 to 3 are NS, EW and UD at the bottom of the hole, 4 to 6 the same at the surface (NIED, KiK-net format)."""
+    """1 to 3 are at the bottom of the hole, 4 to 6 at the surface (NIED, KiK-net format)."""
     (record,) = read_made("K-NET/KiK-net", made_files.knet().replace("E-W", code))
     assert (record.component, record.azimuth, record.borehole) == (component, azimuth, borehole)
     assert record.vertical == (component == "UD")
@@ -148,8 +148,6 @@ def test_a_count_that_cannot_be_is_refused(name: str, declared: str) -> None:
 
 def test_the_corner_of_smc_is_the_low_cut() -> None:
     """Real value 33 is the corner of the high-pass, 34 the roll-off (USGS, SMC format): 0.1 Hz in the made file."""
-    (record,) = read_made("USGS SMC")
-    assert record.high_pass_frequency == 0.1
     other = made_files.smc().replace(f"{0.1:15.7E}", f"{0.25:15.7E}", 1)
     assert read_made("USGS SMC", other)[0].high_pass_frequency == 0.25
 

@@ -24,10 +24,7 @@ _DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be re
 
 
 def _stream(content: bytes, form: str, **options: Any):
-    """Return obspy's Stream of `content` in the obspy format `form`, joined, and what there is to warn of.
-
-    Raises RecordError for whatever obspy raises, for gaps, and when nothing is in the file.
-    """
+    """Return obspy's Stream of `content` in its format `form`, joined, and warnings; RecordError for an error."""
     import obspy  # which takes a second to import
 
     with warnings.catch_warnings(record=True) as caught:
@@ -54,10 +51,7 @@ def _stream(content: bytes, form: str, **options: Any):
 
 
 def _check_blocks(content: bytes) -> set[str]:
-    """Check, from the heads of its blocks, that a miniSEED file is whole and not too large unpacked.
-
-    Return a sentence where their sequence numbers, which count in all other places, leap.
-    """
+    """Check by the heads of its blocks that a miniSEED file is whole and not too large; a warning of a leap."""
     import obspy
     from obspy.io.mseed.util import get_record_information
 
@@ -136,15 +130,12 @@ def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
         raise RecordError(f"{stated} from {begin:g} s end elsewhere; the file is damaged.")
 
 
-_OBSPY_G = 9.81
-"""obspy turns the sensitivity in V/g into V/(m/s²) with this g."""
+_OBSPY_G = 9.81  # obspy turns the sensitivity in V/g into V/(m/s²) with this g
 
 _COMPONENTS = "XYZ"
 _TAG = struct.Struct(">cBBBLHHHH")
-_FRAME = struct.Struct(">6xL6xH")
-"""Time of a frame's first sample: whole seconds and milliseconds."""
-_FRAME_LENGTH = 100
-"""ms."""
+_FRAME = struct.Struct(">6xL6xH")  # time of a frame's first sample: whole seconds and milliseconds
+_FRAME_LENGTH = 100  # ms
 
 
 def _read_evt(content: bytes, options: Options) -> list[Accelerogram]:

@@ -19,18 +19,14 @@ _TIME = re.compile(r"(?i)t|(time|zeit|tiempo|temp[os]|zaman|seconds?)\b.*|[^()\[
 _UNIT = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
 _DECIMALS = re.compile(r"[.]?(\d*)(?:[eE][+-]?\d+)?\s*$")
-_HEAD, _TAIL = 12, 4000
-"""Lines and bytes that are looked at, of the beginning and of the end."""
+_HEAD, _TAIL = 12, 4000  # lines and bytes that are looked at, of the beginning and of the end
 _BLANK, _LINE_END = 32, 10
 _COMMENTED_FORMAT = b"#Earthquake Information"
 """CWB's header, which looks like comments above columns."""
 
 
 def _table(content: bytes) -> tuple[tuple[str, ...], int, int] | None:
-    """Return names and number of columns, and of the lines above; None where the head is not of that kind.
-
-    It is comments, at most one row of names, then numbers.
-    """
+    """Return names and number of columns, and of the lines above: comments, at most one row of names; or None."""
     names: tuple[str, ...] = ()
     widths: list[int] = []
     start = 0
@@ -143,10 +139,9 @@ _SAMPLE = 40
 
 
 def _points_for_commas(content: bytes) -> bytes | None:
-    """Return `content` with points for its decimal commas; unchanged where commas part numbers or there are none.
+    """Return `content` with points for its decimal commas, if it has such; None where a comma may be either.
 
     A comma is a decimal sign where something else (a semicolon, a tab, blanks) parts the numbers and none has a point.
-    None where both readings are possible.
     """
     head = content[: 400 * _SAMPLE].decode("latin-1").split("\n")[:-1]
     rows = [line.strip() for line in head if line.strip() and _NUMERIC.fullmatch(line)][:_SAMPLE]
@@ -171,8 +166,7 @@ def _points_for_commas(content: bytes) -> bytes | None:
 _WORDS = re.compile(r"[A-Za-z=:,;()]+")
 _UNIT_IN_WORDS = re.compile(r"(?:\b(?:in|units?(?: of| are|:)?)\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)", re.I)
 """The unit follows the word "in" or "units", or stands in brackets."""
-_LONGEST_STEP = 1.0
-"""s; of a record, so that a line of two numbers is known for samples and step."""
+_LONGEST_STEP = 1.0  # s; of a record, so that a line of two numbers is known for samples and step
 
 
 def _title(content: bytes) -> tuple[str, str] | None:

@@ -16,8 +16,7 @@ from rocking.records.plausibility import LARGEST_PEAK
 
 Response = Literal["sensitivity", "full"]
 
-_STEPS = (1e-6, 10.0)
-"""s; a step outside is a misplaced number, not a recorder."""
+_STEPS = (1e-6, 10.0)  # s; a step outside is a misplaced number, not a recorder
 _UNDECLARED = (
     "{0} is not declared, neither in the file nor by the caller; declare it: the column {1} of the catalogue, --{2} on "
     "the command line, {0}= in Python."
@@ -28,10 +27,9 @@ _UNDECLARED = (
 class Options:
     """What a caller declares beside the file: used where the file is silent, refused where it says otherwise.
 
-    unit: unit of the numbers. time_step: s. inventory: a StationXML file; folder: where to look for one.
-    file: its name, whose ending may speak of another quantity.
-    response: whether counts are divided by the overall sensitivity or the full instrument response is removed.
-    Raises RecordError for an unknown unit or response, or a time step that is not positive.
+    unit: of the numbers. time_step: s. inventory: a StationXML file; folder: where to look for one. response: whether
+    counts are divided by the overall sensitivity or the full response is removed. file: its name, whose ending may
+    speak of another quantity. Raises RecordError for an unknown unit or response, or a time step that is not positive.
     """
 
     unit: str | None = None

@@ -161,8 +161,7 @@ _UNAM = Layout("gal", {"place": r"^COORDENADAS DE LA ESTACION\s*:(.*\n.*)"} | ke
 _DATA = "DATOS DE ACELERACION"
 _RULE = re.compile(r"[-+]{20,}")
 _OF_CHANNELS = re.compile(r"^(.*?),? C(?:1-C6|(7-C12)).*?:(.*)")
-_REPEATED = 2
-"""Surplus lines that some files of the network end in."""
+_REPEATED = 2  # surplus lines that some files of the network end in
 
 
 def _is_unam(content: bytes) -> bool:

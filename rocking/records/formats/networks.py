@@ -22,10 +22,8 @@ from rocking.records.formats.text import (
 )
 from rocking.records.plausibility import agree_with_velocity
 
-_JAPAN = 9.0
-"""h ahead of universal time."""
-_DELAY = 15 / 3600
-"""h; of a K-NET recorder, which its record time carries."""
+_JAPAN = 9.0  # h ahead of universal time
+_DELAY = 15 / 3600  # h; of a K-NET recorder, which its record time carries
 _KNET_KEYS = (
     "Origin Time", "Lat.", "Long.", "Depth. (km)", "Mag.", "Station Code", "Station Lat.", "Station Long.",
     "Station Height(m)", "Record Time", "Sampling Freq(Hz)", "Duration Time(s)", "Dir.", "Scale Factor",
@@ -173,13 +171,11 @@ _SMC = Layout("cm/s2", {
 _SMC_KINDS = {"0": "unknown", "1": "uncorrected accelerogram", "2": "corrected accelerogram", "3": "velocity",
               "4": "displacement", "5": "response spectrum", "6": "Fourier spectrum"}  # fmt: skip
 _SMC_FIRST = re.compile(r"(?i)[0-6] (UNKNOWN|(UN)?CORRECTED ACC|VELOCITY|DISPLACEMENT|RESPONSE|FOURIER)")
-_SMC_TEXT, _SMC_INTEGERS, _SMC_REALS = 11, 17, 27
-"""Lines at which each part of the header ends."""
+_SMC_TEXT, _SMC_INTEGERS, _SMC_REALS = 11, 17, 27  # lines at which each part of the header ends
 _COMMENTS, _SAMPLES = 15, 16
 _RATE, _LARGEST, _SMALLEST, _CORNER = 1, 29, 31, 32
 """Places in the integer and in the real header; the time of an extreme stands before its value."""
-_PLACE = slice(10, 13)
-"""Places in the real header of latitude, longitude and elevation of the station."""
+_PLACE = slice(10, 13)  # places in the real header of latitude, longitude and elevation of the station
 _MISSING = 1.69e38
 
 

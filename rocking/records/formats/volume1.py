@@ -39,10 +39,8 @@ from rocking.records.plausibility import agree_with_velocity
 
 _HEADER, _REALS, _RATE = 27, 20, 8
 _TEXT = 13
-_STEP = 0.005
-"""s; the even step to which film records are interpolated."""
-_LONGEST_GAP = 0.25
-"""s."""
+_STEP = 0.005  # s; the even step to which film records are interpolated
+_LONGEST_GAP = 0.25  # s
 _LENGTH = r"NO\. OF POINTS\s*=\s*\S+\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)"
 _SIZE = {"samples": r"NO\. OF POINTS\s*=\s*(\S+)"}
 _USC = Layout("g/10", _SIZE | {
@@ -92,7 +90,6 @@ def _digitised(
     """Return a channel of five pairs of time and acceleration a line, in columns of 7.
 
     Points of film stand where the trace bends, a dozen to a hundred a second, and are joined by lines.
-    Raises RecordError at a gap, or where the times, which of this format are_even, are not so.
     """
     head, rows = _rows(block)
     table = in_columns(fields(rows, 7, margin), 2)
@@ -148,8 +145,7 @@ _DATA_2 = re.compile(
     r"^\s*(?P<n>\d+)\s+points of (?P<quantity>accel|veloc|displ)\w* data equally spaced at\s+(?P<step>[\d.]+)\s*sec"
     r"[.,]?\s*(?:in|\(units:)\s*(?P<unit>[\w/]+)[.)]*\s*(?:\((?P<per_line>\d+)[FE](?P<width>\d+))?", re.I,
 )  # fmt: skip
-_PER_LINE = 8
-"""Of the volumes before 2000, which do not say it."""
+_PER_LINE = 8  # of the volumes before 2000, which do not say it
 
 
 def _is_csmip(content: bytes) -> bool:

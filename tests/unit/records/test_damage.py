@@ -143,9 +143,8 @@ def test_sac_is_held_to_its_extremes_and_its_end(counts: np.ndarray, word: int) 
 
 def test_the_peak_is_looked_at_before_a_mean_is_removed(counts: np.ndarray) -> None:
     """Counts around 9000 m/s² would seem a record of 1 m/s² once their mean is gone."""
-    content = written("SAC", (9000 + counts / 1e4).astype(np.float32))
     with pytest.raises(RecordError, match="no recorder is off by"):
-        read_content(content, "made", Options(unit="m/s2"))
+        read_content(written("SAC", (9000 + counts / 1e4).astype(np.float32)), "made", Options(unit="m/s2"))
 
 
 def test_miniseed_cut_within_a_record_is_refused(counts: np.ndarray) -> None:
@@ -220,13 +219,11 @@ def test_every_member_of_a_gzip_file_is_read() -> None:
 
 
 @pytest.mark.parametrize("separator", [";", "; ", "\t", "   "])
-@pytest.mark.parametrize("head", ["", "Zeit[s]{0}acc NS (m/s2)\n"])
-def test_decimal_commas_are_read_where_something_else_parts_the_columns(separator: str, head: str) -> None:
-    rows = [f"{i * STEP:.3f}{separator}{v:.5f}".replace(".", ",") for i, v in enumerate(TRUE)]
-    text = (head.format(separator) if separator != "   " else "") + "\n".join(rows) + "\n"
-    records = read_text(text, unit="m/s2")
-    assert len(records) == 1 and records[0].time_step == STEP
-    assert np.abs(records[0].acceleration - TRUE).max() < 6e-6
+def test_decimal_commas_are_read_where_something_else_parts_the_columns(separator: str) -> None:
+    rows = "".join(f"{i * STEP:.3f}{separator}{v:.5f}\n".replace(".", ",") for i, v in enumerate(TRUE))
+    for head in ["", f"Zeit[s]{separator}acc NS (m/s2)\n"][: 1 + bool(separator.strip(" "))]:
+        (record,) = read_text(head + rows, unit="m/s2")
+        assert record.time_step == STEP and np.abs(record.acceleration - TRUE).max() < 6e-6
 
 
 @pytest.mark.parametrize("text", [
@@ -325,16 +322,6 @@ def test_a_velocity_that_contradicts_its_acceleration_is_warned_of() -> None:
     other = text.replace(before, turned)
     assert head and other != text and not read_text(text)[0].warnings
     assert "own velocity is not the integral" in read_text(other)[0].warnings[0]
-
-
-@pytest.mark.parametrize("name", ["BHRC", "DYNA (ESM, ITACA, AFAD)", "GeoNet V1A/V2A"])
-def test_what_a_fortran_program_prints_for_no_number_is_refused(name: str) -> None:
-    lines = made(name).rstrip("\n").split("\n")
-    at = max(i for i, line in enumerate(lines) if line.strip()[:1] in tuple("-.0123456789"))
-    old = lines[at].split()[-1]
-    lines[at] = lines[at].replace(old, "1.#IND".rjust(len(old)))
-    with pytest.raises(RecordError, match=r"1\.#I"):
-        read_text("\n".join(lines) + "\n")
 
 
 @pytest.mark.parametrize("title", ["PEER STRONG MOTION ACCELEROGRAM", "PEER NGA RECORD"])

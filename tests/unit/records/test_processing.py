@@ -85,11 +85,6 @@ def test_resampling() -> None:
     finer = process(wave, Processing(time_step=DT / 2))
     assert np.array_equal(finer.acceleration[::2], wave.acceleration) and finer.time_step == DT / 2
     assert process(wave, Processing(time_step=DT * (1 + 1e-13))) is wave
-    coarser = process(record(sine(1.0) + sine(45.0)), Processing(time_step=0.02))
-    middle = slice(500, 1500)
-    # 45 Hz would fold to 5 Hz at full amplitude; the low-pass leaves less than a thousandth
-    assert np.abs(coarser.acceleration[middle] - sine(1.0)[::2][middle]).max() < 1e-3
-    assert "aliasing" in coarser.processing[0]
 
 
 def test_what_would_fold_is_gone_and_what_is_kept_is_whole() -> None:
@@ -103,6 +98,10 @@ def test_what_would_fold_is_gone_and_what_is_kept_is_whole() -> None:
         got = process(record(wave), Processing(time_step=0.02)).acceleration[middle]
         ratio = np.tan(np.pi * frequency / 100) / np.tan(np.pi * 20 / 100)
         assert np.abs(got - wave[::2][middle] / (1 + ratio**16)).max() < 2e-3
+    # 45 Hz would fold to 5 Hz at full amplitude
+    coarser = process(record(sine(1.0) + sine(45.0)), Processing(time_step=0.02))
+    assert np.abs(coarser.acceleration[middle] - sine(1.0)[::2][middle]).max() < 1e-3
+    assert "aliasing" in coarser.processing[0]
 
 
 def test_velocity_and_displacement_by_trapezoid() -> None:
