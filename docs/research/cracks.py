@@ -8,7 +8,7 @@ import json
 import sys
 import warnings
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from itertools import pairwise
@@ -16,13 +16,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from docs.research import scores
 from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, properties, rectangle
 from docs.research.comparison.codes import ask, still_from
 from docs.research.comparison.lmgc90 import FALLEN, base_speed, follow
 from docs.research.report import publish
-from docs.research.sites import independent, lifting_factor, one_of_each
+from docs.research.sites import Records, Tell, independent, lifting_factor, one_of_each
 from docs.research.stacks import largest_turns
 from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.verdict import Verdict
@@ -161,9 +162,7 @@ KINDS: Mapping[str, Callable[[int], Member]] = {
 }
 
 
-@row(
-    "cracks", "One row per member, record and scale: the stack of courses beside the mechanism of every joint"
-)
+@row("cracks", "One row per member, record and scale: the stack beside the mechanism of every joint")
 class CrackRow(Row):
     """One trial."""
 
@@ -181,12 +180,7 @@ class CrackRow(Row):
     verdict: Verdict = column("What the rule says")
 
 
-def write_cracks(
-    records: Iterable[tuple[str, Accelerogram]],
-    folder: Path,
-    tell: Callable[[str], None],
-    most: int | None = None,
-) -> None:
+def write_cracks(records: Records, folder: Path, tell: Tell, most: int | None = None) -> None:
     """Write cracks.csv, its scores and report into `folder`, and the rows of each record as they come.
 
     records: their sites took no part in the rule; most: of them. Rows that `folder` holds are not made again.
@@ -286,23 +280,17 @@ def _case(member: Member, motion: Accelerogram) -> dict[str, Any]:
 
 def crack_scores(rows: Sequence[CrackRow]) -> Iterator[scores.Score]:
     """Yield the errors of the rule by kind of member and of all, with intervals by site."""
-    for kind in ("all", *dict.fromkeys(each.kind for each in rows)):
-        own = [each for each in rows if kind in ("all", each.kind)]
-        falls = np.array([float(each.falls) for each in own])
-        verdicts = np.array([each.verdict for each in own])
-        at_static = [each.opened == each.static_joint if each.falls else np.nan for each in own]
-        as_lmgc90 = [
-            np.nan if each.falls_in_lmgc90 is None else each.falls == each.falls_in_lmgc90 for each in own
-        ]
-        stands, overturns = verdicts == Verdict.STANDS, verdicts == Verdict.OVERTURNS
+    every = pd.DataFrame(rows)
+    for kind, own in [("all", every), *every.groupby("kind", sort=False)]:
+        as_lmgc90 = (own.falls == own.falls_in_lmgc90).where(own.falls_in_lmgc90.notna())
         measures = {
-            'falls among "stands"': scores.mean(np.where(stands, falls, np.nan)),
-            'survivals among "overturns"': scores.mean(np.where(overturns, 1 - falls, np.nan)),
-            "undecided": scores.mean(verdicts == Verdict.UNDECIDED),
-            "falls at the joint of least λ": scores.mean(at_static),
-            "falls or stands as in LMGC90": scores.mean(as_lmgc90),
+            'falls among "stands"': own.falls.where(own.verdict == Verdict.STANDS),
+            'survivals among "overturns"': (~own.falls).where(own.verdict == Verdict.OVERTURNS),
+            "undecided": own.verdict == Verdict.UNDECIDED,
+            "falls at the joint of least λ": (own.opened == own.static_joint).where(own.falls),
+            "falls or stands as in LMGC90": as_lmgc90,
         }
-        yield from scores.scored("governing crack", kind, measures, [each.site for each in own])
+        yield from scores.scored("governing crack", kind, measures, own.site.tolist())
 
 
 def straight(base: float, top: float, courses: int) -> np.ndarray:

@@ -94,6 +94,14 @@ def test_many_steps_reach_the_largest_likelihood():
     assert loss(np.log(np.maximum(weights[:, 0], 1e-30))) == pytest.approx(best, abs=1e-3)
 
 
+def test_one_step_weighs_each_candidate_by_what_it_explains():
+    """Two tests end as the first candidate has it, one as the second; a fifth of the outcomes is chance."""
+    hits, prior = np.array([[1, 0], [1, 0], [0, 1]], np.float32), np.array([0.5, 0.5], np.float32)
+    (weights,) = ident._weights(hits, prior, np.ones((3, 1), np.float32), np.array([0.2]), (1,))
+    gains = np.array([2 * 0.9 + 0.1, 2 * 0.1 + 0.9])
+    assert weights[:, 0] == pytest.approx(gains / gains.sum(), rel=1e-5)
+
+
 def test_scattered_outcomes_ask_for_fewer_steps_than_clear_ones():
     """Outcomes that are chance leave the weights near the prior's: whatever is learnt fails on motions left out."""
     draw = np.random.default_rng(6)

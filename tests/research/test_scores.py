@@ -65,6 +65,7 @@ def test_what_stands_whatever_is_said_is_found_again():
     probability = 1 / (1 + np.exp(-3 * draw.normal(size=40_000)))
     outcomes = (draw.random(40_000) < 0.97 * probability).astype(float)
     assert scores.lapse(probability, outcomes) == pytest.approx(0.03, abs=0.004)
+    assert scores.lapse(probability, 0.7 * probability) <= 0.1, "a fit that is worse than that is no lapse"
 
 
 def test_intervals_draw_whole_sites():
