@@ -68,6 +68,16 @@ def test_what_stands_whatever_is_said_is_found_again():
     assert scores.lapse(probability, 0.7 * probability) <= 0.1, "a fit that is worse than that is no lapse"
 
 
+def test_the_skill_is_that_over_the_base_rate():
+    outcomes, every = np.array([1.0, 0.0, 0.0, 0.0]), np.arange(4)
+    for stated, skill in (
+        (outcomes, 1),
+        (np.full(4, 0.25), 0),
+        (np.array([0.7, 0.1, 0.1, 0.1]), 1 - 0.03 / 0.1875),
+    ):
+        assert scores.brier_skill(stated, outcomes)(every) == pytest.approx(skill)
+
+
 def test_intervals_draw_whole_sites():
     """Ten cases of one site are one draw: the interval is as wide as for ten times fewer cases."""
     many = np.repeat(np.random.default_rng(2).random(40), 10)
