@@ -25,12 +25,12 @@ from docs.research.comparison.lmgc90 import FALLEN, base_speed, follow
 from docs.research.report import publish
 from docs.research.sites import Records, Tell, independent, lifting_factor, one_of_each
 from docs.research.stacks import largest_turns
-from rocking.assessment.ensemble import GroundMotions, ensemble
+from rocking.assessment.ensemble import Ensemble, GroundMotions, ensemble
 from rocking.assessment.verdict import Verdict
 from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.structures import LoadedWall, Mechanism, RigidBody
+from rocking.structures import LoadedWall, Mechanism, RigidBody, Spire
 from rocking.tables import Row, column, read_rows, row, write_rows
 
 COURSES = (6, 12, 20)
@@ -51,6 +51,7 @@ STRONG = 0.5
 """Rule and stack are given the motion where it exceeds this share of the least uplift acceleration."""
 MARGIN = 0.5
 """Before and after that, s."""
+TAPER = Spire.crack_margin
 TURN = 0.6
 """Turn of a course, rad, from which nothing comes back: twice the largest critical rotation of any member."""
 TIMEOUT = 3600.0
@@ -62,7 +63,7 @@ class Member:
     """A stack of courses. sections: (n + 1, 2) left and right face at each joint, from the base up, m. height: m.
 
     depths: (n,) of the courses, m. slab: weight of a floor on top over that of the member, which then stands between
-    supports; None: its top is free.
+    supports; None: its top is free. margin: factor on the motion under which it must stand whatever cracks.
     """
 
     kind: str
@@ -70,6 +71,7 @@ class Member:
     height: float
     depths: np.ndarray
     slab: float | None = None
+    margin: float = 1.0
 
     @property
     def courses(self) -> int:
@@ -143,7 +145,9 @@ def _ledge(courses: int) -> Member:
 def _pinnacle(courses: int) -> Member:
     """A shaft of .5 m over the lower 40 %, and a wedge on it."""
     half = 0.25 * np.clip((1 - np.linspace(0, 1, courses + 1)) / 0.6, 2e-3, 1)
-    return Member("pinnacle", np.column_stack([-half, half]), 2.5, 2 * (half[:-1] + half[1:]) / 2)
+    return Member(
+        "pinnacle", np.column_stack([-half, half]), 2.5, 2 * (half[:-1] + half[1:]) / 2, margin=TAPER
+    )
 
 
 def _gable(courses: int) -> Member:
@@ -158,7 +162,9 @@ KINDS: Mapping[str, Callable[[int], Member]] = {
     "ledge": _ledge,
     "gable": _gable,
     "pinnacle": _pinnacle,
-    "spire": lambda n: Member("spire", straight(3.0, 0.01, n), 15.0, 3.0 * (1 - (np.arange(n) + 0.5) / n)),
+    "spire": lambda n: Member(
+        "spire", straight(3.0, 0.01, n), 15.0, 3.0 * (1 - (np.arange(n) + 0.5) / n), margin=TAPER
+    ),
 }
 
 
@@ -211,7 +217,7 @@ def crack_row(name: str, site: str, record: Accelerogram, place: int, checked: b
     multiplier = mechanisms[static].uplift_multiplier
     factor = lifting_factor(record, multiplier, UPLIFTS, draw)
     motion = _strong(record.scaled(factor), multiplier * GRAVITY)
-    verdict, shares = ruled(mechanisms, static, motion)
+    verdict, shares = ruled(mechanisms, static, motion, member.margin)
     turns = stack(member, motion)
     return CrackRow(
         kind=member.kind,
@@ -239,15 +245,26 @@ def _strong(motion: Accelerogram, lift: float) -> Accelerogram:
 
 
 def ruled(
-    mechanisms: Mapping[int, Mechanism], static: int, motion: Accelerogram
+    mechanisms: Mapping[int, Mechanism], static: int, motion: Accelerogram, margin: float = 1.0
 ) -> tuple[Verdict, Mapping[int, float]]:
-    """Return what the rule says, and the share of the ensemble that overturns at each joint."""
-    motions = GroundMotions.of(motion)
-    all_of = {joint: ensemble(mechanism, motions) for joint, mechanism in mechanisms.items()}
+    """Return what the rule says, and the share of the ensemble that overturns at each joint.
+
+    margin: factor on the motion under which a member must stand whatever cracks.
+    """
+    all_of = _followed(mechanisms, motion)
     shares = {joint: each.overturning_share for joint, each in all_of.items()}
-    if all(each.verdict is Verdict.STANDS for each in all_of.values()):
+    verdicts = {each.verdict for each in all_of.values()}
+    if verdicts == {Verdict.STANDS} and margin > 1:
+        verdicts = {each.verdict for each in _followed(mechanisms, motion.scaled(margin)).values()}
+    if verdicts == {Verdict.STANDS}:
         return Verdict.STANDS, shares
-    return (Verdict.OVERTURNS if all_of[static].verdict is Verdict.OVERTURNS else Verdict.UNDECIDED), shares
+    overturns = all_of[static].verdict is Verdict.OVERTURNS
+    return (Verdict.OVERTURNS if overturns else Verdict.UNDECIDED), shares
+
+
+def _followed(mechanisms: Mapping[int, Mechanism], motion: Accelerogram) -> Mapping[int, Ensemble]:
+    motions = GroundMotions.of(motion)
+    return {joint: ensemble(mechanism, motions) for joint, mechanism in mechanisms.items()}
 
 
 def stack(member: Member, motion: Accelerogram, step: float = STEP) -> np.ndarray:

@@ -204,6 +204,11 @@ class GroundMotions:
         along = next(iter(horizontal.values()))
         return cls(horizontal, None if vertical is None else aligned(vertical, along))
 
+    def scaled(self, factor: float) -> "GroundMotions":
+        """Return the motions with the horizontal ones multiplied by `factor`."""
+        horizontal = {each: motion.scaled(factor) for each, motion in self.horizontal.items()}
+        return replace(self, horizontal=horizontal)
+
     @cached_property
     def directions(self) -> tuple[str, ...]:
         """The names of the directions."""

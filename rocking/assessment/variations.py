@@ -59,9 +59,10 @@ def ensemble_over_cracks(
     """Return the ensemble of the mechanism that statics chooses, of least λ, with what other cracks may change.
 
     Where it stands, the members of the worst mechanism that `screened` leaves in doubt are followed, and where that one
-    does not stand, it is `elsewhere`. exhaustive: every mechanism is followed, one after the other, until one does not
-    stand. docs/pages/validation.md counts what the screen misses. verdict_only: as `ensemble` takes it. Raises
-    MotionError as `integrate` does.
+    does not stand, it is `elsewhere`. A structure with a crack_margin must stand under so many times the motion, with
+    the crack of statics too. exhaustive: every mechanism is followed, one after the other, until one does not stand.
+    docs/pages/validation.md counts what the screen misses. verdict_only: as `ensemble` takes it. Raises MotionError as
+    `integrate` does.
     """
     how: Any = {"settings": settings.ensemble, "tolerance": settings.tolerance}
     (description, mechanism), *others = cracks(structure)
@@ -71,11 +72,17 @@ def ensemble_over_cracks(
     headline = replace(headline, crack=description)
     if headline.verdict is not Verdict.STANDS:
         return headline
+    margin = structure.crack_margin if isinstance(structure, Structure) else 1.0
+    under = ""
+    if margin > 1:
+        others.append((description, mechanism))
+        motions = motions.scaled(margin)
+        under = f" under {margin:g} times the motion"
     worst = others if exhaustive else screened(others, headline, motions, settings)[:1]
     for crack, other in worst:
         there = ensemble(other, motions, whether_it_stands=True, **how)
         if there.verdict is not Verdict.STANDS:
-            return replace(headline, elsewhere=replace(there, crack=crack))
+            return replace(headline, elsewhere=replace(there, crack=crack + under))
     return headline
 
 

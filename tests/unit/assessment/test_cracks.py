@@ -30,22 +30,22 @@ def record(amplitude: float, period: float = 0.9) -> Accelerogram:
     ("structure", "expected"), [(WALL, {Verdict.STANDS, Verdict.OVERTURNS}), (SPIRE, {Verdict.UNDECIDED})]
 )
 def test_stands_means_that_every_crack_stands_and_a_crack_that_does_not_is_named(structure, expected):
-    """The oracle follows every crack in full."""
+    """The oracle follows every crack in full; a spire, which tapers, under its margin times the motion."""
     multiplier = structure.static_multiplier
     seen = set()
     for severity in (1.5, 2.5, 3.5, 5.0, 8.0, 14.0):
         motion = record(severity * multiplier * 9.80665)
         found = rocking.assess(motion, structure)
-        follow = partial(ensemble, motions=GroundMotions.of(motion))
+        of_statics = ensemble(cracks(structure)[0][1], GroundMotions.of(motion)).verdict
+        follow = partial(ensemble, motions=GroundMotions.of(motion.scaled(structure.crack_margin)))
         verdicts = {description: follow(mechanism).verdict for description, mechanism in cracks(structure)}
-        of_statics = verdicts[cracks(structure)[0][0]]
         if of_statics is not Verdict.STANDS:
             assert found.verdict is of_statics
         elif set(verdicts.values()) == {Verdict.STANDS}:
             assert found.verdict is Verdict.STANDS and found.elsewhere is None
         else:
             assert found.verdict is Verdict.UNDECIDED
-            assert verdicts[found.governing.description] is not Verdict.STANDS
+            assert verdicts[found.governing.description.split(" under ")[0]] is not Verdict.STANDS
             assert found.governing.description in repr(found)
         seen.add(found.verdict)
     assert expected <= seen
