@@ -35,10 +35,8 @@ _HERE = Path(__file__).parent
 _MOST, _FARTHEST = 32767, 1.2
 _BEYOND = 3.0
 """Times the critical rotation up to which a fall is followed and drawn, but no further than _FARTHEST [rad]."""
-_STILL = 0.01
-"""Share of the largest rotation below which a history is cut."""
-_BEFORE, _AFTER = 0.5, 1.0
-"""s of rest that are kept before and after it."""
+_STILL, _BEFORE, _AFTER = 0.01, 0.5, 1.0
+"""Share of the largest rotation below which a history is cut, and s of rest that are kept before and after it."""
 
 
 def record_content(

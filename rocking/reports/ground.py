@@ -31,11 +31,6 @@ class Motion:
     accelerogram: Accelerogram
     pulses: Sequence[Pulse]
 
-    @property
-    def dominant(self) -> Pulse | None:
-        """The pulse that explains most."""
-        return next(iter(self.pulses), None)
-
     @cached_property
     def span(self) -> tuple[float, float]:
         """The time of 5 to 95 % of the Arias intensity with a margin, and of the dominant pulse, s."""
@@ -72,7 +67,7 @@ def ground_figure(motions: Sequence[Motion]) -> Figure:
 def draw_ground(panel: Axes, motion: Motion, span: tuple[float, float], last: bool) -> None:
     """Draw the acceleration of a component within `span` [s], its dominant pulse and PGA; the last one names time."""
     accelerogram = motion.accelerogram
-    draw_motion(panel, accelerogram, motion.dominant, span, POINTS)
+    draw_motion(panel, accelerogram, next(iter(motion.pulses), None), span, POINTS)
     amplitudes = [abs(each.amplitude) for each in motion.pulses[:1]]
     reach = 1.1 * max(accelerogram.peak_acceleration, *amplitudes, 1e-9)
     fixed_ticks(panel, "y", -reach, reach, 3)

@@ -78,8 +78,6 @@ METHODS = {
     Method.MECHANISM_ON_RECORD: "Mechanism, record",
 }
 """Headings of the methods, from the plainest to the full integration."""
-Case = tuple[str, str]
-"""Component and structure."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +94,7 @@ class RecordReport:
     structures: Mapping[str, Structure]
     tables: RecordTables
     settings: Mapping[str, Any]
-    responses: Mapping[Case, Response] = field(default_factory=dict)
+    responses: Mapping[tuple[str, str], Response] = field(default_factory=dict)
 
     def pdf(self) -> bytes:
         """Return the document."""
@@ -140,11 +138,6 @@ class RecordReport:
     def worst(self) -> dict[str, ComparisonRow]:
         """Of each structure the component that turns it farthest."""
         return worst_cases(self.tables.comparison)
-
-    @cached_property
-    def structure_rows(self) -> list[StructureRow]:
-        """The rows of the structures table."""
-        return list(structure_rows(self.structures))
 
     @cached_property
     def scale_note(self) -> str:
@@ -346,7 +339,12 @@ def _notices(report: RecordReport) -> list[dict[str, object]]:
         for row in tables.record
         if row.scale_factor != 1
     )
-    failing = [f"{row.structure} ({failure})" for row in cases if (failure := _contact_failure(row))]
+    kinds = ("slides", "bounces")
+    failing = [
+        f"{row.structure} ({' and '.join(kind for kind in kinds if getattr(row, kind))})"
+        for row in cases
+        if row.slides or row.bounces
+    ]
     named = printing.listed(list(dict.fromkeys(failing)))
     still = "No structure uplifts: the ground acceleration never reaches an uplift acceleration."
     told = {
@@ -358,11 +356,6 @@ def _notices(report: RecordReport) -> list[dict[str, object]]:
     }
     told |= {f"{row.structure or row.component}: {row.message}": True for row in tables.failures}
     return [{"strong": text != still, "text": text} for text, holds in told.items() if holds]
-
-
-def _contact_failure(row: ComparisonRow) -> str:
-    """Return how the contacts of a response fail: "slides", "bounces", both, or nothing."""
-    return " and ".join(name for name in ("slides", "bounces") if getattr(row, name))
 
 
 def _subtitle(rows: Sequence[RecordRow]) -> str:
@@ -577,17 +570,18 @@ def _appendix(report: RecordReport) -> dict[str, object]:
     tables, record = report.tables, report.tables.record
     number_of: Column = ("No.", "auto", "r", lambda row: report.numbers[row.structure])
     ranked = [row for row in tables.pulses if row.rank <= MOST_PULSES]
+    structures = list(structure_rows(report.structures))
     return {
         "facts": facts_table(record),
         "verdicts": table_of(report.fates, number_of, *VERDICT_COLUMNS),
-        "structures": table_of(report.structure_rows, number_of, *STRUCTURE_COLUMNS),
+        "structures": table_of(structures, number_of, *STRUCTURE_COLUMNS),
         "pulses": table_of(ranked, *PULSE_COLUMNS),
         "methods": table_of(tables.comparison, number_of, *_method_columns(tables.comparison)),
         "tolerance": printing.given(float(report.settings["tolerance"])),
         "acceleration-scale": str(report.settings["acceleration_scale"]),
         "friction": printing.given(report.settings.get("friction_coefficient")),
         "vertical": _each(row.vertical_component for row in record),
-        "arch": any("arch" in row.type for row in report.structure_rows),
+        "arch": any("arch" in row.type for row in structures),
         # the time of the run is left out
         "times": _each(row.start_time for row in record),
         "files": _each(f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in record),

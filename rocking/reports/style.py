@@ -29,8 +29,7 @@ MOST_POINTS = 4000
 """Points of a trace; a longer one keeps the least and the largest value of each stretch."""
 FONT_FOLDER = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 Picture = dict[str, str]
-Margins = tuple[float, float, float, float]
-MARGINS: Margins = (14.0, 2.0, 8.5, 4.0)
+MARGINS = (14.0, 2.0, 8.5, 4.0)
 """Left, right, bottom, top, mm: room for tick labels and one line of axis label."""
 _MILLIMETRES_PER_INCH = 25.4
 
@@ -40,7 +39,7 @@ styled = matplotlib.rc_context(
 """Decorator: draw inside the package's style, whatever the caller's own settings are."""
 
 
-def new_figure(height: float, width: float = TEXT_WIDTH, margins: Margins = MARGINS) -> Figure:
+def new_figure(height: float, width: float = TEXT_WIDTH, margins: Sequence[float] = MARGINS) -> Figure:
     """Return an empty figure of `width` by `height` mm with the margins left, right, bottom and top of its panels, mm.
 
     Margins are given, not sought: seeking them costs more than drawing.

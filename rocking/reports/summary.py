@@ -212,8 +212,6 @@ def prediction_scatter(comparison: "DataFrame") -> Figure:
     return figure
 
 
-# Lists -----------------------------------------------------------------------------------------------------
-
 AGREEMENT_COLUMNS = columns_of(
     AgreementRow,
     "structure=1.4 records=0.7 cases=0.6 both_rock=0.7 within_factor_two=0.8 median_ratio=0.7 overturning=1 "
