@@ -1,5 +1,6 @@
 """Drawings of structures and the figures of a record, read back from what matplotlib was given."""
 
+import itertools
 import math
 
 import numpy as np
@@ -7,9 +8,11 @@ import pytest
 from matplotlib.figure import Figure
 
 from rocking.assessment.verdict import Verdict
+from rocking.records.measures import record_measures
 from rocking.reports.drawings import draw_structure, fallen_rotation, seen_rotation
+from rocking.reports.ground import ground_figure, pulses_figure
 from rocking.reports.record import drawn_rotation, strip_figure
-from rocking.reports.style import MOST_POINTS, svg, thinned
+from rocking.reports.style import MOST_POINTS, TEXT_WIDTH, svg, thinned
 from rocking.structures import Arch, Block, Wall
 
 from .conftest import fate
@@ -23,6 +26,7 @@ def test_the_drawn_rotations_exist(structure):
     assert 0 < seen_rotation(structure) < side.end_rotation
     assert side.critical_rotation < fallen_rotation(structure, 1) < side.end_rotation
     assert fallen_rotation(structure, -1) < 0
+    assert seen_rotation(STRUCTURES[0]) == 0.6 * STRUCTURES[0].mechanism().critical_rotation
 
 
 def test_a_structure_is_drawn_as_its_outline():
@@ -63,3 +67,26 @@ def test_a_thinned_trace_keeps_its_peaks_and_few_points():
 def test_a_structure_that_rocks_to_one_side_falls_to_it():
     block = Block.of_size(0.6, 6.0, restitution=0.5, one_sided=True)
     assert fallen_rotation(block, -1) == fallen_rotation(block, 1) > 0
+
+
+def test_every_panel_stands_in_its_figure_and_shows_all_of_what_it_draws(example):
+    """No panel on another or over the edge; no point of a trace and no name of a strip beyond its limits."""
+    (motion,) = example.motions
+    measured = record_measures(motion.accelerogram).significant_times
+    begin, end = min(measured[0], motion.pulses[0].start_time), max(measured[1], motion.pulses[0].end_time)
+    margin = 0.15 * (end - begin)
+    assert motion.span == pytest.approx((max(0.0, begin - margin), end + margin))
+    several = [motion, motion]
+    for figure in (ground_figure(several), pulses_figure(several), strip_figure(example.fates, example)):
+        assert figure.get_figwidth() * 25.4 == pytest.approx(TEXT_WIDTH)
+        boxes = [axes.get_position() for axes in figure.axes]
+        assert all(0 <= box.xmin < box.xmax <= 1 and 0 <= box.ymin < box.ymax <= 1 for box in boxes)
+        assert not any(one.overlaps(other) for one, other in itertools.combinations(boxes, 2))
+        for axes in figure.axes:
+            (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+            heights = np.concatenate(
+                [line.get_ydata() for line in axes.lines if line.get_transform() == axes.transData] or [[low]]
+            )
+            assert low <= heights.min() and heights.max() <= high
+            places = [text.get_position()[0] for text in axes.texts if text.get_transform() == axes.transData]
+            assert all(left <= place <= right for place in places)
