@@ -69,6 +69,13 @@ def test_other_mechanisms_have_the_multiplier_of_virtual_work(arch):
         assert each.multiplier == pytest.approx(multiplier(arch, places_of(each.structure)), rel=1e-9)
 
 
+@pytest.mark.parametrize("arch", [ONE, BOTH], ids=["one pier", "both piers"])
+def test_piers_are_drawn_joined_to_the_arch_they_carry(arch):
+    for rotation in (0.0, 0.5 * arch.mechanism().critical_rotation):
+        left, right, *ring = arch.outline(rotation)
+        assert all(np.linalg.norm(np.vstack(ring) - pier[3], axis=1).min() < 1e-9 for pier in (left, right))
+
+
 def test_a_pier_may_turn_about_its_springing_alone():
     """Hinge C at the springing leaves no ring to the pier; λ and φ_cr of another's derivation."""
     arch = ArchOnPiers(5.0, 0.8, np.radians(90), pier_width=1.5, pier_height=4.0)

@@ -24,10 +24,8 @@ def test_degrees_and_kilonewtons_stay_at_the_door():
         "storey_heights_m": [3.5, 3],
         "thicknesses_m": [0.6, 0.5],
         "unit_weight_kN_m3": 20,
-        "floor_loads_kN_m": [12, 6],
-        "tie_heights_m": [3.4],
-        "tie_stiffness_kN_m2": 100,
     }
+    facade |= {"floor_loads_kN_m": [12, 6], "tie_heights_m": [3.4], "tie_stiffness_kN_m2": 100}
     made = Facade((3.5, 3), (0.6, 0.5), 20e3, (12e3, 6e3), tie_heights=(3.4,), tie_stiffness=1e5)
     assert structure_from_config(facade) == made
 

@@ -96,6 +96,20 @@ def test_under_a_flat_slab_a_facade_is_a_column_of_a_frame():
             assert getattr(side, name) == pytest.approx(getattr(frame.positive, name), rel=1e-12)
 
 
+@pytest.mark.parametrize("rotation", [0.0, 0.05, -0.05])
+def test_marks_point_as_forces_do(rotation):
+    """Loads down on the wall, the thrust outwards against it, ties from behind it to its outer face."""
+    behind = np.vstack(FACADE.outline(rotation))[:, 0].min()
+    marks = FACADE.marks(rotation)
+    assert np.ptp([mark.line[0, 0] for mark in marks if mark.kind == "tie"]) < 1e-12, "one anchorage"
+    for mark in marks:
+        tail, head = mark.line
+        across, down = head - tail
+        assert across == 0 > down if mark.kind == "load" else across > 0 == down
+        assert mark.kind != "tie" or tail[0] < behind
+        assert rotation or mark.kind == "load" or head[0] == 0
+
+
 def second_derivative(path, step=4e-3):
     """Of a function of time at 0, by central differences of eighth order; truncation near 1e-13."""
     weights = {0: -205 / 72, 1: 8 / 5, 2: -1 / 5, 3: 8 / 315, 4: -1 / 560}

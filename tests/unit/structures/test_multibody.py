@@ -89,3 +89,10 @@ def test_hinge_thrusts_are_the_constraint_forces(case):
             size = np.hypot(*forces[2 * hinge : 2 * hinge + 2]) / mass
             found = np.hypot(contacts.normal[hinge, 0], contacts.tangential[hinge, 0])
             assert found == pytest.approx(size, rel=1e-9)
+            if phi == 0 and isinstance(structure, Arch):  # square through a radial joint or a level foot
+                point = structure.hinges()[hinge]
+                distance = np.hypot(*point)
+                radial = np.isclose(abs(distance - structure.radius), structure.thickness / 2)
+                along = np.array([point[1], -point[0]]) / distance if radial else np.array([0.0, 1.0])
+                pressing = abs(forces[2 * hinge : 2 * hinge + 2] @ along) / mass
+                assert contacts.normal[hinge, 0] == pytest.approx(pressing, rel=1e-9)
