@@ -1,6 +1,7 @@
 """What a study folder may not bring, and a config.yaml that would hang or be read in silence."""
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -36,6 +37,21 @@ def test_a_folder_brings_no_settings_for_a_library(
     path.write_text("cache_dir: nc\n")
     assert main(verb) == 2
     assert name in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "option", ["--trust-io-cache", "--trust", "--configfile", "--configfiles=x.yaml", "--configf"]
+)
+def test_options_that_bring_code_or_other_settings_are_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], option: str
+) -> None:
+    """snakemake would unpickle its cache, and read a file of settings before anybody looks at it."""
+    assert main(["start", str(tmp_path)]) == 0
+    shutil.copy(ROOT / "records" / "synthetic_strong_pulse.AT2", tmp_path / "records")
+    assert main(["catalogue", str(tmp_path / "records")]) == 0
+    assert main(["run", str(tmp_path), "--", option]) == 2
+    told = capsys.readouterr().err
+    assert told.endswith("leave it out.\n") and told.count("\n") == 1
 
 
 @pytest.mark.parametrize(
