@@ -44,11 +44,11 @@ def _show(message: Warning | str, *_: object, **__: object) -> None:
 def _parser() -> argparse.ArgumentParser:
     declared = argparse.ArgumentParser(add_help=False)
     declared.add_argument(
-        "--unit", help="of the numbers, where the file does not say it: m/s2, cm/s2, g, ..."
+        "--unit", help="unit of the numbers, where the file states none: m/s2, cm/s2, g, ..."
     )
-    declared.add_argument("--time-step", type=float, help="in s, where the file does not say it")
+    declared.add_argument("--time-step", type=float, help="time step in s, where the file states none")
     one_file = argparse.ArgumentParser(add_help=False, parents=[declared])
-    one_file.add_argument("file", type=Path, help="accelerogram in any known format")
+    one_file.add_argument("file", type=Path, help="file of an accelerogram, in any format that is read")
     one_file.add_argument("--scale", type=float, default=1.0, help="factor on the accelerations (default: 1)")
     channels = argparse.ArgumentParser(add_help=False, parents=[one_file])
     channels.add_argument("--component", default="", help="component to use (default: every horizontal one)")
@@ -69,24 +69,24 @@ def _parser() -> argparse.ArgumentParser:
     add("folder", type=Path)
     add = verb(_catalogue, "write a catalogue of the accelerograms in a folder", declared)
     add("folder", type=Path)
-    add("--output", type=Path, help="CSV file to write (default: catalogue.csv in it)")
+    add("--output", type=Path, help="CSV file to write (default: catalogue.csv in the folder)")
     add = verb(_run, "run the study in a folder")
-    add("folder", type=Path, nargs="?", default=Path(), help="of the study (default: this one)")
+    add("folder", type=Path, nargs="?", default=Path(), help="folder of the study (default: this one)")
     add(
         "snakemake", nargs="*", help="a target such as trade; what follows -- goes to snakemake: -- --dry-run"
     )
-    add = verb(_tables, "write the tables of records of a study that has been run")
+    add = verb(_tables, "write the tables of single records of a finished study")
     add("results", type=Path, help="folder of the results of a study")
-    add("record", nargs="+", help="identifier in the catalogue")
-    add = verb(_read, "read a file and say what it is", one_file)
-    of_each = "of a file that is not recognised: what each reader looked for"
+    add("record", nargs="+", help="identifier of a record in the catalogue")
+    add = verb(_read, "read an accelerogram and print its header and peak", one_file)
+    of_each = "name what each reader looked for in a file that none recognised"
     add("--details", action="store_true", help=of_each)
-    verb(_pulse, "dominant sine pulse of a file", channels)
-    add = verb(_assess, "assess structures under a file", channels)
+    verb(_pulse, "print the dominant sine pulse of an accelerogram", channels)
+    add = verb(_assess, "assess structures under an accelerogram", channels)
     add("structures", type=Path, help="YAML file that lists structures")
     add("name", nargs="?", help="name of one structure in the list (default: all)")
-    add("--output", type=Path, help="folder for report.pdf and the tables behind it")
-    add = verb(_spectrum, "rocking spectrum of a file as CSV", channels)
+    add("--output", type=Path, help="folder for report.pdf and its tables")
+    add = verb(_spectrum, "print the rocking spectrum of an accelerogram as CSV", channels)
     add("--restitution", type=float, default=0.9, help="velocity ratio of an impact, 0 to 1 (default: 0.9)")
     add("--output", type=Path, default=Path("spectrum.csv"), help="CSV file")
     return parser
