@@ -58,7 +58,7 @@ class AssessmentSettings:
 
     acceleration_scale: Scale = described(
         "rest",
-        "of the equivalent block: rest (exact as it lifts, in arc length), or linearised about the critical rotation "
+        "equivalent block: rest (exact as it lifts, in arc length), or linearised about the critical rotation "
         "with uplift (a_sc,alt), linearised (a_sc) or mean",
     )
     tolerance: float = described(
@@ -84,7 +84,7 @@ class FragilitySettings:
     """What fragility is measured with. Raises ConfigurationError when a value is outside what is allowed."""
 
     intensity_measure: str = described(
-        "pgv", f"of the levels: {MEASURES_IN_WORDS}", one_of=lambda: tuple(INTENSITY_MEASURES)
+        "pgv", f"measure of the levels: {MEASURES_IN_WORDS}", one_of=lambda: tuple(INTENSITY_MEASURES)
     )
     members: bool = described(True, "whether a case counts by the share of its members that overturn")
     hazard: str | None = described(

@@ -56,23 +56,23 @@ class CatalogueRecord:
         "", "of each file as it lies on disk, in the order of `file`; a blank one is filled in when a study first "
         "reads the file, and checked from then on")
     source_repository: str = described("", "where on GitHub the files are fetched from, as owner/name")
-    source_path: str = described("", "of each file in that repository, in the order of `file`")
-    source_commit: str = described("", "of that repository, 40 hexadecimal digits")
+    source_path: str = described("", "path of each file in that repository, in the order of `file`")
+    source_commit: str = described("", "commit of that repository, 40 hexadecimal digits")
     component: str = described(
         "", "channels to use, separated by `;` (empty: every horizontal one at the surface); names the channels of "
         "files that leave them unnamed, in the order of `file`")
     vertical_component: str = described("", "the vertical channel, where the file's own name for it does not say so")
     unit: str = described(
-        "", "of the samples, where the file is silent; a contradiction with the file is an error")
-    time_step: float | None = described(None, "of the samples, where the file is silent", "s", gt=0)
-    scale_factor: float = described(1.0, "multiplies the acceleration")
+        "", "unit of the samples, where the file is silent; a contradiction with the file is an error")
+    time_step: float | None = described(None, "time step, where the file is silent", "s", gt=0)
+    scale_factor: float = described(1.0, "factor on the acceleration")
     event: str = described("", "the earthquake, for the reader")
     station: str = described("", "the station, for the reader")
-    licence: str = described("", "under which the files may be used, for the reader")
+    licence: str = described("", "licence of the files, for the reader")
     inventory: str = described("", "StationXML of a miniSEED file, a path like `file`")
     high_pass: float | None = described(
-        None, "corner of a high-pass that was applied, if the file does not say it", "Hz", gt=0)
-    magnitude: float | None = described(None, "of the earthquake, where the file is silent or errs", ge=-2, le=10)
+        None, "corner of the high-pass filter, where the file does not state it", "Hz", gt=0)
+    magnitude: float | None = described(None, "magnitude, where the file is silent or errs", ge=-2, le=10)
     epicentral_distance: float | None = described(
         None, "distance from the epicentre, where the file is silent or errs", "km", ge=0, le=20_100)
     note: str = described("", "anything else, for the reader")
