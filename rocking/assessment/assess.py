@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rocking.assessment.ensemble import Ensemble, GroundMotions
 from rocking.assessment.fidelity import Answer, Estimate, Tier, cheapest_answer, estimated
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.variations import cracks, ensemble_over_cracks
+from rocking.assessment.variations import crack_margin, cracks, ensemble_over_cracks
 from rocking.assessment.verdict import Method, ratio_in_words
 from rocking.errors import ConfigurationError, PulseError, RockingError
 from rocking.motion.integration import integrate
@@ -227,7 +227,8 @@ def _cheapest(
     may_form = [each for _, each in cracks(structure)]
     risk, first = settings.fidelity_risk, mechanism if len(may_form) == 1 else may_form[0]
     if len(may_form) > 1:
-        estimates = (estimated(Tier.PEAK_VELOCITY, each, record) for each in may_form)
+        motion = record.scaled(crack_margin(structure))
+        estimates = (estimated(Tier.PEAK_VELOCITY, each, motion) for each in may_form)
         if not all(each is not None and each.high <= risk for each in estimates):
             risk = 0.0
     how: Any = {"tolerance": settings.tolerance, "vertical": vertical, "history": True}

@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from scipy.special import betaincinv, erfcx, ndtr, stdtr, stdtrit
@@ -369,13 +369,23 @@ def incremental_dynamic_analysis(
 
 
 def fragility(
-    records: Sequence[Accelerogram], structure: Rocking, *, threshold: float = np.inf, **how: Any
+    records: Sequence[Accelerogram],
+    structure: Rocking,
+    *,
+    threshold: float = np.inf,
+    intensity_measure: str = "pgv",
+    levels: Sequence[float] | np.ndarray | None = None,
+    stations: Sequence[str] | None = None,
+    method: Literal["scaling", "cloud"] = "scaling",
+    ensemble: EnsembleSettings | None = None,
+    over_cracks: bool = False,
+    tolerance: float = 1e-6,
 ) -> Fragility:
     """Return the fragility of `structure` under `records`: of the mechanism that statics chooses where cracks may form,
     and with over_cracks of the worst of them all.
 
-    threshold: rotation ratio that is exceeded; inf: overturning. how: what else `incremental_dynamic_analysis` takes,
-    intensity_measure, levels, stations, method, ensemble, over_cracks, tolerance; its errors are raised too.
+    threshold: rotation ratio that is exceeded; inf: overturning. The rest is that of `incremental_dynamic_analysis`,
+    whose errors are raised too.
 
     >>> pulses = [rocking.Pulse(1.0, frequency, 0.5) for frequency in (4.0, 6.0, 9.0)]
     >>> times = np.arange(400) * 0.01
@@ -383,7 +393,17 @@ def fragility(
     >>> rocking.fragility(records, rocking.Block(2.0, 0.2), levels=[0.2, 0.4, 0.8, 1.6]).probability.tolist()
     [0.0, 0.0, 0.0, 1.0]
     """
-    analysis = incremental_dynamic_analysis(records, structure, **how)
+    analysis = incremental_dynamic_analysis(
+        records,
+        structure,
+        intensity_measure=intensity_measure,
+        levels=levels,
+        stations=stations,
+        method=method,
+        ensemble=ensemble,
+        over_cracks=over_cracks,
+        tolerance=tolerance,
+    )
     return analysis.fragility(threshold, governing=True)
 
 

@@ -25,7 +25,6 @@ HANDED_ON = {
     "rocking.Accelerogram.processed_by",
     "rocking.Block.of_size",
     "rocking.Frame.of_columns",
-    "rocking.fragility",
 }
 """Names whose further values and keywords are those of another, which their docstring names."""
 UNTYPED = {"rocking.Accelerogram.from_obspy", "rocking.Accelerogram.to_obspy"} | HANDED_ON
