@@ -121,13 +121,15 @@ def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
     for key, value in measured.items():
         if allowed and key in header and not abs(header[key] - value) <= allowed:
             stated = f"the header states {key.upper()} = {header[key]:g}, but the samples reach {value:g}"
-            raise RecordError(f"{stated}; the file is damaged or its header belongs to another record.")
+            raise RecordError(
+                f"{stated}; the file is damaged or its header belongs to another record; fetch it again."
+            )
     begin, end = header.get("b", 0.0), header.get("e", 0.0)
     # Single precision keeps seven digits of the times.
     allowed = 0.5 * step + 3e-7 * max(abs(begin), abs(end))
     if {"b", "e"} <= header.keys() and begin != end and abs(end - begin - step * (data.size - 1)) > allowed:
         stated = f"the header states an end at {end:g} s, but {data.size} samples every {step:g} s"
-        raise RecordError(f"{stated} from {begin:g} s end elsewhere; the file is damaged.")
+        raise RecordError(f"{stated} from {begin:g} s end elsewhere; the file is damaged; fetch it again.")
 
 
 _OBSPY_G = 9.81  # obspy turns the sensitivity in V/g into V/(m/s²) with this g
@@ -221,7 +223,7 @@ def _parse(path: Path):
             warnings.simplefilter("ignore")
             return read_inventory(io.BytesIO(content), format="STATIONXML")
     except Exception as error:
-        raise RecordError(f"damaged StationXML {path.name}, {str(error)[:200]}.") from error
+        raise RecordError(f"damaged StationXML {path.name}, {str(error)[:200]}; fetch it again.") from error
 
 
 def _refuse(content: bytes, options: Options) -> list[Accelerogram]:

@@ -87,7 +87,9 @@ def _reals(head: list[str]) -> list[float]:
             values = fields(head[i + 1 : i + 1 + count("real-header lines", match[2])], int(match[3]) or 1)
             if values.size == count("real-header values", match[1]) > _PEAK_TIME:
                 return values.tolist()
-    raise RecordError("the real header does not hold the values it announces; the file is damaged.")
+    raise RecordError(
+        "the real header does not hold the values it announces; the file is damaged; fetch it again."
+    )
 
 
 def _component(head: str) -> str:

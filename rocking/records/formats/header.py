@@ -159,7 +159,9 @@ def required(what: str, pattern: str, text: str) -> re.Match[str]:
     """Return the first match of `pattern` in `text`. Raises RecordError saying `what` the header lacks."""
     match = re.search(pattern, text, re.I | re.M) if pattern else None
     if not match or not match[1].strip():
-        raise RecordError(f"the header does not declare {what}; the file is damaged or not what it seems.")
+        raise RecordError(
+            f"the header does not declare {what}; the file is damaged or not what it seems; fetch it again."
+        )
     return match
 
 
@@ -246,7 +248,9 @@ def check_duration(declared: float, samples: int, time_step: float, steps: float
 def check_equal(field: str, first: float, second: float, relative: float = 1e-3) -> None:
     """Check that two places of a header give the same number. Raises RecordError when they do not."""
     if abs(first - second) > relative * abs(first):
-        raise RecordError(f"the header gives {field} as {first:g} and {second:g}: it is damaged.")
+        raise RecordError(
+            f"the header gives {field} as {first:g} and {second:g}: it is damaged; fetch it again."
+        )
 
 
 def check_nothing_left(rows: list[str]) -> None:

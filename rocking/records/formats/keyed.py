@@ -145,7 +145,9 @@ def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
     step = even_step(table[:, 0])
     rate = number("SampleRate", _CWB.declared("rate", head))
     if step is None or abs(step * rate - 1) > 1e-3:
-        raise RecordError(f"SampleRate is {rate:g} Hz, but the times are not spaced so; the file is damaged.")
+        raise RecordError(
+            f"SampleRate is {rate:g} Hz, but the times are not spaced so; the file is damaged; fetch it again."
+        )
     magnitudes = re.findall(r"^Magnitude\((\w+)\)(:.*)", head, re.I | re.M)
     extremes = [re.findall(NUMBER, optional(rf"^.*MAX.*\b{label}\s*:(.*)", head), re.I) for label in labels]
     facts = typed_magnitude(" ".join(scale + value for scale, value in magnitudes))

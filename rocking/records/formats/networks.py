@@ -150,7 +150,9 @@ def _geonet_channel(block: list[str], options: Options, notes: tuple[str, ...]) 
     wanted = -(-declared // _PER_LINE)
     if len(rows) not in (wanted, 3 * wanted):  # a corrected file goes on with velocity and displacement
         stated = f"the header declares {declared} samples, {wanted} lines once or thrice, but {len(rows)} stand there"
-        raise RecordError(f"{stated}: lines are missing or repeated, the file is truncated or damaged.")
+        raise RecordError(
+            f"{stated}: lines are missing or repeated, the file is truncated or damaged; fetch it again."
+        )
     factor = number("raw unit", optional(r"readings in units of\s+([\d.]+)\s*mm/s/s", head) or "1")
     integers = " ".join(block[_TEXT : _TEXT + 4]).split()
     at = _GEONET.number("peak_time", head)

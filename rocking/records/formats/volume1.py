@@ -99,12 +99,14 @@ def _digitised(
     # The length may count a last step or not.
     if abs(duration - times[-1]) > 2 * np.ptp(times) / (times.size - 1) + 0.001:
         stated = f"the header declares a length of {duration:g} s, but the last sample is at {times[-1]:g} s"
-        raise RecordError(f"{stated}; the file is damaged or its header is another's.")
+        raise RecordError(f"{stated}; the file is damaged or its header is another's; fetch it again.")
     step = even_step(times)
     if step is not None:
         return layout.channel(head, values, options, step=step, held=held)
     if is_even:
-        raise RecordError("the times are not evenly spaced, but this format's are; the file is damaged.")
+        raise RecordError(
+            "the times are not evenly spaced, but this format's are; the file is damaged; fetch it again."
+        )
     check_no_gap(times, _LONGEST_GAP)
     even = np.arange(round(times[0] / _STEP), int(times[-1] / _STEP + 1e-6) + 1) * _STEP
     note = f"The {times.size} samples are unevenly spaced; interpolated linearly to {even.size}, {_STEP:g} s apart."
