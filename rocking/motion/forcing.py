@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -31,7 +31,7 @@ class Forcing:
         """How many samples; 1 for a sine pulse."""
         return self.ground.horizontal.size
 
-    @property
+    @cached_property
     def weightless(self) -> bool:
         """Whether g + ü_v falls below zero."""
         return self.ground.gravity + float(self.ground.lightest[0]) < 0

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any, Protocol
 
 import numpy as np
@@ -166,28 +167,41 @@ def follow_blocks(
 
     restitution, start, settle, log: as `follow` takes them, of one block.
     """
-    sides, ground, count = [block.sides for block in blocks], forcing.ground, len(blocks)
-    eta = np.empty((count, factors.size, 2))
-    own = np.array([(each[0].restitution, each[-1].restitution) for each in sides])
-    eta[:] = own[:, None] if restitution is None else restitution
-    frequency = np.array([[side.frequency_parameter for side in each] for each in sides])
-    push = np.array([[1 / (GRAVITY * side.uplift_multiplier) for side in each] for each in sides])
-    span = np.array([[side.critical_arc for side in each] for each in sides])
-    near = np.zeros((*span.shape, 8))
-    near[..., 0], near[..., 4] = linear_kernel.NEAR * span, frequency**2 / GRAVITY
-    near[..., 1] = span * near[..., 4] * (1 - linear_kernel.NEAR)
-    near[..., 3] = span * frequency**2 * push
-    rows = linear_kernel.Blocks(frequency, push, span, near, blocks[0].one_sided)
-    takeable = np.empty((len(sides[0]), 2, forcing.samples))
-    samples = linear_kernel.Samples(ground.horizontal, ground.time_step, takeable)
-    begin, which = linear_kernel.Motion(0, 0.0, 0.0, 0.0, 0), np.repeat(np.arange(count), factors.size)
+    rows, own = _rows(tuple(blocks))
+    eta = np.empty((len(blocks), factors.size, 2))
+    eta[:] = own if restitution is None else restitution
+    begin = linear_kernel.Motion(0, 0.0, 0.0, 0.0, 0)
     if start[2]:
-        side = sides[0][0 if start[2] > 0 else -1]
+        side = blocks[0].sides[0 if start[2] > 0 else -1]
         arc, speed = _initial_arc(linear_table(blocks[0]), start)
         begin = begin._replace(x=arc / side.critical_arc, w=speed / side.velocity_scale, side=start[2])
-    results, moved = np.zeros((which.size, runs.COLUMNS)), (np.tile(factors, count), eta.reshape(-1, 2))
-    linear_kernel.rock_linear(rows, which, samples, *moved, begin, settle, np.empty((2, 2)), log, results)
+    ground, sides = forcing.ground, rows.span.shape[1]
+    samples = linear_kernel.Samples(
+        ground.horizontal, ground.time_step, np.empty((sides, 2, forcing.samples))
+    )
+    results = np.zeros((len(blocks) * factors.size, runs.COLUMNS))
+    linear_kernel.rock_linear(rows, samples, factors, eta, begin, settle, np.empty((2, 2)), log, results)
     return results
+
+
+@lru_cache(maxsize=256)
+def _rows(blocks: tuple[EquivalentBlock, ...]) -> tuple[linear_kernel.Blocks, np.ndarray]:
+    """What the kernel takes of b blocks, alike in their sides, and their restitution (b, 1, 2)."""
+    numbers = [
+        [
+            (side.frequency_parameter, 1 / (GRAVITY * side.uplift_multiplier), side.critical_arc)
+            for side in block.sides
+        ]
+        for block in blocks
+    ]
+    frequency, push, span = np.array(numbers).transpose(2, 0, 1).copy()
+    near = np.zeros((*span.shape, 8))
+    near[..., 0] = linear_kernel.NEAR * span
+    near[..., 4] = frequency**2 / GRAVITY
+    near[..., 1] = span * near[..., 4] * (1 - linear_kernel.NEAR)
+    near[..., 3] = span * frequency**2 * push
+    eta = np.array([[(block.sides[0].restitution, block.sides[-1].restitution)] for block in blocks])
+    return linear_kernel.Blocks(frequency, push, span, near, blocks[0].one_sided), eta
 
 
 def failure(status: float, impacts: float) -> MotionError:
@@ -203,7 +217,8 @@ def failure(status: float, impacts: float) -> MotionError:
 def _start(structure: Rocking, rotation: float, velocity: float) -> Start:
     rotation = finite(MotionError, "initial_rotation", rotation, "rad")
     velocity = finite(MotionError, "initial_velocity", velocity, "rad/s")
-    side = int(np.sign(rotation) or np.sign(velocity))
+    leading = rotation or velocity
+    side = (leading > 0) - (leading < 0)
     if side < 0 and getattr(structure, "one_sided", False):
         raise MotionError(
             "the initial state lies on the negative side, but a one-sided structure rocks to the positive only."

@@ -394,19 +394,22 @@ def _rock(blocks, samples, factor, restitution, start, settle, best, log):
 
 
 @entry
-def rock_linear(blocks, which, samples, factors, restitution, start, settle, best, log, results):
-    """Follow blocks through a record and on, exactly, once for every member (m,): fill results (m, 9).
+def rock_linear(blocks, samples, factors, restitution, start, settle, best, log, results):
+    """Follow b blocks through a record times each of m factors, and on, exactly: fill results (b m, 9).
 
-    blocks: of (b, k). which: (m,) the block of each member. factors: (m,) of ü_g. restitution: (m, 2), η of the
-    positive and of the negative side. settle: whether a chain of impacts that provably dies out is left out, with its
-    impacts. best: (2, 2), scratch for the largest x of both sides and their times. log: (1 + m, 3) for the history,
-    whose lines the first row counts, or no rows.
+    blocks: of (b, k). factors: (m,) of ü_g. restitution: (b, m, 2), η of the positive and of the negative side.
+    settle: whether a chain of impacts that provably dies out is left out, with its impacts. best: (2, 2), scratch for
+    the largest x of both sides and their times. log: (1 + m, 3) for the history, whose lines the first row counts, or
+    no rows.
     """
-    for m in range(factors.size):
-        b, eta = which[m], (restitution[m, 0], restitution[m, 1])
-        if m == 0 or b != which[m - 1]:
-            for k in range(blocks.frequency.shape[1]):
-                samples.takeable[k, 0, -1] = samples.takeable[k, 1, -1] = -1.0
+    count = factors.size
+    for b in range(blocks.frequency.shape[0]):
+        for k in range(blocks.frequency.shape[1]):
+            samples.takeable[k, 0, -1] = samples.takeable[k, 1, -1] = -1.0
         own = Blocks(blocks.frequency[b], blocks.push[b], blocks.span[b], blocks.near[b], blocks.one_sided)
-        status, impacts, uplift, side, steps = _rock(own, samples, factors[m], eta, start, settle, best, log)
-        runs.conclude(results[m], status, impacts, uplift, side, steps, best)
+        for m in range(count):
+            eta = restitution[b, m, 0], restitution[b, m, 1]
+            status, impacts, uplift, side, steps = _rock(
+                own, samples, factors[m], eta, start, settle, best, log
+            )
+            runs.conclude(results[b * count + m], status, impacts, uplift, side, steps, best)

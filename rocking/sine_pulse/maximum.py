@@ -168,17 +168,17 @@ def sides_under(block: EquivalentBlock, pulse: Pulse) -> tuple[kernel.Side, kern
 
 def _rows_of(block: EquivalentBlock) -> list[tuple[float, float, float, float, float, bool]]:
     """p, gλ, η, velocity scale, end and existence of the positive and of the negative side."""
-    return [
+    rows = [
         (
             side.frequency_parameter,
             GRAVITY * side.uplift_multiplier,
             side.restitution,
             side.velocity_scale,
             side.end,
-            exists,
         )
-        for side, exists in ((block.sides[0], True), (block.sides[-1], not block.one_sided))
+        for side in block.sides
     ]
+    return [(*rows[0], True), (*rows[-1], not block.one_sided)]
 
 
 def check_ratios(frequency_ratio: float, amplitude_ratio: float) -> None:

@@ -21,6 +21,8 @@ _ORDER = 15
 _MOST_PIECES = 4096
 _NODES = chebyshev.chebpts1(_ORDER + 1)
 _GAUSS, _WEIGHTS = legendre.leggauss(12)
+_ONE = np.ones((1, 1))
+"""The series of q/φ of a rigid body."""
 _SQUARED_IS_ROUNDING = 1e-9
 """Newton's method squares the error: after a relative step this small none is left."""
 
@@ -30,23 +32,22 @@ class Arc:
     """The arc of one side over the rotations [0, last].
 
     stretch: dq/dφ at a rotation. means: Chebyshev coefficients (16, m) of q/φ over m equal pieces of rotation, which
-    keep the relative accuracy of small rotations. rigid: dq/dφ is 1 throughout, so that q = φ.
+    keep the relative accuracy of small rotations; (1, 1) for a rigid body, whose q is φ.
     """
 
     stretch: Function
     last: float
     means: np.ndarray
-    rigid: bool
 
     def at(self, rotation: np.ndarray | float) -> np.ndarray:
         """Return the arc at `rotation` [rad], any shape."""
         rotation = np.asarray(rotation, dtype=float)
-        return rotation if self.rigid else rotation * _clenshaw(self.means, *self._placed(rotation))
+        return rotation * _clenshaw(self.means, *self._placed(rotation))
 
     def rotation(self, arc: np.ndarray, inverse: "RotationMap | None" = None) -> np.ndarray:
         """Return the rotation [rad] at `arc`, any shape, by Newton's method. inverse: where that begins."""
         arc = np.asarray(arc, dtype=float)
-        if self.rigid:
+        if self.means.size == 1:
             return np.clip(arc, 0.0, self.last)
         if inverse is None:
             ends = np.linspace(0.0, self.last, self.means.shape[1] + 1)
@@ -83,6 +84,8 @@ def arc_of(inertia: Function, last: float, accuracy: float) -> Arc | None:
     if series is None:
         return None
     coefficients, values = series
+    if np.all(values == 1):
+        return Arc(stretch, last, _ONE)
     count = coefficients.shape[1]
     integrals = chebyshev.chebint(coefficients, lbnd=-1) * (last / count / 2)
     starts = np.concatenate([[0.0], np.cumsum(integrals.sum(axis=0))[:-1]])
@@ -90,14 +93,14 @@ def arc_of(inertia: Function, last: float, accuracy: float) -> Arc | None:
     means = (starts[:, None] + chebyshev.chebval(_NODES, integrals)) / rotations
     # In the first piece by Gauss, whose relative error is no larger near rest.
     means[0] = stretch(rotations[0][:, None] * (_GAUSS + 1) / 2) @ _WEIGHTS / 2
-    return Arc(stretch, last, chebyshev.chebfit(_NODES, means.T, _ORDER), bool(np.all(values == 1)))
+    return Arc(stretch, last, chebyshev.chebfit(_NODES, means.T, _ORDER))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RotationMap:
     """φ as a function of the arc q over [0, end], the inverse of an Arc without its functions.
 
-    coefficients: Chebyshev coefficients (16, m) of φ/q over m equal pieces of the arc.
+    coefficients: Chebyshev coefficients (16, m) of φ/q over m equal pieces of the arc; (1, 1) where φ is q.
     """
 
     coefficients: np.ndarray
@@ -112,10 +115,10 @@ class RotationMap:
 
     def rotation_at(self, arc: float) -> float:
         """The same of one arc, in a microsecond or two."""
-        if not arc <= self.end:
-            return arc if arc != arc else np.inf
+        if not 0 < arc <= self.end:
+            return np.inf if arc > self.end else arc
         pieces = self._pieces
-        place = max(arc / self.end * len(pieces), 0.0)
+        place = arc / self.end * len(pieces)
         index = min(int(place), len(pieces) - 1)
         x, later, latest = 2 * (place - index) - 1, 0.0, 0.0
         first, *others = pieces[index]
@@ -151,6 +154,8 @@ class RotationMap:
 def rotation_map(arc: Arc, accuracy: float) -> RotationMap | None:
     """Return the inverse of an arc, or None where it is not smooth enough for `accuracy` (relative)."""
     end = float(arc.at(arc.last))
+    if arc.means.size == 1:
+        return RotationMap(_ONE, end)
 
     def ratio(arcs: np.ndarray) -> np.ndarray:
         return arc.rotation(arcs) / arcs
@@ -228,7 +233,7 @@ class EquivalentBlock:
                 "other_side is given, but a one-sided block has none and another side has no further one."
             )
 
-    @property
+    @cached_property
     def uplift_multiplier(self) -> float:
         """λ of the positive side = φ_cr/a_sc, the ground acceleration in g that starts rocking (Eq. 12)."""
         return self.critical_rotation / self.acceleration_scale
@@ -255,7 +260,7 @@ class EquivalentBlock:
         """x beyond which the mechanism ends; inf where x = φ/φ_cr, which has no end."""
         return np.inf if self.rotation_map is None else self.rotation_map.end / self.critical_arc
 
-    @property
+    @cached_property
     def velocity_scale(self) -> float:
         """Angular velocity at φ = 0, rad/s, for each unit of dx/d(pt)."""
         return self.frequency_parameter * self.critical_arc

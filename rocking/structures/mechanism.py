@@ -78,19 +78,13 @@ class Side:
                 f"end_rotation is {self.end_rotation!r} rad, but must exceed critical_rotation = {critical!r} rad."
             )
         object.__setattr__(self, "restitution", within(StructureError, "restitution", self.restitution, 0, 1))
-        ends = (
-            ("inertia", 0.0),
-            ("inertia", critical),
-            ("gravity", 0.0),
-            ("ground", 0.0),
-            ("ground", critical),
-        )
-        for name, at in ends:
-            value = self.at(name, at)
-            if not value > 0:
-                raise StructureError(
-                    f"{name} is {value!r} at a rotation of {at!r} rad, but must be positive there."
-                )
+        for at, names in ((0.0, ("inertia", "gravity", "ground")), (critical, ("inertia", "ground"))):
+            for name in names:
+                value = self.at(name, at)
+                if not value > 0:
+                    raise StructureError(
+                        f"{name} is {value!r} at a rotation of {at!r} rad, but must be positive there."
+                    )
 
     def __repr__(self) -> str:
         return f"Side({self.described})"
@@ -106,7 +100,7 @@ class Side:
         """Return one of the five functions, by name, at one rotation [rad], as a float."""
         return float(getattr(self, name)(np.float64(rotation)))
 
-    @property
+    @cached_property
     def remembers(self) -> bool:
         """Whether a tie can yield or break, so that G depends on the largest rotation so far."""
         return any(tie.tie.strength < np.inf for tie in self.ties)
@@ -231,12 +225,12 @@ class Mechanism:
         structure = self.__dict__.get("structure")
         return super().__reduce__() if structure is None else (methodcaller("mechanism"), (structure,))
 
-    @property
+    @cached_property
     def tied(self) -> bool:
         """Whether ties hold it."""
         return any(side.ties for side in self.sides)
 
-    @property
+    @cached_property
     def remembers(self) -> bool:
         """Whether a tie can yield or break, so that what restores depends on the largest rotation so far."""
         return any(side.remembers for side in self.sides)

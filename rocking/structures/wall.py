@@ -74,14 +74,16 @@ class WallLinkage(Linkage):
         psi = self._upper_slenderness - np.arctan2(upper.real, upper.imag)
         one = np.ones_like(across)
         blocks = Motion(
-            hinges=np.stack([base, base + 2 * lower, base + 2 * lower + 2 * upper]),
-            angles=np.stack([-np.asarray(rotation) * one, psi]),
-            spins=np.stack([-one, ratio]),
-            spin_slopes=np.stack([0 * one, curvature]),
-            centroids=np.stack([base + lower, base + 2 * lower + upper]),
-            velocities=np.stack([-1j * lower, -2j * lower + 1j * ratio * upper]),
-            accelerations=np.stack([-lower, -2 * lower + (1j * curvature - ratio**2) * upper]),
+            hinges=np.array([base, base + 2 * lower, base + 2 * lower + 2 * upper]),
+            angles=np.array([-np.asarray(rotation) * one, psi]),
+            spins=np.array([-one, ratio]),
+            spin_slopes=np.array([0 * one, curvature]),
+            centroids=np.array([base + lower, base + 2 * lower + upper]),
+            velocities=np.array([-1j * lower, -2j * lower + 1j * ratio * upper]),
+            accelerations=np.array([-lower, -2 * lower + (1j * curvature - ratio**2) * upper]),
         )
+        if not self._loads:
+            return blocks
         # a load on the top rises with its bearing and moves to no side
         lifts = [1j * np.imag(self.carried(1, each.start, blocks)) for each in self._loads]
         bearings = [each.start + lift[0] for each, lift in zip(self._loads, lifts, strict=True)]
@@ -91,9 +93,9 @@ class WallLinkage(Linkage):
             angles=np.concatenate([blocks.angles, still]),
             spins=np.concatenate([blocks.spins, still]),
             spin_slopes=np.concatenate([blocks.spin_slopes, still]),
-            centroids=np.stack([*blocks.centroids, *bearings]),
-            velocities=np.stack([*blocks.velocities, *(lift[1] for lift in lifts)]),
-            accelerations=np.stack([*blocks.accelerations, *(lift[2] for lift in lifts)]),
+            centroids=np.array([*blocks.centroids, *bearings]),
+            velocities=np.array([*blocks.velocities, *(lift[1] for lift in lifts)]),
+            accelerations=np.array([*blocks.accelerations, *(lift[2] for lift in lifts)]),
         )
 
     def contacts(self, state: MotionState) -> Contacts:
