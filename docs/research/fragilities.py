@@ -14,7 +14,7 @@ import numpy as np
 from docs.research import scores, sites
 from docs.research.report import publish
 from docs.research.scores import Score
-from rocking.assessment.fragility import _crossing, fragility_of, incremental_dynamic_analysis
+from rocking.assessment.fragility import crossing, fragility, fragility_of
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.trade import TradeMethod, best_sines
 from rocking.motion import integrate_batch
@@ -59,8 +59,8 @@ def method_scores(
     name: str, structure: Structure, records: Sequence[Accelerogram], sines: Sequence[Sequence[Pulse]]
 ) -> Iterator[Score]:
     """Yield the scores of every method for one structure, against the mechanism at TIGHT. sines: best first."""
-    analysis = partial(incremental_dynamic_analysis, records, structure, intensity_measure="pgv")
-    reference = analysis(tolerance=TIGHT)
+    follow = partial(fragility, records, structure, intensity_measure="pgv")
+    reference = follow(tolerance=TIGHT).analysis
     levels, exact = reference.levels, np.isinf(reference.rotation_ratios).mean(axis=2)
     factors = levels / reference.intensities[:, None]
     block = structure.mechanism().equivalent_block("rest")
@@ -73,8 +73,10 @@ def method_scores(
         TradeMethod.ONE_SINE: lambda: _by_sines(block, [each[:1] for each in sines], factors),
         TradeMethod.SINES: lambda: _by_sines(block, sines, factors),
         TradeMethod.BLOCK: on_block,
-        TradeMethod.MECHANISM: lambda: analysis(levels=levels).rotation_ratios,
-        TradeMethod.ENSEMBLE: lambda: analysis(levels=levels, ensemble=EnsembleSettings()).rotation_ratios,
+        TradeMethod.MECHANISM: lambda: follow(levels=levels).analysis.rotation_ratios,
+        TradeMethod.ENSEMBLE: lambda: (
+            follow(levels=levels, ensemble=EnsembleSettings()).analysis.rotation_ratios
+        ),
     }
     for method, run in runs.items():
         ratios, cpu_s = sites.timed(run)
@@ -89,7 +91,7 @@ def method_scores(
 
 def median_of(levels: np.ndarray, shares: np.ndarray) -> float:
     """Return the median of a fragility whose stations overturn by `shares` (n, k) at `levels` (k,)."""
-    return _crossing(levels, shares.sum(axis=0), np.full(levels.size, float(len(shares))))
+    return crossing(levels, shares.sum(axis=0), np.full(levels.size, float(len(shares))))
 
 
 def _median_error(levels: np.ndarray, shares: np.ndarray, exact: np.ndarray, rows: np.ndarray) -> float:
@@ -132,7 +134,7 @@ def real_scores(
 ) -> Iterator[Score]:
     """Yield the scores of a structure under `records` by site."""
     labels, motions = zip(*records, strict=True)
-    analysis = incremental_dynamic_analysis(motions, structure, stations=labels)
+    analysis = fragility(motions, structure, stations=labels).analysis
     shares = np.isinf(analysis.rotation_ratios).mean(axis=2)
     pool = np.array([shares[np.array(labels) == site].mean(axis=0) for site in dict.fromkeys(labels)])
     whence = f"of {len(pool)} real ones"

@@ -30,25 +30,26 @@ from rocking.structures import EquivalentBlock, Mechanism, Structure
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-LEVELS, COARSE, MOST_SPREAD = 40, 20, 30
-"""Levels in all; those spread evenly over the range of the curve, at first and where it reaches farther. The others are
-put where it moves."""
+LEVELS = 40
+"""Levels in all."""
+COARSE = 20
+"""Levels that are spread evenly over the range of the curve at first."""
+MOST_SPREAD = 30
+"""Levels at the most that are spread evenly, where the curve reaches farther. The rest are put where it moves."""
 SEVERE = 3.0
 """p PGV/(gλ) from which nearly every structure overturns under nearly every record."""
 NEARLY_ALL = 0.95
 """Share that overturns at the highest level."""
 MEMBERS = 16
-"""Of each ensemble, where a case is not taken as it is."""
+"""Members of each ensemble."""
 REPLICATES = 1000
 """Samples of the stations behind the interval of a median."""
 DISPERSIONS = (0.02, 3.0)
-"""Between which a dispersion is kept: outcomes that a level parts cleanly would fit ever smaller ones."""
+"""Bounds of a dispersion: outcomes that a level parts cleanly would fit ever smaller ones."""
 _FARTHEST = 8.0
 """Standard deviations beyond which a probability is 0 or 1 to double precision."""
 _RIDGE = 1e-9
 """Penalty on standardised slopes per case: keeps those finite that no case contradicts."""
-_LEAST = 4
-"""Stations below which a slope and its scatter say nothing."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -61,7 +62,7 @@ class Fragility:
     inf where it does not reach one half. exceedance: (r, k) share of each record's members above the threshold.
     stations: (r,) what counts as one independent record. lognormal_median, dispersion: the two parameters of the
     lognormal curve, by maximum likelihood. lognormal: (k,) that curve. misfit: its largest distance from the empirical
-    one.
+    one. analysis: the responses behind the curve; None of outcomes alone.
 
     >>> records = rocking.read("records/20161113_110259_WTMC_20.V2A")[:2]
     >>> curve = rocking.fragility(records, rocking.Block(2.0, 0.2), stations=["a", "b"], levels=[0.2, 0.6, 1.0])
@@ -84,6 +85,7 @@ class Fragility:
     measure: str = ""
     unit: str = ""
     threshold: float = np.inf
+    analysis: "IncrementalDynamicAnalysis | None" = None
 
     def __repr__(self) -> str:
         low, high = self.interval
@@ -126,7 +128,7 @@ def fragility_of(levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[
     count = len(over)
     probability, low, high = _empirical(over, trials)
     resampled = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
-    crossings = [_crossing(levels, weights @ over, weights @ trials) for weights in resampled]
+    crossings = [crossing(levels, weights @ over, weights @ trials) for weights in resampled]
     logs, middle = np.log(levels), np.log(levels).mean()
     (offset, slope), _ = _probit([np.broadcast_to(logs - middle, exceedance.shape)], exceedance, stations)
     dispersion = float(np.clip(1 / slope if slope > 0 else np.inf, *DISPERSIONS))
@@ -136,7 +138,7 @@ def fragility_of(levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[
         probability=probability,
         probability_low=low,
         probability_high=high,
-        median=_crossing(levels, over.sum(axis=0), trials.sum(axis=0)),
+        median=crossing(levels, over.sum(axis=0), trials.sum(axis=0)),
         interval=_interval(crossings, count),
         lognormal=lognormal,
         lognormal_median=float(np.exp(middle - offset * dispersion)),
@@ -181,8 +183,8 @@ def _interval(replicates: Sequence[float], count: int) -> tuple[float, float]:
     return float(ordered[outer]), float(ordered[-1 - outer])
 
 
-def _crossing(levels: np.ndarray, over: np.ndarray, trials: np.ndarray) -> float:
-    """The level at which the rising curve nearest to over/trials (k,) crosses one half, linear in the logarithm.
+def crossing(levels: np.ndarray, over: np.ndarray, trials: np.ndarray) -> float:
+    """Return the level at which the rising curve nearest to over/trials (k,) crosses one half, linear in the logarithm.
 
     Where the curve is one half over a range, the middle of it; the first level where all lie above, inf where all lie
     below.
@@ -241,19 +243,6 @@ def _probit(
     return coefficients / scale, covariance / np.outer(scale, scale)
 
 
-@dataclass(frozen=True)
-class Dependence:
-    """How the level that overturns depends on another figure of the record, at equal intensity.
-
-    slope: change of the logarithm of the level for one standard deviation of the figure. p_value: of no slope.
-    power: share of samples of as many stations that would show a slope of this size at 5 %.
-    """
-
-    slope: float = float("nan")
-    p_value: float = float("nan")
-    power: float = float("nan")
-
-
 def efficiency(log_levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[str]) -> float:
     """Return the dispersion of the level that overturns about its median; less is better.
 
@@ -266,22 +255,27 @@ def efficiency(log_levels: np.ndarray, exceedance: np.ndarray, stations: Sequenc
 
 def dependence(
     log_levels: np.ndarray, exceedance: np.ndarray, figures: np.ndarray, stations: Sequence[str]
-) -> Dependence:
-    """Return how the outcomes (r, k) depend on `figures` (r,) beside the levels (r, k); nan for too few stations.
+) -> dict[str, float]:
+    """Return how the outcomes (r, k) depend on `figures` (r,) beside the levels (r, k); {} for too few stations.
 
-    The error of the slope is that between stations, so that two components of one are no two observations, and the
-    slope over it is held against Student's law for the number of stations less three.
+    slope: change of the logarithm of the level that overturns, for one standard deviation of the figure. p_value: of no
+    slope. power: share of samples of as many stations that would show a slope of this size at 5 %. The error of the
+    slope is that between stations, so that two components of one are no two observations, and the slope over it is held
+    against Student's law for the number of stations less three.
     """
-    many = len(set(stations))
-    if many < _LEAST or np.ptp(figures) == 0:
-        return Dependence()
+    freedom = len(set(stations)) - 3
+    if freedom < 1 or np.ptp(figures) == 0:
+        return {}
     scaled = (figures - figures.mean()) / figures.std()
     beside = np.broadcast_to(scaled[:, None], log_levels.shape)
     (_, level, figure), covariance = _probit([log_levels, beside], exceedance, stations)
-    freedom, t = many - 3, abs(figure) / np.sqrt(covariance[2, 2])
+    t = abs(figure) / np.sqrt(covariance[2, 2])
     limit = stdtrit(freedom, 0.975)
-    power = ndtr(t - limit) + ndtr(-t - limit)
-    return Dependence(float(-figure / level), float(2 * stdtr(freedom, -t)), float(power))
+    return {
+        "slope": float(-figure / level),
+        "p_value": float(2 * stdtr(freedom, -t)),
+        "power": float(ndtr(t - limit) + ndtr(-t - limit)),
+    }
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -312,60 +306,9 @@ class IncrementalDynamicAnalysis:
         ratios = self.rotation_ratios if worst is None else worst
         above = np.isinf(ratios) | (ratios > threshold)
         exceedance = np.where(np.isnan(ratios), np.nan, above).mean(axis=2)
-        curve, measure = fragility_of(self.levels, exceedance, self.stations), self.measure
-        return replace(curve, measure=measure.name, unit=measure.unit, threshold=threshold)
-
-
-def incremental_dynamic_analysis(
-    records: Sequence[Accelerogram],
-    structure: Rocking,
-    *,
-    intensity_measure: str = "pgv",
-    levels: Sequence[float] | np.ndarray | None = None,
-    stations: Sequence[str] | None = None,
-    method: Literal["scaling", "cloud"] = "scaling",
-    ensemble: EnsembleSettings | None = None,
-    over_cracks: bool = False,
-    tolerance: float = 1e-6,
-) -> IncrementalDynamicAnalysis:
-    """Follow `structure` through `records` at levels of an intensity measure.
-
-    intensity_measure: a name of INTENSITY_MEASURES. method: scaling takes every record to every level; cloud leaves it
-    as recorded, and the levels are then those of the records. levels: ascending, in the unit of the measure; by default
-    40 that lie where the probability of overturning moves. stations: what counts as one independent record, by default
-    event and station. ensemble: ranges of the uncertain inputs; each case then has MEMBERS members.
-    over_cracks: whether the cracks that may form are followed beside the one that statics chooses, as governing_ratios.
-    What cannot be followed counts as overturning. Raises ConfigurationError for fewer than two stations, levels out of
-    order, or a measure that a record lacks.
-    """
-    if method == "cloud" and levels is not None:
-        raise ConfigurationError("levels are given, but a cloud has those of its records; leave them out.")
-    reduced, measure = reduce(structure), measure_named(intensity_measure)
-    if isinstance(reduced, EquivalentBlock):
-        raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
-    names = _checked_stations(records, stations)
-    (_, mechanism), *others = cracks(structure if isinstance(structure, Structure) else reduced)
-    intensities = np.array([measure.of(record, mechanism) for record in records])
-    follow = partial(_rotation_ratios, records, ensemble, tolerance)
-    if method == "cloud":
-        factors = np.ones((len(records), 1))
-        # Equal intensities are moved apart by rounding size, so that each stays a level of its own.
-        chosen = np.sort(intensities) * (1 + 1e-12 * np.arange(len(records)))
-        followed = [follow(mechanism, factors)]
-    else:
-        chosen, ratios = _at_levels(partial(follow, mechanism), mechanism, records, intensities, levels)
-        factors, followed = chosen / intensities[:, None], [ratios]
-    if over_cracks and others:
-        worst = followed[0]
-        for _, other in others:
-            worst = follow(other, factors, worst)
-        followed.append(worst)
-    if method == "cloud":
-        order = np.argsort(intensities, kind="stable")
-        for place, alone in enumerate(followed):
-            followed[place] = np.full((order.size, *alone[:, 0].shape), np.nan)
-            followed[place][order, np.arange(order.size)] = alone[order, 0]
-    return IncrementalDynamicAnalysis(measure, chosen, followed[0], intensities, names, *followed[1:])
+        curve = fragility_of(self.levels, exceedance, self.stations)
+        name, unit = self.measure.name, self.measure.unit
+        return replace(curve, measure=name, unit=unit, threshold=threshold, analysis=self)
 
 
 def fragility(
@@ -382,10 +325,14 @@ def fragility(
     tolerance: float = 1e-6,
 ) -> Fragility:
     """Return the fragility of `structure` under `records`: of the mechanism that statics chooses where cracks may form,
-    and with over_cracks of the worst of them all.
+    and with over_cracks of the worst of them all. Its `analysis` holds the responses.
 
-    threshold: rotation ratio that is exceeded; inf: overturning. The rest is that of `incremental_dynamic_analysis`,
-    whose errors are raised too.
+    threshold: rotation ratio that is exceeded; inf: overturning. intensity_measure: a name of INTENSITY_MEASURES.
+    levels: ascending, in the unit of the measure; by default 40 that lie where the probability of overturning moves.
+    stations: what counts as one independent record, by default event and station. method: scaling takes every record to
+    every level; cloud leaves it as recorded, and the levels are then those of the records. ensemble: ranges of the
+    uncertain inputs; each case then has MEMBERS members. What cannot be followed counts as overturning. Raises
+    ConfigurationError for fewer than two stations, levels out of order, or a measure that a record lacks.
 
     >>> pulses = [rocking.Pulse(1.0, frequency, 0.5) for frequency in (4.0, 6.0, 9.0)]
     >>> times = np.arange(400) * 0.01
@@ -393,17 +340,31 @@ def fragility(
     >>> rocking.fragility(records, rocking.Block(2.0, 0.2), levels=[0.2, 0.4, 0.8, 1.6]).probability.tolist()
     [0.0, 0.0, 0.0, 1.0]
     """
-    analysis = incremental_dynamic_analysis(
-        records,
-        structure,
-        intensity_measure=intensity_measure,
-        levels=levels,
-        stations=stations,
-        method=method,
-        ensemble=ensemble,
-        over_cracks=over_cracks,
-        tolerance=tolerance,
-    )
+    if method == "cloud" and levels is not None:
+        raise ConfigurationError("levels are given, but a cloud has those of its records; leave them out.")
+    reduced = reduce(structure)
+    measure = measure_named(intensity_measure)
+    if isinstance(reduced, EquivalentBlock):
+        raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
+    names = _checked_stations(records, stations)
+    (_, mechanism), *others = cracks(structure if isinstance(structure, Structure) else reduced)
+    intensities = np.array([measure.of(record, mechanism) for record in records])
+    follow = partial(_rotation_ratios, records, ensemble, tolerance)
+    if method == "cloud":
+        order = np.argsort(intensities, kind="stable")
+        places = np.arange(order.size)
+        # Equal intensities are moved apart by rounding size, so that each stays a level of its own.
+        chosen = intensities[order] * (1 + 1e-12 * places)
+        factors = np.full((order.size, order.size), np.nan)
+        factors[order, places] = 1.0
+        ratios = follow(mechanism, factors)
+    else:
+        chosen, ratios = _at_levels(partial(follow, mechanism), mechanism, records, intensities, levels)
+        factors = chosen / intensities[:, None]
+    worst = ratios if over_cracks and others else None
+    for _, other in others if over_cracks else ():
+        worst = follow(other, factors, worst)
+    analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, names, worst)
     return analysis.fragility(threshold, governing=True)
 
 
@@ -429,20 +390,22 @@ def _rotation_ratios(
     tolerance: float,
     mechanism: Mechanism,
     factors: np.ndarray,
-    before: np.ndarray | None = None,
+    least: np.ndarray | None = None,
 ) -> np.ndarray:
-    """(r, k, m) of every record at its factors (r, k), and at least those `before` of another mechanism.
+    """The rotation ratios (r, k, m) of every record at its factors (r, k), at least those of another mechanism.
 
-    Where all members overturn with that one nothing is followed. A member without an answer counts as one that
-    overturns.
+    nan where a factor is nan. Where all members overturn with the other mechanism nothing is followed. A member without
+    an answer counts as one that overturns.
     """
     points = lattice(MEMBERS)
-    known = np.zeros((*factors.shape, len(points) if ensemble else 1)) if before is None else before
+    if least is None:
+        least = np.zeros((*factors.shape, MEMBERS if ensemble else 1))
 
-    def follow(record: Accelerogram, scales: np.ndarray, own: np.ndarray) -> np.ndarray:
-        is_open = ~np.isinf(own).all(axis=1)
+    def follow(record: Accelerogram, scales: np.ndarray, lowest: np.ndarray) -> np.ndarray:
+        is_open = ~(np.isinf(lowest).all(axis=1) | np.isnan(scales))
+        highest = np.where(np.isnan(scales)[:, None], np.nan, lowest)
         if not is_open.any():
-            return own
+            return highest
         if ensemble is None:
             single = integrate_batch([mechanism], record, scales[is_open], tolerance=tolerance, workers=1)
             ratios = single[0][:, None]
@@ -450,12 +413,11 @@ def _rotation_ratios(
             motions = [GroundMotions.of(record.scaled(float(scale))) for scale in scales[is_open]]
             made = [drawn(mechanism, each, points, ensemble, tolerance=tolerance) for each in motions]
             ratios = np.array([each.rotation_ratios for each in made])
-        after = own.copy()
-        after[is_open] = np.maximum(own[is_open], np.nan_to_num(ratios, nan=np.inf, posinf=np.inf))
-        return after
+        highest[is_open] = np.maximum(lowest[is_open], np.nan_to_num(ratios, nan=np.inf, posinf=np.inf))
+        return highest
 
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        return np.array(list(pool.map(follow, records, factors, known)))
+        return np.array(list(pool.map(follow, records, factors, least)))
 
 
 def _at_levels(

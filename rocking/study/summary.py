@@ -116,7 +116,7 @@ def write_fragility(
     stations, or the hazard curve is none.
     """
     # A quarter of a second that a summary has no need of.
-    from rocking.assessment.fragility import incremental_dynamic_analysis
+    from rocking.assessment.fragility import fragility
     from rocking.assessment.intensity import intensity_measure
     from rocking.assessment.rows import of_fragility as rows
 
@@ -141,14 +141,15 @@ def write_fragility(
         )
     tables: dict[type[Row], list[Row]] = {each: [] for each in rows.FRAGILITY_TABLES.values()}
     for count, (name, structure) in enumerate(study.structures.items(), start=1):
-        analysis = incremental_dynamic_analysis(
+        analysis = fragility(
             accelerograms,
             structure,
             intensity_measure=settings.intensity_measure,
             over_cracks=True,
             ensemble=study.assessment.ensemble if settings.members else None,
             tolerance=study.assessment.tolerance,
-        )
+        ).analysis
+        assert analysis is not None
         tables[rows.IdaRow] += rows.ida_rows(name, names, analysis)
         for threshold in rows.ROTATION_RATIOS:
             for governing in (False, True) if analysis.governing_ratios is not None else (False,):
