@@ -17,7 +17,7 @@ from docs.research.report import publish
 from docs.research.scores import Score
 from rocking.assessment import fidelity
 from rocking.assessment.ensemble import GroundMotions, drawn, ensemble, lattice
-from rocking.assessment.fidelity import NUDGES, Tier, TierFit, cheapest_answer, stays_at_rest
+from rocking.assessment.fidelity import NUDGES, STRUCTURE, Tier, TierFit, cheapest_answer, stays_at_rest
 from rocking.assessment.fidelity import write_tiers as write_fits
 from rocking.assessment.intensity import peak_velocity
 from rocking.assessment.settings import EnsembleSettings
@@ -84,8 +84,8 @@ def fit(tier: Tier, cases: pd.DataFrame) -> TierFit:
     design = np.column_stack([np.ones(len(terms)), (terms - centre) / spread])
     fitted = scores.logistic(design, shares, cases.site.to_numpy())
     lapse = scores.lapse(expit(design @ fitted[0]), shares)
-    ends = cases.frequency_parameter.min(), cases.frequency_parameter.max()
-    return TierFit(tier, centre, spread, terms.min(axis=0), terms.max(axis=0), *fitted, ends, lapse)
+    ranges = cases[[*STRUCTURE, "frequency_parameter"]].agg(["min", "max"]).to_dict("list")
+    return TierFit(tier, centre, spread, *fitted, ranges, lapse)
 
 
 def _terms(tier: Tier, cases: pd.DataFrame) -> np.ndarray:

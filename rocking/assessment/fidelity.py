@@ -15,11 +15,12 @@ an estimate is that of the fit, by resampling sites in the large (a sandwich of 
 
 import json
 import math
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from enum import StrEnum
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -36,8 +37,12 @@ from rocking.tables import write_whole
 
 NUDGES = (0.75, 0.875, 1.0, 1.125, 1.25)
 """Factors on the ground motion at which the block is tried around the motion as given."""
-_SMALLEST, _LARGEST, _TURNED = 1e-3, 1e3, 2.0
-"""Between which ratios are kept; a block that stays up hardly turns beyond its critical rotation."""
+_SMALLEST = 1e-3
+"""Least ratio whose logarithm is taken."""
+_LARGEST = 1e3
+"""Largest p PGV/(gλ) whose logarithm is taken."""
+_FARTHEST = 2.0
+"""Largest rotation ratio whose logarithm is taken; a block that stays up hardly turns beyond its critical rotation."""
 STRUCTURE = ("restitution", "restoring_defect", "forcing_defect")
 """Terms of the structure, which every tier has last."""
 NORMAL_95 = 1.6449
@@ -72,30 +77,26 @@ class Estimate:
 class TierFit:
     """One fitted tier.
 
-    centre, spread, least, largest: (k,) of the terms. coefficients: (k + 1,) and their covariance (k + 1, k + 1),
-    intercept first. frequencies: least and largest frequency parameter behind the fit, rad/s. lapse: share of the
-    members that stand whatever the terms, so that no estimate of strong motions is too sure.
+    centre, spread: (k,) of the terms. coefficients: (k + 1,) and their covariance (k + 1, k + 1), intercept first.
+    ranges: least and largest value behind the fit of each property of a structure. lapse: share of the members that
+    stand whatever the terms, so that no estimate of strong motions is too sure.
     """
 
     tier: Tier
     centre: np.ndarray
     spread: np.ndarray
-    least: np.ndarray
-    largest: np.ndarray
     coefficients: np.ndarray
     covariance: np.ndarray
-    frequencies: tuple[float, float]
+    ranges: Mapping[str, Sequence[float]]
     lapse: float = 0.0
 
     def unlike(self, measures: Mapping[str, float]) -> bool:
         """Whether a property of a structure lies beyond those behind the fit."""
-        own = np.array([measures[name] for name in ("frequency_parameter", *STRUCTURE)])
-        least, largest = (
-            np.append(frequency, ends[-3:])
-            for frequency, ends in zip(self.frequencies, (self.least, self.largest), strict=True)
-        )
-        slack = _SLACK * (largest - least)
-        return not np.all((least - slack <= own) & (own <= largest + slack))
+        for name, (least, largest) in self.ranges.items():
+            slack = _SLACK * (largest - least)
+            if not least - slack <= measures[name] <= largest + slack:
+                return True
+        return False
 
     def design(self, terms: np.ndarray) -> np.ndarray:
         """Return 1 and the scaled terms (..., k): times the coefficients, the log odds of overturning."""
@@ -108,8 +109,8 @@ class TierFit:
         design = self.design(np.array([measures[term] for term in self.tier.terms]))
         error = np.sqrt(max(design @ self.covariance @ design, 0.0))
         ends = design @ self.coefficients + NORMAL_95 * error * np.array([0.0, -1.0, 1.0])
-        kept = np.array([1 - self.lapse, 1 - self.lapse, 1.0])  # the upper end decides what stands
-        return Estimate(*(kept / (1 + np.exp(-ends))).tolist())
+        most = np.array([1 - self.lapse, 1 - self.lapse, 1.0])  # the upper end decides what stands
+        return Estimate(*(most / (1 + np.exp(-ends))).tolist())
 
 
 @lru_cache(maxsize=1)
@@ -122,20 +123,21 @@ def read_tiers(path: Path) -> dict[Tier, TierFit]:
     """Return the tiers in a file that `write_tiers` made."""
     fits = {}
     for name, each in json.loads(path.read_text(encoding="utf-8"))["tiers"].items():
-        (low, high), lapse = each.pop("frequencies"), each.pop("lapse")
-        arrays = {key: np.array(values) for key, values in each.items() if key != "terms"}
-        fits[Tier(name)] = TierFit(Tier(name), frequencies=(low, high), lapse=lapse, **arrays)
+        del each["terms"]
+        values: dict[str, Any] = {
+            key: np.array(value) if isinstance(value, list) else value for key, value in each.items()
+        }
+        fits[Tier(name)] = TierFit(Tier(name), **values)
     return fits
 
 
 def write_tiers(path: Path, fits: Mapping[Tier, TierFit], about: Mapping[str, object]) -> None:
     """Write tiers as JSON. about: records, sites and cases behind them, and records_sha256 of the records' hashes."""
-    tiers = {
-        str(tier): {"terms": tier.terms}
-        | {name: np.asarray(each).tolist() for name, each in asdict(fit).items() if name != "tier"}
-        for tier, fit in fits.items()
-    }
-    write_whole(path, (json.dumps({"about": dict(about), "tiers": tiers}, indent=1) + "\n").encode())
+    tiers = {tier: {"terms": tier.terms, **vars(fit)} for tier, fit in fits.items()}
+    for each in tiers.values():
+        del each["tier"]
+    text = json.dumps({"about": dict(about), "tiers": tiers}, indent=1, default=np.ndarray.tolist)
+    write_whole(path, (text + "\n").encode())
 
 
 def of_structure(mechanism: Mechanism) -> dict[str, float]:
@@ -165,7 +167,7 @@ def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
     """
     overturns = ~(rotation_ratios < math.inf)
     share = float(overturns.mean())
-    logs = np.log(np.clip(np.where(overturns, 1.0, rotation_ratios), _SMALLEST, _TURNED)).tolist()
+    logs = np.log(np.clip(np.where(overturns, 1.0, rotation_ratios), _SMALLEST, _FARTHEST)).tolist()
     return {
         "block": logs[len(NUDGES) // 2],
         "block_overturns": float(overturns[len(NUDGES) // 2]),
