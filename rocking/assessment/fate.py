@@ -4,9 +4,8 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TypeVar, get_args, get_type_hints
+from typing import TYPE_CHECKING, TypeVar, get_args, get_type_hints
 
-from rocking.assessment.assess import Assessment, Failure
 from rocking.assessment.rows import of_record as rows
 from rocking.assessment.rows.of_record import (
     ComparisonRow,
@@ -25,6 +24,9 @@ from rocking.assessment.verdict import Verdict
 from rocking.records import Accelerogram
 from rocking.structures import Outcome
 from rocking.tables import Row, column, read_table, row, write_tables, written_together
+
+if TYPE_CHECKING:  # else who reads a table would load numba
+    from rocking.assessment.assess import Assessment, Failure
 
 R = TypeVar("R", ComparisonRow, EnsembleRow, FailureRow, VariationRow)
 BOTH_COMPONENTS = "both"
@@ -213,7 +215,7 @@ class RecordTables:
     def add(
         self,
         identity: ComponentRow,
-        assessment: Assessment,
+        assessment: "Assessment",
         settings: AssessmentSettings,
         licence: str,
         vertical: Accelerogram | None = None,
@@ -232,7 +234,7 @@ class RecordTables:
         for failure in assessment.failures:
             self.fail(identity.record, assessment.accelerogram.component, failure)
 
-    def fail(self, record: str, component: str, failure: Failure) -> None:
+    def fail(self, record: str, component: str, failure: "Failure") -> None:
         """Append a row of the failures."""
         self.failures.append(FailureRow.of(failure, record=record, component=component))
 

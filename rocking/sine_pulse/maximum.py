@@ -12,10 +12,10 @@ from enum import StrEnum
 
 import numpy as np
 
+from rocking import sine_pulse
 from rocking.errors import PulseError, StructureError
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY, finite, positive, within
-from rocking.sine_pulse import kernel
 from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock
 
@@ -47,7 +47,7 @@ class Regime(StrEnum):
     @property
     def sentence(self) -> str:
         """One sentence for the reader."""
-        return _SENTENCES[self]
+        return _SENTENCES[self].format(sine_pulse.kernel)
 
 
 _SENTENCES = {
@@ -60,7 +60,7 @@ _SENTENCES = {
     Regime.BEFORE_FIRST_IMPACT: "The largest rotation comes before the first impact, so Eq. 15 does not hold.",
     Regime.OVERTURNS_WITHOUT_IMPACT: "The structure overturns on the side it first rocks to, without any impact.",
     Regime.OVERTURNS_AFTER_IMPACTS: "The structure overturns after one or more impacts.",
-    Regime.UNRESOLVED: f"More than {kernel.MOST_IMPACTS} impacts follow each other during the pulse without dying out, "
+    Regime.UNRESOLVED: "More than {0.MOST_IMPACTS} impacts follow each other during the pulse without dying out, "
     "because the restitution is so close to 1; a restitution of at most 0.999 can be followed.",
 }
 
@@ -108,7 +108,7 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     <Regime.CONTACT_DURING_PULSE: 'contact during the pulse'>
     """
     sides = sides_under(equivalent_block, pulse)
-    course = kernel.course(*sides)
+    course = sine_pulse.kernel.course(*sides)
     then = course.peak_impacts
     if course.unresolved:
         return Maximum(math.nan, Outcome.FAILED, Regime.UNRESOLVED, course.impacts, 0, math.nan)
@@ -143,7 +143,9 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     )
 
 
-def sides_under(block: EquivalentBlock, pulse: Pulse) -> tuple[kernel.Side, kernel.Side]:
+def sides_under(
+    block: EquivalentBlock, pulse: Pulse
+) -> tuple["sine_pulse.kernel.Side", "sine_pulse.kernel.Side"]:
     """Return the side that the first half of the pulse rocks the block to, then the other.
 
     Ground that accelerates in the positive direction rocks the block to its negative side.
@@ -162,7 +164,7 @@ def sides_under(block: EquivalentBlock, pulse: Pulse) -> tuple[kernel.Side, kern
     for frequency, uplift, restitution, scale, end, exists in _rows_of(block):
         ratios = pulse.circular_frequency / frequency, abs(pulse.amplitude) / uplift
         check_ratios(*ratios)
-        sides.append(kernel.Side(*ratios, restitution, scale, end, exists))
+        sides.append(sine_pulse.kernel.Side(*ratios, restitution, scale, end, exists))
     return (sides[1], sides[0]) if pulse.amplitude > 0 else (sides[0], sides[1])
 
 
@@ -250,7 +252,7 @@ def overturning_amplitudes(
         raise PulseError(f"polarity is {polarity!r}, but must be 1 or -1.")
     rows = _rows(blocks, frequencies, np.zeros(1))
     amplitudes = np.empty((len(blocks), frequencies.size))
-    kernel.thresholds(rows, -polarity, frequencies, amplitudes)
+    sine_pulse.kernel.thresholds(rows, -polarity, frequencies, amplitudes)
     return amplitudes
 
 
@@ -262,7 +264,7 @@ def _followed(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -> tup
     peaks, margins = np.empty((len(blocks), len(pulses), 2)), np.empty((len(blocks), len(pulses)))
     # A positive ground acceleration rocks the block to its negative side.
     signs = np.where(amplitudes < 0, 1, -1)
-    kernel.courses(rows, signs, frequencies, np.abs(amplitudes), peaks, margins)
+    sine_pulse.kernel.courses(rows, signs, frequencies, np.abs(amplitudes), peaks, margins)
     return peaks, margins
 
 
@@ -292,7 +294,7 @@ def pulse_spectrum(
     rows = np.tile([1.0, 1.0, eta, 1.0, math.inf, 1.0], (1, 2, 1))  # p = gλ = 1
     omegas, strengths = (each.ravel() for each in np.meshgrid(frequencies, amplitudes, indexing="ij"))
     peaks, margins = np.empty((1, omegas.size, 2)), np.empty((1, omegas.size))
-    kernel.courses(rows, np.ones(omegas.size, dtype=int), omegas, strengths, peaks, margins)
+    sine_pulse.kernel.courses(rows, np.ones(omegas.size, dtype=int), omegas, strengths, peaks, margins)
     return peaks[0].max(axis=1).reshape(frequencies.size, amplitudes.size)
 
 

@@ -110,6 +110,12 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     )
 
 
+def workflow_folder() -> Path:
+    """Return the folder that holds Snakefile and workflow/: inside an installed package, or the clone."""
+    package = Path(__file__).parents[1]
+    return package / "shipped" if (package / "shipped" / "Snakefile").is_file() else package.parent
+
+
 def config_file(folder: Path) -> Path | None:
     """Return the path of the settings of a study, in a clone of the shipped example; None where there are none."""
     paths = (folder / "config.yaml", folder / "workflow" / "config.yaml")

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.fate import PER_RECORD, Fate, RecordTables
 from rocking.assessment.rows.of_record import TimingRow
-from rocking.assessment.rows.of_study import SUMMARY_TABLES
-from rocking.assessment.trade import TradeRow
+from rocking.assessment.rows.of_study import SUMMARY_TABLES, TradeRow
 from rocking.errors import RockingError
 from rocking.tables import Row, csv_lines, frame, rows_written, whole, write_whole, written_together
 from rocking.tables.csv_rows import check_columns, readable

@@ -18,10 +18,9 @@ from rocking.assessment.rows.of_record import FailureRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted
 from rocking.study import close_doors
-from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan
+from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan, workflow_folder
 from rocking.study.settings import named_files
 from rocking.study.terminal import Progress, closing_lines, fitting, paths_to_read
-from rocking.study.workspace import workflow_folder
 from rocking.tables import read_table
 
 _LOCK = Path(".snakemake") / "rocking_run.lock"

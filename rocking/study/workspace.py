@@ -14,15 +14,9 @@ from rocking.records.folder import list_folder, listing_text
 from rocking.records.read import read
 from rocking.structures import Outcome, load_structures
 from rocking.study.job import Study, assess_record, write_report
-from rocking.study.plan import settings_sha256
+from rocking.study.plan import settings_sha256, workflow_folder
 from rocking.study.settings import Settings, commented_yaml
 from rocking.tables import write_tables, write_whole
-
-
-def workflow_folder() -> Path:
-    """Return the folder that holds Snakefile and workflow/: inside an installed package, or the clone."""
-    package = Path(__file__).parents[1]
-    return package / "shipped" if (package / "shipped" / "Snakefile").is_file() else package.parent
 
 
 def start(folder: Path) -> list[Path]:

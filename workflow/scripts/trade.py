@@ -4,7 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from rocking.assessment.trade import TradeRow, trade
+from rocking.assessment.rows.of_study import TradeRow
+from rocking.assessment.trade import trade
 from rocking.errors import RockingError
 from rocking.reports.trade import write_trade_report
 from rocking.study.job import planned

@@ -2,9 +2,8 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from rocking.assessment.assess import Case
-from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.verdict import (
     Agreement,
     Method,
@@ -29,6 +28,10 @@ from rocking.records.rotation import azimuth_of_axis
 from rocking.sine_pulse import Regime
 from rocking.structures import Outcome
 from rocking.tables import Row, column, row
+
+if TYPE_CHECKING:  # else who reads a table would load numba
+    from rocking.assessment.assess import Case
+    from rocking.assessment.ensemble import Ensemble
 
 RECORD = "Identifier of the record in the catalogue"
 COMPONENT = "Component of the ground motion, as the file names it"
@@ -375,7 +378,7 @@ def pulse_rows(
             )
 
 
-def comparison_row(identity: ComponentRow, case: Case, friction_coefficient: float) -> ComparisonRow:
+def comparison_row(identity: ComponentRow, case: "Case", friction_coefficient: float) -> ComparisonRow:
     """Return the row of one case: the closed form beside the integration of the whole record."""
     ratios = case.predicted_rotation_ratio, case.integrated_rotation_ratio
     by_method = {RATIO_COLUMNS[method]: each.rotation_ratio for method, each in case.responses.items()}
@@ -399,7 +402,7 @@ def comparison_row(identity: ComponentRow, case: Case, friction_coefficient: flo
 
 
 def ensemble_row(
-    identity: ComponentRow, structure: str, ensemble: Ensemble, component: str | None = None
+    identity: ComponentRow, structure: str, ensemble: "Ensemble", component: str | None = None
 ) -> EnsembleRow:
     """Return the row of one ensemble. component: instead of the one of `identity`."""
     return EnsembleRow.of(

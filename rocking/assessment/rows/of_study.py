@@ -1,6 +1,7 @@
 """Rows about a whole study: its structures, their blocks, its counts, its spectrum and what accuracy costs."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from enum import StrEnum
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,6 @@ from rocking.assessment.rows.of_record import (
     RecordRow,
     TimingRow,
 )
-from rocking.motion.batch import rocking_spectrum
 from rocking.records import Accelerogram
 from rocking.structures import Structure
 from rocking.tables import Row, column, row
@@ -176,6 +176,8 @@ def spectrum_rows(
     restitution: float,
 ) -> Iterator[SpectrumRow]:
     """Yield the rocking spectrum of each component over p (m,) [rad/s] and λ (n,)."""
+    from rocking.motion.batch import rocking_spectrum  # else who reads a table would load numba
+
     for accelerogram in accelerograms:
         ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, restitution)
         blocks = product(frequency_parameters.tolist(), uplift_multipliers.tolist())
@@ -203,3 +205,36 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     TimingRow,
 )
 """The rows of the tables of the summary folder."""
+
+
+class TradeMethod(StrEnum):
+    """The methods of the trade, the cheapest response first."""
+
+    ONE_SINE = "one sine"
+    """The closed form under the dominant sine."""
+    SINES = "five sines"
+    """The closed form under the one of the five best-ranked sines that turns the structure farthest."""
+    BLOCK = "block on record"
+    COARSE = "mechanism, 1e-3"
+    MECHANISM = "mechanism, 1e-6"
+    FINE = "mechanism, 1e-9"
+    ENSEMBLE = "ensemble"
+    """The mechanism with all that is not known of a case; its rotation is the median."""
+
+
+@row("trade")
+class TradeRow(Row):
+    """One row per method and structure, and one of all structures: error and time of one response.
+
+    The reference is the mechanism at a tolerance of 1e-12.
+    """
+
+    method: TradeMethod = column("Method")
+    structure: str = column("Name of the structure; empty: all structures together")
+    cases: int = column("Records in which the method has an answer, and it or the reference does not rest")
+    error: float = column("Median relative error of the largest rotation where method and reference rock")
+    error_high: float = column("95 % quantile of that error")
+    wrong_verdicts: int = column("Cases that rest, rock or overturn otherwise than the reference")
+    unsafe_verdicts: int = column("Those in which the method says less than the reference")
+    cpu_s: float = column("Processor time of one response, median, with all preparations at hand")
+    preparation_record_s: float = column("Processor time once for each record, median: search for its pulses")

@@ -14,7 +14,7 @@ import yaml
 
 import rocking
 from rocking.study.cli import main
-from rocking.study.workspace import workflow_folder
+from rocking.study.plan import workflow_folder
 
 ROOT = Path(rocking.__file__).parents[1]
 PERIOD, STEP = 1.0, 0.01
