@@ -12,6 +12,7 @@ from rocking.assessment.fidelity import Answer, Estimate, Tier, cheapest_answer,
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import crack_margin, cracks, ensemble_over_cracks
 from rocking.assessment.verdict import Method, ratio_in_words
+from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError, PulseError, RockingError
 from rocking.motion.integration import integrate
 from rocking.motion.response import UNKNOWN, ModelCheck, Response, check_model
@@ -29,7 +30,6 @@ from rocking.sine_pulse import Maximum, predict_maximum, printed_maximum
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from pandas import DataFrame
 
 
@@ -249,12 +249,12 @@ class Governing:
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class StructureAssessment(Ensemble):
+class StructureAssessment(Drawn, Ensemble):
     """What came of one structure: the ensemble over all that is not known, directions included.
 
     cases: by component. rotation_ratio: largest rotation over critical rotation of the case as given, the worse
     component; inf if it overturns. static_multiplier: least λ of the cracks that may form, the acceleration in g at
-    which statics lets it fall.
+    which statics lets it fall. `plot` draws the rotation as given, with the members' 5–95 % beside it.
 
     >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
     >>> assessment = rocking.assess(record, rocking.Block(2.0, 0.2))
@@ -305,12 +305,6 @@ class StructureAssessment(Ensemble):
                 words = "" if whole else ratio_in_words(ratio, case.integrated_rotation_ratio)
                 rows.append((component, str(method), ratio, words))
         return DataFrame(rows, columns=["component", "method", "rotation_ratio", "in_words"])
-
-    def plot(self, axes: "Axes | None" = None) -> "Axes":
-        """Draw the rotation of the case as given against time, with the members' 5–95 % beside it; return the axes."""
-        from rocking import plot  # the drawing stands above everything
-
-        return plot(self, axes)
 
 
 def assess(

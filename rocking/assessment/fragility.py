@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 from scipy.special import betaincinv, erfcx, ndtr, stdtr, stdtrit
@@ -20,15 +20,13 @@ from rocking.assessment.intensity import IntensityMeasure, peak_velocity, per_ve
 from rocking.assessment.intensity import intensity_measure as measure_named
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.variations import cracks
+from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import Rocking, reduce
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import EquivalentBlock, Mechanism, Structure
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 LEVELS = 40
 """Levels in all."""
@@ -53,7 +51,7 @@ _RIDGE = 1e-9
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Fragility:
+class Fragility(Drawn):
     """P(rotation ratio > threshold | intensity) of one structure; the threshold inf is overturning.
 
     measure, unit: of the intensity. levels: (k,). probability, probability_low, probability_high: (k,) the empirical
@@ -62,7 +60,8 @@ class Fragility:
     inf where it does not reach one half. exceedance: (r, k) share of each record's members above the threshold.
     stations: (r,) what counts as one independent record. lognormal_median, dispersion: the two parameters of the
     lognormal curve, by maximum likelihood. lognormal: (k,) that curve. misfit: its largest distance from the empirical
-    one. analysis: the responses behind the curve; None of outcomes alone.
+    one. analysis: the responses behind the curve; None of outcomes alone. `plot` draws the empirical curve with its
+    interval and the lognormal one.
 
     >>> records = rocking.read("records/20161113_110259_WTMC_20.V2A")[:2]
     >>> curve = rocking.fragility(records, rocking.Block(2.0, 0.2), stations=["a", "b"], levels=[0.2, 0.6, 1.0])
@@ -104,12 +103,6 @@ class Fragility:
     def reversals(self) -> np.ndarray:
         """How often each record, scaled up, lets stand again what it had overturned, (r,)."""
         return np.asarray((np.diff((self.exceedance > 0.5).astype(int), axis=1) < 0).sum(axis=1))
-
-    def plot(self, axes: "Axes | None" = None) -> "Axes":
-        """Draw the empirical curve with its interval and the lognormal one; return the axes."""
-        from rocking import plot  # the drawing stands above everything
-
-        return plot(self, axes)
 
 
 def fragility_of(levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[str]) -> Fragility:

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from itertools import product
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rocking.drawn import Drawn
 from rocking.errors import MotionError, RockingError
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.integration import (
@@ -24,9 +24,6 @@ from rocking.motion.members import Members, concluded, follow_factors
 from rocking.quantities import within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import EquivalentBlock
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 _SMALLEST_CHUNK = 16
 """Responses below which a job costs more to hand to a thread than it gains."""
@@ -110,10 +107,11 @@ def _shared_out(structures: int, factors: int, workers: int) -> list[list[tuple[
     return [calls[k : k + size] for k in range(0, len(calls), size)]
 
 
-class RockingSpectrum(np.ndarray):
+class RockingSpectrum(Drawn, np.ndarray):
     """φ_max/φ_cr, (m, n): an array that knows its axes.
 
     frequency_parameters: p (m,), rad/s. uplift_multipliers: λ (n,). A part of it keeps the axes of the whole.
+    `plot` draws lines of equal ratio; it raises MotionError for a part, or for fewer than two values on either axis.
     """
 
     frequency_parameters: np.ndarray
@@ -122,15 +120,6 @@ class RockingSpectrum(np.ndarray):
     def __array_finalize__(self, of: np.ndarray | None) -> None:
         self.frequency_parameters = getattr(of, "frequency_parameters", np.empty(0))
         self.uplift_multipliers = getattr(of, "uplift_multipliers", np.empty(0))
-
-    def plot(self, axes: "Axes | None" = None) -> "Axes":
-        """Draw lines of equal ratio over p and λ, on `axes` or on new ones, and return the axes.
-
-        Raises MotionError for fewer than two values on either axis, or for a part of a spectrum.
-        """
-        from rocking import plot  # the drawing stands above everything
-
-        return plot(self, axes)
 
 
 def rocking_spectrum(

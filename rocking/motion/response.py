@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rocking.drawn import Drawn
 from rocking.errors import MotionError
 from rocking.quantities import counted, shown
 from rocking.records import Accelerogram
@@ -14,12 +15,11 @@ from rocking.structures.contacts import UnknownContacts
 from rocking.structures.structure import largest_so_far
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from pandas import DataFrame
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Response:
+class Response(Drawn):
     """Largest rotation of a structure under a ground motion, and what is needed to trust it.
 
     rotation_ratio: largest φ/φ_cr over the sides; inf if it overturns, 0 without uplift, nan if it failed.
@@ -36,7 +36,8 @@ class Response:
     warning: one sentence where the vertical motion takes away all of gravity, else "".
     steps: integration steps taken. tolerance: the one asked for, which a response of many impacts may miss that is
     fragile; 0.0: exact.
-    With history: times (k,) s, rotation (k,) rad signed, angular_velocity (k,) rad/s signed.
+    With history: times (k,) s, rotation (k,) rad signed, angular_velocity (k,) rad/s signed, and `plot`, which draws
+    the rotation against time and raises MotionError without.
 
     >>> from rocking import Block, Pulse, integrate
     >>> integrate(Block(semi_diagonal=2.0, slenderness=0.2), Pulse(amplitude=3.0, circular_frequency=9.0))
@@ -70,15 +71,6 @@ class Response:
         if self.times is not None:
             words.append(f"history of {counted(self.times.size, 'step')}")
         return f"Response({', '.join(words)})"
-
-    def plot(self, axes: "Axes | None" = None) -> "Axes":
-        """Draw the rotation against time, on `axes` or on new ones, and return the axes.
-
-        Raises MotionError without a history.
-        """
-        from rocking import plot  # the drawing stands above everything
-
-        return plot(self, axes)
 
     def frame(self) -> "DataFrame":
         """Return a pandas frame of the history: time_s, rotation_rad, angular_velocity_rad_s.

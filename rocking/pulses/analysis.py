@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rocking.described import check_described, described
+from rocking.drawn import Drawn
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import counted
 from rocking.records.accelerogram import Accelerogram
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from pandas import DataFrame
 
 
@@ -100,8 +100,8 @@ class PulseEvidence:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class PulseAnalysis:
-    """The pulses of one record.
+class PulseAnalysis(Drawn):
+    """The pulses of one record; `plot` draws it with the dominant one.
 
     ranked: maxima of the energy gain on the record, by gain, that do not cover one another; the first is dominant.
     sequence: the pursuit, each pulse sought in what the ones before it left.
@@ -157,12 +157,6 @@ class PulseAnalysis:
     def gain_ratio(self) -> float:
         """G₂/G₁, second gain over first; 0 when the record holds one maximum only."""
         return self.ranked[1].gain / self.ranked[0].gain if len(self.ranked) > 1 else 0.0
-
-    def plot(self, axes: "Axes | None" = None) -> "Axes":
-        """Draw the record with its dominant pulse, on `axes` or on new ones, and return the axes."""
-        from rocking import plot  # the drawing stands above everything
-
-        return plot(self, axes)
 
     def frame(self) -> "DataFrame":
         """Return a pandas frame with one row per pulse, by gain, the dominant one first."""

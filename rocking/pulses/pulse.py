@@ -1,22 +1,19 @@
 """Pulse: one full sine cycle of acceleration. A signal, nothing else."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rocking.drawn import Drawn
 from rocking.errors import PulseError
 from rocking.quantities import GRAVITY, finite, positive, shown
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
 
 @dataclass(frozen=True, repr=False)
-class Pulse:
+class Pulse(Drawn):
     """a(t) = amplitude · sin(circular_frequency · (t − start_time)) for one period, zero outside.
 
-    amplitude: m/s², signed. circular_frequency: rad/s, > 0. start_time: s.
+    amplitude: m/s², signed. circular_frequency: rad/s, > 0. start_time: s. `plot` draws the cycle against time.
     Raises PulseError when a value is not finite or the frequency not positive.
 
     >>> from rocking import Pulse
@@ -53,9 +50,3 @@ class Pulse:
         phase = self.circular_frequency * (np.asarray(times, dtype=float) - self.start_time)
         inside = (phase >= 0) & (phase <= 2 * np.pi)
         return np.where(inside, self.amplitude * np.sin(phase), 0.0)
-
-    def plot(self, axes: "Axes | None" = None) -> "Axes":
-        """Draw the cycle against time, on `axes` or on new ones, and return the axes."""
-        from rocking import plot  # the drawing stands above everything
-
-        return plot(self, axes)

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rocking.drawn import Drawn
 from rocking.errors import RecordError, about
 from rocking.quantities import GRAVITY, acceleration_factor, finite, positive, shown
 from rocking.records.instrument import directed
 from rocking.records.traces import calibrated, joined, names, site
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from pandas import DataFrame
 
     from rocking import RecordMeasures, ResponseSpectrum
@@ -43,8 +43,8 @@ _KEPT = (
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Accelerogram:
-    """One component of ground acceleration, uniformly sampled, in m/s².
+class Accelerogram(Drawn):
+    """One component of ground acceleration, uniformly sampled, in m/s²; `plot` draws it against time.
 
     acceleration: (n,) m/s², n ≥ 2, finite, stored as a read-only float64 copy. time_step: s. scale_factor: what the
     file's numbers were multiplied by, beyond their unit. processing: the steps that made these numbers from the file's,
@@ -210,12 +210,6 @@ class Accelerogram:
         if self.start_time:
             header["starttime"] = UTCDateTime(self.start_time)
         return Trace(self.acceleration.copy(), header=header | {"channel": self.component})
-
-    def plot(self, axes: "Axes | None" = None) -> "Axes":
-        """Draw the acceleration against time, on `axes` or on new ones, and return the axes."""
-        from rocking import plot  # the drawing stands above everything
-
-        return plot(self, axes)
 
     def frame(self) -> "DataFrame":
         """Return a pandas frame of the columns time_s and acceleration_m_s2."""

@@ -13,11 +13,12 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
 from operator import methodcaller
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rocking.drawn import Drawn
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, positive, shown, within
 from rocking.structures.equivalent_block import (
@@ -31,9 +32,6 @@ from rocking.structures.equivalent_block import (
 )
 from rocking.structures.equivalent_block import EquivalentBlock as EquivalentBlock
 from rocking.structures.ties import SideTie
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 _ARC_ACCURACY, _MAP_ACCURACY = 2e-14, 1e-14
 CUTS = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.4)
@@ -190,8 +188,8 @@ class Side:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Mechanism:
-    """A structure as the motion sees it: a Side for each direction of rocking.
+class Mechanism(Drawn):
+    """A structure as the motion sees it: a Side for each direction of rocking; `plot` draws I, G and B over φ.
 
     positive: the side of positive rotation, taken when the ground accelerates in the negative direction.
     negative: the other side; None when it mirrors the positive one.
@@ -321,12 +319,6 @@ class Mechanism:
             )
         negative = (rotation < 0) | ((rotation == 0) & (velocity < 0) & (not self.one_sided))
         return np.where(negative, -1.0, 1.0)
-
-    def plot(self, axes: "Axes | None" = None) -> "Axes":
-        """Draw I, G and B against the rotation, on `axes` or on new ones, and return the axes."""
-        from rocking import plot  # the drawing stands above everything
-
-        return plot(self, axes)
 
 
 class Outcome(StrEnum):

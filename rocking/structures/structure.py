@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rocking.drawn import Drawn
 from rocking.errors import StructureError, StructureWarning
 from rocking.quantities import within
 from rocking.structures.contacts import Contacts, MotionState
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class CapacityCurve:
-    """Static load multiplier against displacement, at k rotations from rest to the critical one.
+class CapacityCurve(Drawn):
+    """Static load multiplier against displacement, at k rotations from rest to the critical one; `plot` draws it.
 
     By virtual work a horizontal body force λ g that just holds the structure at φ has λ(φ) = G(φ)/B(φ). It starts at
     the uplift multiplier and falls to 0 at the critical rotation.
@@ -41,12 +42,6 @@ class CapacityCurve:
     effective_displacement: np.ndarray = field(repr=False)
     control_point: tuple[float, float]
     participating_mass_ratio: float
-
-    def plot(self, axes: "Axes | None" = None) -> "Axes":
-        """Draw the multiplier against the displacement of the control point; return the axes."""
-        from rocking import plot  # the drawing stands above everything
-
-        return plot(self, axes)
 
 
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")

@@ -13,7 +13,7 @@ import rocking
 PACKAGE = Path(rocking.__file__).parent
 FLOORS = [
     {"errors"},
-    {"quantities"},
+    {"quantities", "drawn"},
     {"described"},
     {"tables"},
     {"records", "structures"},
