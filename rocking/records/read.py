@@ -70,7 +70,7 @@ def read_content(
         reader = reader or recognise(text)
         records = told_apart(reader.read(text, replace(options, file=name)))
         if not records:
-            raise RecordError("the file holds no channel of acceleration.")
+            raise RecordError("the file holds no channel of acceleration; use the acceleration file.")
         notes = (_DOUBLED,) if b"\r\r\n" in content[:2000] and text is not content else ()
         per_line = numbers_per_line(text)
         for i, record in enumerate(records):

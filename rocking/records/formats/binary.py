@@ -15,7 +15,7 @@ from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, without_offset
-from rocking.records.formats.sampling import LARGEST_SERIES
+from rocking.records.formats.text import LARGEST_SERIES
 from rocking.records.traces import first_line, joined, names
 from rocking.tables import read_whole
 

@@ -10,8 +10,17 @@ from rocking.errors import RecordError
 from rocking.quantities import acceleration_unit
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
-from rocking.records.formats.sampling import even_step, resampled
-from rocking.records.formats.text import after_lines, count, is_number, lines, number, numbers, whole
+from rocking.records.formats.text import (
+    after_lines,
+    count,
+    even_step,
+    is_number,
+    lines,
+    number,
+    numbers,
+    resampled,
+    whole,
+)
 from rocking.records.instrument import other_quantity, refuse_other_quantity
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
@@ -202,13 +211,10 @@ def _below_title(content: bytes, options: Options, size: str, step: str, **names
     return [options.accelerogram(unit, values, seconds, warnings=notes, processed=None, **names)]
 
 
-_EMOD3D = re.compile(r"\s*(\d+)\s+(\d\.\d+e[-+]\d\d)(\s+-?\d+){2}(\s+-?\d\.\d+e[-+]\d\d){4}\s*", re.I)
-"""Number of samples, step, hours and minutes, and four reals below station and component."""
-
-
-def _is_emod3d(content: bytes) -> bool:
-    head = lines(content, 3)
-    return len(head) == 3 and len(head[0].split()) >= 2 and _EMOD3D.fullmatch(head[1]) is not None
+_EMOD3D = re.compile(
+    r"[ \t]*\S+[ \t]+\S.*\n[ \t]*(\d+)[ \t]+(\d\.\d+e[-+]\d\d)([ \t]+-?\d+){2}([ \t]+-?\d\.\d+e[-+]\d\d){4}[ \t]*\n",
+    re.I)  # fmt: skip
+"""Station and component above number of samples, step, hours and minutes, and four reals."""
 
 
 def _read_emod3d(content: bytes, options: Options) -> list[Accelerogram]:
@@ -223,4 +229,4 @@ TITLED = Format("titled column", "programs of analysis, files like KOBE.000",
     "title, then a line with number of samples and step, then numbers",
     lambda content: _title(content) is not None, _read_titled)  # fmt: skip
 EMOD3D = Format("EMOD3D text", "EMOD3D and ucgmsim, simulated and observed motion",
-    "station and component above samples, step and six more numbers", _is_emod3d, _read_emod3d)  # fmt: skip
+    "station and component above samples, step and six more numbers", _EMOD3D, _read_emod3d)  # fmt: skip

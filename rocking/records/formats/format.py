@@ -91,7 +91,8 @@ class Format:
     """One kind of file.
 
     origin: who publishes records in it. signature: what the recogniser looks for, as the end of "no ...".
-    recognise: whole content to bool, never raises; or a pattern of the first line that is not empty.
+    first: a pattern that the first lines match, after up to four empty ones; or a function of the whole content that
+    never raises.
     read: (content, options) to accelerograms; raises RecordError only, whose message need not name the file.
     plugin: its name among obspy's formats, where it is offered to obspy.
     """
@@ -105,13 +106,13 @@ class Format:
 
     def recognise(self, content: bytes) -> bool:
         """Whether `content` is of this format."""
-        return starts(content, self.first) if isinstance(self.first, re.Pattern) else self.first(content)
+        if not isinstance(self.first, re.Pattern):
+            return self.first(content)
+        return self.first.match(_EMPTY_LINES.sub("", content[:_OPENING].decode("latin-1"))) is not None
 
 
-def starts(content: bytes, pattern: re.Pattern[str]) -> bool:
-    """Whether the first line that is not empty, among the first five, matches `pattern`."""
-    head = content[:2000].decode("latin-1").split("\n", 5)[:5]
-    return bool(pattern.match(next((line for line in head if line.strip()), "")))
+_OPENING = 40_000  # bytes: a hundred lines of the longest header
+_EMPTY_LINES = re.compile(r"\A(?:[^\S\n]*\n){0,4}")
 
 
 def plain(text: str) -> str:

@@ -2,29 +2,28 @@
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.quantities import positive
+from rocking.quantities import acceleration_factor, positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Options
-from rocking.records.formats.text import count, lines, number
-from rocking.records.instrument import site_warnings
+from rocking.records.formats.text import count, fields, lines, number, whole
+from rocking.records.instrument import refuse_other_quantity, site_warnings
 from rocking.records.plausibility import agree_with_header, agree_with_mean_square
 
 NUMBER = r"([+-]?(?:\d+\.?\d*|\.\d+)(?:E[+-]?\d+)?)"
-_NAMES = "component", "station", "network", "event", "event_time"
+_NAMES = "component", "station", "event", "event_time"
 
 
-def key(name: str) -> str:
-    """Return the pattern of the value in a line like "NAME : value"."""
-    return rf"^[ \t]*{re.escape(name)}[ \t]*:[ \t]*(.*)"
+def key(name: str, value: str = "(.*)") -> str:
+    """Return the pattern of a line like "NAME : value", whose value is like the pattern `value`."""
+    return rf"^[ \t]*{re.escape(name)}[ \t]*:[ \t]*{value}"
 
 
 def keyed(**keys: str) -> dict[str, str]:
@@ -34,26 +33,30 @@ def keyed(**keys: str) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Layout:
-    """Where the header of a format says what.
+    """Where the header of a format says what, and how its numbers stand.
 
-    patterns: of each fact, its last group the value. samples: their number; step: s; rate: Hz; duration: s, right
-    within that many steps and that share of its last digit (some agencies count n steps for n samples, others n - 1);
-    magnitude: like "6.5 Mw"; place: like "40.941N, 123.633W"; latitude, longitude: degrees north and east; elevation:
-    m; distance: from the epicentre, km; high_pass: Hz; corrected: what says that the numbers are processed, without
-    which a high-pass does; start: time of the first sample, hours ahead of universal time; location: of the instrument
-    in a structure; peak, rms: in peak_unit, the peak within half a unit of its last digit; peak_time: s after the first
-    sample. needed: facts that must be there. code: of the network, where it is not read.
+    patterns: of each fact, its last group the value. quantity: what the numbers are, which must be acceleration;
+    unit: of the numbers; samples: their number; step: s; rate: Hz; duration: s, right within that many steps and that
+    share of its last digit (some agencies count n steps for n samples, others n - 1); magnitude: like "6.5 Mw";
+    place: like "40.941N, 123.633W"; latitude, longitude: degrees north and east; elevation: m; distance: from the
+    epicentre, km; high_pass: Hz; corrected: what says that the numbers are processed, without which a high-pass does;
+    start: time of the first sample, hours ahead of universal time; location: of the instrument in a structure; peak,
+    rms: in peak_unit, the peak within half a unit of its last digit; peak_time: s after the first sample.
+    unit: of the numbers in every file of the format. mandatory: facts without which a file is refused. code: of the
+    network, where it is not read. per_line, width: numbers on a line, and characters of each, 0 where none touch.
     """
 
     unit: str
     patterns: Mapping[str, str]
-    needed: tuple[str, ...] = ()
+    mandatory: tuple[str, ...] = ()
     duration_steps: float = 1.001
     duration_digits: float = 0.5
     peak_unit: str = ""
     half_digit: float = 0.0
     ahead: float = 0.0
     code: str = ""
+    per_line: int = 1
+    width: int = 0
 
     def text(self, name: str, head: str) -> str:
         """Return what `head` says of the fact `name`, "" where it does not."""
@@ -63,13 +66,18 @@ class Layout:
         """Return the number that what is said of `name` begins with, None where it begins with none."""
         return optional_number(rf"^\s*{NUMBER}", self.text(name, head))
 
-    def declared(self, name: str, head: str) -> str:
+    def required(self, name: str, head: str) -> str:
         """Return what `head` says of `name`. Raises RecordError when it says nothing."""
         return required(name, self.patterns.get(name, ""), head)[1].strip()
 
     def count(self, head: str) -> int:
         """Return the number of samples. Raises RecordError when it is missing or no whole number."""
-        return count("the number of samples", self.declared("samples", head))
+        return count("the number of samples", self.required("samples", head))
+
+    def series(self, head: str, rows: list[str], options: Options, **facts: Any) -> list[Accelerogram]:
+        """Return channel() of the numbers in `rows`, as many as the header declares, or up to a line more."""
+        values, warnings = whole(fields(rows, self.width), self.count(head), self.per_line)
+        return [self.channel(head, values, options, warnings=warnings, **facts)]
 
     def channel(
         self,
@@ -81,38 +89,42 @@ class Layout:
         step: float | None = None,
         peak: float | None = None,
         peak_time: float | None = None,
-        in_file: np.ndarray | None = None,
-        held: int = 10**9,
+        file_samples: np.ndarray | None = None,
+        total: int = 10**9,
         **fields: Any,
     ) -> Accelerogram:
         """Return the accelerogram of a header and its samples (n,), after holding duration and peak against them.
 
         unit, step [s], peak and its time where they follow from something else than the patterns; fields: more of an
-        Accelerogram, before what the header says. in_file: (n,) m/s² as agree_with_header takes it. held: channels in
-        the file. Raises RecordError when something is missing or contradicts the samples.
+        Accelerogram, before what the header says. file_samples: (n,) m/s² as agree_with_header takes it. total:
+        number of channels in the file. Raises RecordError when something is missing or contradicts the samples.
         """
-        for name in self.needed:
-            number(f"the {name}", self.declared(name, head))
-        if step is None and (rate := self.text("rate", head)):
-            step = 1 / positive(RecordError, "the rate", number("the rate", rate), "Hz")
+        unit = unit or self._unit(head)
+        for name in self.mandatory:
+            number(f"the {name}", self.required(name, head))
+        if rate := self.text("rate", head):
+            interval = 1 / positive(RecordError, "the rate", number("the rate", rate), "Hz")
+            step = step or interval
+            check_equal("the step", interval, step)
         elif step is None:
-            step = number("the step", self.declared("step", head))
-        record = options.accelerogram(unit or self.unit, values, step, **self._facts(head) | fields)
-        spoken = optional_number(r"\(\s*(\d+)\s+Chns\s+of", head) or 0.0
-        if held < spoken < 1e4:
-            record = record.warned(f"The header speaks of {spoken:g} channels, but the file holds {held}.")
+            step = number("the step", self.required("step", head))
+        record = options.accelerogram(unit, values, step, **self._facts(head) | fields)
+        announced = optional_number(r"\(\s*(\d+)\s+Chns\s+of", head) or 0.0
+        if total < announced < 1e4:
+            sentence = f"The header speaks of {announced:g} channels, but the file holds {total}."
+            record = record.warned(sentence)
         record = record.warned(*site_warnings(self.text("location", head)))
         if duration := self.text("duration", head):
-            declared = number("the duration", duration)
             rounding = self.duration_digits * 10.0 ** -len(duration.partition(".")[2])
-            check_duration(declared, values.size, record.time_step, self.duration_steps, rounding)
-        in_unit = self.peak_unit or unit or self.unit
+            seconds = number("the duration", duration)
+            check_duration(seconds, values.size, record.time_step, self.duration_steps, rounding)
+        in_unit = self.peak_unit or unit
         if (rms := self.number("rms", head)) is not None:
             digit = 10.0 ** -len(self.text("rms", head).partition(".")[2])
             record = agree_with_mean_square(record, rms, in_unit, digit)
         peak = self.number("peak", head) if peak is None else peak
         at = self.number("peak_time", head) if peak_time is None else peak_time
-        return agree_with_header(record, peak, in_unit, self.half_digit, at=at, samples=in_file)
+        return agree_with_header(record, peak, in_unit, self.half_digit, at=at, samples=file_samples)
 
     def channels(
         self,
@@ -125,9 +137,25 @@ class Layout:
         **fields: Any,
     ) -> list[Accelerogram]:
         """Return channel() of each column of `table` (n, channels), named by `labels`; peaks: stated of each."""
-        named = zip(labels, table.T, peaks or [None] * len(labels), strict=True)
-        columns = (({"component": label, "peak": peak} | fields, values) for label, values, peak in named)
-        return [self.channel(head, values, options, **facts) for facts, values in columns]
+        rows = zip(labels, table.T, peaks or [None] * len(labels), strict=True)
+        facts = (({"component": label, "peak": peak} | fields, values) for label, values, peak in rows)
+        return [self.channel(head, values, options, **of_one) for of_one, values in facts]
+
+    def _unit(self, head: str) -> str:
+        """Return the unit of the numbers. Raises RecordError where they are not acceleration in the format's unit."""
+        if "quantity" in self.patterns:
+            quantity = self.required("quantity", head)
+            if not re.fullmatch(r"acc\w*tion", quantity, re.I):
+                raise RecordError(
+                    f"the file holds {quantity}; use the file of acceleration of the same record."
+                )
+        if "unit" not in self.patterns:
+            return self.unit
+        unit = self.required("unit", head)
+        refuse_other_quantity("", unit)
+        if acceleration_factor(unit) != acceleration_factor(self.unit or unit):
+            raise RecordError(f"unit is {unit!r}, but must be {self.unit!r} in this format.")
+        return self.unit or unit
 
     def _facts(self, head: str) -> dict[str, Any]:
         north, east, height = (self.number(name, head) for name in ("latitude", "longitude", "elevation"))
@@ -135,24 +163,46 @@ class Layout:
         high_pass = stated if 0 < stated < 100 else None  # no -999
         return {
             **{name: self.text(name, head) for name in _NAMES},
-            **({"network": self.code} if self.code else {}),
+            "network": self.code or self.text("network", head),
             **typed_magnitude(self.text("magnitude", head)),
             **coordinates(self.text("place", head)),
             **site(north, east, height),
             "start_time": universal(self.text("start", head), self.ahead),
             "epicentral_distance": distance(self.number("distance", head)),
             "high_pass_frequency": high_pass,
-            "processed": bool(self.text("corrected", head))
-            if "corrected" in self.patterns
-            else bool(high_pass),
+            "processed": bool(self.text("corrected", head) if "corrected" in self.patterns else high_pass),
         }
 
 
-def blocks(content: bytes, first_line: re.Pattern[str]) -> list[list[str]]:
-    """Return the lines of each block of a file, a block starting at each line that matches `first_line`."""
+def parted(content: bytes, is_end: Callable[[str], object], what: str, longest: int) -> tuple[str, list[str]]:
+    """Return the header of a text and the lines from the first that `is_end` on, which is among the first `longest`.
+
+    Raises RecordError: the file has no line `what`.
+    """
     text = lines(content)
-    starts = [i for i, line in enumerate(text) if first_line.match(line)]
-    return [text[a:b] for a, b in pairwise([*starts, len(text)])]
+    at = next((i for i, line in enumerate(text[:longest]) if is_end(line)), None)
+    if at is None:
+        raise RecordError(f"no line {what}; the file is cut.")
+    return "\n".join(text[:at]), text[at:]
+
+
+def in_blocks(
+    first_line: re.Pattern[str], read: Callable[[list[str], Options, int], Accelerogram | None]
+) -> Callable[[bytes, Options], list[Accelerogram]]:
+    """Return the reader of a format whose channels are blocks that start at a line that matches `first_line`.
+
+    read: makes an accelerogram of the lines of a block, the options and the number of blocks, or None of another
+    quantity.
+    """
+
+    def read_blocks(content: bytes, options: Options) -> list[Accelerogram]:
+        text = lines(content)
+        starts = [i for i, line in enumerate(text) if first_line.match(line)]
+        ends = [*starts[1:], len(text)]
+        records = (read(text[a:b], options, len(starts)) for a, b in zip(starts, ends, strict=False))
+        return [record for record in records if record is not None]
+
+    return read_blocks
 
 
 def required(what: str, pattern: str, text: str) -> re.Match[str]:
@@ -207,10 +257,10 @@ def typed_magnitude(text: str) -> dict[str, Any]:
 
     A number without a scale counts where none has one; 0 and below stand for none.
     """
-    given = {(m[1] or m[4]).lower(): float(m[2] or m[3]) for m in _TYPED.finditer(text)}
-    given[""] = optional_number(r"(-?\d+(?:\.\d+)?)", text) or 0.0
-    scale = next((scale for scale in _SCALES if 0 < given.get(scale, 0) <= 10), "")
-    value = given[scale] if 0 < given[scale] <= 10 else None
+    values = {(m[1] or m[4]).lower(): float(m[2] or m[3]) for m in _TYPED.finditer(text)}
+    values[""] = optional_number(r"(-?\d+(?:\.\d+)?)", text) or 0.0
+    scale = next((scale for scale in _SCALES if 0 < values.get(scale, 0) <= 10), "")
+    value = values[scale] if 0 < values[scale] <= 10 else None
     return {"magnitude": value, "magnitude_type": _SCALES.get(scale, "")}
 
 

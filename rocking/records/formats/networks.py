@@ -1,13 +1,29 @@
-"""Formats of single networks, whose headers are sentences or places: K-NET, JMA, CSMNC, GeoNet, USGS SMC."""
+"""Formats of single networks: DYNA and AFAD, RESORCE, CWB, UNAM, K-NET, JMA, CSMNC, GeoNet, USGS SMC."""
 
 import re
+from collections.abc import Sequence
 from typing import Any
+
+import numpy as np
 
 from rocking.errors import RecordError
 from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, starts, without_offset
-from rocking.records.formats.header import Layout, blocks, optional, required, site, typed_magnitude
+from rocking.records.formats.format import Format, Options, without_offset
+from rocking.records.formats.header import (
+    NUMBER,
+    Layout,
+    check_equal,
+    in_blocks,
+    key,
+    keyed,
+    optional,
+    optional_number,
+    parted,
+    required,
+    site,
+    typed_magnitude,
+)
 from rocking.records.formats.text import (
     after_lines,
     column_width,
@@ -18,9 +34,172 @@ from rocking.records.formats.text import (
     lines,
     number,
     numbers,
+    only_even_step,
     whole,
 )
+from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.plausibility import agree_with_velocity
+
+_DYNA = Layout("", keyed(
+    samples="NDATA", step="SAMPLING_INTERVAL_S", duration="DURATION_S", component="STREAM", station="STATION_CODE",
+    network="NETWORK", latitude="STATION_LATITUDE_DEGREE", longitude="STATION_LONGITUDE_DEGREE",
+    elevation="STATION_ELEVATION_M", distance="EPICENTRAL_DISTANCE_KM", high_pass="LOW_CUT_FREQUENCY_HZ",
+    peak="PGA_CM/S^2", peak_time="TIME_PGA_S", start="DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS",
+    quantity="DATA_TYPE", unit="UNITS",
+), peak_unit="cm/s2", half_digit=5e-4)  # fmt: skip
+_DYNA_END = re.compile(r"(?!AAD_|[A-Z][A-Z0-9_/^]*:)")
+_DYNA_FIRST = re.compile(r"(?:AAD_.*\n)*EVENT_NAME:(?:.*\n){1,100}?SAMPLING_INTERVAL_S:")
+"""AFAD puts lines AAD_ above a header after filtering the samples anew (Kahramanmaraş 2023)."""
+_DYNA_HEADER, _AFAD_HEADER, _RESORCE_HEADER, _CWB_HEADER, _UNAM_HEADER = 200, 40, 20, 60, 160
+"""Lines of the longest headers."""
+_WORD = r"([\w/^*]*)"
+
+
+def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
+    head, rows = parted(content, _DYNA_END.match, "of numbers", _DYNA_HEADER)
+    is_filtered_anew = head.startswith("AAD_")
+    head = re.sub("^AAD_", "", head, flags=re.M)
+    date = optional(key("EVENT_DATE_YYYYMMDD"), head)
+    scales = f"Mw={optional(key('MAGNITUDE_W'), head)} ML={optional(key('MAGNITUDE_L'), head)}"
+    facts: dict[str, Any] = typed_magnitude(scales)
+    facts["event"] = f"{optional(key('EVENT_NAME'), head)} {date}"
+    facts["event_time"] = f"{date} {optional(key('EVENT_TIME_HHMMSS'), head)}"
+    if is_filtered_anew:  # the peak that the header states is that of the samples before
+        facts["peak"] = 0.0
+    return _DYNA.series(head, rows, options, **facts)
+
+
+_AFAD = Layout("gal", keyed(
+    samples="NUMBER OF DATA", step="SAMPLING INTERVAL (SEC)", station="STATION ID", event="EARTHQUAKE DATE",
+    event_time="EARTHQUAKE DATE", magnitude="EARTHQUAKE MAGNITUDE", place="STATION COORDINATES",
+    elevation="STATION ALTITUDE (M)",
+), half_digit=5e-7, code="TK")  # fmt: skip
+
+
+def _directions(line: str) -> list[str]:
+    """Return the names of the columns that `line` heads, all of them directions, or none."""
+    labels = line.split()
+    return labels if len(labels) > 1 and all(azimuth(x) is not None or is_vertical(x) for x in labels) else []
+
+
+def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
+    head, rows = parted(content, _directions, "names the columns (N-S, E-W, U-D)", _AFAD_HEADER)
+    labels = _directions(rows[0])
+    table = in_columns(numbers("\n".join(rows[1:])), len(labels))
+    _, notes = whole(table[:, 0], _AFAD.count(head), per_line=1)
+    line = optional(r"^(.*PGA.*:.*)", head)
+    peaks = [optional_number(rf"\({re.escape(label)}\)\s*{NUMBER}", line) for label in labels]
+    is_processed = "RAW" not in line
+    return _AFAD.channels(head, table, labels, options, peaks=peaks, warnings=notes, processed=is_processed)
+
+
+_RESORCE_TITLE = re.compile(r"(Acc[a-z]*tion|Velocity|Displacement) time series in (\S+)", re.I)
+_RESORCE_FIRST = re.compile(
+    rf"Event Date & Time(?:.*\n){{1,{_RESORCE_HEADER}}}?(?i:{_RESORCE_TITLE.pattern})"
+)
+_RESORCE = Layout("m/s2", {"network": r"^Network\s*:\s*(\S+)", "quantity": r"^(\w+) time series in \S"} | keyed(
+    samples="NUMBER OF DATA", step="TIME INCREMENT (S)", component="ORIENTATION", station="STATION CODE / NAME",
+    event="EVENT DATE & TIME", event_time="EVENT DATE & TIME", high_pass="FILTER CUT-OFF FREQUENCY (HZ)",
+    peak="PGA (M/S/S)",
+), per_line=5, width=14)  # fmt: skip
+
+
+def _read_resorce(content: bytes, options: Options) -> list[Accelerogram]:
+    head, rows = parted(content, _RESORCE_TITLE.match, "names the time series and its unit", _RESORCE_HEADER)
+    return _RESORCE.series(f"{head}\n{rows[0]}", rows[1:], options)
+
+
+_CWB = Layout("gal", {"unit": key("AMPLITUDEUNIT", _WORD)} | keyed(
+    duration="RECORDLENGTH(SEC)", rate="SAMPLERATE(HZ)", station="STATIONCODE", event="ORIGIN TIME(GMT+08)",
+    event_time="ORIGIN TIME(GMT+08)", latitude="STATIONLATITUDE(N)", longitude="STATIONLONGITUDE(E)",
+    channels="DATASEQUENCE",
+), mandatory=("duration", "rate"), duration_digits=0.0, half_digit=5e-4, code="TW")  # fmt: skip
+
+
+def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
+    head, rows = parted(content, re.compile("#Data:").match, "begins with #Data:", _CWB_HEADER)
+    head = re.sub("^#", "", head, flags=re.M)
+    labels = re.findall(r"([A-Z])\(", _CWB.required("channels", head))
+    table = in_columns(fields(rows[1:], 10), len(labels) + 1)
+    magnitudes = re.findall(r"^Magnitude\((\w+)\)(:.*)", head, re.I | re.M)
+    extremes = [re.findall(NUMBER, optional(rf"^.*MAX.*\b{label}\s*:(.*)", head), re.I) for label in labels]
+    facts = typed_magnitude(" ".join(scale + value for scale, value in magnitudes))
+    facts["peaks"] = [max((abs(float(text)) for text in ends), default=None) for ends in extremes]
+    return _CWB.channels(head, table[:, 1:], labels, options, step=only_even_step(table[:, 0]), **facts)
+
+
+_UNAM = Layout("gal", {
+    "place": r"^COORDENADAS DE LA ESTACION\s*:(.*\n.*)", "unit": key("UNIDADES DE LOS DATOS", _WORD),
+} | keyed(
+    samples="NUM. TOTAL DE MUESTRAS", step="INTERVALO DE MUESTREO", duration="DURACION DEL REGISTRO (S)",
+    station="CLAVE DE LA ESTACION", event="FECHA DEL SISMO [GMT]", magnitude="MAGNITUD(ES)", elevation="ALTITUD (MSNM)",
+    peak="ACEL. MAX.(GAL)", orientation="ORIENTACION",
+), half_digit=5e-5)  # fmt: skip
+_DATA = "DATOS DE ACELERACION"
+_RULE = re.compile(r"[-+]{20,}")
+_OF_CHANNELS = re.compile(r"^(.*?),? C(?:1-C6|(7-C12)).*?:(.*)")
+_REPEATED = 2  # surplus lines that some files of the network end in
+
+
+def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
+    head, rows = parted(content, re.compile(_DATA).match, f"begins with {_DATA}", _UNAM_HEADER)
+    rules = [i for i, line in enumerate(rows[:10]) if _RULE.match(line)]
+    if len(rules) < 2:
+        raise RecordError(f"no heading {_DATA} above two rules; the file is cut.")
+    every = (_of_channel(head.split("\n"), channel) for channel in range(12))
+    heads = [own for own in every if _UNAM.text("orientation", own).strip(" ;")]
+    sizes = sorted({_UNAM.text("samples", own) for own in heads} - {""})
+    if len(sizes) != 1:
+        raise RecordError(f"the channels declare {sizes} samples, but must be equally long.")
+    samples = count("NUM. TOTAL DE MUESTRAS", sizes[0])
+    width = optional_number(r"^FORMATO DATOS.*\d+F(\d+)", head)
+    table = in_columns(fields(rows[rules[1] + 1 :], max(1, int(width or 10))), len(heads))
+    table, notes = _without_repeats(table, samples)
+    _, surplus = whole(table[:, 0], samples, per_line=1)
+    channels = zip(heads, table.T, strict=True)
+    return [_unam_channel(own, values, options, notes + surplus) for own, values in channels]
+
+
+def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[str, ...]) -> Accelerogram:
+    step = number("INTERVALO DE MUESTREO", _UNAM.required("step", head))
+    keys = "VEL. DE MUESTREO", "FACTOR DE DECIMACION", "ACEL. MAX."
+    rate, thinned, place = (optional_number(key(name) + "$", head) for name in keys)
+    if rate is not None:
+        check_equal("the interval", step, (thinned or 1.0) / max(1e-9, rate))
+    parts = [part.strip() for part in _UNAM.text("orientation", head).split(";") if part.strip()]
+    directions = (part for part in parts if azimuth(part) is not None or is_vertical(part))
+    facts: dict[str, Any] = {"warnings": notes, "peak_time": None if place is None else (place - 1) * step}
+    # Of bearing and sense, "N90E;" or "V;+", one may be blank.
+    facts["component"] = next(directions, parts[-1])
+    facts["event_time"] = f"{_UNAM.text('event', head)} {optional(key('HORA EPICENTRO (GMT)'), head)}"
+    return _UNAM.channel(head, values, options, step=step, **facts)
+
+
+def _of_channel(head: Sequence[str], channel: int) -> str:
+    """Return the header of one of channels 0 to 11: of values like "/V/N00E/N90E", C1-C6 or C7-C12, its own."""
+    own = []
+    for line in head:
+        if match := _OF_CHANNELS.match(line):
+            values = [*match[3].split("/")[1:], *[""] * 6]
+            if bool(match[2]) == (channel > 5):
+                own.append(f"{match[1]}: {values[channel % 6].strip()}")
+        else:
+            own.append(line)
+    return "\n".join(own)
+
+
+def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tuple[str, ...]]:
+    """Return `table` without one or two surplus lines at its end that repeat the lines before, and a warning if so."""
+    surplus = len(table) - declared
+    if not 1 <= surplus <= _REPEATED or declared < 2:
+        return table, ()
+    last, before = table[declared:], table[declared - surplus : declared]
+    if not (np.array_equal(last, before) or np.all(last == table[declared - 1])):
+        return table, ()
+    what = "line repeats the end and is" if surplus == 1 else "lines repeat the end and are"
+    sentence = f"The header declares {declared} samples; the {surplus} surplus {what} left out."
+    return table[:declared], (sentence,)
+
 
 _JAPAN = 9.0  # h ahead of universal time
 _DELAY = 15 / 3600  # h; of a K-NET recorder, which its record time carries
@@ -35,15 +214,11 @@ _KNET = Layout("gal", {
     "magnitude": r"^Mag\.\s*(.*)", "latitude": r"^Station Lat\.\s*(.*)", "longitude": r"^Station Long\.\s*(.*)",
     "elevation": r"^Station Height\(m\)\s*(.*)", "peak": r"^Max\. Acc\. \(gal\)\s*(.*)",
     "start": r"^Record Time\s*(.*)",
-}, needed=("duration", "peak"), duration_steps=0.501, duration_digits=0.0, half_digit=5e-4, ahead=_JAPAN + _DELAY,
+}, mandatory=("duration", "peak"), duration_steps=0.501, duration_digits=0.0, half_digit=5e-4, ahead=_JAPAN + _DELAY,
     code="BO")  # fmt: skip
+_KNET_FIRST = re.compile("".join(f"{re.escape(name)}.*\n" for name in _KNET_KEYS[:10]))
 _KIKNET = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
 _BOREHOLE = {"1", "2", "3"}
-
-
-def _is_knet(content: bytes) -> bool:
-    head = lines(content, 10)
-    return len(head) == 10 and all(map(str.startswith, head, _KNET_KEYS))
 
 
 def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
@@ -65,27 +240,22 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
 
 _JMA = Layout("", {
     "rate": r"^\s*SAMPLING RATE\s*=\s*([\d.]+)\s*Hz", "station": r"^SITE CODE=\s*([\x21-\x7e]+)",
-    "latitude": r"^\s*LAT\.=\s*(.*)", "longitude": r"^\s*LON\.=\s*(.*)",
+    "latitude": r"^\s*LAT\.=\s*(.*)", "longitude": r"^\s*LON\.=\s*(.*)", "unit": r"^\s*UNIT\s*=\s*(\w+)",
     "start": r"^\s*INITIAL TIME\s*=\s*([\d ]+)", "magnitude": r"^SITE CODE=(?:[^,]*,){4}\s*([\d.]+)",
 }, ahead=_JAPAN, code="JMA")  # fmt: skip
 _JMA_HEADER, _JMA_NAMES = 7, "NS,EW,UD"
-
-
-def _is_jma(content: bytes) -> bool:
-    return content.startswith(b"SITE CODE=") and lines(content, _JMA_HEADER)[-1].strip() == _JMA_NAMES
+_JMA_FIRST = re.compile(rf"SITE CODE=(?:.*\n){{6}}[ \t]*{_JMA_NAMES}[ \t]*(?:\n|\Z)")
 
 
 def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
     """The header gives no number of samples."""
     text = lines(content)
-    head = "\n".join(text[:_JMA_HEADER])
     rows = text[_JMA_HEADER:]
     labels = _JMA_NAMES.split(",")
     if broken := next((row for row in rows if row.strip() and row.count(",") != len(labels) - 1), ""):
         raise RecordError(f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.")
     table = in_columns(numbers("\n".join(rows).replace(",", " ")), len(labels))
-    unit = required("the unit", r"^\s*UNIT\s*=\s*(\w+)", head)[1]
-    return _JMA.channels(head, table, labels, options, unit=unit)
+    return _JMA.channels("\n".join(text[:_JMA_HEADER]), table, labels, options)
 
 
 _CSMNC = Layout("cm/s2", {
@@ -94,24 +264,16 @@ _CSMNC = Layout("cm/s2", {
     "event": r"\A(?:.*\n){2}[ \t]*(.{,60})", "event_time": r"^\d+ +(\d{4}-\d\d-\d\d [\d:]+ \w+)",
     "magnitude": r"^MAGNITUDE\s+([\d.]+.*)", "place": r"^STATION:\s*\S+\s+(.*)",
     "peak": r"^PEAK VALUE:\s*(-?[\d.]+)", "peak_time": r"^PEAK VALUE:.*?\bAT\s+([\d.]+)\s*SEC",
-    "corrected": r"^(CORRECTED) ",
-}, duration_digits=1.0, half_digit=5e-4)  # fmt: skip
-_CSMNC_HEADER, _CSMNC_PER_LINE, _CSMNC_WIDTH = 16, 8, 13
-
-
-def _is_csmnc(content: bytes) -> bool:
-    head = "\n" + "\n".join(lines(content, _CSMNC_HEADER))
-    return "\nNO. OF POINTS:" in head and "\nOBSERVING POINT:" in head
+    "corrected": r"^(CORRECTED) ", "quantity": r"^(?:UN)?CORRECTED (\w+)\s+UNIT:",
+    "unit": r"^(?:UN)?CORRECTED \w+\s+UNIT:\s*(\S+)",
+}, duration_digits=1.0, half_digit=5e-4, per_line=8, width=13)  # fmt: skip
+_CSMNC_HEADER = 16
+_CSMNC_FIRST = re.compile(r"(?=(?:.*\n){0,15}NO\. OF POINTS:)(?:.*\n){0,15}OBSERVING POINT:")
 
 
 def _read_csmnc(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
-    head = "\n".join(text[:_CSMNC_HEADER])
-    kind = required("the quantity and its unit", r"^(?:UN)?CORRECTED (\w+)\s+UNIT:\s*(\S+)", head)
-    if kind[1].upper() != "ACCELERATION" or kind[2].upper() not in ("CM/SEC/SEC", "CM/S/S", "GAL"):
-        raise RecordError(f"the file holds {kind[1]} in {kind[2]}, but must hold ACCELERATION in CM/SEC/SEC.")
-    values, notes = whole(fields(text[_CSMNC_HEADER:], _CSMNC_WIDTH), _CSMNC.count(head), _CSMNC_PER_LINE)
-    return [_CSMNC.channel(head, values, options, warnings=notes)]
+    return _CSMNC.series("\n".join(text[:_CSMNC_HEADER]), text[_CSMNC_HEADER:], options)
 
 
 _GEONET = Layout("mm/s2", {
@@ -122,8 +284,9 @@ _GEONET = Layout("mm/s2", {
     "high_pass": r"transition bands are\s+([\d.]+)", "peak": r"^Acceleration:\s+peak\s+(\S+)\s+mm/s/s",
     "peak_time": r"^Acceleration:\s+peak\s+\S+\s+mm/s/s at\s+([\d.]+)\s*s", "corrected": r"\A(corrected)",
     "rms": r"^Acceleration:.*\brms\s+([\d.]+)",
-}, needed=("peak",), half_digit=0.05, code="NZ")  # fmt: skip
-_GEONET_FIRST = re.compile(r"(Un)?corrected accelerogram\s", re.I)
+}, mandatory=("peak",), half_digit=0.05, code="NZ")  # fmt: skip
+_GEONET_BLOCK = re.compile(r"(Un)?corrected accelerogram\s", re.I)
+_GEONET_FIRST = re.compile(rf"(?i:{_GEONET_BLOCK.pattern}).*\nSite ")
 _TEXT, _HEADER, _PER_LINE, _WIDTH = 16, 26, 10, 8
 _PREPENDED = 31
 """Place in the integer header of the number of samples put before the first digitised one, from which times count.
@@ -132,37 +295,25 @@ After GNS accelerogram data files, Standard Format (2008).
 """
 
 
-def _is_geonet(content: bytes) -> bool:
-    head = lines(content, 3)
-    return bool(_GEONET_FIRST.match(head[0])) and len(head) > 1 and head[1].startswith("Site ")
-
-
-def _read_geonet(content: bytes, options: Options) -> list[Accelerogram]:
-    every = blocks(content, _GEONET_FIRST)
-    note = f"A GeoNet file holds 3 components, but this one holds {len(every)}."
-    return [_geonet_channel(block, options, (note,) if len(every) % 3 else ()) for block in every]
-
-
-def _geonet_channel(block: list[str], options: Options, notes: tuple[str, ...]) -> Accelerogram:
+def _geonet_channel(block: list[str], options: Options, total: int) -> Accelerogram:
+    note = f"A GeoNet file holds 3 components, but this one holds {total}."
     head = "\n".join(block[:_TEXT])
-    declared = _GEONET.count(head)
+    samples = _GEONET.count(head)
     rows = [row for row in block[_HEADER:] if row.strip()]
-    wanted = -(-declared // _PER_LINE)
-    if len(rows) not in (wanted, 3 * wanted):  # a corrected file goes on with velocity and displacement
-        stated = f"the header declares {declared} samples, {wanted} lines once or thrice, but {len(rows)} stand there"
-        raise RecordError(
-            f"{stated}: lines are missing or repeated, the file is truncated or damaged; fetch it again."
-        )
+    # A corrected file goes on with velocity and displacement.
+    size = len(rows) // 3 if len(rows) == 3 * -(-samples // _PER_LINE) else len(rows)
+    values = filled(rows[:size], samples, _PER_LINE, _WIDTH)
     factor = number("raw unit", optional(r"readings in units of\s+([\d.]+)\s*mm/s/s", head) or "1")
     integers = " ".join(block[_TEXT : _TEXT + 4]).split()
     at = _GEONET.number("peak_time", head)
     if at is not None and len(integers) == 40 and integers[_PREPENDED].isdecimal():
-        at += int(integers[_PREPENDED]) * number("the step", _GEONET.declared("step", head))
-    values = filled(rows[:wanted], declared, _PER_LINE, _WIDTH) * factor
-    record = _GEONET.channel(head, values, options, warnings=notes, peak_time=at)
-    if len(rows) == wanted:
+        at += int(integers[_PREPENDED]) * number("the step", _GEONET.required("step", head))
+    record = _GEONET.channel(
+        head, values * factor, options, warnings=(note,) if total % 3 else (), peak_time=at
+    )
+    if size == len(rows):
         return record
-    return agree_with_velocity(record, filled(rows[wanted : 2 * wanted], declared, _PER_LINE, _WIDTH) / 1000)
+    return agree_with_velocity(record, filled(rows[size : 2 * size], samples, _PER_LINE, _WIDTH) / 1000)
 
 
 _SMC = Layout("cm/s2", {
@@ -170,9 +321,10 @@ _SMC = Layout("cm/s2", {
     "event": r"^\s+\d{4}\s+\d+\s+\d+\s+\d{4}\s+(.*)$", "distance": r"epicentral dist\s*=\s*([\d.]+)",
     "corrected": r"\A(2) ", "event_time": r"^\s+(\d{4}\s+\d+\s+\d+\s+\d{4}) ",
 })  # fmt: skip
-_SMC_KINDS = {"0": "unknown", "1": "uncorrected accelerogram", "2": "corrected accelerogram", "3": "velocity",
-              "4": "displacement", "5": "response spectrum", "6": "Fourier spectrum"}  # fmt: skip
-_SMC_FIRST = re.compile(r"(?i)[0-6] (UNKNOWN|(UN)?CORRECTED ACC|VELOCITY|DISPLACEMENT|RESPONSE|FOURIER)")
+_SMC_FIRST = re.compile(
+    r"(?i)[0-6] (UNKNOWN|(UN)?CORRECTED ACC|VELOCITY|DISPLACEMENT|RESPONSE|FOURIER)(?:.*\n){11}"
+    r"[ \t]*(?:\S+[ \t]+){7}\S+[ \t]*(?:\n|\Z)")  # fmt: skip
+"""The first line, and below ten more the first one of integers."""
 _SMC_TEXT, _SMC_INTEGERS, _SMC_REALS = 11, 17, 27  # lines at which each part of the header ends
 _COMMENTS, _SAMPLES = 15, 16
 _RATE, _LARGEST, _SMALLEST, _CORNER = 1, 29, 31, 32
@@ -181,16 +333,10 @@ _PLACE = slice(10, 13)  # places in the real header of latitude, longitude and e
 _MISSING = 1.69e38
 
 
-def _is_smc(content: bytes) -> bool:
-    head = lines(content, 12)
-    return starts(content, _SMC_FIRST) and len(head) == 12 and len(head[11].split()) == 8
-
-
 def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     text = lines(content)
-    kind = text[0][:1]
-    if kind not in "012":
-        raise RecordError(f"this SMC file holds {_SMC_KINDS.get(kind, kind)}, not acceleration.")
+    if text[0][:1] not in ("0", "1", "2"):
+        raise RecordError(f"this SMC file is of kind {text[0].strip()[:40]!r}, not of acceleration.")
     integers = fields(text[_SMC_TEXT:_SMC_INTEGERS], 10)
     reals = fields(text[_SMC_INTEGERS:_SMC_REALS], 15)
     if integers.size < 48 or reals.size < 50:
@@ -216,15 +362,28 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     return [_SMC.channel(head, values, options, step=1 / rate, **facts)]
 
 
+DYNA = Format("DYNA (ESM, ITACA, AFAD)", "ESM and ITACA (ORFEUS, INGV), AFAD",
+    "EVENT_NAME: at the start, or below lines AAD_, and SAMPLING_INTERVAL_S: below", _DYNA_FIRST, _read_dyna,
+    "DYNA")  # fmt: skip
+AFAD = Format("AFAD/NSMN text", "AFAD, Turkey", "first line STRONG GROUND MOTION RECORDS OF TURKIYE",
+    re.compile(r"STRONG GROUND MOTION RECORDS OF T", re.I), _read_afad, "AFAD")  # fmt: skip
+RESORCE = Format("RESORCE", "RESORCE and SHARE, Europe",
+    "Event Date & Time at the start and a line that names the time series", _RESORCE_FIRST, _read_resorce,
+    "RESORCE")  # fmt: skip
+CWB = Format("CWB", "Central Weather Bureau, Taiwan", "first line #Earthquake Information",
+    re.compile(r"#Earthquake Information"), _read_cwb, "CWB")  # fmt: skip
+UNAM = Format("UNAM/CICESE", "Instituto de Ingeniería UNAM and CICESE, Mexico",
+    "line ARCHIVO ESTANDAR DE ACELERACION in the first 12",
+    re.compile(r"(?:.*\n){0,11}ARCHIVO ESTANDAR DE ACELERACI"), _read_unam, "UNAM")  # fmt: skip
 KNET = Format("K-NET/KiK-net", "NIED, Japan",
-    "header that starts with Origin Time, Lat., Long., Depth. (km)", _is_knet, _read_knet)  # fmt: skip
+    "header that starts with Origin Time, Lat., Long., Depth. (km)", _KNET_FIRST, _read_knet)  # fmt: skip
 JMA = Format("JMA CSV", "Japan Meteorological Agency",
-    "SITE CODE= at the start and a seventh line NS,EW,UD", _is_jma, _read_jma)  # fmt: skip
+    "SITE CODE= at the start and a seventh line NS,EW,UD", _JMA_FIRST, _read_jma)  # fmt: skip
 CSMNC = Format("CSMNC", "China Strong Motion Networks Centre",
-    "lines OBSERVING POINT: and NO. OF POINTS: in the first 16", _is_csmnc, _read_csmnc, "CSMNC")  # fmt: skip
+    "lines OBSERVING POINT: and NO. OF POINTS: in the first 16", _CSMNC_FIRST, _read_csmnc, "CSMNC")  # fmt: skip
 GEONET = Format("GeoNet V1A/V2A", "GeoNet (GNS Science), New Zealand",
-    "first line Corrected or Uncorrected accelerogram above a Site line", _is_geonet, _read_geonet,
-    "GEONET")  # fmt: skip
+    "first line Corrected or Uncorrected accelerogram above a Site line", _GEONET_FIRST,
+    in_blocks(_GEONET_BLOCK, _geonet_channel), "GEONET")  # fmt: skip
 SMC = Format("USGS SMC", "U.S. Geological Survey",
-    "first line like 2 CORRECTED ACCELEROGRAM above ten text lines and integers", _is_smc, _read_smc,
+    "first line like 2 CORRECTED ACCELEROGRAM above ten text lines and integers", _SMC_FIRST, _read_smc,
     "USGS_SMC")  # fmt: skip

@@ -1,6 +1,6 @@
-"""Volumes 1 and 2 of text: USC, RENADIC and BHRC in tenths of g, CSMIP raw and corrected, old and new spelling.
+"""Volumes 1 and 2 of text: COSMOS; USC, RENADIC and BHRC in tenths of g; CSMIP, raw and corrected, of every age.
 
-A header of 13 lines of text, 7 of integers and 7 of reals stands above each channel.
+COSMOS describes each block itself; in the others 13 lines of text, 7 of integers and 7 of reals head each channel.
 """
 
 import re
@@ -12,36 +12,120 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options, starts, without_offset
+from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.header import (
     Layout,
-    blocks,
     check_equal,
     check_nothing_left,
+    distance,
+    in_blocks,
     optional,
     optional_number,
     required,
 )
-from rocking.records.formats.sampling import check_no_gap, even_step
 from rocking.records.formats.text import (
+    check_no_gap,
     column_width,
     count,
+    even_step,
     fields,
     filled,
     in_columns,
     is_number,
-    lines,
     number,
+    only_even_step,
     whole,
 )
 from rocking.records.instrument import is_vertical
-from rocking.records.plausibility import agree_with_velocity
+from rocking.records.plausibility import agree_with_mean_square, agree_with_velocity
 
-_HEADER, _REALS, _RATE = 27, 20, 8
+_COSMOS = Layout("", {
+    "event": r"\A.*\n(?:Rcrd|Record)?[ \t]*(?:of)?[ \t]*(.*)", "station": r"Code:\s*(\S+)",
+    "high_pass": r"filtered below\s+([\d.]+)\s*Hz", "corrected": r"\A(corrected)",
+    "location": r"\bLocation:\s*(.*?)\s*$", "event_time": r"^Origin:\s*(\d.*?)\s*(?:\(.*)?$",
+    "magnitude": r"^Hypocenter:.*?(M\w=.*)", "latitude": r"^Coords:\s*([-\d.]+)",
+    "longitude": r"^Coords:\s*\S+\s+([-\d.]+)",
+}, half_digit=5e-7)  # fmt: skip
+_COSMOS_FIRST = re.compile(
+    r"(Corrected|Uncorrected)\s+(acceleration|velocity|displacement)\s+\(Format v", re.I
+)
+_DATA = re.compile(
+    r"^\s*(?P<n>\d+)\s+(?P<quantity>\w+)\s+pts,.*?units\s*=\s*(?P<unit>[\w/^]+)\.?\s*(?:\((?P<code>\d+)\))?\s*,?"
+    r"\s*Format\s*=\s*\(\s*(?P<per_line>\d+)[FE](?P<width>\d+)", re.I)  # fmt: skip
+_REALS = re.compile(r"^\s*(\d+)\s+Real-header values follow on\s+(\d+)\s+lines.*?\d+[FE](\d+)", re.I)
+_END = re.compile(r"\s*(End-of-data|/&)", re.I)
+_ELEVATION, _DISTANCE, _RECORDER_STEP, _STEP, _LENGTH, _PEAK, _PEAK_TIME, _RMS = 2, 16, 33, 61, 62, 63, 64, 83
+"""Places in the real header (COSMOS format 1.20): elevation of the station, m, and its distance from the epicentre, km;
+step of the recorder, s, which is not that of a resampled series; of the series, step in ms, length, s, largest value
+and its time; of a raw one its root mean square."""
+_UNKNOWN = -999.0
+_CODES = {"02": "g", "2": "g", "04": "cm/s2", "4": "cm/s2"}
+"""Units of acceleration by their code in the format."""
+
+
+def _cosmos(block: list[str], options: Options, total: int) -> Accelerogram | None:
+    """Return the accelerogram of a block, or None where it is of another quantity."""
+    at, data = next(((i, m) for i, line in enumerate(block) if (m := _DATA.match(line))), (0, None))
+    if data is None:
+        raise RecordError("no line gives points, units and Format of the samples; the file is truncated.")
+    by_code = _CODES.get(data["code"] or "")
+    if not data["quantity"].lower().startswith("accel"):
+        if by_code:
+            raise RecordError(f"a channel of {data['quantity']} has units of {by_code} by its code.")
+        return None
+    if acceleration_factor(by_code or data["unit"]) != acceleration_factor(data["unit"]):
+        raise RecordError(f"the units are {data['unit']!r}, but their code {data['code']} says {by_code}.")
+    head = "\n".join(block[:at])
+    reals = _reals(block[:at])
+    step = reals[_STEP] / 1000 if 0 < reals[_STEP] < 1e4 else reals[_RECORDER_STEP]
+    values = _samples(block[at + 1 :], data)
+    length, lasts = reals[_LENGTH], values.size * step
+    wrong = 0 < length < 1e5 and abs(length - lasts) > 1.5 * step + 5e-4  # not all agencies fill it
+    stated = [None if abs(real - _UNKNOWN) < 1e-3 else real for real in reals]
+    note = f"The header gives the series a length of {length:g} s, but its samples last {lasts:g} s."
+    facts: dict[str, Any] = {"component": _component(head), "warnings": (note,) if wrong else ()}
+    facts |= {"elevation": stated[_ELEVATION], "epicentral_distance": distance(stated[_DISTANCE])}
+    facts |= {"peak": stated[_PEAK], "peak_time": stated[_PEAK_TIME]}
+    record = _COSMOS.channel(head, values, options, unit=data["unit"], step=step, total=total, **facts)
+    if record.processed or len(reals) <= _RMS:
+        return record
+    return agree_with_mean_square(record, reals[_RMS], data["unit"], digit=1e-6)
+
+
+def _samples(rows: list[str], data: re.Match[str]) -> np.ndarray:
+    end = next((i for i, row in enumerate(rows) if _END.match(row)), None)
+    if end is None:
+        raise RecordError("no line End-of-data ends a channel: the file is truncated; fetch it again.")
+    check_nothing_left(rows[end + 1 :])
+    declared = count("number of points", data["n"])
+    return filled(rows[:end], declared, max(1, int(data["per_line"])), max(1, int(data["width"])))
+
+
+def _reals(head: list[str]) -> list[float]:
+    for i, line in enumerate(head):
+        if match := _REALS.match(line):
+            values = fields(head[i + 1 : i + 1 + count("real-header lines", match[2])], int(match[3]) or 1)
+            if values.size == count("real-header values", match[1]) > _PEAK_TIME:
+                return values.tolist()
+    raise RecordError(
+        "the real header does not hold the values it announces; the file is damaged; fetch it again."
+    )
+
+
+def _component(head: str) -> str:
+    """Return the direction of the channel line ("360 deg" as 360, "Up"), else the channel code of the SCNL comment."""
+    direction = optional(r"^Sta\s+Chan?\s*[^:]*:\s*([^(\n]*?)\s*\(", head).split(":")[-1].strip()
+    if degrees := optional(r"^(\d+)\s*deg", direction):
+        return degrees
+    code = optional(r"<SCNL>\s*[^.\s]+\.([A-Z0-9]{3})\.", head)
+    return code if direction.lower() in ("", "other") and code else direction
+
+
+_HEADER, _REALS_AT, _RATE = 27, 20, 8
 _TEXT = 13
-_STEP = 0.005  # s; the even step to which film records are interpolated
+_FILM_STEP = 0.005  # s; the even step to which film records are interpolated
 _LONGEST_GAP = 0.25  # s
-_LENGTH = r"NO\. OF POINTS\s*=\s*\S+\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)"
+_DURATION = r"NO\. OF POINTS\s*=\s*\S+\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)"
 _SIZE = {"samples": r"NO\. OF POINTS\s*=\s*(\S+)"}
 _USC = Layout("g/10", _SIZE | {
     "rms": r"^RMS.*=\s*([\d.]+) G/10", "component": r"^COMP\s+(\S+)", "station": r"^STATION\s+(USC#\s*\d+)",
@@ -77,7 +161,7 @@ def _rows(block: list[str]) -> tuple[str, list[str]]:
     """Return the text and the rows of numbers of one channel in tenths of g. Raises RecordError for another unit."""
     head = "\n".join(block[:_TEXT])
     required("units of G/10", r"^(UNITS)\b.*\bG/10", head)
-    required("points and length", _LENGTH, head)
+    required("points and length", _DURATION, head)
     body = block[_HEADER:]
     end = next((i for i, row in enumerate(body) if row.startswith("/&")), len(body))
     check_nothing_left(body[end + 1 :])
@@ -85,7 +169,12 @@ def _rows(block: list[str]) -> tuple[str, list[str]]:
 
 
 def _digitised(
-    layout: Layout, block: list[str], options: Options, held: int, margin: int = 0, is_even: bool = False
+    layout: Layout,
+    block: list[str],
+    options: Options,
+    total: int,
+    margin: int = 0,
+    is_even: bool = False,
 ) -> Accelerogram:
     """Return a channel of five pairs of time and acceleration a line, in columns of 7.
 
@@ -95,32 +184,30 @@ def _digitised(
     table = in_columns(fields(rows, 7, margin), 2)
     times, values = table.T
     whole(times, layout.count(head), per_line=0)
-    duration = number("duration", optional(_LENGTH, head))
+    duration = number("duration", optional(_DURATION, head))
     # The length may count a last step or not.
     if abs(duration - times[-1]) > 2 * np.ptp(times) / (times.size - 1) + 0.001:
         stated = f"the header declares a length of {duration:g} s, but the last sample is at {times[-1]:g} s"
         raise RecordError(f"{stated}; the file is damaged or its header is another's; fetch it again.")
-    step = even_step(times)
+    step = only_even_step(times) if is_even else even_step(times)
     if step is not None:
-        return layout.channel(head, values, options, step=step, held=held)
-    if is_even:
-        raise RecordError(
-            "the times are not evenly spaced, but this format's are; the file is damaged; fetch it again."
-        )
+        return layout.channel(head, values, options, step=step, total=total)
     check_no_gap(times, _LONGEST_GAP)
-    even = np.arange(round(times[0] / _STEP), int(times[-1] / _STEP + 1e-6) + 1) * _STEP
-    note = f"The {times.size} samples are unevenly spaced; interpolated linearly to {even.size}, {_STEP:g} s apart."
+    even = np.arange(round(times[0] / _FILM_STEP), int(times[-1] / _FILM_STEP + 1e-6) + 1) * _FILM_STEP
+    note = f"The {times.size} samples are unevenly spaced; interpolated linearly to {even.size} at {_FILM_STEP:g} s."
     more: dict[str, Any] = {"processing": (note,), "warnings": (note,)}
-    joined, in_file = np.interp(even, times, values), values * acceleration_factor("g/10")
-    return layout.channel(head, joined, options, step=_STEP, held=held, in_file=in_file, **more)
+    joined, file_samples = np.interp(even, times, values), values * acceleration_factor("g/10")
+    return layout.channel(
+        head, joined, options, step=_FILM_STEP, total=total, file_samples=file_samples, **more
+    )
 
 
 def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
     head, rows = _rows(block)
     samples = filled(rows, _BHRC.count(head), per_line=10, width=13)
     values, offset = without_offset(samples, options.unit_of("g/10"))
-    step = number("duration", optional(_LENGTH, head)) / values.size
-    reals = " ".join(block[_REALS : _REALS + 2]).split()
+    step = number("duration", optional(_DURATION, head)) / values.size
+    reals = " ".join(block[_REALS_AT : _REALS_AT + 2]).split()
     printed = reals[_RATE] if len(reals) > _RATE else "0"
     rate = float(printed) if is_number(printed) else 0.0
     note = ""
@@ -136,9 +223,11 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
     return _BHRC.channel(head, values, options, step=step, **facts)
 
 
-_VOLUME_1 = re.compile(r"Uncorrected Accelerogram Data\s+Processed", re.I)
-_VOLUME_2 = re.compile(r"Corrected accelerogram\s+.*Chan", re.I)
+_VOLUME_1 = re.compile(r"Uncorrected Accelerogram Data[ \t]+Processed", re.I)
+_VOLUME_2 = re.compile(r"Corrected accelerogram[ \t]+.*Chan", re.I)
 _VOLUME_3 = re.compile(r"(Response and )?Fourier amplitude spectr|Response (and|spectr)", re.I)
+_OF_RENADIC = r"(?:.*\n){0,12}.*RENADIC"
+_CSMIP_FIRST = re.compile(rf"{_VOLUME_1.pattern}(?!{_OF_RENADIC})|{_VOLUME_2.pattern}", re.I)
 _DATA_1 = re.compile(
     r"^\s*(?P<n>\d+)\s+Accelerogram points at\s+(?P<rate>[\d.]+)\s*pts/sec in units of\s+(?P<unit>\S+?)\s*\.?\s+"
     r"Format:\s*\((?P<per_line>\d+)[FE](?P<width>\d+)", re.I,
@@ -148,11 +237,6 @@ _DATA_2 = re.compile(
     r"[.,]?\s*(?:in|\(units:)\s*(?P<unit>[\w/]+)[.)]*\s*(?:\((?P<per_line>\d+)[FE](?P<width>\d+))?", re.I,
 )  # fmt: skip
 _PER_LINE = 8  # of the volumes before 2000, which do not say it
-
-
-def _is_csmip(content: bytes) -> bool:
-    is_raw = starts(content, _VOLUME_1) and not any("RENADIC" in row.upper() for row in lines(content, _TEXT))
-    return is_raw or starts(content, _VOLUME_2)
 
 
 def _read_csmip(content: bytes, options: Options) -> list[Accelerogram]:
@@ -169,10 +253,10 @@ def _announcement(line: str) -> re.Match[str] | None:
     return _DATA_1.match(line) or _DATA_2.match(line)
 
 
-def _csmip(block: list[str], options: Options, held: int) -> Accelerogram:
+def _csmip(block: list[str], options: Options, total: int) -> Accelerogram:
     announced = [(i, data) for i, line in enumerate(block) if (data := _announcement(line))]
     if not announced and any(re.match(r"UNITS\b.*\bG/10", line, re.I) for line in block[:_TEXT]):
-        return _digitised(_FILM, block, options, held)
+        return _digitised(_FILM, block, options, total)
     facts: dict[str, Any] = announced[0][1].groupdict() if announced else {}
     if not announced or (facts.get("quantity") or "accel").lower() != "accel":
         raise RecordError("no line announces points of acceleration: the file is cut or of velocity.")
@@ -191,7 +275,12 @@ def _csmip(block: list[str], options: Options, held: int) -> Accelerogram:
     if is_corrected and interval:
         check_equal("the interval", interval, step)
     layout = _CSMIP_2 if is_corrected else _CSMIP_1
-    more: dict[str, Any] = {"unit": facts["unit"], "step": step, "processed": is_corrected, "held": held}
+    more: dict[str, Any] = {
+        "unit": facts["unit"],
+        "step": step,
+        "processed": is_corrected,
+        "total": total,
+    }
     record = layout.channel(head, values, options, **more)
     for part, (_, data) in zip(parts[1:], announced[1:], strict=True):
         if (data.groupdict().get("quantity") or "").lower() == "veloc" and data["unit"].lower() == "cm/sec":
@@ -203,31 +292,24 @@ def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
     raise RecordError("this is a Volume 3 file of spectra, not a time history; use the V1 or V2 file.")
 
 
-def _volume1(name: str, origin: str, signature: str, first: str, read, plugin: str, mark: str = "") -> Format:
-    """Return the format whose channels start with a line like `first`; `mark` stands in the text below it."""
-    pattern = re.compile(first, re.I)
-
-    def recognise(content: bytes) -> bool:
-        return starts(content, pattern) and any(mark in line.upper() for line in lines(content, _TEXT))
-
-    def read_all(content: bytes, options: Options) -> list[Accelerogram]:
-        channels = blocks(content, pattern)
-        return [read(block, options, len(channels)) for block in channels]
-
-    return Format(name, origin, signature, recognise, read_all, plugin)
+_USC_FIRST = re.compile(r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", re.I)
+_BHRC_FIRST = re.compile(r"\* VOL1DS FILE:", re.I)
 
 
-USC = _volume1("USC Volume 1", "University of Southern California",
-    "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I",
-    r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", partial(_digitised, _USC, margin=1),
-    "USC_V1")  # fmt: skip
-RENADIC = _volume1("RENADIC", "RENADIC (Universidad de Chile)",
+COSMOS = Format("COSMOS V1/V2", "COSMOS, CESMD and USGS, USA",
+    "first line like Corrected acceleration (Format v01.20", _COSMOS_FIRST, in_blocks(_COSMOS_FIRST, _cosmos),
+    "COSMOS_V1V2")  # fmt: skip
+USC = Format("USC Volume 1", "University of Southern California",
+    "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", _USC_FIRST,
+    in_blocks(_USC_FIRST, partial(_digitised, _USC, margin=1)), "USC_V1")  # fmt: skip
+RENADIC = Format("RENADIC", "RENADIC (Universidad de Chile)",
     "first line UNCORRECTED ACCELEROGRAM DATA PROCESSED with RENADIC below",
-    r"UNCORRECTED ACCELEROGRAM DATA\s+PROCESSED", partial(_digitised, _RENADIC, is_even=True), "RENADIC",
-    "RENADIC")  # fmt: skip
-BHRC = _volume1("BHRC", "BHRC, Iran", "first line * VOL1DS FILE:", r"\* VOL1DS FILE:", _bhrc, "BHRC")
+    re.compile(_VOLUME_1.pattern + _OF_RENADIC, re.I),
+    in_blocks(_VOLUME_1, partial(_digitised, _RENADIC, is_even=True)), "RENADIC")  # fmt: skip
+BHRC = Format("BHRC", "BHRC, Iran", "first line * VOL1DS FILE:", _BHRC_FIRST, in_blocks(_BHRC_FIRST, _bhrc),
+    "BHRC")  # fmt: skip
 CSMIP = Format("CSMIP V1/V2", "California Geological Survey (CSMIP, CDMG)",
-    "first line like Uncorrected Accelerogram Data Processed, or Corrected accelerogram Chan", _is_csmip,
+    "first line like Uncorrected Accelerogram Data Processed, or Corrected accelerogram Chan", _CSMIP_FIRST,
     _read_csmip, "CSMIP_V1V2")  # fmt: skip
 SPECTRA = Format("CSMIP V3 spectra", "California Geological Survey (CSMIP, CDMG)",
     "first line that names response or Fourier spectra", _VOLUME_3, _refuse)  # fmt: skip
