@@ -75,7 +75,7 @@ def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> dict[str, 
     def total(curve: np.ndarray) -> float:
         return float(np.interp(middles, levels, curve, left=0.0) @ occurring)
 
-    above = (1 - probability[-1]) * occurring[middles > levels[-1]].sum()
+    above = (1 - probability[-1]) * occurring[middles >= levels[-1]].sum()
     slope = (log_rates[0] - log_rates[1]) / (logs[1] - logs[0])
     lower = np.linspace(min(levels[0], logs[0]), logs[0], _STEPS + 1)
     continued = np.exp(log_rates[0] + slope * (logs[0] - lower))

@@ -37,6 +37,9 @@ def test_what_curve_and_hazard_leave_out_is_said():
     found = annual_rate(curve, points)
     # above 2.0 there occurs 0.04 a year, of which the curve counts a half; the steps of the integral are 0.7 %
     assert found["annual_rate_remainder"] == pytest.approx(0.02, rel=0.02)
+    # the same where the hazard curve ends at the last level: all that is rarer occurs beyond it
+    ended = annual_rate(curve, _points([0.5, 2.0], [0.16, 0.04]))
+    assert ended["annual_rate_remainder"] == pytest.approx(0.02, rel=1e-9)
     falling = fragility_of(np.array([0.1, 0.2]), np.ones((4, 2)), list("abcd"))
     # between 0.1 and 0.5, which the hazard curve does not reach, there occurs 0.8 − 0.16
     assert annual_rate(falling, points)["annual_rate_remainder"] == pytest.approx(0.64, rel=0.02)
