@@ -232,6 +232,11 @@ def test_a_probability_that_reaches_its_limit_with_its_error_still_decides():
         (0.39, 0.4, "within 10 %"),
         (0.5, 0.2, "2.5 × too high"),
         (0.454, 0.001001, "450 × too high"),
+        (0.4, 0.6, "1.5 × too low"),
+        (0.0, 0.3, "misses the rocking"),
+        (0.0, math.inf, "misses the overturning"),
+        (0.3, 0.0, "rocks instead of resting"),
+        (math.inf, 0.0, "overturns instead of resting"),
         (0.3, math.inf, "misses the overturning"),
         (math.inf, 0.3, "overturns instead of rocking"),
         (math.inf, math.inf, "both overturn"),
@@ -296,6 +301,11 @@ def test_a_stream_of_obspy_is_assessed_as_its_components():
     stream = Stream([each.to_obspy() for each in (first, second)])
     ours = assess([first, second], BLOCK, members=16)
     assert np.array_equal(assess(stream, BLOCK, members=16).rotation_ratios, ours.rotation_ratios)
+
+
+def test_components_without_a_name_are_numbered():
+    pair = [replace(_record(each), component="") for each in (0.5, 0.6)]
+    assert list(assess(pair, BLOCK, members=16).cases) == ["component 1", "component 2"]
 
 
 @pytest.mark.parametrize("structure", [BLOCK, Wall.hinged_at(3.0, 1.5, 0.4), Arch(5.0, 0.8, np.radians(150))])

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize
 from scipy.stats import norm
 from scipy.stats import t as student
 
@@ -43,6 +44,20 @@ def test_the_slope_and_the_scatter_are_those_behind_the_outcomes():
     assert found["p_value"] < 1e-6 and found["power"] > 0.99
     # the logistic law of the same scatter, and 1/28 of it by chance
     assert efficiency(*outcomes(0.4 * rng.standard_normal(400)), names) == pytest.approx(0.4, rel=0.12)
+
+
+def test_the_scatter_of_outcomes_that_a_level_parts_cleanly_is_that_of_the_penalised_fit():
+    """−log L + 1e-9 n b²/2, where b is the slope for one standard deviation of the levels, is least there by scipy."""
+    levels, falls = outcomes(np.zeros(4))
+    signs, spread = np.where(falls, 1.0, -1.0), levels.std()
+
+    def loss(free: np.ndarray) -> float:
+        offset, slope = free
+        likelihood = norm.logcdf(signs * (offset + slope * levels)).sum()
+        return float(1e-9 * levels.size * (slope * spread) ** 2 / 2 - likelihood)
+
+    best = minimize(loss, (0.0, 10.0), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-16})
+    assert efficiency(levels, falls, list("abcd")) == pytest.approx(1 / best.x[1], rel=1e-3)
 
 
 def test_a_record_that_never_overturns_counts():

@@ -47,6 +47,7 @@ def test_without_an_ensemble_the_single_run_of_the_worst_component_decides(ratio
     (fate,) = fates(cases)
     assert fate.verdict is verdict and fate.members == 0 and fate.count == ""
     assert fate.peak_side == ratios.index(max(ratios))
+    assert fate.direction == ("1" if len(ratios) == 2 else ""), "of the worst, where there are several"
 
 
 def test_the_ensemble_over_all_directions_decides_before_those_of_the_components():

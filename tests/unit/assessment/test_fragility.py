@@ -1,6 +1,7 @@
 """Fragility: fits against scipy's own maximum, intervals against known truths, curves against responses one by one."""
 
 import math
+import statistics
 from dataclasses import replace
 
 import numpy as np
@@ -10,8 +11,9 @@ from scipy.stats import beta, norm
 
 import rocking
 from rocking.assessment.ensemble import drawn
-from rocking.assessment.fragility import fragility, fragility_of
+from rocking.assessment.fragility import IncrementalDynamicAnalysis, fragility, fragility_of
 from rocking.assessment.intensity import INTENSITY_MEASURES
+from rocking.assessment.rows.of_fragility import ida_rows
 from rocking.assessment.settings import EnsembleSettings
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
@@ -160,6 +162,17 @@ def test_a_measure_grows_in_proportion_to_the_motion(name):
     measure, mechanism = INTENSITY_MEASURES[name], BLOCK.mechanism()
     once, twice = (measure.of(RECORDS[2].scaled(factor), mechanism) for factor in (1.0, 2.0))
     assert twice == pytest.approx(2 * once, rel=1e-9)
+
+
+@pytest.mark.parametrize("members", [1, 2, 3, 4])
+def test_a_row_of_the_analysis_tells_the_lower_median_of_its_members(members):
+    ratios = np.array([0.4, 0.1, math.inf, 0.2])[None, None, :members]
+    analysis = IncrementalDynamicAnalysis(
+        INTENSITY_MEASURES["pgv"], np.ones(1), ratios, np.full(1, 0.5), ("one",)
+    )
+    (row,) = ida_rows("block", ["record"], analysis)
+    assert row.rotation_ratio_median == statistics.median_low(ratios[0, 0])
+    assert (row.members, row.scale_factor) == (members, 2.0)
 
 
 def test_a_cloud_keeps_the_records_as_they_are():
