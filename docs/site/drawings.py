@@ -4,10 +4,13 @@ from collections.abc import Iterator
 
 from matplotlib.figure import Figure
 
-from rocking.reports.drawings import seen_rotation
 from rocking.reports.style import styled
+from rocking.structures import Structure
 from rocking.structures.fields import Form
 from rocking.structures.structure_list import TYPES, structure_from_config
+
+_SEEN_ROTATION, _MOST_ROTATION = 0.12, 0.3
+"""Rotation that can be seen in a small drawing, and beyond which a structure is hard to recognise, rad."""
 
 
 def forms() -> Iterator[tuple[str, str, Form]]:
@@ -29,3 +32,10 @@ def drawing(kind: str, form: Form) -> Figure:
     for axes in (rest, displaced):
         axes.axis("off")
     return figure
+
+
+def seen_rotation(structure: Structure) -> float:
+    """Return the rotation of a drawing that shows the mechanism, rad: a share of φ_cr, more where it is small."""
+    side = structure.mechanism().positive
+    visible = min(max(0.6 * side.critical_rotation, _SEEN_ROTATION), _MOST_ROTATION)
+    return min(visible, 0.8 * side.end_rotation)

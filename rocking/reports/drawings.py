@@ -26,8 +26,7 @@ _HINGE: dict[str, Any] = {
     "markeredgewidth": 0.6,
 }
 _SIDES = {"load": ("center", "bottom"), "thrust": ("right", "center")}
-_SEEN_ROTATION, _MOST_ROTATION = 0.12, 0.3
-"""Rotation that can be seen in a small drawing, and beyond which a structure is hard to recognise, rad."""
+"""Which of its sides the value of an arrow turns to the end of it, horizontally and vertically."""
 _FALLEN, _FARTHEST = 3.0, 1.5
 """Times the critical rotation up to which a mechanism of several bodies is drawn as fallen, at most this, rad."""
 
@@ -37,21 +36,49 @@ def draw_structure(
     structure: Structure,
     rotation: float = 0.0,
     *,
+    values: bool = False,
     look: dict[str, Any] | None = None,
     place: Transform | None = None,
 ) -> None:
-    """Draw the parts at a signed `rotation` [rad]; displaced, also at rest (dashed) and with the hinges (circles).
+    """Draw the parts at a signed `rotation` [rad], and the loads, thrusts (arrows) and ties (lines) that act on them.
 
-    look: of the filled parts, as matplotlib.patches.Polygon takes it. place: from m to the units of the axes.
+    Displaced, it is drawn also at rest (dashed), and with the hinges (circles). values: write the value of each load
+    and tie beside it. look: of the filled parts, as matplotlib.patches.Polygon takes it. place: from m to the units of
+    the axes.
     """
     where = axes.transData if place is None else place + axes.transData
     filled = {"facecolor": "0.85", "edgecolor": "0.3", "linewidth": 0.8, "transform": where} | (look or {})
-    for outline in structure.outline(rotation):
+    parts, at_rest = structure.outline(rotation), structure.outline() if rotation else []
+    for outline in parts:
         axes.add_patch(Polygon(outline, closed=True, **filled))
+    for outline in at_rest:
+        axes.add_patch(Polygon(outline, closed=True, transform=where, **_AT_REST))
     if rotation:
-        for outline in structure.outline():
-            axes.add_patch(Polygon(outline, closed=True, transform=where, **_AT_REST))
         axes.plot(*structure.hinges(rotation).T, "o", transform=where, **_HINGE)
+    left = min(float(each[:, 0].min()) for each in (*parts, *at_rest))
+    for mark in structure.marks(rotation):
+        _draw_mark(axes, mark, where, left if values else None)
+
+
+def _draw_mark(axes: Axes, mark: Mark, where: Transform, left: float | None) -> None:
+    """Draw a load or thrust as an arrow, a tie as a line to its anchorage.
+
+    left: where the value of a tie stands [m]; None draws no values.
+    """
+    tail, tip = mark.line
+    if mark.kind == "tie":
+        axes.plot(*mark.line.T, color=_TIE, linewidth=1.0, zorder=3, transform=where)
+        for end, size in zip(mark.line, (7, 5), strict=True):
+            axes.plot(*end, marker="|", color=_TIE, markersize=size, markeredgewidth=1.6, transform=where)
+    else:
+        axes.annotate("", tip, tail, xycoords=where, textcoords=where, arrowprops=_LOAD, zorder=5)
+        axes.plot(*tail, alpha=0, transform=where)  # arrows do not widen the limits of the axes
+    if left is not None and mark.kind == "tie":
+        text = mark.text.replace(", ", " \n") + " "
+        axes.text(left, tail[1], text, ha="right", va="bottom", transform=where)
+    elif left is not None:
+        ha, va = _SIDES[mark.kind]
+        axes.text(tail[0], tail[1], f" {mark.text} ", ha=ha, va=va, transform=where)
 
 
 def draw_dimensions(axes: Axes, dimensions: Sequence[Dimension]) -> None:
@@ -75,35 +102,6 @@ def _beside(line: np.ndarray, feet: np.ndarray) -> tuple[np.ndarray, str, str]:
     if abs(across) > abs(up):
         return line.mean(axis=1), "left" if across > 0 else "right", "center"
     return line.mean(axis=1), "center", "center" if up == 0 else "bottom" if up > 0 else "top"
-
-
-def draw_marks(axes: Axes, marks: Sequence[Mark], left: float | None = None) -> None:
-    """Draw loads and thrusts as arrows, ties as lines to an anchorage.
-
-    left: the left end of what they act on [m], for drawings with values: those of ties end there.
-    """
-    for mark in marks:
-        tail, tip = mark.line
-        if mark.kind == "tie":
-            axes.plot(*mark.line.T, color=_TIE, linewidth=1.0, zorder=3)
-            for place, size in zip(mark.line, (7, 5), strict=True):
-                axes.plot(*place, marker="|", color=_TIE, markersize=size, markeredgewidth=1.6)
-        else:
-            axes.annotate("", tuple(tip), tuple(tail), arrowprops=_LOAD, zorder=5)
-            axes.plot(*tail, alpha=0)  # arrows do not widen the limits of the axes
-        if left is not None and mark.kind == "tie":
-            text = mark.text.replace(", ", " \n") + " "
-            axes.text(left, mark.line[0, 1], text, ha="right", va="bottom")
-        elif left is not None:
-            ha, va = _SIDES[mark.kind]
-            axes.text(tail[0], tail[1], f" {mark.text} ", ha=ha, va=va)
-
-
-def seen_rotation(structure: Structure) -> float:
-    """Return the rotation of a drawing that shows the mechanism, rad: a share of φ_cr, more where it is small."""
-    side = structure.mechanism().positive
-    wished = min(max(0.6 * side.critical_rotation, _SEEN_ROTATION), _MOST_ROTATION)
-    return min(wished, 0.8 * side.end_rotation)
 
 
 def fallen_rotation(structure: Structure, sign: int) -> float:

@@ -20,8 +20,10 @@ from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import displacement
 from rocking.reports import printing
-from rocking.reports.panels import rotation_ratios
-from rocking.reports.record import cell_text, warnings_of, worst_cases
+from rocking.reports.drawings import fallen_rotation
+from rocking.reports.panels import moving_span, rotation_ratios
+from rocking.reports.printing import LOOKS, cell_text
+from rocking.reports.record import warnings_of, worst_cases
 from rocking.structures import Mechanism, Structure
 
 Content = dict[str, Any]
@@ -32,11 +34,9 @@ BINS = 600
 FRAMES = 24
 """Drawings of a structure for each side; between two of them the page interpolates."""
 _HERE = Path(__file__).parent
-_MOST, _FARTHEST = 32767, 1.2
+_MOST = 32767
 _BEYOND = 3.0
-"""Times the critical rotation up to which a fall is followed and drawn, but no further than _FARTHEST [rad]."""
-_STILL, _BEFORE, _AFTER = 0.01, 0.5, 1.0
-"""Share of the largest rotation below which a history is cut, and s of rest that are kept before and after it."""
+"""Times the critical rotation up to which a fall is followed and drawn, but no further than a fallen structure."""
 
 
 def record_content(
@@ -78,16 +78,21 @@ def explore_page(records: Iterable[Content], structures: Mapping[str, Structure]
 
     records: their `record_content`, in the order of the catalogue. title: of the study.
     """
-    shown = list(records)
-    drawn = [
+    of_records = list(records)
+    of_structures = [
         {"name": name, "size": structure.size, "type": structure.type_name} | drawings(structure)
         for name, structure in structures.items()
     ]
-    content = json.dumps({"records": shown, "structures": drawn}, allow_nan=False, separators=(",", ":"))
+    both = {"records": of_records, "structures": of_structures}
+    content = json.dumps(both, allow_nan=False, separators=(",", ":"))
+    colours = "".join(
+        f".{verdict} {{ background: {fill}; color: {ink}; }}\n"
+        for verdict, (_, fill, ink, _) in LOOKS.items()
+    )
     pieces = {
         "title": escape(title or "Rocking of structures under recorded earthquakes"),
-        "count": f"{counted(len(shown), 'record')}, {counted(len(drawn), 'structure')}",
-        "style": (_HERE / "explore.css").read_text(encoding="utf-8"),
+        "count": f"{counted(len(of_records), 'record')}, {counted(len(structures), 'structure')}",
+        "style": (_HERE / "explore.css").read_text(encoding="utf-8") + colours,
         "script": (_HERE / "explore.js").read_text(encoding="utf-8"),
         # no text of a user can end the element that holds it
         "content": content.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029"),
@@ -152,9 +157,7 @@ def _history(response: Response, mechanism: Mechanism) -> Content | None:
     if (history := rotation_ratios(response, mechanism)) is None:
         return None
     times, ratio = history[0], np.clip(history[1], -_BEYOND, _BEYOND)
-    moving = np.flatnonzero(np.abs(ratio) > _STILL * np.abs(ratio).max())
-    begin = max(float(times[0]), float(times[moving[0]]) - _BEFORE)
-    end = min(float(times[-1]), float(times[moving[-1]]) + _AFTER)
+    begin, end = moving_span([(times, ratio)])
     return {
         "span": [_number(begin), _number(end)],
         "ratio": packed(extremes(times, ratio, begin, end)),
@@ -172,7 +175,7 @@ def drawings(structure: Structure) -> Content:
     frames, points = [], []
     for sign in (1,) if mechanism.one_sided else (1, -1):
         side = mechanism.sides[0 if sign > 0 else -1]
-        end = min(0.98 * side.end_rotation, _BEYOND * side.critical_rotation, _FARTHEST)
+        end = min(abs(fallen_rotation(structure, sign)), _BEYOND * side.critical_rotation)
         for rotation in sign * end * np.linspace(1e-6, 1.0, FRAMES):
             outline, hinges = structure.outline(rotation), structure.hinges(rotation)
             marks = structure.marks(rotation)

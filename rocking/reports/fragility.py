@@ -13,7 +13,7 @@ from rocking.assessment.rows.of_fragility import ROTATION_RATIOS, FragilityRow, 
 from rocking.quantities import counted
 from rocking.reports.document import compile_document
 from rocking.reports.panels import draw_probability
-from rocking.reports.printing import Column, given, number, table_of, words
+from rocking.reports.printing import Column, number, plain, table_of, words
 from rocking.reports.style import elided, new_figure, picture, styled, svg
 from rocking.tables import frame, rows_of, write_whole
 
@@ -97,9 +97,9 @@ def fragility_table(summary: "DataFrame", ida: "DataFrame") -> dict[str, object]
         ("Median and its 90 % interval", "1.3", "l", _median),
         *([with_worst] if worst else []),
         ("Disper\u00adsion [-]", "0.6", "r", lambda row: number(row.dispersion, 2)),
-        ("Sta\u00adtions", "auto", "r", lambda row: given(row.stations)),
+        ("Sta\u00adtions", "auto", "r", lambda row: plain(row.stations)),
         (first, "2.2", "l", lambda row: words(records.get(row.structure))),
-        ("Stand again, scaled up", "0.6", "r", lambda row: given(row.reversals)),
+        ("Stand again, scaled up", "0.6", "r", lambda row: plain(row.reversals)),
         *([rate] if any(row.annual_rate > 0 for row in falls) else []),
     )
 

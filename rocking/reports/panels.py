@@ -4,14 +4,14 @@ Units stand on every axis. A long trace is drawn as its envelope.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from rocking.errors import MotionError
-from rocking.reports.drawings import draw_dimensions, draw_marks, draw_structure
+from rocking.reports.drawings import draw_dimensions, draw_structure
 from rocking.reports.style import PREDICTED, PULSE, RECORD, plain_logarithmic, thinned
 
 if TYPE_CHECKING:
@@ -26,9 +26,10 @@ if TYPE_CHECKING:
 
 TIME = "time [s]"
 ACCELERATION = "ground acceleration [m/s²]"
-RATIO = "rotation / critical rotation [-]"
 ZERO: dict[str, Any] = {"color": "0.8", "linewidth": 0.6, "zorder": 0}
 _POINTS = 400
+_STILL = 0.01
+"""Share of its largest rotation up to which a structure is still."""
 _SMALLEST, _FALLEN = 1e-3, 1.6
 """Rotation ratio below which a point is set on the edge of a scatter, and where overturning is set."""
 _MOST_DRAWN = 5000
@@ -84,21 +85,20 @@ def draw_rotation(
 ) -> None:
     """Draw rotation over critical rotation (k,) against time, its impacts as ticks on the line of rest.
 
-    predicted: the largest of the closed form, drawn on both sides. band: 5 and 95 % of the members'
-    largest, a bar at the right. level,
-    scale: where rest stands and what a ratio of 1 measures in the units of the axes, for several in one panel.
+    predicted: the largest of the closed form, drawn on both sides. band: the largest of 5 and of 95 % of the members, a
+    bar at the right. level, scale: where rest stands and what a ratio of 1 measures in the units of the axes, for
+    several in one panel.
     """
     axes.axhline(level, **ZERO)
     low, high = (min(value, 1.0) * scale for value in band or (0.0, 0.0))
-    for sign in (1, -1):
+    look: dict[str, Any] = {"color": "#E69F00", "alpha": 0.6, "linewidth": 0}
+    for sign, label in ((1, "5–95 % of the members"), (-1, None)):
         if high > 0:
-            axes.axhspan(
-                level + sign * low, level + sign * high, xmin=0.97, color="#E69F00", alpha=0.6, linewidth=0
-            )
+            axes.axhspan(level + sign * low, level + sign * high, xmin=0.97, label=label, **look)
         if 0 < predicted < math.inf:
             axes.axhline(level + sign * scale * predicted, color=PREDICTED, linewidth=1.0, linestyle="-.")
-    shown, trace = thinned(times, ratio, most)
-    axes.plot(shown, level + scale * trace, color="black", linewidth=0.8, label="as given")
+    trace_times, trace = thinned(times, ratio, most)
+    axes.plot(trace_times, level + scale * trace, color="black", linewidth=0.8, label="as given")
     impacts = times[1:][ratio[1:] * ratio[:-1] < 0]
     axes.plot(impacts, np.full(impacts.size, level), "|", color="black", markersize=3, markeredgewidth=0.4)
 
@@ -107,16 +107,27 @@ def rotation_ratios(response: "Response", mechanism: "Mechanism") -> tuple[np.nd
     """Return times [s] and rotation over the critical rotation of its side (k,); None without a history."""
     if response.times is None or response.rotation is None or response.times.size < 2:
         return None
+    return response.times, _over_critical(response.rotation, mechanism)
+
+
+def _over_critical(rotation: np.ndarray, mechanism: "Mechanism") -> np.ndarray:
     first, last = mechanism.sides[0].critical_rotation, mechanism.sides[-1].critical_rotation
-    return response.times, response.rotation / np.where(response.rotation < 0, last, first)
+    return rotation / np.where(rotation < 0, last, first)
 
 
-def draw_levels(
-    axes: Axes,
-    across: np.ndarray,
-    up: np.ndarray,
-    ratios: np.ndarray,
-) -> None:
+def moving_span(histories: Iterable[tuple[np.ndarray, np.ndarray]]) -> tuple[float, float]:
+    """Return the time in which any of several histories, each times [s] and rotation (k,), moves, with a margin, s.
+
+    A history moves while its rotation is above a share of its largest one; one that rests counts from end to end.
+    """
+    sizes = [(times, np.abs(rotation)) for times, rotation in histories]
+    moving = np.concatenate([times[size >= _STILL * size.max()] for times, size in sizes])
+    begin, end = float(moving.min()), float(moving.max())
+    margin = 0.05 * (end - begin) + 1e-3
+    return max(0.0, begin - margin), end + margin
+
+
+def draw_levels(axes: Axes, across: np.ndarray, up: np.ndarray, ratios: np.ndarray) -> None:
     """Draw lines of equal rotation ratio (m, n) over p (m,) and λ (n,), hatched where it overturns."""
     levels = (0.05, 0.1, 0.2, 0.5, 1.0)
     overturns = np.isinf(ratios).T
@@ -179,29 +190,6 @@ def draw_agreement(axes: Axes, integrated: np.ndarray, predicted: np.ndarray) ->
     axes.legend(loc="upper left", bbox_to_anchor=(0.03, 0.88))
 
 
-def draw_governing_cracks(axes: Axes, structure: "Structure", periods: np.ndarray) -> None:
-    """Draw which crack overturns first under one sine of each period (n,) [s], and at what amplitude.
-
-    Dashed is the crack that statics chooses, dotted the acceleration at which static limit analysis lets it fall. Each
-    crack stands for its equivalent block exact at rest.
-    """
-    from rocking.quantities import GRAVITY
-    from rocking.sine_pulse import overturning_amplitudes  # compiled, and of no use to the other pictures
-
-    cracks = structure.candidates()
-    blocks = [crack.structure.mechanism().equivalent_block("rest") for crack in cracks]
-    amplitudes = overturning_amplitudes(blocks, 2 * np.pi / np.asarray(periods)) / GRAVITY
-    heights = np.nan_to_num([cracks[first].position for first in amplitudes.argmin(axis=0)])
-    governing = axes.scatter(periods, amplitudes.min(axis=0), s=12, c=heights, label="crack that governs")
-    axes.figure.colorbar(governing, ax=axes, label="its height [m]")
-    axes.plot(periods, amplitudes[0], "k--", linewidth=0.8, label=f"statics: {cracks[0].description}")
-    axes.axhline(cracks[0].multiplier, color="k", linestyle=":", linewidth=0.8, label="static limit")
-    for which in ("x", "y"):
-        plain_logarithmic(axes, which)
-    axes.set(xlabel="period of the pulse [s]", ylabel="amplitude that overturns [g]")
-    axes.legend(loc="upper right")
-
-
 def draw_probability(
     axes: Axes,
     levels: np.ndarray,
@@ -258,11 +246,10 @@ def _plot_assessment(assessment: "StructureAssessment", axes: Axes) -> None:
     times, rotation = _history(assessment.response, "assess the structure again to plot it")
     mechanism = next(iter(assessment.cases.values())).mechanism
     band = (assessment.rotation_ratio_low, assessment.rotation_ratio_high)
-    draw_rotation(axes, times, rotation / mechanism.critical_rotation, band=band)
-    axes.plot([], [], color="#E69F00", alpha=0.4, linewidth=5, label=f"{assessment.members} members, 5–95 %")
-    share = f"{100 * assessment.overturning_share:.0f} %"
-    axes.set(xlabel=TIME, ylabel=RATIO, ylim=(-1.15, 1.15))
-    axes.set_title(f"{assessment.verdict}: overturns in {share} of the members")
+    draw_rotation(axes, times, _over_critical(rotation, mechanism), band=band)
+    share = f"{100 * assessment.overturning_share:.0f} % of {assessment.members} members"
+    axes.set(xlabel=TIME, ylabel="rotation / critical rotation [-]", ylim=(-1.15, 1.15))
+    axes.set_title(f"{assessment.verdict}: overturns in {share}")
     axes.legend(loc="upper left")
 
 
@@ -313,12 +300,9 @@ def _plot_structure(
     structure: "Structure", axes: Axes, rotation: float = 0.0, dimensions: bool = False
 ) -> None:
     """To scale; loads, thrusts and ties too, and at rest the line of thrust as it starts to rock."""
-    draw_structure(axes, structure, rotation)
+    draw_structure(axes, structure, rotation, values=not dimensions)
     if dimensions:
         draw_dimensions(axes, structure.dimensions())
-    drawn = [*structure.outline(rotation), *structure.outline()]
-    left = None if dimensions else min(float(each[:, 0].min()) for each in drawn)
-    draw_marks(axes, structure.marks(rotation), left)
     if not rotation and len(structure.thrust_line()):
         axes.plot(*structure.thrust_line().T, color="C3", linewidth=1.0, label="thrust line at uplift")
         axes.legend(loc="upper right")
@@ -344,9 +328,12 @@ _PLOTS: dict[str, Callable[..., None]] = {
 
 
 def _history(response: "Response", otherwise: str) -> tuple[np.ndarray, np.ndarray]:
+    """Return times [s] and rotation [rad] while the structure moves. Raises MotionError without a history."""
     if response.times is None or response.rotation is None:
         raise MotionError(f"the history of the response is not there; {otherwise}.")
-    return response.times, response.rotation
+    begin, end = moving_span([(response.times, response.rotation)])
+    inside = (response.times >= begin) & (response.times <= end)
+    return response.times[inside], response.rotation[inside]
 
 
 def _named(axes: Axes, record: "Accelerogram") -> str:

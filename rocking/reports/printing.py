@@ -1,14 +1,16 @@
-"""How a value of a row is printed: rounded, with a real minus, never changed otherwise."""
+"""How a value of a row is printed: rounded, with a real minus, never changed otherwise; and how a verdict looks."""
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rocking.assessment.verdict import NEGLIGIBLE, rests
-from rocking.described import Described
+from rocking.assessment.verdict import NEGLIGIBLE, Method, Verdict, rests
 from rocking.quantities import counted
 from rocking.tables import Row
+
+if TYPE_CHECKING:
+    from rocking.assessment.fate import Fate
 
 Cell = str | dict[str, object]
 """A text; or a text that is strong, with another below it (layout.typ)."""
@@ -17,6 +19,23 @@ Column = tuple[str, str, str, Callable[[Any], Cell]]
 
 NOTHING = "–"
 """Printed where a cell is empty."""
+LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
+    Verdict.OVERTURNS: ("▲", "#7a2400", "#ffffff", "xxxx"),
+    Verdict.UNDECIDED: ("?", "#f0a030", "#000000", "///"),
+    Verdict.UNKNOWN: (NOTHING, "#ffffff", "#000000", ""),
+    Verdict.STANDS: ("●", "#dceaf7", "#000000", ""),
+}
+"""Sign, colour, colour of letters on it, and pattern of each verdict: in print without colour the others tell it."""
+METHODS = {
+    Method.PRINTED: "Eq. 15 as printed",
+    Method.CLOSED_FORM: "Closed form",
+    Method.MECHANISM_ON_PULSE: "Mechanism, pulse",
+    Method.BLOCK_ON_RECORD: "Block, record",
+    Method.MECHANISM_ON_RECORD: "Mechanism, record",
+}
+"""Headings of the methods, from the plainest to the full integration."""
+_ABOUT = ("study", "client", "author", "date")
+"""Settings that stand above the title."""
 _LARGEST_PLAIN = 1e6
 """Numbers up to here are printed without a power of ten."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -35,15 +54,7 @@ def number(value: float | None, digits: int = 3) -> str:
     return _typeset(f"{value:#.{digits}g}".rstrip("."))
 
 
-def to_spread(value: float, spread: float) -> str:
-    """Return `value` to a tenth of the `spread` of what it was drawn from: one to three significant digits."""
-    if value == 0 or not math.isfinite(value) or not 0 < spread < math.inf:
-        return number(value, 2)
-    leading, last = math.floor(math.log10(abs(value))), math.floor(math.log10(spread)) - 1
-    return number(value, min(max(leading - last + 1, 1), 3))
-
-
-def given(value: float | None) -> str:
+def plain(value: float | None) -> str:
     """Return a number that somebody chose (a factor, a tolerance) or counted, without trailing zeros."""
     if value is None or math.isnan(value):
         return NOTHING
@@ -69,13 +80,43 @@ def ratio(value: float | None, digits: int = 3) -> str:
     return NOTHING if math.isnan(value) else "rests" if rests(value) else "overturns"
 
 
+def to_spread(value: float, fate: "Fate") -> str:
+    """Return a rotation ratio of `fate` with no more digits, three at most, than the spread of its members has a
+    meaning for: to a tenth of it.
+    """
+    spread = fate.rotation_ratio_high - fate.rotation_ratio_low
+    if rests(value) or not math.isfinite(value):
+        return ratio(value)
+    if not 0 < spread < math.inf:
+        return number(value, 2)
+    digits = math.floor(math.log10(value)) - math.floor(math.log10(spread)) + 2
+    return number(value, min(max(digits, 1), 3))
+
+
+def cell_text(fate: "Fate | None") -> str:
+    """Return a case in a map: sign and share of members that overturn, in %, or the rotation ratio of a single run."""
+    sign = LOOKS[fate.verdict if fate else Verdict.UNKNOWN][0]
+    if fate is not None and fate.members:
+        return f"{sign} {percent(fate.overturning_share)}"
+    return f"{sign} {number(fate.rotation_ratio, 2)}" if fate and fate.rotation_ratio < math.inf else sign
+
+
+def settings_texts(settings: Mapping[str, Any]) -> dict[str, object]:
+    """Return what both reports print of the settings: who, what and when; tolerance and acceleration scale."""
+    return {
+        "about": {name: str(settings.get(name) or "") for name in _ABOUT},
+        "tolerance": plain(float(settings["tolerance"])),
+        "acceleration-scale": str(settings["acceleration_scale"]),
+    }
+
+
 def listed(names: Sequence[str], most: int = 6) -> str:
     """Return the names in a row, those beyond `most` as a count."""
     more = len(names) - most
     return ", ".join(names[:most]) + (f" and {counted(more, 'other')}" if more > 0 else "")
 
 
-def left_out(more: int, noun: str, place: str) -> str:
+def remainder(more: int, noun: str, place: str) -> str:
     """Return the sentence that says where `more` of a thing stand, or nothing where there are none."""
     return f" Another {counted(more, noun)} in {place}." if more > 0 else ""
 
@@ -83,11 +124,6 @@ def left_out(more: int, noun: str, place: str) -> str:
 def of(part: float, whole: float) -> str:
     """Return "n of m" on one line, NOTHING where there are none."""
     return f"{int(part)}\u00a0of\u00a0{int(whole)}" if whole > 0 else NOTHING
-
-
-def short(name: str, most: int = 44) -> str:
-    """Return a name that stands in full in a table before, cut to `most` characters."""
-    return name if len(name) <= most else f"{name[: most - 1].rstrip()}…"
 
 
 def sentence(text: str) -> str:
@@ -120,18 +156,13 @@ def columns_of(kind: type[Row], fields: str, width: str = "") -> list[Column]:
     described = {each.name: each for each in kind.table.columns}
     columns: list[Column] = []
     for name, _, own_width in (each.partition("=") for each in fields.split()):
-        numeric = described[name].holds in (float, int)
-        usual, side = ("0.8", "r") if numeric else ("1", "l")
-        shown = partial(field_of, name)
-        columns.append((_heading(described[name]), own_width or width or usual, side, shown))
+        column = described[name]
+        usual, side = ("0.8", "r") if column.holds in (float, int) else ("1", "l")
+        unit = column.unit or ("-" if column.holds is float else "")
+        heading = sentence(column.attribute.replace("_", " ").replace("rotd", "RotD"))
+        heading += f" [{unit}]" if unit else ""
+        columns.append((heading, own_width or width or usual, side, partial(field_of, name)))
     return columns
-
-
-def _heading(column: Described) -> str:
-    """The name of a column in words, with its unit: "Start time [s]"."""
-    unit = column.unit or ("-" if column.holds is float else "")
-    name = column.attribute.replace("_", " ").replace("rotd", "RotD")
-    return sentence(name) + (f" [{unit}]" if unit else "")
 
 
 def field_of(name: str, row: Row | None) -> str:
@@ -141,7 +172,7 @@ def field_of(name: str, row: Row | None) -> str:
         return "yes" if value else "no"
     if isinstance(value, float) and name not in _CHOSEN:
         return ratio(value) if name.endswith("rotation_ratio") else number(value)
-    return given(value) if isinstance(value, float | int) else words(value)
+    return plain(value) if isinstance(value, float | int) else words(value)
 
 
 def _typeset(text: str) -> str:

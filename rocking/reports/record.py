@@ -6,78 +6,55 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from importlib.metadata import version
 from itertools import accumulate
-from textwrap import wrap
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
-from matplotlib.transforms import Affine2D
 
 from rocking.assessment.fate import Fate, RecordTables
 from rocking.assessment.rows.of_record import RATIO_COLUMNS, ComparisonRow, PulseRow, RecordRow
 from rocking.assessment.rows.of_study import StructureRow, structure_rows
-from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Method, Verdict, agreement, rests
+from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Verdict, agreement
 from rocking.motion.response import Response
 from rocking.pulses import Flag
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
 from rocking.reports.document import compile_document
-from rocking.reports.drawings import draw_structure, fallen_rotation, round_length
-from rocking.reports.ground import POINTS, Motion, draw_ground, ground_figure, pulses_figure
-from rocking.reports.panels import draw_rotation, rotation_ratios
+from rocking.reports.panels import rotation_ratios
 from rocking.reports.printing import (
+    METHODS,
     Column,
     columns_of,
-    left_out,
     number,
-    ratio,
-    short,
+    plain,
+    remainder,
+    settings_texts,
     strong,
     table,
     table_of,
+    to_spread,
     words,
 )
-from rocking.reports.style import PREDICTED, TEXT_WIDTH, elided, new_figure, panel_at, pictures, styled
+from rocking.reports.record_figures import (
+    History,
+    Motion,
+    comparison_figure,
+    ground_figure,
+    histories_figure,
+    pulses_figure,
+    strip_figure,
+)
+from rocking.reports.style import pictures
 from rocking.structures import Structure
 
-ABOUT = ("study", "client", "author", "date")
-"""Settings that stand above the title."""
 MOST_DRAWN = 10
 """Structures of page one and of the histories, the worst first; the tables hold all."""
 MOST_NAMED, MOST_LETTERS = 12, 300
 """Structures that the first lines name with one verdict, and their letters."""
 MOST_PULSES = 3
-"""Ranks of pulses that are shown."""
+"""Ranks of pulses that are printed."""
 MOST_COMPARED = 24
 """Cases whose comparison is drawn, those with the largest rotations."""
-LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
-    Verdict.OVERTURNS: ("▲", "#7a2400", "white", "xxxx"),
-    Verdict.UNDECIDED: ("?", "#f0a030", "black", "///"),
-    Verdict.UNKNOWN: ("–", "white", "black", ""),
-    Verdict.STANDS: ("●", "#dceaf7", "black", ""),
-}
-"""Sign, colour, colour of letters on it, and pattern of each verdict: in print without colour the others tell it."""
-_COLUMNS, _DRAWN = 5, (30.0, 27.0)
-"""Structures of a row of page one; width and height of each drawing, mm."""
-_LINE, _LETTERS = 3.2, 27
-"""Height of a line below a drawing, mm, and its letters."""
-_HISTORIES, _HIGHEST_ROW = 160.0, 30.0
-"""Height of all histories together, and of one at most, mm."""
-_STILL, _HIGHEST = 0.01, 1.25
-"""Share of the largest rotation below which a history is cut; rotation ratio beyond which it is not drawn."""
-_SMALLEST, _FALLEN = 1e-3, 3.0
-"""Rotation ratios at the left end of the comparison, and where overturning stands."""
-METHODS = {
-    Method.PRINTED: "Eq. 15 as printed",
-    Method.CLOSED_FORM: "Closed form",
-    Method.MECHANISM_ON_PULSE: "Mechanism, pulse",
-    Method.BLOCK_ON_RECORD: "Block, record",
-    Method.MECHANISM_ON_RECORD: "Mechanism, record",
-}
-"""Headings of the methods, from the plainest to the full integration."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +83,7 @@ class RecordReport:
             "title": f"Rocking assessment: {self.record}",
             "running": f"{self.record}.{self.scale_note}",
             "scale-note": self.scale_note,
+            **settings_texts(self.settings),
             **_page_one(self),
             **_page_two(self),
             **_page_three(self),
@@ -120,7 +98,7 @@ class RecordReport:
     @cached_property
     def numbers(self) -> dict[str, str]:
         """The number by which each structure is called, from 1, by name."""
-        names = dict.fromkeys([*self.structures, *(row.structure for row in self.tables.verdicts)])
+        names = dict.fromkeys([*self.structures, *(fate.structure for fate in self.fates)])
         return {name: str(place) for place, name in enumerate(names, start=1)}
 
     @cached_property
@@ -135,16 +113,22 @@ class RecordReport:
         ]
 
     @cached_property
-    def worst(self) -> dict[str, ComparisonRow]:
-        """Of each structure the component that turns it farthest."""
-        return worst_cases(self.tables.comparison)
+    def histories(self) -> list[History]:
+        """The rotation of each structure that rocks and whose history was kept, the worst first."""
+        cases = worst_cases(self.tables.comparison)
+        histories = []
+        for fate in self.fates:
+            case = cases.get(fate.structure)
+            response = self.responses.get(case.case) if case else None
+            if case and response and case.integrated_rotation_ratio > NEGLIGIBLE:
+                history = rotation_ratios(response, self.structures[fate.structure].mechanism())
+                histories += [History(fate, case, *history)] if history else []
+        return histories
 
     @cached_property
     def scale_note(self) -> str:
         """The declared scale factors for captions and the running head, or nothing."""
-        factors = _each(
-            printing.given(row.scale_factor) for row in self.tables.record if row.scale_factor != 1
-        )
+        factors = _unique(plain(row.scale_factor) for row in self.tables.record if row.scale_factor != 1)
         return f" Accelerations ×\u00a0{factors}, declared." if factors else ""
 
     def label(self, structure: str) -> str:
@@ -152,17 +136,9 @@ class RecordReport:
         return f"{self.numbers[structure]} {structure}"
 
 
-def _each(texts: Iterable[str]) -> str:
-    """Each of the texts once."""
+def _unique(texts: Iterable[str]) -> str:
+    """Return each of the texts once, in a row."""
     return ", ".join(dict.fromkeys(filter(None, texts)))
-
-
-def cell_text(fate: Fate | None) -> str:
-    """Return a case in a map: sign and share of members that overturn, in %, or the rotation ratio of a single run."""
-    sign = LOOKS[fate.verdict if fate else Verdict.UNKNOWN][0]
-    if fate is not None and fate.members:
-        return f"{sign} {printing.percent(fate.overturning_share)}"
-    return f"{sign} {number(fate.rotation_ratio, 2)}" if fate and fate.rotation_ratio < math.inf else sign
 
 
 def worst_cases(rows: Iterable[ComparisonRow]) -> dict[str, ComparisonRow]:
@@ -175,14 +151,14 @@ def worst_cases(rows: Iterable[ComparisonRow]) -> dict[str, ComparisonRow]:
 
 def failure_report(record: str, message: str) -> bytes:
     """Return a one-page PDF that says why `record` gave no result."""
-    told = (
+    text = (
         "Nothing was computed for this record, so no structure was assessed under it. The other records of the run are "
         "not affected. The sentence above also stands in summary/failures.csv."
     )
     data = {
         "title": f"Rocking assessment: {record}",
         "subtitle": "This record gave no result.",
-        "parts": [{"notice": message or "No reason was given."}, {"text": told}],
+        "parts": [{"notice": message or "No reason was given."}, {"text": text}],
     }
     return compile_document("plain.typ", data)
 
@@ -191,110 +167,20 @@ def failure_report(record: str, message: str) -> bytes:
 
 
 def _page_one(report: RecordReport) -> dict[str, object]:
-    shown = [fate for fate in report.fates if fate.structure in report.structures][:MOST_DRAWN]
-    names = printing.listed([fate.structure for fate in shown])
+    fates = [fate for fate in report.fates if fate.structure in report.structures][:MOST_DRAWN]
+    names = printing.listed([fate.structure for fate in fates])
+    strip = f"Drawings of the structures in their state: {names}."
+    ground = "Acceleration of the ground and its dominant pulse."
     return {
-        "about": {name: str(report.settings.get(name) or "") for name in ABOUT},
         "subtitle": _subtitle(report.tables.record),
         "key": [_key_numbers(row) for row in report.tables.record],
-        "ground": pictures(
-            ground_figure, report.motions, "Acceleration of the ground and its dominant pulse."
-        ),
-        "strip": pictures(
-            strip_figure, shown, f"Drawings of the structures in their state: {names}.", report
-        ),
-        "strip-note": left_out(len(report.fates) - len(shown), "structure", "the table of verdicts"),
+        "ground": pictures(ground_figure, report.motions, ground),
+        "strip": pictures(strip_figure, fates, strip, report),
+        "strip-note": remainder(len(report.fates) - len(fates), "structure", "the table of verdicts"),
         "headlines": headlines(report.fates),
         "sentences": _sentences(report),
         "notices": _notices(report),
     }
-
-
-@styled
-def strip_figure(fates: Sequence[Fate], report: RecordReport) -> Figure:
-    """Draw each structure in its state, to one scale each: standing, rocking to its largest rotation, or fallen."""
-    lines = [_lines(report, fate) for fate in fates]
-    rows = [range(first, min(first + _COLUMNS, len(fates))) for first in range(0, len(fates), _COLUMNS)]
-    heights = [_DRAWN[1] + 19 + _LINE * max(len(lines[place]) for place in row) for row in rows]
-    figure = new_figure(sum(heights), margins=(0, 0, 0, 0))
-    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, TEXT_WIDTH), ylim=(-sum(heights), 0))
-    axes.set_axis_off()
-    for number_of_row, row in enumerate(rows):
-        top = -sum(heights[:number_of_row])
-        for column, place in enumerate(row):
-            middle = (column + 0.5) * TEXT_WIDTH / _COLUMNS
-            _draw_state(axes, report, fates[place], middle, top)
-            below = middle, top - _DRAWN[1] - 16.5, "\n".join(lines[place])
-            axes.text(*below, ha="center", va="top", fontsize=7, linespacing=1.25)
-    return figure
-
-
-def _draw_state(axes: Axes, report: RecordReport, fate: Fate, middle: float, top: float) -> None:
-    sign, colour, ink, hatch = LOOKS[fate.verdict]
-    structure = report.structures[fate.structure]
-    cracked = (each.structure for each in structure.candidates() if each.description == fate.crack)
-    structure = next(cracked, structure)
-    rotation = drawn_rotation(structure, fate)
-    points = np.vstack([*structure.outline(), *structure.outline(rotation)])
-    low, high = points.min(axis=0), points.max(axis=0)
-    scale = float(min(np.array(_DRAWN) / (high - low)))
-    foot = np.array([middle, top - 7 - _DRAWN[1]])
-    origin = np.array([(low[0] + high[0]) / 2, min(low[1], 0.0)])
-    place = Affine2D().translate(*-origin).scale(scale).translate(*foot)
-    look = {"facecolor": colour, "hatch": hatch, "edgecolor": "0.25", "linewidth": 0.6}
-    draw_structure(axes, structure, rotation, look=look, place=place)
-    axes.plot([middle - 15, middle + 15], [foot[1]] * 2, color="0.5", linewidth=0.6, zorder=0)
-    label = elided(report.label(fate.structure), 23)
-    axes.text(middle, top - 1, label, ha="center", va="top", fontweight="bold")
-    bar = round_length(0.5 * _DRAWN[0] / scale)
-    axes.plot([middle - bar * scale / 2, middle + bar * scale / 2], [foot[1] - 2.0] * 2, "k", linewidth=1.5)
-    axes.text(middle + bar * scale / 2 + 1, foot[1] - 2.0, f"{bar:g} m", va="center", fontsize=7)
-    frame = Rectangle(
-        (middle - 16, foot[1] - 8.5), 32, 4.5, facecolor=colour, edgecolor="0.25", linewidth=0.5
-    )
-    axes.add_patch(frame)
-    word = f"{sign} {fate.verdict}"
-    axes.text(middle, foot[1] - 6.3, word, ha="center", va="center", color=ink, fontweight="bold")
-
-
-def drawn_rotation(structure: Structure, fate: Fate) -> float:
-    """Return the signed rotation of a structure on page one, rad: fallen, at its largest rotation or at rest."""
-    side = -1 if fate.peak_side == -1 else 1
-    if math.isinf(fate.rotation_ratio) or fate.verdict is Verdict.OVERTURNS:
-        return fallen_rotation(structure, side)
-    if not fate.rotation_ratio > NEGLIGIBLE:
-        return 0.0
-    sides = structure.mechanism().sides
-    return side * fate.rotation_ratio * sides[0 if side > 0 else -1].critical_rotation
-
-
-def _lines(report: RecordReport, fate: Fate) -> list[str]:
-    """What stands below a drawing: members, rotation, statics, and what opens."""
-    structure = report.structures[fate.structure]
-    static = structure.static_multiplier
-    peak = max((row.peak_acceleration_m_s2 for row in report.tables.record), default=math.nan) / GRAVITY
-    tells = not (rests(fate.rotation_ratio) or structure.symmetric)
-    side = f" {structure.side_names[fate.peak_side < 0]}" if tells and fate.peak_side else ""
-    lines = [
-        f"{fate.count} overturn" if fate.members else "one run",
-        f"as given {_printed(fate.rotation_ratio, fate)}{side}",
-    ]
-    if fate.members and not rests(fate.rotation_ratio_high) and fate.rotation_ratio_low < math.inf:
-        low, high = (_printed(each, fate) for each in (fate.rotation_ratio_low, fate.rotation_ratio_high))
-        lines.append(f"5–95 %: {low} to {'falling' if high == 'overturns' else high}")
-    lines.append(f"static {number(static, 2)} g, PGA {number(peak / static, 2)} ×")
-    for crack in (fate.crack, fate.elsewhere_crack):
-        lines += wrap(crack.replace("hinges at", "hinges").replace("°,", ","), _LETTERS)
-    if fate.elsewhere_crack and fate.elsewhere_members:
-        lines.append(f"there {fate.elsewhere_overturning_members} of {fate.elsewhere_members} overturn")
-    return lines
-
-
-def _printed(value: float, fate: Fate) -> str:
-    """A rotation ratio with no more digits than the spread of the ensemble leaves a meaning."""
-    if rests(value) or not math.isfinite(value):
-        return ratio(value)
-    return printing.to_spread(value, fate.rotation_ratio_high - fate.rotation_ratio_low)
 
 
 def headlines(fates: Sequence[Fate]) -> list[dict[str, str]]:
@@ -307,8 +193,8 @@ def headlines(fates: Sequence[Fate]) -> list[dict[str, str]]:
     lines = []
     for verdict, names in groups.items():
         room = sum(end <= MOST_LETTERS for end in accumulate(map(len, names)))
-        named = printing.listed(names, max(1, min(MOST_NAMED, room)))
-        lines.append({"verdict": printing.sentence(verdict), "names": named})
+        listed = printing.listed(names, max(1, min(MOST_NAMED, room)))
+        lines.append({"verdict": printing.sentence(verdict), "names": listed})
     return lines
 
 
@@ -316,12 +202,15 @@ def _sentences(report: RecordReport) -> list[str]:
     """Return what a reader has to know beside the verdicts, and what file and integrations warn of, each once."""
     depends = []
     for fate in report.fates:
-        varied = [row for row in report.tables.variations if row.structure == fate.structure]
-        done = [row.integrated_rotation_ratio for row in varied if row.processing]
-        if any(map(math.isinf, done)) and any(map(math.isfinite, done)):
+        ratios = [
+            row.integrated_rotation_ratio
+            for row in report.tables.variations
+            if row.processing and row.structure == fate.structure
+        ]
+        if any(map(math.isinf, ratios)) and any(map(math.isfinite, ratios)):
             depends.append(fate.structure)
-    remarks = [f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."]
-    return [*remarks[: len(depends)], *warnings_of(report.tables)]
+    remark = f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."
+    return [*([remark] if depends else []), *warnings_of(report.tables)]
 
 
 def warnings_of(tables: RecordTables) -> list[str]:
@@ -335,7 +224,7 @@ def _notices(report: RecordReport) -> list[dict[str, object]]:
     tables = report.tables
     cases = tables.comparison
     scaled = "; ".join(
-        f"component {words(row.component)}: ×\u00a0{printing.given(row.scale_factor)}"
+        f"component {words(row.component)}: ×\u00a0{plain(row.scale_factor)}"
         for row in tables.record
         if row.scale_factor != 1
     )
@@ -345,17 +234,17 @@ def _notices(report: RecordReport) -> list[dict[str, object]]:
         for row in cases
         if row.slides or row.bounces
     ]
-    named = printing.listed(list(dict.fromkeys(failing)))
+    names = printing.listed(list(dict.fromkeys(failing)))
     still = "No structure uplifts: the ground acceleration never reaches an uplift acceleration."
-    told = {
+    notices = {
         still: bool(cases) and all(fate.rotation_ratio == 0 for fate in report.fates),
         f"Not the recorded amplitude. The file was multiplied by a declared factor ({scaled}).": scaled,
         "No structure could be assessed under this record.": not cases,
-        f"The model does not hold, because a contact fails, for {named}.": failing,
+        f"The model does not hold, because a contact fails, for {names}.": failing,
         "No pulse could be sought in this record, so there is no closed-form prediction.": not tables.pulses,
     }
-    told |= {f"{row.structure or row.component}: {row.message}": True for row in tables.failures}
-    return [{"strong": text != still, "text": text} for text, holds in told.items() if holds]
+    notices |= {f"{row.structure or row.component}: {row.message}": True for row in tables.failures}
+    return [{"strong": text != still, "text": text} for text, holds in notices.items() if holds]
 
 
 def _subtitle(rows: Sequence[RecordRow]) -> str:
@@ -363,103 +252,37 @@ def _subtitle(rows: Sequence[RecordRow]) -> str:
     parts = {
         "{}": (row.event for row in rows),
         "station {}": (row.station for row in rows),
-        "magnitude {}": (printing.given(row.magnitude) for row in rows if row.magnitude),
-        "{} km from the epicentre": map(printing.given, distances),
+        "magnitude {}": (plain(row.magnitude) for row in rows if row.magnitude),
+        "{} km from the epicentre": map(plain, distances),
     }
-    texts = [text.format(each) for text, many in parts.items() if (each := _each(many))]
+    texts = [text.format(each) for text, many in parts.items() if (each := _unique(many))]
     return " · ".join(texts) or "The file names no event and no station."
 
 
 def _key_numbers(row: RecordRow) -> str:
     """PGA, PGV, D5–95 and T_p of a component in a line."""
     period = row.velocity_pulse_period_s
-    shown = f"Tp {number(period)} s" if math.isfinite(period) else "no Tp"
+    pulse = f"Tp {number(period)} s" if math.isfinite(period) else "no Tp"
     like = {None: "", True: " (pulse-like)", False: " (not pulse-like)"}[row.velocity_pulse_like]
     return (
         f"{words(row.component)}: PGA {number(row.peak_acceleration_m_s2 / GRAVITY)} g, "
-        f"PGV {number(row.peak_velocity_m_s)} m/s, D5–95 {number(row.significant_duration_s)} s, {shown}{like}"
+        f"PGV {number(row.peak_velocity_m_s)} m/s, D5–95 {number(row.significant_duration_s)} s, {pulse}{like}"
     )
 
 
 # Page two --------------------------------------------------------------------------------------------------
 
 
-History = tuple[Fate, ComparisonRow, np.ndarray, np.ndarray]
-"""What became of a structure, the case that turns it farthest, times [s] and rotation ratio of that (k,)."""
-
-
 def _page_two(report: RecordReport) -> dict[str, object]:
-    histories: list[History] = []
-    for fate in report.fates:
-        row = report.worst.get(fate.structure)
-        response = report.responses.get(row.case) if row else None
-        if row and response and row.integrated_rotation_ratio > NEGLIGIBLE:
-            history = rotation_ratios(response, report.structures[fate.structure].mechanism())
-            histories += [(fate, row, *history)] if history else []
-    shown = histories[:MOST_DRAWN]
-    left = len(report.fates) - len(shown)
-    alt = f"Rotation histories of {counted(len(shown), 'structure')} above the acceleration of the ground."
+    histories = report.histories[:MOST_DRAWN]
+    others = len(report.fates) - len(histories)
+    alt = (
+        f"Rotation histories of {counted(len(histories), 'structure')} above the acceleration of the ground."
+    )
     return {
-        "histories": pictures(histories_figure, shown, alt, report),
-        "histories-note": left_out(left, "structure", "the table of verdicts, at rest or less demanding"),
+        "histories": pictures(histories_figure, histories, alt, report),
+        "histories-note": remainder(others, "structure", "the table of verdicts, at rest or less demanding"),
     }
-
-
-@styled
-def histories_figure(histories: Sequence[History], report: RecordReport) -> Figure:
-    """Draw the rotation of each structure, one below the other, and beneath them the ground, on one time axis.
-
-    Each row has a scale of its own, which stands below its name.
-    """
-    row = min(_HIGHEST_ROW, _HISTORIES / len(histories))
-    below, left, width = 20.0, 38.0, TEXT_WIDTH - 77
-    figure = new_figure(row * len(histories) + below * len(report.motions) + 9)
-    panel = panel_at(figure, left, 1, width, row * len(histories))
-    for place, history in enumerate(histories):
-        _draw_history(panel, report, history, -place)
-    # the time in which anything moves
-    sizes = [(times, np.abs(ratio)) for _, _, times, ratio in histories]
-    moving = np.concatenate([times[size > _STILL * size.max()] for times, size in sizes])
-    margin = 0.05 * (moving.max() - moving.min())
-    span = max(0.0, moving.min() - margin), moving.max() + margin + 1e-3
-    panel.set(xlim=span, ylim=(0.5 - len(histories), 0.5), xticks=[], yticks=[])
-    panel.spines[["left", "bottom"]].set_visible(False)
-    for place, motion in enumerate(report.motions):
-        top = 2 + row * len(histories) + place * below
-        draw_ground(panel_at(figure, left, top, width, below - 3), motion, span, motion is report.motions[-1])
-    return figure
-
-
-def _draw_history(panel: Axes, report: RecordReport, history: History, level: int) -> None:
-    fate, row, times, ratios = history
-    predicted = row.predicted_rotation_ratio
-    largest = (each for each in (float(np.abs(ratios).max()), predicted) if 0 < each < math.inf)
-    reach = min(1.25 * max(largest, default=1.0), _HIGHEST)
-    band = min(fate.rotation_ratio_low, reach), min(fate.rotation_ratio_high, reach)
-    draw_rotation(
-        panel,
-        times,
-        np.clip(ratios, -reach, reach),
-        predicted if predicted <= reach else math.inf,
-        band if fate.members else None,
-        level=level,
-        scale=0.45 / reach,
-        most=POINTS,
-    )
-    component = f", {elided_component(row.component)}" if len(report.motions) > 1 else ""
-    label = f"{elided(report.label(fate.structure), 22)}\n± {reach:.2g}"
-    remark = (
-        f"{ratio(row.integrated_rotation_ratio, 2)}{component}, {counted(row.impacts or 0, 'impact')}\n"
-        f"closed form: {ratio(predicted, 2)}"
-    )
-    beside: dict[str, Any] = {"transform": panel.get_yaxis_transform(), "va": "center", "fontsize": 7}
-    panel.text(-0.02, level, label, ha="right", linespacing=1.3, **beside)
-    panel.text(1.01, level, remark, ha="left", linespacing=1.3, **beside)
-
-
-def elided_component(name: str) -> str:
-    """Return a component's name as a figure has room for it."""
-    return short(words(name), 10)
 
 
 # Page three ------------------------------------------------------------------------------------------------
@@ -470,50 +293,16 @@ def _page_three(report: RecordReport) -> dict[str, object]:
     demanding = sorted(
         rows, key=lambda row: (row.agreement is Agreement.TOO_LOW, row.integrated_rotation_ratio)
     )
-    drawn = [row for row in rows if row in demanding[-MOST_COMPARED:]]
+    cases = [row for row in rows if row in demanding[-MOST_COMPARED:]]
     with_pulse = [motion for motion in report.motions if motion.pulses]
-    alt = f"Closed form beside integration of {counted(len(drawn), 'case')}."
+    alt = f"Closed form beside integration of {counted(len(cases), 'case')}."
     return {
         "pulse-figures": pictures(pulses_figure, with_pulse, "The dominant pulse and its evidence."),
-        "comparison": pictures(comparison_figure, drawn, alt, report),
-        "comparison-note": left_out(len(rows) - len(drawn), "case", "the table of every method"),
+        "comparison": pictures(comparison_figure, cases, alt, report),
+        "comparison-note": remainder(len(rows) - len(cases), "case", "the table of every method"),
         "pulse-sentences": [_pulse_sentence(report, motion) for motion in with_pulse],
         "doubts": _doubts(report, rows),
     }
-
-
-@styled
-def comparison_figure(cases: Sequence[ComparisonRow], report: RecordReport) -> Figure:
-    """Draw closed form, block and mechanism of each case on one line, bold where the closed form is unsafe."""
-    height = 4.3 * len(cases)
-    figure = new_figure(height + 16)
-    panel = panel_at(figure, 46, 6, TEXT_WIDTH - 46 - 40, height)
-    rows = np.arange(len(cases))
-    shown = (Method.CLOSED_FORM, Method.BLOCK_ON_RECORD, Method.MECHANISM_ON_RECORD)
-    ratios = np.array([[getattr(case, RATIO_COLUMNS[method]) for method in shown] for case in cases])
-    form, block, whole = np.where(np.isinf(ratios), _FALLEN, np.maximum(ratios, _SMALLEST)).T
-    unsafe = np.array([case.agreement is Agreement.TOO_LOW for case in cases])
-    panel.hlines(rows[~unsafe], form[~unsafe], whole[~unsafe], color="0.6", linewidth=0.8)
-    panel.hlines(rows[unsafe], form[unsafe], whole[unsafe], color="#D55E00", linewidth=2.0)
-    panel.plot(form, rows, "D", color=PREDICTED, fillstyle="none", markersize=5, label="closed form, pulse")
-    panel.plot(block, rows, "s", color="0.45", fillstyle="none", markersize=4, label="block, whole record")
-    panel.plot(whole, rows, "o", color="black", markersize=3.5, label="mechanism, whole record")
-    labels = []
-    for place, case in enumerate(cases):
-        name = report.label(case.structure)
-        several = len(report.motions) > 1
-        labels.append(f"{short(name, 20)}, {elided_component(case.component)}" if several else name)
-        remark = case.prediction_in_words
-        panel.text(1.02, place, remark, transform=panel.get_yaxis_transform(), va="center", fontsize=7)
-    panel.set(xscale="log", xlim=(0.7 * _SMALLEST, 1.5 * _FALLEN), ylim=(len(cases) - 0.5, -0.5))
-    panel.set_yticks(rows, [elided(label, 30) for label in labels])
-    ticks = {_SMALLEST: "rests", 0.01: "0.01", 0.1: "0.1", 0.3: "0.3", 1.0: "1", _FALLEN: "overturns"}
-    panel.set_xticks(list(ticks), list(ticks.values()))
-    panel.set_xticks([], minor=True)
-    panel.axvline(1.0, color="0.5", linewidth=0.5)
-    panel.set_xlabel("largest rotation / critical rotation [-]")
-    figure.legend(loc="upper center", ncols=3)
-    return figure
 
 
 def _pulse_sentence(report: RecordReport, motion: Motion) -> str:
@@ -540,12 +329,12 @@ def _doubts(report: RecordReport, rows: Sequence[ComparisonRow]) -> list[str]:
     reasons: dict[str, list[str]] = {}
     for row in sorted(rows, key=lambda row: -row.integrated_rotation_ratio):
         if row.agreement is Agreement.TOO_LOW:
-            kept = tuple(
+            same = tuple(
                 agreement(simpler, row.integrated_rotation_ratio) is Agreement.SAME
                 for simpler in (row.block_on_record_rotation_ratio, row.mechanism_on_pulse_rotation_ratio)
             )
             name = row.structure + (f" ({words(row.component)})" if len(report.motions) > 1 else "")
-            reasons.setdefault(_BLAME[kept], []).append(name)
+            reasons.setdefault(_BLAME[same], []).append(name)
     if not reasons:
         return ["The closed form says of no structure less than happens."] if rows else []
     return [
@@ -577,18 +366,16 @@ def _appendix(report: RecordReport) -> dict[str, object]:
         "structures": table_of(structures, number_of, *STRUCTURE_COLUMNS),
         "pulses": table_of(ranked, *PULSE_COLUMNS),
         "methods": table_of(tables.comparison, number_of, *_method_columns(tables.comparison)),
-        "tolerance": printing.given(float(report.settings["tolerance"])),
-        "acceleration-scale": str(report.settings["acceleration_scale"]),
-        "friction": printing.given(report.settings.get("friction_coefficient")),
-        "vertical": _each(row.vertical_component for row in record),
+        "friction": plain(report.settings.get("friction_coefficient")),
+        "vertical": _unique(row.vertical_component for row in record),
         "arch": any("arch" in row.type for row in structures),
         "tapering": any(
             each.crack_margin > 1 and len(each.candidates()) > 1 for each in report.structures.values()
         ),
         # the time of the run is left out
-        "times": _each(row.start_time for row in record),
-        "files": _each(f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in record),
-        "settings": _each(f"{row.settings_sha256[:16]}…" for row in record),
+        "times": _unique(row.start_time for row in record),
+        "files": _unique(f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in record),
+        "settings": _unique(f"{row.settings_sha256[:16]}…" for row in record),
         "version": version("rocking"),
     }
 
@@ -605,8 +392,8 @@ FACTS = (
 
 def facts_table(rows: Sequence[RecordRow]) -> dict[str, object]:
     """Return what was read, done and measured: one column per component, or two columns of facts for a single one."""
-    shown = [[head, *map(show, rows)] for head, _, _, show in columns_of(RecordRow, FACTS)]
-    facts = [texts for texts in shown if set(texts[1:]) != {printing.NOTHING}]
+    facts = [[head, *map(show, rows)] for head, _, _, show in columns_of(RecordRow, FACTS)]
+    facts = [texts for texts in facts if set(texts[1:]) != {printing.NOTHING}]
     if len(rows) == 1:
         facts += [["", ""]] * (len(facts) % 2)
         half = len(facts) // 2
@@ -620,10 +407,10 @@ VERDICT_COLUMNS: list[Column] = [
     *columns_of(Fate, "structure=1.3"),
     ("Verdict", "0.7", "l", lambda fate: strong(str(fate.verdict), fate.verdict is not Verdict.STANDS)),
     ("Members that overturn", "0.8", "l", lambda fate: words(fate.count)),
-    ("As given", "0.7", "l", lambda fate: _printed(fate.rotation_ratio, fate)),
-    ("5 %", "0.75", "r", lambda fate: _printed(fate.rotation_ratio_low, fate)),
-    ("50 %", "0.75", "r", lambda fate: _printed(fate.rotation_ratio_median, fate)),
-    ("95 %", "0.75", "r", lambda fate: _printed(fate.rotation_ratio_high, fate)),
+    ("As given", "0.7", "l", lambda fate: to_spread(fate.rotation_ratio, fate)),
+    ("5 %", "0.75", "r", lambda fate: to_spread(fate.rotation_ratio_low, fate)),
+    ("50 %", "0.75", "r", lambda fate: to_spread(fate.rotation_ratio_median, fate)),
+    ("95 %", "0.75", "r", lambda fate: to_spread(fate.rotation_ratio_high, fate)),
     *columns_of(Fate, "direction=1.1 polarity=0.7"),
 ]
 STRUCTURE_COLUMNS: list[Column] = [
@@ -650,12 +437,12 @@ PULSE_COLUMNS = columns_of(
 def _method_columns(rows: Sequence[ComparisonRow]) -> list[Column]:
     """Every method that gave anything beside the others, and what stands behind them."""
     heads = {RATIO_COLUMNS[method]: head for method, head in METHODS.items()}
-    used = [name for name in heads if not all(math.isnan(getattr(row, name)) for row in rows)]
-    of_methods = columns_of(ComparisonRow, " ".join(used))
+    names = [name for name in heads if not all(math.isnan(getattr(row, name)) for row in rows)]
+    of_methods = columns_of(ComparisonRow, " ".join(names))
     return [
         ("Comp.", "0.6", "l", lambda row: words(row.component)),
         ("a [-]", "0.5", "r", lambda row: number(row.amplitude_ratio)),
         ("ω/p [-]", "0.5", "r", lambda row: number(row.frequency_ratio)),
-        *((heads[name], *column[1:]) for name, column in zip(used, of_methods, strict=True)),
+        *((heads[name], *column[1:]) for name, column in zip(names, of_methods, strict=True)),
         *columns_of(ComparisonRow, "peak_time_s=0.45 impacts required_friction slides=0.5 bounces", "0.65"),
     ]

@@ -17,17 +17,20 @@ from rocking.reports.document import compile_document
 from rocking.reports.fragility import fragility_table
 from rocking.reports.panels import draw_agreement
 from rocking.reports.printing import (
+    LOOKS,
+    METHODS,
+    cell_text,
     columns_of,
-    given,
-    left_out,
     number,
+    plain,
     ratio,
+    remainder,
+    settings_texts,
     strong,
     table_of,
     words,
 )
-from rocking.reports.record import ABOUT, LOOKS, METHODS, cell_text
-from rocking.reports.style import new_figure, pictures, styled
+from rocking.reports.style import elided, new_figure, pictures, styled
 from rocking.tables import rows_of
 
 if TYPE_CHECKING:
@@ -70,7 +73,7 @@ def summary_data(
     alt = "Scatter of predicted against integrated rotation ratio, with factor-two lines."
     return {
         "title": "Rocking assessment: summary",
-        "about": {name: str(settings.get(name) or "") for name in ABOUT},
+        **settings_texts(settings),
         "subtitle": f"{counted(records['record'].nunique(), 'record')}, "
         f"{counted(len(tables['structures']), 'structure')}, {counted(len(comparison), 'case')}.",
         "notices": _notices(records, comparison, len(failures)),
@@ -80,15 +83,13 @@ def summary_data(
         "scatter": pictures(lambda shown: prediction_scatter(*shown), scatter, alt),
         "agreement": table_of(rows_of(AgreementRow, tables["agreement"]), *AGREEMENT_COLUMNS),
         "unsafe": table_of(rows_of(ComparisonRow, unsafe.head(MOST_LISTED)), *UNSAFE_COLUMNS),
-        "unsafe-note": left_out(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
+        "unsafe-note": remainder(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
         "fragility": [fragility_table(summary, tables["ida"])] if summary is not None else [],
         "failures": table_of(rows_of(FailureRow, failures.head(MOST_LISTED)), *FAILURE_COLUMNS),
-        "failures-note": left_out(len(failures) - MOST_LISTED, "failure", "failures.csv"),
+        "failures-note": remainder(len(failures) - MOST_LISTED, "failure", "failures.csv"),
         "records": record_table(list(rows_of(RecordRow, records.head(MOST_RECORDS))), tables["pulses"]),
-        "records-note": left_out(len(records) - MOST_RECORDS, "component", "record.csv"),
+        "records-note": remainder(len(records) - MOST_RECORDS, "component", "record.csv"),
         "trade": list(trade),
-        "tolerance": given(float(settings["tolerance"])),
-        "acceleration-scale": str(settings["acceleration_scale"]),
     }
 
 
@@ -129,7 +130,7 @@ def severity_map(fates: Sequence[Fate], records: "DataFrame") -> dict[str, objec
     peaks = records.groupby("record", observed=True)[["peak_acceleration_m_s2", "peak_velocity_m_s"]].max()
     peaks = (peaks / [GRAVITY, 1.0]).reindex(rows)
     return {
-        "heads": [printing.short(name, _HEAD) for name in columns],
+        "heads": [elided(name, _HEAD) for name in columns],
         "rows": [
             {
                 "record": name,
@@ -184,10 +185,10 @@ def method_table(tables: Mapping[str, "DataFrame"]) -> dict[str, object]:
     return table_of(
         rows,
         ("Method", "1.6", "l", lambda row: METHODS[row[0]]),
-        ("Cases", "0.6", "r", lambda row: given(row[1])),
+        ("Cases", "0.6", "r", lambda row: plain(row[1])),
         ("Same outcome", "0.8", "r", lambda row: printing.of(row[2], row[1])),
-        ("Less than happens", "0.8", "r", lambda row: strong(given(row[3]), row[3] > 0)),
-        ("More than happens", "0.8", "r", lambda row: given(row[4])),
+        ("Less than happens", "0.8", "r", lambda row: strong(plain(row[3]), row[3] > 0)),
+        ("More than happens", "0.8", "r", lambda row: plain(row[4])),
         ("Within a factor 2", "0.8", "r", lambda row: printing.of(row[5], row[6])),
         ("CPU of a case [ms]", "0.8", "r", lambda row: number(1e3 * spent.get(row[0], math.nan) / row[1], 1)),
     )

@@ -7,7 +7,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import rocking
-from rocking.reports.panels import draw_governing_cracks
 
 TIMES = np.arange(3000) * 0.01
 PULSE = rocking.Pulse(4.0, 2 * np.pi / 0.9, 5.0)
@@ -60,10 +59,13 @@ def test_the_record_and_the_pulse_are_drawn_as_they_are():
     assert np.abs(drawn["dominant pulse"]).max() == pytest.approx(4.0, rel=1e-9)
 
 
-def test_the_response_is_drawn_with_its_largest_rotation_marked():
+def test_the_response_is_drawn_while_it_moves_with_its_largest_rotation_marked():
     axes = WHOLE.plot()
     rotation, _, mark = (line.get_ydata() for line in axes.lines)
-    assert np.array_equal(rotation, WHOLE.rotation)
+    drawn = np.isin(WHOLE.times, axes.lines[0].get_xdata())
+    assert np.array_equal(rotation, WHOLE.rotation[drawn])
+    assert np.abs(WHOLE.rotation[~drawn]).max() < 0.01 * np.abs(rotation).max()
+    assert axes.lines[0].get_xdata()[0] > 0.9 * PULSE.start_time, "before it the ground is still"
     critical = BLOCK.mechanism().critical_rotation
     # the history has the steps of the integration, between which the peak lies
     assert abs(mark[0]) / critical == pytest.approx(WHOLE.rotation_ratio, rel=1e-3)
@@ -77,15 +79,6 @@ def test_the_mechanism_is_drawn_over_its_values_at_rest():
     assert np.all(drawn["I"] == 1)
     unlike = rocking.RigidBody(left=0.3, right=0.5, centre_height=1.5, inertia=1.0, restitution=0.9)
     assert len(unlike.mechanism().plot().lines) == 7  # three for each side and the line at 0
-
-
-def test_a_spire_falls_at_its_tip_under_short_pulses_and_at_its_base_under_long_ones():
-    spire = rocking.Spire(3.0, 15.0, wall_thickness=0.25, crack_height=5.0, crack="unknown")
-    axes = Figure().subplots()
-    draw_governing_cracks(axes, spire, np.array([0.3, 6.0]))
-    (governing,) = axes.collections
-    assert governing.get_array().tolist() == [pytest.approx(14.25), 0.0]
-    assert np.all(governing.get_offsets()[:, 1] <= axes.lines[0].get_ydata())
 
 
 def test_what_cannot_be_drawn_is_said():

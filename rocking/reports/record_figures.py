@@ -1,0 +1,317 @@
+"""The figures of a record's report: the ground, the structures in their state, their motion, and the closed form."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from matplotlib.transforms import Affine2D
+
+from rocking.assessment.fate import Fate
+from rocking.assessment.rows.of_record import RATIO_COLUMNS, ComparisonRow
+from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Method, Verdict, rests
+from rocking.pulses import Pulse
+from rocking.quantities import GRAVITY, counted
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.measures import record_measures
+from rocking.reports.drawings import draw_structure, fallen_rotation, round_length
+from rocking.reports.panels import draw_energy_map, draw_motion, draw_rotation, moving_span
+from rocking.reports.printing import LOOKS, number, ratio, to_spread
+from rocking.reports.style import (
+    PREDICTED,
+    PULSE,
+    TEXT_WIDTH,
+    elided,
+    fixed_ticks,
+    new_figure,
+    panel_at,
+    styled,
+)
+from rocking.structures import Structure
+
+if TYPE_CHECKING:
+    from rocking.reports.record import RecordReport
+
+_POINTS = 1200
+"""Points of a trace: no printer shows more on the width of a page."""
+_MARGIN = 0.15
+"""Share of the strong shaking that is drawn before and after it."""
+_COLUMNS, _DRAWN = 5, (30.0, 27.0)
+"""Structures of a row of page one; width and height of each drawing, mm."""
+_LINE, _LETTERS = 3.2, 26
+"""Height of a line below a drawing, mm, and its letters."""
+_HISTORIES, _HIGHEST_ROW = 160.0, 30.0
+"""Height of all histories together, and of one at most, mm."""
+_HIGHEST = 1.25
+"""Rotation ratio beyond which a history is not drawn."""
+_ZOOM, _MAP_COLUMNS = 1.5, 240
+"""Periods of the pulse that are drawn before and after it; columns of the map of energy, at most twice as many."""
+_SMALLEST, _FALLEN = 1e-3, 3.0
+"""Rotation ratios at the left end of the comparison, and where overturning stands."""
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """One component of the ground with its ranked pulses, the dominant one first."""
+
+    accelerogram: Accelerogram
+    pulses: Sequence[Pulse]
+
+    @cached_property
+    def span(self) -> tuple[float, float]:
+        """The time of 5 to 95 % of the Arias intensity with a margin, and of the dominant pulse, s."""
+        begin, end = record_measures(self.accelerogram).significant_times
+        for pulse in self.pulses[:1]:
+            begin, end = min(begin, pulse.start_time), max(end, pulse.end_time)
+        if not end > begin:  # nothing shakes
+            return 0.0, self.accelerogram.duration
+        margin = _MARGIN * (end - begin)
+        return max(0.0, begin - margin), min(self.accelerogram.duration, end + margin)
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """The rotation of a structure under the component that turns it farthest, and what became of it.
+
+    times: s. ratios: rotation over critical rotation (k,).
+    """
+
+    fate: Fate
+    case: ComparisonRow
+    times: np.ndarray
+    ratios: np.ndarray
+
+
+def _component(name: str) -> str:
+    """The name of a component as a figure has room for it."""
+    return elided(name or "component", 12)
+
+
+# The ground ------------------------------------------------------------------------------------------------
+
+
+@styled
+def ground_figure(motions: Sequence[Motion]) -> Figure:
+    """Draw the acceleration of each component with its dominant pulse, one below the other."""
+    height = 19.0
+    figure = new_figure(height * len(motions) + 8)
+    begins, ends = zip(*(motion.span for motion in motions), strict=True)
+    for place, motion in enumerate(motions):
+        panel = panel_at(figure, 14, 1 + place * height, TEXT_WIDTH - 16, height - 3)
+        _draw_ground(panel, motion, (min(begins), max(ends)), motion is motions[-1])
+    return figure
+
+
+def _draw_ground(panel: Axes, motion: Motion, span: tuple[float, float], last: bool) -> None:
+    """Draw the acceleration of a component within `span` [s], its dominant pulse and PGA; the last one names time."""
+    accelerogram = motion.accelerogram
+    draw_motion(panel, accelerogram, next(iter(motion.pulses), None), span, _POINTS)
+    amplitudes = [abs(each.amplitude) for each in motion.pulses[:1]]
+    reach = 1.1 * max(accelerogram.peak_acceleration, *amplitudes, 1e-9)
+    peak = f"{_component(accelerogram.component)}: PGA {accelerogram.peak_acceleration / GRAVITY:.2g} g"
+    panel.text(0.995, 0.97, peak, transform=panel.transAxes, ha="right", va="top")
+    fixed_ticks(panel, "y", -reach, reach, 3)
+    fixed_ticks(panel, "x", *span, 6)
+    panel.tick_params(labelbottom=last)
+    panel.set(xlabel="time after the first sample [s]" if last else "", ylabel="[m/s²]")
+
+
+@styled
+def pulses_figure(motions: Sequence[Motion]) -> Figure:
+    """Draw of each component the dominant pulse in the record, and the energy of a pulse over onset and period."""
+    from rocking.pulses import energy_map  # which loads the compiled scan
+
+    height = 36.0
+    figure = new_figure(height * len(motions))
+    for place, motion in enumerate(motions):
+        accelerogram, pulse = motion.accelerogram, motion.pulses[0]
+        near, energy = (panel_at(figure, left, 3 + place * height, 69, 24) for left in (14, 100))
+        zoom = _ZOOM * pulse.period
+        span = max(pulse.start_time - zoom, 0.0), min(pulse.end_time + zoom, accelerogram.duration)
+        _draw_ground(near, motion, span, last=True)
+        # of several onsets the largest gain: no printer shows more
+        gains, frequencies = energy_map(accelerogram)
+        starts = np.arange(0, gains.shape[0], max(1, gains.shape[0] // _MAP_COLUMNS))
+        gains = np.maximum.reduceat(gains, starts, axis=0)
+        draw_energy_map(energy, starts * accelerogram.time_step, 1 / frequencies, gains, motion.pulses)
+        fixed_ticks(energy, "x", *motion.span, 6)
+    return figure
+
+
+# The structures --------------------------------------------------------------------------------------------
+
+
+@styled
+def strip_figure(fates: Sequence[Fate], report: "RecordReport") -> Figure:
+    """Draw each structure in its state, to one scale each: standing, rocking to its largest rotation, or fallen."""
+    lines = [_lines(report, fate) for fate in fates]
+    rows = [range(first, min(first + _COLUMNS, len(fates))) for first in range(0, len(fates), _COLUMNS)]
+    heights = [_DRAWN[1] + 19 + _LINE * max(len(lines[place]) for place in row) for row in rows]
+    figure = new_figure(sum(heights), margins=(0, 0, 0, 0))
+    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, TEXT_WIDTH), ylim=(-sum(heights), 0))
+    axes.set_axis_off()
+    for number_of_row, row in enumerate(rows):
+        top = -sum(heights[:number_of_row])
+        for column, place in enumerate(row):
+            middle = (column + 0.5) * TEXT_WIDTH / _COLUMNS
+            _draw_state(axes, report, fates[place], middle, top)
+            below = middle, top - _DRAWN[1] - 16.5, "\n".join(lines[place])
+            axes.text(*below, ha="center", va="top", fontsize=7, linespacing=1.25)
+    return figure
+
+
+def _draw_state(axes: Axes, report: "RecordReport", fate: Fate, middle: float, top: float) -> None:
+    """Draw a structure with the crack of its verdict in a column of the strip, at its `middle` and `top` [mm]."""
+    sign, colour, ink, hatch = LOOKS[fate.verdict]
+    structure = report.structures[fate.structure]
+    cracked = (each.structure for each in structure.candidates() if each.description == fate.crack)
+    structure = next(cracked, structure)
+    rotation = drawn_rotation(structure, fate)
+    marks = [mark.line for mark in structure.marks(rotation)]
+    points = np.vstack([*structure.outline(), *structure.outline(rotation), *marks])
+    low, high = points.min(axis=0), points.max(axis=0)
+    scale = float(min(np.array(_DRAWN) / (high - low)))
+    foot = top - 7 - _DRAWN[1]
+    origin = np.array([(low[0] + high[0]) / 2, min(low[1], 0.0)])
+    place = Affine2D().translate(*-origin).scale(scale).translate(middle, foot)
+    look = {"facecolor": colour, "hatch": hatch, "edgecolor": "0.25", "linewidth": 0.6}
+    draw_structure(axes, structure, rotation, look=look, place=place)
+    axes.plot([middle - 15, middle + 15], [foot, foot], color="0.5", linewidth=0.6, zorder=0)
+    label = elided(report.label(fate.structure), 23)
+    axes.text(middle, top - 1, label, ha="center", va="top", fontweight="bold")
+    bar = round_length(0.5 * _DRAWN[0] / scale)
+    axes.plot([middle - bar * scale / 2, middle + bar * scale / 2], [foot - 2.0] * 2, "k", linewidth=1.5)
+    axes.text(middle + bar * scale / 2 + 1, foot - 2.0, f"{bar:g} m", va="center", fontsize=7)
+    frame = Rectangle((middle - 16, foot - 8.5), 32, 4.5, facecolor=colour, edgecolor="0.25", linewidth=0.5)
+    axes.add_patch(frame)
+    word = f"{sign} {fate.verdict}"
+    axes.text(middle, foot - 6.3, word, ha="center", va="center", color=ink, fontweight="bold")
+
+
+def drawn_rotation(structure: Structure, fate: Fate) -> float:
+    """Return the signed rotation of a structure on page one, rad: fallen, at its largest rotation or at rest."""
+    side = -1 if fate.peak_side == -1 else 1
+    if math.isinf(fate.rotation_ratio) or fate.verdict is Verdict.OVERTURNS:
+        return fallen_rotation(structure, side)
+    if not fate.rotation_ratio > NEGLIGIBLE:
+        return 0.0
+    sides = structure.mechanism().sides
+    return side * fate.rotation_ratio * sides[0 if side > 0 else -1].critical_rotation
+
+
+def _lines(report: "RecordReport", fate: Fate) -> list[str]:
+    """Return what stands below a drawing: members, rotation, statics, and what opens."""
+    structure = report.structures[fate.structure]
+    static = structure.static_multiplier
+    peak = max((row.peak_acceleration_m_s2 for row in report.tables.record), default=math.nan) / GRAVITY
+    two_sides = not (rests(fate.rotation_ratio) or structure.symmetric)
+    side = f" {structure.side_names[fate.peak_side < 0]}" if two_sides and fate.peak_side else ""
+    lines = [
+        f"{fate.count} overturn" if fate.members else "one run",
+        f"as given {to_spread(fate.rotation_ratio, fate)}{side}",
+    ]
+    if fate.members and not rests(fate.rotation_ratio_high) and fate.rotation_ratio_low < math.inf:
+        low, high = (to_spread(each, fate) for each in (fate.rotation_ratio_low, fate.rotation_ratio_high))
+        lines.append(f"5–95 %: {low} to {'falling' if high == 'overturns' else high}")
+    lines.append(f"static {number(static, 2)} g, PGA {number(peak / static, 2)} ×")
+    for crack in (fate.crack, fate.elsewhere_crack):
+        lines.append(crack.replace("hinges at", "hinges").replace("°,", ","))
+    if fate.elsewhere_crack and fate.elsewhere_members:
+        lines.append(f"there {fate.elsewhere_overturning_members} of {fate.elsewhere_members} overturn")
+    return [part for line in lines for part in wrap(line, _LETTERS)]
+
+
+# Their motion ----------------------------------------------------------------------------------------------
+
+
+@styled
+def histories_figure(histories: Sequence[History], report: "RecordReport") -> Figure:
+    """Draw the rotation of each structure, one below the other, and beneath them the ground, on one time axis.
+
+    Each row has a scale of its own, which stands below its name.
+    """
+    row = min(_HIGHEST_ROW, _HISTORIES / len(histories))
+    below, left, width = 20.0, 38.0, TEXT_WIDTH - 77
+    figure = new_figure(row * len(histories) + below * len(report.motions) + 9)
+    panel = panel_at(figure, left, 1, width, row * len(histories))
+    for place, history in enumerate(histories):
+        _draw_history(panel, report, history, -place)
+    span = moving_span((history.times, history.ratios) for history in histories)
+    panel.set(xlim=span, ylim=(0.5 - len(histories), 0.5), xticks=[], yticks=[])
+    panel.spines[["left", "bottom"]].set_visible(False)
+    for place, motion in enumerate(report.motions):
+        top = 2 + row * len(histories) + place * below
+        _draw_ground(
+            panel_at(figure, left, top, width, below - 3), motion, span, motion is report.motions[-1]
+        )
+    return figure
+
+
+def _draw_history(panel: Axes, report: "RecordReport", history: History, level: int) -> None:
+    fate, case, ratios = history.fate, history.case, history.ratios
+    predicted = case.predicted_rotation_ratio
+    largest = (each for each in (float(np.abs(ratios).max()), predicted) if 0 < each < math.inf)
+    reach = min(1.25 * max(largest, default=1.0), _HIGHEST)
+    band = min(fate.rotation_ratio_low, reach), min(fate.rotation_ratio_high, reach)
+    draw_rotation(
+        panel,
+        history.times,
+        np.clip(ratios, -reach, reach),
+        predicted if predicted <= reach else math.inf,
+        band if fate.members else None,
+        level=level,
+        scale=0.45 / reach,
+        most=_POINTS,
+    )
+    component = f", {_component(case.component)}" if len(report.motions) > 1 else ""
+    label = f"{elided(report.label(fate.structure), 22)}\n± {reach:.2g}"
+    remark = (
+        f"{ratio(case.integrated_rotation_ratio, 2)}{component}, {counted(case.impacts or 0, 'impact')}\n"
+        f"closed form: {ratio(predicted, 2)}"
+    )
+    beside: dict[str, Any] = {"transform": panel.get_yaxis_transform(), "va": "center", "fontsize": 7}
+    panel.text(-0.02, level, label, ha="right", linespacing=1.3, **beside)
+    panel.text(1.01, level, remark, ha="left", linespacing=1.3, **beside)
+
+
+# The closed form -------------------------------------------------------------------------------------------
+
+
+@styled
+def comparison_figure(cases: Sequence[ComparisonRow], report: "RecordReport") -> Figure:
+    """Draw closed form, block and mechanism of each case on one line, bold where the closed form is unsafe."""
+    height = 4.3 * len(cases)
+    figure = new_figure(height + 16)
+    panel = panel_at(figure, 46, 6, TEXT_WIDTH - 46 - 40, height)
+    rows = np.arange(len(cases))
+    methods = (Method.CLOSED_FORM, Method.BLOCK_ON_RECORD, Method.MECHANISM_ON_RECORD)
+    ratios = np.array([[getattr(case, RATIO_COLUMNS[method]) for method in methods] for case in cases])
+    form, block, whole = np.where(np.isinf(ratios), _FALLEN, np.maximum(ratios, _SMALLEST)).T
+    unsafe = np.array([case.agreement is Agreement.TOO_LOW for case in cases])
+    panel.hlines(rows[~unsafe], form[~unsafe], whole[~unsafe], color="0.6", linewidth=0.8)
+    panel.hlines(rows[unsafe], form[unsafe], whole[unsafe], color=PULSE, linewidth=2.0)
+    panel.plot(form, rows, "D", color=PREDICTED, fillstyle="none", markersize=5, label="closed form, pulse")
+    panel.plot(block, rows, "s", color="0.45", fillstyle="none", markersize=4, label="block, whole record")
+    panel.plot(whole, rows, "o", color="black", markersize=3.5, label="mechanism, whole record")
+    labels = []
+    for place, case in enumerate(cases):
+        name = report.label(case.structure)
+        several = len(report.motions) > 1
+        labels.append(f"{elided(name, 18)}, {_component(case.component)}" if several else elided(name, 30))
+        remark = case.prediction_in_words
+        panel.text(1.02, place, remark, transform=panel.get_yaxis_transform(), va="center", fontsize=7)
+    panel.set(xscale="log", xlim=(0.7 * _SMALLEST, 1.5 * _FALLEN), ylim=(len(cases) - 0.5, -0.5))
+    panel.set_yticks(rows, labels)
+    ticks = {_SMALLEST: "rests", 0.01: "0.01", 0.1: "0.1", 0.3: "0.3", 1.0: "1", _FALLEN: "overturns"}
+    panel.set_xticks(list(ticks), list(ticks.values()))
+    panel.set_xticks([], minor=True)
+    panel.axvline(1.0, color="0.5", linewidth=0.5)
+    panel.set_xlabel("largest rotation / critical rotation [-]")
+    figure.legend(loc="upper center", ncols=3)
+    return figure
