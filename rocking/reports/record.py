@@ -131,9 +131,16 @@ class RecordReport:
         factors = _unique(plain(row.scale_factor) for row in self.tables.record if row.scale_factor != 1)
         return f" Accelerations ×\u00a0{factors}, declared." if factors else ""
 
-    def label(self, structure: str) -> str:
-        """Return number and name of a structure."""
-        return f"{self.numbers[structure]} {structure}"
+    @cached_property
+    def labels(self) -> dict[str, str]:
+        """Number and name of each structure, by name."""
+        return {name: f"{number} {name}" for name, number in self.numbers.items()}
+
+    @property
+    def peak_acceleration(self) -> float:
+        """The largest acceleration of the ground in any component, g; nan without one."""
+        peaks = (row.peak_acceleration_m_s2 for row in self.tables.record)
+        return max(peaks, default=math.nan) / GRAVITY
 
 
 def _unique(texts: Iterable[str]) -> str:
@@ -175,7 +182,9 @@ def _page_one(report: RecordReport) -> dict[str, object]:
         "subtitle": _subtitle(report.tables.record),
         "key": [_key_numbers(row) for row in report.tables.record],
         "ground": pictures(ground_figure, report.motions, ground),
-        "strip": pictures(strip_figure, fates, strip, report),
+        "strip": pictures(
+            strip_figure, fates, strip, report.structures, report.labels, report.peak_acceleration
+        ),
         "strip-note": remainder(len(report.fates) - len(fates), "structure", "the table of verdicts"),
         "headlines": headlines(report.fates),
         "sentences": _sentences(report),
@@ -280,7 +289,7 @@ def _page_two(report: RecordReport) -> dict[str, object]:
         f"Rotation histories of {counted(len(histories), 'structure')} above the acceleration of the ground."
     )
     return {
-        "histories": pictures(histories_figure, histories, alt, report),
+        "histories": pictures(histories_figure, histories, alt, report.labels, report.motions),
         "histories-note": remainder(others, "structure", "the table of verdicts, at rest or less demanding"),
     }
 
@@ -298,7 +307,7 @@ def _page_three(report: RecordReport) -> dict[str, object]:
     alt = f"Closed form beside integration of {counted(len(cases), 'case')}."
     return {
         "pulse-figures": pictures(pulses_figure, with_pulse, "The dominant pulse and its evidence."),
-        "comparison": pictures(comparison_figure, cases, alt, report),
+        "comparison": pictures(comparison_figure, cases, alt, report.labels, len(report.motions) > 1),
         "comparison-note": remainder(len(rows) - len(cases), "case", "the table of every method"),
         "pulse-sentences": [_pulse_sentence(report, motion) for motion in with_pulse],
         "doubts": _doubts(report, rows),

@@ -1,11 +1,11 @@
 """The figures of a record's report: the ground, the structures in their state, their motion, and the closed form."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from textwrap import wrap
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -34,9 +34,6 @@ from rocking.reports.style import (
     styled,
 )
 from rocking.structures import Structure
-
-if TYPE_CHECKING:
-    from rocking.reports.record import RecordReport
 
 _POINTS = 1200
 """Points of a trace: no printer shows more on the width of a page."""
@@ -148,9 +145,17 @@ def pulses_figure(motions: Sequence[Motion]) -> Figure:
 
 
 @styled
-def strip_figure(fates: Sequence[Fate], report: "RecordReport") -> Figure:
-    """Draw each structure in its state, to one scale each: standing, rocking to its largest rotation, or fallen."""
-    lines = [_lines(report, fate) for fate in fates]
+def strip_figure(
+    fates: Sequence[Fate],
+    structures: Mapping[str, Structure],
+    labels: Mapping[str, str],
+    peak_acceleration: float,
+) -> Figure:
+    """Draw each structure in its state, to one scale each: standing, rocking to its largest rotation, or fallen.
+
+    labels: what each structure is called. peak_acceleration: of the ground, g.
+    """
+    lines = [_lines(structures[fate.structure], fate, peak_acceleration) for fate in fates]
     rows = [range(first, min(first + _COLUMNS, len(fates))) for first in range(0, len(fates), _COLUMNS)]
     heights = [_DRAWN[1] + 19 + _LINE * max(len(lines[place]) for place in row) for row in rows]
     figure = new_figure(sum(heights), margins=(0, 0, 0, 0))
@@ -160,16 +165,18 @@ def strip_figure(fates: Sequence[Fate], report: "RecordReport") -> Figure:
         top = -sum(heights[:number_of_row])
         for column, place in enumerate(row):
             middle = (column + 0.5) * TEXT_WIDTH / _COLUMNS
-            _draw_state(axes, report, fates[place], middle, top)
+            fate = fates[place]
+            label = elided(labels[fate.structure], 23)
+            axes.text(middle, top - 1, label, ha="center", va="top", fontweight="bold")
+            _draw_state(axes, structures[fate.structure], fate, middle, top)
             below = middle, top - _DRAWN[1] - 16.5, "\n".join(lines[place])
             axes.text(*below, ha="center", va="top", fontsize=7, linespacing=1.25)
     return figure
 
 
-def _draw_state(axes: Axes, report: "RecordReport", fate: Fate, middle: float, top: float) -> None:
+def _draw_state(axes: Axes, structure: Structure, fate: Fate, middle: float, top: float) -> None:
     """Draw a structure with the crack of its verdict in a column of the strip, at its `middle` and `top` [mm]."""
     sign, colour, ink, hatch = LOOKS[fate.verdict]
-    structure = report.structures[fate.structure]
     cracked = (each.structure for each in structure.candidates() if each.description == fate.crack)
     structure = next(cracked, structure)
     rotation = drawn_rotation(structure, fate)
@@ -183,8 +190,6 @@ def _draw_state(axes: Axes, report: "RecordReport", fate: Fate, middle: float, t
     look = {"facecolor": colour, "hatch": hatch, "edgecolor": "0.25", "linewidth": 0.6}
     draw_structure(axes, structure, rotation, look=look, place=place)
     axes.plot([middle - 15, middle + 15], [foot, foot], color="0.5", linewidth=0.6, zorder=0)
-    label = elided(report.label(fate.structure), 23)
-    axes.text(middle, top - 1, label, ha="center", va="top", fontweight="bold")
     bar = round_length(0.5 * _DRAWN[0] / scale)
     axes.plot([middle - bar * scale / 2, middle + bar * scale / 2], [foot - 2.0] * 2, "k", linewidth=1.5)
     axes.text(middle + bar * scale / 2 + 1, foot - 2.0, f"{bar:g} m", va="center", fontsize=7)
@@ -205,11 +210,9 @@ def drawn_rotation(structure: Structure, fate: Fate) -> float:
     return side * fate.rotation_ratio * sides[0 if side > 0 else -1].critical_rotation
 
 
-def _lines(report: "RecordReport", fate: Fate) -> list[str]:
+def _lines(structure: Structure, fate: Fate, peak_acceleration: float) -> list[str]:
     """Return what stands below a drawing: members, rotation, statics, and what opens."""
-    structure = report.structures[fate.structure]
     static = structure.static_multiplier
-    peak = max((row.peak_acceleration_m_s2 for row in report.tables.record), default=math.nan) / GRAVITY
     two_sides = not (rests(fate.rotation_ratio) or structure.symmetric)
     side = f" {structure.side_names[fate.peak_side < 0]}" if two_sides and fate.peak_side else ""
     lines = [
@@ -219,7 +222,7 @@ def _lines(report: "RecordReport", fate: Fate) -> list[str]:
     if fate.members and not rests(fate.rotation_ratio_high) and fate.rotation_ratio_low < math.inf:
         low, high = (to_spread(each, fate) for each in (fate.rotation_ratio_low, fate.rotation_ratio_high))
         lines.append(f"5–95 %: {low} to {'falling' if high == 'overturns' else high}")
-    lines.append(f"static {number(static, 2)} g, PGA {number(peak / static, 2)} ×")
+    lines.append(f"static {number(static, 2)} g, PGA {number(peak_acceleration / static, 2)} ×")
     for crack in (fate.crack, fate.elsewhere_crack):
         lines.append(crack.replace("hinges at", "hinges").replace("°,", ","))
     if fate.elsewhere_crack and fate.elsewhere_members:
@@ -231,29 +234,30 @@ def _lines(report: "RecordReport", fate: Fate) -> list[str]:
 
 
 @styled
-def histories_figure(histories: Sequence[History], report: "RecordReport") -> Figure:
+def histories_figure(
+    histories: Sequence[History], labels: Mapping[str, str], motions: Sequence[Motion]
+) -> Figure:
     """Draw the rotation of each structure, one below the other, and beneath them the ground, on one time axis.
 
-    Each row has a scale of its own, which stands below its name.
+    Each row has a scale of its own, which stands below its name, one of `labels`.
     """
     row = min(_HIGHEST_ROW, _HISTORIES / len(histories))
     below, left, width = 20.0, 38.0, TEXT_WIDTH - 77
-    figure = new_figure(row * len(histories) + below * len(report.motions) + 9)
+    figure = new_figure(row * len(histories) + below * len(motions) + 9)
     panel = panel_at(figure, left, 1, width, row * len(histories))
     for place, history in enumerate(histories):
-        _draw_history(panel, report, history, -place)
+        _draw_history(panel, history, -place, labels[history.fate.structure], several=len(motions) > 1)
     span = moving_span((history.times, history.ratios) for history in histories)
     panel.set(xlim=span, ylim=(0.5 - len(histories), 0.5), xticks=[], yticks=[])
     panel.spines[["left", "bottom"]].set_visible(False)
-    for place, motion in enumerate(report.motions):
+    for place, motion in enumerate(motions):
         top = 2 + row * len(histories) + place * below
-        _draw_ground(
-            panel_at(figure, left, top, width, below - 3), motion, span, motion is report.motions[-1]
-        )
+        _draw_ground(panel_at(figure, left, top, width, below - 3), motion, span, motion is motions[-1])
     return figure
 
 
-def _draw_history(panel: Axes, report: "RecordReport", history: History, level: int) -> None:
+def _draw_history(panel: Axes, history: History, level: int, label: str, several: bool) -> None:
+    """Draw one history about `level`, between its `label` and what happened; of `several` components it names its own."""
     fate, case, ratios = history.fate, history.case, history.ratios
     predicted = case.predicted_rotation_ratio
     largest = (each for each in (float(np.abs(ratios).max()), predicted) if 0 < each < math.inf)
@@ -269,14 +273,13 @@ def _draw_history(panel: Axes, report: "RecordReport", history: History, level: 
         scale=0.45 / reach,
         most=_POINTS,
     )
-    component = f", {_component(case.component)}" if len(report.motions) > 1 else ""
-    label = f"{elided(report.label(fate.structure), 22)}\n± {reach:.2g}"
+    component = f", {_component(case.component)}" if several else ""
     remark = (
         f"{ratio(case.integrated_rotation_ratio, 2)}{component}, {counted(case.impacts or 0, 'impact')}\n"
         f"closed form: {ratio(predicted, 2)}"
     )
     beside: dict[str, Any] = {"transform": panel.get_yaxis_transform(), "va": "center", "fontsize": 7}
-    panel.text(-0.02, level, label, ha="right", linespacing=1.3, **beside)
+    panel.text(-0.02, level, f"{elided(label, 22)}\n± {reach:.2g}", ha="right", linespacing=1.3, **beside)
     panel.text(1.01, level, remark, ha="left", linespacing=1.3, **beside)
 
 
@@ -284,8 +287,11 @@ def _draw_history(panel: Axes, report: "RecordReport", history: History, level: 
 
 
 @styled
-def comparison_figure(cases: Sequence[ComparisonRow], report: "RecordReport") -> Figure:
-    """Draw closed form, block and mechanism of each case on one line, bold where the closed form is unsafe."""
+def comparison_figure(cases: Sequence[ComparisonRow], labels: Mapping[str, str], several: bool) -> Figure:
+    """Draw closed form, block and mechanism of each case on one line, bold where the closed form is unsafe.
+
+    labels: what each structure is called. several: whether a line names its component.
+    """
     height = 4.3 * len(cases)
     figure = new_figure(height + 16)
     panel = panel_at(figure, 46, 6, TEXT_WIDTH - 46 - 40, height)
@@ -299,15 +305,14 @@ def comparison_figure(cases: Sequence[ComparisonRow], report: "RecordReport") ->
     panel.plot(form, rows, "D", color=PREDICTED, fillstyle="none", markersize=5, label="closed form, pulse")
     panel.plot(block, rows, "s", color="0.45", fillstyle="none", markersize=4, label="block, whole record")
     panel.plot(whole, rows, "o", color="black", markersize=3.5, label="mechanism, whole record")
-    labels = []
+    names = []
     for place, case in enumerate(cases):
-        name = report.label(case.structure)
-        several = len(report.motions) > 1
-        labels.append(f"{elided(name, 18)}, {_component(case.component)}" if several else elided(name, 30))
+        name = labels[case.structure]
+        names.append(f"{elided(name, 18)}, {_component(case.component)}" if several else elided(name, 30))
         remark = case.prediction_in_words
         panel.text(1.02, place, remark, transform=panel.get_yaxis_transform(), va="center", fontsize=7)
     panel.set(xscale="log", xlim=(0.7 * _SMALLEST, 1.5 * _FALLEN), ylim=(len(cases) - 0.5, -0.5))
-    panel.set_yticks(rows, labels)
+    panel.set_yticks(rows, names)
     ticks = {_SMALLEST: "rests", 0.01: "0.01", 0.1: "0.1", 0.3: "0.3", 1.0: "1", _FALLEN: "overturns"}
     panel.set_xticks(list(ticks), list(ticks.values()))
     panel.set_xticks([], minor=True)

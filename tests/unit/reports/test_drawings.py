@@ -43,12 +43,11 @@ def test_page_one_draws_a_structure_as_it_fell_rocked_or_stands():
 
 
 def test_a_strip_names_every_structure_its_verdict_and_its_lines(example):
-    drawn = svg(strip_figure(example.fates, example))
-    assert drawn == svg(strip_figure(example.fates, example))
+    strip = (example.fates, example.structures, example.labels, example.peak_acceleration)
+    drawn = svg(strip_figure(*strip))
+    assert drawn == svg(strip_figure(*strip))
     for each in example.fates:
-        assert (
-            f">{example.numbers[each.structure]} {each.structure}</text>" in drawn and each.verdict in drawn
-        )
+        assert f">{example.labels[each.structure]}</text>" in drawn and each.verdict in drawn
         assert f">{each.count} overturn</text>" in drawn
 
 
@@ -74,7 +73,8 @@ def test_every_panel_stands_in_its_figure_and_shows_all_of_what_it_draws(example
     margin = 0.15 * (end - begin)
     assert motion.span == pytest.approx((max(0.0, begin - margin), end + margin))
     several = [motion, motion]
-    for figure in (ground_figure(several), pulses_figure(several), strip_figure(example.fates, example)):
+    strip = strip_figure(example.fates, example.structures, example.labels, example.peak_acceleration)
+    for figure in (ground_figure(several), pulses_figure(several), strip):
         assert figure.get_figwidth() * 25.4 == pytest.approx(TEXT_WIDTH)
         boxes = [axes.get_position() for axes in figure.axes]
         assert all(0 <= box.xmin < box.xmax <= 1 and 0 <= box.ymin < box.ymax <= 1 for box in boxes)
