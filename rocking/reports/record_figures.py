@@ -257,7 +257,7 @@ def histories_figure(
 
 
 def _draw_history(panel: Axes, history: History, level: int, label: str, several: bool) -> None:
-    """Draw one history about `level`, between its `label` and what happened; of `several` components it names its own."""
+    """Draw one history about `level`, between its `label` and what happened; of `several` components, with its own."""
     fate, case, ratios = history.fate, history.case, history.ratios
     predicted = case.predicted_rotation_ratio
     largest = (each for each in (float(np.abs(ratios).max()), predicted) if 0 < each < math.inf)
