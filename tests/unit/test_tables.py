@@ -178,6 +178,7 @@ HEAD = ",".join(column.name for column in MadeRow.table.columns)
         (None, "make the table again"),
         (b"\xff\xfe", "make the table again"),
         (b"record,speed_rad_s\n", "make the table again"),
+        (b"a,b,c,d,e,f,g\n", r"\(a, b, c, colour, count, d\); make the table again"),
         (f"{HEAD}\ntwo,1\n".encode(), "line 2, has 2 cells, but must have 9"),
     ],
 )

@@ -193,6 +193,14 @@ def test_the_drift_that_leaves_the_smallest_displacement_is_removed(values: np.n
     assert np.abs(values - corrected - removed).max() < 1e-9 * np.abs(values).max()
 
 
+def test_shaking_that_lasts_to_the_end_leaves_no_baseline_to_fit() -> None:
+    """95 % of a steady motion have passed when 5 % of its samples are left: 16 of 320, and of 280 fewer."""
+    for size, stays in ((280, True), (400, False)):
+        values = np.tile([1.1, -1.0], size // 2)
+        corrected, sentence = adaptive_baseline(values, DT)
+        assert np.array_equal(corrected, values) == stays == ("left the record as it is" in sentence)
+
+
 @pytest.mark.parametrize("values", [np.zeros(200), shaken(1)[600:663]])
 def test_without_motion_or_with_few_samples_there_is_none(values: np.ndarray) -> None:
     with pytest.raises(RecordError, match="needs motion and at least 64 samples"):

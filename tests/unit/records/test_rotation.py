@@ -25,6 +25,18 @@ def test_any_pair_gives_the_same_motion(one: float, two: float, wanted: float) -
     assert turned.azimuth == wanted and "Rotated from" in turned.processing[-1]
 
 
+def test_what_came_before_the_record_turns_with_it() -> None:
+    """A motion along 30° from north, of which north sees √3/2 and east one half."""
+    north, east = (
+        component(azimuth, initial_velocity=0.4 * share, initial_displacement=-0.2 * share)
+        for azimuth, share in ((0, 3**0.5 / 2), (90, 0.5))
+    )
+    for wanted, share in ((30, 1.0), (120, 0.0), (210, -1.0)):
+        turned = rotate(north, east, wanted)
+        assert turned.initial_velocity == pytest.approx(0.4 * share, abs=1e-15)
+        assert turned.initial_displacement == pytest.approx(-0.2 * share, abs=1e-15)
+
+
 def test_unequal_lengths_are_cut_and_told() -> None:
     turned = rotate(component(0), component(90, n=490), 45)
     assert turned.acceleration.size == 490 and "490 and 500" in turned.warnings[-1]

@@ -12,7 +12,7 @@ from rocking.records.measures import record_measures
 from rocking.reports.drawings import draw_structure, fallen_rotation
 from rocking.reports.record_figures import drawn_rotation, ground_figure, pulses_figure, strip_figure
 from rocking.reports.style import MOST_POINTS, TEXT_WIDTH, svg, thinned
-from rocking.structures import Arch, Block, Wall
+from rocking.structures import Arch, Block, LoadedWall, Wall
 
 from .conftest import fate
 
@@ -63,6 +63,14 @@ def test_a_thinned_trace_keeps_its_peaks_and_few_points():
 def test_a_structure_that_rocks_to_one_side_falls_to_it():
     block = Block.of_size(0.6, 6.0, restitution=0.5, one_sided=True)
     assert fallen_rotation(block, -1) == fallen_rotation(block, 1) > 0
+
+
+def test_a_wall_is_drawn_as_fallen_by_the_rotation_of_the_side_it_falls_to():
+    wall = LoadedWall(1.6, 1.4, 0.4, 2e4, top_load=6e4, eccentricity=0.1, restitution=0.9)
+    away, back = wall.mechanism().sides
+    assert away.critical_rotation != pytest.approx(back.critical_rotation, rel=0.1)
+    share = fallen_rotation(wall, 1) / away.critical_rotation
+    assert fallen_rotation(wall, -1) == pytest.approx(-share * back.critical_rotation, rel=1e-12)
 
 
 def test_every_panel_stands_in_its_figure_and_shows_all_of_what_it_draws(example):

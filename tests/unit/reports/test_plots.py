@@ -7,6 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import rocking
+from rocking.reports.explore import BINS, extremes
+from rocking.reports.panels import draw_agreement, draw_rotation
 
 TIMES = np.arange(3000) * 0.01
 PULSE = rocking.Pulse(4.0, 2 * np.pi / 0.9, 5.0)
@@ -79,6 +81,40 @@ def test_the_mechanism_is_drawn_over_its_values_at_rest():
     assert np.all(drawn["I"] == 1)
     unlike = rocking.RigidBody(left=0.3, right=0.5, centre_height=1.5, inertia=1.0, restitution=0.9)
     assert len(unlike.mechanism().plot().lines) == 7  # three for each side and the line at 0
+
+
+def test_rotations_of_several_records_in_one_panel_stand_at_their_level_in_their_scale():
+    """Rest at 3, a ratio of 1 two units high: prediction on both sides, band up to a ratio of 1, an impact at 2 s."""
+    axes = Figure().subplots()
+    times, ratio = np.arange(5.0), np.array([0.0, 0.5, -0.25, -0.5, -0.1])
+    draw_rotation(axes, times, ratio, predicted=0.4, band=(0.2, 1.7), level=3.0, scale=2.0)
+    drawn = [np.unique(line.get_ydata()).tolist() for line in axes.lines]
+    assert drawn[:3] == [[3.0], [3.8], [2.2]] and drawn[3] == sorted(3.0 + 2.0 * ratio)
+    assert (axes.lines[-1].get_xdata().tolist(), drawn[-1]) == ([2.0], [3.0])
+    bars = [each.get_window_extent().transformed(axes.transData.inverted()) for each in axes.patches]
+    assert [[bar.ymin, bar.ymax] for bar in bars] == [pytest.approx([3.4, 5.0]), pytest.approx([1.0, 2.6])]
+
+
+def test_what_overturns_and_what_rests_stand_beyond_a_line_from_what_rocks():
+    axes = Figure().subplots()
+    integrated, predicted = np.array([0.001, 1.0, np.inf, 0.0]), np.array([1.0, 0.001, 0.0, np.inf])
+    draw_agreement(axes, integrated, predicted)
+    (cases,) = (line for line in axes.lines if line.get_label() == "cases (4)")
+    lower, upper = sorted(line.get_xdata()[0] for line in axes.lines if len(set(line.get_xdata())) == 1)
+    for places in (cases.get_xdata(), cases.get_ydata()):
+        least, *rocking_ones, largest = sorted(places)
+        assert axes.get_xlim()[0] < least < lower < min(rocking_ones)
+        assert max(rocking_ones) < upper < largest < axes.get_xlim()[1]
+    factors = {line.get_ydata()[-1] / line.get_xdata()[-1] for line in axes.lines[:3]}
+    assert factors == {0.5, 1.0, 2.0}
+
+
+def test_a_bin_of_the_page_without_a_sample_has_the_value_at_its_middle():
+    """Two samples of a line fill two of the bins; no bin is farther from it than half a bin."""
+    shown = extremes(np.array([0.0, 6.0]), np.array([0.0, 12.0]), 0.0, 6.0)
+    middles = (np.arange(BINS) + 0.5) * 12.0 / BINS
+    assert np.abs(shown - middles).max() <= 6.0 / BINS * (1 + 1e-9)
+    assert shown[1:-1] == pytest.approx(middles[1:-1], rel=1e-12) and shown[-1] == 12.0
 
 
 def test_what_cannot_be_drawn_is_said():

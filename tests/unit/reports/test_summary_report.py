@@ -1,6 +1,7 @@
 """The report over all records, and the agreement that is counted for it."""
 
 import math
+from dataclasses import replace
 
 import pandas
 import pytest
@@ -150,6 +151,15 @@ def test_long_lists_are_cut_and_say_how_much_was_left_out():
     assert len(data["records"]["rows"]) == 200
     assert data["records-note"] == " Another 50 components in record.csv."
     assert "and 230 others" in data["notices"][-1]["text"]
+
+
+def test_a_record_is_listed_with_its_dominant_pulse(example):
+    (dominant,) = (row for row in example.tables.pulses if row.kind == "alternative" and row.rank == 1)
+    others = [replace(row, period_s=9.0) for row in example.tables.pulses if row is not dominant]
+    tables = summarised(replace(example.tables, pulses=[*others, dominant]), example.structures)
+    (row,) = summary_data(tables, SETTINGS)["records"]["rows"]
+    assert {"9.00", "9.0", "9"}.isdisjoint(row)
+    assert any(cell.startswith(f"{dominant.period_s:.1f}") for cell in row)
 
 
 def test_a_scatter_of_many_cases_does_not_grow_with_them():
