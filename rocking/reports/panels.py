@@ -250,7 +250,7 @@ def _plot_assessment(assessment: "StructureAssessment", axes: Axes) -> None:
     share = f"{100 * assessment.overturning_share:.0f} % of {assessment.members} members"
     axes.set(xlabel=TIME, ylabel="rotation / critical rotation [-]", ylim=(-1.15, 1.15))
     axes.set_title(f"{assessment.verdict}: overturns in {share}")
-    axes.legend(loc="upper left")
+    axes.legend()
 
 
 def _plot_fragility(fragility: "Fragility", axes: Axes) -> None:

@@ -195,6 +195,7 @@ def test_the_site_leaves_nothing_of_the_code_out(site):
     for name, value in settings.items():
         names = [f"{name}.{inner}" for inner in value] if isinstance(value, dict) else [name]
         assert all(f"<code>{known}</code>" in site["settings.html"] for known in names)
+    assert "Annotated" not in site["api_structures.html"], "a parameter is printed with its plain type"
     described = set().union(*map(anchors, site.values()))
     assert {f"{getattr(rocking, name).__module__}.{name}" for name in rocking.__all__} <= described
 
