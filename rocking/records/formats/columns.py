@@ -9,18 +9,8 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_unit
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats import text
 from rocking.records.formats.format import Format, Options
-from rocking.records.formats.text import (
-    after_lines,
-    count,
-    even_step,
-    is_number,
-    lines,
-    number,
-    numbers,
-    resampled,
-    whole,
-)
 from rocking.records.instrument import other_quantity, refuse_other_quantity
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
@@ -39,11 +29,11 @@ def _table(content: bytes) -> tuple[tuple[str, ...], int, int] | None:
     names: tuple[str, ...] = ()
     widths: list[int] = []
     start = 0
-    for line in (line for line in lines(content, _HEAD) if len(line) < 2000):
+    for line in (line for line in text.lines(content, _HEAD) if len(line) < 2000):
         bare = line.strip().rstrip(",;").rstrip()
         if not bare or (bare.startswith(("#", "%")) and not widths):
             start += not widths
-        elif all(map(is_number, _SEPARATOR.split(bare))):
+        elif all(map(text.is_number, _SEPARATOR.split(bare))):
             widths.append(len(_SEPARATOR.split(bare)))
         elif names or widths:
             return None
@@ -66,12 +56,12 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     if pointed is None:
         raise RecordError("the commas are decimal signs or part columns; write points, or semicolons.")
     names, width, start = _table(pointed) or ((), 1, 0)  # it was recognised by that
-    refuse_other_quantity(options.file, "\n".join(lines(pointed, _HEAD)[:start]))
-    body = after_lines(pointed, start)
+    refuse_other_quantity(options.file, "\n".join(text.lines(pointed, _HEAD)[:start]))
+    body = text.after_lines(pointed, start)
     if _EMPTY_CELL.search(body):
         raise RecordError("a cell is empty; every column needs a number on every line.")
     spaced = body.replace(b",", b" ").replace(b";", b" ")
-    values = numbers(spaced)
+    values = text.numbers(spaced)
     wrapped = width > 2 and not names and not _time_first(values, width)
     octets = np.frombuffer(b"\n" + spaced + b"\n", dtype=np.uint8)
     begun = np.cumsum((octets[1:] > _BLANK) & (octets[:-1] <= _BLANK))  # numbers, up to each octet
@@ -93,7 +83,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
 
 def _cut_number(body: bytes) -> tuple[str, ...]:
     """Return a warning when the last number has fewer decimals than all above it, and no line end: the file is cut."""
-    tail = [] if body.endswith(b"\n") else lines(body[-_TAIL:])[1:]
+    tail = [] if body.endswith(b"\n") else text.lines(body[-_TAIL:])[1:]
     decimals = [len(match[1]) for line in tail if line.strip() and (match := _DECIMALS.search(line))]
     if len(decimals) < 3 or decimals[-1] >= min(decimals[:-1]):
         return ()
@@ -122,9 +112,9 @@ def _timed_columns(rows: np.ndarray, names: tuple[str, ...], options: Options) -
     step, warnings = options.time_step, _repeats(rows.ravel())
     if timed:
         times = rows[:, 0]
-        step, warnings = even_step(times), ()
+        step, warnings = text.even_step(times), ()
         if step is None:
-            step, even, sentence = resampled(times)
+            step, even, sentence = text.resampled(times)
             rows = np.stack([np.interp(even, times, column) for column in rows.T], axis=1)
             processing = warnings = (sentence,)
     records = []
@@ -180,14 +170,14 @@ _LONGEST_STEP = 1.0  # s; of a record, so that a line of two numbers is known fo
 
 def _title(content: bytes) -> tuple[str, str] | None:
     """Return (samples, step) of a title and a line of these two and words above numbers, None of another file."""
-    head = [line for line in lines(content, _HEAD) if len(line) < 2000]
-    if len(head) < 4 or all(map(is_number, head[0].split())):
+    head = [line for line in text.lines(content, _HEAD) if len(line) < 2000]
+    if len(head) < 4 or all(map(text.is_number, head[0].split())):
         return None
     rows = [row.split() for row in head[2:-1] if row.strip()]
     if {len(row) for row in rows} == {2} and len(head[0].split()) == 2:
         return None  # two columns below their names
     parts = _WORDS.sub(" ", head[1]).split()
-    if not rows or len(parts) != 2 or not all(map(is_number, sum(rows, parts))):
+    if not rows or len(parts) != 2 or not all(map(text.is_number, sum(rows, parts))):
         return None
     for samples, step in (parts, parts[::-1]):
         if samples.isdecimal() and int(samples) > 1 and "." in step and 0 < float(step) <= _LONGEST_STEP:
@@ -197,17 +187,18 @@ def _title(content: bytes) -> tuple[str, str] | None:
 
 def _read_titled(content: bytes, options: Options) -> list[Accelerogram]:
     samples, step = _title(content) or ("", "")
-    return _below_title(content, options, samples, step, event=lines(content, 1)[0].strip()[:60])
+    return _below_title(content, options, samples, step, event=text.lines(content, 1)[0].strip()[:60])
 
 
 def _below_title(content: bytes, options: Options, size: str, step: str, **names: str) -> list[Accelerogram]:
-    title, second, *rows = lines(content, _HEAD)
+    title, second, *rows = text.lines(content, _HEAD)
     refuse_other_quantity(options.file, f"{title}\n{second}")
     words = (match[1] for match in _UNIT_IN_WORDS.finditer(f"{title}\n{second}"))
     unit = next(filter(None, map(acceleration_unit, words)), None)
     per_line = max(len(row.split()) for row in rows)
-    values, notes = whole(numbers(after_lines(content, 2)), count("number of samples", size), per_line)
-    seconds = number("time step", step)
+    samples = text.count("number of samples", size)
+    values, notes = text.whole(text.numbers(text.after_lines(content, 2)), samples, per_line)
+    seconds = text.number("time step", step)
     return [options.accelerogram(unit, values, seconds, warnings=notes, processed=None, **names)]
 
 
@@ -218,7 +209,7 @@ _EMOD3D = re.compile(
 
 
 def _read_emod3d(content: bytes, options: Options) -> list[Accelerogram]:
-    title, second = lines(content, 2)
+    title, second = text.lines(content, 2)
     station, component = title.split()[:2]
     return _below_title(content, options, *second.split()[:2], station=station, component=component)
 

@@ -43,7 +43,8 @@ class Layout:
     start: time of the first sample, hours ahead of universal time; location: of the instrument in a structure; peak,
     rms: in peak_unit, the peak within half a unit of its last digit; peak_time: s after the first sample.
     unit: of the numbers in every file of the format. mandatory: facts without which a file is refused. code: of the
-    network, where it is not read. per_line, width: numbers on a line, and characters of each, 0 where none touch.
+    network, where it is not read. per_line, width: numbers on a line, characters of each, 0 where none touch,
+    and of the margin before the first.
     """
 
     unit: str
@@ -57,6 +58,7 @@ class Layout:
     code: str = ""
     per_line: int = 1
     width: int = 0
+    margin: int = 0
 
     def text(self, name: str, head: str) -> str:
         """Return what `head` says of the fact `name`, "" where it does not."""
@@ -76,7 +78,7 @@ class Layout:
 
     def series(self, head: str, rows: list[str], options: Options, **facts: Any) -> list[Accelerogram]:
         """Return channel() of the numbers in `rows`, as many as the header declares, or up to a line more."""
-        values, warnings = whole(fields(rows, self.width), self.count(head), self.per_line)
+        values, warnings = whole(fields(rows, self.width, self.margin), self.count(head), self.per_line)
         return [self.channel(head, values, options, warnings=warnings, **facts)]
 
     def channel(
@@ -174,13 +176,15 @@ class Layout:
         }
 
 
-def parted(content: bytes, is_end: Callable[[str], object], what: str, longest: int) -> tuple[str, list[str]]:
-    """Return the header of a text and the lines from the first that `is_end` on, which is among the first `longest`.
+def parted(
+    content: bytes, end: int | Callable[[str], object], what: str = "", longest: int = 0
+) -> tuple[str, list[str]]:
+    """Return the header of a text and the lines below, as a number of lines or up to the first that is its `end`.
 
-    Raises RecordError: the file has no line `what`.
+    Raises RecordError when the `longest` header has no such line, described by `what`.
     """
     text = lines(content)
-    at = next((i for i, line in enumerate(text[:longest]) if is_end(line)), None)
+    at = next((i for i, line in enumerate(text[:longest]) if end(line)), None) if callable(end) else end
     if at is None:
         raise RecordError(f"no line {what}; the file is cut.")
     return "\n".join(text[:at]), text[at:]

@@ -9,6 +9,7 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats import text
 from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.header import (
     NUMBER,
@@ -23,19 +24,6 @@ from rocking.records.formats.header import (
     required,
     site,
     typed_magnitude,
-)
-from rocking.records.formats.text import (
-    after_lines,
-    column_width,
-    count,
-    fields,
-    filled,
-    in_columns,
-    lines,
-    number,
-    numbers,
-    only_even_step,
-    whole,
 )
 from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.plausibility import agree_with_velocity
@@ -85,8 +73,8 @@ def _directions(line: str) -> list[str]:
 def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
     head, rows = parted(content, _directions, "names the columns (N-S, E-W, U-D)", _AFAD_HEADER)
     labels = _directions(rows[0])
-    table = in_columns(numbers("\n".join(rows[1:])), len(labels))
-    _, notes = whole(table[:, 0], _AFAD.count(head), per_line=1)
+    table = text.table(rows[1:], len(labels))
+    _, notes = text.whole(table[:, 0], _AFAD.count(head), per_line=1)
     line = optional(r"^(.*PGA.*:.*)", head)
     peaks = [optional_number(rf"\({re.escape(label)}\)\s*{NUMBER}", line) for label in labels]
     is_processed = "RAW" not in line
@@ -120,12 +108,12 @@ def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
     head, rows = parted(content, re.compile("#Data:").match, "begins with #Data:", _CWB_HEADER)
     head = re.sub("^#", "", head, flags=re.M)
     labels = re.findall(r"([A-Z])\(", _CWB.required("channels", head))
-    table = in_columns(fields(rows[1:], 10), len(labels) + 1)
+    table = text.table(rows[1:], len(labels) + 1, width=10)
     magnitudes = re.findall(r"^Magnitude\((\w+)\)(:.*)", head, re.I | re.M)
     extremes = [re.findall(NUMBER, optional(rf"^.*MAX.*\b{label}\s*:(.*)", head), re.I) for label in labels]
     facts = typed_magnitude(" ".join(scale + value for scale, value in magnitudes))
-    facts["peaks"] = [max((abs(float(text)) for text in ends), default=None) for ends in extremes]
-    return _CWB.channels(head, table[:, 1:], labels, options, step=only_even_step(table[:, 0]), **facts)
+    facts["peaks"] = [max((abs(float(end)) for end in ends), default=None) for ends in extremes]
+    return _CWB.channels(head, table[:, 1:], labels, options, step=text.only_even_step(table[:, 0]), **facts)
 
 
 _UNAM = Layout("gal", {
@@ -151,17 +139,17 @@ def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
     sizes = sorted({_UNAM.text("samples", own) for own in heads} - {""})
     if len(sizes) != 1:
         raise RecordError(f"the channels declare {sizes} samples, but must be equally long.")
-    samples = count("NUM. TOTAL DE MUESTRAS", sizes[0])
+    samples = text.count("NUM. TOTAL DE MUESTRAS", sizes[0])
     width = optional_number(r"^FORMATO DATOS.*\d+F(\d+)", head)
-    table = in_columns(fields(rows[rules[1] + 1 :], max(1, int(width or 10))), len(heads))
+    table = text.table(rows[rules[1] + 1 :], len(heads), max(1, int(width or 10)))
     table, notes = _without_repeats(table, samples)
-    _, surplus = whole(table[:, 0], samples, per_line=1)
+    _, surplus = text.whole(table[:, 0], samples, per_line=1)
     channels = zip(heads, table.T, strict=True)
     return [_unam_channel(own, values, options, notes + surplus) for own, values in channels]
 
 
 def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[str, ...]) -> Accelerogram:
-    step = number("INTERVALO DE MUESTREO", _UNAM.required("step", head))
+    step = text.number("INTERVALO DE MUESTREO", _UNAM.required("step", head))
     keys = "VEL. DE MUESTREO", "FACTOR DE DECIMACION", "ACEL. MAX."
     rate, thinned, place = (optional_number(key(name) + "$", head) for name in keys)
     if rate is not None:
@@ -222,15 +210,19 @@ _BOREHOLE = {"1", "2", "3"}
 
 
 def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
-    text = lines(content, len(_KNET_KEYS))
-    if missing := [key for key in _KNET_KEYS if not any(line.startswith(key) for line in text)]:
+    rows = text.lines(content, len(_KNET_KEYS))
+    if missing := [name for name in _KNET_KEYS if not any(row.startswith(name) for row in rows)]:
         raise RecordError(f"the header has no line {missing[0]!r}; K-NET's has {len(_KNET_KEYS)} lines.")
-    head = "\n".join(text)
+    head = "\n".join(rows)
     scale = r"^Scale Factor\s*([\d.]+)\s*\(gal\)\s*/\s*([\d.]+)\s*$"
     parts = required("a Scale Factor like 3920(gal)/6182761", scale, head)
-    full, counts = (positive(RecordError, "Scale Factor", number("Scale Factor", parts[i])) for i in (1, 2))
+    full, counts = (
+        positive(RecordError, "Scale Factor", text.number("Scale Factor", parts[i])) for i in (1, 2)
+    )
     unit = options.unit_of("gal")
-    values, offset = without_offset(numbers(after_lines(content, len(_KNET_KEYS))) * (full / counts), unit)
+    values, offset = without_offset(
+        text.numbers(text.after_lines(content, len(_KNET_KEYS))) * (full / counts), unit
+    )
     direction = _KNET.text("component", head)
     facts: dict[str, Any] = {"processing": (offset,), "borehole": direction in _BOREHOLE}
     facts["component"] = _KIKNET.get(direction, direction)
@@ -249,13 +241,12 @@ _JMA_FIRST = re.compile(rf"SITE CODE=(?:.*\n){{6}}[ \t]*{_JMA_NAMES}[ \t]*(?:\n|
 
 def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
     """The header gives no number of samples."""
-    text = lines(content)
-    rows = text[_JMA_HEADER:]
+    head, rows = parted(content, _JMA_HEADER)
     labels = _JMA_NAMES.split(",")
     if broken := next((row for row in rows if row.strip() and row.count(",") != len(labels) - 1), ""):
         raise RecordError(f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.")
-    table = in_columns(numbers("\n".join(rows).replace(",", " ")), len(labels))
-    return _JMA.channels("\n".join(text[:_JMA_HEADER]), table, labels, options)
+    table = text.table([row.replace(",", " ") for row in rows], len(labels))
+    return _JMA.channels(head, table, labels, options)
 
 
 _CSMNC = Layout("cm/s2", {
@@ -272,8 +263,7 @@ _CSMNC_FIRST = re.compile(r"(?=(?:.*\n){0,15}NO\. OF POINTS:)(?:.*\n){0,15}OBSER
 
 
 def _read_csmnc(content: bytes, options: Options) -> list[Accelerogram]:
-    text = lines(content)
-    return _CSMNC.series("\n".join(text[:_CSMNC_HEADER]), text[_CSMNC_HEADER:], options)
+    return _CSMNC.series(*parted(content, _CSMNC_HEADER), options)
 
 
 _GEONET = Layout("mm/s2", {
@@ -302,18 +292,18 @@ def _geonet_channel(block: list[str], options: Options, total: int) -> Accelerog
     rows = [row for row in block[_HEADER:] if row.strip()]
     # A corrected file goes on with velocity and displacement.
     size = len(rows) // 3 if len(rows) == 3 * -(-samples // _PER_LINE) else len(rows)
-    values = filled(rows[:size], samples, _PER_LINE, _WIDTH)
-    factor = number("raw unit", optional(r"readings in units of\s+([\d.]+)\s*mm/s/s", head) or "1")
+    values = text.filled(rows[:size], samples, _PER_LINE, _WIDTH)
+    factor = text.number("raw unit", optional(r"readings in units of\s+([\d.]+)\s*mm/s/s", head) or "1")
     integers = " ".join(block[_TEXT : _TEXT + 4]).split()
     at = _GEONET.number("peak_time", head)
     if at is not None and len(integers) == 40 and integers[_PREPENDED].isdecimal():
-        at += int(integers[_PREPENDED]) * number("the step", _GEONET.required("step", head))
+        at += int(integers[_PREPENDED]) * text.number("the step", _GEONET.required("step", head))
     record = _GEONET.channel(
         head, values * factor, options, warnings=(note,) if total % 3 else (), peak_time=at
     )
     if size == len(rows):
         return record
-    return agree_with_velocity(record, filled(rows[size : 2 * size], samples, _PER_LINE, _WIDTH) / 1000)
+    return agree_with_velocity(record, text.filled(rows[size : 2 * size], samples, _PER_LINE, _WIDTH) / 1000)
 
 
 _SMC = Layout("cm/s2", {
@@ -325,7 +315,8 @@ _SMC_FIRST = re.compile(
     r"(?i)[0-6] (UNKNOWN|(UN)?CORRECTED ACC|VELOCITY|DISPLACEMENT|RESPONSE|FOURIER)(?:.*\n){11}"
     r"[ \t]*(?:\S+[ \t]+){7}\S+[ \t]*(?:\n|\Z)")  # fmt: skip
 """The first line, and below ten more the first one of integers."""
-_SMC_TEXT, _SMC_INTEGERS, _SMC_REALS = 11, 17, 27  # lines at which each part of the header ends
+_SMC_TEXT = 11
+_SMC_INTEGERS, _SMC_REALS = 6, 16  # lines below the text at which each part of the header ends
 _COMMENTS, _SAMPLES = 15, 16
 _RATE, _LARGEST, _SMALLEST, _CORNER = 1, 29, 31, 32
 """Places in the integer and in the real header; the time of an extreme stands before its value."""
@@ -334,26 +325,28 @@ _MISSING = 1.69e38
 
 
 def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
-    text = lines(content)
-    if text[0][:1] not in ("0", "1", "2"):
-        raise RecordError(f"this SMC file is of kind {text[0].strip()[:40]!r}, not of acceleration.")
-    integers = fields(text[_SMC_TEXT:_SMC_INTEGERS], 10)
-    reals = fields(text[_SMC_INTEGERS:_SMC_REALS], 15)
+    head, rows = parted(content, _SMC_TEXT)
+    kind = head.partition("\n")[0].strip()
+    if kind[:1] not in ("0", "1", "2"):
+        raise RecordError(f"this SMC file is of kind {kind[:40]!r}, not of acceleration.")
+    integers = text.fields(rows[:_SMC_INTEGERS], 10)
+    reals = text.fields(rows[_SMC_INTEGERS:_SMC_REALS], 15)
     if integers.size < 48 or reals.size < 50:
         raise RecordError(f"the header holds {integers.size} integers and {reals.size} reals, not 48 and 50.")
-    remarks, samples = (count("a count in the header", f"{integers[at]:.0f}") for at in (_COMMENTS, _SAMPLES))
+    remarks, samples = (
+        text.count("a count in the header", f"{integers[at]:.0f}") for at in (_COMMENTS, _SAMPLES)
+    )
     first = _SMC_REALS + remarks
-    if any(row.startswith("|") != (at < first) for at, row in enumerate(text[_SMC_REALS:], _SMC_REALS)):
+    if any(row.startswith("|") != (at < first) for at, row in enumerate(rows[_SMC_REALS:], _SMC_REALS)):
         raise RecordError(f"the header declares {remarks} lines of comment, but others begin with |.")
     rate = float(reals[_RATE])
     if not 0 < rate < 1e6:
         raise RecordError(f"samples per second is {rate:g}, but must be greater than 0 and below 1e6.")
-    body = [row for row in text[first:] if row.strip()]
-    width = column_width(body[0]) if body else 10
-    values, notes = whole(fields(body, width), samples, 80 // width)
+    body = [row for row in rows[first:] if row.strip()]
+    width = text.column_width(body[0]) if body else 10
+    values, notes = text.whole(text.fields(body, width), samples, 80 // width)
     extremes = [(abs(reals[i]), reals[i - 1]) for i in (_LARGEST, _SMALLEST) if abs(reals[i]) < _MISSING]
     peak, at = max(extremes, default=(None, 0.0))
-    head = "\n".join(text[:_SMC_TEXT])
     scales = " ".join(optional(r"^Moment (Mag.*)", head).replace("Mag", "Mw").split())
     place = site(*(real if abs(real) < _MISSING else None for real in reals[_PLACE].tolist()))
     facts: dict[str, Any] = {**typed_magnitude(scales), **place, "warnings": notes, "peak": peak}

@@ -67,7 +67,7 @@ def numbers(text: bytes | str) -> np.ndarray:
     raise RecordError("the samples cannot be told apart; every sample must be a plain decimal number.")
 
 
-def fields(rows: list[str], width: int, margin: int = 0) -> np.ndarray:
+def fields(rows: list[str], width: int = 0, margin: int = 0) -> np.ndarray:
     """Return the numbers of `rows`, (n,), apart by blanks; where they touch, by columns of `width` after a `margin`.
 
     width: 0 where they never touch.
@@ -94,11 +94,12 @@ def numbers_per_line(content: bytes) -> int:
     return max(set(counts), key=counts.count, default=0)
 
 
-def in_columns(values: np.ndarray, width: int) -> np.ndarray:
-    """Return `values` in `width` columns, (n, width). Raises RecordError when they do not fill them."""
-    if not width or not values.size or values.size % width:
-        raise RecordError(f"{values.size} numbers do not fill {width} columns; the file is truncated.")
-    return values.reshape(-1, width)
+def table(rows: list[str], columns: int, width: int = 0, margin: int = 0) -> np.ndarray:
+    """Return the numbers of `rows` in columns, (n, columns), as fields() reads them; RecordError if one lacks."""
+    values = fields(rows, width, margin)
+    if not columns or not values.size or values.size % columns:
+        raise RecordError(f"{values.size} numbers do not fill {columns} columns; the file is truncated.")
+    return values.reshape(-1, columns)
 
 
 def column_width(row: str) -> int:
@@ -167,7 +168,12 @@ def even_step(times: np.ndarray) -> float | None:
     allowed = max(0.01 * step, 1.02 * quantum if quantum < 0.9 * step else 0.0) + 1e-9 * abs(times[-1])
     if off > allowed or steps.max() - step > allowed:
         return None
-    return _rounded(step, quantum / times.size)
+    # A whole rate in Hz, or few digits, where that is as likely for times that were rounded.
+    uncertainty = quantum / times.size + 1e-12 * step
+    rate = round(1 / step)
+    candidates = [1 / rate] if rate else []
+    candidates += [float(f"{step:.{digits}g}") for digits in range(1, 10)]
+    return next((candidate for candidate in candidates if abs(candidate - step) <= uncertainty), step)
 
 
 def only_even_step(times: np.ndarray) -> float:
@@ -201,12 +207,3 @@ def check_no_gap(times: np.ndarray, longest: float) -> None:
     if gaps[at] > longest * (1 + 1e-9):
         gap = f"no samples between {times[at]:g} and {times[at + 1]:g} s, more than {longest:g} s apart"
         raise RecordError(f"{gap}; cut the record there, a gap is not bridged.")
-
-
-def _rounded(step: float, uncertainty: float) -> float:
-    """Return a step derived from rounded times as a whole rate in Hz, or with few digits, if that is as likely."""
-    allowed = uncertainty + 1e-12 * step
-    rate = round(1 / step)
-    few = (float(f"{step:.{digits}g}") for digits in range(1, 10))
-    candidates = (*([1 / rate] if rate else []), *few)
-    return next((candidate for candidate in candidates if abs(candidate - step) <= allowed), step)

@@ -12,6 +12,7 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats import text
 from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.header import (
     Layout,
@@ -22,19 +23,6 @@ from rocking.records.formats.header import (
     optional,
     optional_number,
     required,
-)
-from rocking.records.formats.text import (
-    check_no_gap,
-    column_width,
-    count,
-    even_step,
-    fields,
-    filled,
-    in_columns,
-    is_number,
-    number,
-    only_even_step,
-    whole,
 )
 from rocking.records.instrument import is_vertical
 from rocking.records.plausibility import agree_with_mean_square, agree_with_velocity
@@ -76,9 +64,14 @@ def _cosmos(block: list[str], options: Options, total: int) -> Accelerogram | No
     if acceleration_factor(by_code or data["unit"]) != acceleration_factor(data["unit"]):
         raise RecordError(f"the units are {data['unit']!r}, but their code {data['code']} says {by_code}.")
     head = "\n".join(block[:at])
+    end = next((i for i, row in enumerate(block) if i > at and _END.match(row)), None)
+    if end is None:
+        raise RecordError("no line End-of-data ends a channel: the file is truncated; fetch it again.")
+    check_nothing_left(block[end + 1 :])
+    per_line, width = (max(1, int(data[name])) for name in ("per_line", "width"))
     reals = _reals(block[:at])
     step = reals[_STEP] / 1000 if 0 < reals[_STEP] < 1e4 else reals[_RECORDER_STEP]
-    values = _samples(block[at + 1 :], data)
+    values = text.filled(block[at + 1 : end], text.count("number of points", data["n"]), per_line, width)
     length, lasts = reals[_LENGTH], values.size * step
     wrong = 0 < length < 1e5 and abs(length - lasts) > 1.5 * step + 5e-4  # not all agencies fill it
     stated = [None if abs(real - _UNKNOWN) < 1e-3 else real for real in reals]
@@ -92,24 +85,14 @@ def _cosmos(block: list[str], options: Options, total: int) -> Accelerogram | No
     return agree_with_mean_square(record, reals[_RMS], data["unit"], digit=1e-6)
 
 
-def _samples(rows: list[str], data: re.Match[str]) -> np.ndarray:
-    end = next((i for i, row in enumerate(rows) if _END.match(row)), None)
-    if end is None:
-        raise RecordError("no line End-of-data ends a channel: the file is truncated; fetch it again.")
-    check_nothing_left(rows[end + 1 :])
-    declared = count("number of points", data["n"])
-    return filled(rows[:end], declared, max(1, int(data["per_line"])), max(1, int(data["width"])))
-
-
 def _reals(head: list[str]) -> list[float]:
     for i, line in enumerate(head):
         if match := _REALS.match(line):
-            values = fields(head[i + 1 : i + 1 + count("real-header lines", match[2])], int(match[3]) or 1)
-            if values.size == count("real-header values", match[1]) > _PEAK_TIME:
+            rows = head[i + 1 :][: text.count("real-header lines", match[2])]
+            values = text.fields(rows, int(match[3]) or 1)
+            if values.size == text.count("real-header values", match[1]) > _PEAK_TIME:
                 return values.tolist()
-    raise RecordError(
-        "the real header does not hold the values it announces; the file is damaged; fetch it again."
-    )
+    raise RecordError("the real header does not hold the values it announces: it is damaged; fetch it again.")
 
 
 def _component(head: str) -> str:
@@ -123,23 +106,23 @@ def _component(head: str) -> str:
 
 _HEADER, _REALS_AT, _RATE = 27, 20, 8
 _TEXT = 13
-_FILM_STEP = 0.005  # s; the even step to which film records are interpolated
+_APART = 0.005  # s; the even step to which film records are interpolated
 _LONGEST_GAP = 0.25  # s
 _DURATION = r"NO\. OF POINTS\s*=\s*\S+\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)"
 _SIZE = {"samples": r"NO\. OF POINTS\s*=\s*(\S+)"}
 _USC = Layout("g/10", _SIZE | {
     "rms": r"^RMS.*=\s*([\d.]+) G/10", "component": r"^COMP\s+(\S+)", "station": r"^STATION\s+(USC#\s*\d+)",
     "event": r"\A.*\n(.{,60})",
-})  # fmt: skip
+}, width=7, margin=1)  # fmt: skip
 _RENADIC = Layout("g/10", _SIZE | {
     "component": r"^CHAN\s*\d+:\s*(\S+)", "station": r"^(QDR S/N\s*\d+)", "event": r"^([\d/]+ [\d:]+)",
     "peak": r"MAX\s*=\s*(-?[\d.]+)\s*G", "rms": r"^RMS.*=\s*([\d.]+) G\b(?!/)",
-}, peak_unit="g", half_digit=5e-4)  # fmt: skip
+}, peak_unit="g", half_digit=5e-4, width=7)  # fmt: skip
 _BHRC = Layout("g/10", _SIZE | {
     "component": r"^COMP\s+(\S+)", "station": r"FILE:\s*(\w+)", "event": r"^Origin Time\s*:\s*(\S+\s+\S+)",
     "event_time": r"^Origin Time\s*:\s*(\S+\s+\S+)", "magnitude": r"^(Epicenter\b.*)",
     "place": r"\bStation\s+(.*?)\s+Altitude", "elevation": r"\bAltitude\s+(\S+)",
-})  # fmt: skip
+}, per_line=10, width=13)  # fmt: skip
 _CSMIP = {
     "component": r"^Chan\s*\d+:\s*(\S+)", "station": r"^Station No\.\s*(\S+)", "place": r"^Station No\.\s*\S+\s+(.*)",
     "location": r"\bLocation:\s*(.*?)\s*$",  # of the times the earthquake's own, else that of the record
@@ -147,7 +130,7 @@ _CSMIP = {
     "event": r"^(?:(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)|\s*(\S.*\bEARTHQUAKE\b.*))",
     "peak": r"Max\s*=\s*(-?[\d.]+)\s*g",
 }  # fmt: skip
-_FILM = Layout("g/10", _CSMIP | _SIZE, peak_unit="g", half_digit=5e-4)
+_FILM = Layout("g/10", _CSMIP | _SIZE, peak_unit="g", half_digit=5e-4, width=7)
 _CSMIP_1 = Layout("", _CSMIP | {
     "duration": r"Record length\s*=\s*([\d.]+)", "rms": r"\A(?:.*\n){20}.{30}(.{10})",
 }, peak_unit="g", half_digit=5e-4)  # fmt: skip
@@ -169,49 +152,41 @@ def _rows(block: list[str]) -> tuple[str, list[str]]:
 
 
 def _digitised(
-    layout: Layout,
-    block: list[str],
-    options: Options,
-    total: int,
-    margin: int = 0,
-    is_even: bool = False,
+    layout: Layout, block: list[str], options: Options, total: int, is_even: bool = False
 ) -> Accelerogram:
     """Return a channel of five pairs of time and acceleration a line, in columns of 7.
 
     Points of film stand where the trace bends, a dozen to a hundred a second, and are joined by lines.
     """
     head, rows = _rows(block)
-    table = in_columns(fields(rows, 7, margin), 2)
-    times, values = table.T
-    whole(times, layout.count(head), per_line=0)
-    duration = number("duration", optional(_DURATION, head))
+    times, values = text.table(rows, 2, layout.width, layout.margin).T
+    text.whole(times, layout.count(head), per_line=0)
+    duration = text.number("duration", optional(_DURATION, head))
     # The length may count a last step or not.
     if abs(duration - times[-1]) > 2 * np.ptp(times) / (times.size - 1) + 0.001:
         stated = f"the header declares a length of {duration:g} s, but the last sample is at {times[-1]:g} s"
         raise RecordError(f"{stated}; the file is damaged or its header is another's; fetch it again.")
-    step = only_even_step(times) if is_even else even_step(times)
+    step = text.only_even_step(times) if is_even else text.even_step(times)
     if step is not None:
         return layout.channel(head, values, options, step=step, total=total)
-    check_no_gap(times, _LONGEST_GAP)
-    even = np.arange(round(times[0] / _FILM_STEP), int(times[-1] / _FILM_STEP + 1e-6) + 1) * _FILM_STEP
-    note = f"The {times.size} samples are unevenly spaced; interpolated linearly to {even.size} at {_FILM_STEP:g} s."
-    more: dict[str, Any] = {"processing": (note,), "warnings": (note,)}
-    joined, file_samples = np.interp(even, times, values), values * acceleration_factor("g/10")
-    return layout.channel(
-        head, joined, options, step=_FILM_STEP, total=total, file_samples=file_samples, **more
-    )
+    text.check_no_gap(times, _LONGEST_GAP)
+    even = np.arange(round(times[0] / _APART), int(times[-1] / _APART + 1e-6) + 1) * _APART
+    note = f"The {times.size} samples are unevenly spaced; interpolated linearly to {even.size}, {_APART:g} s apart."
+    more: dict[str, Any] = {"processing": (note,), "warnings": (note,), "total": total, "step": _APART}
+    more["file_samples"] = values * acceleration_factor("g/10")
+    return layout.channel(head, np.interp(even, times, values), options, **more)
 
 
 def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
     head, rows = _rows(block)
-    samples = filled(rows, _BHRC.count(head), per_line=10, width=13)
+    samples = text.filled(rows, _BHRC.count(head), _BHRC.per_line, _BHRC.width)
     values, offset = without_offset(samples, options.unit_of("g/10"))
-    step = number("duration", optional(_DURATION, head)) / values.size
+    step = text.number("duration", optional(_DURATION, head)) / values.size
     reals = " ".join(block[_REALS_AT : _REALS_AT + 2]).split()
     printed = reals[_RATE] if len(reals) > _RATE else "0"
-    rate = float(printed) if is_number(printed) else 0.0
+    rate = float(printed) if text.is_number(printed) else 0.0
     note = ""
-    if not is_number(printed):
+    if not text.is_number(printed):
         note = f"The header gives a rate of {printed!r}, which is no number: the file may be damaged."
     elif 1 <= rate <= 1e4 and abs(rate * step - 1) > 1e-3:
         note = f"The header gives a rate of {rate:g} Hz, but duration and count a step of {step:g} s."
@@ -241,7 +216,7 @@ _PER_LINE = 8  # of the volumes before 2000, which do not say it
 
 def _read_csmip(content: bytes, options: Options) -> list[Accelerogram]:
     parts = re.split(r"^/&.*\n?", content.decode("latin-1"), flags=re.M)
-    *channels, rest = (text.split("\n") for text in parts)
+    *channels, rest = (part.split("\n") for part in parts)
     if any(_announcement(line) or _VOLUME_1.match(line) for line in rest):
         channels.append(rest)
     else:
@@ -262,25 +237,21 @@ def _csmip(block: list[str], options: Options, total: int) -> Accelerogram:
         raise RecordError("no line announces points of acceleration: the file is cut or of velocity.")
     parts = []
     for (i, data), end in zip(announced, [*(i for i, _ in announced[1:]), len(block)], strict=True):
-        rows, declared = block[i + 1 : end], count("number of points", data["n"])
-        width = int(data["width"] or column_width(rows[0] if rows else ""))
-        parts.append(filled(rows, declared, max(1, int(data["per_line"] or _PER_LINE)), max(1, width)))
+        rows, declared = block[i + 1 : end], text.count("number of points", data["n"])
+        width = int(data["width"] or text.column_width(rows[0] if rows else ""))
+        parts.append(text.filled(rows, declared, max(1, int(data["per_line"] or _PER_LINE)), max(1, width)))
     head, values = "\n".join(block[: announced[0][0]]), parts[0]
     is_corrected = bool(_VOLUME_2.match(head))
-    step = number("step", facts["step"]) if "step" in facts else 1 / max(1e-9, number("rate", facts["rate"]))
+    rate = facts.get("rate")
+    step = 1 / max(1e-9, text.number("rate", rate)) if rate else text.number("step", facts["step"])
     points = r"^\s*(\S+)\s+points of instrument" if is_corrected else r"^No\. of points\s*=\s*(\S+)"
-    if text := optional(points, head):
-        check_equal("the number of points", count("number of points", text), values.size, 0)
+    if points := optional(points, head):
+        check_equal("the number of points", text.count("number of points", points), values.size, 0)
     interval = optional_number(r"^At equally-spaced intervals of\s+([\d.]+)", head)
     if is_corrected and interval:
         check_equal("the interval", interval, step)
     layout = _CSMIP_2 if is_corrected else _CSMIP_1
-    more: dict[str, Any] = {
-        "unit": facts["unit"],
-        "step": step,
-        "processed": is_corrected,
-        "total": total,
-    }
+    more: dict[str, Any] = {"unit": facts["unit"], "step": step, "processed": is_corrected, "total": total}
     record = layout.channel(head, values, options, **more)
     for part, (_, data) in zip(parts[1:], announced[1:], strict=True):
         if (data.groupdict().get("quantity") or "").lower() == "veloc" and data["unit"].lower() == "cm/sec":
@@ -301,7 +272,7 @@ COSMOS = Format("COSMOS V1/V2", "COSMOS, CESMD and USGS, USA",
     "COSMOS_V1V2")  # fmt: skip
 USC = Format("USC Volume 1", "University of Southern California",
     "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", _USC_FIRST,
-    in_blocks(_USC_FIRST, partial(_digitised, _USC, margin=1)), "USC_V1")  # fmt: skip
+    in_blocks(_USC_FIRST, partial(_digitised, _USC)), "USC_V1")  # fmt: skip
 RENADIC = Format("RENADIC", "RENADIC (Universidad de Chile)",
     "first line UNCORRECTED ACCELEROGRAM DATA PROCESSED with RENADIC below",
     re.compile(_VOLUME_1.pattern + _OF_RENADIC, re.I),
