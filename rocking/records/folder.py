@@ -1,7 +1,7 @@
 """A catalogue from a folder of files: each is listed with what was read, and those of one station share a row."""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from datetime import datetime
@@ -38,35 +38,35 @@ _SQUARE = 5.0  # degrees by which two components may be off a right angle withou
 class ListedFile:
     """One file of a folder as it was read, and the id of the catalogue row it stands in, "" if it cannot be used.
 
-    channels: with two of their samples, so that many fit into memory; samples: how many they have; peaks: PGA, g, and
-    PGV, m/s, of each as it is listed. doubts: what is plausibly wrong, one sentence each. unread: why it gets no row,
-    apart: why it does not share the row of other files of its station, or "". to_fill: the cells that its row leaves
-    blank and that must be filled; declared: those that hold what its header does not say. beside: number of other files
-    in its row. is_again: whether it has the content of an earlier file.
+    channels: with two of their samples, so that many fit into memory; sizes: number of samples of each; peaks: PGA, g,
+    and PGV, m/s, of each as it is listed. doubts: what is plausibly wrong, one sentence each. refusal: why it gets no
+    row; separation: why it does not share the row of other files of its station, or "". blanks: the cells that its row
+    leaves blank and that must be filled; declarations: those that hold what its header does not say. companions: number
+    of other files in its row. is_repeat: whether it has the content of an earlier file.
     """
 
     file: str
     channels: Sequence[Accelerogram] = ()
-    samples: Sequence[int] = ()
+    sizes: Sequence[int] = ()
     peaks: Sequence[tuple[str, str]] = ()
-    unread: str = ""
+    refusal: str = ""
     doubts: tuple[str, ...] = ()
-    declared: Row = field(default_factory=dict)
-    to_fill: tuple[str, ...] = ()
-    apart: str = ""
+    declarations: Row = field(default_factory=dict)
+    blanks: tuple[str, ...] = ()
+    separation: str = ""
     record: str = ""
-    beside: int = 0
-    is_again: bool = False
+    companions: int = 0
+    is_repeat: bool = False
 
     @property
     def status(self) -> str:
         """What there is to say of the file, in one line."""
-        if self.unread:
-            return f"not read: {self.unread}"
-        parts = [f"to fill: {', '.join(self.to_fill)}"] if self.to_fill else list(self.doubts)
-        if self.beside:
-            parts.append(f"Joined with {self.beside} more as {self.record}.")
-        return " ".join(filter(None, [*parts, self.apart])) or "read"
+        if self.refusal:
+            return f"not read: {self.refusal}"
+        parts = [f"to fill: {', '.join(self.blanks)}"] if self.blanks else list(self.doubts)
+        if self.companions:
+            parts.append(f"Joined with {self.companions} more as {self.record}.")
+        return " ".join(filter(None, [*parts, self.separation])) or "read"
 
 
 def list_folder(
@@ -74,41 +74,50 @@ def list_folder(
     *,
     unit: str | None = None,
     time_step: float | None = None,
-    known: Iterable[Mapping[str, str]] = (),
+    catalogue: Iterable[Mapping[str, str]] = (),
 ) -> tuple[list[ListedFile], list[Row]]:
     """Return every file under `folder` as it can be read, in the order of names, and the rows of a catalogue for them.
 
     Files of one event, station and start share a row, the vertical component among them. unit and time_step [s] are
-    used only where a file does not declare them. known: rows that stand in a catalogue already; their files get no
-    other. Catalogues, and files whose name starts with a dot, are passed over. Raises RecordError when there is no
-    folder.
+    used only where a file does not declare them. catalogue: rows that exist already; their files get no other.
+    Catalogues, and files whose name starts with a dot, are passed over. Raises RecordError when there is no folder.
     """
     folder = Path(folder)
     if not folder.is_dir():
         raise RecordError(f"{folder}: this is no folder; give the folder that holds the records.")
-    names = {name.strip(): row["id"] for row in known for name in row["file"].split(";")}
-    paths = sorted(path for path in folder.rglob("*") if path.is_file() and not _passed_over(path))
-    listed = [_listed(path, folder, {"unit": unit, "time_step": time_step}) for path in paths]
-    first: dict[str, str] = {}
+    records = {name.strip(): row["id"] for row in catalogue for name in row["file"].split(";")}
+    ids = {record.lower() for record in records.values()}
+    listed = [_listed(path, folder, {"unit": unit, "time_step": time_step}) for path in _files(folder)]
+    originals: dict[str, str] = {}
     for file in listed:
-        file.record = names.get(file.file, "") or names.get(f"./{file.file}", "")
-        if file.channels and not file.unread:
-            earlier = first.setdefault(file.channels[0].source.sha256, file.file)
-            file.is_again = earlier != file.file
-            if file.is_again:
-                file.doubts += (f"Its content is that of {earlier}: as two records it would count twice.",)
-    taken = {row["id"].lower() for row in known}
+        file.record = records.get(file.file, "") or records.get(f"./{file.file}", "")
+        if file.channels and not file.refusal:
+            original = originals.setdefault(file.channels[0].source.sha256, file.file)
+            file.is_repeat = original != file.file
+            if file.is_repeat:
+                file.doubts += (f"Its content is that of {original}: as two records it would count twice.",)
     rows = []
-    for group in _stations([file for file in listed if not (file.unread or file.record)]):
+    for group in _stations([file for file in listed if not (file.refusal or file.record)]):
         level = [channel for file in group for channel in file.channels if channel.is_horizontal]
         if level:
-            rows.append(_row(group, level, taken))
-            taken.add(rows[-1]["id"].lower())
+            rows.append(_row(group, level, ids))
+            ids.add(rows[-1]["id"].lower())
         for file in group:
             file.record = rows[-1]["id"] if level else ""
-            file.beside = len(group) - 1
-            file.unread = "" if level else f"{_ONLY_VERTICAL} {file.apart}".strip()
+            file.companions = len(group) - 1
+            file.refusal = "" if level else f"{_ONLY_VERTICAL} {file.separation}".strip()
     return listed, rows
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    """Yield the files under `folder` in the order of names, but for hidden ones and catalogues."""
+    for path in sorted(path for path in folder.rglob("*") if path.is_file()):
+        head = b""
+        with suppress(OSError), path.open("rb") as stream:
+            head = stream.read(11).removeprefix(b"\xef\xbb\xbf")
+        is_catalogue = path.suffix.lower() == ".csv" and head.startswith(b"id,file")
+        if not (path.name.startswith(".") or is_catalogue):
+            yield path
 
 
 def _stations(files: Sequence[ListedFile]) -> list[list[ListedFile]]:
@@ -122,7 +131,7 @@ def _stations(files: Sequence[ListedFile]) -> list[list[ListedFile]]:
         together = next((files for files in (group, level) if not _why_apart(files)), [])
         for file in group:
             if file not in together:
-                file.apart = f"Not joined with the other files of its station: {_why_apart(group)}."
+                file.separation = f"Not joined with the other files of its station: {_why_apart(group)}."
                 stations.append([file])
         stations += [together] if together else []
     return sorted(stations, key=lambda group: files.index(group[0]))
@@ -134,10 +143,10 @@ def _station_key(file: ListedFile) -> object:
     folder, _, name = file.file.rpartition("/")
     number = _RSN.match(name)
     is_named = number or (first.station and (first.event or first.start_time))
-    if len(file.channels) > 1 or not is_named or first.borehole or file.is_again:
+    if len(file.channels) > 1 or not is_named or first.borehole or file.is_repeat:
         return None
     of_header = (first.network, first.station, first.location, first.event)
-    return folder, first.source.format, number[1] if number else of_header, file.to_fill
+    return folder, first.source.format, number[1] if number else of_header, file.blanks
 
 
 def _simultaneous(files: list[ListedFile]) -> list[list[ListedFile]]:
@@ -150,7 +159,7 @@ def _simultaneous(files: list[ListedFile]) -> list[list[ListedFile]]:
     for place in np.argsort(starts, kind="stable").tolist():
         if not parts or starts[place] >= end:
             parts.append([])
-            end = starts[place] + files[place].samples[0] * files[place].channels[0].time_step
+            end = starts[place] + files[place].sizes[0] * files[place].channels[0].time_step
         parts[-1].append(place)
     return [[files[place] for place in sorted(part)] for part in parts]
 
@@ -164,11 +173,11 @@ def _why_apart(group: Sequence[ListedFile]) -> str:
     unnamed = (file.file for file in group for channel in file.channels if is_unnamed(channel.component))
     if file := next(unnamed, ""):
         return f"{file} does not name its component"
-    if why := why_apart(channels, [size for file in group for size in file.samples]):
+    if why := why_apart(channels, [size for file in group for size in file.sizes]):
         return why
     if len(level) > 2 or len(channels) - len(level) > 1:
         return f"it has {len(level)} horizontal and {len(channels) - len(level)} vertical components"
-    if any(each.declared != group[0].declared for each in group):
+    if any(each.declarations != group[0].declarations for each in group):
         return "not all of them declare unit and time step"
     if (angle := _angle(level)) is not None and min(angle, 180 - angle) < _SQUARE:
         return f"components {level[0].component} and {level[1].component} point the same way"
@@ -182,13 +191,13 @@ def _angle(level: Sequence[Accelerogram]) -> float | None:
     return (level[1].azimuth - level[0].azimuth) % 180
 
 
-def _listed(path: Path, folder: Path, given: Mapping[str, Any]) -> ListedFile:
+def _listed(path: Path, folder: Path, declared: Mapping[str, Any]) -> ListedFile:
     name = path.relative_to(folder).as_posix()
     file = printable(name)
     try:
-        channels, missing = _read(path, given)
+        channels, missing = _read(path, declared)
     except RecordError as error:
-        return ListedFile(file, unread=printable(str(error)))
+        return ListedFile(file, refusal=printable(str(error)))
     reason = ""
     if not stays_inside(name) or name != name.strip() or name != file:
         reason = _BAD_NAME
@@ -201,12 +210,12 @@ def _listed(path: Path, folder: Path, given: Mapping[str, Any]) -> ListedFile:
         for sentence in (*channel.warnings, *level):
             doubts.setdefault(sentence, []).append(channel.component)
     remarks = tuple(s if len(of) == len(channels) else f"{', '.join(of)}: {s}" for s, of in doubts.items())
-    declared = {_CELLS[name]: f"{given[name]}" for name in missing if given[name]}
-    to_fill = tuple(_CELLS[name] for name in missing if not given[name])
+    declarations = {_CELLS[name]: f"{declared[name]}" for name in missing if declared[name]}
+    blanks = tuple(_CELLS[name] for name in missing if not declared[name])
     own = [replace(channel, acceleration=channel.acceleration[:2]) for channel in channels]
     sizes = [channel.acceleration.size for channel in channels]
-    peaks = [("", "") if to_fill else _peaks(channel) for channel in channels]
-    return ListedFile(file, own, sizes, peaks, reason, remarks, declared, to_fill)
+    peaks = [("", "") if blanks else _peaks(channel) for channel in channels]
+    return ListedFile(file, own, sizes, peaks, reason, remarks, declarations, blanks)
 
 
 def _peaks(record: Accelerogram) -> tuple[str, str]:
@@ -217,29 +226,21 @@ def _peaks(record: Accelerogram) -> tuple[str, str]:
     return f"{record.peak_acceleration / GRAVITY:.3g}", speed
 
 
-def _passed_over(path: Path) -> bool:
-    """Whether a file is hidden or a catalogue."""
-    head = b""
-    with suppress(OSError), path.open("rb") as stream:
-        head = stream.read(11).removeprefix(b"\xef\xbb\xbf")
-    return path.name.startswith(".") or (path.suffix.lower() == ".csv" and head.startswith(b"id,file"))
-
-
 _CELLS = {"unit": "unit", "time_step": "time_step_s"}
 
 
-def _read(path: Path, given: Mapping[str, Any]) -> tuple[list[Accelerogram], tuple[str, ...]]:
+def _read(path: Path, declared: Mapping[str, Any]) -> tuple[list[Accelerogram], tuple[str, ...]]:
     """Return the channels and what had to be declared, which is no more than the file leaves out."""
     for missing in ((), ("unit",), ("time_step",), ("unit", "time_step")):
         with suppress(UndeclaredError):
-            return read(path, **{name: given[name] or _STAND_INS[name] for name in missing}), missing
+            return read(path, **{name: declared[name] or _STAND_INS[name] for name in missing}), missing
     raise UndeclaredError(f"{printable(path.name)}: neither unit nor time step is declared.")
 
 
-def _row(group: Sequence[ListedFile], level: Sequence[Accelerogram], taken: set[str]) -> Row:
+def _row(group: Sequence[ListedFile], level: Sequence[Accelerogram], ids: set[str]) -> Row:
     """Return the row of files whose horizontal components are `level`."""
     first = level[0]
-    fill = group[0].to_fill
+    fill = group[0].blanks
     doubts = dict.fromkeys(doubt for file in group for doubt in file.doubts)
     remarks = [s for s in doubts if not fill or ("m/s" not in s and " g," not in s)]
     if (angle := _angle(level)) is not None and abs(angle - 90) > _SQUARE:
@@ -247,18 +248,18 @@ def _row(group: Sequence[ListedFile], level: Sequence[Accelerogram], taken: set[
         remarks.append(f"Components {names} are {min(angle, 180 - angle):g}° apart, not at right angles.")
     head = f"{first.source.format}.", f"Fill in {' and '.join(fill)}." if fill else ""
     return {
-        "id": _id(group, taken),
+        "id": _id(group, ids),
         "file": ";".join(f"./{file.file}" if file.file[0] in _FORMULA else file.file for file in group),
         "event": first.event.lstrip(_FORMULA + " "),
         "station": first.station.lstrip(_FORMULA + " "),
         "sha256": ";".join(file.channels[0].source.sha256 for file in group),
-        **group[0].declared,
-        "note": plain(" ".join([*head, *remarks, group[0].apart])),
+        **group[0].declarations,
+        "note": plain(" ".join([*head, *remarks, group[0].separation])),
     }
 
 
-def _id(group: Sequence[ListedFile], taken: set[str]) -> str:
-    """Return the file's name, without its component where several share the row, as an identifier not taken yet."""
+def _id(group: Sequence[ListedFile], ids: set[str]) -> str:
+    """Return the file's name, without its component where several share the row, as an identifier not in `ids`."""
     base = _ENDING.sub("", Path(group[0].file).name)
     component = group[0].channels[0].component
     if len(group) > 1:
@@ -270,8 +271,8 @@ def _id(group: Sequence[ListedFile], taken: set[str]) -> str:
             base = base[:same]
     base = re.sub(r"[^A-Za-z0-9._-]+", "_", base)[:70].strip("._-") or "record"
     base = base if is_safe_id(base) else f"record_{base}"
-    names = (base, *(f"{base}_{number}" for number in range(2, len(taken) + 3)))
-    return next(name for name in names if name.lower() not in taken)
+    names = (base, *(f"{base}_{number}" for number in range(2, len(ids) + 3)))
+    return next(name for name in names if name.lower() not in ids)
 
 
 _HEAD = ("file", "component", "format", "step s", "samples", "PGA g", "PGV m/s", "status")
@@ -291,8 +292,8 @@ def listing_text(listed: Sequence[ListedFile]) -> str:
 
 def _lines(file: ListedFile) -> list[tuple[str, ...]]:
     rows: list[tuple[str, ...]] = []
-    for record, samples, peaks in zip(file.channels, file.samples, file.peaks, strict=True):
-        step = "" if "time_step_s" in file.to_fill else f"{record.time_step:g}"
+    for record, samples, peaks in zip(file.channels, file.sizes, file.peaks, strict=True):
+        step = "" if "time_step_s" in file.blanks else f"{record.time_step:g}"
         rows.append(("", record.component, record.source.format, step, str(samples), *peaks, ""))
     first, *others = rows or [("",) * len(_HEAD)]
     return [(file.file, *first[1:-1], file.status), *others]
@@ -304,14 +305,13 @@ _LOOKED_AT = 200  # files beside a catalogue that are opened, at most, to see wh
 def unlisted(catalogue: Path) -> tuple[str, ...]:
     """Return a sentence when records lie beside `catalogue` that neither it nor another catalogue there names."""
     folder = catalogue.parent
-    named: set[Path] = set()
+    catalogued: set[Path] = set()
     for path in folder.glob("*.csv"):
         with suppress(CatalogueError):
             names = (name.strip() for _, row in read_rows(path) for name in row["file"].split(";"))
-            named |= {folder / name for name in names}
-    others = (path for path in sorted(folder.rglob("*")) if path.is_file() and path not in named)
+            catalogued |= {folder / name for name in names}
     records = []
-    for path in islice((path for path in others if not _passed_over(path)), _LOOKED_AT):
+    for path in islice((path for path in _files(folder) if path not in catalogued), _LOOKED_AT):
         with suppress(RecordError):
             form = recognise(undressed(unpacked(bytes_of(path), path.name)))
             records += [path.relative_to(folder).as_posix()] if form.name != "StationXML" else []

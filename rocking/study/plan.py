@@ -14,9 +14,9 @@ from typing import Any, TypeVar
 
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
-from rocking.records.fetch import fill_hashes, filled, local_files
 from rocking.records.folder import unlisted
 from rocking.records.read import LARGEST_FILE
+from rocking.records.station import fill_hashes, local_files, with_hashes
 from rocking.structures import Structure, load_structures
 from rocking.study.settings import Settings, named_files, read_settings
 from rocking.tables import write_whole
@@ -98,7 +98,7 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     collected(_check_writable, Path(settings.results))
     if defects:
         raise ConfigurationError("\n".join(defects))
-    records = {record.id: filled(record, settings.mirror) for record in listed}
+    records = {record.id: with_hashes(record, settings.mirror) for record in listed}
     return Plan(
         settings=settings,
         records=records,

@@ -45,9 +45,9 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
     CatalogueError when `target` is no catalogue.
     """
     standing = [row for _, row in read_rows(target)] if target.exists() else []
-    listed, rows = list_folder(folder, unit=unit, time_step=time_step, known=standing)
+    listed, rows = list_folder(folder, unit=unit, time_step=time_step, catalogue=standing)
     if not rows and not standing:
-        reasons = "; ".join(f"{file.file}: {file.unread}" for file in listed) or "it holds no file"
+        reasons = "; ".join(f"{file.file}: {file.refusal}" for file in listed) or "it holds no file"
         raise RecordError(f"{folder}: no accelerogram was read ({reasons}).")
     if rows:
         used = (name for row in rows for name in row)

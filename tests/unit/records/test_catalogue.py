@@ -18,10 +18,10 @@ from rocking.described import described_values
 from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import CatalogueRecord, load_catalogue, open_record
-from rocking.records import fetch as fetching
+from rocking.records import station as stations
 from rocking.records.catalogue import COLUMNS, catalogue_text, repeated
-from rocking.records.fetch import download, fill_hashes, path_of
 from rocking.records.folder import list_folder, listing_text
+from rocking.records.station import download, fill_hashes, path_of
 
 ROWS = (f"{i / 100},{i % 5},{i % 7},{i % 3}\n" for i in range(50))
 TABLE = "time,NS (gal),EW (gal),UD (gal)\n" + "".join(ROWS)
@@ -32,7 +32,7 @@ SHIPPED = Path(__file__).parents[3] / "records"
 def catalogue_from_folder(folder, **declared):
     """Rows of the files that can be used, and (file, reason) of the others."""
     listed, rows = list_folder(folder, **declared)
-    return rows, [(each.file, each.unread) for each in listed if each.unread]
+    return rows, [(each.file, each.refusal) for each in listed if each.refusal]
 
 
 def fetch(record, mirror=None):
@@ -178,7 +178,7 @@ def answer(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[type[_An
     with http.server.ThreadingHTTPServer(("127.0.0.1", 0), _Answer) as server:
         threading.Thread(target=server.serve_forever, daemon=True).start()
         address = f"http://127.0.0.1:{server.server_port}"
-        monkeypatch.setattr(fetching, "_RAW", f"{address}/{{repository}}/{{commit}}/{{path}}")
+        monkeypatch.setattr(stations, "_RAW", f"{address}/{{repository}}/{{commit}}/{{path}}")
         yield _Answer
         server.shutdown()
 
@@ -202,7 +202,7 @@ def test_a_download_ends_at_a_size_and_after_a_time(
     with pytest.raises(RecordError, match=r"larger than \d+ bytes"):
         fetch(remote(folder))
     assert not [path for path in (tmp_path / "cache").rglob("*") if path.is_file()]
-    monkeypatch.setattr(fetching, "LONGEST_DOWNLOAD", 0.2)
+    monkeypatch.setattr(stations, "LONGEST_DOWNLOAD", 0.2)
     pause = threading.Event()
     slow = staticmethod(lambda: (pause.wait(0.05) or b"0" for _ in range(1000)))
     monkeypatch.setattr(answer, "served", slow)
@@ -319,11 +319,11 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
     listed = {found.file: found for found in list_folder(folder)[0]}
     table = listed["table.csv"]
     assert [channel.component for channel in table.channels] == ["NS", "EW", "UD"]
-    assert table.samples == [50, 50, 50]
+    assert table.sizes == [50, 50, 50]
     # 0, 1, 2, 3, 4 gal again and again have a mean of 2: by the trapezoidal rule 2 cm/s² for 0.49 s
     assert table.channels[0].time_step == 0.01 and table.peaks[0][0] == "0.00408"
     assert float(table.peaks[0][1]) == pytest.approx(0.0098, rel=0.03)
-    assert listed["bare.txt"].record == "bare" and listed["bare.txt"].to_fill == ("unit", "time_step_s")
+    assert listed["bare.txt"].record == "bare" and listed["bare.txt"].blanks == ("unit", "time_step_s")
     notes = {row["id"]: row["note"] for row in list_folder(folder)[1]}
     assert notes["bare"] == "columns of numbers. Fill in unit and time_step_s."
     assert "HHN" in listed["loud.csv"].status and "above 3 g" in listed["loud.csv"].status

@@ -85,7 +85,7 @@ def test_a_folder_joins_the_files_of_a_station_and_says_why_not(station):
     assert "Joined with 2 more" in listed[0].status
     _written(station, "again.asc", "HNN", -VALUES, "10.00")
     files = {file.file: file for file in list_folder(station)[0]}
-    assert "component HNN comes 2 times" in files["e.asc"].status and not files["e.asc"].beside
+    assert "component HNN comes 2 times" in files["e.asc"].status and not files["e.asc"].companions
 
 
 def test_records_beside_the_catalogue_that_it_does_not_name_are_told(station):
