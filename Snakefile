@@ -17,7 +17,6 @@ rule all:
         TARGETS,
 
 
-include: "workflow/rules/compile.smk"
 include: "workflow/rules/summarise.smk"
 include: "workflow/rules/assess.smk"
 include: "workflow/rules/trade.smk"

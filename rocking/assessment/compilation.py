@@ -1,15 +1,21 @@
 """What is compiled when the package is first used on a machine: everything an assessment needs, in two processes."""
 
+import contextlib
+import fcntl
+import hashlib
 import subprocess
 import sys
 import time
 from collections.abc import Callable
+from importlib.metadata import version
+from pathlib import Path
 
 import numpy as np
 
 from rocking.errors import RockingError
 from rocking.motion import Members, integrate, integrate_batch, integrate_members
 from rocking.motion.batch import rocking_spectrum
+from rocking.motion.nonlinear_kernel import rock
 from rocking.pulses import Pulse, extract_pulses
 from rocking.records.accelerogram import Accelerogram
 from rocking.sine_pulse import overturning_amplitudes, predict_maxima, predict_maximum
@@ -24,8 +30,40 @@ _PATIENCE, _EVERY = 3.0, 5.0
 def compile_all(say: Callable[[str], None] = print) -> None:
     """Compile the search for pulses, the closed form and the integration, where that is not done already.
 
-    say: is told what is done, and every few seconds how long it has taken. Raises RockingError when it fails.
+    Beside what numba keeps, a file for each processor names what was compiled; who finds it locked waits for the other
+    process. say: is told what is done, and every few seconds how long it has taken. Raises RockingError when it fails.
     """
+    folder = Path(rock.stats.cache_path)
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / f"{_processor()}.compiled").open("a+", encoding="utf-8") as stamp:
+        with contextlib.suppress(OSError):  # of a file system without locks
+            fcntl.flock(stamp, fcntl.LOCK_EX)
+        stamp.seek(0)
+        if stamp.read() != (source := _source()):
+            _compile(say)
+            stamp.truncate(0)
+            stamp.write(source)
+
+
+def _processor() -> str:
+    """The processor and the Python for which numba keeps what it compiled."""
+    from llvmlite import binding  # numba has imported it
+
+    features = hashlib.sha256(binding.get_host_cpu_features().flatten().encode()).hexdigest()
+    return f"{binding.get_host_cpu_name()}-{features[:8]}.{sys.implementation.cache_tag}"
+
+
+def _source() -> str:
+    """One hash for numba and for what all files beside the kernels say."""
+    digest = hashlib.sha256(version("numba").encode())
+    package = Path(__file__).parents[1]
+    for part in ("motion", "pulses", "sine_pulse"):
+        for path in sorted((package / part).glob("*.py")):
+            digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def _compile(say: Callable[[str], None]) -> None:
     started = time.monotonic()
     command = "from rocking.assessment import compilation; compilation.{}()"
     calls = [

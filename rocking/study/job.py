@@ -8,12 +8,13 @@ import sys
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from time import process_time
 from typing import Any
 
 from rocking.assessment.assess import Failure, assess_structures
+from rocking.assessment.compilation import compile_all
 from rocking.assessment.ensemble import GroundMotions, processed
 from rocking.assessment.fate import BOTH_COMPONENTS, RecordTables
 from rocking.assessment.rows.of_record import (
@@ -38,7 +39,7 @@ from rocking.structures import Structure, load_structures
 from rocking.study.plan import JOBS, sha256_of, structures_sha256
 from rocking.study.results import remove_copies, written_part
 from rocking.study.settings import Settings, read_settings
-from rocking.study.terminal import record_line, tell_error
+from rocking.study.terminal import record_line, tell, tell_error
 from rocking.tables import write_rows, write_whole
 
 Opened = tuple[list[Accelerogram], Accelerogram | None]
@@ -104,6 +105,7 @@ def planned(config: Mapping[str, Any], params: Any) -> tuple[Study, list[Catalog
     ):
         if sha256 != before:
             raise ConfigurationError(f"{name}: the file changed while the study ran; start the study again.")
+    compile_all(partial(tell, "compile"))
     return Study(structures, settings, params.settings_sha256), records
 
 

@@ -31,7 +31,9 @@ _HASHES = Path(".snakemake") / "rocking_hashes.json"
 _SETTLED = 2.0
 """s; a file that changed more recently may change again without its times telling, so its hash is not kept."""
 _SOURCE = {".py", ".csv", ".json", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
-_MOST_JOBS, _FEW, _MANY = 8, 12, 200
+_MOST_JOBS, _MANY = 8, 200
+_FEW = {True: 12, False: 24}
+"""Records worth a job with and without reports: a start costs as much as twenty records without them."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +104,7 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     return Plan(
         settings=settings,
         records=records,
-        jobs=share_out(records, settings.records_per_job),
+        jobs=share_out(records, settings.records_per_job, settings.reports),
         settings_sha256=settings_sha256(settings, structures),
         structures_sha256=structures_sha256(structures),
         package_sha256=package_sha256(reports=settings.reports),
@@ -202,16 +204,18 @@ class ContentHashes:
             write_whole(self._store, json.dumps(self._now).encode())
 
 
-def share_out(identifiers: Iterable[str], size: int | None = None) -> dict[str, tuple[str, ...]]:
+def share_out(
+    identifiers: Iterable[str], size: int | None = None, reports: bool = True
+) -> dict[str, tuple[str, ...]]:
     """Return the identifiers of each job, in their order, by the name of the job.
 
-    size: about how many records a job takes; None chooses twelve, but more rather than start more than eight jobs,
-    and at most 200: a start costs as much as twenty records without reports. A hash of the identifier chooses the job,
-    and their number is a power of two, so that one record more changes one job, or all where that number doubles.
+    size: about how many records a job takes; None chooses twelve, or 24 without reports, but more rather than start
+    more than eight jobs, and at most 200. A hash of the identifier chooses the job, and their number is a power of two,
+    so that one record more changes one job, or all where that number doubles.
     """
     identifiers = tuple(identifiers)
     number = len(identifiers)
-    wanted = number / size if size else max(min(number / _FEW, _MOST_JOBS), number / _MANY)
+    wanted = number / size if size else max(min(number / _FEW[reports], _MOST_JOBS), number / _MANY)
     count = 1 << max(0, (math.ceil(wanted) - 1).bit_length())
     shared: dict[str, list[str]] = {}
     for identifier in identifiers:

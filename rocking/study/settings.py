@@ -75,7 +75,9 @@ class Settings(AssessmentSettings):
         False, "whether each record gets histories.csv, the rotation of every response"
     )
     records_per_job: int | None = described(
-        None, "number of records per job; null: 12, an eighth of all from 96 on, 200 from 1600 on", ge=1
+        None,
+        "number of records per job; null: 12, or 24 without reports; of many an eighth, at most 200",
+        ge=1,
     )
 
     def mapping(self) -> dict[str, Any]:

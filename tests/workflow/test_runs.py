@@ -3,6 +3,8 @@
 import csv
 import json
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -62,6 +64,26 @@ def test_an_edit_of_the_package_runs_again_what_depends_on_it(finished, edited, 
         path.write_bytes(source)
     assert done.returncode == 0, done.stdout
     assert _jobs(done.stdout) == again, done.stdout
+
+
+def test_kernels_are_compiled_once_until_their_folder_is_edited(finished) -> None:
+    """Beside them stands what was compiled. The file that is edited here holds none, so that this takes seconds."""
+    folder = finished.tree / "rocking" / "motion"
+    (stamp,) = (folder / "__pycache__").glob("*.compiled")
+
+    def compiles() -> bool:
+        before = stamp.stat().st_mtime_ns
+        call = "from rocking.assessment.compilation import compile_all; compile_all()"
+        subprocess.run([sys.executable, "-c", call], check=True, **finished.surroundings)
+        return stamp.stat().st_mtime_ns != before
+
+    assert not compiles()
+    source = (folder / "members.py").read_bytes()
+    try:
+        (folder / "members.py").write_bytes(source + b"# edited\n")
+        assert compiles() and not compiles()
+    finally:
+        (folder / "members.py").write_bytes(source)
 
 
 def test_what_the_settings_ask_for_is_waited_for(finished) -> None:

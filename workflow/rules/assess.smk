@@ -6,8 +6,6 @@ for JOB, RECORDS in PLAN.jobs.items():
     rule:
         name:
             f"assess_{JOB}"
-        input:
-            compiled=COMPILED,
         output:
             part_of(JOB),
             [

@@ -1,18 +1,13 @@
 """Assess and report the records of one job, and of a study with no other all: snakemake.* onto rocking.study."""
 
-import os
 from pathlib import Path
 
-from rocking import motion
 from rocking.study.job import planned, run_job
-from rocking.study.terminal import line_writer, tell
+from rocking.study.terminal import line_writer
 
 if __name__ == "__main__":
     study, records = planned(snakemake.config, snakemake.params)
     part, results = Path(snakemake.output[0]).parent, Path(study.settings.results)
-    cached = any(Path(motion.__path__[0], "__pycache__").glob("*.nbi")) or "NUMBA_CACHE_DIR" in os.environ
-    if not cached:  # where a lone job compiles for itself
-        tell("compile", "The integration is compiled, once on this machine: about half a minute.")
     params, tell_line = snakemake.params, line_writer(Path(snakemake.log[0]))
     run_job(records, study, part, results, tell_line, params.files)
     if params.summary:
