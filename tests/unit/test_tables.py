@@ -8,6 +8,7 @@ import math
 import os
 from enum import StrEnum
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -138,6 +139,16 @@ def test_a_frame_has_the_type_of_each_column(tmp_path: Path) -> None:
     assert table["holds"].isna().tolist() == [False, True]
     assert list(frame(MadeRow, tmp_path / "made.csv", ["count"])) == ["count"]
     assert frame(MadeRow, []).dtypes.equals(table.dtypes)
+
+
+@pytest.mark.parametrize(
+    "parts", [("speed", "rad", "s"), ("speed_rad", "s"), ("speed", "rad_s"), ("speed_rad_s",)]
+)
+def test_a_column_is_filled_from_an_attribute_of_an_attribute_wherever_its_name_parts(parts) -> None:
+    source: object = 2.5
+    for part in reversed(parts):
+        source = SimpleNamespace(**{part: source})
+    assert MadeRow.of(source).speed_rad_s == 2.5
 
 
 def test_a_row_of_another_class_is_refused_and_nothing_is_written(tmp_path: Path) -> None:

@@ -118,6 +118,10 @@ def test_times_rounded_in_print_are_even_and_uneven_ones_are_resampled(tmp_path:
     uneven = "".join(f"{t:.4f} {np.sin(t):.6f}\n" for t in times)
     (record,) = read(written(tmp_path, uneven, "r.txt"), unit="g")
     assert "unevenly spaced" in record.warnings[0] and record.processing == record.warnings
+    slowing = "".join(
+        f"{t:.6f} {np.sin(t):.6f}\n" for t in 0.01 * np.arange(400) * (1 + 1e-5 * np.arange(400))
+    )
+    assert "unevenly spaced" in read(written(tmp_path, slowing, "s.txt"), unit="g")[0].warnings[0]
     # linear interpolation of sin between points 0.013 s apart errs by h²/8; the print rounds to 5e-7
     truth = np.sin(times[0] + np.arange(record.acceleration.size) * record.time_step)
     assert np.abs(record.acceleration / 9.80665 - truth).max() < 0.013**2 / 8 + 1e-6
