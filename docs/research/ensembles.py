@@ -100,7 +100,7 @@ def _trial(
     scaled = [each.scaled(factor) for each in components]
     motions = everywhere = GroundMotions.of(scaled[0])
     if len(scaled) > 1:
-        motions = GroundMotions.of_pair(*scaled)
+        motions = GroundMotions.of(*scaled)
         angles = np.pi * np.arange(ALL_DIRECTIONS) / ALL_DIRECTIONS
         everywhere = GroundMotions({(str(each), ""): rotate(*scaled, angle=each) for each in angles.tolist()})
     few, more = (drawn(mechanism, motions, lattice(size), settings) for size in ALLOWED)

@@ -204,7 +204,7 @@ def _case(
     if on_record is not None and isinstance(structure, Structure):
         check = check_model(structure, on_record, record, vertical)
     if settings.ensemble.members and answer.method is Method.MECHANISM_ON_RECORD:
-        motions = GroundMotions.of(record, vertical, processing=settings.ensemble.processing)
+        motions = GroundMotions.of(record, vertical=vertical, processing=settings.ensemble.processing)
         members = ensemble_over_cracks(structure, motions, settings, verdict_only=auto)
         members = replace(members, rotation_ratio=answer.rotation_ratio)
     elif vertical is None and alone:
@@ -358,7 +358,7 @@ def assess(
         cases[name] = assessment.cases[0]
     over_all = cases[names[0]].ensemble
     if over_all is None:
-        motions = GroundMotions.of_pair(records[0], records[1], vertical, processing=varied.processing)
+        motions = GroundMotions.of(*records, vertical=vertical, processing=varied.processing)
         over_all = ensemble_over_cracks(structure, motions, settings)
     of_all = {each.name: getattr(over_all, each.name) for each in fields(Ensemble)}
     of_all["rotation_ratio"] = max(case.integrated_rotation_ratio for case in cases.values())

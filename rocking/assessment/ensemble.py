@@ -8,7 +8,7 @@ deterministic design: rank-1 lattices, the smaller ones contained in the larger.
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from types import MappingProxyType
 
 import numpy as np
@@ -26,9 +26,11 @@ from rocking.records.rotation import aligned, rotate
 from rocking.structures import Mechanism
 
 CAUSES = ("amplitude", "restitution", "polarity", "direction", "processing", "vertical")
-"""What may vary: each is a coordinate of a point of the design."""
-FIRST, MOST_NEAR_A_LIMIT = 16, 256
-"""Members with which an ensemble begins, and those it grows to where its verdict is not clear."""
+"""Names of what may vary: each is a coordinate of a point of the design."""
+FIRST = 16
+"""Members with which an ensemble begins."""
+MOST_NEAR_A_LIMIT = 256
+"""Members that an ensemble grows to where its verdict is not clear."""
 UNANIMOUS = 64
 """Members of which none overturns, or none stands, that settle a verdict."""
 FAR = 0.3
@@ -36,6 +38,14 @@ FAR = 0.3
 sites left out which verdicts that changes."""
 LATTICE_ERROR = 4.0
 """Members times the error of a probability that all but few cases stay below; `calibrate_ensemble` counts them."""
+LEAST_LOSS = 1e-3
+"""Share of the velocity that every member loses at an impact, but for one that is stated to lose less: without a loss a
+member rocks on through millions of impacts below any rotation that matters, and is given up."""
+AS_IT_IS = "unchanged"
+"""Name of the processing that leaves a record as it is."""
+DIRECTIONS = 8
+"""Directions of the motion of two components, spread evenly over half a turn; the other half is that of the sign. The
+target `calibrate_ensemble` holds their verdicts against draws over three times as many directions."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -102,7 +112,7 @@ class Ensemble:
         return self._quantile(0.95)
 
     def _quantile(self, share: float) -> float:
-        """Linear between the members, taken at the middles of equal parts of probability; inf beside one that is."""
+        """The quantile between the members, which stand at the middles of equal parts of probability; inf beside inf."""
         if not self.members:
             return float("nan")
         place = np.clip(share * self.members - 0.5, 0, self.members - 1)
@@ -129,6 +139,16 @@ class Ensemble:
         """Whether all members stay far from overturning."""
         return bool(self.members and self._followed.max() <= FAR)
 
+    def followed_by(self, more: "Ensemble") -> "Ensemble":
+        """Return the ensemble of these members and of `more`, of the same causes."""
+        reasons = {self.rotation_ratios.size + place: reason for place, reason in more.reasons.items()}
+        return replace(
+            self,
+            rotation_ratios=np.append(self.rotation_ratios, more.rotation_ratios),
+            causes={name: np.append(each, more.causes[name]) for name, each in self.causes.items()},
+            reasons={**self.reasons, **reasons},
+        )
+
     def worst(self, cause: str) -> str:
         """Return the value of `cause` with which it rotates most on average; "" of a cause that did not vary."""
         if (values := self.causes.get(cause)) is None:
@@ -136,18 +156,6 @@ class Ensemble:
         capped = np.minimum(self.rotation_ratios, 1.0)
         means = {str(name): float(np.nanmean(capped[values == name])) for name in np.unique(values)}
         return max(means, key=means.__getitem__)
-
-
-LEAST_LOSS = 1e-3
-"""Share of the velocity that every member loses at an impact, but for one that is stated to lose less: without a loss a
-member rocks on through millions of impacts below any rotation that matters, and is given up."""
-AS_IT_IS = "unchanged"
-"""The variant that is the record itself."""
-
-
-DIRECTIONS = 8
-"""Of the motion of two components, spread evenly over half a turn; the other half is that of the sign. The target
-`calibrate_ensemble` holds their verdicts against draws over three times as many directions."""
 
 
 @lru_cache(maxsize=2)  # the two components of a record
@@ -175,34 +183,29 @@ class GroundMotions:
 
     @classmethod
     def of(
-        cls, accelerogram: Accelerogram, vertical: Accelerogram | None = None, *, processing: bool = False
+        cls, *components: Accelerogram, vertical: Accelerogram | None = None, processing: bool = False
     ) -> "GroundMotions":
-        """One component as it is; with `processing`, a raw one as each variant of its processing leaves it."""
-        motions = _processings(processing, accelerogram)
-        horizontal = {(accelerogram.component, name): motion for name, (motion,) in motions.items()}
-        return cls(horizontal, vertical)
+        """Return the motions of one component, or of two and the directions between them, DIRECTIONS in all.
 
-    @classmethod
-    def of_pair(
-        cls,
-        first: Accelerogram,
-        second: Accelerogram,
-        vertical: Accelerogram | None = None,
-        *,
-        processing: bool = False,
-    ) -> "GroundMotions":
-        """Both horizontal components and the directions between them, DIRECTIONS in all. Raises RecordError.
-
-        processing: as in `of`.
+        vertical: with one component sample by sample as it is. processing: whether a raw record is taken as each
+        variant of its processing leaves it. Raises RecordError for components that do not belong together.
         """
-        names = {0: first.component or "first", DIRECTIONS // 2: second.component or "second"}
-        horizontal: dict[tuple[str, str], Accelerogram] = {}
-        for processed_as, (one, other) in _processings(processing, first, second).items():
-            for place in range(DIRECTIONS):
-                motion = rotate(one, other, angle=np.pi * place / DIRECTIONS)
-                horizontal[names.get(place, motion.component), processed_as] = motion
-        along = next(iter(horizontal.values()))
-        return cls(horizontal, None if vertical is None else aligned(vertical, along))
+        raw = all(each.source.path and each.processed is False for each in components)
+        variants_of = [processed(each) if processing and raw else {"": each} for each in components]
+        names = [name for name in variants_of[0] if all(name in each for each in variants_of)]
+        ends = {0: components[0].component or "first", DIRECTIONS // 2: components[-1].component or "second"}
+        horizontal = {}
+        for name in names:
+            first, *others = (each[name] for each in variants_of)
+            if not others:
+                horizontal[first.component, name] = first
+            for second in others:
+                for place in range(DIRECTIONS):
+                    motion = rotate(first, second, angle=np.pi * place / DIRECTIONS)
+                    horizontal[ends.get(place, motion.component), name] = motion
+        if vertical is not None and len(components) > 1:
+            vertical = aligned(vertical, next(iter(horizontal.values())))
+        return cls(horizontal, vertical)
 
     def scaled(self, factor: float) -> "GroundMotions":
         """Return the motions with the horizontal ones multiplied by `factor`."""
@@ -211,23 +214,13 @@ class GroundMotions:
 
     @cached_property
     def directions(self) -> tuple[str, ...]:
-        """The names of the directions."""
+        """Names of the directions."""
         return tuple(dict.fromkeys(direction for direction, _ in self.horizontal))
 
     @cached_property
     def processings(self) -> tuple[str, ...]:
-        """The names of the processings."""
+        """Names of the processings."""
         return tuple(dict.fromkeys(processing for _, processing in self.horizontal))
-
-
-def _processings(wanted: bool, *components: Accelerogram) -> dict[str, tuple[Accelerogram, ...]]:
-    """The components by what their processing is named; those of raw ones that fit them all, if wanted."""
-    raw = all(each.source.path and each.processed is False for each in components)
-    if not (wanted and raw):
-        return {"": components}
-    variants_of = [processed(component) for component in components]
-    names = [name for name in variants_of[0] if all(name in each for each in variants_of)]
-    return {name: tuple(each[name] for each in variants_of) for name in names}
 
 
 _GENERATOR = (1, 182667, 469891, 377, 1723, 1677)
@@ -249,18 +242,12 @@ def lattice(size: int) -> np.ndarray:
     size: one of SIZES. A point k has the coordinates k z/size modulo 1 with the generating vector z, moved by _SHIFT.
     Those of the lattice of a quarter the size come first.
     """
-    generator = np.array(_GENERATOR) % size
-    points = (_order(size)[:, None] * generator % size / size + _SHIFT) % 1.0
+    order = np.arange(SIZES[0])
+    while order.size < size:
+        order = np.append(4 * order, np.setdiff1d(np.arange(4 * order.size), 4 * order))
+    points = (order[:, None] * (np.array(_GENERATOR) % size) % size / size + _SHIFT) % 1.0
     points.setflags(write=False)
     return points
-
-
-def _order(size: int) -> np.ndarray:
-    """The numbers below `size`, those that a quarter of the points would have before the others."""
-    if size <= SIZES[0]:
-        return np.arange(size)
-    coarse = _order(size // 4) * 4
-    return np.concatenate([coarse, np.setdiff1d(np.arange(size), coarse)])
 
 
 def ensemble(
@@ -281,29 +268,20 @@ def ensemble(
     """
     settings = settings or EnsembleSettings()
     points = lattice(max(settings.size, MOST_NEAR_A_LIMIT))
-    made = drawn(structure, motions, points[:FIRST], settings, tolerance=tolerance)
+    follow = partial(drawn, structure, motions, settings=settings, tolerance=tolerance)
+    made = follow(points[:FIRST])
     quick = verdict_only or whether_it_stands
     falls = made.overturning_share - made.probability_error > settings.risk
     if np.all(made.rotation_ratios <= NEGLIGIBLE) or (quick and made.far) or (whether_it_stands and falls):
         return made
-    for size in (settings.size,) if whether_it_stands else (settings.size, MOST_NEAR_A_LIMIT):
-        done = made.rotation_ratios.size
-        if size > done and (done == FIRST or _near_a_limit(made)):
-            more = drawn(structure, motions, points[done:size], settings, tolerance=tolerance)
-            made = replace(
-                made,
-                rotation_ratios=np.concatenate([made.rotation_ratios, more.rotation_ratios]),
-                causes={
-                    name: np.concatenate([each, more.causes[name]]) for name, each in made.causes.items()
-                },
-                reasons={**made.reasons, **{done + k: reason for k, reason in more.reasons.items()}},
-            )
-    return made
-
-
-def _near_a_limit(made: Ensemble) -> bool:
+    usual = max(settings.size, FIRST)
+    if usual > FIRST:
+        made = made.followed_by(follow(points[FIRST:usual]))
     opposite = min(made.overturning_share, 1 - made.overturning_share)
-    return made.verdict is Verdict.UNDECIDED and opposite - made.probability_error <= made.settings.risk
+    near_a_limit = made.verdict is Verdict.UNDECIDED and opposite - made.probability_error <= settings.risk
+    if near_a_limit and usual < MOST_NEAR_A_LIMIT and not whether_it_stands:
+        made = made.followed_by(follow(points[usual:MOST_NEAR_A_LIMIT]))
+    return made
 
 
 def drawn(
@@ -325,23 +303,22 @@ def drawn(
     restitution = np.clip(own + offset[:, None], 0.0, np.maximum(own, 1 - LEAST_LOSS))
     unlike = settings.polarity and not reduced.symmetric
     polarity = np.where(points[:, 2] < 0.5, -1.0, 1.0) if unlike else np.ones(len(points))
-    directions, processings = motions.directions, motions.processings
-    direction = np.array(directions)[(points[:, 3] * len(directions)).astype(int)]
-    processing = np.array(processings)[(points[:, 4] * len(processings)).astype(int)]
+    direction = np.array(motions.directions)[(points[:, 3] * len(motions.directions)).astype(int)]
+    processing = np.array(motions.processings)[(points[:, 4] * len(motions.processings)).astype(int)]
     lifted = np.where(points[:, 5] < 0.5, amplitude, 0.0)
     varies = {
         "amplitude": amplitude if settings.amplitude_range else None,
         "restitution": offset if settings.restitution_range else None,
         "polarity": polarity if unlike else None,
-        "direction": direction if len(directions) > 1 else None,
-        "processing": processing if len(processings) > 1 else None,
+        "direction": direction if len(motions.directions) > 1 else None,
+        "processing": processing if len(motions.processings) > 1 else None,
         "vertical": lifted > 0 if motions.vertical is not None else None,
     }
     causes = {name: values for name, values in varies.items() if values is not None}
     ratios = np.full(len(points), np.nan)
     reasons: dict[int, str] = {}
-    for (along, done), motion in motions.horizontal.items():
-        rows = np.flatnonzero((direction == along) & (processing == done))
+    for (along, variant), motion in motions.horizontal.items():
+        rows = np.flatnonzero((direction == along) & (processing == variant))
         if rows.size:
             forcing = forcing_of(motion, motions.vertical)
             lift = None if motions.vertical is None else lifted[rows]

@@ -256,5 +256,5 @@ def _pair(assessed: Assessed, vertical: Accelerogram | None) -> GroundMotions | 
     if len(assessed.accelerograms) == 2 and ensemble.members:
         first, second = assessed.accelerograms
         with assessed.stage("directions", BOTH_COMPONENTS):
-            return GroundMotions.of_pair(first, second, vertical, processing=ensemble.processing)
+            return GroundMotions.of(first, second, vertical=vertical, processing=ensemble.processing)
     return None
