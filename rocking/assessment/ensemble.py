@@ -112,7 +112,7 @@ class Ensemble:
         return self._quantile(0.95)
 
     def _quantile(self, share: float) -> float:
-        """The quantile between the members, which stand at the middles of equal parts of probability; inf beside inf."""
+        """The quantile between the members at the middles of equal parts of probability; inf beside inf."""
         if not self.members:
             return float("nan")
         place = np.clip(share * self.members - 0.5, 0, self.members - 1)
