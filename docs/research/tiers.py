@@ -4,6 +4,7 @@ And what `fidelity: auto` does with them on those sites: where it stops, what it
 """
 
 import hashlib
+import json
 from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
@@ -18,13 +19,13 @@ from docs.research.scores import Score
 from rocking.assessment import fidelity
 from rocking.assessment.ensemble import GroundMotions, drawn, ensemble, lattice
 from rocking.assessment.fidelity import NUDGES, STRUCTURE, Tier, TierFit, cheapest_answer, stays_at_rest
-from rocking.assessment.fidelity import write_tiers as write_fits
 from rocking.assessment.intensity import peak_velocity
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import Method, Verdict
 from rocking.motion import integrate, integrate_batch
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism, Outcome
+from rocking.tables import write_whole
 
 FACTORS = (0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8)
 """On each record, so that it speaks for weaker and stronger shaking of the same shape."""
@@ -48,7 +49,11 @@ def write_tiers(records: sites.Records, folder: Path) -> None:
     publish(folder, "What a cheap figure says of overturning", f"{subtitle}.", {Score: rows})
     hashes = "\n".join(sorted({record.source.sha256 for _, _, record in counted}))
     about["records_sha256"] = hashlib.sha256(hashes.encode()).hexdigest()
-    write_fits(folder / "tiers.json", {tier: fit(tier, cases) for tier in Tier}, about)
+    fits = {tier: {"terms": tier.terms, **vars(fit(tier, cases))} for tier in Tier}
+    for each in fits.values():
+        del each["tier"]
+    text = json.dumps({"about": about, "tiers": fits}, indent=1, default=np.ndarray.tolist)
+    write_whole(folder / "tiers.json", (text + "\n").encode())
 
 
 def tier_cases(

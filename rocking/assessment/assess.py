@@ -8,7 +8,7 @@ from time import process_time
 from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.ensemble import Ensemble, GroundMotions
-from rocking.assessment.fidelity import Answer, Estimate, Tier, cheapest_answer, estimated
+from rocking.assessment.fidelity import Answer, Estimate, Tier, answer_of, cheapest_answer, estimated
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import crack_margin, cracks, ensemble_over_cracks
 from rocking.assessment.verdict import Method, ratio_in_words
@@ -115,7 +115,8 @@ def assess_structures(
 ) -> Assessment:
     """Predict and integrate every structure under `accelerogram`; one that fails costs no other.
 
-    alone: whether no ensemble over the directions of the record follows, which says more than an estimate.
+    alone: False where an ensemble over the directions of the record speaks for its components, which then get neither
+    an ensemble nor an estimate of their own.
     """
     settings = settings or AssessmentSettings()
     started = process_time()
@@ -142,9 +143,7 @@ def assess_structures(
 
 
 def predict(
-    mechanism: Mechanism,
-    candidates: Sequence[PulseEvidence],
-    settings: AssessmentSettings | None = None,
+    mechanism: Mechanism, candidates: Sequence[PulseEvidence], settings: AssessmentSettings | None = None
 ) -> Prediction:
     """Return the closed forms of the equivalent block of `mechanism` under the candidate of largest demand.
 
@@ -178,14 +177,17 @@ def _case(
 ) -> Case:
     mechanism = structure if isinstance(structure, Mechanism) else structure.mechanism()
     block = mechanism.equivalent_block(settings.acceleration_scale)  # kept: it is no time of the closed form
-    prediction, durations, auto = None, {}, settings.fidelity == "auto"
+    durations: dict[Method, float] = {}
+    prediction = None
     if candidates:
         started = process_time()
         prediction = predict(mechanism, candidates, settings)
         durations[Method.CLOSED_FORM] = process_time() - started
     responses: dict[Method, Response] = {}
+    auto = settings.fidelity == "auto"
+    members = settings.ensemble.members if alone else 0
     if auto:
-        answer = _cheapest(structure, mechanism, record, settings, vertical)
+        answer = _cheapest(structure, mechanism, record, settings, vertical, ensemble_follows=members > 0)
         if answer.response is not None:
             responses[Method.MECHANISM_ON_RECORD] = answer.response
     else:
@@ -199,17 +201,18 @@ def _case(
             started = process_time()
             responses[method] = integrate(moved, motion, settings.tolerance, **how)
             durations[method] = process_time() - started
-        answer = Answer.of(responses[Method.MECHANISM_ON_RECORD])
-    on_record, check, members, estimate = responses.get(Method.MECHANISM_ON_RECORD), UNKNOWN, None, None
-    if on_record is not None and isinstance(structure, Structure):
-        check = check_model(structure, on_record, record, vertical)
-    if settings.ensemble.members and answer.method is Method.MECHANISM_ON_RECORD:
+        answer = answer_of(responses[Method.MECHANISM_ON_RECORD])
+    check = UNKNOWN
+    if isinstance(structure, Structure) and answer.response is not None:
+        check = check_model(structure, answer.response, record, vertical)
+    case = Case(name, mechanism, prediction, responses, check, answer, durations=durations)
+    if members and answer.method is Method.MECHANISM_ON_RECORD:
         motions = GroundMotions.of(record, vertical=vertical, processing=settings.ensemble.processing)
-        members = ensemble_over_cracks(structure, motions, settings, verdict_only=auto)
-        members = replace(members, rotation_ratio=answer.rotation_ratio)
-    elif vertical is None and alone:
-        estimate = estimated(Tier.PEAK_VELOCITY, mechanism, record)
-    return Case(name, mechanism, prediction, responses, check, answer, members, estimate, durations)
+        ensemble = ensemble_over_cracks(structure, motions, settings, verdict_only=auto)
+        return replace(case, ensemble=replace(ensemble, rotation_ratio=answer.rotation_ratio))
+    if alone and vertical is None:
+        return replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
+    return case
 
 
 def _cheapest(
@@ -218,25 +221,26 @@ def _cheapest(
     record: Accelerogram,
     settings: AssessmentSettings,
     vertical: Accelerogram | None,
+    ensemble_follows: bool,
 ) -> Answer:
-    """What settles the verdict with the least work.
+    """Return what settles the verdict with the least work.
 
     Where other cracks may form, nothing cheaper than the mechanism settles it unless all of them rest, or stand by
     their peak velocities.
     """
-    may_form = [each for _, each in cracks(structure)]
-    risk, first = settings.fidelity_risk, mechanism if len(may_form) == 1 else may_form[0]
-    if len(may_form) > 1:
+    mechanisms = [each for _, each in cracks(structure)]
+    of_statics = mechanism if len(mechanisms) == 1 else mechanisms[0]
+    risk = settings.fidelity_risk
+    if len(mechanisms) > 1:
         motion = record.scaled(crack_margin(structure))
-        estimates = (estimated(Tier.PEAK_VELOCITY, each, motion) for each in may_form)
+        estimates = (estimated(Tier.PEAK_VELOCITY, each, motion) for each in mechanisms)
         if not all(each is not None and each.high <= risk for each in estimates):
             risk = 0.0
     how: Any = {"tolerance": settings.tolerance, "vertical": vertical, "history": True}
-    follows = settings.ensemble.members > 0
-    answer = cheapest_answer(first, record, risk=risk, ensemble_follows=follows, **how)
-    if answer.method is not Method.MECHANISM_ON_RECORD or first is mechanism:
+    answer = cheapest_answer(of_statics, record, risk=risk, ensemble_follows=ensemble_follows, **how)
+    if answer.method is not Method.MECHANISM_ON_RECORD or of_statics is mechanism:
         return answer
-    return Answer.of(integrate(mechanism, record, **how), answer.reason)
+    return answer_of(integrate(mechanism, record, **how), answer.reason)
 
 
 @dataclass(frozen=True)
@@ -340,19 +344,16 @@ def assess(
     ):
         if not isinstance(value, allowed):
             raise ConfigurationError(f"{name} is a {type(value).__name__}, but must be {words}.")
-    settings = replace(settings, fidelity="full")
-    wanted = settings.ensemble.members if members is None else members
-    varied = replace(settings.ensemble, members=wanted or EnsembleSettings().members)
-    settings = replace(settings, ensemble=varied)
+    number = settings.ensemble.members if members is None else members
+    varied = replace(settings.ensemble, members=number or EnsembleSettings().members)
+    settings = replace(settings, fidelity="full", ensemble=varied)
     names = [each.component for each in records]
     if len(set(names)) < len(names) or not all(names):
         names = [f"component {place}" for place, _ in enumerate(records, start=1)]
-    alone = len(records) == 1
-    # The ensemble over the directions of a pair speaks for its components.
-    of_each = settings if alone else replace(settings, ensemble=replace(varied, members=0))
     cases = {}
     for name, each in zip(names, records, strict=True):
-        assessment = assess_structures(each, {"structure": structure}, of_each, vertical, alone)
+        alone = len(records) == 1
+        assessment = assess_structures(each, {"structure": structure}, settings, vertical, alone)
         if not assessment.cases:
             raise RockingError(assessment.failures[-1].message)
         cases[name] = assessment.cases[0]

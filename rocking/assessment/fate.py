@@ -7,18 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar, get_args, get_type_hints
 
 from rocking.assessment.rows import of_record as rows
-from rocking.assessment.rows.of_record import (
-    ComparisonRow,
-    ComponentRow,
-    EnsembleRow,
-    FailureRow,
-    HorizontalMotion,
-    MembersRow,
-    PulseRow,
-    RecordRow,
-    TimingRow,
-    VariationRow,
-)
+from rocking.assessment.rows.of_record import ComparisonRow, EnsembleRow, FailureRow, MembersRow, VariationRow
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import Verdict
 from rocking.records import Accelerogram
@@ -69,13 +58,15 @@ class Fate(MembersRow):
         if self.verdict is not Verdict.UNDECIDED:
             return ""
         leans_to = Verdict.OVERTURNS if self.overturning_share >= 0.5 else Verdict.STANDS
-        told = f"leans to {leans_to}" + (f", overturns in {self.count}" if self.members else "")
-        if not self.elsewhere_crack:
-            return told
-        there = f"with the {self.elsewhere_crack}"
-        if not self.elsewhere_members:
-            return f"{told}, overturns {there}"
-        return f"{told}, {there} in {self.elsewhere_overturning_members} of {self.elsewhere_members}"
+        words = [f"leans to {leans_to}"]
+        if self.members:
+            words.append(f"overturns in {self.count}")
+        if self.elsewhere_members:
+            there = f"{self.elsewhere_overturning_members} of {self.elsewhere_members}"
+            words.append(f"with the {self.elsewhere_crack} in {there}")
+        elif self.elsewhere_crack:
+            words.append(f"overturns with the {self.elsewhere_crack}")
+        return ", ".join(words)
 
 
 def worst_first(fates: Iterable[tuple[str, Fate]]) -> list[str]:
@@ -133,36 +124,35 @@ def _fate(
     fallen: Sequence[VariationRow],
 ) -> Fate:
     worst = max(cases, key=_badness)
-    missing = [failure.component for failure in failures]
-    over_all = ensemble is not None and ensemble.component == BOTH_COMPONENTS
+    verdict = Verdict.STANDS
+    why = worst.answer_reason or "one run as recorded, without an ensemble"
     elsewhere_crack = ensemble.elsewhere_crack if ensemble else ""
     if ensemble is not None:
         verdict = ensemble.verdict
         why = f"{ensemble.overturning_members} of {ensemble.members} members overturn"
     elif worst.answer_outcome is Outcome.OVERTURNS:
-        verdict, why = Verdict.OVERTURNS, worst.answer_reason
+        verdict = Verdict.OVERTURNS
     elif fallen:
-        verdict, elsewhere_crack = Verdict.UNDECIDED, fallen[0].crack
+        verdict = Verdict.UNDECIDED
+        elsewhere_crack = fallen[0].crack
         why = f"one run as recorded stands, and with the {elsewhere_crack} it overturns"
-    else:
-        verdict, why = Verdict.STANDS, worst.answer_reason
-    if missing and verdict is not Verdict.OVERTURNS and not over_all:
+    over_all = ensemble is not None and ensemble.component == BOTH_COMPONENTS
+    if failures and verdict is not Verdict.OVERTURNS and not over_all:
         verdict = Verdict.UNKNOWN
-        why = f"the component {', '.join(name or 'not named' for name in missing)} gave no result"
+        missing = ", ".join(failure.component or "not named" for failure in failures)
+        why = f"the component {missing} gave no result"
     single = math.nan if verdict is Verdict.UNKNOWN else float(verdict is Verdict.OVERTURNS)
     return Fate.of(
         worst,
         ensemble,
-        component=ensemble.component if ensemble else worst.component,
+        {"overturning_members": 0, "members": 0, "overturning_share": single},
+        component=(ensemble or worst).component,
         verdict=verdict,
-        overturning_members=ensemble.overturning_members if ensemble else 0,
-        members=ensemble.members if ensemble else 0,
-        overturning_share=ensemble.overturning_share if ensemble else single,
         elsewhere_crack=elsewhere_crack,
         rotation_ratio=worst.integrated_rotation_ratio,
         direction=(ensemble and ensemble.worst_direction) or (worst.component if len(cases) > 1 else ""),
         polarity=ensemble and ensemble.worst_polarity,
-        why=why or "one run as recorded, without an ensemble",
+        why=why,
     )
 
 
@@ -183,13 +173,13 @@ def _badness(case: ComparisonRow) -> tuple[bool, float]:
 class RecordTables:
     """Every row of one record, by table; each field is named as its file."""
 
-    record: list[RecordRow] = field(default_factory=list)
-    pulses: list[PulseRow] = field(default_factory=list)
+    record: list[rows.RecordRow] = field(default_factory=list)
+    pulses: list[rows.PulseRow] = field(default_factory=list)
     comparison: list[ComparisonRow] = field(default_factory=list)
     ensemble: list[EnsembleRow] = field(default_factory=list)
     variations: list[VariationRow] = field(default_factory=list)
     failures: list[FailureRow] = field(default_factory=list)
-    timings: list[TimingRow] = field(default_factory=list)
+    timings: list[rows.TimingRow] = field(default_factory=list)
 
     @classmethod
     def read(cls, folder: Path) -> "RecordTables":
@@ -214,12 +204,12 @@ class RecordTables:
 
     def add(
         self,
-        identity: ComponentRow,
+        identity: rows.ComponentRow,
         assessment: "Assessment",
         settings: AssessmentSettings,
         licence: str,
         vertical: Accelerogram | None = None,
-        motion: HorizontalMotion | None = None,
+        motion: rows.HorizontalMotion | None = None,
     ) -> None:
         """Append what one assessment gives. motion: of the pair of components, or None for that of one alone."""
         dominant = assessment.analysis.dominant if assessment.analysis else None

@@ -33,7 +33,6 @@ from rocking.motion.members import Members, integrate_members
 from rocking.motion.response import Response
 from rocking.records import Accelerogram
 from rocking.structures import EquivalentBlock, Mechanism, Outcome
-from rocking.tables import write_whole
 
 NUDGES = (0.75, 0.875, 1.0, 1.125, 1.25)
 """Factors on the ground motion at which the block is tried around the motion as given."""
@@ -120,7 +119,7 @@ def shipped_tiers() -> dict[Tier, TierFit]:
 
 
 def read_tiers(path: Path) -> dict[Tier, TierFit]:
-    """Return the tiers in a file that `write_tiers` made."""
+    """Return the tiers in a file that the target `calibrate` made."""
     fits = {}
     for name, each in json.loads(path.read_text(encoding="utf-8"))["tiers"].items():
         del each["terms"]
@@ -129,15 +128,6 @@ def read_tiers(path: Path) -> dict[Tier, TierFit]:
         }
         fits[Tier(name)] = TierFit(Tier(name), **values)
     return fits
-
-
-def write_tiers(path: Path, fits: Mapping[Tier, TierFit], about: Mapping[str, object]) -> None:
-    """Write tiers as JSON. about: records, sites and cases behind them, and records_sha256 of the records' hashes."""
-    tiers = {tier: {"terms": tier.terms, **vars(fit)} for tier, fit in fits.items()}
-    for each in tiers.values():
-        del each["tier"]
-    text = json.dumps({"about": dict(about), "tiers": tiers}, indent=1, default=np.ndarray.tolist)
-    write_whole(path, (text + "\n").encode())
 
 
 def of_structure(mechanism: Mechanism) -> dict[str, float]:
@@ -153,11 +143,8 @@ def of_structure(mechanism: Mechanism) -> dict[str, float]:
 
 def of_velocity(record: Accelerogram, block: EquivalentBlock) -> dict[str, float]:
     """Return ln of p PGV/(gλ)."""
-    return {
-        "peak_velocity": float(
-            np.log(np.clip(per_velocity(block) * peak_velocity(record), _SMALLEST, _LARGEST))
-        )
-    }
+    severity = per_velocity(block) * peak_velocity(record)
+    return {"peak_velocity": float(np.log(np.clip(severity, _SMALLEST, _LARGEST)))}
 
 
 def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
@@ -180,23 +167,24 @@ def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class Answer:
-    """What answered, with which largest rotation over the critical one, and why nothing dearer was asked.
-
-    rotation_ratio: nan where a tier says that it stands. response: None without an integration. estimate: of a tier,
-    where one answered.
-    """
+    """What answered, and why nothing dearer was asked. response: None without an integration."""
 
     method: Method
-    rotation_ratio: float
     outcome: Outcome
-    response: Response | None
-    reason: str = ""
-    estimate: Estimate | None = None
+    reason: str
+    response: Response | None = None
 
-    @classmethod
-    def of(cls, whole: Response, reason: str = "") -> "Answer":
-        """What the mechanism on the record itself says."""
-        return cls(Method.MECHANISM_ON_RECORD, whole.rotation_ratio, whole.outcome, whole, reason)
+    @property
+    def rotation_ratio(self) -> float:
+        """Largest rotation over the critical one; inf if it overturns, nan where a tier says that it stands."""
+        if self.response is not None:
+            return self.response.rotation_ratio
+        return math.inf if self.outcome is Outcome.OVERTURNS else math.nan
+
+
+def answer_of(whole: Response, reason: str = "") -> Answer:
+    """Return what the mechanism on the record itself says."""
+    return Answer(Method.MECHANISM_ON_RECORD, whole.outcome, reason, whole)
 
 
 def stays_at_rest(
@@ -224,18 +212,21 @@ def cheapest_answer(
     ships. Raises MotionError as `integrate` does.
     """
     if stays_at_rest(mechanism, record, vertical):
-        still = Response(0.0, Outcome.NO_UPLIFT)
         reason = "the ground never reaches the uplift acceleration"
-        return Answer(Method.NOTHING_TO_INTEGRATE, 0.0, Outcome.NO_UPLIFT, still, reason)
-    if vertical is None and risk > 0:
-        estimate = estimated(Tier.PEAK_VELOCITY, mechanism, record, fits)
-        if estimate is not None and estimate.high <= risk:
-            return _settled(estimate, Method.PEAK_VELOCITY, "p PGV/(gλ)", risk)
-        estimate = estimated(Tier.BLOCK_AT_FIVE_SCALES, mechanism, record, fits) if ensemble_follows else None
-        if estimate is not None and (estimate.high <= risk or estimate.low >= 1 - risk):
-            return _settled(estimate, Method.BLOCK_ON_RECORD, f"the block at {len(NUDGES)} scales", risk)
+        still = Response(0.0, Outcome.NO_UPLIFT)
+        return Answer(Method.NOTHING_TO_INTEGRATE, Outcome.NO_UPLIFT, reason, still)
+    tiers = {Tier.PEAK_VELOCITY: (Method.PEAK_VELOCITY, "p PGV/(gλ)")}
+    if ensemble_follows:
+        tiers[Tier.BLOCK_AT_FIVE_SCALES] = (Method.BLOCK_ON_RECORD, f"the block at {len(NUDGES)} scales")
+    for tier, (method, name) in tiers.items() if vertical is None and risk > 0 else ():
+        if (estimate := estimated(tier, mechanism, record, fits)) is not None:
+            reason = f"{name} settles it at a risk of {100 * risk:g} %"
+            if estimate.high <= risk:
+                return Answer(method, Outcome.ROCKS, reason)
+            if estimate.low >= 1 - risk and tier is Tier.BLOCK_AT_FIVE_SCALES:
+                return Answer(method, Outcome.OVERTURNS, reason)
     whole = integrate(mechanism, record, tolerance, history=history, vertical=vertical)
-    return Answer.of(whole, f"{'the block' if ensemble_follows else 'the peak velocity'} does not settle it")
+    return answer_of(whole, f"{'the block' if ensemble_follows else 'the peak velocity'} does not settle it")
 
 
 def estimated(
@@ -252,10 +243,3 @@ def estimated(
     if tier is Tier.PEAK_VELOCITY:
         return fit.estimate(own | of_velocity(record, block))
     return fit.estimate(own | from_nudged(integrate_members(block, record, Members(NUDGES)).rotation_ratio))
-
-
-def _settled(estimate: Estimate, method: Method, by: str, risk: float) -> Answer:
-    overturns = estimate.share > 0.5
-    outcome = Outcome.OVERTURNS if overturns else Outcome.ROCKS
-    reason = f"{by} settles it at a risk of {100 * risk:g} %"
-    return Answer(method, math.inf if overturns else math.nan, outcome, None, reason, estimate)

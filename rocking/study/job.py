@@ -136,13 +136,12 @@ class Assessed:
         accelerogram: Accelerogram,
         motion: HorizontalMotion | None,
         vertical: Accelerogram | None,
-        settings: AssessmentSettings,
         alone: bool,
     ) -> None:
         """Append what one component gives: cases, other cracks, other processing. motion: of the pair, if it is one."""
         study, tables, component = self.study, self.tables, accelerogram.component
         beside = None if vertical is None else aligned(vertical, accelerogram)
-        assessment = assess_structures(accelerogram, study.structures, settings, beside, alone)
+        assessment = assess_structures(accelerogram, study.structures, study.assessment, beside, alone)
         identity = identity_of(self.record.id, accelerogram, study.settings_sha256)
         tables.add(identity, assessment, study.assessment, self.record.licence, beside, motion)
         for stage, duration in assessment.durations.items():
@@ -238,11 +237,8 @@ def assess_record(record: CatalogueRecord, study: Study, opened: Opened | None =
         with assessed.stage("velocity pulse"):
             motions = horizontal_motions(horizontal)
         pair = _pair(assessed, vertical)
-        none = replace(study.assessment.ensemble, members=0)
         for accelerogram, motion in zip(horizontal, motions, strict=True):
-            # The ensemble over the directions of a pair speaks for its components.
-            settings = replace(study.assessment, ensemble=none) if pair else study.assessment
-            assessed.assess(accelerogram, motion, vertical, settings, alone=pair is None)
+            assessed.assess(accelerogram, motion, vertical, alone=pair is None)
         if pair:
             assessed.assess_directions(pair)
     for stage, duration in assessed.durations.items():

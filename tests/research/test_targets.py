@@ -11,7 +11,7 @@ from made_campaign import write_campaign
 from docs.research.ensembles import EnsembleTrial
 from docs.research.scores import Score
 from docs.research.validation import PredictionRow
-from rocking.assessment.fidelity import Tier
+from rocking.assessment.fidelity import STRUCTURE, Tier, read_tiers
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.tables import read_table
 from tests.workflow.conftest import SmallStudy, new_study
@@ -80,8 +80,11 @@ def test_calibrate_fits_and_judges_every_tier(asked):
         assert 0 < skill.value_low <= skill.value < best.value < 1
         assert skill.sites == 4, "three of the near-fault catalogue and one of the other"
     assert ("fidelity: auto", "wrong verdicts among those settled") in scores
-    fits = json.loads((asked.results / "calibrate" / "tiers.json").read_text())
-    assert set(fits["tiers"]) == set(Tier) and fits["about"]["sites"] == 4
+    path = asked.results / "calibrate" / "tiers.json"
+    fits = read_tiers(path)
+    assert set(fits) == set(Tier) and json.loads(path.read_text())["about"]["sites"] == 4
+    for tier, fit in fits.items():
+        assert fit.coefficients.shape == (len(tier.terms) + 1,) and set(fit.ranges) > set(STRUCTURE)
     assert "1 of 1: far_4" in (asked.folder / LOG / "calibrate.log").read_text()
 
 

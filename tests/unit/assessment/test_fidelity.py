@@ -42,7 +42,7 @@ def test_vertical_acceleration_can_end_the_rest():
 def test_where_the_peak_velocity_says_that_it_stands_nothing_is_integrated():
     found = cheapest_answer(MECHANISM, record(1.02))
     assert found.method is Method.PEAK_VELOCITY and found.response is None
-    assert found.estimate.high <= 0.01 and found.outcome is Outcome.ROCKS and np.isnan(found.rotation_ratio)
+    assert found.outcome is Outcome.ROCKS and np.isnan(found.rotation_ratio)
     assert np.isfinite(integrate(MECHANISM, record(1.02)).rotation_ratio)
     assert "1 %" in found.reason
 
@@ -65,14 +65,9 @@ def test_where_an_ensemble_would_follow_the_block_may_settle_it():
     assert cheapest_answer(MECHANISM, motion).method is Method.MECHANISM_ON_RECORD
     found = cheapest_answer(MECHANISM, motion, ensemble_follows=True)
     assert found.method is Method.BLOCK_ON_RECORD and found.response is None
-    assert found.estimate.high <= 0.01
     assert ensemble(MECHANISM, GroundMotions.of(motion)).verdict is Verdict.STANDS
     falls = cheapest_answer(MECHANISM, record(40.0), ensemble_follows=True, risk=0.1)
-    assert (
-        falls.method is Method.BLOCK_ON_RECORD
-        and falls.rotation_ratio == np.inf
-        and falls.estimate.low >= 0.9
-    )
+    assert falls.method is Method.BLOCK_ON_RECORD and falls.rotation_ratio == np.inf
     (case,) = assess_structures(motion, {"block": BLOCK}, AssessmentSettings(fidelity="auto")).cases
     assert case.answer.method is Method.BLOCK_ON_RECORD and case.ensemble is None
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment import fidelity
-from rocking.assessment.fidelity import NUDGES, Tier, read_tiers, shipped_tiers, write_tiers
+from rocking.assessment.fidelity import NUDGES, Tier, shipped_tiers
 from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
@@ -58,26 +58,16 @@ def test_nothing_is_said_of_a_structure_unlike_those_behind_it(odd):
 
 
 @pytest.mark.parametrize("share, beyond", [(0.04, False), (0.06, True)])
-@pytest.mark.parametrize("place", [-3, -2, -1])
-def test_a_structure_is_like_those_behind_it_within_a_twentieth_of_their_range(place, share, beyond):
+@pytest.mark.parametrize("name", ["restitution", "restoring_defect", "forcing_defect", "frequency_parameter"])
+def test_a_structure_is_like_those_behind_it_within_a_twentieth_of_their_range(name, share, beyond):
     fit = shipped_tiers()[Tier.PEAK_VELOCITY]
-    measures = dict(zip(fit.tier.terms, (fit.least + fit.largest) / 2, strict=True))
-    measures["frequency_parameter"] = sum(fit.frequencies) / 2
+    measures = {each: sum(ends) / 2 for each, ends in fit.ranges.items()}
     assert not fit.unlike(measures)
-    for end, outwards in ((fit.least, -share), (fit.largest, share)):
-        measures[fit.tier.terms[place]] = (end + outwards * (fit.largest - fit.least))[place]
-        assert fit.unlike(measures) is beyond
+    least, largest = fit.ranges[name]
+    for outside in (least - share * (largest - least), largest + share * (largest - least)):
+        assert fit.unlike(measures | {name: outside}) is beyond
 
 
 def test_a_block_that_stays_up_counts_as_turned_to_twice_its_critical_rotation_at_most():
     at, beyond = (fidelity.from_nudged(np.array([0.1, 0.2, each, 0.3, each])) for each in (2.0, 2.5))
     assert at == beyond and at["block"] == at["block_high"] == pytest.approx(math.log(2.0), rel=1e-12)
-
-
-def test_tiers_are_read_as_they_were_written(tmp_path):
-    write_tiers(tmp_path / "tiers.json", shipped_tiers(), {"sites": 50})
-    for tier, fit in read_tiers(tmp_path / "tiers.json").items():
-        shipped = shipped_tiers()[tier]
-        assert fit.ranges == shipped.ranges
-        assert np.array_equal(fit.coefficients, shipped.coefficients)
-        assert np.array_equal(fit.covariance, shipped.covariance)
