@@ -208,10 +208,10 @@ class RecordTables:
         assessment: "Assessment",
         settings: AssessmentSettings,
         licence: str,
-        vertical: Accelerogram | None = None,
-        motion: rows.HorizontalMotion | None = None,
+        vertical: Accelerogram | None,
+        motion: rows.HorizontalMotion,
     ) -> None:
-        """Append what one assessment gives. motion: of the pair of components, or None for that of one alone."""
+        """Append what one assessment gives. motion: of the pair of components, or of one alone."""
         dominant = assessment.analysis.dominant if assessment.analysis else None
         self.record.append(
             rows.record_row(identity, assessment.accelerogram, licence, vertical, motion, dominant)

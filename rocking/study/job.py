@@ -134,11 +134,11 @@ class Assessed:
     def assess(
         self,
         accelerogram: Accelerogram,
-        motion: HorizontalMotion | None,
+        motion: HorizontalMotion,
         vertical: Accelerogram | None,
         alone: bool,
     ) -> None:
-        """Append what one component gives: cases, other cracks, other processing. motion: of the pair, if it is one."""
+        """Append what one component gives: cases, other cracks, other processing. motion: of it, or of its pair."""
         study, tables, component = self.study, self.tables, accelerogram.component
         beside = None if vertical is None else aligned(vertical, accelerogram)
         assessment = assess_structures(accelerogram, study.structures, study.assessment, beside, alone)

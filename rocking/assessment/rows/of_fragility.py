@@ -7,7 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from rocking.assessment.fragility import Fragility, IncrementalDynamicAnalysis, dependence, efficiency
-from rocking.assessment.intensity import INTENSITY_MEASURES, MEASURES_IN_WORDS, IntensityMeasure
+from rocking.assessment.intensity import (
+    INTENSITY_MEASURES,
+    MEASURES_IN_WORDS,
+    IntensityMeasure,
+    peak_velocity,
+)
 from rocking.assessment.rows.of_record import RECORD, STRUCTURE
 from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
@@ -18,8 +23,6 @@ _STEPS = 400
 """Steps of the integral over the hazard curve, in equal parts of the logarithm of the level."""
 ROTATION_RATIOS = (0.1, 0.3, 0.5, math.inf)
 """Largest rotations over the critical one whose exceedance has a curve; inf: overturning."""
-_THRESHOLD = "Rotation over critical rotation that is exceeded; INF: overturning"
-_GOVERNING = "Whether the worst crack that may form counts, instead of the one that statics chooses"
 _MEASURE = f"Intensity measure: {MEASURES_IN_WORDS}"
 
 
@@ -65,7 +68,8 @@ def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> dict[str, 
     curve ends below a probability of 1, and because levels below the first point of the hazard curve are left out,
     which occur as often as the hazard curve, continued by its first slope, says.
     """
-    levels, probability = np.log(fragility.levels), fragility.probability
+    levels = np.log(fragility.levels)
+    probability = fragility.probability
     logs, log_rates = np.log([[point.intensity, point.annual_rate] for point in points]).T
     edges = np.linspace(logs[0], logs[-1], _STEPS + 1)
     rates = np.exp(np.interp(edges, logs, log_rates))
@@ -101,14 +105,22 @@ class IdaRow(Row):
     governing_overturning_share: float = column("Share of the members that overturn with the worst crack")
 
 
-@row("fragility")
-class FragilityRow(Row):
-    """One row per structure, rotation that is exceeded and level: the curves with 90 % intervals."""
+@row()
+class CurveRow(Row):
+    """A row about the curve of a structure: for which crack, intensity measure and rotation it holds."""
 
     structure: str = column(STRUCTURE)
-    governing: bool = column(_GOVERNING)
+    governing: bool = column(
+        "Whether the worst crack that may form counts, instead of the one that statics chooses"
+    )
     intensity_measure: str = column(_MEASURE)
-    threshold: float = column(_THRESHOLD)
+    threshold: float = column("Rotation over critical rotation that is exceeded; INF: overturning")
+
+
+@row("fragility")
+class FragilityRow(CurveRow):
+    """One row per structure, rotation that is exceeded and level: the curves with 90 % intervals."""
+
     level: float = column("Level of the intensity measure")
     probability: float = column("Share of the stations that exceed the rotation")
     probability_low: float = column("Lower end of the 90 % interval of the probability")
@@ -117,13 +129,9 @@ class FragilityRow(Row):
 
 
 @row("fragility_summary")
-class FragilitySummaryRow(Row):
+class FragilitySummaryRow(CurveRow):
     """One row per structure and rotation that is exceeded: what its curve comes down to."""
 
-    structure: str = column(STRUCTURE)
-    governing: bool = column(_GOVERNING)
-    intensity_measure: str = column(_MEASURE)
-    threshold: float = column(_THRESHOLD)
     records: int = column("Number of records")
     stations: int = column("Number of stations")
     median: float = column(
@@ -168,26 +176,25 @@ class IntensityMeasureRow(Row):
 def ida_rows(
     structure: str, records: Sequence[str], analysis: IncrementalDynamicAnalysis
 ) -> Iterator[IdaRow]:
-    """Yield a row for each record and level that was followed."""
-    worst, measure = analysis.governing_ratios, analysis.measure.name
+    """Yield a row for each record and level."""
+    worst = analysis.governing_ratios
     for place, (name, station) in enumerate(zip(records, analysis.stations, strict=True)):
         for step, level in enumerate(analysis.levels.tolist()):
             ratios = analysis.rotation_ratios[place, step]
-            if not np.isnan(ratios).all():
-                yield IdaRow(
-                    structure=structure,
-                    record=name,
-                    station=station,
-                    intensity_measure=measure,
-                    level=level,
-                    scale_factor=level / float(analysis.intensities[place]),
-                    members=ratios.size,
-                    rotation_ratio_median=float(np.sort(ratios)[(ratios.size - 1) // 2]),
-                    overturning_share=float(np.isinf(ratios).mean()),
-                    governing_overturning_share=math.nan
-                    if worst is None
-                    else float(np.isinf(worst[place, step]).mean()),
-                )
+            yield IdaRow(
+                structure=structure,
+                record=name,
+                station=station,
+                intensity_measure=analysis.measure.name,
+                level=level,
+                scale_factor=level / float(analysis.intensities[place]),
+                members=ratios.size,
+                rotation_ratio_median=float(np.sort(ratios)[(ratios.size - 1) // 2]),
+                overturning_share=float(np.isinf(ratios).mean()),
+                governing_overturning_share=math.nan
+                if worst is None
+                else float(np.isinf(worst[place, step]).mean()),
+            )
 
 
 def fragility_rows(structure: str, curve: Fragility, governing: bool) -> Iterator[FragilityRow]:
@@ -231,34 +238,30 @@ def intensity_measure_rows(
     """Yield how well each measure explains which records overturn the structure at which level."""
     factors = np.log(analysis.levels) - np.log(analysis.intensities)[:, None]
     falls = np.isinf(analysis.rotation_ratios).mean(axis=2)
-    stations = np.array(analysis.stations)
     for measure in INTENSITY_MEASURES.values():
         logs = np.log([_or_nan(measure, record, mechanism) for record in records])
         for figure, values in _figures(records).items():
-            kept = np.isfinite(logs) & np.isfinite(values)
-            names = stations[kept].tolist()
-            if len(set(names)) < 2:
+            both = np.isfinite(logs) & np.isfinite(values)
+            stations = np.array(analysis.stations)[both].tolist()
+            if len(set(stations)) < 2:
                 continue
-            levels, outcomes = logs[kept, None] + factors[kept], falls[kept]
+            levels = logs[both, None] + factors[both]
             yield IntensityMeasureRow.of(
-                dependence(levels, outcomes, values[kept], names),
+                dependence(levels, falls[both], values[both], stations),
                 structure=structure,
                 intensity_measure=measure.name,
-                efficiency=efficiency(levels, outcomes, names),
+                efficiency=efficiency(levels, falls[both], stations),
                 figure=figure,
-                records=int(kept.sum()),
-                stations=len(set(names)),
+                records=len(stations),
+                stations=len(set(stations)),
             )
 
 
 def _figures(records: Sequence[Accelerogram]) -> dict[str, np.ndarray]:
-    """Figures of each record that the level of overturning may depend on beside its intensity; nan where not known."""
-    velocities = np.array([INTENSITY_MEASURES["pgv"].remembered(each) for each in records])
-    accelerations = np.array([each.peak_acceleration for each in records])
-    magnitudes = [each.magnitude for each in records]
+    """Figures of each record that the level of overturning may depend on beside its intensity; nan where unknown."""
     return {
-        "PGV/PGA": np.log(velocities / accelerations),
-        "magnitude": np.array(magnitudes, dtype=float),
+        "PGV/PGA": np.log([peak_velocity(each) / each.peak_acceleration for each in records]),
+        "magnitude": np.array([each.magnitude for each in records], dtype=float),
         "ln distance": np.log([each.epicentral_distance or math.nan for each in records]),
     }
 

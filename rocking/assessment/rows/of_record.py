@@ -1,6 +1,7 @@
 """The rows of the tables of one record: each class says what its columns are, and `of` fills them by name."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -15,13 +16,7 @@ from rocking.assessment.verdict import (
 )
 from rocking.errors import PulseError, RecordError
 from rocking.motion.response import Response
-from rocking.pulses import (
-    Pulse,
-    PulseAnalysis,
-    PulseEvidence,
-    VelocityPulse,
-    velocity_pulse,
-)
+from rocking.pulses import Pulse, PulseAnalysis, PulseEvidence, VelocityPulse, velocity_pulse
 from rocking.records import Accelerogram, RotD, rotd
 from rocking.records.measures import record_measures
 from rocking.records.rotation import azimuth_of_axis
@@ -277,7 +272,7 @@ class HorizontalMotion:
     """The motion of a pair of horizontal components, or of one that stands alone.
 
     velocity_pulse: None where the motion is still or too short for one. azimuth: of its axis, degrees clockwise from
-    north in [0, 180), where the components know theirs. rotd: None of one component alone.
+    north in [0, 180); None where a component does not state its own. rotd: None of one component alone.
     """
 
     velocity_pulse: VelocityPulse | None
@@ -296,11 +291,8 @@ def horizontal_motions(accelerograms: Sequence[Accelerogram]) -> list[Horizontal
     """
     if len(accelerograms) == 2:
         first, second = accelerograms
-        try:
+        with suppress(RecordError):  # two that do not belong together stand alone
             pair = _motion(first, second, rotd(first, second))
-        except RecordError:  # two that do not belong together
-            pass
-        else:
             return [pair, pair]
     return [_motion(accelerogram) for accelerogram in accelerograms]
 
@@ -322,16 +314,15 @@ def record_row(
     identity: ComponentRow,
     accelerogram: Accelerogram,
     licence: str,
-    vertical: Accelerogram | None = None,
-    motion: HorizontalMotion | None = None,
-    dominant: Pulse | None = None,
+    vertical: Accelerogram | None,
+    motion: HorizontalMotion,
+    dominant: Pulse | None,
 ) -> RecordRow:
     """Return the row of one component; `vertical` acts with it, `motion` is that of the pair it belongs to.
 
-    motion: None makes that of the component alone. dominant: its sine pulse of largest energy gain.
+    dominant: its sine pulse of largest energy gain.
     """
-    motion = motion or horizontal_motions([accelerogram])[0]
-    pulse, rotd = motion.velocity_pulse, motion.rotd
+    pulse = motion.velocity_pulse
     return RecordRow.of(
         identity,
         accelerogram,
@@ -345,8 +336,8 @@ def record_row(
         station_longitude_deg=accelerogram.longitude,
         vertical_component=vertical and (vertical.component or "not named"),
         vertical_peak_acceleration_m_s2=vertical and vertical.peak_acceleration,
-        rotd50_peak_acceleration_m_s2=rotd and rotd.rotd50,
-        rotd100_peak_acceleration_m_s2=rotd and rotd.rotd100,
+        rotd50_peak_acceleration_m_s2=motion.rotd and motion.rotd.rotd50,
+        rotd100_peak_acceleration_m_s2=motion.rotd and motion.rotd.rotd100,
         velocity_pulse_azimuth_deg=motion.azimuth,
         velocity_pulse_like=pulse and pulse.pulse_like,
         pulse_period_ratio=pulse and dominant and dominant.period / pulse.period,

@@ -27,13 +27,13 @@ def test_a_pair_has_one_motion_and_its_axis_from_north():
     assert one.azimuth == pytest.approx(math.degrees(0.3))
     assert one.velocity_pulse.orientation == pytest.approx(0.3)
     assert one.rotd.rotd100 == pytest.approx(3.0, rel=1e-3)
-    row = record_row(IDENTITY, north, "", motion=one, dominant=Pulse(1.0, math.pi))
+    row = record_row(IDENTITY, north, "", None, one, Pulse(1.0, math.pi))
     assert (row.rotd50_peak_acceleration_m_s2, row.rotd100_peak_acceleration_m_s2) == (
         one.rotd.rotd50,
         one.rotd.rotd100,
     )
     assert row.pulse_period_ratio == pytest.approx(2.0 / one.velocity_pulse.period)
-    alone = record_row(IDENTITY, north, "", vertical=component(0.1, ""))
+    alone = record_row(IDENTITY, north, "", component(0.1, ""), horizontal_motions([north])[0], None)
     assert math.isnan(alone.rotd100_peak_acceleration_m_s2) and math.isnan(alone.pulse_period_ratio)
     assert alone.vertical_component == "not named"
 

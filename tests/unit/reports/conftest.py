@@ -12,6 +12,7 @@ from rocking.assessment.rows.of_record import (
     PulseRow,
     RecordRow,
     VariationRow,
+    horizontal_motions,
     identity_of,
 )
 from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows, structure_rows
@@ -59,7 +60,7 @@ def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[st
     for accelerogram in accelerograms:
         computed = assess_structures(accelerogram, structures, ASSESSMENT)
         identity = identity_of(record, accelerogram, "cd" * 32)
-        tables.add(identity, computed, ASSESSMENT, "CC0-1.0")
+        tables.add(identity, computed, ASSESSMENT, "CC0-1.0", None, horizontal_motions([accelerogram])[0])
         for case in computed.cases:
             responses[accelerogram.component, case.structure] = case.responses[Method.MECHANISM_ON_RECORD]
         records = processed(accelerogram)
