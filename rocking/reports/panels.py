@@ -30,10 +30,6 @@ ZERO: dict[str, Any] = {"color": "0.8", "linewidth": 0.6, "zorder": 0}
 _POINTS = 400
 _STILL = 0.01
 """Share of its largest rotation up to which a structure is still."""
-_SMALLEST, _FALLEN = 1e-3, 1.6
-"""Rotation ratio below which a point is set on the edge of a scatter, and where overturning is set."""
-_MOST_DRAWN = 5000
-"""Points that are drawn as shapes; more become a picture, whose size does not grow with them."""
 
 
 def plot(thing: object, axes: Axes | None = None, **options: Any) -> Axes:
@@ -127,20 +123,6 @@ def moving_span(histories: Iterable[tuple[np.ndarray, np.ndarray]]) -> tuple[flo
     return max(0.0, begin - margin), end + margin
 
 
-def draw_levels(axes: Axes, across: np.ndarray, up: np.ndarray, ratios: np.ndarray) -> None:
-    """Draw lines of equal rotation ratio (m, n) over p (m,) and λ (n,), hatched where it overturns."""
-    levels = (0.05, 0.1, 0.2, 0.5, 1.0)
-    overturns = np.isinf(ratios).T
-    if overturns.any():
-        axes.contourf(across, up, overturns.astype(float), levels=[0.5, 1.5], colors="0.85", hatches=["///"])
-    shown = np.where(overturns, np.nan, ratios.T)
-    if np.nanmax(shown, initial=0) > levels[0] and np.nanmin(shown, initial=np.inf) < levels[-1]:
-        lines = axes.contour(across, up, shown, levels=levels, colors="black", linewidths=0.7)
-        axes.clabel(lines, fmt="%g", fontsize=7)
-    axes.set_xlabel("frequency parameter p [rad/s]")
-    axes.set_ylabel("uplift multiplier λ [-]")
-
-
 def draw_energy_map(
     axes: Axes, onsets: np.ndarray, periods: np.ndarray, gains: np.ndarray, pulses: Sequence["Pulse"]
 ) -> None:
@@ -160,34 +142,6 @@ def draw_energy_map(
     ticks = [tick for tick in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0) if low <= math.log10(tick) <= high]
     axes.set_yticks([math.log10(tick) for tick in ticks], [f"{tick:g}" for tick in ticks])
     axes.set(xlabel="onset of the pulse [s]", ylabel="period [s]")
-
-
-def draw_agreement(axes: Axes, integrated: np.ndarray, predicted: np.ndarray) -> None:
-    """Draw predicted against integrated rotation ratio with factor-two lines; what overturns stands at the far edges.
-
-    A case without one of the two is left out, and so is one that neither lifts.
-    """
-    span = np.array([_SMALLEST, 1.0])
-    for factor, line in ((1.0, "-"), (0.5, "--"), (2.0, "--")):
-        axes.plot(span, factor * span, line, color="black", linewidth=0.6)
-    shown = ~np.isnan(integrated) & ~np.isnan(predicted) & (np.fmax(integrated, predicted) > 0)
-    places = np.clip(np.stack([integrated, predicted])[:, shown], 0.7 * _SMALLEST, None)
-    places[np.isinf(places)] = _FALLEN
-    look: dict[str, Any] = {"color": "none", "markeredgecolor": PREDICTED, "markeredgewidth": 0.8}
-    count = places.shape[1]
-    axes.plot(*places, "o", rasterized=count > _MOST_DRAWN, label=f"cases ({count})", **look)
-    for edge in (1.25, 0.85 * _SMALLEST):
-        axes.axvline(edge, color="0.5", linewidth=0.5)
-        axes.axhline(edge, color="0.5", linewidth=0.5)
-    limits = 0.55 * _SMALLEST, 2.1
-    axes.set(xscale="log", yscale="log", xlim=limits, ylim=limits)
-    axes.minorticks_off()
-    ticks = {0.001: "0.001", 0.01: "0.01", 0.1: "0.1", 1.0: "1"}
-    axes.set_xticks([*ticks, _FALLEN], [*ticks.values(), "\noverturns"])
-    axes.set_yticks([*ticks, _FALLEN], [*ticks.values(), "overturns"])
-    axes.set_xlabel("rotation / critical rotation, full integration [-]")
-    axes.set_ylabel("rotation / critical rotation, closed form [-]")
-    axes.legend(loc="upper left", bbox_to_anchor=(0.03, 0.88))
 
 
 def draw_probability(
@@ -264,13 +218,25 @@ def _plot_fragility(fragility: "Fragility", axes: Axes) -> None:
 
 
 def _plot_spectrum(spectrum: "RockingSpectrum", axes: Axes) -> None:
-    """Raises MotionError for fewer than two values on either axis, or for a part of a spectrum."""
+    """Lines of equal rotation ratio over p and λ, hatched where it overturns.
+
+    Raises MotionError for fewer than two values on either axis, or for a part of a spectrum.
+    """
     whole = spectrum.frequency_parameters.size, spectrum.uplift_multipliers.size
     if spectrum.shape != whole or min(whole) < 2:
         raise MotionError(
             f"the spectrum has shape {spectrum.shape}, but lines need the whole of it, {whole}, and at least (2, 2)."
         )
-    draw_levels(axes, spectrum.frequency_parameters, spectrum.uplift_multipliers, np.asarray(spectrum))
+    across, up, ratios = spectrum.frequency_parameters, spectrum.uplift_multipliers, np.asarray(spectrum).T
+    overturns = np.isinf(ratios)
+    if overturns.any():
+        axes.contourf(across, up, overturns.astype(float), levels=[0.5, 1.5], colors="0.85", hatches=["///"])
+    levels = (0.05, 0.1, 0.2, 0.5, 1.0)
+    rocking = np.where(overturns, np.nan, ratios)
+    if np.nanmax(rocking, initial=0) > levels[0] and np.nanmin(rocking, initial=np.inf) < levels[-1]:
+        lines = axes.contour(across, up, rocking, levels=levels, colors="black", linewidths=0.7)
+        axes.clabel(lines, fmt="%g", fontsize=7)
+    axes.set(xlabel="frequency parameter p [rad/s]", ylabel="uplift multiplier λ [-]")
     axes.set_title("largest rotation / critical rotation; hatched: overturns")
 
 

@@ -19,31 +19,11 @@ from rocking.pulses import Flag
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
+from rocking.reports import record_figures as figures
 from rocking.reports.document import compile_document
 from rocking.reports.panels import rotation_ratios
-from rocking.reports.printing import (
-    METHODS,
-    Column,
-    columns_of,
-    number,
-    plain,
-    remainder,
-    settings_texts,
-    strong,
-    table,
-    table_of,
-    to_spread,
-    words,
-)
-from rocking.reports.record_figures import (
-    History,
-    Motion,
-    comparison_figure,
-    ground_figure,
-    histories_figure,
-    pulses_figure,
-    strip_figure,
-)
+from rocking.reports.printing import Column, columns_of, number, plain, remainder, strong, table_of, words
+from rocking.reports.record_figures import History, Motion
 from rocking.reports.style import pictures
 from rocking.structures import Structure
 
@@ -83,7 +63,7 @@ class RecordReport:
             "title": f"Rocking assessment: {self.record}",
             "running": f"{self.record}.{self.scale_note}",
             "scale-note": self.scale_note,
-            **settings_texts(self.settings),
+            **printing.settings_texts(self.settings),
             **_page_one(self),
             **_page_two(self),
             **_page_three(self),
@@ -181,9 +161,9 @@ def _page_one(report: RecordReport) -> dict[str, object]:
     return {
         "subtitle": _subtitle(report.tables.record),
         "key": [_key_numbers(row) for row in report.tables.record],
-        "ground": pictures(ground_figure, report.motions, ground),
+        "ground": pictures(figures.ground_figure, report.motions, ground),
         "strip": pictures(
-            strip_figure, fates, strip, report.structures, report.labels, report.peak_acceleration
+            figures.strip_figure, fates, strip, report.structures, report.labels, report.peak_acceleration
         ),
         "strip-note": remainder(len(report.fates) - len(fates), "structure", "the table of verdicts"),
         "headlines": headlines(report.fates),
@@ -289,7 +269,7 @@ def _page_two(report: RecordReport) -> dict[str, object]:
         f"Rotation histories of {counted(len(histories), 'structure')} above the acceleration of the ground."
     )
     return {
-        "histories": pictures(histories_figure, histories, alt, report.labels, report.motions),
+        "histories": pictures(figures.histories_figure, histories, alt, report.labels, report.motions),
         "histories-note": remainder(others, "structure", "the table of verdicts, at rest or less demanding"),
     }
 
@@ -306,8 +286,8 @@ def _page_three(report: RecordReport) -> dict[str, object]:
     with_pulse = [motion for motion in report.motions if motion.pulses]
     alt = f"Closed form beside integration of {counted(len(cases), 'case')}."
     return {
-        "pulse-figures": pictures(pulses_figure, with_pulse, "The dominant pulse and its evidence."),
-        "comparison": pictures(comparison_figure, cases, alt, report.labels, len(report.motions) > 1),
+        "pulse-figures": pictures(figures.pulses_figure, with_pulse, "The dominant pulse and its evidence."),
+        "comparison": pictures(figures.comparison_figure, cases, alt, report.labels, len(report.motions) > 1),
         "comparison-note": remainder(len(rows) - len(cases), "case", "the table of every method"),
         "pulse-sentences": [_pulse_sentence(report, motion) for motion in with_pulse],
         "doubts": _doubts(report, rows),
@@ -407,19 +387,21 @@ def facts_table(rows: Sequence[RecordRow]) -> dict[str, object]:
         facts += [["", ""]] * (len(facts) % 2)
         half = len(facts) // 2
         columns = [("", "auto", "l"), ("", "1", "l")] * 2
-        return table(columns, [left + right for left, right in zip(facts[:half], facts[half:], strict=True)])
+        return printing.table(
+            columns, [left + right for left, right in zip(facts[:half], facts[half:], strict=True)]
+        )
     components = [(f"Component {words(row.component)}", "1", "l") for row in rows]
-    return table([("", "auto", "l"), *components], facts)
+    return printing.table([("", "auto", "l"), *components], facts)
 
 
 VERDICT_COLUMNS: list[Column] = [
     *columns_of(Fate, "structure=1.3"),
     ("Verdict", "0.7", "l", lambda fate: strong(str(fate.verdict), fate.verdict is not Verdict.STANDS)),
     ("Members that overturn", "0.8", "l", lambda fate: words(fate.count)),
-    ("As given", "0.7", "l", lambda fate: to_spread(fate.rotation_ratio, fate)),
-    ("5 %", "0.75", "r", lambda fate: to_spread(fate.rotation_ratio_low, fate)),
-    ("50 %", "0.75", "r", lambda fate: to_spread(fate.rotation_ratio_median, fate)),
-    ("95 %", "0.75", "r", lambda fate: to_spread(fate.rotation_ratio_high, fate)),
+    ("As given", "0.7", "l", lambda fate: printing.to_spread(fate.rotation_ratio, fate)),
+    ("5 %", "0.75", "r", lambda fate: printing.to_spread(fate.rotation_ratio_low, fate)),
+    ("50 %", "0.75", "r", lambda fate: printing.to_spread(fate.rotation_ratio_median, fate)),
+    ("95 %", "0.75", "r", lambda fate: printing.to_spread(fate.rotation_ratio_high, fate)),
     *columns_of(Fate, "direction=1.1 polarity=0.7"),
 ]
 STRUCTURE_COLUMNS: list[Column] = [
@@ -445,7 +427,7 @@ PULSE_COLUMNS = columns_of(
 
 def _method_columns(rows: Sequence[ComparisonRow]) -> list[Column]:
     """Every method that gave anything beside the others, and what stands behind them."""
-    heads = {RATIO_COLUMNS[method]: head for method, head in METHODS.items()}
+    heads = {RATIO_COLUMNS[method]: head for method, head in printing.METHODS.items()}
     names = [name for name in heads if not all(math.isnan(getattr(row, name)) for row in rows)]
     of_methods = columns_of(ComparisonRow, " ".join(names))
     return [

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
+from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 from matplotlib.transforms import Affine2D
 
 from rocking.assessment.fate import Fate
@@ -23,16 +24,7 @@ from rocking.records.measures import record_measures
 from rocking.reports.drawings import draw_structure, fallen_rotation, round_length
 from rocking.reports.panels import draw_energy_map, draw_motion, draw_rotation, moving_span
 from rocking.reports.printing import LOOKS, number, ratio, to_spread
-from rocking.reports.style import (
-    PREDICTED,
-    PULSE,
-    TEXT_WIDTH,
-    elided,
-    fixed_ticks,
-    new_figure,
-    panel_at,
-    styled,
-)
+from rocking.reports.style import PREDICTED, PULSE, TEXT_WIDTH, elided, new_figure, panel_at, styled
 from rocking.structures import Structure
 
 _POINTS = 1200
@@ -113,10 +105,20 @@ def _draw_ground(panel: Axes, motion: Motion, span: tuple[float, float], last: b
     reach = 1.1 * max(accelerogram.peak_acceleration, *amplitudes, 1e-9)
     peak = f"{_component(accelerogram.component)}: PGA {accelerogram.peak_acceleration / GRAVITY:.2g} g"
     panel.text(0.995, 0.97, peak, transform=panel.transAxes, ha="right", va="top")
-    fixed_ticks(panel, "y", -reach, reach, 3)
-    fixed_ticks(panel, "x", *span, 6)
+    _fixed_ticks(panel, "y", -reach, reach, 3)
+    _fixed_ticks(panel, "x", *span, 6)
     panel.tick_params(labelbottom=last)
     panel.set(xlabel="time after the first sample [s]" if last else "", ylabel="[m/s²]")
+
+
+def _fixed_ticks(panel: Axes, which: str, low: float, high: float, count: int = 5) -> None:
+    """Give the x or y axis its limits and about `count` round ticks between them, which nothing has to seek again."""
+    places = np.asarray(MaxNLocator(count, steps=[1, 2, 5, 10]).tick_values(low, high))
+    places = places[(places >= low) & (places <= high)]
+    axis = panel.xaxis if which == "x" else panel.yaxis
+    axis.set_major_locator(FixedLocator(places.tolist()))
+    axis.set_major_formatter(FixedFormatter([f"{round(place, 12):g}".replace("-", "−") for place in places]))
+    panel.set(**{f"{which}lim": (low, high)})
 
 
 @styled
@@ -137,7 +139,7 @@ def pulses_figure(motions: Sequence[Motion]) -> Figure:
         starts = np.arange(0, gains.shape[0], max(1, gains.shape[0] // _MAP_COLUMNS))
         gains = np.maximum.reduceat(gains, starts, axis=0)
         draw_energy_map(energy, starts * accelerogram.time_step, 1 / frequencies, gains, motion.pulses)
-        fixed_ticks(energy, "x", *motion.span, 6)
+        _fixed_ticks(energy, "x", *motion.span, 6)
     return figure
 
 

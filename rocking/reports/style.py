@@ -12,14 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ft2font import FT2Font
-from matplotlib.ticker import (
-    FixedFormatter,
-    FixedLocator,
-    LogLocator,
-    MaxNLocator,
-    NullLocator,
-    StrMethodFormatter,
-)
+from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 
 TEXT_WIDTH = 170.0
 """Width of the text of a page, mm."""
@@ -81,16 +74,6 @@ def plain_logarithmic(panel: Axes, which: str) -> None:
     axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axis.set_minor_locator(NullLocator())
-
-
-def fixed_ticks(panel: Axes, which: str, low: float, high: float, wished: int = 5) -> None:
-    """Give the x or y axis its limits and about `wished` round ticks between them, which nothing has to seek again."""
-    places = np.asarray(MaxNLocator(wished, steps=[1, 2, 5, 10]).tick_values(low, high))
-    places = places[(places >= low) & (places <= high)]
-    axis = panel.xaxis if which == "x" else panel.yaxis
-    axis.set_major_locator(FixedLocator(places.tolist()))
-    axis.set_major_formatter(FixedFormatter([f"{round(place, 12):g}".replace("-", "−") for place in places]))
-    panel.set(**{f"{which}lim": (low, high)})
 
 
 def thinned(times: np.ndarray, values: np.ndarray, most: int = MOST_POINTS) -> tuple[np.ndarray, np.ndarray]:

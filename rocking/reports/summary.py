@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from rocking.assessment.fate import ORDER, Fate, worst_first
@@ -15,7 +16,6 @@ from rocking.quantities import GRAVITY, counted
 from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.fragility import fragility_table
-from rocking.reports.panels import draw_agreement
 from rocking.reports.printing import (
     LOOKS,
     METHODS,
@@ -30,7 +30,7 @@ from rocking.reports.printing import (
     table_of,
     words,
 )
-from rocking.reports.style import elided, new_figure, pictures, styled
+from rocking.reports.style import PREDICTED, elided, new_figure, pictures, styled
 from rocking.tables import rows_of
 
 if TYPE_CHECKING:
@@ -42,6 +42,10 @@ MOST_MAPPED, MOST_STRUCTURES = 30, 20
 """Records and structures of the map, the worst first; verdicts.csv holds all."""
 MOST_LISTED, MOST_RECORDS = 20, 200
 """Rows of the lists of unsafe cases and of failures, and of that of the records; the CSV tables hold all."""
+_SMALLEST, _FALLEN = 1e-3, 1.6
+"""Rotation ratio below which a point is set on the edge of the scatter, and where overturning is set."""
+_MOST_POINTS = 5000
+"""Points that are drawn as shapes; more become a picture, whose size does not grow with them."""
 _HEAD = 20
 """Letters of a name above a column of the map; the table of the structures holds it whole."""
 
@@ -206,10 +210,34 @@ def _worth(ratios: "DataFrame", integrated: "DataFrame") -> tuple[int, ...]:
 
 @styled
 def prediction_scatter(comparison: "DataFrame") -> Figure:
-    """Draw predicted against integrated rotation ratio, from the comparison table."""
+    """Draw predicted against integrated rotation ratio with factor-two lines; what overturns stands at the far edges.
+
+    A case without one of the two is left out, and so is one that neither lifts.
+    """
     figure = new_figure(80, 105, margins=(20, 3, 13, 3))
-    columns = comparison[["integrated_rotation_ratio", "predicted_rotation_ratio"]]
-    draw_agreement(figure.subplots(), *columns.to_numpy(dtype=float).T)
+    axes = figure.subplots()
+    span = np.array([_SMALLEST, 1.0])
+    for factor, line in ((1.0, "-"), (0.5, "--"), (2.0, "--")):
+        axes.plot(span, factor * span, line, color="black", linewidth=0.6)
+    columns = ["integrated_rotation_ratio", "predicted_rotation_ratio"]
+    cases = comparison.loc[comparison[columns].max(axis=1, skipna=False) > 0, columns]
+    places = np.clip(cases.to_numpy(dtype=float).T, 0.7 * _SMALLEST, None)
+    places[np.isinf(places)] = _FALLEN
+    look: dict[str, Any] = {"color": "none", "markeredgecolor": PREDICTED, "markeredgewidth": 0.8}
+    count = len(cases)
+    axes.plot(*places, "o", rasterized=count > _MOST_POINTS, label=f"cases ({count})", **look)
+    for edge in (1.25, 0.85 * _SMALLEST):
+        axes.axvline(edge, color="0.5", linewidth=0.5)
+        axes.axhline(edge, color="0.5", linewidth=0.5)
+    limits = 0.55 * _SMALLEST, 2.1
+    axes.set(xscale="log", yscale="log", xlim=limits, ylim=limits)
+    axes.minorticks_off()
+    ticks = {0.001: "0.001", 0.01: "0.01", 0.1: "0.1", 1.0: "1"}
+    axes.set_xticks([*ticks, _FALLEN], [*ticks.values(), "\noverturns"])
+    axes.set_yticks([*ticks, _FALLEN], [*ticks.values(), "overturns"])
+    axes.set_xlabel("rotation / critical rotation, full integration [-]")
+    axes.set_ylabel("rotation / critical rotation, closed form [-]")
+    axes.legend(loc="upper left", bbox_to_anchor=(0.03, 0.88))
     return figure
 
 

@@ -2,13 +2,15 @@
 
 import matplotlib
 import numpy as np
+import pandas
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import rocking
 from rocking.reports.explore import BINS, extremes
-from rocking.reports.panels import draw_agreement, draw_rotation
+from rocking.reports.panels import draw_rotation
+from rocking.reports.summary import prediction_scatter
 
 TIMES = np.arange(3000) * 0.01
 PULSE = rocking.Pulse(4.0, 2 * np.pi / 0.9, 5.0)
@@ -96,9 +98,9 @@ def test_rotations_of_several_records_in_one_panel_stand_at_their_level_in_their
 
 
 def test_what_overturns_and_what_rests_stand_beyond_a_line_from_what_rocks():
-    axes = Figure().subplots()
-    integrated, predicted = np.array([0.001, 1.0, np.inf, 0.0]), np.array([1.0, 0.001, 0.0, np.inf])
-    draw_agreement(axes, integrated, predicted)
+    integrated, predicted = [0.001, 1.0, np.inf, 0.0], [1.0, 0.001, 0.0, np.inf]
+    ratios = {"integrated_rotation_ratio": integrated, "predicted_rotation_ratio": predicted}
+    (axes,) = prediction_scatter(pandas.DataFrame(ratios)).axes
     (cases,) = (line for line in axes.lines if line.get_label() == "cases (4)")
     lower, upper = sorted(line.get_xdata()[0] for line in axes.lines if len(set(line.get_xdata())) == 1)
     for places in (cases.get_xdata(), cases.get_ydata()):
