@@ -4,11 +4,15 @@ Inside, everything is SI and radians. Each check returns the value as a float or
 """
 
 import math
+import re
 
 from rocking.errors import RecordError, RockingError, StructureError
 
 GRAVITY = 9.80665
 """scipy.constants.g, m/s². Typed here because importing scipy.constants costs every process a fifth of a second."""
+
+UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
+"""Control characters, marks that turn the direction of writing, halves of characters."""
 
 ACCELERATION_UNITS = {
     "m/s2": 1.0,

@@ -1,7 +1,7 @@
 """Accelerogram: what every reader returns. An acceleration history and where it came from, nothing else."""
 
 import hashlib
-import re
+from collections.abc import Iterator
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -11,7 +11,7 @@ import numpy as np
 
 from rocking.drawn import Drawn
 from rocking.errors import RecordError, about
-from rocking.quantities import GRAVITY, acceleration_factor, finite, positive, shown
+from rocking.quantities import GRAVITY, UNPRINTABLE, acceleration_factor, finite, positive, shown
 from rocking.records.instrument import directed
 from rocking.records.traces import calibrated, joined, names, site
 
@@ -19,6 +19,12 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
     from rocking import RecordMeasures, ResponseSpectrum
+
+LARGEST_PEAK = 5 * GRAVITY
+"""m/s²; the largest recorded so far is 4.4 g (Iwate-Miyagi 2008, IWTH25), so what is above is a wrong unit."""
+
+SHORTEST_STEP, LONGEST_STEP = 1e-4, 0.1
+"""s; a longer step leaves out what makes a structure rock, and no accelerograph has a shorter one."""
 
 
 @dataclass(frozen=True)
@@ -29,10 +35,6 @@ class Source:
     format: str = ""
     sha256: str = ""
     unit: str = ""
-
-
-_UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
-"""Control characters, marks that turn the direction of writing, halves of characters."""
 
 
 _KEPT = (
@@ -88,11 +90,21 @@ class Accelerogram(Drawn):
     def __post_init__(self) -> None:
         with about(self.source.path) if self.source.path else nullcontext():
             for name in ("component", "station", "event", "network", "location"):
-                if _UNPRINTABLE.search(str(text := getattr(self, name))):
+                if UNPRINTABLE.search(str(text := getattr(self, name))):
                     raise RecordError(f"{name} is {text!r}, but must hold printable characters only.")
             object.__setattr__(self, "acceleration", _samples(self.acceleration))
             object.__setattr__(self, "time_step", positive(RecordError, "time_step", self.time_step, "s"))
             object.__setattr__(self, "scale_factor", finite(RecordError, "scale_factor", self.scale_factor))
+        for doubt in self._doubts():
+            if doubt not in self.warnings:
+                object.__setattr__(self, "warnings", (*self.warnings, doubt))
+
+    def _doubts(self) -> Iterator[str]:
+        if not SHORTEST_STEP <= self.time_step <= LONGEST_STEP:
+            limits = f"from {SHORTEST_STEP:g} to {LONGEST_STEP:g} s"
+            yield f"The time step is {self.time_step:g} s: accelerographs sample strong motion at steps {limits}."
+        if self.peak_acceleration > LARGEST_PEAK:
+            yield "The peak acceleration is above the 5 g that no ground has reached; check the unit and the factor."
 
     def __repr__(self) -> str:
         names = [name for name in (self.component, self.station, self.event) if name]

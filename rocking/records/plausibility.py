@@ -4,11 +4,8 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, acceleration_factor
-from rocking.records.accelerogram import Accelerogram
+from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram
 from rocking.records.processing import integral
-
-LARGEST_PEAK = 5 * GRAVITY
-"""m/s²; the largest recorded so far is 4.4 g (Iwate-Miyagi 2008, IWTH25), so what is above is a wrong unit."""
 
 RARE_PEAK = 3 * GRAVITY
 """m/s²; a handful of records of the world exceed it."""
@@ -147,26 +144,22 @@ Of the strongest real records a peak reaches 2.6 and 1.1, or 1.7 and 1.6 times.
 """
 _ZEROS = 50
 """Exact zeros in a row that no recorder writes while the ground shakes; real files hold at most 14."""
-_LONGEST_STEP = 0.1  # s; a longer step leaves out what makes a structure rock
 
 
 def damage_warnings(record: Accelerogram) -> tuple[str, ...]:
-    """Return warnings on a long time step, a sample alone far above all others, and zeros within strong shaking."""
+    """Return warnings on a sample alone far above all others, and zeros within strong shaking."""
     warnings = []
-    step = record.time_step
     magnitudes = np.abs(record.acceleration)
-    if step > _LONGEST_STEP:
-        warnings.append(f"The time step is {step:g} s: strong motion needs one below {_LONGEST_STEP:g} s.")
     if magnitudes.size < 2 * _ZEROS or not magnitudes.any():
-        return tuple(warnings)
+        return ()
     at = int(magnitudes.argmax())
     peak = float(magnitudes[at])
     others = np.delete(magnitudes, at)
     near = others[max(0, at - _NEIGHBOURS) : at + _NEIGHBOURS].max()
     if peak > _ALONE[0] * near and peak > _ALONE[1] * others.max():
         warnings.append(
-            f"The sample at {at * step:g} s is {peak / GRAVITY:.3g} g and stands alone; without it the peak "
-            f"acceleration is {others.max() / GRAVITY:.3g} g: a number is damaged, or the instrument was struck."
+            f"The sample at {at * record.time_step:g} s is {peak / GRAVITY:.3g} g and stands alone; without it the "
+            f"peak acceleration is {others.max() / GRAVITY:.3g} g: a number is damaged, or the instrument was struck."
         )
     spent = np.cumsum(np.square(magnitudes))
     begin, end = np.searchsorted(spent, np.array([0.05, 0.95]) * spent[-1])

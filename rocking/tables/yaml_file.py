@@ -8,6 +8,7 @@ from typing import Any
 import yaml
 
 from rocking.errors import RockingError
+from rocking.quantities import UNPRINTABLE
 from rocking.tables.files import read_whole
 
 LARGEST_YAML = 1_000_000
@@ -56,6 +57,11 @@ class _StrictLoader(yaml.SafeLoader):
             raise _refused("it is nested too deeply", event.start_mark)
         node = super().compose_node(parent, index)
         self.depth -= 1
+        # Of a text of several lines, the ends of lines and the tabs may stay.
+        if isinstance(node, yaml.ScalarNode) and UNPRINTABLE.search(
+            node.value.translate({9: None, 10: None})
+        ):
+            raise _refused(f"the text {node.value!r} must hold printable characters only", node.start_mark)
         return node
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[object, object]:

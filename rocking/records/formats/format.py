@@ -10,9 +10,8 @@ import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_factor, acceleration_unit, positive
-from rocking.records.accelerogram import Accelerogram, Source
+from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram, Source
 from rocking.records.instrument import directed
-from rocking.records.plausibility import LARGEST_PEAK
 
 Response = Literal["sensitivity", "full"]
 

@@ -98,6 +98,10 @@ def test_all_defects_of_a_list_stand_in_one_message(tmp_path):
         ("- !!python/object/apply:os.getcwd []", "not valid YAML"),
         ("- &a {name: a, type: block, breadth_m: 1, height_m: 4}", "an anchor or an alias is not read here"),
         ("[" * 1000 + "]" * 1000, "nested too deeply"),
+        *(
+            (f'- {{name: "a{mark}b", type: block}}', "printable")
+            for mark in ("\u202e", r"\u202e", r"\0", r"\ud800")
+        ),
         ("# " + "x" * 1_000_000, "larger than 1000000 bytes"),
         ("- {name: a, type: block, breadth_m: " + "1" * 5000 + ", height_m: 4}", "not valid YAML"),
     ],
