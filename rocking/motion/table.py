@@ -221,9 +221,8 @@ def _grid(split: float, end: float, inner: int, outer: int) -> tuple[tuple[float
 
 def _reaching_speed(side: Side, rest_inertia: float) -> float:
     """√(2 g ∫ G dφ / I(0)) from 0 to φ_cr, on the way out."""
-    ends = [bend for bend in side.bends if 0 < bend < side.critical_rotation] if side.remembers else []
     work = np.zeros(())
-    for start, end in pairwise([0.0, *ends, side.critical_rotation]):
+    for start, end in pairwise([0.0, *side.bends, side.critical_rotation]):
         half = (end - start) / 2
         work = work + 2 * GRAVITY * half * (_WEIGHTS @ side.gravity(start + half * (_GAUSS + 1)))
     return float(np.sqrt(work / rest_inertia))

@@ -19,8 +19,7 @@ from rocking.structures.arch_mechanism import (
     NoMechanism,
     Onset,
     TooThin,
-    maximum_thickness,
-    minimum_thickness,
+    limiting_thickness,
     onset_at,
     other_hinges,
     static_onset,
@@ -153,12 +152,11 @@ class Arch(Crackable):
         try:
             return static_onset(self.ring)
         except (TooThin, NoMechanism) as reason:
-            raise StructureError(f"{self._sentence} {self._refusal(isinstance(reason, TooThin))}.") from None
+            raise StructureError(f"{self._sentence} {self._refusal(type(reason))}.") from None
 
-    def _refusal(self, too_thin: bool) -> str:
-        bound = minimum_thickness if too_thin else maximum_thickness
-        limit = bound(self.embrace_angle, self.voussoirs, self.ring.fill) * self.radius
-        if too_thin:
+    def _refusal(self, reason: type[StructureError]) -> str:
+        limit = limiting_thickness(self.ring, reason) * self.radius
+        if reason is TooThin:
             return f"stands only above a thickness of {limit:.9g} m"
         return (
             f"has a four-hinge mechanism only below a thickness of {limit:.9g} m; make it thinner or the embrace "
@@ -317,8 +315,8 @@ class ArchOnPiers(Arch):
             )
         return super()._static_onset()
 
-    def _refusal(self, too_thin: bool) -> str:
-        if too_thin:
+    def _refusal(self, reason: type[StructureError]) -> str:
+        if reason is TooThin:
             return "does not stand; make the piers wider or lower"
         return "has no four-hinge mechanism; make the arch thinner"
 

@@ -16,7 +16,7 @@ from itertools import combinations
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Bars, Fill, Ring
+from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Bars, Ring
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.linkage import Linkage, Motion, cross, keeps_last
 
@@ -253,18 +253,13 @@ def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.n
     return hinges, unknowns
 
 
-def minimum_thickness(embrace_angle: float, voussoirs: int | None = None, fill: Fill | None = None) -> float:
-    """Return the smallest t/r at which the ring stands under its own weight (λ = 0), to 1e-13."""
-    return _boundary(Ring(1.0, embrace_angle, voussoirs, fill), TooThin, 0.0, 2.0)
+def limiting_thickness(ring: Ring, failure: type[StructureError]) -> float:
+    """Return the t/r of a ring like `ring` up to which (TooThin) or from which (NoMechanism) it fails so, to 1e-13.
 
-
-def maximum_thickness(embrace_angle: float, voussoirs: int | None = None, fill: Fill | None = None) -> float:
-    """Return the largest t/r at which a four-hinge mechanism exists; a thicker ring slides instead, to 1e-13."""
-    return _boundary(Ring(1.0, embrace_angle, voussoirs, fill), NoMechanism, 2.0, 0.0)
-
-
-def _boundary(ring: Ring, failure: type[StructureError], fails: float, passes: float) -> float:
-    """The t/r between two at which static_onset stops to fail in one way."""
+    TooThin: the smallest at which the ring stands under its own weight. NoMechanism: the largest at which it rocks on
+    four hinges; a thicker ring slides instead.
+    """
+    fails, passes = (0.0, 2.0) if failure is TooThin else (2.0, 0.0)
     while abs(passes - fails) > 1e-13:
         middle = (fails + passes) / 2
         try:

@@ -1,7 +1,7 @@
 """Rigid bodies that rock about a corner (theory: section 2): rectangular block (Housner 1963), spire, any other."""
 
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
@@ -51,12 +51,15 @@ class Block(Structure):
         cls,
         breadth: Annotated[float, length("Breadth", 0.6, (0.02, 20), "b")],
         height: Annotated[float, length("Height", 4.0, (0.1, 100), "h")],
-        *values: Any,
-        **options: Any,
+        restitution: Restitution = None,
+        one_sided: bool = False,
+        *,
+        restitution_range: float | None = None,
     ) -> "Block":
-        """Return the block of that breadth and height [m]; values and options as for the class."""
+        """Return the block of that breadth and height [m]; the others as for the class."""
         cls.check_values("of_size", breadth=breadth, height=height)
-        return cls(np.hypot(breadth, height) / 2, np.arctan2(breadth, height), *values, **options)
+        half, slenderness = np.hypot(breadth, height) / 2, np.arctan2(breadth, height)
+        return cls(half, slenderness, restitution, one_sided, restitution_range=restitution_range)
 
     @property
     def breadth(self) -> float:

@@ -42,7 +42,7 @@ class Arc:
     def at(self, rotation: np.ndarray | float) -> np.ndarray:
         """Return the arc at `rotation` [rad], any shape."""
         rotation = np.asarray(rotation, dtype=float)
-        return rotation * _clenshaw(self.means, *self._placed(rotation))
+        return rotation * _evaluated(self.means, rotation / self.last)
 
     def rotation(self, arc: np.ndarray, inverse: "RotationMap | None" = None) -> np.ndarray:
         """Return the rotation [rad] at `arc`, any shape, by Newton's method. inverse: where that begins."""
@@ -55,9 +55,8 @@ class Arc:
         else:
             rotation = inverse.rotation(np.minimum(arc, inverse.end))
         for _ in range(6):
-            piece, x = self._placed(rotation)
-            mean = _clenshaw(self.means, piece, x)
-            slope = mean + rotation * _clenshaw(self._rise, piece, x)
+            mean = _evaluated(self.means, rotation / self.last)
+            slope = mean + rotation * _evaluated(self._rise, rotation / self.last)
             step = (rotation * mean - arc) / slope
             rotation = np.clip(rotation - step, 0.0, self.last)
             if np.all(np.abs(step) <= _SQUARED_IS_ROUNDING * rotation):
@@ -68,9 +67,6 @@ class Arc:
     def _rise(self) -> np.ndarray:
         """d(q/φ)/dφ, as `means`."""
         return chebyshev.chebder(self.means) * 2 * self.means.shape[1] / self.last
-
-    def _placed(self, rotation: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        return _placed(rotation / self.last, self.means.shape[1])
 
 
 def arc_of(inertia: Function, last: float, accuracy: float) -> Arc | None:
@@ -109,8 +105,7 @@ class RotationMap:
     def rotation(self, arc: np.ndarray) -> np.ndarray:
         """Return the rotation [rad] at `arc`, any shape; inf beyond the end."""
         arc = np.asarray(arc, dtype=float)
-        piece, x = _placed(arc / self.end, self.coefficients.shape[1])
-        ratio = _clenshaw(self.coefficients, piece, x)
+        ratio = _evaluated(self.coefficients, arc / self.end)
         return np.where(arc > self.end, np.inf, np.minimum(arc, self.end) * ratio)
 
     def rotation_at(self, arc: float) -> float:
@@ -129,11 +124,9 @@ class RotationMap:
     def slope(self, arc: np.ndarray) -> np.ndarray:
         """Return dφ/dq at `arc`, any shape; that of the end beyond it."""
         arc = np.clip(np.asarray(arc, dtype=float), 0.0, self.end)
-        count = self.coefficients.shape[1]
-        piece, x = _placed(arc / self.end, count)
-        ratio = _clenshaw(self.coefficients, piece, x)
-        slope = _clenshaw(chebyshev.chebder(self.coefficients), piece, x)
-        return ratio + arc * slope * 2 * count / self.end
+        ratio = _evaluated(self.coefficients, arc / self.end)
+        slope = _evaluated(chebyshev.chebder(self.coefficients), arc / self.end)
+        return ratio + arc * slope * 2 * self.coefficients.shape[1] / self.end
 
     def arc(self, rotation: float) -> float:
         """Return the arc at one rotation [rad], up to the end, by Newton's method."""
@@ -181,15 +174,15 @@ def _pieces(
     return None
 
 
-def _placed(share: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Which of `count` equal pieces of [0, 1] each share lies in, and where in it, from −1 to 1."""
+def _evaluated(coefficients: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """The sum of the m pieces' series (16, m) at each `share` of their interval, 0 to 1, by Clenshaw's recurrence.
+
+    It goes row by row, as the coefficients of all places at once would fill memory.
+    """
+    count = coefficients.shape[1]
     place = np.clip(share * count, 0, count)
     piece = np.minimum(place.astype(int), count - 1)
-    return piece, 2 * (place - piece) - 1
-
-
-def _clenshaw(coefficients: np.ndarray, piece: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """The sum of each place's piece; row by row, as the coefficients of all places at once would fill memory."""
+    x = 2 * (place - piece) - 1
     twice, later, latest = 2 * x, np.zeros_like(x), np.zeros_like(x)
     for row in coefficients[:0:-1]:
         later, latest = row[piece] + twice * later - latest, later

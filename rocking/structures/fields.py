@@ -4,7 +4,7 @@ A class says it in the type of each parameter: `height: Annotated[float, length(
 loader, the checks at birth, the JSON schema and the documentation follow from there.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache, reduce
 from inspect import Parameter, signature
@@ -19,16 +19,8 @@ from rocking.described import Described
 from rocking.errors import StructureError
 from rocking.quantities import LENGTHS, finite
 
-_KILO = ("kN", "kN/m", "kN/m²", "kN/m³")
-_INWARD: dict[str, Callable[[Any], Any]] = {
-    "°": np.radians,
-    **dict.fromkeys(_KILO, lambda value: 1e3 * value),
-}
-_OUTWARD: dict[str, Callable[[Any], Any]] = {
-    "°": np.degrees,
-    **dict.fromkeys(_KILO, lambda value: value / 1e3),
-}
-"""From the unit of the file to SI and back; units that are not here are SI."""
+_SI = {"°": np.pi / 180, "kN": 1e3, "kN/m": 1e3, "kN/m²": 1e3, "kN/m³": 1e3}
+"""What a unit of the file is in SI; units that are not here are SI."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,16 +87,16 @@ class Field(Described):
         """Return a value of the file as the constructor takes it: in SI and radians, a list as a tuple."""
         if isinstance(value, list | tuple):
             return tuple(self.inward(each) for each in value)
-        if self.unit not in _INWARD:
+        if self.unit not in _SI:
             return value
-        return float(_INWARD[self.unit](finite(StructureError, self.key, value, self.unit)))  # type: ignore[arg-type]
+        return _SI[self.unit] * finite(StructureError, self.key, value, self.unit)  # type: ignore[arg-type]
 
     def outward(self, value: Any) -> Any:
         """Return an attribute in SI as a file gives it."""
         if isinstance(value, list | tuple):
             return [self.outward(each) for each in value]
         number = isinstance(value, float | int) and not isinstance(value, bool)
-        return float(_OUTWARD[self.unit](value)) if self.unit in _OUTWARD and number else value
+        return float(value / _SI[self.unit]) if self.unit in _SI and number else value
 
     def kept(self, value: Any) -> Any:
         """Return a value in SI as a structure keeps it; raises StructureError for another than is allowed."""
@@ -120,7 +112,7 @@ class Field(Described):
             checked = self.checked(tuple(outside) if isinstance(outside, list) else outside)
         except ValueError as wrong:
             raise StructureError(f"{self.name} is {wrong}") from None
-        if self.unit not in _OUTWARD:
+        if self.unit not in _SI:
             return checked
         return tuple(map(float, value)) if isinstance(value, tuple) else float(value)
 
@@ -159,15 +151,15 @@ class Form:
 
         Such a method hands on, besides, the options of the constructor.
         """
-        taken, hints = dict(signature(kind).parameters), get_type_hints(kind, include_extras=True)
+        parameters, hints = dict(signature(kind).parameters), get_type_hints(kind, include_extras=True)
         if make:
             method = getattr(kind, make)
-            hints |= get_type_hints(method, include_extras=True)
-            options = {n: each for n, each in taken.items() if each.default is not Parameter.empty}
-            taken = dict(signature(method).parameters) | options
-        taken["restitution_range"] = taken.pop("restitution_range")  # the last word
+            hints = get_type_hints(method, include_extras=True) | hints
+            options = {n: each for n, each in parameters.items() if each.default is not Parameter.empty}
+            parameters = dict(signature(method).parameters) | options
+        parameters["restitution_range"] = parameters.pop("restitution_range")  # the last word
         described = []
-        for name, parameter in taken.items():
+        for name, parameter in parameters.items():
             for value in getattr(hints.get(name), "__metadata__", ()):
                 described.append(_field(name, hints[name].__origin__, value, parameter.default))
         return cls(meaning, make, tuple(described))

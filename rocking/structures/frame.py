@@ -1,7 +1,7 @@
 """The symmetric rocking frame of equal columns under a rigid beam (Makris and Vassiliou 2013; theory: section 3)."""
 
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 
@@ -56,12 +56,13 @@ class Frame(Structure):
         column_height: Annotated[float, length("Height of a column", 8.0, (0.5, 60), "h")],
         columns: Columns,
         beam_mass_ratio: BeamMassRatio,
-        *values: Any,
-        **options: Any,
+        restitution: Restitution = None,
+        *,
+        restitution_range: float | None = None,
     ) -> "Frame":
-        """Return the frame whose columns have that breadth and height [m]; values and options as for the class."""
+        """Return the frame whose columns have that breadth and height [m]; the others as for the class."""
         column = Block.of_size(column_breadth, column_height)
-        return cls(column, columns, beam_mass_ratio, *values, **options)
+        return cls(column, columns, beam_mass_ratio, restitution, restitution_range=restitution_range)
 
     @property
     def column_breadth(self) -> float:

@@ -117,6 +117,14 @@ class Linkage(ABC):
     critical: float | None = None
     hung: tuple[Hung, ...] = ()
 
+    def _hang(self, masses: ArrayLike, rest: ArrayLike, inertias: ArrayLike, hung: Sequence[Hung]) -> None:
+        """Take the rigid parts and what of `hung` acts; its `loads`, whose mass moves along, are the last parts."""
+        self.hung = tuple(each for each in hung if each.acts)
+        self.loads = [each for each in self.hung if each.mass]
+        self.masses = np.append(masses, [each.mass for each in self.loads])
+        self.rest = np.append(rest, [each.start for each in self.loads])
+        self.inertias = np.append(inertias, np.zeros(len(self.loads)))
+
     @abstractmethod
     def motion(self, rotation: ArrayLike) -> Motion:
         """Return the parts at `rotation` ≥ 0 [rad], any shape."""
@@ -275,11 +283,7 @@ class Turning(Linkage):
         end_rotation: float = np.pi / 2,
     ) -> None:
         self.corner, self.end_rotation = corner, end_rotation
-        self.hung = tuple(each for each in hung if each.acts)
-        moving = [each for each in self.hung if each.mass]
-        self.masses = np.append(masses, [each.mass for each in moving])
-        self.rest = np.append(centres, [each.start for each in moving])
-        self.inertias = np.append(inertias, np.zeros(len(moving)))
+        self._hang(masses, centres, inertias, hung)
         moment = complex(self.masses @ (self.rest - corner))
         self.unit = abs(moment)
         self.slenderness = (

@@ -105,8 +105,9 @@ class Side:
 
     @cached_property
     def bends(self) -> tuple[float, ...]:
-        """Rotations up to the end at which a tie yields or breaks on the way out, in order, rad."""
-        return tuple(sorted({bend for tie in self.ties for bend in tie.bends(self.end_rotation)}))
+        """Rotations between rest and φ_cr at which a tie yields or breaks on the way out, in order, rad."""
+        bends = {bend for tie in self.ties for bend in tie.bends(self.end_rotation)}
+        return tuple(sorted(bend for bend in bends if 0 < bend < self.critical_rotation))
 
     def restoring(self, rotation: np.ndarray, largest: np.ndarray, weight: np.ndarray | float) -> np.ndarray:
         """Return G (g + ü_v) of weights and G g of ties, at `rotation` after `largest` [rad]; weight: g + ü_v."""
@@ -152,39 +153,32 @@ class Side:
 
     def equivalent_block(self, scale: Scale = "rest") -> EquivalentBlock:
         """Return the linear block that stands for this side alone; see Mechanism.equivalent_block."""
-        frequency, mapped, scaled = 0.0, None, self.scaled_acceleration(scale)
-        if scale == "rest":
-            arc, mapped = self.arc
-            # p² = g G(0)/(I(0) q_cr) in x = q/q_cr with the arc q (theory: section 9)
-            stiffness = GRAVITY * self.at("gravity", 0.0) / self.at("inertia", 0.0)
-            frequency = float(np.sqrt(stiffness / arc.at(self.critical_rotation)))
-        frequency = frequency or self.frequency_parameter
-        return EquivalentBlock(
-            frequency, self.critical_rotation, scaled, self.restitution, rotation_map=mapped
-        )
+        linearised = self.acceleration_scale
+        alternative = self.critical_rotation / self.uplift_multiplier  # a_sc,alt (Eq. 13)
+        mean = (linearised + alternative) / 2
+        scales = {"rest": alternative, "linearised": linearised, "uplift": alternative, "mean": mean}
+        if scale not in scales:
+            raise StructureError(f"scale is {scale!r}, but must be one of {', '.join(scales)}.")
+        numbers = self.critical_rotation, scales[scale], self.restitution
+        if scale != "rest":
+            return EquivalentBlock(self.frequency_parameter, *numbers)
+        # p² = g G(0)/(I(0) q_cr) in x = q/q_cr with the arc q (theory: section 9)
+        arc, inverse = self.arc
+        stiffness = GRAVITY * self.at("gravity", 0.0) / self.at("inertia", 0.0)
+        frequency = float(np.sqrt(stiffness / arc.at(self.critical_rotation)))
+        return EquivalentBlock(frequency, *numbers, rotation_map=inverse)
 
     @cached_property
     def block_defects(self) -> BlockDefects:
         """What the block exact at rest leaves out."""
         arc, _ = self.arc
-        rotation = np.linspace(0.0, self.critical_rotation, _DEFECT_SAMPLES)
-        if self.remembers:
-            bends = np.array([bend for bend in self.bends if bend < self.critical_rotation])
-            rotation = np.unique([*rotation, *bends * (1 - 1e-12), *bends])  # before a tie breaks, and after
+        steps, bends = np.linspace(0.0, self.critical_rotation, _DEFECT_SAMPLES), np.array(self.bends)
+        rotation = np.unique([*steps, *bends * (1 - 1e-12), *bends])  # before a tie breaks, and after
         x = arc.at(rotation) / arc.at(self.critical_rotation)
         stretch = arc.stretch(rotation)
         restoring = self.gravity(rotation) / self.at("gravity", 0.0) / stretch - (1 - x)
         forcing = self.at("ground", self.critical_rotation) / self.at("ground", 0.0) / stretch[-1] - 1
         return BlockDefects(float(np.abs(restoring).max()), float(forcing))
-
-    def scaled_acceleration(self, scale: Scale) -> float:
-        """a_sc, a_sc,alt = φ_cr/λ (Eq. 13), or their mean; that of the block exact at rest is a_sc,alt."""
-        linearised, alternative = self.acceleration_scale, self.critical_rotation / self.uplift_multiplier
-        mean = (linearised + alternative) / 2
-        scales = {"rest": alternative, "linearised": linearised, "uplift": alternative, "mean": mean}
-        if scale not in scales:
-            raise StructureError(f"scale is {scale!r}, but must be one of {', '.join(scales)}.")
-        return scales[scale]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

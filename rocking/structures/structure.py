@@ -190,10 +190,8 @@ class Structure(ABC):
                 "sides, and count 2 or more."
             )
         of = mechanism.sides[0 if side > 0 else -1]
-        rotation = np.linspace(0.0, of.critical_rotation, count)
-        if of.remembers:
-            bends = np.array([bend for bend in of.bends if bend < of.critical_rotation])
-            rotation = np.unique(np.concatenate([rotation, bends, bends * (1 + 1e-12)]))
+        steps, bends = np.linspace(0.0, of.critical_rotation, count), np.array(of.bends)
+        rotation = np.unique([*steps, *bends, *bends * (1 + 1e-12)])
 
         # the control point is the corner that moves furthest sideways
         linkage = self.linkages[0 if side > 0 else -1]

@@ -81,11 +81,9 @@ class SideTie:
 
     def bends(self, end_rotation: float) -> list[float]:
         """Return the rotations below `end_rotation` at which it yields and breaks, rad."""
-        return [
-            rotation
-            for stretch in dict.fromkeys((self.tie.yield_stretch, self.tie.rupture_stretch))
-            if (rotation := self.rotation(stretch, end_rotation)) < np.inf
-        ]
+        stretches = self.tie.yield_stretch, self.tie.rupture_stretch
+        bends = [self.rotation(stretch, end_rotation) for stretch in stretches]
+        return [bend for bend in bends if bend < np.inf]
 
     def rotation(self, stretch: float, end_rotation: float) -> float:
         """Return the rotation [rad] at which u is `stretch`; inf beyond `end_rotation`."""

@@ -41,14 +41,9 @@ class WallLinkage(Linkage):
         heights = np.array([lower_height, upper_height])
         diagonals = np.hypot(heights, thickness) / 2
         masses = weight * (heights / heights.sum())
-        self.unit, self.hung = weight, tuple(each for each in hung if each.acts)
-        self._loads = [each for each in hung if each.mass]
-        self.masses = np.append(masses, [each.mass for each in self._loads])
-        self.inertias = np.append(masses * diagonals**2 / 3, np.zeros(len(self._loads)))
-        self.rest = np.append(
-            [1j * lower_height / 2, 1j * (lower_height + upper_height / 2)],
-            [each.start for each in self._loads],
-        )
+        centres = [1j * lower_height / 2, 1j * (lower_height + upper_height / 2)]
+        self._hang(masses, centres, masses * diagonals**2 / 3, hung)
+        self.unit = weight
         slenderness = float(np.arctan2(thickness, lower_height))
         self.critical = None if self.hung else slenderness
         reach = min(1.0, diagonals[1] / diagonals[0])
@@ -82,20 +77,20 @@ class WallLinkage(Linkage):
             velocities=np.array([-1j * lower, -2j * lower + 1j * ratio * upper]),
             accelerations=np.array([-lower, -2 * lower + (1j * curvature - ratio**2) * upper]),
         )
-        if not self._loads:
+        if not self.loads:
             return blocks
         # a load on the top rises with its bearing and moves to no side
-        lifts = [1j * np.imag(self.carried(1, each.start, blocks)) for each in self._loads]
-        bearings = [each.start + lift[0] for each, lift in zip(self._loads, lifts, strict=True)]
+        lifts = [1j * np.imag(self.carried(1, each.start, blocks)) for each in self.loads]
+        bearings = [each.start + moved for each, (moved, _, _) in zip(self.loads, lifts, strict=True)]
         still = np.zeros((len(lifts), *across.shape))
-        return Motion(
-            hinges=blocks.hinges,
+        return replace(
+            blocks,
             angles=np.concatenate([blocks.angles, still]),
             spins=np.concatenate([blocks.spins, still]),
             spin_slopes=np.concatenate([blocks.spin_slopes, still]),
             centroids=np.array([*blocks.centroids, *bearings]),
-            velocities=np.array([*blocks.velocities, *(lift[1] for lift in lifts)]),
-            accelerations=np.array([*blocks.accelerations, *(lift[2] for lift in lifts)]),
+            velocities=np.array([*blocks.velocities, *(velocity for _, velocity, _ in lifts)]),
+            accelerations=np.array([*blocks.accelerations, *(acceleration for _, _, acceleration in lifts)]),
         )
 
     def contacts(self, state: MotionState) -> Contacts:
@@ -105,7 +100,7 @@ class WallLinkage(Linkage):
         """
         motion = self.motion(state.rotation)
         forces, couples = self.dalembert(state)
-        for each, force in zip(self._loads, forces[2:], strict=True):
+        for each, force in zip(self.loads, forces[2:], strict=True):
             bearing = each.start + self.carried(1, each.start, motion).moved
             pressing = 1j * force.imag  # the floor holds the load sideways
             forces[1] += pressing

@@ -19,13 +19,8 @@ ROOT = Path(rocking.__file__).parents[1]
 
 LIBRARIES = re.compile(r"dtype\[(typing\.)?Any\]|tuple\[(typing\.)?Any, \.\.\.\]|\*\*options: Any")
 """How numpy shows a number type and a shape, which the docstring states, and options handed on to matplotlib."""
-HANDED_ON = {
-    f"rocking.{wall}.{name}" for wall in ("Wall", "LoadedWall") for name in ("of_size", "hinged_at")
-} | {
-    "rocking.Accelerogram.processed_by",
-    "rocking.Block.of_size",
-    "rocking.Frame.of_columns",
-}
+HANDED_ON = {f"rocking.{wall}.{name}" for wall in ("Wall", "LoadedWall") for name in ("of_size", "hinged_at")}
+HANDED_ON |= {"rocking.Accelerogram.processed_by"}
 """Names whose further values and keywords are those of another, which their docstring names."""
 UNTYPED = {"rocking.Accelerogram.from_obspy", "rocking.Accelerogram.to_obspy"} | HANDED_ON
 """And names that take or give what obspy has, which carries no types of its own."""

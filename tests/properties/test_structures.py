@@ -8,7 +8,8 @@ from kinematic_onset import kinematic_onset
 
 from rocking.errors import RockingError
 from rocking.structures.arch import Arch
-from rocking.structures.arch_mechanism import maximum_thickness, minimum_thickness
+from rocking.structures.arch_mechanism import NoMechanism, TooThin, limiting_thickness
+from rocking.structures.arch_ring import Ring
 from rocking.structures.block import RigidBody
 from rocking.structures.structure_list import TYPES, structure_from_config
 from rocking.structures.wall import Wall
@@ -23,7 +24,8 @@ def arches(draw):
     """An arch anywhere between its least and its largest thickness."""
     embrace = draw(st.floats(np.radians(60), np.radians(240)))
     voussoirs = draw(st.one_of(st.none(), st.integers(5, 40)))
-    least, most = minimum_thickness(embrace, voussoirs), maximum_thickness(embrace, voussoirs)
+    ring = Ring(1.0, embrace, voussoirs)
+    least, most = (limiting_thickness(ring, failure) for failure in (TooThin, NoMechanism))
     assume(least < most)
     radius = draw(st.floats(5.0, 50.0))
     return Arch(radius, radius * (least + draw(st.floats(1e-4, 0.95)) * (most - least)), embrace, voussoirs)

@@ -103,7 +103,7 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
     for name, structure in structures.items():
         mechanism = structure.mechanism()
         side = mechanism.positive
-        linearised = side.scaled_acceleration("linearised")
+        linearised, uplift = mechanism.equivalent_block("linearised"), mechanism.equivalent_block("uplift")
         yield StructureRow.of(
             side,
             structure,
@@ -112,9 +112,9 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
             geometry=structure.description,
             crack=structure.crack_name,
             uplift_multiplier=mechanism.uplift_multiplier,
-            acceleration_scale_linearised=linearised,
-            acceleration_scale_uplift=side.scaled_acceleration("uplift"),
-            linearised_over_true_uplift=side.critical_rotation / linearised / side.uplift_multiplier,
+            acceleration_scale_linearised=linearised.acceleration_scale,
+            acceleration_scale_uplift=uplift.acceleration_scale,
+            linearised_over_true_uplift=linearised.uplift_multiplier / side.uplift_multiplier,
             restoring_defect=mechanism.block_defects.restoring,
             forcing_defect=mechanism.block_defects.forcing,
         )

@@ -8,13 +8,7 @@ from kinematic_onset import kinematic_onset
 
 from rocking.errors import StructureWarning
 from rocking.structures.arch import Arch
-from rocking.structures.arch_mechanism import (
-    NoMechanism,
-    TooThin,
-    maximum_thickness,
-    minimum_thickness,
-    static_onset,
-)
+from rocking.structures.arch_mechanism import NoMechanism, TooThin, limiting_thickness, static_onset
 from rocking.structures.arch_ring import Ring
 
 GRID = list(
@@ -83,7 +77,7 @@ def test_momentum_balance_against_a_sum_over_many_small_masses():
 
 def test_bounds_of_thickness_are_sharp():
     embrace = np.radians(120)
-    least, most = minimum_thickness(embrace), maximum_thickness(embrace)
+    least, most = (limiting_thickness(Ring(1.0, embrace), failure) for failure in (TooThin, NoMechanism))
     with pytest.raises(TooThin):
         static_onset(Ring(least * (1 - 1e-9), embrace))
     with pytest.raises(NoMechanism):
