@@ -3,7 +3,6 @@
 from rocking.pulses.analysis import Flag as Flag
 from rocking.pulses.analysis import PulseAnalysis as PulseAnalysis
 from rocking.pulses.analysis import PulseEvidence as PulseEvidence
-from rocking.pulses.analysis import PulseMethod as PulseMethod
 from rocking.pulses.analysis import PulseSettings as PulseSettings
 from rocking.pulses.extraction import energy_map as energy_map
 from rocking.pulses.extraction import extract_pulses as extract_pulses

@@ -106,7 +106,7 @@ class PulseAnalysis(Drawn):
     ranked: maxima of the energy gain on the record, by gain, that do not cover one another; the first is dominant.
     sequence: the pursuit, each pulse sought in what the ones before it left.
     residual: (n,) m/s², the record less the dominant pulse.
-    flags: reasons to doubt the dominant pulse.
+    flags: reasons to doubt the dominant pulse. band: lowest and highest frequency that were searched, Hz.
     Raises PulseError without a pulse.
 
     >>> from rocking import extract_pulses, read
@@ -121,7 +121,6 @@ class PulseAnalysis(Drawn):
     residual: np.ndarray
     flags: tuple[Flag, ...]
     band: tuple[float, float]
-    """Lowest and highest frequency that were searched, Hz."""
 
     def __post_init__(self) -> None:
         if not self.ranked:
@@ -162,7 +161,7 @@ class PulseAnalysis(Drawn):
         """Return a pandas frame with one row per pulse, by gain, the dominant one first."""
         from pandas import DataFrame
 
-        rows = [
+        return DataFrame(
             {
                 "amplitude_m_s2": each.pulse.amplitude,
                 "period_s": each.pulse.period,
@@ -171,8 +170,7 @@ class PulseAnalysis(Drawn):
                 "explained_energy": each.explained_energy,
             }
             for each in self.ranked
-        ]
-        return DataFrame(rows)
+        )
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rocking.errors import PulseError
 from rocking.pulses.analysis import Flag, PulseAnalysis, PulseEvidence, PulseSettings
@@ -72,8 +73,7 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
             f"{name} has a peak of {accelerogram.peak_acceleration:g} m/s², but a peak between {LEAST_PEAK:g} and "
             f"{GREATEST_PEAK:g} m/s² is needed; check its unit."
         )
-    band = searched_band(accelerogram, settings)
-    search = PulseSearch(accelerogram.time_step, band, settings)
+    search = PulseSearch.of(accelerogram, settings)
     maxima = search.maxima(samples)
     if maxima.gains.max(initial=0.0) <= NOTHING_LEFT * search.energy(samples):
         raise PulseError(
@@ -84,8 +84,8 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
     sequence = _pursued(search, samples, maxima, ranked[0])
     residual = samples - ranked[0].pulse.acceleration(accelerogram.times)
     residual.flags.writeable = False
-    raised = (*_raised(accelerogram, ranked, sequence, band), *band.flags)
-    return PulseAnalysis(accelerogram, ranked, sequence, residual, raised, band.limits)
+    flags = _raised(accelerogram, search, ranked, sequence)
+    return PulseAnalysis(accelerogram, ranked, sequence, residual, flags, search.band)
 
 
 def energy_map(
@@ -97,54 +97,9 @@ def energy_map(
     """
     from rocking.pulses.scan import energy_gains
 
-    frequencies = searched_band(accelerogram, settings or PulseSettings()).frequencies
+    frequencies = PulseSearch.of(accelerogram, settings or PulseSettings()).frequencies
     angles = 2 * np.pi * accelerogram.time_step * frequencies
     return energy_gains(accelerogram.acceleration[np.newaxis], accelerogram.time_step, angles), frequencies
-
-
-def evidence_of(pulse: Pulse, accelerogram: Accelerogram) -> PulseEvidence:
-    """Return what the record says for any pulse, also one that was not fitted to it; its gain may then be negative."""
-    from rocking.pulses.scan import envelope_phase
-
-    samples, step = accelerogram.acceleration, accelerogram.time_step
-    left = samples - pulse.acceleration(accelerogram.times)
-    energy = float(np.square(samples).sum())
-    gain = float((np.square(samples) - np.square(left)).sum())
-    phase = envelope_phase(samples, round(pulse.start_time / step), pulse.circular_frequency * step)
-    return PulseEvidence(pulse, gain * step, gain / energy, phase)
-
-
-class Band(NamedTuple):
-    """The frequencies that can be sought in a record: (m,) Hz, ascending, and why the band was narrowed."""
-
-    frequencies: np.ndarray
-    flags: tuple[Flag, ...]
-
-    @property
-    def limits(self) -> tuple[float, float]:
-        """Lowest and highest frequency, Hz."""
-        return float(self.frequencies[0]), float(self.frequencies[-1])
-
-
-def searched_band(accelerogram: Accelerogram, settings: PulseSettings) -> Band:
-    """Return the frequencies that `settings` asks for and the record can hold. Raises PulseError when none is left."""
-    longest, finest = 1 / accelerogram.duration, 1 / (settings.samples_per_cycle * accelerogram.time_step)
-    low, high = max(settings.lowest_frequency, longest), min(settings.highest_frequency, finest)
-    if low >= high:
-        raise PulseError(
-            f"{accelerogram.source.path or 'The accelerogram'} lasts {accelerogram.duration:g} s at a time step of "
-            f"{accelerogram.time_step:g} s, but a pulse between {settings.lowest_frequency:g} and "
-            f"{settings.highest_frequency:g} Hz needs one period of record and {settings.samples_per_cycle:g} "
-            "samples in a cycle; give a longer or more finely sampled record, or widen the band."
-        )
-    steps = math.ceil(settings.frequencies_per_octave * math.log2(high / low) - 1e-9)
-    frequencies = low * 2.0 ** (np.arange(steps + 1) / settings.frequencies_per_octave)
-    frequencies[-1] = high
-    narrowed = {
-        Flag.SHORT_RECORD: low > settings.lowest_frequency,
-        Flag.COARSE_SAMPLING: high < settings.highest_frequency,
-    }
-    return Band(frequencies, tuple(flag for flag, holds in narrowed.items() if holds))
 
 
 class Maxima(NamedTuple):
@@ -157,11 +112,34 @@ class Maxima(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class PulseSearch:
-    """A search with one time step, band and settings; the samples may be a record or a residual."""
+    """A search with one time step, settings and frequencies (m,) Hz, ascending; of a record or a residual."""
 
     time_step: float
-    band: Band
+    frequencies: np.ndarray
     settings: PulseSettings
+
+    @classmethod
+    def of(cls, accelerogram: Accelerogram, settings: PulseSettings) -> "PulseSearch":
+        """Return that of the frequencies in `settings` that the record can hold; raises PulseError without any."""
+        step, per_octave = accelerogram.time_step, settings.frequencies_per_octave
+        low = max(settings.lowest_frequency, 1 / accelerogram.duration)
+        high = min(settings.highest_frequency, 1 / (settings.samples_per_cycle * step))
+        if low >= high:
+            raise PulseError(
+                f"{accelerogram.source.path or 'The accelerogram'} lasts {accelerogram.duration:g} s at a time step of "
+                f"{step:g} s, but a pulse between {settings.lowest_frequency:g} and "
+                f"{settings.highest_frequency:g} Hz needs one period of record and {settings.samples_per_cycle:g} "
+                "samples in a cycle; give a longer or more finely sampled record, or widen the band."
+            )
+        count = math.ceil(per_octave * math.log2(high / low) - 1e-9) + 1
+        frequencies = low * 2.0 ** (np.arange(count) / per_octave)
+        frequencies[-1] = high
+        return cls(step, frequencies, settings)
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """Lowest and highest frequency, Hz."""
+        return float(self.frequencies[0]), float(self.frequencies[-1])
 
     def energy(self, samples: np.ndarray) -> float:
         """∫a² dt, m²/s³. A plain sum: a dot product of long vectors starts threads and depends on their number."""
@@ -177,33 +155,35 @@ class PulseSearch:
         """Return the maxima of `samples`, (n,) m/s², at `onsets` and `frequencies` (m,) Hz, by default of the band."""
         from rocking.pulses.scan import local_maxima
 
-        angles = 2 * np.pi * self.time_step * (self.band.frequencies if frequencies is None else frequencies)
+        angles = 2 * np.pi * self.time_step * (self.frequencies if frequencies is None else frequencies)
         first, last, _ = onsets.indices(samples.size)
         places, gains = local_maxima(samples[np.newaxis], self.time_step, angles, first, last, share)
-        kept = gains >= share * gains.max(initial=0.0)
-        return Maxima(places[kept, 0], places[kept, 1], gains[kept])
+        large = gains >= share * gains.max(initial=0.0)
+        return Maxima(places[large, 0], places[large, 1], gains[large])
 
     def renewed(self, maxima: Maxima, samples: np.ndarray, changed: Pulse) -> Maxima:
         """Return `maxima` with those whose cycle can meet `changed`, where alone `samples` differ, sought again."""
-        first = math.floor((changed.start_time - 1 / self.band.limits[0]) / self.time_step) - 2
+        first = math.floor((changed.start_time - 1 / self.band[0]) / self.time_step) - 2
         last = math.ceil(changed.end_time / self.time_step) + 2
         onsets = slice(max(first, 0), min(last, samples.size))
-        kept = (maxima.onsets < onsets.start) | (maxima.onsets >= onsets.stop)
-        old = (values[kept] for values in maxima)
+        elsewhere = (maxima.onsets < onsets.start) | (maxima.onsets >= onsets.stop)
+        old = (values[elsewhere] for values in maxima)
         return Maxima(*map(np.concatenate, zip(old, self.maxima(samples, onsets), strict=True)))
 
     def ranked(self, samples: np.ndarray, maxima: Maxima) -> tuple[PulseEvidence, ...]:
         """Return the best pulses that do not cover one another, by refined gain."""
-        kept: list[PulseEvidence] = []
+        best: list[PulseEvidence] = []
         for evidence in self.refined_maxima(samples, maxima, self.settings.candidates):
-            if all(shared_time(evidence.pulse, other.pulse) < self.settings.overlap for other in kept):
-                kept.append(evidence)
-        return tuple(kept[: self.settings.alternatives])
+            span = evidence.pulse.start_time, evidence.pulse.end_time
+            others = (each.pulse for each in best)
+            if all(_shared(*span, each.start_time, each.end_time) < self.settings.overlap for each in others):
+                best.append(evidence)
+        return tuple(best[: self.settings.alternatives])
 
     def refined_maxima(self, samples: np.ndarray, maxima: Maxima, count: int) -> list[PulseEvidence]:
         """Return the best `count` maxima that do not cover one another, refined, by refined gain."""
         order = np.argsort(-maxima.gains, kind="stable")
-        onsets, frequencies = maxima.onsets[order], self.band.frequencies[maxima.columns[order]]
+        onsets, frequencies = maxima.onsets[order], self.frequencies[maxima.columns[order]]
         starts, free = onsets * self.time_step, np.ones(order.size, bool)
         ends = starts + 1 / frequencies
         energy = self.energy(samples)
@@ -211,9 +191,7 @@ class PulseSearch:
         while len(refined) < count and free.any():
             best = int(np.argmax(free))
             refined.append(self.refined(samples, energy, int(onsets[best]), float(frequencies[best])))
-            common = np.minimum(ends, ends[best]) - np.maximum(starts, starts[best])
-            joint = np.maximum(ends, ends[best]) - np.minimum(starts, starts[best])
-            free &= common < SCANNED_OVERLAP * joint
+            free &= _shared(starts, ends, starts[best], ends[best]) < SCANNED_OVERLAP
         return sorted(refined, key=lambda evidence: -evidence.gain)
 
     def refined(self, samples: np.ndarray, energy: float, onset: int, frequency: float) -> PulseEvidence:
@@ -221,27 +199,27 @@ class PulseSearch:
         from rocking.pulses.scan import envelope_phase, refine
 
         turn = 2 * math.pi * self.time_step
-        lowest, highest = (turn * limit for limit in self.band.limits)
+        lowest, highest = (turn * limit for limit in self.band)
         reach = REFINEMENT_REACH * math.log(2) / self.settings.frequencies_per_octave
         angle, start, sine, norm = refine(samples, onset, turn * frequency, lowest, highest, reach)
         pulse = Pulse(sine / norm, angle / self.time_step, start * self.time_step)
         gain = sine * sine / norm * self.time_step
         return PulseEvidence(pulse, gain, gain / energy, envelope_phase(samples, round(start), angle))
 
-    def near(self, pulse: Pulse, samples: np.ndarray) -> Pulse:
+    def near(self, pulse: Pulse, samples: np.ndarray) -> PulseEvidence:
         """Return the best pulse in `samples` within half a period of onset and half an octave of `pulse`.
 
         Only the samples that such a pulse can touch are searched. Raises PulseError where no such cycle lies within
         the record or the samples there are still.
         """
+        from rocking.pulses.scan import envelope_phase
+
         first = max(math.floor((pulse.start_time - NEAR_TIME * pulse.period) / self.time_step), 0)
         longest = (NEAR_TIME + 2**NEAR_OCTAVES) * pulse.period
         window = samples[first : math.ceil((pulse.start_time + longest) / self.time_step) + 2]
         steps = round(NEAR_OCTAVES * self.settings.frequencies_per_octave)
-        frequencies = (
-            2.0 ** (np.arange(-steps, steps + 1) / self.settings.frequencies_per_octave) / pulse.period
-        )
-        frequencies = np.unique(np.clip(frequencies, *self.band.limits))
+        octaves = np.arange(-steps, steps + 1) / self.settings.frequencies_per_octave
+        frequencies = np.unique(np.clip(2.0**octaves / pulse.period, *self.band))
         onsets = math.ceil((pulse.start_time + NEAR_TIME * pulse.period) / self.time_step) + 1 - first
         maxima = self.maxima(window, slice(0, onsets), frequencies, NEAR_BEST)
         if not maxima.gains.size:
@@ -251,14 +229,16 @@ class PulseSearch:
             )
         best = np.argmax(maxima.gains)
         frequency = float(frequencies[maxima.columns[best]])
-        sine = self.refined(window, 1.0, int(maxima.onsets[best]), frequency).pulse
-        return replace(sine, start_time=sine.start_time + first * self.time_step)
+        evidence = self.refined(window, self.energy(samples), int(maxima.onsets[best]), frequency)
+        sine = replace(evidence.pulse, start_time=evidence.pulse.start_time + first * self.time_step)
+        onset, angle = round(sine.start_time / self.time_step), sine.circular_frequency * self.time_step
+        return replace(evidence, pulse=sine, phase=envelope_phase(samples, onset, angle))
 
 
-def shared_time(one: Pulse, other: Pulse) -> float:
-    """Common time of two pulses over the time from the first start to the last end, 0 to 1."""
-    common = min(one.end_time, other.end_time) - max(one.start_time, other.start_time)
-    return max(common, 0.0) / (max(one.end_time, other.end_time) - min(one.start_time, other.start_time))
+def _shared(starts: ArrayLike, ends: ArrayLike, start: float, end: float) -> np.ndarray:
+    """Time that spans share with another over that from the first start to the last end; below 0 where they do not."""
+    common = np.minimum(ends, end) - np.maximum(starts, start)
+    return np.asarray(common / (np.maximum(ends, end) - np.minimum(starts, start)))
 
 
 def _pursued(
@@ -282,9 +262,9 @@ def _pursued(
 
 def _raised(
     accelerogram: Accelerogram,
+    search: PulseSearch,
     ranked: tuple[PulseEvidence, ...],
     sequence: tuple[PulseEvidence, ...],
-    band: Band,
 ) -> tuple[Flag, ...]:
     """The flags of the dominant pulse."""
     pulse, second = ranked[0].pulse, ranked[1] if len(ranked) > 1 else None
@@ -295,12 +275,9 @@ def _raised(
         gap = min(abs(neighbour.start_time - pulse.end_time), abs(pulse.start_time - neighbour.end_time))
         alike = abs(neighbour.period / pulse.period - 1) <= ADJOINING_PERIOD_CHANGE
         more_cycles = more_cycles or (alike and gap <= ADJOINING_GAP * pulse.period)
-    high_pass, samples, step = (
-        accelerogram.high_pass_frequency,
-        accelerogram.acceleration,
-        accelerogram.time_step,
-    )
-    frequency = pulse.circular_frequency / (2 * math.pi)
+    high_pass = accelerogram.high_pass_frequency
+    samples, step = accelerogram.acceleration, accelerogram.time_step
+    frequency, (low, high) = 1 / pulse.period, search.band
     rooms = pulse.start_time / pulse.period, ((samples.size - 1) * step - pulse.end_time) / pulse.period
     loud = np.abs(samples[[0, -1]]) > EDGE_ACCELERATION * abs(pulse.amplitude)
     changes = np.flatnonzero(np.diff(samples))  # a run of identical samples at an end is padding, no gap
@@ -309,8 +286,10 @@ def _raised(
         Flag.EDGE: np.any(rooms < np.where(loud, 1.0, EDGE_DISTANCE)),
         Flag.FILTERED: high_pass is not None and pulse.period > FILTERED_CYCLES / high_pass,
         Flag.SYMMETRIC: equal and second is not None and _twin(pulse, second.pulse),
-        Flag.BAND_LIMIT: not band.limits[0] * (1 + 1e-9) < frequency < band.limits[1] * (1 - 1e-9),
+        Flag.BAND_LIMIT: not low * (1 + 1e-9) < frequency < high * (1 - 1e-9),
         Flag.GAP: (np.diff(changes).max(initial=1) - 1) * step > GAP_DURATION,
+        Flag.SHORT_RECORD: low > search.settings.lowest_frequency,
+        Flag.COARSE_SAMPLING: high < search.settings.highest_frequency,
     }
     return tuple(flag for flag, holds in raised.items() if holds)
 

@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from rocking.errors import PulseError
-from rocking.pulses.analysis import PulseAnalysis, PulseEvidence, PulseMethod, PulseSettings
-from rocking.pulses.extraction import PulseSearch, evidence_of, searched_band
+from rocking.pulses.analysis import PulseEvidence, PulseMethod, PulseSettings
+from rocking.pulses.extraction import PulseSearch
 from rocking.pulses.pulse import Pulse
 from rocking.pulses.velocity_pulse import LONGEST_PERIOD, SHORTEST_PERIOD, largest_velocity_pulse
 from rocking.records.accelerogram import Accelerogram
@@ -30,7 +30,7 @@ def predicting_pulse(candidates: Sequence[PulseEvidence], demand: Demand) -> Pul
     return max(candidates, key=lambda evidence: demand(evidence.pulse))
 
 
-def sine_of_velocity_pulse(accelerogram: Accelerogram) -> Pulse:
+def sine_of_velocity_pulse(accelerogram: Accelerogram) -> PulseEvidence:
     """Return the sine of largest energy gain within half a period and half an octave of the largest velocity pulse.
 
     The closed form asks for a sine of acceleration, and the period T_p of a velocity pulse (Shahi & Baker 2014) is not
@@ -44,12 +44,7 @@ def sine_of_velocity_pulse(accelerogram: Accelerogram) -> Pulse:
     velocity_period, centre = largest_velocity_pulse(accelerogram)
     period = velocity_period / PERIOD_OF_SINE
     there = Pulse(1.0, 2 * math.pi / period, centre - period / 2)
-    search = PulseSearch(accelerogram.time_step, searched_band(accelerogram, settings), settings)
-    return search.near(there, accelerogram.acceleration)
-
-
-def _of_velocity_pulse(analysis: PulseAnalysis) -> tuple[PulseEvidence, ...]:
-    return (evidence_of(sine_of_velocity_pulse(analysis.accelerogram), analysis.accelerogram),)
+    return PulseSearch.of(accelerogram, settings).near(there, accelerogram.acceleration)
 
 
 DEFAULT_PULSE_METHOD = "energy"
@@ -67,7 +62,9 @@ PULSE_METHODS: Mapping[str, PulseMethod] = {
             lambda analysis: analysis.ranked[:DEMAND_CANDIDATES],
         ),
         PulseMethod(
-            "velocity", "the sine of acceleration in the velocity pulse of the component", _of_velocity_pulse
+            "velocity",
+            "the sine of acceleration in the velocity pulse of the component",
+            lambda analysis: (sine_of_velocity_pulse(analysis.accelerogram),),
         ),
     )
 }

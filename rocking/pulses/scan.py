@@ -6,7 +6,7 @@ only: what allocates and prepares is numpy, for compiling array expressions take
 
 import math
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numba import njit, types
@@ -41,24 +41,15 @@ _SUMS = types.UniTuple(types.float64, 12)
 _SCAN = (_MATRIX, _COUNTS, _COUNTS, _MATRIX, _VECTOR, _CUBE)
 
 
-class _Scan(NamedTuple):
-    """What carries the scan from one onset to the next.
+def _prepared(
+    samples: np.ndarray, time_step: float, angles: np.ndarray, first: int
+) -> tuple[np.ndarray, ...]:
+    """Return what carries the scan of samples (c, n) from one onset to the next, at onset `first`.
 
     padded: (c, n + longest cycle) samples. counts: (m,) samples of each cycle. last_onsets: (m,) samples, at which the
     cycle still fits. turning: (4, m), real and imaginary part of e^{iω dt} and of the e^{iω(t − t_j)} of the sample
     that enters. weights: (m,) dt/⟨s, s⟩. sums: (c, 2, m), S_j of each component.
     """
-
-    padded: np.ndarray
-    counts: np.ndarray
-    last_onsets: np.ndarray
-    turning: np.ndarray
-    weights: np.ndarray
-    sums: np.ndarray
-
-
-def _prepared(samples: np.ndarray, time_step: float, angles: np.ndarray, first: int) -> _Scan:
-    """Return the scan of samples (c, n) at onset `first`."""
     lengths = 2 * math.pi / angles
     counts = (lengths + 1e-9).astype(np.int64) + 1
     padded = np.zeros((samples.shape[0], samples.shape[1] + counts.max() + 1))
@@ -70,7 +61,7 @@ def _prepared(samples: np.ndarray, time_step: float, angles: np.ndarray, first: 
     last_onsets = samples.shape[1] - 1 - np.ceil(lengths - 1e-9).astype(np.int64)
     sums = np.empty((samples.shape[0], 2, angles.size))
     _start(padded, first, counts, turning, sums)
-    return _Scan(padded, counts, last_onsets, turning, time_step / norms, sums)
+    return padded, counts, last_onsets, turning, time_step / norms, sums
 
 
 @entry(types.void(_MATRIX, types.int64, _COUNTS, _MATRIX, _CUBE))
@@ -370,9 +361,8 @@ def refine(samples, onset, angle, lowest, highest, reach):
     Returns (angle, onset in samples, ⟨a, s⟩, ⟨s, s⟩) as sums over samples.
     """
     last = samples.size - 1
-    longest = (
-        min(last, (last - onset) / 0.75) if onset < last else last
-    )  # with the onset a quarter cycle earlier
+    # with the onset a quarter cycle earlier
+    longest = min(last, (last - onset) / 0.75) if onset < last else last
     low = max(math.log(angle) - reach, math.log(lowest), math.log(2 * math.pi / longest))
     limits = (low, min(math.log(angle) + reach, math.log(highest)))
     u, v, score = _climbed(samples, onset, math.log(angle), 0.0, limits)

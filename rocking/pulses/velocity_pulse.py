@@ -82,8 +82,7 @@ def velocity_pulse(first: Accelerogram, second: Accelerogram | None = None) -> V
     """
     step = first.time_step
     pair = first.acceleration[np.newaxis] if second is None else np.array(paired(first, second))
-    velocities = _velocities(pair, step)
-    scales = searched_scales(step, velocities.shape[1])
+    velocities, scales = _searched(pair, step)
     places = _largest(velocities, scales)
     pulses = (_judged(velocities, step, scales, row, column) for row, column in places)
     largest = next(pulses)
@@ -96,13 +95,13 @@ def largest_velocity_pulse(accelerogram: Accelerogram) -> tuple[float, float]:
     Raises PulseError when the record is still or too short for a pulse.
     """
     step = accelerogram.time_step
-    velocities = _velocities(accelerogram.acceleration[np.newaxis], step)
-    scales = searched_scales(step, velocities.shape[1])
+    velocities, scales = _searched(accelerogram.acceleration[np.newaxis], step)
     row, column = _largest(velocities, scales, 1)[0]
     return PERIOD_OF_SCALE * _refined_scale(velocities[0], scales, row, column) * step, column * step
 
 
-def _velocities(accelerations: np.ndarray, step: float) -> np.ndarray:
+def _searched(accelerations: np.ndarray, step: float) -> tuple[np.ndarray, np.ndarray]:
+    """The velocities of components (c, n), m/s, and the scales that are searched in them; raises PulseError."""
     if accelerations.shape[1] > MOST_SAMPLES:
         raise PulseError(
             f"The motion holds {accelerations.shape[1]} samples, but a velocity pulse is sought in at most "
@@ -112,7 +111,8 @@ def _velocities(accelerations: np.ndarray, step: float) -> np.ndarray:
         raise PulseError(
             "The motion is zero throughout, but a velocity pulse needs one that moves; check the file."
         )
-    return np.array([integral(acceleration, step) for acceleration in accelerations])
+    velocities = np.array([integral(acceleration, step) for acceleration in accelerations])
+    return velocities, searched_scales(step, velocities.shape[1])
 
 
 def pulse_indicator(peak_ratio: float, energy_ratio: float, peak_velocity: float) -> float:
@@ -176,8 +176,7 @@ def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, c
     amplitudes = [coefficient_at(velocity, int(scales[row]), column) for velocity in velocities]
     first, second = amplitudes[0], amplitudes[1] if len(amplitudes) == 2 else 0.0
     orientation = (math.atan(second / first) if first else math.pi / 2) if second else 0.0
-    axis = (math.cos(orientation), math.sin(orientation))
-    velocity = sum(share * part for share, part in zip(axis, velocities, strict=False))
+    velocity = math.cos(orientation) * velocities[0] + math.sin(orientation) * velocities[-1]
     scale = _refined_scale(velocity, scales, row, column)
     pulse, centre = _extracted(velocity, scale, column)
     peak, left = np.abs(velocity).max(), np.abs(velocity - pulse).max()
