@@ -25,32 +25,25 @@
   // Matrix ----------------------------------------------------------------------------------------------
   const matrix = at("matrix");
   const SHOWN = "button:not([hidden])";
-  function element(name, properties = {}, ...children) {
-    const made = Object.assign(document.createElement(name), properties);
-    made.append(...children);
-    return made;
-  }
   const caseOf = (record, structure) => record.cases[structure.name];
-  const share = (each) => (each && each.share !== null ? Number(each.share) : 0);
 
-  function cellOf(record, structure) {
-    const each = caseOf(record, structure) || { verdict: "unknown", cell: "–", told: `no result. ${record.failure}` };
-    const title = `${structure.name} under ${record.id}: ${each.told}`;
-    const button = element("button", { type: "button", className: `cell ${each.verdict}`, tabIndex: -1, title }, each.cell);
-    Object.assign(button.dataset, { record: records.indexOf(record), structure: structures.indexOf(structure), verdict: each.verdict });
-    button.setAttribute("aria-pressed", "false");
-    button.setAttribute("aria-label", title);
-    return element("td", {}, button);
+  // A new last child of `parent`, of its namespace: HTML or SVG
+  function add(parent, name, attributes = {}, text = "") {
+    const child = document.createElementNS(parent.namespaceURI, name);
+    Object.entries(attributes).forEach(([key, value]) => child.setAttribute(key, value));
+    child.textContent = text;
+    parent.append(child);
+    return child;
   }
 
   // What the rows may be ordered by, the largest on top; the sum over a row puts the worst record there
   const KEYS = {
-    worst: (record) => [structures.reduce((sum, each) => sum + share(caseOf(record, each)), 0)],
+    worst: (record) => [structures.reduce((sum, each) => sum + (caseOf(record, each).share || 0), 0)],
     record: (record) => [-records.indexOf(record)],
     pga: (record) => [record.pga],
     pgv: (record) => [record.pgv],
   };
-  structures.forEach((each) => { KEYS[each.name + "/"] = (record) => (caseOf(record, each) || { severity: [-9] }).severity; });
+  structures.forEach((each) => { KEYS[each.name + "/"] = (record) => caseOf(record, each).severity; });
 
   function order(by) {
     const keys = records.map(KEYS[by]);
@@ -67,25 +60,26 @@
   }
 
   function fill() {
-    const head = element("tr");
-    const body = element("tbody");
+    const head = add(add(matrix, "thead"), "tr");
+    const body = add(matrix, "tbody");
     const heading = (by, text, title) => {
-      const cell = element("th", { scope: "col", title }, element("button", { type: "button" }, text));
-      cell.dataset.by = by;
-      head.append(cell);
+      add(add(head, "th", { scope: "col", title, "data-by": by }), "button", { type: "button" }, text);
     };
     heading("record", "Record", "order of the catalogue");
     heading("pga", "PGA [g]", "order by peak acceleration");
     heading("pgv", "PGV [m/s]", "order by peak velocity");
     structures.forEach((each) => heading(each.name + "/", each.name, `${each.type}: ${each.size}`));
-    for (const record of records) {
-      const peaks = [record.pga, record.pgv].map((value) => (value === null ? "–" : String(Number(value.toPrecision(2)))));
-      const cells = peaks.map((text) => element("td", { className: "peak" }, text));
-      const row = element("tr", {}, element("th", { scope: "row" }, record.id), ...cells, ...structures.map((each) => cellOf(record, each)));
-      row.dataset.record = records.indexOf(record);
-      body.append(row);
-    }
-    matrix.append(element("thead", {}, head), body);
+    records.forEach((record, r) => {
+      const row = add(body, "tr", { "data-record": r });
+      add(row, "th", { scope: "row" }, record.id);
+      for (const peak of [record.pga, record.pgv]) add(row, "td", { class: "peak" }, peak === null ? "–" : Number(peak.toPrecision(2)));
+      structures.forEach((structure, s) => {
+        const { verdict, cell, text } = caseOf(record, structure);
+        const title = `${structure.name} under ${record.id}: ${text}`;
+        const names = { title, "aria-label": title, "data-record": r, "data-structure": s, "data-verdict": verdict };
+        add(add(row, "td"), "button", { type: "button", class: `cell ${verdict}`, tabindex: -1, "aria-pressed": false, ...names }, cell);
+      });
+    });
     order("worst");
   }
 
@@ -130,17 +124,10 @@
   }
 
   // Histories -------------------------------------------------------------------------------------------
-  const SVG = "http://www.w3.org/2000/svg";
   const [LEFT, RIGHT] = [72, 610];
   const PANELS = [{ top: 8, bottom: 120 }, { top: 146, bottom: 258 }];
 
-  function drawn(name, attributes, text = "", parent = at("histories")) {
-    const made = document.createElementNS(SVG, name);
-    Object.entries(attributes).forEach(([key, value]) => made.setAttribute(key, value));
-    made.textContent = text;
-    parent.append(made);
-    return made;
-  }
+  const draw = (name, attributes, text) => add(at("histories"), name, attributes, text);
 
   function ticks(low, high, wished) {
     const raw = (high - low) / wished;
@@ -154,16 +141,16 @@
   function panel({ top, bottom }, span, reach, label) {
     const x = (time) => LEFT + ((time - span[0]) / (span[1] - span[0])) * (RIGHT - LEFT);
     const y = (value) => (top + bottom) / 2 - (value / reach) * ((bottom - top) / 2);
-    drawn("rect", { x: LEFT, y: top, width: RIGHT - LEFT, height: bottom - top, fill: "none", stroke: "#555" });
+    draw("rect", { x: LEFT, y: top, width: RIGHT - LEFT, height: bottom - top, fill: "none", stroke: "#555" });
     ticks(-reach, reach, 5).forEach((value) => {
-      drawn("line", { x1: LEFT, x2: RIGHT, y1: y(value), y2: y(value), stroke: value === 0 ? "#888" : "#e2e2e2" });
-      drawn("text", { x: LEFT - 6, y: y(value) + 4, "text-anchor": "end" }, String(value));
+      draw("line", { x1: LEFT, x2: RIGHT, y1: y(value), y2: y(value), stroke: value === 0 ? "#888" : "#e2e2e2" });
+      draw("text", { x: LEFT - 6, y: y(value) + 4, "text-anchor": "end" }, String(value));
     });
     ticks(span[0], span[1], 8).forEach((value) => {
-      drawn("line", { x1: x(value), x2: x(value), y1: bottom, y2: bottom + 4, stroke: "#555" });
-      drawn("text", { x: x(value), y: bottom + 17, "text-anchor": "middle" }, String(value));
+      draw("line", { x1: x(value), x2: x(value), y1: bottom, y2: bottom + 4, stroke: "#555" });
+      draw("text", { x: x(value), y: bottom + 17, "text-anchor": "middle" }, String(value));
     });
-    drawn("text", { transform: `translate(16 ${(top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, label);
+    draw("text", { transform: `translate(16 ${(top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, label);
     return { x, y };
   }
 
@@ -173,11 +160,12 @@
       const time = own[0] + ((k + 0.5) / values.length) * (own[1] - own[0]);
       if (time >= span[0] && time <= span[1]) points.push(`${x(time).toFixed(1)},${y(value).toFixed(1)}`);
     });
-    drawn("polyline", { points: points.join(" "), fill: "none", ...attributes });
+    draw("polyline", { points: points.join(" "), fill: "none", ...attributes });
   }
 
   const largest = (values) => values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
 
+  // Ground and rotation against time; returns what moves the cursor
   function histories(each, motion, span) {
     at("histories").replaceChildren();
     if (motion) {
@@ -187,7 +175,7 @@
       const axes = panel(PANELS[0], span, reach, "accel. [m/s²]");
       trace(acceleration, [0, motion.duration], span, axes, { stroke: "#444", "stroke-width": 0.8 });
       if (pulse) trace(pulse, motion.pulse.span, span, axes, { stroke: "#d55e00", "stroke-width": 2 });
-      drawn("text", { x: RIGHT - 8, y: PANELS[0].top + 16, "text-anchor": "end" }, "grey: record; orange: dominant pulse");
+      draw("text", { x: RIGHT - 8, y: PANELS[0].top + 16, "text-anchor": "end" }, "grey: record; orange: dominant pulse");
     }
     const values = each.history ? unpacked(each.history.ratio) : new Float64Array(2);
     const predicted = each.predicted < 1e9 ? each.predicted || 0 : 0;
@@ -195,11 +183,11 @@
     const axes = panel(PANELS[1], span, reach, "rotation ratio [-]");
     if (each.history) trace(values, each.history.span, span, axes, { stroke: "#000", "stroke-width": 1.1, id: "rotation" });
     for (const level of predicted > 0 ? [predicted, -predicted] : [])
-      drawn("line", { x1: LEFT, x2: RIGHT, y1: axes.y(level), y2: axes.y(level), stroke: "#0072b2", "stroke-dasharray": "8 3 2 3" });
+      draw("line", { x1: LEFT, x2: RIGHT, y1: axes.y(level), y2: axes.y(level), stroke: "#0072b2", "stroke-dasharray": "8 3 2 3" });
     const remark = predicted > 0 ? "dash-dot: largest by the closed form" : `closed form: ${each.closed}`;
-    drawn("text", { x: RIGHT - 8, y: PANELS[1].top + 16, "text-anchor": "end" }, remark);
-    drawn("text", { x: (LEFT + RIGHT) / 2, y: 292, "text-anchor": "middle" }, "time after the first sample [s]");
-    const cursor = drawn("line", { y1: PANELS[0].top, y2: PANELS[1].bottom, stroke: "#009e73", "stroke-width": 1.5, id: "cursor" });
+    draw("text", { x: RIGHT - 8, y: PANELS[1].top + 16, "text-anchor": "end" }, remark);
+    draw("text", { x: (LEFT + RIGHT) / 2, y: 292, "text-anchor": "middle" }, "time after the first sample [s]");
+    const cursor = draw("line", { y1: PANELS[0].top, y2: PANELS[1].bottom, stroke: "#009e73", "stroke-width": 1.5, id: "cursor" });
     return (time) => { cursor.setAttribute("x1", axes.x(time)); cursor.setAttribute("x2", axes.x(time)); };
   }
 
@@ -249,17 +237,17 @@
       const group = at("moving");
       group.replaceChildren();
       group.setAttribute("transform", `translate(${moves ? valueAt(moves, [0, motion.duration], time) : 0} 0) scale(1 -1)`);
-      drawn("line", { ...ground, y1: foot, y2: foot }, "", group);
-      drawn("line", { ...ground, y1: foot - margin / 4, y2: foot - margin / 4, "stroke-width": margin / 2, "stroke-dasharray": margin / 5, class: "ground" }, "", group);
-      for (const count of parts) drawn("polygon", { points: take(count).join(" ") }, "", group);
+      add(group, "line", { ...ground, y1: foot, y2: foot });
+      add(group, "line", { ...ground, y1: foot - margin / 4, y2: foot - margin / 4, "stroke-width": margin / 2, "stroke-dasharray": margin / 5, class: "ground" });
+      for (const count of parts) add(group, "polygon", { points: take(count).join(" ") });
       for (let k = 0; k < hinges; k += 1) {
         const [cx, cy] = take(1);
-        drawn("circle", { cx, cy, r: margin / 5, class: "hinge" }, "", group);
+        add(group, "circle", { cx, cy, r: margin / 5 });
       }
       for (const kind of marks) {
         const [x1, y1, x2, y2] = take(2);
-        drawn("line", { x1, y1, x2, y2, class: kind }, "", group);
-        drawn("circle", { cx: x2, cy: y2, r: margin / 6, class: kind }, "", group);
+        add(group, "line", { x1, y1, x2, y2, class: kind });
+        add(group, "circle", { cx: x2, cy: y2, r: margin / 6, class: kind });
       }
     };
   }
@@ -278,12 +266,13 @@
     history.replaceState(null, "", `#${encodeURIComponent(record.id)}/${encodeURIComponent(structure.name)}`);
     const each = caseOf(record, structure);
     at("case").hidden = false;
-    at("title").textContent = `${structure.name} (${structure.size}) under ${record.id}${each && each.component ? ", component " + each.component : ""}`;
-    at("moves").hidden = !each;
-    const still = each && !each.history ? "It does not lift enough to be drawn, or its motion was not kept." : "";
-    at("facts").textContent = [each ? each.told : `No result. ${record.failure}`, still, ...record.warnings, ""].join(" ");
-    at("facts").append(element("a", { href: `../${encodeURIComponent(record.id)}/report.pdf` }, "report.pdf"));
-    if (!each) return;
+    at("title").textContent = `${structure.name} (${structure.size}) under ${record.id}${each.component ? ", component " + each.component : ""}`;
+    const failed = each.component === undefined;
+    at("moves").hidden = failed;
+    const still = !failed && !each.history ? "It does not lift enough to be drawn, or its motion was not kept." : "";
+    at("facts").textContent = [each.text, still, ...record.warnings, ""].join(" ");
+    add(at("facts"), "a", { href: `../${encodeURIComponent(record.id)}/report.pdf` }, "report.pdf");
+    if (failed) return;
     const motion = record.motions[each.component];
     const span = each.history ? each.history.span : [0, motion ? motion.duration : 1];
     const point = histories(each, motion, span);
@@ -293,9 +282,9 @@
       return value === 0 ? 0 : value * each.history.critical[value < 0 ? 1 : 0];
     };
     const most = values ? largest(values) * Math.max(...each.history.critical) : 0;
-    const draw = () => paintWith(structure, motion, Math.max(most * Number(at("magnify").value), 0.02));
-    let paint = draw();
-    at("magnify").onchange = () => { paint = draw(); show(); };
+    const painter = () => paintWith(structure, motion, Math.max(most * Number(at("magnify").value), 0.02));
+    let paint = painter();
+    at("magnify").onchange = () => { paint = painter(); show(); };
     show = () => {
       const time = span[0] + (Number(at("scrub").value) / 1000) * (span[1] - span[0]);
       paint(rotationOf(time) * Number(at("magnify").value), time);
@@ -356,7 +345,7 @@
   addEventListener("hashchange", follow);
   if (!follow()) {
     const cells = [...matrix.querySelectorAll("tbody button")];
-    const moving = cells.filter(({ dataset }) => (caseOf(records[dataset.record], structures[dataset.structure]) || {}).history);
+    const moving = cells.filter(({ dataset }) => caseOf(records[dataset.record], structures[dataset.structure]).history);
     const first = moving.find((each) => each.dataset.verdict === "overturns") || moving[0] || cells[0];
     if (first) choose(first.dataset.record, first.dataset.structure);
   }

@@ -14,15 +14,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.assessment.fate import Fate, RecordTables
-from rocking.assessment.verdict import NEGLIGIBLE
+from rocking.assessment.rows.of_record import ComparisonRow
+from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.motion.response import Response
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import displacement
-from rocking.reports import printing
 from rocking.reports.drawings import fallen_rotation
 from rocking.reports.panels import moving_span, rotation_ratios
-from rocking.reports.printing import LOOKS, cell_text
+from rocking.reports.printing import LOOKS, band_text, cell_text, ratio
 from rocking.reports.record import warnings_of, worst_cases
 from rocking.structures import Mechanism, Structure
 
@@ -52,24 +52,27 @@ def record_content(
     component and structure; a case without one is shown without its motion.
     """
     worst = worst_cases(tables.comparison)
-    fates = {fate.structure: fate for fate in tables.verdicts}
     components = {row.component for row in worst.values()}
+    failure = " ".join(["no result.", *(failure.message for failure in tables.failures)])
+    nothing = {"verdict": Verdict.UNKNOWN, "cell": cell_text(None), "text": failure, "severity": [-9]}
+    cases = {
+        fate.structure: _case(
+            fate, worst.get(fate.structure), structures[fate.structure].mechanism(), responses
+        )
+        for fate in tables.verdicts
+        if fate.structure in structures
+    }
+    peaks = [(row.peak_acceleration_m_s2 / GRAVITY, row.peak_velocity_m_s) for row in tables.record]
+    pga, pgv = np.max(peaks, axis=0) if peaks else (math.nan, math.nan)
     return {
         "id": record,
-        "failure": " ".join(failure.message for failure in tables.failures),
         "warnings": warnings_of(tables),
-        "pga": _number(
-            max((row.peak_acceleration_m_s2 / GRAVITY for row in tables.record), default=math.nan)
-        ),
-        "pgv": _number(max((row.peak_velocity_m_s for row in tables.record), default=math.nan)),
+        "pga": _number(pga),
+        "pgv": _number(pgv),
         "motions": {
             each.component: _motion(each, tables) for each in accelerograms if each.component in components
         },
-        "cases": {
-            name: _case(fate, worst.get(name), structures[name].mechanism(), responses)
-            for name, fate in fates.items()
-            if name in structures
-        },
+        "cases": {name: cases.get(name, nothing) for name in structures},
     }
 
 
@@ -102,22 +105,18 @@ def explore_page(records: Iterable[Content], structures: Mapping[str, Structure]
 
 
 def _case(
-    fate: Fate, row: Any, mechanism: Mechanism, responses: Mapping[tuple[str, str], Response]
+    fate: Fate, row: ComparisonRow | None, mechanism: Mechanism, responses: Mapping[tuple[str, str], Response]
 ) -> Content:
+    """Return what became of a structure, in words and numbers, and the history that moves its drawing."""
     predicted = row.predicted_rotation_ratio if row else math.nan
-    given, low, high, closed = (
-        printing.ratio(each, 2)
-        for each in (fate.rotation_ratio, fate.rotation_ratio_low, fate.rotation_ratio_high, predicted)
-    )
-    band = (
-        f" (5 to 95 % of the members: {low if low == high else f'{low} to {high}'})" if fate.members else ""
-    )
+    closed = ratio(predicted, 2)
+    band = f" (5 to 95 % of the members: {band_text(fate, ' to ')})" if fate.members else ""
     crack = f" Crack that statics chooses: {fate.crack}." if fate.crack else ""
     case: Content = {
         "verdict": str(fate.verdict),
         "cell": cell_text(fate),
-        "told": f"{fate.verdict}: {fate.leaning or fate.why}. Largest rotation over critical rotation: {given} as "
-        f"given{band}, {closed} by the closed form.{crack}",
+        "text": f"{fate.verdict}: {fate.leaning or fate.why}. Largest rotation over critical rotation: "
+        f"{ratio(fate.rotation_ratio, 2)} as given{band}, {closed} by the closed form.{crack}",
         "share": _number(fate.overturning_share),
         "severity": [_number(min(each, 1e9)) for each in fate.severity],
         "component": row.component if row else "",

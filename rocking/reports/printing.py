@@ -101,6 +101,12 @@ def cell_text(fate: "Fate | None") -> str:
     return f"{sign} {number(fate.rotation_ratio, 2)}" if fate and fate.rotation_ratio < math.inf else sign
 
 
+def band_text(fate: "Fate", to: str) -> str:
+    """Return the rotation ratios that 5 and 95 % of the members do not exceed, with `to` between them; one if equal."""
+    low, high = ratio(fate.rotation_ratio_low, 2), ratio(fate.rotation_ratio_high, 2)
+    return low if low == high else f"{low}{to}{high}"
+
+
 def settings_texts(settings: Mapping[str, Any]) -> dict[str, object]:
     """Return what both reports print of the settings: who, what and when; tolerance and acceleration scale."""
     return {

@@ -17,20 +17,17 @@ from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.fragility import fragility_table
 from rocking.reports.printing import (
-    LOOKS,
-    METHODS,
-    cell_text,
+    Column,
     columns_of,
     number,
     plain,
     ratio,
     remainder,
-    settings_texts,
     strong,
     table_of,
     words,
 )
-from rocking.reports.style import PREDICTED, elided, new_figure, pictures, styled
+from rocking.reports.style import PREDICTED, elided, new_figure, picture, styled
 from rocking.tables import rows_of
 
 if TYPE_CHECKING:
@@ -38,7 +35,7 @@ if TYPE_CHECKING:
 
 FEWEST_POINTS = 3
 """Cases from which on the closed form is drawn against the integration; fewer are read from the tables."""
-MOST_MAPPED, MOST_STRUCTURES = 30, 20
+MOST_MAPPED, MOST_STRUCTURES = 48, 20
 """Records and structures of the map, the worst first; verdicts.csv holds all."""
 MOST_LISTED, MOST_RECORDS = 20, 200
 """Rows of the lists of unsafe cases and of failures, and of that of the records; the CSV tables hold all."""
@@ -72,19 +69,19 @@ def summary_data(
     unsafe = comparison[comparison["agreement"] == Agreement.TOO_LOW]
     unsafe = unsafe.sort_values("integrated_rotation_ratio", ascending=False, kind="stable")
     both = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]].max(axis=1, skipna=False)
-    scatter = [comparison] if (both > 0).sum() >= FEWEST_POINTS else []
+    drawable = int((both > 0).sum()) >= FEWEST_POINTS
     summary = tables.get("fragility_summary")
     alt = "Scatter of predicted against integrated rotation ratio, with factor-two lines."
     return {
         "title": "Rocking assessment: summary",
-        **settings_texts(settings),
+        **printing.settings_texts(settings),
         "subtitle": f"{counted(records['record'].nunique(), 'record')}, "
         f"{counted(len(tables['structures']), 'structure')}, {counted(len(comparison), 'case')}.",
         "notices": _notices(records, comparison, len(failures)),
         "map": severity_map(fates, records),
         "methods": method_table(tables),
         "structures": structure_table(fates),
-        "scatter": pictures(lambda shown: prediction_scatter(*shown), scatter, alt),
+        "scatter": [picture(prediction_scatter(comparison), alt)] if drawable else [],
         "agreement": table_of(rows_of(AgreementRow, tables["agreement"]), *AGREEMENT_COLUMNS),
         "unsafe": table_of(rows_of(ComparisonRow, unsafe.head(MOST_LISTED)), *UNSAFE_COLUMNS),
         "unsafe-note": remainder(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
@@ -99,29 +96,21 @@ def summary_data(
 
 def _notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> list[dict[str, object]]:
     """Return the warnings that stand above everything."""
-    told = {
+    warnings = {
         "No record could be read, so there is no result; the failures below say why.": records.empty,
         "No structure could be assessed under any record; the failures below say why.": comparison.empty,
         "No structure uplifts under any record.": (comparison["integrated_rotation_ratio"] == 0).all(),
     }
-    texts = [text for text, holds in told.items() if holds][:1]
+    texts = [text for text, holds in warnings.items() if holds][:1]
     if failures:
         texts.append(f"{counted(failures, 'failure')}, listed below.")
     if scaled := sorted(records.loc[records["scale_factor"] != 1, "record"].unique()):
-        named = printing.listed(scaled, most=20)
-        texts.append(f"Accelerations multiplied by a declared factor, not as recorded: {named}.")
+        names = printing.listed(scaled, most=20)
+        texts.append(f"Accelerations multiplied by a declared factor, not as recorded: {names}.")
     return [{"strong": True, "text": text} for text in texts]
 
 
 # What becomes of what --------------------------------------------------------------------------------------
-
-
-def _counts(fates: Sequence[Fate]) -> dict[str, Counter[Verdict]]:
-    """Under how many records each structure has each verdict, the structure with the worst case first."""
-    counts: dict[str, Counter[Verdict]] = {}
-    for fate in fates:
-        counts.setdefault(fate.structure, Counter())[fate.verdict] += 1
-    return counts
 
 
 def severity_map(fates: Sequence[Fate], records: "DataFrame") -> dict[str, object]:
@@ -148,16 +137,18 @@ def severity_map(fates: Sequence[Fate], records: "DataFrame") -> dict[str, objec
 
 
 def _cell(fate: Fate | None) -> dict[str, str]:
-    _, colour, ink, _ = LOOKS[fate.verdict if fate else Verdict.UNKNOWN]
-    return {"text": cell_text(fate), "fill": colour, "ink": ink}
+    _, fill, ink, _ = printing.LOOKS[fate.verdict if fate else Verdict.UNKNOWN]
+    return {"text": printing.cell_text(fate), "fill": fill, "ink": ink}
 
 
 def structure_table(fates: Sequence[Fate]) -> dict[str, object]:
     """Return one row per structure: under how many records it overturns, and the record that is worst for it."""
     worst = {fate.structure: fate for fate in reversed(fates)}
-    counts = _counts(fates)
-    some = {fate.verdict for fate in fates}
-    verdicts = [verdict for verdict in ORDER if verdict in some or verdict is not Verdict.UNKNOWN]
+    counts: dict[str, Counter[Verdict]] = {}
+    for fate in fates:
+        counts.setdefault(fate.structure, Counter())[fate.verdict] += 1
+    present = {fate.verdict for fate in fates}
+    verdicts = [verdict for verdict in ORDER if verdict in present or verdict is not Verdict.UNKNOWN]
     heads = [printing.sentence(verdict) for verdict in verdicts]
     return table_of(
         [(name, *[counts[name][verdict] for verdict in verdicts], worst[name]) for name in counts],
@@ -166,13 +157,8 @@ def structure_table(fates: Sequence[Fate]) -> dict[str, object]:
         ("Worst record", "1.6", "l", lambda row: row[-1].record),
         ("Overturns there in", "0.8", "l", lambda row: words(row[-1].count)),
         ("As given", "0.7", "r", lambda row: ratio(row[-1].rotation_ratio, 2)),
-        ("5–95 % of the members", "1.3", "r", lambda row: _band(row[-1])),
+        ("5–95 % of the members", "1.3", "r", lambda row: printing.band_text(row[-1], " – ")),
     )
-
-
-def _band(fate: Fate) -> str:
-    low, high = ratio(fate.rotation_ratio_low, 2), ratio(fate.rotation_ratio_high, 2)
-    return low if low == high else f"{low} – {high}"
 
 
 # What the methods are worth --------------------------------------------------------------------------------
@@ -182,13 +168,13 @@ def method_table(tables: Mapping[str, "DataFrame"]) -> dict[str, object]:
     """Return how each method stands to the integration of the mechanism under the record, and what a case took it."""
     comparison = tables["comparison"]
     whole = comparison[RATIO_COLUMNS[Method.MECHANISM_ON_RECORD]]
-    worth = ((method, *_worth(comparison[RATIO_COLUMNS[method]], whole)) for method in METHODS)
+    worth = ((method, *_worth(comparison[RATIO_COLUMNS[method]], whole)) for method in printing.METHODS)
     rows = [each for each in worth if each[1]]
     timings = tables.get("timings")
     spent = {} if timings is None else timings.groupby("stage")["duration_s"].sum().to_dict()
     return table_of(
         rows,
-        ("Method", "1.6", "l", lambda row: METHODS[row[0]]),
+        ("Method", "1.6", "l", lambda row: printing.METHODS[row[0]]),
         ("Cases", "0.6", "r", lambda row: plain(row[1])),
         ("Same outcome", "0.8", "r", lambda row: printing.of(row[2], row[1])),
         ("Less than happens", "0.8", "r", lambda row: strong(plain(row[3]), row[3] > 0)),
@@ -241,11 +227,14 @@ def prediction_scatter(comparison: "DataFrame") -> Figure:
     return figure
 
 
-AGREEMENT_COLUMNS = columns_of(
-    AgreementRow,
-    "structure=1.4 records=0.7 cases=0.6 both_rock=0.7 within_factor_two=0.8 median_ratio=0.7 overturning=1 "
-    "overturning_hits=1 overturning_misses=1 overturning_false_alarms=1",
-)
+AGREEMENT_COLUMNS: list[Column] = [
+    ("Structure", "1.4", "l", lambda row: row.structure or "all"),
+    *columns_of(
+        AgreementRow,
+        "records=0.7 cases=0.6 both_rock=0.7 within_factor_two=0.8 median_ratio=0.7 overturning=1 overturning_hits=1 "
+        "overturning_misses=1 overturning_false_alarms=1",
+    ),
+]
 UNSAFE_COLUMNS = columns_of(
     ComparisonRow,
     "record=1.4 component=auto structure=1.4 predicted_rotation_ratio integrated_rotation_ratio regime "
@@ -259,15 +248,14 @@ def record_table(records: Sequence[RecordRow], pulses: "DataFrame") -> dict[str,
     dominant = pulses[(pulses["kind"] == "alternative") & (pulses["rank"] == 1)]
     of_records = dominant[dominant["record"].isin([row.record for row in records])]
     pulse_of = {(row.record, row.component): row for row in rows_of(PulseRow, of_records)}
-    measures = "record=1.6 component=auto scale_factor peak_acceleration_m_s2=0.95 peak_velocity_m_s"
+    of_record = columns_of(
+        RecordRow, "record=1.6 component=auto scale_factor peak_acceleration_m_s2=0.95 peak_velocity_m_s"
+    )
     of_pulse = columns_of(PulseRow, "amplitude_m_s2 period_s explained_energy flags=1.2")
-    columns = [
-        (
-            f"Pulse {head.lower()}",
-            width,
-            side,
-            lambda row, show=show: show(pulse_of.get((row.record, row.component))),
-        )
-        for head, width, side, show in of_pulse
-    ]
-    return table_of(records, *columns_of(RecordRow, measures), *columns)
+    heads = [column[:3] for column in of_record]
+    heads += [(f"Pulse {head.lower()}", width, side) for head, width, side, _ in of_pulse]
+    cells = []
+    for row in records:
+        pulse = pulse_of.get((row.record, row.component))
+        cells.append([show(row) for *_, show in of_record] + [show(pulse) for *_, show in of_pulse])
+    return printing.table(heads, cells)

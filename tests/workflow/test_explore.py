@@ -110,7 +110,7 @@ def test_the_page_carries_the_rotation_that_was_integrated(content, study):
 def test_every_case_and_every_failure_is_on_the_page(content, study):
     assert [each["id"] for each in content["records"]] == ["synthetic_00000", "synthetic_00001"]
     assert list(content["records"][0]["cases"]) == list(study[1].structures)
-    assert "sha256" in content["records"][1]["failure"]
+    assert all("sha256" in case["text"] for case in content["records"][1]["cases"].values())
     assert HOSTILE in [each["name"] for each in content["structures"]]
 
 
