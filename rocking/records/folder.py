@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from datetime import datetime
-from itertools import islice
+from itertools import chain, count, islice
 from pathlib import Path
 from typing import Any
 
@@ -134,7 +134,8 @@ def _stations(files: Sequence[ListedFile]) -> list[list[ListedFile]]:
                 file.separation = f"Not joined with the other files of its station: {_why_apart(group)}."
                 stations.append([file])
         stations += [together] if together else []
-    return sorted(stations, key=lambda group: files.index(group[0]))
+    places = {file.file: place for place, file in enumerate(files)}
+    return sorted(stations, key=lambda group: places[group[0].file])
 
 
 def _station_key(file: ListedFile) -> object:
@@ -271,7 +272,7 @@ def _id(group: Sequence[ListedFile], ids: set[str]) -> str:
             base = base[:same]
     base = re.sub(r"[^A-Za-z0-9._-]+", "_", base)[:70].strip("._-") or "record"
     base = base if is_safe_id(base) else f"record_{base}"
-    names = (base, *(f"{base}_{number}" for number in range(2, len(ids) + 3)))
+    names = chain([base], (f"{base}_{number}" for number in count(2)))
     return next(name for name in names if name.lower() not in ids)
 
 
@@ -286,7 +287,8 @@ def listing_text(listed: Sequence[ListedFile]) -> str:
     rows = zip(_HEAD, *(row for file in listed for row in _lines(file)), strict=True)
     for column, widest, side in zip(rows, _WIDEST, _ALIGNED, strict=True):
         cells = [text if len(text) <= widest else f"{text[: widest - 1]}…" for text in column]
-        columns.append([f"{text:{side}{max(map(len, cells))}}" for text in cells])
+        width = max(map(len, cells))
+        columns.append([f"{text:{side}{width}}" for text in cells])
     return "".join("  ".join(row).rstrip() + "\n" for row in zip(*columns, strict=True))
 
 
