@@ -56,20 +56,14 @@ class Described:
     @cached_property
     def holds(self) -> Any:
         """The type of a value that is not None."""
-        one = next(
-            (kind for kind in get_args(self.kind) if self.optional and kind is not NoneType), self.kind
-        )
+        kinds = (kind for kind in get_args(self.kind) if self.optional and kind is not NoneType)
+        one = next(kinds, self.kind)
         return get_origin(one) or one
 
     @cached_property
     def optional(self) -> bool:
         """Whether it may be None."""
         return NoneType in get_args(self.kind)
-
-    @property
-    def type(self) -> str:
-        """The type of a value that is not None, as Frictionless calls it."""
-        return {float: "number", int: "integer", bool: "boolean"}.get(self.holds, "string")
 
     @cached_property
     def _adapter(self) -> Any:
@@ -78,9 +72,8 @@ class Described:
         kind: Any = Literal[self.one_of()] if self.one_of else self.kind
         text = {"min_length": 1} if self.default != "" and str in (kind, *get_args(kind)) else {}
         limits: Any = {**self.bounds, **text}
-        return TypeAdapter(
-            Annotated[kind, Field(**limits)], config=ConfigDict(strict=True, allow_inf_nan=False)
-        )
+        config = ConfigDict(strict=True, allow_inf_nan=False)
+        return TypeAdapter(Annotated[kind, Field(**limits)], config=config)
 
     @cached_property
     def schema(self) -> dict[str, Any]:
@@ -162,13 +155,13 @@ def read_described(
     mapping: object,
     defects: list[str],
     above: str = "",
-    heard: Callable[[Any], Any] = lambda value: value,
+    interpret: Callable[[Any], Any] = lambda value: value,
 ) -> T:
     """Return `default`, a dataclass of described values, with the values that `mapping` gives by their keys.
 
-    A field whose default is a dataclass is a mapping of its own. above: what stands before a key in a sentence. heard:
-    what a text says that is not allowed as it stands. Each defect adds a sentence to `defects`: the key, its value and
-    what is allowed.
+    A field whose default is a dataclass is a mapping of its own. above: what stands before a key in a sentence.
+    interpret: gives what a text means that is not allowed as it stands. Each defect adds a sentence to `defects`: the
+    key, its value and what is allowed.
     """
     kind: Any = type(default)
     allowed = {each.key: each for each in described_values(kind).values()}
@@ -180,13 +173,13 @@ def read_described(
     values, before = {}, len(defects)
     for key, value in mapping.items():
         if key in parts:
-            values[key] = read_described(parts[key], value, defects, f"{above}{key}.", heard)
+            values[key] = read_described(parts[key], value, defects, f"{above}{key}.", interpret)
         elif key not in allowed:
             near = get_close_matches(str(key), names, n=1, cutoff=0.6)
             hint = f"did you mean {near[0]}?" if near else f"the names are {', '.join(names)}."
             defects.append(f"{above}{key} is {value!r}, but nothing has this name; {hint}")
         else:
-            for meant in [value, heard(value)] if isinstance(value, str) else [value]:
+            for meant in [value, interpret(value)] if isinstance(value, str) else [value]:
                 with suppress(ValueError):
                     values[allowed[key].name] = allowed[key].checked(meant)
                     break
@@ -215,15 +208,8 @@ def _words(schema: Mapping[str, Any]) -> str:
 
 
 _TYPES = {
-    "integer": "a whole number",
-    "number": "a number",
-    "boolean": "true or false",
-    "string": "a text",
-    "null": "null",
-}
+    "integer": "a whole number", "number": "a number", "boolean": "true or false", "string": "a text", "null": "null",
+}  # fmt: skip
 _LIMITS = {
-    "exclusiveMinimum": "above",
-    "minimum": "of at least",
-    "exclusiveMaximum": "below",
-    "maximum": "up to",
-}
+    "exclusiveMinimum": "above", "minimum": "of at least", "exclusiveMaximum": "below", "maximum": "up to",
+}  # fmt: skip

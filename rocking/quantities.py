@@ -85,7 +85,7 @@ def whole(field: str, value: float, low: float, high: float) -> int:
     return int(number)
 
 
-def shown(value: float, unit: str = "") -> str:
+def four_digits(value: float, unit: str = "") -> str:
     """Return `value` to four digits with its unit, as a reader wants it."""
     return f"{value:.4g}{_in(unit)}"
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from rocking.drawn import Drawn
 from rocking.errors import MotionError
-from rocking.quantities import counted, shown
+from rocking.quantities import counted, four_digits
 from rocking.records import Accelerogram
 from rocking.structures import Outcome, Structure
 from rocking.structures.contacts import UnknownContacts
@@ -65,7 +65,7 @@ class Response(Drawn):
             return f"Response(failed: {self.reason})"
         words = [self.outcome.of(self.rotation_ratio)]
         if self.outcome is Outcome.ROCKS:
-            words.append(f"largest at {shown(self.peak_time, 's')}")
+            words.append(f"largest at {four_digits(self.peak_time, 's')}")
         if self.outcome is not Outcome.NO_UPLIFT:
             words.append(counted(self.impacts, "impact"))
         if self.times is not None:

@@ -6,7 +6,7 @@ import numpy as np
 
 from rocking.drawn import Drawn
 from rocking.errors import PulseError
-from rocking.quantities import GRAVITY, finite, positive, shown
+from rocking.quantities import GRAVITY, finite, four_digits, positive
 
 
 @dataclass(frozen=True, repr=False)
@@ -32,8 +32,8 @@ class Pulse(Drawn):
         object.__setattr__(self, "start_time", finite(PulseError, "start_time", self.start_time, "s"))
 
     def __repr__(self) -> str:
-        size = f"{shown(self.amplitude, 'm/s²')} = {shown(self.amplitude / GRAVITY, 'g')}"
-        return f"Pulse({size}, period {shown(self.period, 's')}, start {shown(self.start_time, 's')})"
+        size = f"{four_digits(self.amplitude, 'm/s²')} = {four_digits(self.amplitude / GRAVITY, 'g')}"
+        return f"Pulse({size}, period {four_digits(self.period, 's')}, start {four_digits(self.start_time, 's')})"
 
     @property
     def period(self) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 
 from rocking.drawn import Drawn
 from rocking.errors import RecordError, about
-from rocking.quantities import GRAVITY, UNPRINTABLE, acceleration_factor, finite, positive, shown
+from rocking.quantities import GRAVITY, UNPRINTABLE, acceleration_factor, finite, four_digits, positive
 from rocking.records.instrument import directed
 from rocking.records.traces import calibrated, joined, names, site
 
@@ -108,9 +108,9 @@ class Accelerogram(Drawn):
 
     def __repr__(self) -> str:
         names = [name for name in (self.component, self.station, self.event) if name]
-        size = f"{self.acceleration.size} samples at {shown(self.time_step, 's')}"
+        size = f"{self.acceleration.size} samples at {four_digits(self.time_step, 's')}"
         peak = self.peak_acceleration
-        peaks = f"peak {shown(peak, 'm/s²')} = {shown(peak / GRAVITY, 'g')}"
+        peaks = f"peak {four_digits(peak, 'm/s²')} = {four_digits(peak / GRAVITY, 'g')}"
         return f"Accelerogram({', '.join([*names, size, peaks])})"
 
     @property

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 
 from rocking.drawn import Drawn
 from rocking.errors import StructureError
-from rocking.quantities import GRAVITY, positive, shown, within
+from rocking.quantities import GRAVITY, four_digits, positive, within
 from rocking.structures.equivalent_block import (
     Arc,
     BlockDefects,
@@ -90,9 +90,9 @@ class Side:
     @property
     def described(self) -> str:
         """Its four numbers, for a reader."""
-        frequency = shown(self.frequency_parameter, "rad/s")
-        rotation, restitution = shown(self.critical_rotation, "rad"), shown(self.restitution)
-        return f"λ = {shown(self.uplift_multiplier)}, φ_cr = {rotation}, p = {frequency}, η = {restitution}"
+        frequency = four_digits(self.frequency_parameter, "rad/s")
+        rotation, restitution = four_digits(self.critical_rotation, "rad"), four_digits(self.restitution)
+        return f"λ = {four_digits(self.uplift_multiplier)}, φ_cr = {rotation}, p = {frequency}, η = {restitution}"
 
     def at(self, name: str, rotation: float) -> float:
         """Return one of the five functions, by name, at one rotation [rad], as a float."""

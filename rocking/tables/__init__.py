@@ -24,7 +24,6 @@ from rocking.tables.files import read_whole as read_whole
 from rocking.tables.files import whole as whole
 from rocking.tables.files import write_whole as write_whole
 from rocking.tables.files import written_together as written_together
-from rocking.tables.row import R as R
 from rocking.tables.row import Row as Row
 from rocking.tables.row import Table as Table
 from rocking.tables.row import cell as cell

@@ -1,9 +1,8 @@
 """Rows as CSV: written row by row with their description, and read back as typed objects or as a data frame."""
 
 import csv
-import io
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from enum import StrEnum
 from itertools import islice
@@ -14,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from rocking.described import Described
 from rocking.errors import RockingError
 from rocking.tables.files import whole, write_whole
-from rocking.tables.row import R, Row, Table, cell, empty, unguarded, value_of
+from rocking.tables.row import R, Row, Table, cell, empty, value_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -58,20 +57,27 @@ def read_rows(row_class: type[R], path: Path) -> Iterator[R]:
 
     Raises RockingError naming file, line and column where a column is missing or unknown or a cell cannot be read.
     """
+    names = row_class.table.column_names
+    for values in _read_values(row_class, path, names):
+        yield row_class(**dict(zip(names, values, strict=True)))
+
+
+def _read_values(row_class: type[Row], path: Path, names: Collection[str]) -> Iterator[list[Any]]:
+    """Yield the values of the columns `names` in each row of a CSV file; raises RockingError as read_rows does."""
     columns = row_class.table.columns
+    chosen = [(place, each) for place, each in enumerate(columns) if each.name in names]
     with readable(path) as stream:
         lines = csv.reader(stream)
         check_columns(row_class.table, next(lines, []), path)
         for cells in lines:
             if len(cells) != len(columns):
-                raise RockingError(
-                    f"{path}, line {lines.line_num}, has {len(cells)} cells, but must have {len(columns)}."
-                )
+                counts = f"has {len(cells)} cells, but must have {len(columns)}"
+                raise RockingError(f"{path}, line {lines.line_num}, {counts}.")
             try:
-                values = {each.name: value_of(each, text) for each, text in zip(columns, cells, strict=True)}
+                values = [value_of(each, cells[place]) for place, each in chosen]
             except ValueError as error:
                 raise RockingError(f"{path}, line {lines.line_num}, {error}.") from None
-            yield row_class(**values)
+            yield values
 
 
 @contextmanager
@@ -130,7 +136,8 @@ def data_package(name: str, paths: Mapping[type[Row], str | list[str]]) -> bytes
 
 
 def _field(column: Described) -> dict[str, str]:
-    facts = {"name": column.name, "type": column.type, "description": column.meaning}
+    kind = {float: "number", int: "integer", bool: "boolean"}.get(column.holds, "string")
+    facts = {"name": column.name, "type": kind, "description": column.meaning}
     more = {"unit": column.unit, "equation": column.more["equation"]}
     return facts | {key: value for key, value in more.items() if value}
 
@@ -145,60 +152,40 @@ def frame(
     """
     import pandas as pd  # here, because half the commands make no data frame and it takes half a second to import
 
-    kept = [each for each in row_class.table.columns if columns is None or each.name in set(columns)]
-    content: Any = source
+    chosen = [each for each in row_class.table.columns if columns is None or each.name in set(columns)]
+    names = [each.name for each in chosen]
     if isinstance(source, Path | str):
-        with readable(Path(source)) as stream:
-            check_columns(row_class.table, next(csv.reader(stream), []), Path(source))
+        rows = list(_read_values(row_class, Path(source), names))
     else:
-        content = io.StringIO("".join(csv_lines(row_class, source)))
-    texts = [each for each in kept if each.holds is str or each.holds is tuple]
-    chosen = [each for each in kept if issubclass(each.holds, StrEnum)]
-    try:
-        table = pd.read_csv(
-            content,
-            usecols=[each.name for each in kept],
-            dtype={each.name: "category" if each in chosen else _dtype(each) for each in kept},
-            keep_default_na=False,
-            na_values={each.name: ["", "nan"] for each in kept if each not in texts},
-        )
-        for each in chosen:
-            table[each.name] = _checked(table[each.name], each)
-    except ValueError:
-        if isinstance(source, Path | str):
-            list(read_rows(row_class, Path(source)))  # says where
-        raise
-    for each in texts:
-        table[each.name] = table[each.name].map(unguarded)
+        rows = [[getattr(row, name) for name in names] for row in source]
+    table = pd.DataFrame(index=range(len(rows)))
+    for place, each in enumerate(chosen):
+        values = [row[place] for row in rows]
+        if each.holds is tuple:
+            values = ["; ".join(map(str, value)) for value in values]
+        dtypes: dict[Any, Any] = {
+            float: "float64",
+            bool: "boolean",
+            int: "Int64" if each.optional else "int64",
+        }
+        if issubclass(each.holds, StrEnum):
+            dtypes[each.holds] = pd.CategoricalDtype([choice.value for choice in each.holds])
+        table[each.name] = pd.Series(values, dtype=dtypes.get(each.holds, "str"))
     return table
-
-
-def _dtype(each: Described) -> Any:
-    import pandas as pd
-
-    if issubclass(each.holds, StrEnum):
-        return pd.CategoricalDtype([one.value for one in each.holds])
-    dtypes = {float: "float64", bool: "boolean", int: "Int64" if each.optional else "int64"}
-    return dtypes.get(each.holds, "str")
-
-
-def _checked(choices: Any, each: Described) -> Any:
-    unknown = set(choices.cat.categories) - set(each.holds)
-    if unknown or (choices.isna().any() and not each.optional):
-        raise ValueError(each.name)
-    return choices.cat.set_categories([one.value for one in each.holds])
 
 
 def rows_of(row_class: type[R], table: "DataFrame") -> Iterator[R]:
     """Yield the rows of a whole data frame that `frame` gave as objects again."""
     columns = row_class.table.columns
     for line in table.astype(object).where(table.notna(), None).itertuples(index=False):
-        yield row_class(**{each.name: _restored(each, getattr(line, each.name)) for each in columns})
-
-
-def _restored(each: Described, value: Any) -> Any:
-    if value is None or value != value:
-        return empty(each)
-    if each.holds is tuple:
-        return tuple(value.split("; ")) if value else ()
-    return each.holds(value)
+        values = {}
+        for each in columns:
+            value = getattr(line, each.name)
+            if value is None or value != value:
+                value = empty(each)
+            elif each.holds is tuple:
+                value = tuple(value.split("; ")) if value else ()
+            else:
+                value = each.holds(value)
+            values[each.name] = value
+        yield row_class(**values)

@@ -10,16 +10,9 @@ from typing import Any, ClassVar, Self, TypeVar, dataclass_transform
 from rocking.described import Described, described, described_values
 
 _UNITS = {
-    "rad_s": "rad/s",
-    "m_s2": "m/s²",
-    "m2_s3": "m²/s³",
-    "m_s": "m/s",
-    "rad": "rad",
-    "hz": "Hz",
-    "deg": "°",
-    "s": "s",
+    "rad_s": "rad/s", "m_s2": "m/s²", "m2_s3": "m²/s³", "m_s": "m/s", "rad": "rad", "hz": "Hz", "deg": "°", "s": "s",
     "m": "m",
-}
+}  # fmt: skip
 """Unit by the end of a column's name; the first that fits counts."""
 
 
@@ -104,17 +97,15 @@ def row(name: str = "", description: str = "") -> Callable[[type[R]], type[R]]:
 
     def made(cls: type[R]) -> type[R]:
         row_class: Any = dataclass(frozen=True, slots=True, kw_only=True)(cls)
-        columns = sorted(described_values(row_class).values(), key=lambda each: each.more["last"])
-        said = description or (cls.__doc__ or "").partition("\n")[0].rstrip(".")
-        row_class.table = Table(name, said, tuple(map(_with_unit, columns)))
+        columns = []
+        for each in sorted(described_values(row_class).values(), key=lambda each: each.more["last"]):
+            ends = (unit for end, unit in _UNITS.items() if each.name.endswith(f"_{end}"))
+            columns.append(replace(each, unit=each.unit or next(ends, "")))
+        summary = description or (cls.__doc__ or "").partition("\n")[0].rstrip(".")
+        row_class.table = Table(name, summary, tuple(columns))
         return row_class
 
     return made
-
-
-def _with_unit(column: Described) -> Described:
-    ends = (unit for end, unit in _UNITS.items() if column.name.endswith(f"_{end}"))
-    return replace(column, unit=column.unit or next(ends, ""))
 
 
 _FORMULA = re.compile(r"'*[=+\-@\t\r]")
@@ -164,9 +155,7 @@ def value_of(each: Described, text: str) -> Any:
     try:
         return {"true": True, "false": False}[text] if holds is bool else holds(text)
     except (ValueError, KeyError):
-        allowed = (
-            ", ".join(holds)
-            if issubclass(holds, StrEnum)
-            else {bool: "true or false", int: "a whole number"}.get(holds, "a number")
-        )
+        allowed = {bool: "true or false", int: "a whole number"}.get(holds, "a number")
+        if issubclass(holds, StrEnum):
+            allowed = ", ".join(holds)
         raise ValueError(f"column {each.name}: {text!r} must be {allowed}") from None
