@@ -269,19 +269,25 @@ def ensemble(
     settings = settings or EnsembleSettings()
     points = lattice(max(settings.size, MOST_NEAR_A_LIMIT))
     follow = partial(drawn, structure, motions, settings=settings, tolerance=tolerance)
-    made = follow(points[:FIRST])
+    members = follow(points[:FIRST])
     quick = verdict_only or whether_it_stands
-    falls = made.overturning_share - made.probability_error > settings.risk
-    if np.all(made.rotation_ratios <= NEGLIGIBLE) or (quick and made.far) or (whether_it_stands and falls):
-        return made
+    falls = members.overturning_share - members.probability_error > settings.risk
+    if (
+        np.all(members.rotation_ratios <= NEGLIGIBLE)
+        or (quick and members.far)
+        or (whether_it_stands and falls)
+    ):
+        return members
     usual = max(settings.size, FIRST)
     if usual > FIRST:
-        made = made.followed_by(follow(points[FIRST:usual]))
-    opposite = min(made.overturning_share, 1 - made.overturning_share)
-    near_a_limit = made.verdict is Verdict.UNDECIDED and opposite - made.probability_error <= settings.risk
+        members = members.followed_by(follow(points[FIRST:usual]))
+    opposite = min(members.overturning_share, 1 - members.overturning_share)
+    near_a_limit = (
+        members.verdict is Verdict.UNDECIDED and opposite - members.probability_error <= settings.risk
+    )
     if near_a_limit and usual < MOST_NEAR_A_LIMIT and not whether_it_stands:
-        made = made.followed_by(follow(points[usual:MOST_NEAR_A_LIMIT]))
-    return made
+        members = members.followed_by(follow(points[usual:MOST_NEAR_A_LIMIT]))
+    return members
 
 
 def drawn(

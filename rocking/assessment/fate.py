@@ -199,8 +199,8 @@ class RecordTables:
     def of_component(self, component: str) -> "RecordTables":
         """Return the rows of one component, without the timings."""
         tables = {each.table.name: getattr(self, each.table.name) for each in PER_RECORD[:-1]}
-        kept = {name: [row for row in rows if row.component == component] for name, rows in tables.items()}
-        return replace(self, timings=[], **kept)
+        own = {name: [row for row in rows if row.component == component] for name, rows in tables.items()}
+        return replace(self, timings=[], **own)
 
     def add(
         self,

@@ -235,7 +235,8 @@ def estimated(
     """Return the share that overturns, as `tier` has it; None of a structure unlike those of the calibration."""
     fit = (fits or shipped_tiers())[tier]
     try:
-        own, block = of_structure(mechanism), mechanism.equivalent_block("rest")
+        own = of_structure(mechanism)
+        block = mechanism.equivalent_block("rest")
     except StructureError:
         return None
     if fit.unlike(own):

@@ -117,12 +117,14 @@ def fragility_of(levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[
     0.283
     """
     tried = np.isfinite(exceedance)
-    over, trials = (_by_station(each, stations) for each in (np.where(tried, exceedance, 0.0), tried))
+    over = _by_station(np.where(tried, exceedance, 0.0), stations)
+    trials = _by_station(tried.astype(float), stations)
     count = len(over)
     probability, low, high = _empirical(over, trials)
     resampled = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
     crossings = [crossing(levels, weights @ over, weights @ trials) for weights in resampled]
-    logs, middle = np.log(levels), np.log(levels).mean()
+    logs = np.log(levels)
+    middle = logs.mean()
     (offset, slope), _ = _probit([np.broadcast_to(logs - middle, exceedance.shape)], exceedance, stations)
     dispersion = float(np.clip(1 / slope if slope > 0 else np.inf, *DISPERSIONS))
     lognormal = ndtr((logs - middle) / dispersion + offset)
@@ -145,21 +147,21 @@ def fragility_of(levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[
 def _by_station(values: np.ndarray, stations: Sequence[str]) -> np.ndarray:
     """The mean over the records of each station, (s, k)."""
     names, place, records = np.unique(np.asarray(stations), return_inverse=True, return_counts=True)
-    summed = np.zeros((names.size, values.shape[1]))
-    np.add.at(summed, place, values)
-    return summed / records[:, None]
+    return (place == np.arange(names.size)[:, None]) @ values / records[:, None]
 
 
 def _empirical(over: np.ndarray, trials: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Share and its 90 % interval after Jeffreys, for as many independent records as the scatter of stations allows."""
-    total, count = trials.sum(axis=0), (trials > 0).sum(axis=0)
+    total = trials.sum(axis=0)
+    count = (trials > 0).sum(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
         share = np.clip(over.sum(axis=0) / total, 0.0, 1.0)
         scatter = ((over - share * trials) ** 2).sum(axis=0) * count / np.maximum(count - 1, 1) / total**2
         effective = share * (1 - share) / scatter
     unanimous = ~np.isfinite(effective) | (share == 0) | (share == 1)
     effective = np.where(unanimous, count, np.clip(effective, count / 2, 2 * count))
-    yes, no = share * effective + 0.5, (1 - share) * effective + 0.5
+    yes = share * effective + 0.5
+    no = (1 - share) * effective + 0.5
     low = np.where(share == 0, 0.0, betaincinv(yes, no, 0.05))
     return share, low, np.where(share == 1, 1.0, betaincinv(yes, no, 0.95))
 
@@ -209,13 +211,13 @@ def _probit(
     """
     _, place, records = np.unique(np.asarray(stations), return_inverse=True, return_counts=True)
     tried = np.isfinite(outcomes)
-    station, weight = (
-        np.broadcast_to(each[:, None], outcomes.shape)[tried] for each in (place, 1 / records[place])
-    )
+    station = np.broadcast_to(place[:, None], outcomes.shape)[tried]
+    weight = 1 / records[station]
     design = np.stack([np.ones(outcomes.shape), *terms], axis=-1)[tried]
     varies = design.std(axis=0) > 0
     scale = np.where(varies, design.std(axis=0), 1.0)
-    rows, over = design / scale, outcomes[tried] * weight
+    rows = design / scale
+    over = outcomes[tried] * weight
     penalty = weight.sum() * np.where(varies, _RIDGE, 0.0)
     coefficients = np.zeros(scale.size)
     for _ in range(100):
@@ -229,10 +231,11 @@ def _probit(
         coefficients = coefficients + step * min(1.0, 2.0 / max(np.abs(step).sum(), 1e-300))
         if np.abs(step).sum() < 1e-10:
             break
-    inverse, count = np.linalg.inv(curvature), records.size
-    together = np.zeros((count, scale.size))
-    np.add.at(together, station, scores)
-    covariance = inverse @ (together.T @ together) @ inverse * count / max(count - scale.size, 1)
+    count = records.size
+    of_stations = np.zeros((count, scale.size))
+    np.add.at(of_stations, station, scores)
+    inverse = np.linalg.inv(curvature)
+    covariance = inverse @ (of_stations.T @ of_stations) @ inverse * count / max(count - scale.size, 1)
     return coefficients / scale, covariance / np.outer(scale, scale)
 
 
@@ -364,8 +367,8 @@ def fragility(
 def _checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> tuple[str, ...]:
     """The stations, those of the records by default. Raises ConfigurationError for fewer than two."""
     if stations is None:
-        known = [f"{record.event}; {record.station}" for record in records]
-        stations = [f"record {place}" if name == "; " else name for place, name in enumerate(known)]
+        names = (f"{record.event}; {record.station}" for record in records)
+        stations = [f"record {place}" if name == "; " else name for place, name in enumerate(names)]
     if len(stations) != len(records):
         raise ConfigurationError(
             f"stations names {len(stations)}, but must name one for each of {len(records)} records."
@@ -404,8 +407,8 @@ def _rotation_ratios(
             ratios = single[0][:, None]
         else:
             motions = [GroundMotions.of(record.scaled(float(scale))) for scale in scales[is_open]]
-            made = [drawn(mechanism, each, points, ensemble, tolerance=tolerance) for each in motions]
-            ratios = np.array([each.rotation_ratios for each in made])
+            members = [drawn(mechanism, each, points, ensemble, tolerance=tolerance) for each in motions]
+            ratios = np.array([each.rotation_ratios for each in members])
         highest[is_open] = np.maximum(lowest[is_open], np.nan_to_num(ratios, nan=np.inf, posinf=np.inf))
         return highest
 
@@ -441,9 +444,11 @@ def _at_levels(
     ratios = at(chosen)
     while np.isinf(ratios[:, -1]).mean() < NEARLY_ALL and chosen.size < MOST_SPREAD:
         more = chosen[-1] * np.array([1.5, 2.25])
-        chosen, ratios = np.concatenate([chosen, more]), np.hstack([ratios, at(more)])
+        ratios = np.hstack([ratios, at(more)])
+        chosen = np.append(chosen, more)
     between = _where_it_moves(chosen, np.isinf(ratios).mean(axis=(0, 2)), LEVELS - chosen.size)
-    chosen, ratios = np.concatenate([chosen, between]), np.hstack([ratios, at(between)])
+    ratios = np.hstack([ratios, at(between)])
+    chosen = np.append(chosen, between)
     order = np.argsort(chosen)
     return chosen[order], ratios[:, order]
 

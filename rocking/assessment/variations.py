@@ -1,10 +1,11 @@
-"""What the answer depends on besides the structure as given: where it cracks, and how the record was processed."""
+"""What changes the answer for a structure: where it cracks, and how the record was processed."""
 
 import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -29,7 +30,7 @@ from rocking.sine_pulse import predict_maximum
 from rocking.structures import Mechanism, Structure
 
 CRACKS = 11
-"""Mechanisms that are tried where more than one may form; those of settings that ask for as many are the same."""
+"""Number of mechanisms that are followed where more than one may form."""
 IN_DOUBT = 0.3
 """Rotation ratio of a member beyond which it is in doubt that a mechanism other than that of statics stands."""
 
@@ -103,8 +104,8 @@ def screened(
     few = points[order[[0, 1, order.size // 2]]]
     severity = {}
     for each in mechanisms:
-        made = drawn(each[1], motions, few, settings.ensemble, tolerance=settings.tolerance)
-        ratios = np.nan_to_num(made.rotation_ratios, nan=np.inf, posinf=np.inf)
+        members = drawn(each[1], motions, few, settings.ensemble, tolerance=settings.tolerance)
+        ratios = np.nan_to_num(members.rotation_ratios, nan=np.inf, posinf=np.inf)
         if ratios.max() > IN_DOUBT:
             severity[each] = int(np.isinf(ratios).sum()), float(ratios.min())
     return sorted(severity, key=severity.__getitem__, reverse=True)
@@ -138,33 +139,34 @@ def candidates(
     if len(others) < 2:
         return []
     integrated = _rotation_ratios([each.structure for each in others], accelerogram, settings)
+    variations = []
     for each, ratio in zip(others, integrated, strict=True):
         if math.isnan(ratio):
             integrate(each.structure, accelerogram, settings.tolerance)  # raises the reason
-    found = []
-    for each, ratio in zip(others, integrated, strict=True):
         block = each.structure.mechanism().equivalent_block(settings.acceleration_scale)
         predicted = predict_maximum(block, pulse).rotation_ratio if pulse else math.nan
-        found.append(Variation(ratio, predicted, each.description, each.position))
-    return found
+        variations.append(Variation(ratio, predicted, each.description, each.position))
+    return variations
 
 
 def processed_variants(
     structures: Mapping[str, Structure],
     records: Mapping[str, Accelerogram],
     settings: AssessmentSettings,
-    as_it_is: Mapping[str, float] | None = None,
+    as_it_is: Mapping[str, float] = MappingProxyType({}),
     vertical: Accelerogram | None = None,
 ) -> dict[str, list[Variation]]:
     """Return each of `structures` under each of `records`, by structure; one that cannot be followed is left out.
 
-    records: as `processed` gives them. as_it_is: the ratios under the record itself, where they are known (not nan).
-    vertical: acts with each.
+    records: as `processed` gives them. as_it_is: the ratios under the record itself that need no integration, by
+    structure. vertical: acts with each.
     """
     varied: dict[str, list[Variation]] = {name: [] for name in structures}
     for processing, record in records.items():
-        ratios = dict(as_it_is or {}) if processing == AS_IT_IS else {}
-        rest = [name for name in structures if math.isnan(ratios.get(name, math.nan))]
+        ratios = dict.fromkeys(structures, math.nan)
+        if processing == AS_IT_IS:
+            ratios |= as_it_is
+        rest = [name for name, ratio in ratios.items() if math.isnan(ratio)]
         with suppress(RockingError):
             computed = _rotation_ratios([structures[name] for name in rest], record, settings, vertical)
             ratios |= zip(rest, computed, strict=True)
@@ -181,5 +183,7 @@ def _rotation_ratios(
     vertical: Accelerogram | None = None,
 ) -> list[float]:
     """The largest rotation ratio of each, nan where it cannot be followed; one thread, as a job has one core."""
-    how: Any = {"vertical": vertical, "tolerance": settings.tolerance, "workers": 1}
-    return integrate_batch(structures, record, **how)[:, 0].tolist()
+    tolerance = settings.tolerance
+    return integrate_batch(structures, record, tolerance=tolerance, vertical=vertical, workers=1)[
+        :, 0
+    ].tolist()

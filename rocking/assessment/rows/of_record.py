@@ -373,7 +373,8 @@ def comparison_row(identity: ComponentRow, case: "Case", friction_coefficient: f
     """Return the row of one case: the closed form beside the integration of the whole record."""
     ratios = case.predicted_rotation_ratio, case.integrated_rotation_ratio
     by_method = {RATIO_COLUMNS[method]: each.rotation_ratio for method, each in case.responses.items()}
-    prediction, estimate = case.prediction, case.overturning_estimate
+    prediction = case.prediction
+    estimate = case.overturning_estimate
     return ComparisonRow.of(
         identity,
         by_method,

@@ -152,8 +152,8 @@ AGREEMENT_COLUMNS = (
 def agreement_rows(comparison: "DataFrame") -> Iterator[AgreementRow]:
     """Yield the counts of all and of each structure, from the comparison table as a data frame."""
     ratios = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]]
-    known = comparison[ratios.notna().all(axis="columns")]
-    for structure, cases in [("", known), *known.groupby("structure", sort=False)]:
+    compared = comparison[ratios.notna().all(axis="columns")]
+    for structure, cases in [("", compared), *compared.groupby("structure", sort=False)]:
         predicted, integrated = np.isinf(cases[list(ratios)].to_numpy()).T
         yield AgreementRow(
             structure=str(structure),
