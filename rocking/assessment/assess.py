@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
+from functools import partial
 from math import inf, nan
 from statistics import median
 from time import process_time
@@ -176,7 +177,9 @@ def _case(
     alone: bool,
 ) -> Case:
     mechanism = structure if isinstance(structure, Mechanism) else structure.mechanism()
-    block = mechanism.equivalent_block(settings.acceleration_scale)  # kept: it is no time of the closed form
+    block = mechanism.equivalent_block(
+        settings.acceleration_scale
+    )  # made here, so that its time is not the closed form's
     durations: dict[Method, float] = {}
     prediction = None
     if candidates:
@@ -191,15 +194,16 @@ def _case(
         if answer.response is not None:
             responses[Method.MECHANISM_ON_RECORD] = answer.response
     else:
-        runs: dict[Method, tuple[Mechanism | EquivalentBlock, Accelerogram | Pulse, dict[str, Any]]] = {
-            Method.MECHANISM_ON_RECORD: (mechanism, record, {"history": True, "vertical": vertical}),
-            Method.BLOCK_ON_RECORD: (block, record, {"vertical": vertical}),
+        follow = partial(integrate, tolerance=settings.tolerance)
+        runs = {
+            Method.MECHANISM_ON_RECORD: partial(follow, mechanism, record, history=True, vertical=vertical),
+            Method.BLOCK_ON_RECORD: partial(follow, block, record, vertical=vertical),
         }
         if prediction is not None:
-            runs[Method.MECHANISM_ON_PULSE] = (mechanism, prediction.pulse, {})
-        for method, (moved, motion, how) in runs.items():
+            runs[Method.MECHANISM_ON_PULSE] = partial(follow, mechanism, prediction.pulse)
+        for method, run in runs.items():
             started = process_time()
-            responses[method] = integrate(moved, motion, settings.tolerance, **how)
+            responses[method] = run()
             durations[method] = process_time() - started
         answer = answer_of(responses[Method.MECHANISM_ON_RECORD])
     check = UNKNOWN
@@ -254,7 +258,7 @@ class Governing:
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class StructureAssessment(Drawn, Ensemble):
-    """What came of one structure: the ensemble over all that is not known, directions included.
+    """What came of one structure: the ensemble over all uncertain inputs, directions included.
 
     cases: by component. rotation_ratio: largest rotation over critical rotation of the case as given, the worse
     component; inf if it overturns. static_multiplier: least λ of the cracks that may form, the acceleration in g at

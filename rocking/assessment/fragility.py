@@ -239,39 +239,29 @@ def _probit(
     return coefficients / scale, covariance / np.outer(scale, scale)
 
 
-def efficiency(log_levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[str]) -> float:
-    """Return the dispersion of the level that overturns about its median; less is better.
-
-    log_levels, exceedance: (r, k) of each record at each of its levels. Every outcome counts, also of records that
-    never overturn or that stand again above the level that overturned them.
-    """
-    (_, slope), _ = _probit([log_levels], exceedance, stations)
-    return float(1 / slope) if slope > 0 else float("nan")
-
-
-def dependence(
+def explanation(
     log_levels: np.ndarray, exceedance: np.ndarray, figures: np.ndarray, stations: Sequence[str]
 ) -> dict[str, float]:
-    """Return how the outcomes (r, k) depend on `figures` (r,) beside the levels (r, k); {} for too few stations.
+    """Return how well the levels (r, k), and the `figures` (r,) beside them, explain the outcomes (r, k).
 
-    slope: change of the logarithm of the level that overturns, for one standard deviation of the figure. p_value: of no
-    slope. power: share of samples of as many stations that would show a slope of this size at 5 %. The error of the
-    slope is that between stations, so that two components of one are no two observations, and the slope over it is held
-    against Student's law for the number of stations less three.
+    By column of the table intensity_measures: its efficiency alone for fewer than four stations or equal figures. Every
+    outcome counts, also of records that never overturn or that stand again above the level that overturned them. The
+    error of the slope is that between stations, so that two components of one are no two observations, and the slope
+    over it is held against Student's law for the number of stations less three.
     """
+    (_, steepness), _ = _probit([log_levels], exceedance, stations)
+    columns = {"efficiency": float(1 / steepness) if steepness > 0 else np.nan}
     freedom = len(set(stations)) - 3
-    if freedom < 1 or np.ptp(figures) == 0:
-        return {}
-    scaled = (figures - figures.mean()) / figures.std()
-    beside = np.broadcast_to(scaled[:, None], log_levels.shape)
-    (_, level, figure), covariance = _probit([log_levels, beside], exceedance, stations)
-    t = abs(figure) / np.sqrt(covariance[2, 2])
-    limit = stdtrit(freedom, 0.975)
-    return {
-        "slope": float(-figure / level),
-        "p_value": float(2 * stdtr(freedom, -t)),
-        "power": float(ndtr(t - limit) + ndtr(-t - limit)),
-    }
+    if freedom >= 1 and np.ptp(figures) > 0:
+        scaled = (figures - figures.mean()) / figures.std()
+        beside = np.broadcast_to(scaled[:, None], log_levels.shape)
+        (_, level, figure), covariance = _probit([log_levels, beside], exceedance, stations)
+        t = abs(figure) / np.sqrt(covariance[2, 2])
+        limit = stdtrit(freedom, 0.975)
+        columns["slope"] = float(-figure / level)
+        columns["p_value"] = float(2 * stdtr(freedom, -t))
+        columns["power"] = float(ndtr(t - limit) + ndtr(-t - limit))
+    return columns
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rocking.assessment.fragility import Fragility, IncrementalDynamicAnalysis, dependence, efficiency
+from rocking.assessment.fragility import Fragility, IncrementalDynamicAnalysis, explanation
 from rocking.assessment.intensity import (
     INTENSITY_MEASURES,
     MEASURES_IN_WORDS,
@@ -247,10 +247,9 @@ def intensity_measure_rows(
                 continue
             levels = logs[both, None] + factors[both]
             yield IntensityMeasureRow.of(
-                dependence(levels, falls[both], values[both], stations),
+                explanation(levels, falls[both], values[both], stations),
                 structure=structure,
                 intensity_measure=measure.name,
-                efficiency=efficiency(levels, falls[both], stations),
                 figure=figure,
                 records=len(stations),
                 stations=len(set(stations)),
