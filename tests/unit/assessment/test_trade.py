@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 
 import rocking
+from rocking.assessment.rows.of_study import TradeRow
 from rocking.assessment.trade import TradeMethod
+from rocking.reports.trade import write_trade_report
+from rocking.tables import write_tables
 
 STRUCTURES = {"block": rocking.Block(2.0, 0.15), "stout": rocking.Block(2.0, 0.7)}
 
@@ -45,3 +48,18 @@ def test_times_are_told_and_the_search_for_pulses_apart(rows):
         assert row.cpu_s > 0
         assert (row.preparation_record_s > 0) == (method in (TradeMethod.ONE_SINE, TradeMethod.SINES))
     assert rows[TradeMethod.ENSEMBLE, ""].cpu_s > usual
+
+
+def test_the_report_says_what_the_table_says_in_percent_and_milliseconds(tmp_path, monkeypatch):
+    documents = []
+    monkeypatch.setattr(
+        "rocking.reports.trade.compile_document", lambda _, data: documents.append(data) or b"%PDF"
+    )
+    values = {"error": 0.01234, "error_high": 0.3, "cpu_s": 0.002512, "preparation_record_s": 0.125}
+    counts = {"cases": 200, "wrong_verdicts": 3, "unsafe_verdicts": 1}
+    row = TradeRow(method=TradeMethod.COARSE, structure="", **values, **counts)
+    write_tables({TradeRow: [row]}, tmp_path)
+    write_trade_report(tmp_path, tmp_path / "trade.pdf", tmp_path / "trade.svg")
+    picture, table = documents[0]["parts"]
+    assert picture["conclusion"] == f"{TradeMethod.COARSE}: 2.5 ms, 3\u00a0of\u00a0200 verdicts wrong."
+    assert table["rows"] == [[TradeMethod.COARSE, "all", "200", "1.2", "30", "3", "1", "2.5", "125"]]

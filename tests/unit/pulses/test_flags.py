@@ -35,6 +35,19 @@ def test_a_truncated_pulse_is_at_the_edge(missing, period):
     assert Flag.EDGE in flags(cycle(2, period, TIMES[-1] - (1 - missing) * period))
 
 
+@pytest.mark.parametrize("room", [0.05, 0.15, 0.9, 1.1])
+@pytest.mark.parametrize("level", [0.5, 0.7])
+def test_near_a_loud_end_a_pulse_needs_a_period_of_room_and_near_a_quiet_one_a_tenth_of_it(room, level):
+    """Loud is a first or last sample of 0.3 of the pulse, which is 2 m/s²; that of the far end says nothing."""
+    period = 1.5
+    for near, start in ((0, room * period), (-1, TIMES[-1] - (1 + room) * period)):
+        samples = cycle(2, period, start)
+        samples[near] += level
+        assert (Flag.EDGE in flags(samples)) is (room < (1.0 if level > 0.6 else 0.1))
+        samples[[near, -1 - near]] = 0.0, 1.0
+        assert (Flag.EDGE in flags(samples)) is (room < 0.1)
+
+
 @pytest.mark.parametrize("seed", range(10))
 def test_two_cycles_are_unstable(seed):
     assert Flag.UNSTABLE in flags(cycle(2, 0.9, 8.003, cycles=2) + noise(seed, 0.3))

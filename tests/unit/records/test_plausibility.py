@@ -62,6 +62,10 @@ def test_a_sample_alone_is_told_with_the_peak_without_it() -> None:
         assert f"at {place * 0.01:g} s is 3.06 g" in told
         without = np.abs(np.delete(SHAKING, place)).max() / GRAVITY
         assert f"without it the peak acceleration is {without:.3g} g" in told
+    for size, told in ((120, 1), (80, 0)):  # a hundred samples or more
+        short = np.ones(size)
+        short[size // 2] = 30.0
+        assert len(damage_warnings(Accelerogram(short, 0.01))) == told
     # a peak of 1.9 times all others is a peak
     struck[399] = 1.9
     assert damage_warnings(Accelerogram(struck, 0.01)) == () == damage_warnings(Accelerogram(SHAKING, 0.01))
