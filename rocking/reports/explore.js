@@ -13,8 +13,10 @@
     }
     return packed.values;
   }
-  // Value of a trace of equal stretches of [begin, end] at a time; 0 outside
-  function valueAt(values, [begin, end], time) {
+  // Value of a trace of equal stretches at a time; 0 outside
+  function valueAt(trace, time) {
+    const values = unpacked(trace);
+    const [begin, end] = trace.span;
     const place = ((time - begin) / (end - begin)) * values.length - 0.5;
     if (place < -0.5 || place > values.length - 0.5) return 0;
     const low = Math.max(0, Math.min(values.length - 2, Math.floor(place)));
@@ -154,34 +156,32 @@
     return { x, y };
   }
 
-  function trace(values, own, span, { x, y }, attributes) {
+  function drawTrace(trace, span, { x, y }, attributes) {
     const points = [];
-    values.forEach((value, k) => {
-      const time = own[0] + ((k + 0.5) / values.length) * (own[1] - own[0]);
+    const [begin, end] = trace.span;
+    unpacked(trace).forEach((value, k, { length }) => {
+      const time = begin + ((k + 0.5) / length) * (end - begin);
       if (time >= span[0] && time <= span[1]) points.push(`${x(time).toFixed(1)},${y(value).toFixed(1)}`);
     });
     draw("polyline", { points: points.join(" "), fill: "none", ...attributes });
   }
 
-  const largest = (values) => values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+  const largest = (trace) => (trace ? unpacked(trace).reduce((most, value) => Math.max(most, Math.abs(value)), 0) : 0);
 
   // Ground and rotation against time; returns what moves the cursor
   function histories(each, motion, span) {
     at("histories").replaceChildren();
     if (motion) {
-      const acceleration = unpacked(motion.acceleration);
-      const pulse = motion.pulse && unpacked(motion.pulse.acceleration);
-      const reach = 1.1 * Math.max(largest(acceleration), pulse ? largest(pulse) : 0) || 1;
+      const reach = 1.1 * Math.max(largest(motion.acceleration), largest(motion.pulse)) || 1;
       const axes = panel(PANELS[0], span, reach, "accel. [m/s²]");
-      trace(acceleration, [0, motion.duration], span, axes, { stroke: "#444", "stroke-width": 0.8 });
-      if (pulse) trace(pulse, motion.pulse.span, span, axes, { stroke: "#d55e00", "stroke-width": 2 });
+      drawTrace(motion.acceleration, span, axes, { stroke: "#444", "stroke-width": 0.8 });
+      if (motion.pulse) drawTrace(motion.pulse, span, axes, { stroke: "#d55e00", "stroke-width": 2 });
       draw("text", { x: RIGHT - 8, y: PANELS[0].top + 16, "text-anchor": "end" }, "grey: record; orange: dominant pulse");
     }
-    const values = each.history ? unpacked(each.history.ratio) : new Float64Array(2);
     const predicted = each.predicted < 1e9 ? each.predicted || 0 : 0;
-    const reach = Math.min(3.1, 1.15 * Math.max(largest(values), predicted) || 1);
+    const reach = Math.min(3.1, 1.15 * Math.max(largest(each.history), predicted) || 1);
     const axes = panel(PANELS[1], span, reach, "rotation ratio [-]");
-    if (each.history) trace(values, each.history.span, span, axes, { stroke: "#000", "stroke-width": 1.1, id: "rotation" });
+    if (each.history) drawTrace(each.history, span, axes, { stroke: "#000", "stroke-width": 1.1, id: "rotation" });
     for (const level of predicted > 0 ? [predicted, -predicted] : [])
       draw("line", { x1: LEFT, x2: RIGHT, y1: axes.y(level), y2: axes.y(level), stroke: "#0072b2", "stroke-dasharray": "8 3 2 3" });
     const remark = predicted > 0 ? "dash-dot: largest by the closed form" : `closed form: ${each.closed}`;
@@ -192,16 +192,6 @@
   }
 
   // Mechanism -------------------------------------------------------------------------------------------
-  function framesOf(structure) {
-    const points = unpacked(structure.points);
-    let from = 0;
-    structure.frames.forEach((each) => {
-      const count = each.parts.reduce((sum, many) => sum + many, each.hinges + 2 * each.marks.length);
-      each.points = points.subarray(from, from += 2 * count);
-    });
-    return structure.frames;
-  }
-
   // The frame at a rotation: between two of its side, no farther than the last
   function frameAt(frames, rotation) {
     const own = frames.filter((each) => each.rotation < 0 === rotation < 0);
@@ -210,19 +200,18 @@
     const above = side.findIndex((each) => Math.abs(each.rotation) >= size);
     if (above <= 0) return above === 0 ? side[0] : side[side.length - 1];
     const [a, b] = [side[above - 1], side[above]];
-    if (a.points.length !== b.points.length) return a;
+    const [before, after] = [unpacked(a.points), unpacked(b.points)];
+    if (before.length !== after.length) return a;
     const share = (size - Math.abs(a.rotation)) / (Math.abs(b.rotation) - Math.abs(a.rotation));
-    return { ...a, points: a.points.map((value, k) => value * (1 - share) + b.points[k] * share) };
+    return { ...a, points: { values: before.map((value, k) => value * (1 - share) + after[k] * share) } };
   }
 
   // Metres in the drawing, whose groups turn y upwards and move with the ground
-  function paintWith(structure, motion, reach) {
-    const frames = framesOf(structure);
-    const moves = motion ? unpacked(motion.displacement) : null;
-    const travel = moves ? largest(moves) : 0;
+  function paintWith(frames, motion, reach) {
+    const travel = motion ? largest(motion.displacement) : 0;
     const near = frames.filter((each) => Math.abs(each.rotation) <= reach || Math.abs(each.rotation) < 1e-3);
     const [left, right, low, high] = [0, 1].flatMap((axis) => {
-      const values = near.flatMap((each) => [...each.points.filter((_, k) => k % 2 === axis)]);
+      const values = near.flatMap((each) => [...unpacked(each.points).filter((_, k) => k % 2 === axis)]);
       return [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))];
     });
     const margin = 0.06 * Math.max(right - left, high - low);
@@ -233,10 +222,10 @@
     return (rotation, time) => {
       const { parts, hinges, marks, points } = frameAt(frames, rotation);
       let from = 0;
-      const take = (count) => points.subarray(from, from += 2 * count);
+      const take = (count) => unpacked(points).subarray(from, from += 2 * count);
       const group = at("moving");
       group.replaceChildren();
-      group.setAttribute("transform", `translate(${moves ? valueAt(moves, [0, motion.duration], time) : 0} 0) scale(1 -1)`);
+      group.setAttribute("transform", `translate(${motion ? valueAt(motion.displacement, time) : 0} 0) scale(1 -1)`);
       add(group, "line", { ...ground, y1: foot, y2: foot });
       add(group, "line", { ...ground, y1: foot - margin / 4, y2: foot - margin / 4, "stroke-width": margin / 2, "stroke-dasharray": margin / 5, class: "ground" });
       for (const count of parts) add(group, "polygon", { points: take(count).join(" ") });
@@ -276,13 +265,12 @@
     const motion = record.motions[each.component];
     const span = each.history ? each.history.span : [0, motion ? motion.duration : 1];
     const point = histories(each, motion, span);
-    const values = each.history ? unpacked(each.history.ratio) : null;
     const rotationOf = (time) => {
-      const value = values ? valueAt(values, span, time) : 0;
-      return value === 0 ? 0 : value * each.history.critical[value < 0 ? 1 : 0];
+      const value = each.history ? valueAt(each.history, time) : 0;
+      return value === 0 ? 0 : value * each.critical[value < 0 ? 1 : 0];
     };
-    const most = values ? largest(values) * Math.max(...each.history.critical) : 0;
-    const painter = () => paintWith(structure, motion, Math.max(most * Number(at("magnify").value), 0.02));
+    const most = each.history ? largest(each.history) * Math.max(...each.critical) : 0;
+    const painter = () => paintWith(structure.frames, motion, Math.max(most * Number(at("magnify").value), 0.02));
     let paint = painter();
     at("magnify").onchange = () => { paint = painter(); show(); };
     show = () => {

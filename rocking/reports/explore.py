@@ -5,7 +5,6 @@ import json
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from functools import partial
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -83,7 +82,7 @@ def explore_page(records: Iterable[Content], structures: Mapping[str, Structure]
     """
     of_records = list(records)
     of_structures = [
-        {"name": name, "size": structure.size, "type": structure.type_name} | drawings(structure)
+        {"name": name, "size": structure.size, "type": structure.type_name, "frames": drawings(structure)}
         for name, structure in structures.items()
     ]
     both = {"records": of_records, "structures": of_structures}
@@ -124,66 +123,60 @@ def _case(
         "closed": closed,
     }
     response = responses.get(row.case) if row else None
-    if response is not None and response.rotation_ratio > NEGLIGIBLE:
-        case["history"] = _history(response, mechanism)
+    history = rotation_ratios(response, mechanism) if response else None
+    if response and history and response.rotation_ratio > NEGLIGIBLE:
+        times, ratios = history[0], np.clip(history[1], -_BEYOND, _BEYOND)
+        case["history"] = _trace(times, ratios, *moving_span([(times, ratios)]))
+        case["critical"] = [_number(mechanism.sides[place].critical_rotation) for place in (0, -1)]
     return case
 
 
 def _motion(accelerogram: Accelerogram, tables: RecordTables) -> Content:
     """Acceleration [m/s²] and its pulse, and the displacement [m] that moves the drawing, over the whole record."""
     times, duration = accelerogram.times, accelerogram.duration
-    moved = displacement(accelerogram)
-    line = np.polyval(np.polyfit(times, moved, 1), times)
-    kept = partial(extremes, times, begin=0.0, end=duration)
-    shown: Content = {
+    path = displacement(accelerogram)
+    line = np.polyval(np.polyfit(times, path, 1), times)
+    motion = {
         "duration": duration,
-        "acceleration": packed(kept(accelerogram.acceleration)),
-        "displacement": packed(kept(moved - line)),
+        "acceleration": _trace(times, accelerogram.acceleration, 0.0, duration),
+        "displacement": _trace(times, path - line, 0.0, duration),
     }
     ranked = [row for row in tables.pulses if row.component == accelerogram.component and row.ranked]
     if ranked:
         pulse = min(ranked, key=lambda row: row.rank).pulse
-        inside = np.linspace(pulse.start_time, pulse.end_time, 61)
-        shown["pulse"] = {
-            "span": [_number(pulse.start_time), _number(pulse.end_time)],
-            "acceleration": packed(pulse.acceleration(inside)),
-        }
-    return shown
+        inside = np.linspace(pulse.start_time, pulse.end_time, BINS)
+        motion["pulse"] = _trace(inside, pulse.acceleration(inside), pulse.start_time, pulse.end_time)
+    return motion
 
 
-def _history(response: Response, mechanism: Mechanism) -> Content | None:
-    """Rotation over critical rotation while it moves; None where there is none."""
-    if (history := rotation_ratios(response, mechanism)) is None:
-        return None
-    times, ratio = history[0], np.clip(history[1], -_BEYOND, _BEYOND)
-    begin, end = moving_span([(times, ratio)])
-    return {
-        "span": [_number(begin), _number(end)],
-        "ratio": packed(extremes(times, ratio, begin, end)),
-        "critical": [_number(mechanism.sides[place].critical_rotation) for place in (0, -1)],
-    }
+def _trace(times: np.ndarray, values: np.ndarray, begin: float, end: float) -> Content:
+    """Return `values` from `begin` to `end` [s], as `extremes` has them."""
+    return {"span": [_number(begin), _number(end)]} | packed(extremes(times, values, begin, end))
 
 
-def drawings(structure: Structure) -> Content:
+def drawings(structure: Structure) -> list[Content]:
     """Return outline, hinges, loads and ties of `structure` at FRAMES rotations of each side that it has.
 
-    frames: of each rotation [rad, signed] the points of each part, the number of hinges, and the kinds of the marks, of
-    two points each. points: x and y [m] of all of them in this order, frame by frame.
+    Each is a rotation [rad, signed], how many points each part has, the number of hinges, the kinds of the marks, of
+    two points each, and x and y [m] of all these points in this order.
     """
     mechanism = structure.mechanism()
-    frames, points = [], []
+    frames = []
     for sign in (1,) if mechanism.one_sided else (1, -1):
         side = mechanism.sides[0 if sign > 0 else -1]
         end = min(abs(fallen_rotation(structure, sign)), _BEYOND * side.critical_rotation)
         for rotation in sign * end * np.linspace(1e-6, 1.0, FRAMES):
-            outline, hinges = structure.outline(rotation), structure.hinges(rotation)
-            marks = structure.marks(rotation)
-            parts = {"parts": [len(part) for part in outline], "hinges": len(hinges)}
-            frames.append({"rotation": rotation} | parts | {"marks": [mark.kind for mark in marks]})
-            points += [
-                np.reshape(part, (-1, 2)) for part in (*outline, hinges, *(mark.line for mark in marks))
-            ]
-    return {"frames": frames, "points": packed(np.vstack(points))}
+            parts, marks = structure.outline(rotation), structure.marks(rotation)
+            hinges = np.reshape(structure.hinges(rotation), (-1, 2))
+            frame = {
+                "rotation": rotation,
+                "parts": [len(part) for part in parts],
+                "hinges": len(hinges),
+                "marks": [mark.kind for mark in marks],
+                "points": packed(np.vstack([*parts, hinges, *(mark.line for mark in marks)])),
+            }
+            frames.append(frame)
+    return frames
 
 
 def packed(values: ArrayLike) -> Content:
@@ -203,14 +196,13 @@ def extremes(times: np.ndarray, values: np.ndarray, begin: float, end: float) ->
     A stretch without a sample takes the value interpolated at its middle.
     """
     edges = np.linspace(begin, end, BINS + 1)
-    shown = np.interp((edges[:-1] + edges[1:]) / 2, times, values)
+    of_bins = np.interp((edges[:-1] + edges[1:]) / 2, times, values)
     inside = (times >= begin) & (times <= end)
     place = np.minimum(np.searchsorted(edges, times[inside], side="right") - 1, BINS - 1)
-    chosen = values[inside]
-    order = np.argsort(np.abs(chosen), kind="stable")
-    full = np.full(BINS, np.nan)
-    full[place[order]] = chosen[order]  # the last one written, the farthest, stays
-    return np.where(np.isnan(full), shown, full)
+    samples = values[inside]
+    order = np.argsort(np.abs(samples), kind="stable")
+    of_bins[place[order]] = samples[order]  # the last one written, the farthest, stays
+    return of_bins
 
 
 def _number(value: float) -> float | None:

@@ -179,7 +179,7 @@ def method_table(tables: Mapping[str, "DataFrame"]) -> dict[str, object]:
         ("Same outcome", "0.8", "r", lambda row: printing.of(row[2], row[1])),
         ("Less than happens", "0.8", "r", lambda row: strong(plain(row[3]), row[3] > 0)),
         ("More than happens", "0.8", "r", lambda row: plain(row[4])),
-        ("Within a factor 2", "0.8", "r", lambda row: printing.of(row[5], row[6])),
+        ("Within a factor\u00a02", "0.8", "r", lambda row: printing.of(row[5], row[6])),
         ("CPU of a case [ms]", "0.8", "r", lambda row: number(1e3 * spent.get(row[0], math.nan) / row[1], 1)),
     )
 
