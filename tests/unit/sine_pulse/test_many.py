@@ -1,6 +1,7 @@
 """Many blocks and pulses at a call: each as one at a time, and the amplitudes that overturn."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -75,3 +76,13 @@ def test_every_cell_is_the_prediction(eta: float) -> None:
             assert ratios[i, j] == pytest.approx(found.rotation_ratio, rel=1e-12), (omega, a)
     assert len(regimes) >= 4
     assert Regime.CONTACT_DURING_PULSE in regimes
+
+
+@pytest.mark.parametrize("polarity", [1, -1])
+def test_a_long_pulse_overturns_at_the_acceleration_that_lifts(polarity: int) -> None:
+    """Its limit for ω → 0, where the ground stands still on the scale of the block; ω/p is 0.005 and enters squared."""
+    weak, strong = (EquivalentBlock(20.0, 0.2, multiplier, 0.9) for multiplier in (0.05, 0.4))
+    for block in (weak, strong, replace(weak, other_side=strong), replace(strong, other_side=weak)):
+        ((amplitude,),) = overturning_amplitudes([block], [0.1], polarity)
+        least = min(side.uplift_multiplier for side in (block, block.other_side) if side)
+        assert amplitude == pytest.approx(least * g, rel=1e-4)
