@@ -21,12 +21,14 @@ def compile_document(template: str | Path, data: Mapping[str, object]) -> bytes:
     """
     text = json.dumps(data, ensure_ascii=False)
     foreign = not glyphs().issuperset(map(ord, set(text)))
+    carried = _fonts(False).families()
+    families = [each for each in _fonts(foreign).families() if each not in carried]
     return typst.compile(  # type: ignore[call-overload,no-any-return]  # its stub wants input and root of one type
         template.read_bytes() if isinstance(template, Path) else _FOLDER / template,
         root=_FOLDER,
         font_paths=_fonts(foreign),
         ignore_system_fonts=True,
-        sys_inputs={"data": text, "families": json.dumps(_system_families() if foreign else [])},
+        sys_inputs={"data": text, "families": json.dumps(families)},
         pdf_standards="a-2a",
         timestamp=0,
     )
@@ -36,9 +38,3 @@ def compile_document(template: str | Path, data: Mapping[str, object]) -> bytes:
 def _fonts(system: bool) -> typst.Fonts:
     """The fonts that typst and matplotlib carry, and the machine's where another script needs them."""
     return typst.Fonts(include_system_fonts=system, font_paths=[FONT_FOLDER])
-
-
-@cache
-def _system_families() -> list[str]:
-    carried = set(_fonts(False).families())
-    return [family for family in _fonts(True).families() if family not in carried]

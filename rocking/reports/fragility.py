@@ -50,20 +50,11 @@ def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") 
         "Each record of the study is scaled up until the structure overturns; a level counts by its stations."
     )
     few = f" With {counted(stations, 'station')} the curves are rough and their intervals wide: take more."
-    caption = (
-        "Level that half of the stations overturn each structure at, with its 90 % interval by stations, for the crack "
-        "that statics chooses and for the worst of those that may form; dispersion of the lognormal curve; records "
-        "under which it overturns first, with the level of each: they govern the lower end of its curve; and how many "
-        "records, scaled up, let it stand again."
-    )
     of_curves = (
         "Share of the stations that exceed a rotation (overturns, or a share of the critical rotation φcr) with the "
         "crack that statics chooses, and that overturn it with the worst of the cracks that may form."
     )
-    parts = [
-        {"text": scaled + few * (stations < FEW_STATIONS)},
-        fragility_table(summary, ida) | {"caption": caption},
-    ]
+    parts = [{"text": scaled + few * (stations < FEW_STATIONS)}, fragility_table(summary, ida)]
     names = list(dict.fromkeys(curves["structure"]))
     for first in range(0, len(names), ON_A_PAGE):
         page = names[first : first + ON_A_PAGE]
@@ -84,17 +75,13 @@ def fragility_table(summary: "DataFrame", ida: "DataFrame") -> dict[str, object]
     worst = {row.structure: _with_interval(row) for row in falls if row.governing}
     records = governing_records(ida)
     first = "First to overturn it, and at what level"
-    with_worst: Column = (
-        "Median with the worst crack",
-        "1.0",
-        "l",
-        lambda row: words(worst.get(row.structure)),
-    )
+    elsewhere = "Median with the worst crack"
+    with_worst: Column = (elsewhere, "1.0", "l", lambda row: words(worst.get(row.structure)))
     rate: Column = ("Annual rate [1/year]", "0.7", "r", lambda row: number(row.annual_rate, 2))
-    return table_of(
+    table = table_of(
         [row for row in falls if not row.governing],
         ("Structure", "1.3", "l", lambda row: row.structure),
-        ("Median and its 90 % interval", "1.3", "l", _median),
+        ("Median and its 90 % interval", "1.3", "l", lambda row: _with_interval(row, row.intensity_measure)),
         *([with_worst] if worst else []),
         ("Disper\u00adsion [-]", "0.6", "r", lambda row: number(row.dispersion, 2)),
         ("Sta\u00adtions", "auto", "r", lambda row: plain(row.stations)),
@@ -102,15 +89,19 @@ def fragility_table(summary: "DataFrame", ida: "DataFrame") -> dict[str, object]
         ("Stand again, scaled up", "0.6", "r", lambda row: plain(row.reversals)),
         *([rate] if any(row.annual_rate > 0 for row in falls) else []),
     )
+    caption = (
+        "Level that half of the stations overturn each structure at, with its 90 % interval by stations, for the crack "
+        "that statics chooses and for the worst of those that may form; dispersion of the lognormal curve; records "
+        "under which it overturns first, with the level of each: they govern the lower end of its curve; and how many "
+        "records, scaled up, let it stand again."
+    )
+    return table | {"caption": caption}
 
 
-def _median(row: FragilitySummaryRow) -> str:
-    """The median with interval, name and unit of its intensity measure."""
-    return f"{row.intensity_measure} {_with_interval(row)} {_unit(row.intensity_measure)}"
-
-
-def _with_interval(row: FragilitySummaryRow) -> str:
-    return f"{number(row.median, 2)} ({number(row.median_low, 2)}–{number(row.median_high, 2)})"
+def _with_interval(row: FragilitySummaryRow, measure: str = "") -> str:
+    """Return the median with its interval, and with name and unit of its intensity measure if that is named."""
+    text = f"{number(row.median, 2)} ({number(row.median_low, 2)}–{number(row.median_high, 2)})"
+    return f"{measure} {text} {_unit(measure)}" if measure else text
 
 
 def _unit(measure: str) -> str:

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from rocking.errors import MotionError
 from rocking.reports.drawings import draw_dimensions, draw_structure
-from rocking.reports.style import PREDICTED, PULSE, RECORD, plain_logarithmic, thinned
+from rocking.reports.style import MOST_POINTS, PREDICTED, PULSE, RECORD, plain_logarithmic, thinned
 
 if TYPE_CHECKING:
     from rocking.assessment.assess import StructureAssessment
@@ -57,7 +57,7 @@ def draw_motion(
     record: "Accelerogram",
     pulse: "Pulse | None" = None,
     span: tuple[float, float] = (0.0, math.inf),
-    most: int = 4000,
+    most: int = MOST_POINTS,
 ) -> None:
     """Draw the acceleration against time within `span` [s], with its pulse. most: points of the trace."""
     inside = (record.times >= span[0]) & (record.times <= span[1])
@@ -77,7 +77,7 @@ def draw_rotation(
     *,
     level: float = 0.0,
     scale: float = 1.0,
-    most: int = 4000,
+    most: int = MOST_POINTS,
 ) -> None:
     """Draw rotation over critical rotation (k,) against time, its impacts as ticks on the line of rest.
 

@@ -21,9 +21,6 @@ RECORD, PULSE, PREDICTED = "0.35", "#D55E00", "#0072B2"
 MOST_POINTS = 4000
 """Points of a trace; a longer one keeps the least and the largest value of each stretch."""
 FONT_FOLDER = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
-Picture = dict[str, str]
-MARGINS = (14.0, 2.0, 8.5, 4.0)
-"""Left, right, bottom, top, mm: room for tick labels and one line of axis label."""
 _MILLIMETRES_PER_INCH = 25.4
 
 styled = matplotlib.rc_context(
@@ -32,7 +29,9 @@ styled = matplotlib.rc_context(
 """Decorator: draw inside the package's style, whatever the caller's own settings are."""
 
 
-def new_figure(height: float, width: float = TEXT_WIDTH, margins: Sequence[float] = MARGINS) -> Figure:
+def new_figure(
+    height: float, width: float = TEXT_WIDTH, margins: Sequence[float] = (14.0, 2.0, 8.5, 4.0)
+) -> Figure:
     """Return an empty figure of `width` by `height` mm with the margins left, right, bottom and top of its panels, mm.
 
     Margins are given, not sought: seeking them costs more than drawing.
@@ -57,12 +56,14 @@ def svg(figure: Figure) -> str:
     return stream.getvalue()
 
 
-def picture(figure: Figure, alt: str) -> Picture:
+def picture(figure: Figure, alt: str) -> dict[str, str]:
     """Return a figure as the templates take it: SVG and alternative text."""
     return {"svg": svg(figure), "alt": alt}
 
 
-def pictures(draw: Callable[..., Figure], things: Sequence[Any], alt: str, *more: Any) -> list[Picture]:
+def pictures(
+    draw: Callable[..., Figure], things: Sequence[Any], alt: str, *more: Any
+) -> list[dict[str, str]]:
     """Return the figure that `draw` makes of `things`, or nothing where there are none."""
     return [picture(draw(things, *more), alt)] if things else []
 
