@@ -441,15 +441,11 @@ def courses(rows, signs, frequencies, amplitudes, peaks, margins):
 @compiled
 def _course_of(rows, first, frequency, amplitude):
     """The `course` of the block of two rows under one pulse, whose first half lifts the side of row `first`."""
+    one, other = rows[first], rows[1 - first]
     return course(
-        _side_of(rows[first], frequency, amplitude), _side_of(rows[1 - first], frequency, amplitude)
+        Side(frequency / one[0], amplitude / one[1], one[2], one[3], one[4], one[5] != 0),
+        Side(frequency / other[0], amplitude / other[1], other[2], other[3], other[4], other[5] != 0),
     )
-
-
-@compiled
-def _side_of(row, frequency, amplitude):
-    """A side of `courses` under one pulse."""
-    return Side(frequency / row[0], amplitude / row[1], row[2], row[3], row[4], row[5] != 0)
 
 
 @entry

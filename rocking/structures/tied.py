@@ -108,7 +108,9 @@ class Tied(Crackable):
         heights = [each.start.imag for each in self.linkage.hung if each.tie]
         for height, side_tie in zip(heights, self.linkage.ties, strict=True):
             stretch = float(side_tie.stretch(np.asarray(max(rotation, 0.0))))
-            if stretch > tie.rupture_stretch:
+            if (
+                stretch >= (1 - 1e-9) * tie.rupture_stretch
+            ):  # where it overturns as the tie breaks, to rounding
                 events.append(f"the tie at {height:.6g} m breaks")
             elif stretch > tie.yield_stretch:
                 plastic = f"{stretch - tie.yield_stretch:.3g} m of {tie.plastic_elongation:.6g} m"
