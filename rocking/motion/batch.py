@@ -81,17 +81,10 @@ def integrate_batch(
 
 def _plain_blocks(structures: Sequence[Rocking], forcing: Forcing) -> list[EquivalentBlock]:
     """The structures, where they are blocks that one call can follow: alike, exact, and without a rotation_map."""
-    blocks = [each for each in structures if isinstance(each, EquivalentBlock)]
+    blocks = [each for each in structures if not forcing.vertical and solvable_exactly(each, forcing)]
     kinds = {(len(each.sides), each.one_sided) for each in blocks}
-    plain = all(
-        solvable_exactly(each, forcing) and all(side.rotation_map is None for side in each.sides)
-        for each in blocks
-    )
-    return (
-        blocks
-        if len(blocks) == len(structures) and len(kinds) == 1 and plain and not forcing.vertical
-        else []
-    )
+    mapped = any(side.rotation_map for each in blocks for side in each.sides)
+    return blocks if len(blocks) == len(structures) and len(kinds) == 1 and not mapped else []
 
 
 def _shared_out(structures: int, factors: int, workers: int) -> list[list[tuple[int, slice]]]:

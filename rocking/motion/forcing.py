@@ -26,11 +26,6 @@ class Forcing:
     start_time: float
     vertical: bool
 
-    @property
-    def samples(self) -> int:
-        """How many samples; 1 for a sine pulse."""
-        return self.ground.horizontal.size
-
     @cached_property
     def weightless(self) -> bool:
         """Whether g + ü_v falls below zero."""
@@ -53,8 +48,24 @@ def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Fo
         raise MotionError(
             f"the ground motion is a {type(motion).__name__}, but must be an Accelerogram or a Pulse."
         )
-    if vertical is not None:
-        _check_fit(vertical, motion)
+    if vertical is None:
+        return _forcing(motion, None)
+    if isinstance(motion, Pulse):
+        raise MotionError(
+            "vertical is given with a pulse, but needs a record of the same samples; leave it out."
+        )
+    if not isinstance(vertical, Accelerogram):
+        raise MotionError(f"vertical is a {type(vertical).__name__}, but must be an Accelerogram.")
+    if vertical.acceleration.size != motion.acceleration.size:
+        raise MotionError(
+            f"vertical has {vertical.acceleration.size} samples, but must have the {motion.acceleration.size} of the "
+            "horizontal component; cut or resample it first."
+        )
+    if abs(vertical.time_step - motion.time_step) > 1e-9 * motion.time_step:
+        raise MotionError(
+            f"vertical has a time step of {vertical.time_step!r} s, but must have the {motion.time_step!r} s of the "
+            "horizontal component; resample it first."
+        )
     return _forcing(motion, vertical)
 
 
@@ -73,22 +84,3 @@ def _forcing(motion: GroundMotion, vertical: Accelerogram | None) -> Forcing:
         gravity=GRAVITY,
     )
     return Forcing(ground, motion.start_time if isinstance(motion, Pulse) else 0.0, vertical is not None)
-
-
-def _check_fit(vertical: Accelerogram, motion: GroundMotion) -> None:
-    if isinstance(motion, Pulse):
-        raise MotionError(
-            "vertical is given with a pulse, but needs a record of the same samples; leave it out."
-        )
-    if not isinstance(vertical, Accelerogram):
-        raise MotionError(f"vertical is a {type(vertical).__name__}, but must be an Accelerogram.")
-    if vertical.acceleration.size != motion.acceleration.size:
-        raise MotionError(
-            f"vertical has {vertical.acceleration.size} samples, but must have the {motion.acceleration.size} of the "
-            "horizontal component; cut or resample it first."
-        )
-    if abs(vertical.time_step - motion.time_step) > 1e-9 * motion.time_step:
-        raise MotionError(
-            f"vertical has a time step of {vertical.time_step!r} s, but must have the {motion.time_step!r} s of the "
-            "horizontal component; resample it first."
-        )

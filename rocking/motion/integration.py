@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeGuard
 
 import numpy as np
 
@@ -113,11 +113,12 @@ def reduce(structure: Rocking) -> Mechanism | EquivalentBlock:
     return structure.mechanism()
 
 
-def solvable_exactly(block: EquivalentBlock, forcing: Forcing) -> bool:
-    """Whether the closed form per sample holds without a vertical component: a sampled record, a sane p Δt."""
-    frequency = max(each.frequency_parameter for each in block.sides)
-    ground = forcing.ground
-    return ground.circular_frequency == 0 and frequency * ground.time_step <= LARGEST_GROWTH
+def solvable_exactly(structure: Rocking, forcing: Forcing) -> TypeGuard[EquivalentBlock]:
+    """Whether the closed form per sample holds without a vertical component: a block, a sampled record, a sane p Δt."""
+    if not isinstance(structure, EquivalentBlock) or forcing.ground.circular_frequency != 0:
+        return False
+    frequency = max(each.frequency_parameter for each in structure.sides)
+    return frequency * forcing.ground.time_step <= LARGEST_GROWTH
 
 
 def follow(
@@ -137,15 +138,15 @@ def follow(
     horizontal, vertical: factors (m,) of the components. restitution: (m, 2), or None for its own. settle, log: as the
     kernels take them. Without vertical motion an EquivalentBlock is followed through a record exactly.
     """
-    exact = isinstance(reduced, EquivalentBlock) and solvable_exactly(reduced, forcing)
-    if isinstance(reduced, EquivalentBlock) and exact and not vertical.any():
+    if solvable_exactly(reduced, forcing) and not vertical.any():
         results = follow_blocks(
             [reduced], forcing, horizontal, restitution, start=start, settle=settle, log=log
         )
         return reduced.sides, results
     table, results = table_of(reduced, forcing.vertical), np.zeros((horizontal.size, runs.COLUMNS))
     kernel, eta = table.kernel_of(forcing), np.empty((horizontal.size, 2))
-    eta[:] = table.restitution if restitution is None else restitution
+    own = table.sides[0].restitution, table.sides[-1].restitution
+    eta[:] = own if restitution is None else restitution
     arc, speed = _initial_arc(table, start) if start[2] else (0.0, 0.0)
     begin = nonlinear_kernel.Motion(0, 0.0, arc, speed, start[2], arc, abs(speed))
     how = STEP_SHARE * tolerance, settle, nonlinear_kernel.memory(kernel.ties), np.empty((2, 2)), log
@@ -177,7 +178,7 @@ def follow_blocks(
         begin = begin._replace(x=arc / side.critical_arc, w=speed / side.velocity_scale, side=start[2])
     ground, sides = forcing.ground, rows.span.shape[1]
     samples = linear_kernel.Samples(
-        ground.horizontal, ground.time_step, np.empty((sides, 2, forcing.samples))
+        ground.horizontal, ground.time_step, np.empty((sides, 2, ground.horizontal.size))
     )
     results = np.zeros((len(blocks) * factors.size, runs.COLUMNS))
     linear_kernel.rock_linear(rows, samples, factors, eta, begin, settle, np.empty((2, 2)), log, results)
@@ -188,10 +189,7 @@ def follow_blocks(
 def _rows(blocks: tuple[EquivalentBlock, ...]) -> tuple[linear_kernel.Blocks, np.ndarray]:
     """What the kernel takes of b blocks, alike in their sides, and their restitution (b, 1, 2)."""
     numbers = [
-        [
-            (side.frequency_parameter, 1 / (GRAVITY * side.uplift_multiplier), side.critical_arc)
-            for side in block.sides
-        ]
+        [(s.frequency_parameter, 1 / (GRAVITY * s.uplift_multiplier), s.critical_arc) for s in block.sides]
         for block in blocks
     ]
     frequency, push, span = np.array(numbers).transpose(2, 0, 1).copy()
@@ -247,7 +245,7 @@ def _response(
     """The Response to the motion times `factor`; overturned, too, where a side is past its end. Raises MotionError."""
     horizontal = np.array([factor])
     lift = horizontal if forcing.vertical else np.zeros(1)
-    log = np.zeros((2 * forcing.samples + 1001, 3)) if history else NO_LOG
+    log = np.zeros((2 * forcing.ground.horizontal.size + 1001, 3)) if history else NO_LOG
     how: Any = {"start": start, "settle": False}
     sides, results = follow(reduced, forcing, horizontal, lift, None, tolerance, **how, log=log)
     if history and log[0, 0] >= log.shape[0]:
@@ -259,8 +257,9 @@ def _response(
     ratios = sides[0].rotation_ratio(row[runs.PEAKS]), sides[-1].rotation_ratio(row[runs.PEAKS + 1])
     outcome = OUTCOMES[row[runs.STATUS]] if math.isfinite(max(ratios)) else Outcome.OVERTURNS
     largest = 0 if ratios[0] >= ratios[1] else 1
-    rocks, begin = outcome is Outcome.ROCKS, forcing.start_time
-    states = _states(table_of(reduced, forcing.vertical), log) if history else (None, None, None)
+    rocks = outcome is Outcome.ROCKS
+    begin = forcing.start_time
+    states = _states(table_of(reduced, forcing.vertical), log, begin) if history else {}
     return Response(
         rotation_ratio=math.inf if outcome is Outcome.OVERTURNS else ratios[largest],
         outcome=outcome,
@@ -271,14 +270,12 @@ def _response(
         steps=int(row[runs.STEPS]),
         tolerance=0.0 if isinstance(sides[0], EquivalentBlock) else tolerance,
         warning=WEIGHTLESS if forcing.weightless else "",
-        times=None if states[0] is None else states[0] + begin,
-        rotation=states[1],
-        angular_velocity=states[2],
+        **states,
     )
 
 
-def _states(table: Table, log: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Times, rotations and angular velocities, signed, of the lines of a log, which holds arcs."""
+def _states(table: Table, log: np.ndarray, begin: float) -> dict[str, Any]:
+    """The history of a Response, whose motion starts at the time `begin`, from the lines of a log, which holds arcs."""
     times, arcs, speeds = log[1 : int(log[0, 0]) + 1].T
     rotation, velocity = np.empty_like(arcs), np.empty_like(arcs)
     negative = (arcs < 0) | ((arcs == 0) & (speeds < 0))
@@ -287,14 +284,14 @@ def _states(table: Table, log: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.n
         within_end = np.minimum(np.abs(arcs[rows]), side.end)
         rotation[rows] = sign * side.rotation(within_end)
         velocity[rows] = speeds[rows] * side.slope(within_end)
-    return times, rotation, velocity
+    return {"times": times + begin, "rotation": rotation, "angular_velocity": velocity}
 
 
 def _sensitivity(reduced: Mechanism | EquivalentBlock, forcing: Forcing, start: Start) -> float:
     """d ln φ_max / d ln a, by a central difference of two tightly integrated neighbours; inf where one overturns."""
     factors = (1 - _NUDGE, 1 + _NUDGE)
     below, above = (
-        _response(reduced, forcing, _TIGHT, start, factor=factor).rotation_ratio for factor in factors
+        _response(reduced, forcing, _TIGHT, start, factor=each).rotation_ratio for each in factors
     )
     if not (0 < below < math.inf and 0 < above < math.inf):
         return math.inf

@@ -151,8 +151,7 @@ def follow_factors(
     horizontal, vertical: factors (m,) of the two components; None: no vertical component. restitution: (m, 2) or None.
     """
     lift = np.zeros(horizontal.size) if vertical is None else vertical
-    exact = isinstance(reduced, EquivalentBlock) and solvable_exactly(reduced, forcing)
-    if exact and 0 < np.count_nonzero(lift) < lift.size:
+    if solvable_exactly(reduced, forcing) and 0 < np.count_nonzero(lift) < lift.size:
         # Members with and without vertical motion each go their own way.
         ratio, side = np.empty(lift.size), np.empty(lift.size, int)
         reasons: dict[int, str] = {}

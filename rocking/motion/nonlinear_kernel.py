@@ -735,9 +735,8 @@ def _step(sides, phase, ground, member, k, motion, tolerance, left):
     a0, a1, g0, g1, square = _drive(ground, member, i, tau)
     j, centre, room = _place(sides.grid, k, arc)
     x = _series(sides.pieces, k, j, arc - centre, speed, side, a0, a1, g0, g1, square, sides.ties, phase)
-    if (
-        arc == 0 and speed == 0 and x[1] < 0
-    ):  # an uplift where the acceleration is zero to rounding does not fall
+    # an uplift where the acceleration is zero to rounding does not fall
+    if arc == 0 and speed == 0 and x[1] < 0:
         x = x[0], 0.0, x[2], x[3], x[4], x[5], x[6], x[7]
     longest = min(left, _longest_step(sides.ties, phase, slot, sides.longest_step[k]))
     h = _stride(x, longest, room, arc, farthest, fastest, tolerance)

@@ -83,12 +83,8 @@ class Response(Drawn):
             raise MotionError(
                 "the history of the response is not there; integrate with history=True to keep it."
             )
-        columns = {
-            "time_s": self.times,
-            "rotation_rad": self.rotation,
-            "angular_velocity_rad_s": self.angular_velocity,
-        }
-        return DataFrame(columns)
+        columns = {"time_s": self.times, "rotation_rad": self.rotation}
+        return DataFrame(columns | {"angular_velocity_rad_s": self.angular_velocity})
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,7 @@ from rocking.motion.forcing import Forcing
 from rocking.motion.nonlinear_kernel import Sides, Ties
 from rocking.quantities import GRAVITY
 from rocking.structures.equivalent_block import Arc, Function, RotationMap
-from rocking.structures.mechanism import CUTS, EquivalentBlock, Mechanism, Side
-from rocking.structures.ties import SideTie
+from rocking.structures.mechanism import CUTS, EquivalentBlock, Mechanism, Side, SideTie
 
 _NEAR = 1 / 64
 """Share of the arc of φ_cr within which a chain of impacts is looked at as a whole."""
@@ -327,13 +326,10 @@ def _fit(
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """What the kernel takes of a mechanism, stacked over its sides (positive first; one if they mirror)."""
+    """The sides of a mechanism (positive first; one if they mirror), and stacked what the kernel takes of them."""
 
     sides: tuple[SideTable, ...]
     kernel: Sides
-    """What the kernel takes of them."""
-    restitution: tuple[float, float]
-    """η of the positive and of the negative side."""
 
     def kernel_of(self, forcing: Forcing) -> Sides:
         """What the kernel takes under `forcing`: its steps resolve a sine as well."""
@@ -387,7 +383,7 @@ def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
     kernel = Sides(
         **arrays, one_sided=one_sided, ties=stacked_ties([side.kernel.ties for side in sides], most)
     )
-    return Table(sides, kernel, (sides[0].restitution, sides[-1].restitution))
+    return Table(sides, kernel)
 
 
 def stacked_ties(sides: Sequence[Ties | None], pieces: int) -> Ties | None:

@@ -140,8 +140,7 @@ class RotationMap:
 
     @cached_property
     def _pieces(self) -> list[list[float]]:
-        pieces: list[list[float]] = self.coefficients.T.tolist()
-        return pieces
+        return self.coefficients.T.tolist()  # type: ignore[no-any-return]
 
 
 def rotation_map(arc: Arc, accuracy: float) -> RotationMap | None:

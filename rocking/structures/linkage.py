@@ -22,8 +22,7 @@ from numpy.typing import ArrayLike
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures.contacts import Contacts, MotionState
-from rocking.structures.mechanism import Side
-from rocking.structures.ties import SideTie, Tie
+from rocking.structures.mechanism import Side, SideTie, Tie
 
 Owner = TypeVar("Owner")
 

@@ -1,4 +1,4 @@
-"""The standard form of every rocking structure, the equivalent block it reduces to, and what may become of it.
+"""The standard form of every rocking structure, ties included, and what may become of it.
 
 On the side s = ±1 to which it rocks, with the rotation φ ≥ 0 (theory: section 1, "One standard form"):
 
@@ -6,6 +6,9 @@ On the side s = ±1 to which it rocks, with the rotation φ ≥ 0 (theory: secti
 
 Uplift from rest to the side s = −sign(ü_g) when |ü_g| / (g + ü_v) exceeds G(0)/B(0). At φ = 0 an impact ends the
 motion on this side; the angular velocity of the next flight is `restitution` times the one of arrival.
+
+A tie pulls only, with a force that depends on how far its point has moved and on how far it ever was. As the point
+moves outwards all the time with φ, the largest rotation so far is all that a side remembers.
 """
 
 import math
@@ -31,12 +34,98 @@ from rocking.structures.equivalent_block import (
     rotation_map,
 )
 from rocking.structures.equivalent_block import EquivalentBlock as EquivalentBlock
-from rocking.structures.ties import SideTie
 
 _ARC_ACCURACY, _MAP_ACCURACY = 2e-14, 1e-14
 CUTS = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.4)
 """Shares that may be cut off beyond φ_cr, where a mechanism locks and its inertia has no bound."""
 _DEFECT_SAMPLES = 401
+
+
+@dataclass(frozen=True)
+class Tie:
+    """A tie that stays horizontal, being long: force `pretension` + `stiffness` · u up to `strength`.
+
+    u ≥ 0 is how far its point moved towards the side of rocking. At its strength it yields, by `plastic_elongation` [m]
+    until it breaks; 0 is brittle. Unloading is elastic, with the plastic elongation taken off u, and where that leaves
+    no tension it is slack. A side on which it would slacken from the start has no tie.
+    """
+
+    stiffness: float
+    pretension: float = 0.0
+    strength: float = np.inf
+    plastic_elongation: float = 0.0
+
+    @property
+    def yield_stretch(self) -> float:
+        """u at which it reaches its strength, m."""
+        if np.isinf(self.strength):
+            return np.inf
+        return (self.strength - self.pretension) / self.stiffness
+
+    @property
+    def rupture_stretch(self) -> float:
+        """u beyond which it is broken, m."""
+        return self.yield_stretch + self.plastic_elongation
+
+    def over(self, unit: float) -> "Tie":
+        """The same tie with its forces in multiples of `unit`."""
+        return replace(
+            self,
+            stiffness=self.stiffness / unit,
+            pretension=self.pretension / unit,
+            strength=self.strength / unit,
+        )
+
+    def tension(self, stretch: np.ndarray, largest: np.ndarray | None = None) -> np.ndarray:
+        """The force at u = `stretch`, where u was `largest` at most before; None: never beyond `stretch`."""
+        elastic = self.pretension + self.stiffness * stretch
+        if np.isinf(self.strength):
+            return elastic
+        largest = stretch if largest is None else np.maximum(stretch, largest)
+        plastic = np.maximum(largest - self.yield_stretch, 0.0)
+        force = np.clip(elastic - self.stiffness * plastic, 0.0, self.strength)
+        return np.where(largest > self.rupture_stretch, 0.0, force)
+
+    def slope(self, stretch: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray) -> np.ndarray:
+        """Derivative of T du/dφ with φ, from those of u; beyond yield that of the force it keeps."""
+        stiffness = np.where(stretch <= self.yield_stretch, self.stiffness, 0.0)
+        return self.tension(stretch) * acceleration + stiffness * velocity**2
+
+
+@dataclass(frozen=True)
+class SideTie:
+    """A tie on one side of a mechanism: u [m] and du/dφ as functions of the rotation, which grow with it.
+
+    The forces of `tie` are in the unit of the side's G per m, so that the tie adds T(u) du/dφ to G.
+    """
+
+    tie: Tie
+    stretch: Function
+    stretch_slope: Function
+
+    def moment(self, rotation: np.ndarray, largest: np.ndarray) -> np.ndarray:
+        """Return what it adds to G at `rotation`, the largest rotation so far being `largest` [rad]."""
+        force = self.tie.tension(self.stretch(rotation), self.stretch(largest))
+        return force * self.stretch_slope(rotation)
+
+    def bends(self, end_rotation: float) -> list[float]:
+        """Return the rotations below `end_rotation` at which it yields and breaks, rad."""
+        stretches = self.tie.yield_stretch, self.tie.rupture_stretch
+        bends = [self.rotation(stretch, end_rotation) for stretch in stretches]
+        return [bend for bend in bends if bend < np.inf]
+
+    def rotation(self, stretch: float, end_rotation: float) -> float:
+        """Return the rotation [rad] at which u is `stretch`; inf beyond `end_rotation`."""
+        from scipy.optimize import brentq  # slow to import, and needed by ties with a strength only
+
+        def beyond(rotation: float) -> float:
+            return float(self.stretch(np.asarray(rotation))) - stretch
+
+        if stretch <= 0:
+            return 0.0
+        if not beyond(end_rotation) > 0:
+            return np.inf
+        return float(brentq(beyond, 0.0, end_rotation, xtol=1e-18, rtol=1e-15))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -97,11 +186,6 @@ class Side:
     def at(self, name: str, rotation: float) -> float:
         """Return one of the five functions, by name, at one rotation [rad], as a float."""
         return float(getattr(self, name)(np.float64(rotation)))
-
-    @cached_property
-    def remembers(self) -> bool:
-        """Whether a tie can yield or break, so that G depends on the largest rotation so far."""
-        return any(tie.tie.strength < np.inf for tie in self.ties)
 
     @cached_property
     def bends(self) -> tuple[float, ...]:
@@ -225,7 +309,7 @@ class Mechanism(Drawn):
     @cached_property
     def remembers(self) -> bool:
         """Whether a tie can yield or break, so that what restores depends on the largest rotation so far."""
-        return any(side.remembers for side in self.sides)
+        return any(tie.tie.strength < np.inf for side in self.sides for tie in side.ties)
 
     @property
     def symmetric(self) -> bool:

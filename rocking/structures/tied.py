@@ -11,8 +11,8 @@ from rocking.errors import StructureError
 from rocking.structures.drawing import Mark, plane
 from rocking.structures.fields import OneSided, Value
 from rocking.structures.linkage import STILL, Hung
+from rocking.structures.mechanism import Tie
 from rocking.structures.structure import Crackable
-from rocking.structures.ties import Tie
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"gt": 0})]
 Eccentricity = Annotated[

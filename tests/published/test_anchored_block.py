@@ -12,7 +12,7 @@ from rocking.motion import Members, integrate_members
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.structures import Block, Mechanism, Side
-from rocking.structures.ties import SideTie, Tie
+from rocking.structures.mechanism import SideTie, Tie
 
 HALF_BREADTH, HALF_HEIGHT = 0.2, 0.6
 FREE = Block.of_size(2 * HALF_BREADTH, 2 * HALF_HEIGHT).mechanism()

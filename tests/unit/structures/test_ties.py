@@ -14,7 +14,7 @@ from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Facade, LoadedWall
-from rocking.structures.ties import Tie
+from rocking.structures.mechanism import Tie
 
 FACADE = Facade(
     (3.2, 2.8), (0.6, 0.5), 20e3, (10e3, 5e3), 0.05, tie_heights=(3.1, 5.8), tie_stiffness=3e5,
