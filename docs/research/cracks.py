@@ -7,31 +7,28 @@ where it does cracked at the joint of least λ, the choice of statics; between t
 import json
 import sys
 import warnings
-import zlib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from docs.research import scores
-from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, properties, rectangle
+from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, rectangle
 from docs.research.comparison.codes import ask, still_from
 from docs.research.comparison.lmgc90 import FALLEN, base_speed, follow
-from docs.research.report import publish
-from docs.research.sites import Records, Tell, independent, lifting_factor, one_of_each
+from docs.research.ensembles import verdict_of_all
+from docs.research.report import Target
+from docs.research.sites import Trial, draw_of, independent, lifting_factor, one_of_each
 from docs.research.stacks import largest_turns
-from rocking.assessment.ensemble import Ensemble, GroundMotions, ensemble
-from rocking.assessment.verdict import Verdict
+from rocking import Accelerogram, LoadedWall, Mechanism, RigidBody, Spire, Verdict
+from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
-from rocking.records import Accelerogram
-from rocking.structures import LoadedWall, Mechanism, RigidBody, Spire
-from rocking.tables import Row, column, read_rows, row, write_rows
+from rocking.tables import column, read_rows, row, write_rows
 
 COURSES = (6, 12, 20)
 CHANCES = (0.7, 0.2, 0.1)
@@ -51,7 +48,6 @@ STRONG = 0.5
 """Rule and stack are given the motion where it exceeds this share of the least uplift acceleration."""
 MARGIN = 0.5
 """Before and after that, s."""
-TAPER = Spire.crack_margin
 TURN = 0.6
 """Turn of a course, rad, from which nothing comes back: twice the largest critical rotation of any member."""
 TIMEOUT = 3600.0
@@ -62,121 +58,104 @@ TIMEOUT = 3600.0
 class Member:
     """A stack of courses. sections: (n + 1, 2) left and right face at each joint, from the base up, m. height: m.
 
-    depths: (n,) of the courses, m. slab: weight of a floor on top over that of the member, which then stands between
-    supports; None: its top is free. margin: factor on the motion under which it must stand whatever cracks.
+    depths: (n,) of the courses, m; None: 1 m each. slab: weight of a floor on top over that of the member, which then
+    stands between supports; None: its top is free. margin: factor on the motion under which it must stand whatever
+    cracks.
     """
 
     kind: str
     sections: np.ndarray
     height: float
-    depths: np.ndarray
+    depths: np.ndarray | None = None
     slab: float | None = None
     margin: float = 1.0
 
     @property
     def courses(self) -> int:
         """Their number."""
-        return len(self.depths)
+        return len(self.sections) - 1
 
     @cached_property
-    def polygons(self) -> list[np.ndarray]:
-        """The corners (4, 2) of each course, counterclockwise, m; a course that ends in a point keeps a millimetre."""
+    def bodies(self) -> RigidBodies:
+        """The courses on what moves with the ground, and the slab.
+
+        Corners (4, 2) of each, counterclockwise, m; a course that ends in a point keeps a millimetre.
+        """
         levels = np.linspace(0, self.height, self.courses + 1)
         lines = [np.column_stack([faces, [z, z]]) for faces, z in zip(self.sections, levels, strict=True)]
-        return [np.vstack([lower, upper[::-1]]) for lower, upper in pairwise(lines)]
+        left, right = self.sections[0]
+        ground = rectangle(left - 3.0, right + 3.0, -BASE_DEPTH, 0.0)
+        polygons = [ground, *(np.vstack([lower, upper[::-1]]) for lower, upper in pairwise(lines))]
+        depths = [1.0, *(np.ones(self.courses) if self.depths is None else self.depths)]
+        if self.slab is None:
+            return RigidBodies(polygons, (0,), depths=depths)
+        wide, top = right - left, self.height * (1 + self.slab / 3)
+        polygons.append(rectangle(left - wide, right + wide, self.height, top))
+        return RigidBodies(polygons, (0,), guided=(self.courses + 1,), depths=[*depths, 1.0])
 
     @cached_property
     def mechanisms(self) -> dict[int, Mechanism]:
         """The mechanism of each joint that may open, by the number of courses beneath it."""
+        joints = range(0 if self.slab is None else 1, self.courses)
         with warnings.catch_warnings():
             # A course wider than high keeps nothing of an impact, which is meant here.
             warnings.simplefilter("ignore", StructureWarning)
-            if self.slab is None:
-                return {joint: self._above(joint).mechanism() for joint in range(self.courses)}
-            return {joint: self._hinged(joint, self.slab).mechanism() for joint in range(1, self.courses)}
+            return {joint: self._cracked_at(joint).mechanism() for joint in joints}
 
-    def _hinged(self, joint: int, slab: float) -> LoadedWall:
-        """The wall under its slab, hinged at a joint."""
-        height, thickness = self.height, float(np.ptp(self.sections[0]))
-        load = slab * UNIT_WEIGHT * height * thickness
-        hinge = height * joint / self.courses
-        return LoadedWall.hinged_at(height, hinge, thickness, UNIT_WEIGHT, top_load=load, top_slab="flat")
-
-    def _above(self, joint: int) -> RigidBody:
-        """All courses above a joint as one body."""
-        areas, centres, gyrations = (
-            np.array(each) for each in zip(*map(properties, self.polygons[joint:]), strict=True)
-        )
-        masses = areas * self.depths[joint:]
+    def _cracked_at(self, joint: int) -> LoadedWall | RigidBody:
+        """The wall under its slab with a hinge at a joint; or all courses above the joint as one body."""
+        base = self.height * joint / self.courses
+        left, right = self.sections[joint]
+        if self.slab is not None:
+            load = self.slab * UNIT_WEIGHT * self.height * (right - left)
+            return LoadedWall.hinged_at(
+                self.height, base, right - left, UNIT_WEIGHT, top_load=load, top_slab="flat"
+            )
+        masses, centres, gyrations = (each[1 + joint :] for each in self.bodies.properties)
         centre = complex(masses @ centres / masses.sum())
         inertia = masses @ (gyrations + np.abs(centres - centre) ** 2) / masses.sum()
-        (left, right), base = self.sections[joint], self.height * joint / self.courses
         return RigidBody(centre.real - left, right - centre.real, centre.imag - base, float(inertia))
 
-    def bodies(self) -> RigidBodies:
-        """Return the courses on what moves with the ground, and the slab."""
-        left, right = self.sections[0]
-        stack = (rectangle(left - 3.0, right + 3.0, -BASE_DEPTH, 0.0), *self.polygons)
-        if self.slab is None:
-            return RigidBodies(stack, (0,), depths=(1.0, *self.depths))
-        wide, top = right - left, self.height * (1 + self.slab / 3)
-        slab = rectangle(left - wide, right + wide, self.height, top)
-        depths = (1.0, *self.depths, 1.0)
-        return RigidBodies((*stack, slab), (0,), guided=(self.courses + 1,), depths=depths)
+
+def straight(base: float, top: float, courses: int) -> np.ndarray:
+    """Return the faces (courses + 1, 2) of a member whose thickness goes from one to the other, m."""
+    half = np.linspace(base, top, courses + 1) / 2
+    return np.column_stack([-half, half])
 
 
 @cache
-def members() -> tuple[Member, ...]:
-    """Return walls between floors, columns, façades with a ledge, gables, pinnacles and spires, each of COURSES."""
-    return tuple(make(courses) for courses in COURSES for make in KINDS.values())
-
-
-def _wall(slab: float) -> Callable[[int], Member]:
-    kind = "wall with a floor load" if slab > 0.1 else "wall with a slab only"
-    return lambda n: Member(kind, straight(0.25, 0.25, n), 3.2, np.ones(n), slab)
-
-
-def _ledge(courses: int) -> Member:
-    """Two thicknesses, flush outside: .5 m below half of the height, .35 m above."""
-    faces = np.where(np.arange(courses + 1)[:, None] < courses / 2, [0.0, 0.5], [0.15, 0.5])
-    return Member("façade with a ledge", faces, 6.0, np.ones(courses))
-
-
-def _pinnacle(courses: int) -> Member:
-    """A shaft of .5 m over the lower 40 %, and a wedge on it."""
-    half = 0.25 * np.clip((1 - np.linspace(0, 1, courses + 1)) / 0.6, 2e-3, 1)
-    return Member(
-        "pinnacle", np.column_stack([-half, half]), 2.5, 2 * (half[:-1] + half[1:]) / 2, margin=TAPER
+def members(courses: int) -> dict[str, Member]:
+    """Return walls between floors, a column, a façade with a ledge, a gable, a pinnacle and a spire, by kind."""
+    joints = np.linspace(0, 1, courses + 1)
+    middles = (np.arange(courses) + 0.5) / courses
+    wall = straight(0.25, 0.25, courses)
+    # The façade is flush outside: 0.5 m thick below half of its height, 0.35 m above.
+    ledge = np.where(joints[:, None] < 0.5, [0.0, 0.5], [0.15, 0.5])
+    # The gable is a triangle seen along its own plane: 0.3 m thick all the way, its width falls to nothing.
+    gable = straight(0.3, 0.3, courses)
+    # The pinnacle has a shaft of 0.5 m over its lower 40 %, and a wedge on it.
+    half = 0.25 * np.clip((1 - joints) / 0.6, 2e-3, 1)
+    pinnacle = np.column_stack([-half, half])
+    made = (
+        Member("wall with a slab only", wall, 3.2, slab=0.05),
+        Member("wall with a floor load", wall, 3.2, slab=0.6),
+        Member("column", straight(0.6, 0.6, courses), 4.8),
+        Member("façade with a ledge", ledge, 6.0),
+        Member("gable", gable, 3.0, 6.0 * (1 - middles)),
+        Member("pinnacle", pinnacle, 2.5, half[:-1] + half[1:], margin=Spire.crack_margin),
+        Member("spire", straight(3.0, 0.01, courses), 15.0, 3.0 * (1 - middles), margin=Spire.crack_margin),
     )
+    return {each.kind: each for each in made}
 
 
-def _gable(courses: int) -> Member:
-    """A triangle seen along its own plane: .3 m thick all the way, its width falls to nothing."""
-    return Member("gable", straight(0.3, 0.3, courses), 3.0, 6.0 * (1 - (np.arange(courses) + 0.5) / courses))
-
-
-KINDS: Mapping[str, Callable[[int], Member]] = {
-    "slab only": _wall(0.05),
-    "floor load": _wall(0.6),
-    "column": lambda n: Member("column", straight(0.6, 0.6, n), 4.8, np.ones(n)),
-    "ledge": _ledge,
-    "gable": _gable,
-    "pinnacle": _pinnacle,
-    "spire": lambda n: Member(
-        "spire", straight(3.0, 0.01, n), 15.0, 3.0 * (1 - (np.arange(n) + 0.5) / n), margin=TAPER
-    ),
-}
+KINDS = tuple(members(COURSES[0]))
 
 
 @row("cracks", "One row per member, record and scale: the stack beside the mechanism of every joint")
-class CrackRow(Row):
+class CrackRow(Trial):
     """One trial."""
 
-    kind: str = column("Kind of member")
-    courses: int = column("Number of its courses")
-    record: str = column("Identifier of the record")
-    site: str = column("Event and station")
-    scale_factor: float = column("What the record was multiplied by")
+    courses: int = column("Number of courses of the member")
     falls: bool = column("Whether the stack falls")
     opened: int = column("Courses beneath the joint that had opened most when the stack turned most")
     falls_in_lmgc90: bool | None = column("Whether it falls in LMGC90; empty: not tried, or no answer")
@@ -186,44 +165,48 @@ class CrackRow(Row):
     verdict: Verdict = column("What the rule says")
 
 
-def write_cracks(records: Records, folder: Path, tell: Tell, most: int | None = None) -> None:
-    """Write cracks.csv, its scores and report into `folder`, and the rows of each record as they come.
+def govern(target: Target) -> None:
+    """Hold the rule against stacks under one component of each site, none of which took part in the rule.
 
-    records: their sites took no part in the rule; most: of them. Rows that `folder` holds are not made again.
+    The rows of each record are written as they come; a long run goes on where it was stopped.
     """
     rows: list[CrackRow] = []
-    for count, (name, site, record) in enumerate(one_of_each(independent(records))[:most]):
-        path = folder / "trials" / f"{name}.csv"
-        if not path.is_file():  # a long run goes on where it was stopped
+    for count, (name, site, record) in enumerate(one_of_each(independent(target.records))):
+        path = target.folder / "trials" / f"{name}.csv"
+        if not path.is_file():
             checked = len(KINDS) if count < CHECKED else 0
             trials = (crack_row(name, site, record, k, k < checked) for k in range(SCALES * len(KINDS)))
             write_rows(CrackRow, trials, path)
         rows += read_rows(CrackRow, path)
-        tell(f"{name}: {len(rows)} trials")
+        target.tell(f"{name}: {len(rows)} trials")
     subtitle = "Stacks of courses beside the mechanism of every joint, one component of each site."
     tables = {CrackRow: rows, scores.Score: list(crack_scores(rows))}
-    publish(folder, "Which crack governs", subtitle, tables)
+    target.publish("Which crack governs", subtitle, tables)
 
 
-def crack_row(name: str, site: str, record: Accelerogram, place: int, checked: bool = False) -> CrackRow:
+def crack_row(name: str, site: str, record: Accelerogram, place: int, checked: bool) -> CrackRow:
     """Return one trial: the kind of member by its place, its number of courses and the scale of the record drawn.
 
     checked: LMGC90 follows the stack too.
     """
-    draw = np.random.default_rng([zlib.crc32(name.encode()), place])
-    member = members()[len(KINDS) * draw.choice(len(COURSES), p=CHANCES) + place % len(KINDS)]
+    draw = draw_of(name, place)
+    member = members(int(draw.choice(COURSES, p=CHANCES)))[KINDS[place % len(KINDS)]]
     mechanisms = member.mechanisms
     static = min(mechanisms, key=lambda joint: mechanisms[joint].uplift_multiplier)
     multiplier = mechanisms[static].uplift_multiplier
     factor = lifting_factor(record, multiplier, UPLIFTS, draw)
-    motion = _strong(record.scaled(factor), multiplier * GRAVITY)
+    motion = record.scaled(factor)
+    strong = np.flatnonzero(np.abs(motion.acceleration) >= STRONG * multiplier * GRAVITY)
+    beside = round(MARGIN / motion.time_step)
+    span = slice(max(strong[0] - beside, 0), strong[-1] + beside + 1)
+    motion = replace(motion, acceleration=motion.acceleration[span])
     verdict, shares = ruled(mechanisms, static, motion, member.margin)
     turns = stack(member, motion)
-    return CrackRow(
-        kind=member.kind,
-        courses=member.courses,
+    return CrackRow.of(
+        member,
         record=name,
         site=site,
+        structure=member.kind,
         scale_factor=factor,
         falls=bool(np.abs(turns).max() > TURN),
         opened=int(np.abs(np.diff(turns)).argmax()),
@@ -235,15 +218,6 @@ def crack_row(name: str, site: str, record: Accelerogram, place: int, checked: b
     )
 
 
-def _strong(motion: Accelerogram, lift: float) -> Accelerogram:
-    """Cut the motion to where its acceleration exceeds a share of what lifts the member."""
-    strong = np.flatnonzero(np.abs(motion.acceleration) >= STRONG * lift)
-    beside = round(MARGIN / motion.time_step)
-    return replace(
-        motion, acceleration=motion.acceleration[max(strong[0] - beside, 0) : strong[-1] + beside + 1]
-    )
-
-
 def ruled(
     mechanisms: Mapping[int, Mechanism], static: int, motion: Accelerogram, margin: float = 1.0
 ) -> tuple[Verdict, Mapping[int, float]]:
@@ -251,20 +225,14 @@ def ruled(
 
     margin: factor on the motion under which a member must stand whatever cracks.
     """
-    all_of = _followed(mechanisms, motion)
-    shares = {joint: each.overturning_share for joint, each in all_of.items()}
-    verdicts = {each.verdict for each in all_of.values()}
-    if verdicts == {Verdict.STANDS} and margin > 1:
-        verdicts = {each.verdict for each in _followed(mechanisms, motion.scaled(margin)).values()}
-    if verdicts == {Verdict.STANDS}:
-        return Verdict.STANDS, shares
-    overturns = all_of[static].verdict is Verdict.OVERTURNS
-    return (Verdict.OVERTURNS if overturns else Verdict.UNDECIDED), shares
-
-
-def _followed(mechanisms: Mapping[int, Mechanism], motion: Accelerogram) -> Mapping[int, Ensemble]:
     motions = GroundMotions.of(motion)
-    return {joint: ensemble(mechanism, motions) for joint, mechanism in mechanisms.items()}
+    of_each = {joint: ensemble(mechanism, motions) for joint, mechanism in mechanisms.items()}
+    verdict = verdict_of_all(of_each[static], of_each.values())
+    if verdict is Verdict.STANDS and margin > 1:
+        higher = motions.scaled(margin)
+        if any(ensemble(each, higher).verdict is not Verdict.STANDS for each in mechanisms.values()):
+            verdict = Verdict.UNDECIDED
+    return verdict, {joint: each.overturning_share for joint, each in of_each.items()}
 
 
 def stack(member: Member, motion: Accelerogram, step: float = STEP) -> np.ndarray:
@@ -272,7 +240,7 @@ def stack(member: Member, motion: Accelerogram, step: float = STEP) -> np.ndarra
     case = _case(member, motion)
     _, speed = base_speed(case, step)
     still = int(still_from(case) / step)
-    turns = largest_turns(member.bodies(), speed[1:], step, TURN, still, case["settled"])
+    turns = largest_turns(member.bodies, speed[1:], step, TURN, still, case["settled"])
     return turns[: member.courses + 1]
 
 
@@ -298,7 +266,7 @@ def _case(member: Member, motion: Accelerogram) -> dict[str, Any]:
 def crack_scores(rows: Sequence[CrackRow]) -> Iterator[scores.Score]:
     """Yield the errors of the rule by kind of member and of all, with intervals by site."""
     every = pd.DataFrame(rows)
-    for kind, own in [("all", every), *every.groupby("kind", sort=False)]:
+    for kind, own in [("all", every), *every.groupby("structure", sort=False)]:
         as_lmgc90 = (own.falls == own.falls_in_lmgc90).where(own.falls_in_lmgc90.notna())
         measures = {
             'falls among "stands"': own.falls.where(own.verdict == Verdict.STANDS),
@@ -310,18 +278,12 @@ def crack_scores(rows: Sequence[CrackRow]) -> Iterator[scores.Score]:
         yield from scores.scored("governing crack", kind, measures, own.site.tolist())
 
 
-def straight(base: float, top: float, courses: int) -> np.ndarray:
-    """Return the faces (courses + 1, 2) of a member whose thickness goes from one to the other, m."""
-    half = np.linspace(base, top, courses + 1) / 2
-    return np.column_stack([-half, half])
-
-
 def main() -> None:
     """Follow one member, named on standard input, in LMGC90 and print the largest turn of a course, rad."""
-    given = json.load(sys.stdin)
-    member = next(each for each in members() if [each.kind, each.courses] == given["member"])
-    _, turns, _ = follow(given, member.bodies(), LMGC90_STEP)
-    print("\n" + json.dumps(float(np.abs(turns[:, : member.courses + 1]).max())))
+    case = json.load(sys.stdin)
+    kind, courses = case["member"]
+    _, turns, _ = follow(case, members(courses)[kind].bodies, LMGC90_STEP)
+    print("\n" + json.dumps(float(np.abs(turns[:, : courses + 1]).max())))
 
 
 if __name__ == "__main__":

@@ -7,21 +7,17 @@ truth is the curve of all of them, from which few are drawn with repetition; and
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
 from docs.research import scores, sites
-from docs.research.report import publish
+from docs.research.report import Target
 from docs.research.scores import Score
+from rocking import Accelerogram, Block, EquivalentBlock, Pulse, integrate_batch, predict_maxima
 from rocking.assessment.fragility import crossing, fragility, fragility_of
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.trade import TradeMethod, best_sines
-from rocking.motion import integrate_batch
-from rocking.pulses import Pulse
-from rocking.records import Accelerogram
-from rocking.sine_pulse import predict_maxima
-from rocking.structures import Block, EquivalentBlock, Structure
+from rocking.structures import Structure
 
 TIGHT = 1e-9
 """Tolerance of the reference."""
@@ -37,22 +33,21 @@ LEVELS = np.geomspace(0.1, 8.0, 80)
 MANY = 2_000_000
 """Stations whose curve is the truth of a population."""
 TRIED = ("block R 2 m, 0.12 rad", "wall 1.5 + 1.5 m, 0.4 m", "arch 140°, t/r 0.15")
+POPULATIONS = ("lognormal", "two populations", "dip", "plateau of 0.8")
 Draw = Callable[[np.random.Generator, int], np.ndarray]
 """Shares that overturn of so many stations at each level, (n, k)."""
 
 
-def write_fragilities(
-    records: sites.Records, structures: sites.Structures, folder: Path, tell: sites.Tell
-) -> None:
-    """Write the scores of every method into `folder`."""
-    motions = [record for _, record in records]
+def trade_fragility(target: Target) -> None:
+    """Score every method on the records and structures of the target."""
+    motions = [record for _, record in target.records]
     sines, searched_s = sites.timed(lambda: [best_sines(each, AssessmentSettings()) for each in motions])
     rows: list[Score] = []
-    for name, structure in structures.items():
+    for name, structure in target.structures.items():
         rows += method_scores(name, structure, motions, sines)
-        tell(f"fragility of {name}")
+        target.tell(f"fragility of {name}")
     subtitle = f"{len(motions)} components; the sines of all took {searched_s:.0f} s of processor time."
-    publish(folder, "What accuracy costs in a fragility", subtitle, {Score: rows})
+    target.publish("What accuracy costs in a fragility", subtitle, {Score: rows})
 
 
 def method_scores(
@@ -114,36 +109,30 @@ def _by_sines(block: EquivalentBlock, sines: Sequence[Sequence[Pulse]], factors:
     return ratios
 
 
-def write_coverage(records: sites.Records, folder: Path, tell: sites.Tell) -> None:
-    """Write the scores of the median into `folder`."""
-    counted = [(site, record) for _, site, record in sites.independent(records)]
+def cover(target: Target) -> None:
+    """Score the median of fragilities whose truth is known: the curve of all real stations, or of a population."""
+    labels, motions = zip(*((site, each) for _, site, each in sites.independent(target.records)), strict=True)
     tried = {name: each for name, each in sites.structures_tried().items() if name in TRIED}
     rows: list[Score] = []
     for name, structure in {"stone pier, 2 by 9 m": Block.of_size(2.0, 9.0), **tried}.items():
-        rows += real_scores(name, structure, counted)
-        tell(name)
+        analysis = fragility(motions, structure, stations=labels).analysis
+        shares = np.isinf(analysis.rotation_ratios).mean(axis=2)
+        pool = np.array([shares[np.array(labels) == site].mean(axis=0) for site in dict.fromkeys(labels)])
+        whence = f"of {len(pool)} real ones"
+        rows += _scores(
+            name, whence, analysis.levels, pool.mean(axis=0), lambda rng, n, pool=pool: rng.choice(pool, n)
+        )
+        target.tell(name)
     for name in POPULATIONS:
         rows += population_scores(name)
-        tell(name)
+        target.tell(name)
     subtitle = f"{TRIALS} intervals and {ESTIMATES} medians of each; of real stations the pool is the truth."
-    publish(folder, "What the interval of a fragility's median covers", subtitle, {Score: rows})
-
-
-def real_scores(
-    name: str, structure: Structure, records: Sequence[tuple[str, Accelerogram]]
-) -> Iterator[Score]:
-    """Yield the scores of a structure under `records` by site."""
-    labels, motions = zip(*records, strict=True)
-    analysis = fragility(motions, structure, stations=labels).analysis
-    shares = np.isinf(analysis.rotation_ratios).mean(axis=2)
-    pool = np.array([shares[np.array(labels) == site].mean(axis=0) for site in dict.fromkeys(labels)])
-    whence = f"of {len(pool)} real ones"
-    yield from _scores(name, whence, analysis.levels, pool.mean(axis=0), lambda rng, n: rng.choice(pool, n))
+    target.publish("What the interval of a fragility's median covers", subtitle, {Score: rows})
 
 
 def population_scores(name: str) -> Iterator[Score]:
     """Yield the scores of one of POPULATIONS."""
-    rng, draw = np.random.default_rng(99), POPULATIONS[name]
+    rng, draw = np.random.default_rng(99), partial(population_shares, name)
     truth = np.mean([draw(rng, 10_000).mean(axis=0) for _ in range(MANY // 10_000)], axis=0)
     yield from _scores(name, "drawn", LEVELS, truth, draw)
 
@@ -162,31 +151,18 @@ def _scores(name: str, whence: str, levels: np.ndarray, curve: np.ndarray, draw:
         yield from scores.scored(name, part, bias, range(ESTIMATES), replicates=200)
 
 
-def _lognormal(rng: np.random.Generator, count: int) -> np.ndarray:
-    return (np.exp(0.5 * rng.standard_normal((count, 1))) < LEVELS).astype(float)
-
-
-def _two_populations(rng: np.random.Generator, count: int) -> np.ndarray:
-    middle = np.where(rng.random((count, 1)) < 0.5, -0.45, 0.7)
-    return (np.exp(middle + 0.25 * rng.standard_normal((count, 1))) < LEVELS).astype(float)
-
-
-def _dip(rng: np.random.Generator, count: int) -> np.ndarray:
-    """Half of the stations let stand again, over a range, what they had overturned."""
+def population_shares(name: str, rng: np.random.Generator, count: int) -> np.ndarray:
+    """Draw `count` stations of one of POPULATIONS; return the shares that overturn at LEVELS, (n, k)."""
+    if name == "two populations":
+        middle = np.where(rng.random((count, 1)) < 0.5, -0.45, 0.7)
+        return (np.exp(middle + 0.25 * rng.standard_normal((count, 1))) < LEVELS).astype(float)
     first = np.exp(0.5 * rng.standard_normal((count, 1)))
-    stands = first * np.exp(rng.uniform(0.1, 0.5, (count, 1)))
-    again = stands * np.exp(rng.uniform(0.1, 0.6, (count, 1)))
-    back = rng.random((count, 1)) < 0.5
-    return ((first < LEVELS) & ~(back & (stands < LEVELS) & (again > LEVELS))).astype(float)
-
-
-def _plateau(rng: np.random.Generator, count: int) -> np.ndarray:
-    return _lognormal(rng, count) * (rng.random((count, 1)) < 0.8)
-
-
-POPULATIONS: dict[str, Draw] = {
-    "lognormal": _lognormal,
-    "two populations": _two_populations,
-    "dip": _dip,
-    "plateau of 0.8": _plateau,
-}
+    overturns = first < LEVELS
+    if name == "dip":  # half of the stations let stand again, over a range, what they had overturned
+        stands = first * np.exp(rng.uniform(0.1, 0.5, (count, 1)))
+        again = stands * np.exp(rng.uniform(0.1, 0.6, (count, 1)))
+        back = rng.random((count, 1)) < 0.5
+        overturns &= ~(back & (stands < LEVELS) & (again > LEVELS))
+    if name == "plateau of 0.8":
+        overturns &= rng.random((count, 1)) < 0.8
+    return overturns.astype(float)

@@ -22,10 +22,7 @@ from scipy.optimize import minimize_scalar
 from scipy.special import expit, logit
 from scipy.stats import qmc
 
-from rocking.errors import ConfigurationError
-from rocking.motion import integrate_batch
-from rocking.records import Accelerogram
-from rocking.structures import EquivalentBlock
+from rocking import Accelerogram, EquivalentBlock, integrate_batch
 
 PARAMETERS = (
     "uplift_multiplier_positive",
@@ -86,10 +83,6 @@ class Mixture:
     iterations: int
     sharpness: float
 
-    def overturning_probabilities(self, records: Iterable[Accelerogram]) -> np.ndarray:
-        """Return (n,) P of overturning under each of `records`; every candidate is followed, by its weight."""
-        return self.probability(overturning_table(blocks_of(self.parameters), records))
-
     def probability(self, overturns: np.ndarray) -> np.ndarray:
         """P' of overturning, (n,), of tests whose verdicts by candidate are `overturns`, (n, m)."""
         share = with_unexplained(overturns @ self.weights, self.unexplained)
@@ -101,43 +94,11 @@ class Mixture:
         return {name: tuple(own) for name, own in zip(PARAMETERS, ends.T.tolist(), strict=True)}
 
 
-def identify(
-    records: Sequence[Accelerogram],
-    outcomes: Sequence[bool],
-    prior: BlockPrior,
-    *,
-    motions: Sequence[str] | None = None,
-) -> Mixture:
-    """Identify a structure from tests that ended standing (False) or overturned (True).
-
-    records: (n,) what the base of the structure did in each test. motions: (n,) label of the input motion of each
-    test; tests with one label are left out together when the fit chooses how far to trust itself (default: each test is
-    a motion of its own).
-
-    Every candidate is followed through every record. With few tests, or tests that nearly all end alike, the ranges
-    stay near the prior's. What was identified holds for motions like those of the tests. Raises ConfigurationError when
-    the sequences differ in length or are empty.
-    """
-    labels = list(motions or map(str, range(len(records))))
-    if not len(records) == len(outcomes) == len(labels) > 0:
-        raise ConfigurationError(
-            f"there are {len(records)} records, {len(outcomes)} outcomes and {len(labels)} motions, but there must be "
-            "one of each for every test, and at least one test."
-        )
-    parameters = prior.parameters()
-    table = overturning_table(blocks_of(parameters), records)
-    return fit_mixture(parameters, table, np.asarray(outcomes, dtype=bool), labels)
-
-
-def overturning_table(blocks: Sequence[EquivalentBlock], motions: Iterable[Accelerogram]) -> np.ndarray:
-    """Return (n, m) whether each block overturns under each motion; the motions may come one by one."""
+def overturning_table(parameters: np.ndarray, motions: Iterable[Accelerogram]) -> np.ndarray:
+    """Return (n, m) whether each block of (m, 4) PARAMETERS overturns under each motion; they may come one by one."""
+    blocks = [two_sided_block(*each) for each in parameters.tolist()]
     rows = [np.isinf(integrate_batch(blocks, motion)[:, 0]) for motion in motions]
     return np.array(rows, dtype=bool).reshape(len(rows), len(blocks))
-
-
-def blocks_of(parameters: np.ndarray) -> list[EquivalentBlock]:
-    """Return the blocks of (m, 4) PARAMETERS, which lift at λ of each side."""
-    return [two_sided_block(*each) for each in parameters.tolist()]
 
 
 def two_sided_block(

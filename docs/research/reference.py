@@ -4,16 +4,14 @@ Written from the equation of motion (theory: section 1, "One standard form"); it
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from rocking.errors import MotionError
+from rocking import Accelerogram, Mechanism, MotionError
 from rocking.quantities import GRAVITY
-from rocking.records import Accelerogram
-from rocking.structures import Mechanism
-from rocking.structures.mechanism import Side
 
 REFERENCE_TOLERANCE = 1e-12
 STEPS_PER_SAMPLE = 2
@@ -62,12 +60,14 @@ class _Run:
         if not mechanism.one_sided:
             self.sides[-1] = mechanism.negative or mechanism.positive
         self.peak = 0.0
-        self.landings: list[tuple[float, float]] = []
 
     def answer(self) -> tuple[float, np.ndarray]:
         """Follow the motion; return its largest rotation ratio, and time and speed of every landing (k, 2)."""
+        samples = range(1, len(self.ground) - 1) if self.restart else ()
+        still = STILL / min(side.frequency_parameter for side in self.sides.values())
         now, sign, state, still_landings = 0.0, 0, (0.0, 0.0), 0
-        for until in self._stops():
+        landings: list[tuple[float, float]] = []
+        for until in (*(k * self.step for k in samples), self.duration, self.duration + still):
             while now < until and self.peak < math.inf and still_landings < STILL_LANDINGS:
                 if sign == 0:
                     now, sign = self._lift(now, until)
@@ -75,16 +75,10 @@ class _Run:
                         break
                 now, state, landed = self._fly(sign, state, now, until)
                 if landed:
-                    self.landings.append((now, -state[1]))
+                    landings.append((now, -state[1]))
                     still_landings += until > self.duration
                     sign, state = self._impact(sign, state[1])
-        return self.peak, np.array(self.landings, dtype=float).reshape(-1, 2)
-
-    def _stops(self) -> Iterator[float]:
-        if self.restart:
-            yield from (k * self.step for k in range(1, len(self.ground) - 1))
-        yield self.duration
-        yield self.duration + STILL / min(side.frequency_parameter for side in self.sides.values())
+        return self.peak, np.array(landings, dtype=float).reshape(-1, 2)
 
     def _acceleration(self, time: float) -> float:
         place = min(int(time / self.step), len(self.ground) - 2)
@@ -114,12 +108,26 @@ class _Run:
         """Return time, rotation and rate at the landing, or at `until`, and whether it landed."""
         side, span = self.sides[sign], min(until - now, self.step)
         size = state[0] + abs(state[1]) * span + 1e-9 * side.critical_rotation
+        still = until > self.duration
+
+        def slope(time: float, y: np.ndarray) -> list[float]:
+            """φ'' = −(s B ü_g + G g + J φ'²) / I, J = I'/2."""
+            rotation, velocity = y
+            ground = 0.0 if still else self._acceleration(time)
+            push = sign * side.at("ground", rotation) * ground
+            slowing = side.at("inertia_slope", rotation) / 2 * velocity**2
+            pull = push + side.at("gravity", rotation) * GRAVITY + slowing
+            return [velocity, -pull / side.at("inertia", rotation)]
+
+        landing = _event(lambda time, y: y[0] if time > now else side.critical_rotation, True, -1)
+        turn = _event(lambda _, y: y[1], False, -1)
+        end = _event(lambda _, y: y[0] - side.end_rotation, True, 0)
         solved = solve_ivp(
-            self._equation(sign, until > self.duration),
+            slope,
             (now, until),
             state,
             self.method,
-            events=_events(side, now),
+            events=(landing, turn, end),
             rtol=self.tolerance,
             atol=1e-3 * self.tolerance * size * np.array([1, 1 / span]),
             max_step=self.step / (STEPS_PER_SAMPLE if self.restart else 1),
@@ -134,20 +142,6 @@ class _Run:
             return float(solved.t[-1]), (0.0, rate), True
         return until, (float(solved.y[0, -1]), rate), False
 
-    def _equation(self, sign: int, still: bool) -> Callable[[float, np.ndarray], list[float]]:
-        """φ'' = −(s B ü_g + G g + J φ'²) / I, J = I'/2."""
-        side = self.sides[sign]
-
-        def slope(time: float, y: np.ndarray) -> list[float]:
-            rotation, velocity = y
-            ground = 0.0 if still else self._acceleration(time)
-            push = sign * side.at("ground", rotation) * ground
-            slowing = side.at("inertia_slope", rotation) / 2 * velocity**2
-            pull = push + side.at("gravity", rotation) * GRAVITY + slowing
-            return [velocity, -pull / side.at("inertia", rotation)]
-
-        return slope
-
     def _impact(self, sign: int, velocity: float) -> tuple[int, tuple[float, float]]:
         kept = self.sides[sign].restitution * max(-velocity, 0.0)
         sign = -sign if -sign in self.sides else sign
@@ -157,23 +151,8 @@ class _Run:
         return sign, (0.0, kept)
 
 
-def _events(side: Side, now: float) -> tuple[Callable[[float, np.ndarray], float], ...]:
-    """Landing, turning and the end of the mechanism, as `solve_ivp` takes them, of a flight that starts `now`."""
-
-    def landing(time: float, y: np.ndarray) -> float:
-        return y[0] if time > now else side.critical_rotation
-
-    def turn(_: float, y: np.ndarray) -> float:
-        return y[1]
-
-    def end(_: float, y: np.ndarray) -> float:
-        return y[0] - side.end_rotation
-
-    for event, name, value in (
-        (landing, "terminal", True),
-        (landing, "direction", -1),
-        (turn, "direction", -1),
-        (end, "terminal", True),
-    ):
-        setattr(event, name, value)
-    return landing, turn, end
+def _event(value: Callable[[float, np.ndarray], float], terminal: bool, direction: int) -> Any:
+    """Return `value` as an event of `solve_ivp`: where it crosses 0 in a direction; terminal: it ends."""
+    value.terminal = terminal
+    value.direction = direction
+    return value

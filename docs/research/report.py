@@ -1,46 +1,61 @@
-"""What every target writes: its tables, and one report of the scores among them."""
+"""What every target is given, and what it writes: its tables, and one report of the scores among them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 
 import pandas as pd
 from matplotlib.figure import Figure
 
 from docs.research.scores import HAPPENED, STATED, Score
+from docs.research.sites import NamedRecord, Records
 from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.style import new_figure, picture, styled
+from rocking.structures import Structure
 from rocking.tables import Row, write_tables, write_whole
 
 
-def publish(
-    folder: Path,
-    title: str,
-    subtitle: str,
-    tables: Mapping[type[Row], Sequence[Row]],
-    parts: Sequence[Mapping[str, object]] = (),
-) -> None:
-    """Write `tables`, datapackage.json and report.pdf into `folder`. parts: what plain.typ sets before the scores."""
-    write_tables(tables, folder, f"rocking-{folder.name}")
-    table = pd.DataFrame(tables[Score])
-    is_class = table.measure.isin((STATED, HAPPENED))
-    shown = [*parts, *(_score_table(part, own) for part, own in table[~is_class].groupby("part", sort=False))]
-    if is_class.any():
-        drawn = picture(
-            reliability_figure(table[is_class]), "Overturning share against the stated probability."
-        )
-        shown.append(drawn | {"caption": "Reliability, with 90 % intervals by resampling sites."})
-    data = {"title": title, "subtitle": subtitle, "parts": shown}
-    write_whole(folder / "report.pdf", compile_document("plain.typ", data))
+@dataclass(frozen=True)
+class Target:
+    """What a target is given: the records of each catalogue, structures by name, and where its results go.
 
+    tell: is given a line of progress.
+    """
 
-def _score_table(part: str, own: pd.DataFrame) -> dict[str, object]:
-    """A line for each measure and subject of one part of the cases."""
-    rows = [Score(**each) for each in own.sort_values("measure", kind="stable").to_dict("records")]
-    names = "measure=2 subject=1.6 value value_low value_high cases sites"
-    columns = printing.columns_of(Score, names, "0.6")
-    caption = f"{printing.sentence(part)}; 90 % intervals by resampling sites."
-    return {**printing.table_of(rows, *columns), "caption": caption}
+    folder: Path
+    tell: Callable[[str], None]
+    catalogues: Sequence[Records] = ()
+    structures: Mapping[str, Structure] = field(default_factory=dict)
+
+    @property
+    def records(self) -> Iterator[NamedRecord]:
+        """The records of all catalogues, one catalogue after the other."""
+        return chain.from_iterable(self.catalogues)
+
+    def publish(
+        self, title: str, subtitle: str, tables: Mapping[type[Row], Sequence[Row]], text: str = ""
+    ) -> None:
+        """Write `tables`, datapackage.json and report.pdf into the folder. text: stands before the scores."""
+        write_tables(tables, self.folder, f"rocking-{self.folder.name}")
+        scores = pd.DataFrame(tables[Score])
+        is_class = scores.measure.isin((STATED, HAPPENED))
+        parts: list[Mapping[str, object]] = [{"text": text}] if text else []
+        for part, own in scores[~is_class].groupby("part", sort=False):
+            rows = [Score(**each) for each in own.sort_values("measure", kind="stable").to_dict("records")]
+            columns = printing.columns_of(
+                Score, "measure=2 subject=1.6 value value_low value_high cases sites", "0.6"
+            )
+            caption = f"{printing.sentence(str(part))}; 90 % intervals by resampling sites."
+            parts.append({**printing.table_of(rows, *columns), "caption": caption})
+        if is_class.any():
+            drawn = picture(
+                reliability_figure(scores[is_class]), "Overturning share against the stated probability."
+            )
+            parts.append(drawn | {"caption": "Reliability, with 90 % intervals by resampling sites."})
+        data = {"title": title, "subtitle": subtitle, "parts": parts}
+        write_whole(self.folder / "report.pdf", compile_document("plain.typ", data))
 
 
 @styled

@@ -22,6 +22,8 @@ Measure = Callable[[np.ndarray], float]
 """A score of some of the cases, by index, with repeats; nan where they tell none."""
 Measured = Measure | Sequence[float] | np.ndarray
 """A measure, or a value of each case (nan: it does not count), whose mean is the measure."""
+Prediction = Callable[[np.ndarray, np.ndarray], np.ndarray]
+"""Probabilities (k,) of the last cases (k,) after a fit to the first (m,), both by index."""
 
 
 @row("scores", "One row per subject, part of the cases and measure, with a 90 % interval by resampling sites")
@@ -47,7 +49,8 @@ def scored(
     counts = {"subject": subject, "part": part, "cases": every.size, "sites": len(set(sites))}
     for name, each in measures.items():
         measure = each if callable(each) else mean(each)
-        low, high = interval(measure, draws)
+        values = [value for rows in draws if not math.isnan(value := measure(rows))]
+        low, high = np.quantile(values, LEVELS).tolist() if values else (math.nan, math.nan)
         yield Score(measure=name, value=measure(every), value_low=low, value_high=high, **counts)
 
 
@@ -68,6 +71,15 @@ def reliability(
         yield from scored(subject, called, measures, np.asarray(sites)[own].tolist())
 
 
+def left_out(labels: np.ndarray, predict: Prediction) -> np.ndarray:
+    """Return the probability (n,) of each case from a fit that never saw a case of its label (n,)."""
+    stated = np.empty(len(labels))
+    for label in np.unique(labels):
+        out = labels == label
+        stated[out] = predict(np.flatnonzero(~out), np.flatnonzero(out))
+    return stated
+
+
 def resampled(labels: Labels, replicates: int) -> list[np.ndarray]:
     """Return indices of the cases of as many labels (n,) as there are, drawn with repetition, `replicates` times.
 
@@ -80,32 +92,28 @@ def resampled(labels: Labels, replicates: int) -> list[np.ndarray]:
     return [np.concatenate([rows[k] for k in each]) for each in drawn]
 
 
-def interval(measure: Measure, draws: Sequence[np.ndarray]) -> tuple[float, float]:
-    """Return the quantiles of a measure over `draws`, where it tells something; nan where it never does."""
-    values = [value for rows in draws if not math.isnan(value := measure(rows))]
-    low, high = np.quantile(values, LEVELS) if values else (math.nan, math.nan)
-    return float(low), float(high)
+def mean(values: Sequence[float] | np.ndarray, statistic: Callable[..., float] = np.mean) -> Measure:
+    """Return the mean of `values` (n,), or another statistic, as a measure; cases of nan do not count."""
+    counted = np.asarray(values, dtype=float)
 
+    def measure(rows: np.ndarray) -> float:
+        finite = counted[rows]
+        finite = finite[~np.isnan(finite)]
+        return float(statistic(finite)) if finite.size else math.nan
 
-def mean(values: Sequence[float] | np.ndarray) -> Measure:
-    """Return the mean of `values` (n,) as a measure; cases of nan do not count."""
-    return _over(np.mean, values)
+    return measure
 
 
 def median(values: Sequence[float] | np.ndarray, share: float = 0.5) -> Measure:
     """Return the median of `values` (n,), or another quantile, as a measure; cases of nan do not count."""
-    return _over(partial(np.quantile, q=share, method="higher"), values)
+    return mean(values, partial(np.quantile, q=share, method="higher"))
 
 
-def _over(statistic: Callable[..., float], values: Sequence[float] | np.ndarray) -> Measure:
-    counted = np.asarray(values, dtype=float)
-
-    def measure(rows: np.ndarray) -> float:
-        kept = counted[rows]
-        kept = kept[~np.isnan(kept)]
-        return float(statistic(kept)) if kept.size else math.nan
-
-    return measure
+def share_of(part: Sequence[float] | np.ndarray, whole: Sequence[float] | np.ndarray) -> Measure:
+    """Return the sum of a part (n,) over that of the whole (n,) as a measure."""
+    parts = np.asarray(part, dtype=float)
+    wholes = np.asarray(whole, dtype=float)
+    return lambda rows: float(parts[rows].sum() / wholes[rows].sum()) if wholes[rows].any() else math.nan
 
 
 def brier_skill(probability: np.ndarray, shares: np.ndarray) -> Measure:

@@ -15,7 +15,7 @@ import numpy as np
 import pandas as pd
 
 from rocking.errors import RecordError
-from rocking.quantities import acceleration_factor
+from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.station import download
 from rocking.tables import Row, column, read_rows, row
@@ -31,7 +31,6 @@ CELLS = {
     bool: ("0 or 1", "[01]"),
 }
 """What a cell of tests.csv may be, in words and as a pattern."""
-G = acceleration_factor("g")
 
 
 @row("shake_table", "One row per test: where its table motion is, and what must be true of it")
@@ -90,7 +89,7 @@ class Campaign:
             )
         (test,) = self.tests[self.tests.test == number].itertuples()
         source = Source(path=f"Test{name}", unit="g", format="shake table")
-        acceleration = samples.astype(np.float64) * G
+        acceleration = samples.astype(np.float64) * GRAVITY
         return Accelerogram(acceleration, test.dt, component="table", event=test.motion, source=source)
 
     @cached_property
@@ -120,7 +119,7 @@ def read_tests(path: Path) -> pd.DataFrame:
                 f"{path}, line {line}: {name} is {value!r}, but must be {allowed}; mend the row."
             )
     tests = tests.astype(dict.fromkeys(verdicts, int)).astype(kinds)
-    tests["nominal_peak_velocity"] = tests.pga_g * tests.pgv_over_pga * G
+    tests["nominal_peak_velocity"] = tests.pga_g * tests.pgv_over_pga * GRAVITY
     return tests.sort_values("test", ignore_index=True)
 
 

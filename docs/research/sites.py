@@ -2,7 +2,7 @@
 
 import re
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from time import process_time
 from typing import TypeVar
 
@@ -15,11 +15,9 @@ from rocking.tables import Row, column, row
 
 MOST_COMPONENTS = 2
 """Of a site that count."""
-Records = Iterable[tuple[str, Accelerogram]]
-"""Identifier and accelerogram of each component."""
-Structures = Mapping[str, Structure]
-Tell = Callable[[str], None]
-"""Is given a line of progress."""
+NamedRecord = tuple[str, Accelerogram]
+"""Identifier and accelerogram of a component."""
+Records = Iterable[NamedRecord]
 SiteRecord = tuple[str, str, Accelerogram]
 """Identifier, site and record of a component that counts."""
 UPLIFTS = (1.3, 8.0)
@@ -61,7 +59,11 @@ def independent(records: Records) -> Iterator[SiteRecord]:
     for name, record in records:
         event = "".join(re.findall(r"[a-z]+", record.event.lower()))[:4]
         words = re.findall(r"[a-z0-9]+", record.station.lower())
-        alike = (site for site in sites if site[0] == event and _begins(site[1], words))
+        alike = (
+            site
+            for site in sites
+            if site[0] == event and [] != words[: len(site[1])] == site[1][: len(words)]
+        )
         site = next(alike, None)
         if site is None:
             site = (event, words, site_of(record), set())
@@ -73,11 +75,6 @@ def independent(records: Records) -> Iterator[SiteRecord]:
         if site_of(record) == site_name and direction not in directions and len(directions) < MOST_COMPONENTS:
             directions.add(direction)
             yield name, site_name, record
-
-
-def _begins(one: list[str], other: list[str]) -> bool:
-    few = min(len(one), len(other))
-    return few > 0 and one[:few] == other[:few]
 
 
 def one_of_each(records: Iterable[SiteRecord]) -> list[SiteRecord]:
@@ -96,9 +93,9 @@ def lifting_factor(
     return float(multiplier * GRAVITY * np.exp(draw.uniform(*np.log(uplifts))) / record.peak_acceleration)
 
 
-def draw_of(name: str) -> np.random.Generator:
-    """Return the draws of a record, the same at every call."""
-    return np.random.default_rng(zlib.crc32(name.encode()))
+def draw_of(name: str, *place: int) -> np.random.Generator:
+    """Return the draws of a record, or of one of its trials, the same at every call."""
+    return np.random.default_rng([zlib.crc32(name.encode()), *place])
 
 
 def timed(run: Callable[[], T]) -> tuple[T, float]:

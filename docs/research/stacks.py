@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from docs.research.comparison.bodies import RigidBodies, properties
+from docs.research.comparison.bodies import RigidBodies
 from rocking.quantities import GRAVITY
 
 FRICTION = 5.0
@@ -36,11 +36,8 @@ def largest_turns(
     speed: (steps,) of the ground after each `step` [s], m/s. fallen: turn [rad] from which nothing comes back.
     still: step from which the ground rests; then the run ends where nothing turns by more than `settled` [rad].
     """
-    areas, centres, gyrations = (
-        np.array(each) for each in zip(*map(properties, bodies.polygons), strict=True)
-    )
+    masses, centres, gyrations = bodies.properties
     places = np.column_stack([centres.real, centres.imag])
-    masses = areas * (np.array(bodies.depths) if bodies.depths else 1.0)
     mobility = 1 / np.column_stack([masses, masses, masses * gyrations])
     mobility[list(bodies.driven)] = 0.0
     mobility[np.ix_(list(bodies.guided), [0, 2])] = 0.0
@@ -73,9 +70,8 @@ def _follow(corners, centres, mobility, smallest, speed, step, fallen, still, se
                 if gap[joint, contact] > ALERT:
                     impulse[joint, contact] = 0.0
                 for axis in range(2):
-                    _push(
-                        velocity, mobility, joint, rows[joint, contact, axis], impulse[joint, contact, axis]
-                    )
+                    row, push = rows[joint, contact, axis], impulse[joint, contact, axis]
+                    _push(velocity, mobility, joint, row, push)
         for _ in range(SWEEPS):
             if _sweep(velocity, mobility, impulse, gap / step, rows, compliance, ALERT / step, smallest):
                 break
@@ -94,9 +90,8 @@ def _find_contacts(corners, place, mobility, gap, rows, compliance):
     """Write the gap [m] of each corner from its face, inf beside it, and how fast it opens and slides per velocity."""
     for joint in range(len(gap)):
         for contact in range(4):
-            above = (
-                contact < 2
-            )  # a lower corner of the upper course on the lower one, or an upper one of the lower
+            # A lower corner of the upper course on the lower one, or an upper one of the lower.
+            above = contact < 2
             own, other = (joint + 1, joint) if above else (joint, joint + 1)
             x, z = _corner(corners, place, own, contact)
             first_x, first_z = _corner(corners, place, other, 3 if above else 0)

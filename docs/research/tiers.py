@@ -5,26 +5,25 @@ And what `fidelity: auto` does with them on those sites: where it stops, what it
 
 import hashlib
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from scipy.special import expit, logit
 
 from docs.research import scores, sites
-from docs.research.report import publish
+from docs.research.report import Target
 from docs.research.scores import Score
+from rocking import Accelerogram, Mechanism, Outcome, Verdict, integrate, integrate_batch
 from rocking.assessment import fidelity
 from rocking.assessment.ensemble import GroundMotions, drawn, ensemble, lattice
 from rocking.assessment.fidelity import NUDGES, STRUCTURE, Tier, TierFit, cheapest_answer, stays_at_rest
 from rocking.assessment.intensity import peak_velocity
 from rocking.assessment.settings import EnsembleSettings
-from rocking.assessment.verdict import Method, Verdict
-from rocking.motion import integrate, integrate_batch
-from rocking.records import Accelerogram
-from rocking.structures import Mechanism, Outcome
+from rocking.assessment.verdict import Method
+from rocking.structures import Structure
 from rocking.tables import write_whole
 
 FACTORS = (0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8)
@@ -36,34 +35,35 @@ RISK = 0.01
 """Of the answers that are tried."""
 ANSWERED_FACTORS = (0.5, 1.0, 2.0)
 """On each record for these."""
+LEFT_OUT = "sites left out"
 
 
-def write_tiers(records: sites.Records, folder: Path) -> None:
-    """Fit and judge every tier on `records`; write the fits and the scores into `folder`; tiers.json is what ships."""
-    counted = list(sites.independent(records))
-    cases = pd.DataFrame(tier_cases(counted))
-    rows = [*tier_scores(cases), *answer_scores(pd.DataFrame(try_answers(counted, cases)))]
+def calibrate(target: Target) -> None:
+    """Fit and judge every tier on the records of the target; tiers.json is what ships."""
+    records = list(sites.independent(target.records))
+    cases = pd.DataFrame(tier_cases(records, sites.structures_tried()))
+    rows = [*tier_scores(cases), *answer_scores(pd.DataFrame(try_answers(records, cases)))]
     about: dict[str, object] = {"records": cases.record.nunique(), "sites": cases.site.nunique()}
     about["cases"] = len(cases)
     subtitle = ", ".join(f"{many} {name}" for name, many in about.items())
-    publish(folder, "What a cheap figure says of overturning", f"{subtitle}.", {Score: rows})
-    hashes = "\n".join(sorted({record.source.sha256 for _, _, record in counted}))
+    target.publish("What a cheap figure says of overturning", f"{subtitle}.", {Score: rows})
+    hashes = "\n".join(sorted({record.source.sha256 for _, _, record in records}))
     about["records_sha256"] = hashlib.sha256(hashes.encode()).hexdigest()
     fits = {tier: {"terms": tier.terms, **vars(fit(tier, cases))} for tier in Tier}
     for each in fits.values():
         del each["tier"]
     text = json.dumps({"about": about, "tiers": fits}, indent=1, default=np.ndarray.tolist)
-    write_whole(folder / "tiers.json", (text + "\n").encode())
+    write_whole(target.folder / "tiers.json", (text + "\n").encode())
 
 
 def tier_cases(
-    records: Iterable[sites.SiteRecord], structures: sites.Structures | None = None
+    records: Iterable[sites.SiteRecord], structures: Mapping[str, Structure]
 ) -> Iterator[dict[str, object]]:
     """Yield the cases of each record but those that rest as given, which is certain: what is measured of each.
 
     share: of the members of its ensemble that overturn. The other columns name the case and are the terms of the tiers.
     """
-    mechanisms = {name: s.mechanism() for name, s in (structures or sites.structures_tried()).items()}
+    mechanisms = {name: each.mechanism() for name, each in structures.items()}
     blocks = [mechanism.equivalent_block("rest") for mechanism in mechanisms.values()]
     nudged = np.outer(FACTORS, NUDGES)
     for name, site, record in records:
@@ -76,9 +76,9 @@ def tier_cases(
                 members = drawn(mechanism, GroundMotions.of(motion), lattice(MEMBERS), EnsembleSettings())
                 if not members.failed_members:
                     case = {"record": name, "site": site, "structure": structure, "factor": factor}
-                    measures = fidelity.of_structure(mechanism) | fidelity.of_velocity(motion, blocks[k])
-                    measures |= fidelity.from_nudged(on_block[k, i])
-                    yield {**case, "share": members.overturning_share, **measures}
+                    case["share"] = members.overturning_share
+                    terms = fidelity.of_structure(mechanism) | fidelity.of_velocity(motion, blocks[k])
+                    yield case | terms | fidelity.from_nudged(on_block[k, i])
 
 
 def fit(tier: Tier, cases: pd.DataFrame) -> TierFit:
@@ -99,19 +99,18 @@ def _terms(tier: Tier, cases: pd.DataFrame) -> np.ndarray:
 
 def left_out(tier: Tier, cases: pd.DataFrame) -> np.ndarray:
     """Return the share (n,) that `tier` estimates of each case when it is fitted without the site of the case."""
-    stated = np.empty(len(cases))
-    for site in cases.site.unique():
-        out = (cases.site == site).to_numpy()
-        without = fit(tier, cases[~out])
-        stated[out] = (1 - without.lapse) * expit(
-            without.design(_terms(tier, cases[out])) @ without.coefficients
-        )
-    return stated
+
+    def estimates(others: np.ndarray, own: np.ndarray) -> np.ndarray:
+        without = fit(tier, cases.iloc[others])
+        odds = without.design(_terms(tier, cases.iloc[own])) @ without.coefficients
+        return (1 - without.lapse) * expit(odds)
+
+    return scores.left_out(cases.site.to_numpy(), estimates)
 
 
 def tier_scores(cases: pd.DataFrame) -> Iterator[Score]:
     """Yield the scores and the reliability of each tier on sites left out."""
-    overturned, labels, part = cases.share.to_numpy(), cases.site.tolist(), "sites left out"
+    overturned, labels = cases.share.to_numpy(), cases.site.tolist()
     for tier in Tier:
         stated = left_out(tier, cases)
         measures = {
@@ -119,8 +118,8 @@ def tier_scores(cases: pd.DataFrame) -> Iterator[Score]:
             "Brier skill of the shares themselves": scores.brier_skill(overturned, overturned),
             "calibration slope": scores.logit_slope(logit(stated), overturned),
         }
-        yield from scores.scored(tier, part, measures, labels)
-        yield from scores.reliability(tier, part, stated, overturned, labels, BINS)
+        yield from scores.scored(tier, LEFT_OUT, measures, labels)
+        yield from scores.reliability(tier, LEFT_OUT, stated, overturned, labels, BINS)
 
 
 def try_answers(records: Iterable[sites.SiteRecord], cases: pd.DataFrame) -> Iterator[dict[str, object]]:
@@ -151,23 +150,25 @@ def _answer_trial(
     """
     motions = GroundMotions.of(record)
     asked = partial(cheapest_answer, mechanism, record, risk=RISK, fits=fits)
-    case, mechanism_s = sites.timed(lambda: integrate(mechanism, record))
-    _, alone_s = sites.timed(asked)
-    beside, beside_s = sites.timed(lambda: asked(ensemble_follows=True))
-    whole, whole_s = sites.timed(lambda: ensemble(mechanism, motions))
-    quick, quick_s = sites.timed(lambda: ensemble(mechanism, motions, verdict_only=True))
-    return {
-        "method": beside.method,
-        "overturns": case.outcome is Outcome.OVERTURNS,
-        "beside_overturns": beside.outcome is Outcome.OVERTURNS,
-        "overturning_share": whole.overturning_share,
-        "verdict": whole.verdict,
-        "quick_verdict": quick.verdict,
-        "mechanism_s": mechanism_s,
-        "alone_s": alone_s + velocity_s,
-        "beside_s": beside_s + velocity_s,
-        "whole_s": whole_s,
-        "quick_s": quick_s,
+    runs: dict[str, Callable[[], Any]] = {
+        "mechanism": partial(integrate, mechanism, record),
+        "alone": asked,
+        "beside": partial(asked, ensemble_follows=True),
+        "whole": partial(ensemble, mechanism, motions),
+        "quick": partial(ensemble, mechanism, motions, verdict_only=True),
+    }
+    answers, times = {}, {}
+    for name, run in runs.items():
+        answers[name], times[f"{name}_s"] = sites.timed(run)
+    for name in ("alone_s", "beside_s"):
+        times[name] += velocity_s
+    return times | {
+        "method": answers["beside"].method,
+        "overturns": answers["mechanism"].outcome is Outcome.OVERTURNS,
+        "beside_overturns": answers["beside"].outcome is Outcome.OVERTURNS,
+        "overturning_share": answers["whole"].overturning_share,
+        "verdict": answers["whole"].verdict,
+        "quick_verdict": answers["quick"].verdict,
     }
 
 
@@ -191,13 +192,9 @@ def answer_scores(trials: pd.DataFrame) -> Iterator[Score]:
         "opposite verdict of the ensemble among those settled": (trials.verdict == opposite).where(settled),
         "undecided in the ensemble among those settled": (trials.verdict == Verdict.UNDECIDED).where(settled),
         "verdicts of the ensemble that its early end changes": trials.quick_verdict != trials.verdict,
-        "CPU saved of the mechanism for all": _saved(trials.alone_s, trials.mechanism_s),
-        "CPU saved of mechanism and ensemble for all": _saved(spent, paid),
+        "CPU saved of the mechanism for all": scores.share_of(
+            trials.mechanism_s - trials.alone_s, trials.mechanism_s
+        ),
+        "CPU saved of mechanism and ensemble for all": scores.share_of(paid - spent, paid),
     }
-    yield from scores.scored("fidelity: auto", "sites left out", measures, trials.site.tolist())
-
-
-def _saved(spent: pd.Series, usual: pd.Series) -> scores.Measure:
-    """The share of the usual time that is not spent."""
-    paid, without = spent.to_numpy(), usual.to_numpy()
-    return lambda rows: 1 - paid[rows].sum() / without[rows].sum()
+    yield from scores.scored("fidelity: auto", LEFT_OUT, measures, trials.site.tolist())

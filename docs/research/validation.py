@@ -2,22 +2,18 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from scipy.special import logit
+from scipy.special import expit, logit
 
 from docs.research import scores
-from docs.research.identification import BlockPrior, blocks_of, fit_mixture, overturning_table
-from docs.research.report import publish
+from docs.research.identification import BlockPrior, fit_mixture, two_sided_block
+from docs.research.report import Target
 from docs.research.scores import Score
 from docs.research.shake_table import SPECIMENS, Campaign
-from docs.research.sites import Tell
-from rocking.errors import PulseError
-from rocking.pulses import Pulse, extract_pulses
+from rocking import Pulse, PulseError, extract_pulses, integrate_batch, predict_maxima
 from rocking.records.processing import Processing, process, velocity
-from rocking.sine_pulse import predict_maxima
 from rocking.tables import Row, column, row
 
 TABLE_PROCESSING = Processing(baseline="linear", low_pass=30.0, time_step=0.01)
@@ -39,9 +35,6 @@ ABOUT = (
     "left out, the baselines included. The settings among which it chooses, and those of the published verdicts, were "
     "chosen on these tests. Gains are paired; one is sure where its interval lies above 0."
 )
-
-Fitted = Callable[[np.ndarray, np.ndarray], np.ndarray]
-"""Probabilities (k,) of tests (k,) after a fit to the tests (n,), both by index."""
 
 
 @row("predictions", "One row per specimen, method and test, its motion left out of the fit")
@@ -69,31 +62,24 @@ class Measured:
     overturns: np.ndarray
     pulse_overturns: np.ndarray
 
-    def outcomes(self, specimen: int) -> np.ndarray:
-        """(n,) whether specimen 1 or 2 overturned."""
-        return self.tests[f"overturned_specimen_{specimen}"].to_numpy()
 
-
-def write_validation(catalogue: Path, mirror: Path | None, folder: Path, tell: Tell) -> None:
-    """Write every table of the validation and its report into `folder`.
-
-    catalogue: records/shake_table.csv. mirror: a folder of the campaign, or beside one (`Campaign.open`).
-    """
-    measured = measure(Campaign.open(catalogue, mirror), PRIOR, tell)
+def validate(target: Target, campaign: Campaign) -> None:
+    """Predict every test of the campaign with its motion left out, and score each method."""
+    measured = measure(campaign, PRIOR, target.tell)
     tests = measured.tests
     motions = tests.motion.tolist()
     counts = {"cases": len(motions), "sites": len(set(motions))}
     rows: list[Score] = []
     predictions: list[PredictionRow] = []
     for specimen in SPECIMENS:
-        probability, outcomes = left_out(measured, specimen), measured.outcomes(specimen)
+        probability = left_out(measured, specimen)
+        outcomes = tests[f"overturned_specimen_{specimen}"].to_numpy()
         part, ours = f"specimen {specimen}", probability[IDENTIFIED]
         for method, values in probability.items():
             rows += scores.scored(method, part, _measures(values, ours, outcomes), motions)
-            facts = zip(tests.test.tolist(), motions, values.tolist(), outcomes.tolist(), strict=True)
-            for test, motion, stated, fell in facts:
-                about = {"specimen": specimen, "method": method, "test": test, "motion": motion}
-                predictions.append(PredictionRow(**about, probability=stated, overturned=fell))
+            columns = tests[["test", "motion"]].assign(probability=values, overturned=outcomes)
+            facts = columns.assign(specimen=specimen, method=method).to_dict("records")
+            predictions += [PredictionRow(**each) for each in facts]
         rows += scores.reliability(part, "motions left out", ours, outcomes, motions, EDGES)
         population = fit_mixture(measured.parameters, measured.overturns, outcomes, motions)
         for name, (low, middle, high) in population.ranges().items():
@@ -105,13 +91,13 @@ def write_validation(catalogue: Path, mirror: Path | None, folder: Path, tell: T
         "the fit that predicts it."
     )
     tables = {Score: rows, PredictionRow: predictions}
-    publish(folder, "Validation against shake-table tests", subtitle, tables, [{"text": ABOUT}])
+    target.publish("Validation against shake-table tests", subtitle, tables, ABOUT)
 
 
-def measure(campaign: Campaign, prior: BlockPrior, tell: Tell) -> Measured:
+def measure(campaign: Campaign, prior: BlockPrior, tell: Callable[[str], None]) -> Measured:
     """Follow every candidate through every measured motion, one motion in memory at a time."""
     parameters = prior.parameters()
-    blocks = blocks_of(parameters)
+    blocks = [two_sided_block(*each) for each in parameters.tolist()]
     peaks, verdicts, pulses = [], [], []
     for count, number in enumerate(campaign.tests.test, start=1):
         tell(f"{count} of {len(campaign.tests)}: test {number}")
@@ -119,7 +105,7 @@ def measure(campaign: Campaign, prior: BlockPrior, tell: Tell) -> Measured:
         motion = process(table_motion, TABLE_PROCESSING)
         speed = velocity(process(table_motion, VELOCITY_PROCESSING))
         peaks.append((motion.peak_acceleration, float(np.abs(speed).max())))
-        verdicts.append(overturning_table(blocks, [motion])[0])
+        verdicts.append(np.isinf(integrate_batch(blocks, motion)[:, 0]))
         try:
             pulses.append(extract_pulses(motion).dominant)
         except PulseError:
@@ -131,71 +117,58 @@ def measure(campaign: Campaign, prior: BlockPrior, tell: Tell) -> Measured:
 
 def left_out(measured: Measured, specimen: int) -> Mapping[str, np.ndarray]:
     """Return by method the probability of overturning (n,) of every test, its motion left out of the fit."""
-    motions = measured.tests.motion.to_numpy()
-    probability = {}
-    for name, fitted in methods(measured, specimen).items():
-        probability[name] = np.empty(motions.size)
-        for motion in np.unique(motions):
-            out = motions == motion
-            probability[name][out] = fitted(np.flatnonzero(~out), np.flatnonzero(out))
+    tests = measured.tests
+    outcomes = tests[f"overturned_specimen_{specimen}"].to_numpy()
+    motions = tests.motion.to_numpy()
+
+    def population(others: np.ndarray, own: np.ndarray) -> np.ndarray:
+        fit = measured.parameters, measured.overturns[others], outcomes[others], motions[others].tolist()
+        return fit_mixture(*fit).probability(measured.overturns[own])
+
+    beaten: dict[str, tuple[Callable[..., np.ndarray], np.ndarray]] = {
+        "one block on the record": (best_block, measured.overturns),
+        "closed form on the dominant pulse": (best_block, measured.pulse_overturns),
+        "threshold on peak velocity, nominal": (threshold, tests.nominal_peak_velocity.to_numpy()),
+        "threshold on peak velocity, measured": (threshold, tests.peak_velocity.to_numpy()),
+        "logistic regression on peak velocity": (logistic, tests.peak_velocity.to_numpy()),
+        "logistic regression on peak acceleration": (logistic, tests.peak_acceleration.to_numpy()),
+    }
+    probability = {IDENTIFIED: scores.left_out(motions, population)}
+    for name, (method, facts) in beaten.items():
+        probability[name] = scores.left_out(
+            motions,
+            lambda others, own, method=method, facts=facts: method(
+                facts[others], outcomes[others], facts[own]
+            ),
+        )
     start = f"specimen_{specimen}_"
-    for name, verdicts in measured.tests.items():
-        if str(name).startswith(start):  # not fitted here
-            published = str(name).removeprefix(start).replace("_", " ")
-            probability[f"published {published}"] = verdicts.to_numpy(float)
+    for name in tests.columns[tests.columns.str.startswith(start)]:  # not fitted here
+        probability[f"published {name.removeprefix(start).replace('_', ' ')}"] = tests[name].to_numpy(float)
     return probability
 
 
-def methods(measured: Measured, specimen: int) -> Mapping[str, Fitted]:
-    """Return every method by its name: the population, and what it must beat."""
-    tests, outcomes = measured.tests, measured.outcomes(specimen)
-
-    def population(kept: np.ndarray, out: np.ndarray) -> np.ndarray:
-        motions = tests.motion.to_numpy()[kept].tolist()
-        mixture = fit_mixture(measured.parameters, measured.overturns[kept], outcomes[kept], motions)
-        return mixture.probability(measured.overturns[out])
-
-    def one_block(verdicts: np.ndarray) -> Fitted:
-        """The candidate with most verdicts right, the median one of several."""
-
-        def fitted(kept: np.ndarray, out: np.ndarray) -> np.ndarray:
-            wrong = (verdicts[kept] != outcomes[kept, None]).sum(axis=0)
-            best = np.flatnonzero(wrong == wrong.min())
-            return verdicts[out, best[best.size // 2]].astype(float)
-
-        return fitted
-
-    def threshold(values: pd.Series) -> Fitted:
-        of = values.to_numpy()
-        return lambda kept, out: (of[out] > fit_threshold(of[kept], outcomes[kept])).astype(float)
-
-    def logistic(values: pd.Series) -> Fitted:
-        logs = np.log(values.to_numpy())
-
-        def fitted(kept: np.ndarray, out: np.ndarray) -> np.ndarray:
-            design = np.column_stack([np.ones(logs.size), logs - logs[kept].mean()])
-            ridge = 2e-4 / kept.size  # keeps the fit finite where the outcomes separate
-            coefficients, _ = scores.logistic(design[kept], outcomes[kept], np.arange(kept.size), ridge)
-            return 1 / (1 + np.exp(-design[out] @ coefficients))
-
-        return fitted
-
-    return {
-        IDENTIFIED: population,
-        "one block on the record": one_block(measured.overturns),
-        "closed form on the dominant pulse": one_block(measured.pulse_overturns),
-        "threshold on peak velocity, nominal": threshold(tests.nominal_peak_velocity),
-        "threshold on peak velocity, measured": threshold(tests.peak_velocity),
-        "logistic regression on peak velocity": logistic(tests.peak_velocity),
-        "logistic regression on peak acceleration": logistic(tests.peak_acceleration),
-    }
+def best_block(verdicts: np.ndarray, outcomes: np.ndarray, unseen: np.ndarray) -> np.ndarray:
+    """Return what the candidate with most verdicts (n, m) right says of unseen ones (k, m); the middle of several."""
+    wrong = (verdicts != outcomes[:, None]).sum(axis=0)
+    best = np.flatnonzero(wrong == wrong.min())
+    return unseen[:, best[best.size // 2]].astype(float)
 
 
-def fit_threshold(values: np.ndarray, outcomes: np.ndarray) -> float:
-    """Return the value beyond which "overturns" is right most often; the middle of its gap, the lowest of several."""
+def threshold(values: np.ndarray, outcomes: np.ndarray, unseen: np.ndarray) -> np.ndarray:
+    """Return whether unseen values (k,) exceed the limit, the middle of a gap, that has most outcomes right."""
     ranked = np.sort(values)
     limits = np.r_[ranked[0] / 2, np.sqrt(ranked[1:] * ranked[:-1]), 2 * ranked[-1]]
-    return float(limits[np.argmax([np.sum((values > limit) == outcomes) for limit in limits])])
+    best = limits[np.argmax([np.sum((values > limit) == outcomes) for limit in limits])]
+    return (unseen > best).astype(float)
+
+
+def logistic(values: np.ndarray, outcomes: np.ndarray, unseen: np.ndarray) -> np.ndarray:
+    """Return what a logistic regression on the logarithm of `values` says of unseen ones (k,)."""
+    logs, centre = np.log(values), np.log(values).mean()
+    design = np.column_stack([np.ones(logs.size), logs - centre])
+    ridge = 2e-4 / logs.size  # keeps the fit finite where the outcomes separate
+    (offset, slope), _ = scores.logistic(design, outcomes, np.arange(logs.size), ridge)
+    return expit(offset + slope * (np.log(unseen) - centre))
 
 
 def _measures(values: np.ndarray, ours: np.ndarray, outcomes: np.ndarray) -> Mapping[str, scores.Measured]:

@@ -16,7 +16,7 @@ from scipy.constants import g
 
 from docs.research.comparison import codes, lmgc90, table
 from docs.research.comparison.bodies import properties, rigid_bodies
-from docs.research.comparison.cases import CodeCase, pulse_cases, structures
+from docs.research.comparison.codes import CodeCase, pulse_cases, structures
 from docs.research.comparison.table import code_rows, code_scores, missed
 from docs.research.reference import event_landings, reference_landings
 from rocking.motion import integrate
@@ -138,10 +138,10 @@ def test_restitution_and_landings_of_a_history_that_is_known():
 
 def test_the_base_of_lmgc90_moves_as_the_accelerogram():
     """Its velocity is the integral of straight lines between the samples."""
-    given = {"acceleration": [0.0, 2.0, -1.0, 0.0], "time_step": 0.1, "frequency_parameter": 10.0}
-    times, speed = lmgc90._base(given, 0.01)
+    case = {"acceleration": [0.0, 2.0, -1.0, 0.0], "time_step": 0.1, "frequency_parameter": 10.0}
+    times, speed = lmgc90.base_speed(case, 0.01)
     fine = np.linspace(0, times[-1], 200_001)
-    acceleration = np.interp(fine, np.arange(4) * 0.1, given["acceleration"], right=0.0)
+    acceleration = np.interp(fine, np.arange(4) * 0.1, case["acceleration"], right=0.0)
     exact = np.concatenate([[0], np.cumsum((acceleration[1:] + acceleration[:-1]) / 2 * np.diff(fine))])
     assert speed == pytest.approx(np.interp(times, fine, exact), abs=1e-6)
 
@@ -156,15 +156,12 @@ LMGC90_ONLY = pytest.mark.skipif(
 def test_the_arch_of_lmgc90_lifts_where_limit_analysis_says(share, lifts):
     """Oppenheim's arch, λ = 0.370, after 0.4 s of constant acceleration: above λ the hinges of the mechanism open."""
     arch = structures()["arch"]
-    given = {
-        "acceleration": [share * 0.370009738022 * g] * 81,
-        "time_step": 0.005,
-        "frequency_parameter": 1e9,
-    }
-    given["critical_rotation"] = arch.mechanism().critical_rotation
+    critical = arch.mechanism().critical_rotation
+    case = {"time_step": 0.005, "frequency_parameter": 1e9, "critical_rotation": critical}
+    case["acceleration"] = [share * 0.370009738022 * g] * 81
     bodies = rigid_bodies(arch)
-    _, turns, _ = lmgc90.follow(given, bodies, 1e-3)
-    largest = float(np.abs(bodies.rotation(turns)).max()) / given["critical_rotation"]
+    _, turns, _ = lmgc90.follow(case, bodies, 1e-3)
+    largest = float(np.abs(bodies.rotation(turns)).max()) / critical
     assert largest > 1e-2 if lifts else largest < 1e-3
     assert not lifts or bodies.outside_hinges(turns[-1]) < 0.02
 

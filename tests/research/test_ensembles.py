@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from docs.research.ensembles import CHOSEN, LEFT_OUT, PAIRS, EnsembleTrial, ensemble_scores, try_ensembles
-from docs.research.screening import ScreeningTrial, screening_scores
+from docs.research import ensembles
+from docs.research.ensembles import CHOSEN, LEFT_OUT, PAIRS, EnsembleTrial, ScreeningTrial, try_ensembles
 from rocking.assessment.verdict import Verdict
 from rocking.records import Accelerogram
-from rocking.structures import Block
+from rocking.structures import Block, Wall
 
 TIMES = np.arange(0, 6, 0.01)
 RECORDS = [
@@ -20,9 +20,15 @@ RECORDS = [
 STRUCTURES = {"slender": Block(2.0, 0.15), "stout": Block(3.0, 0.3)}
 
 
+@pytest.fixture(autouse=True)
+def few_draws(monkeypatch):
+    """400 random draws of each case."""
+    monkeypatch.setattr(ensembles, "DRAWS", 400)
+
+
 def test_trials_are_the_same_at_every_call_and_scatter_about_the_draws():
-    trials = list(try_ensembles(RECORDS, [], STRUCTURES, draws=400))
-    again = try_ensembles(RECORDS, [], STRUCTURES, draws=400)
+    trials = list(try_ensembles(RECORDS, [], STRUCTURES))
+    again = try_ensembles(RECORDS, [], STRUCTURES)
     assert [repr(trial) for trial in again] == [repr(trial) for trial in trials]
     assert len(trials) == 3 * len(RECORDS) and {trial.draws for trial in trials} == {400}
     for trial in trials:
@@ -32,7 +38,7 @@ def test_trials_are_the_same_at_every_call_and_scatter_about_the_draws():
 
 def test_two_components_of_a_site_are_tried_as_a_pair_too():
     pair = [(name, replace(record, component=name, station="0")) for name, record in RECORDS[:2]]
-    trials = list(try_ensembles([], pair, STRUCTURES, draws=400))
+    trials = list(try_ensembles([], pair, STRUCTURES))
     assert [trial.half for trial in trials] == [LEFT_OUT] * 6 + [PAIRS] * 3
     assert [trial.record for trial in trials[::3]] == ["made 0", "made 1", "made 0"]
 
@@ -43,11 +49,11 @@ def test_each_measure_counts_what_it_names():
     first = EnsembleTrial(scale_factor=1.0, members=64, draws=4000, inside_band=0.9, **names, **shares)
     wrong = replace(first, share_64=0.6, share_256=0.54, site="t")
     sure = replace(first, verdict=Verdict.STANDS, share=0.0, share_drawn=0.09, site="u")
-    found = {row.measure: row.value for row in ensemble_scores([first, wrong, sure])}
-    assert found["share within 0.07 with 64 members (0.95 is asked)"] == pytest.approx(1 / 3)
-    assert found["share within 0.035 with 256 members (0.95 is asked)"] == pytest.approx(1 / 3)
-    assert found["share of verdicts beyond their risk by more than 0.03 (0 is asked)"] == 1
-    assert found["verdicts"] == 1
+    values = {row.measure: row.value for row in ensembles.ensemble_scores([first, wrong, sure])}
+    assert values["share within 0.07 with 64 members (0.95 is asked)"] == pytest.approx(1 / 3)
+    assert values["share within 0.035 with 256 members (0.95 is asked)"] == pytest.approx(1 / 3)
+    assert values["share of verdicts beyond their risk by more than 0.03 (0 is asked)"] == 1
+    assert values["verdicts"] == 1
 
 
 def test_each_measure_of_the_screen_counts_what_it_names():
@@ -59,13 +65,24 @@ def test_each_measure_of_the_screen_counts_what_it_names():
         ScreeningTrial(verdict=verdict, exhaustive=exhaustive, fresh_share=fresh, site=f"{k}", **about)
         for k, (verdict, exhaustive, fresh) in enumerate(cases)
     ]
-    values = [row.value for row in screening_scores(trials) if row.part == "wall"]
+    values = [row.value for row in ensembles.screening_scores(trials) if row.part == "wall"]
     assert values == pytest.approx([3 / 5, 1 / 3, 1 / 3, 2 / 5])
+
+
+def test_the_verdict_over_all_cracks_is_that_of_the_ensembles_of_all():
+    """Of a wall that may crack anywhere; a block has one mechanism and is no trial."""
+    motion = Accelerogram(3 * np.sin(2 * np.pi * TIMES / 1.5) * (TIMES < 1.5), 0.01)
+    made = {"wall": Wall(1.6, 1.6, 0.25), "block": Block(2.0, 0.2)}
+    trials = list(ensembles.screening_trials("r", "s", motion, made))
+    assert [(each.structure, each.verdict) for each in trials] == [("wall", e.exhaustive) for e in trials]
+    values = {each.measure: each.value for each in ensembles.screening_scores(trials) if each.part == "wall"}
+    assert values["other verdict than that of all cracks"] == 0
+    assert values['share of "stands"'] == float(trials[0].verdict is Verdict.STANDS)
 
 
 def test_a_site_counts_once_and_what_came_later_is_left_out():
     half = len(RECORDS) // 2
-    trials = list(try_ensembles(RECORDS[:half], RECORDS, STRUCTURES, draws=20))
+    trials = list(try_ensembles(RECORDS[:half], RECORDS, STRUCTURES))
     assert [trial.record for trial in trials[::3]] == [name for name, _ in RECORDS]
     assert {trial.half for trial in trials[3 * half :]} == {LEFT_OUT}
-    assert {trial.half for trial in try_ensembles(RECORDS, [], STRUCTURES, draws=20)} == {CHOSEN}
+    assert {trial.half for trial in try_ensembles(RECORDS, [], STRUCTURES)} == {CHOSEN}

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from docs.research import fragilities
-from docs.research.fragilities import population_scores, write_fragilities
+from docs.research.fragilities import population_scores, trade_fragility
+from docs.research.report import Target
 from docs.research.scores import Score
 from rocking.assessment.trade import TradeMethod
 from rocking.records import Accelerogram
@@ -19,11 +20,11 @@ def test_the_mechanism_is_its_own_reference(tmp_path):
     for name, period in zip("abcd", (0.6, 0.8, 1.0, 1.3), strict=True):
         sine = np.sin(2 * np.pi * TIMES / period) * (period > TIMES)
         records.append((name, Accelerogram(sine, 0.01, event="made", station=name)))
-    told: list[str] = []
-    write_fragilities(records, {"block": Block(2.0, 0.15)}, tmp_path, told.append)
+    lines: list[str] = []
+    trade_fragility(Target(tmp_path, lines.append, [records], {"block": Block(2.0, 0.15)}))
     rows = read_table(Score, tmp_path)
     errors = {row.subject: row.value for row in rows if row.measure == "error of the median"}
-    assert told == ["fragility of block"] and (tmp_path / "report.pdf").is_file()
+    assert lines == ["fragility of block"] and (tmp_path / "report.pdf").is_file()
     assert list(errors) == ["one sine", "five sines", "block on record", "mechanism, 1e-6", "ensemble"]
     assert errors[TradeMethod.MECHANISM] == pytest.approx(0, abs=1e-6)
     assert abs(errors[TradeMethod.ONE_SINE]) < 0.1, "each record is one sine"

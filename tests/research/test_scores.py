@@ -70,23 +70,18 @@ def test_what_stands_whatever_is_said_is_found_again():
 
 def test_the_skill_is_that_over_the_base_rate():
     outcomes, every = np.array([1.0, 0.0, 0.0, 0.0]), np.arange(4)
-    for stated, skill in (
-        (outcomes, 1),
-        (np.full(4, 0.25), 0),
-        (np.array([0.7, 0.1, 0.1, 0.1]), 1 - 0.03 / 0.1875),
-    ):
-        assert scores.brier_skill(stated, outcomes)(every) == pytest.approx(skill)
+    for stated, skill in ((outcomes, 1), ([0.25] * 4, 0), ([0.7, 0.1, 0.1, 0.1], 1 - 0.03 / 0.1875)):
+        assert scores.brier_skill(np.array(stated), outcomes)(every) == pytest.approx(skill)
 
 
 def test_intervals_draw_whole_sites():
     """Ten cases of one site are one draw: the interval is as wide as for ten times fewer cases."""
     many = np.repeat(np.random.default_rng(2).random(40), 10)
-    narrow, wide = (
-        scores.interval(scores.mean(many), scores.resampled(labels, 2000))
-        for labels in (np.arange(400), np.repeat(np.arange(40), 10))
-    )
-    assert (wide[1] - wide[0]) / (narrow[1] - narrow[0]) == pytest.approx(np.sqrt(10), rel=0.15)
-    assert wide[1] - wide[0] == pytest.approx(2 * 1.645 * many.std() / np.sqrt(40), rel=0.15)
+    sites = np.arange(400), np.repeat(np.arange(40), 10)
+    rows = [next(scores.scored("", "", {"mean": many}, labels, 2000)) for labels in sites]
+    narrow, wide = (row.value_high - row.value_low for row in rows)
+    assert wide / narrow == pytest.approx(np.sqrt(10), rel=0.15)
+    assert wide == pytest.approx(2 * 1.645 * many.std() / np.sqrt(40), rel=0.15)
 
 
 def test_reliability_counts_every_case_once():

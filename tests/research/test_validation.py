@@ -10,13 +10,7 @@ from made_campaign import made_motion, write_campaign
 
 from docs.research import shake_table
 from docs.research.shake_table import Campaign
-from docs.research.validation import (
-    IDENTIFIED,
-    PRIOR,
-    Measured,
-    left_out,
-    measure,
-)
+from docs.research.validation import IDENTIFIED, PRIOR, Measured, left_out, measure
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import station
@@ -68,9 +62,8 @@ def test_what_the_folder_lacks_is_fetched_and_checked(made, tmp_path, monkeypatc
     """One header line, eight columns, the second the acceleration along the table; tabs and blanks mixed."""
     samples = made_motion(0, 0.08)
     file = tmp_path / "Test001.txt"
-    file.write_text(
-        "head\n" + "".join(f"{k / 200}\t{a!r}\t0\t9.9\t   0\t-8\t\n" for k, a in enumerate(samples.tolist()))
-    )
+    lines = (f"{k / 200}\t{a!r}\t0\t9.9\t   0\t-8\t\n" for k, a in enumerate(samples.tolist()))
+    file.write_text("head\n" + "".join(lines))
     monkeypatch.setattr(shake_table, "download", lambda *_: file)
     (tmp_path / "tests.csv").write_bytes((made[1] / "tests.csv").read_bytes())
     opened = Campaign.open(made[0], tmp_path)

@@ -1,7 +1,9 @@
 """The structures of the comparison as separate rigid bodies, for codes that know contacts and no mechanism."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -20,21 +22,24 @@ class RigidBodies:
     polygons: (k, 2) corners of each [m], counterclockwise. driven: those that move with the ground.
     legs: the body whose clockwise turn is φ when it rocks to the right, and that whose counterclockwise turn is φ to
     the left. hinges: for a chain of bodies the joints that open to the right and to the left; else none.
-    guided: those that move with the ground horizontally, do not turn, and are free vertically. depths: of each, m.
+    guided: those that move with the ground horizontally, do not turn, and are free vertically.
+    depths: of each, m; by default 1.
     """
 
-    polygons: tuple[np.ndarray, ...]
+    polygons: Sequence[np.ndarray]
     driven: tuple[int, ...]
     legs: tuple[int, int] = (1, 1)
     hinges: tuple[tuple[int, ...], tuple[int, ...]] = ((), ())
     guided: tuple[int, ...] = ()
-    depths: tuple[float, ...] = ()
+    depths: Sequence[float] = ()
 
-    def masses(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return mass per density and thickness [m²], none for what is driven, and squared gyration [m²], (n,) each."""
-        areas, _, gyrations = (np.array(each) for each in zip(*map(properties, self.polygons), strict=True))
-        areas[list(self.driven)] = 0.0
-        return areas, gyrations
+    @cached_property
+    def properties(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Volume [m³], centroid (complex, m) and squared gyration [m²] of each, (n,)."""
+        areas, centres, gyrations = (
+            np.array(each) for each in zip(*map(properties, self.polygons), strict=True)
+        )
+        return areas * (self.depths or 1.0), centres, gyrations
 
     def rotation(self, turns: np.ndarray) -> np.ndarray:
         """Return φ [rad], positive to the right, from the counterclockwise turns (n, bodies)."""
@@ -67,11 +72,9 @@ def rigid_bodies(structure: Block | Frame | Arch) -> RigidBodies:
         half = structure.breadth / 2
         ground = rectangle(-10 * half, 10 * half, -BASE_DEPTH, 0.0)
         return RigidBodies((ground, rectangle(-half, half, 0.0, structure.height)), (0,))
-    return _frame(structure) if isinstance(structure, Frame) else _arch(structure)
-
-
-def _frame(structure: Frame) -> RigidBodies:
-    """The columns, 0.6 of their height apart, and a beam of their material as deep as its mass asks."""
+    if isinstance(structure, Arch):
+        return _arch(structure)
+    # The columns of a frame, 0.6 of their height apart, and a beam of their material as deep as its mass asks.
     half, height = structure.column_breadth / 2, structure.column_height
     axes = 0.6 * height * (np.arange(structure.columns) - (structure.columns - 1) / 2)
     edge = axes[-1] + half

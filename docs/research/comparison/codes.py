@@ -1,7 +1,8 @@
-"""The codes: scipy's integrators, RockingBC of OpenSees, LMGC90, and this package, each driven through one case.
+"""The cases of the comparison, and the codes: scipy, RockingBC of OpenSees, LMGC90 and this package.
 
-OpenSees and LMGC90 keep one model per process and print as they go; each case runs in a process of its own, which runs
-it at three settings, each half the one before, and extrapolates.
+A block, a frame and an arch of seven voussoirs meet pulses and records. OpenSees and LMGC90 keep one model per process
+and print as they go; each case runs in a process of its own, which runs it at three settings, each half the one before,
+and extrapolates.
 """
 
 import json
@@ -9,7 +10,7 @@ import math
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
@@ -18,11 +19,22 @@ from typing import Any
 
 import numpy as np
 
-from docs.research.comparison.cases import CodeCase
 from docs.research.reference import event_landings
-from rocking.motion import integrate
-from rocking.motion.response import Response
+from docs.research.sites import timed
+from rocking import Accelerogram, Arch, Block, Frame, Mechanism, Pulse, Response, integrate
+from rocking.quantities import GRAVITY
+from rocking.structures import Structure
 
+SEED = 20
+"""Of the drawn pulses and scales."""
+PULSES = 201
+"""Cases under a pulse."""
+RECORDS = 42
+"""Cases under a record."""
+SAMPLES = 200
+"""Of the strongest stretch of a record that every code is given."""
+PER_PERIOD = 48
+"""Samples of a pulse; between them every code sees straight lines, so that all are given the same motion."""
 SLOWEST = 1e-3
 """Speed of arrival, in p φ_cr, of the weakest impact that is counted."""
 VISIBLE = 0.02
@@ -34,10 +46,61 @@ TOLERANCES = (1e-3, 1e-6, 1e-9)
 LMGC90, ROCKING_BC = "LMGC90 (compas_lmgc90), NSCD", "OpenSees RockingBC"
 ANOTHER_MODEL = frozenset({("arch", LMGC90)})
 """What solves a motion other than the reference's: hinges open where they like, and its shocks are its own."""
-_DRIVERS = {
-    LMGC90: "docs.research.comparison.lmgc90",
-    ROCKING_BC: "docs.research.comparison.opensees",
-}
+
+
+def structures() -> dict[str, Structure]:
+    """Return the structures by name: m, rad."""
+    return {
+        "block": Block.of_size(breadth=0.6, height=3.0),
+        "frame": Frame(Block.of_size(breadth=0.5, height=4.0), 2, 1.0),
+        "arch": Arch(radius=5.0, thickness=0.75, embrace_angle=math.radians(157.5), voussoirs=7),
+    }
+
+
+@dataclass(frozen=True)
+class CodeCase:
+    """One structure and one motion; kind: pulse or record."""
+
+    name: str
+    structure: str
+    kind: str
+    mechanism: Mechanism
+    motion: Accelerogram
+
+
+def pulse_cases(count: int = PULSES) -> Iterator[CodeCase]:
+    """Yield sine pulses of 1.1 to 4 times the acceleration of uplift and 2 to 12 times p, evenly in the logarithm."""
+    draw = np.random.default_rng(SEED)
+    mechanisms = [(name, structure.mechanism()) for name, structure in structures().items()]
+    for k in range(count):
+        name, mechanism = mechanisms[k % len(mechanisms)]
+        amplitude = mechanism.uplift_multiplier * GRAVITY * _log_uniform(draw, 1.1, 4)
+        pulse = Pulse(amplitude, mechanism.positive.frequency_parameter * _log_uniform(draw, 2, 12))
+        step = pulse.period / PER_PERIOD
+        samples = pulse.acceleration(np.arange(PER_PERIOD) * step)
+        motion = Accelerogram(np.concatenate([samples, np.zeros(3)]), step)
+        yield CodeCase(f"{name} pulse {k}", name, "pulse", mechanism, motion)
+
+
+def record_cases(records: Sequence[Accelerogram], count: int = RECORDS) -> Iterator[CodeCase]:
+    """Yield the strongest stretches of `records`, each scaled to 1.3 to 4 times the acceleration of uplift."""
+    draw = np.random.default_rng(SEED + 1)
+    mechanisms = [(name, structure.mechanism()) for name, structure in structures().items()]
+    for k in range(count if records else 0):
+        name, mechanism = mechanisms[k % len(mechanisms)]
+        record = records[(k // len(mechanisms)) % len(records)]
+        energy = np.concatenate([[0.0], np.cumsum(record.acceleration**2)])
+        start = int(np.argmax(energy[SAMPLES:] - energy[:-SAMPLES]))
+        samples = record.acceleration[start : start + SAMPLES]
+        stretch = record.processed_by(samples, f"cut to the {SAMPLES} samples from sample {start}")
+        factor = (
+            _log_uniform(draw, 1.3, 4) * mechanism.uplift_multiplier * GRAVITY / stretch.peak_acceleration
+        )
+        yield CodeCase(f"{name} record {k}", name, "record", mechanism, stretch.scaled(factor))
+
+
+def _log_uniform(draw: np.random.Generator, low: float, high: float) -> float:
+    return math.exp(draw.uniform(math.log(low), math.log(high)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +133,8 @@ def inner_codes() -> Mapping[str, Code]:
 
 def outer_codes() -> Mapping[str, Code]:
     """Return the other codes, each in a process of its own."""
-    return {name: partial(_outer, module) for name, module in _DRIVERS.items()}
+    modules = {LMGC90: "lmgc90", ROCKING_BC: "opensees"}
+    return {name: partial(_outer, f"docs.research.comparison.{each}") for name, each in modules.items()}
 
 
 def landings_of(response: Response) -> np.ndarray:
@@ -82,41 +146,38 @@ def landings_of(response: Response) -> np.ndarray:
 
 
 def _ours(tolerance: float, case: CodeCase) -> Answer:
-    integrate(case.mechanism, case.motion, tolerance)  # the table of the mechanism, and the compiled code
-    start = time.process_time()
-    ratio = integrate(case.mechanism, case.motion, tolerance).rotation_ratio
-    spent = time.process_time() - start
-    history = integrate(case.mechanism, case.motion, tolerance, history=True)
-    return Answer(ratio, spent, landings=landings_of(history))
+    run = partial(integrate, case.mechanism, case.motion, tolerance)
+    run()  # the table of the mechanism, and the compiled code
+    response, spent = timed(run)
+    return Answer(response.rotation_ratio, spent, landings=landings_of(run(history=True)))
 
 
 def _scipy(method: str, case: CodeCase) -> Answer:
-    start = time.process_time()
-    ratio, landings = event_landings(case.mechanism, case.motion, method, 1e-6)
-    return Answer(ratio, time.process_time() - start, landings=landings[:, 0])
+    (ratio, landings), spent = timed(lambda: event_landings(case.mechanism, case.motion, method, 1e-6))
+    return Answer(ratio, spent, landings=landings[:, 0])
 
 
 def _outer(module: str, case: CodeCase) -> Answer:
-    given = {
+    question = {
         "structure": case.structure,
         "critical_rotation": case.mechanism.critical_rotation,
         "frequency_parameter": case.mechanism.positive.frequency_parameter,
         "acceleration": case.motion.acceleration.tolist(),
         "time_step": case.motion.time_step,
     }
-    answer, reason = ask(module, given)
+    answer, reason = ask(module, question)
     if answer is None:
         return Answer(math.nan, reason=reason)
     landings = answer.pop("landings")
     return Answer(**answer, landings=None if landings is None else np.array(landings))
 
 
-def ask(module: str, given: Mapping[str, object], timeout: float = TIMEOUT) -> tuple[Any, str]:
+def ask(module: str, question: Mapping[str, object], timeout: float = TIMEOUT) -> tuple[Any, str]:
     """Return what a driver answers to a case, in a process of its own; or None, and why there is no answer."""
     try:
         done = subprocess.run(
             [sys.executable, "-m", module], cwd=Path(__file__).parents[3],
-            input=json.dumps(given), capture_output=True, text=True, timeout=timeout, check=False,
+            input=json.dumps(question), capture_output=True, text=True, timeout=timeout, check=False,
         )  # fmt: skip
         return json.loads(done.stdout.strip().splitlines()[-1]), ""
     except subprocess.TimeoutExpired:
@@ -125,23 +186,34 @@ def ask(module: str, given: Mapping[str, object], timeout: float = TIMEOUT) -> t
         return None, (done.stderr.strip().splitlines() or ["It said nothing."])[-1]
 
 
-def serve(runs: Callable[[dict], Sequence[Answer]], reason: str) -> None:
-    """Answer the case on standard input in JSON, on the last line of standard output; reason: why it has no limit."""
-    given, start = json.load(sys.stdin), time.process_time()
-    answer = limit_of_runs(runs(given), reason)
+def serve(run: Callable[[dict, float], Answer], settings: Sequence[float], reason: str) -> None:
+    """Answer the case on standard input in JSON, on the last line of standard output, with the limit of three runs.
+
+    reason: why the largest rotation has none, if so. Where the limit of a small rotation would be negative, the last
+    run stands, with the bar of the extrapolation.
+    """
+    case, start = json.load(sys.stdin), time.process_time()
+    runs = [run(case, setting) for setting in settings]
+    ratio, bar = limit_of([each.rotation_ratio for each in runs])
+    eta, eta_bar = limit_of([each.restitution for each in runs])
+    answer = replace(runs[-1], rotation_ratio_error=bar, restitution=eta, restitution_error=eta_bar)
+    if math.isnan(ratio):
+        answer = replace(answer, rotation_ratio=ratio, reason=reason, landings=None)
+    elif ratio >= 0:
+        answer = replace(answer, rotation_ratio=ratio)
     answer = replace(answer, duration=time.process_time() - start)
     print("\n" + json.dumps(vars(answer), default=lambda array: array.tolist()))
 
 
 def run_of(
-    given: dict,
+    case: dict,
     times: np.ndarray,
     rotation: np.ndarray,
     energy: np.ndarray,
     outside_hinges: float = math.nan,
 ) -> Answer:
-    """Return what a history (n,) that stays up says of the case `given`; energy (n,) as for `restitution`."""
-    critical, still = given["critical_rotation"], still_from(given)
+    """Return what a history (n,) that stays up says of the case `case`; energy (n,) as for `restitution`."""
+    critical, still = case["critical_rotation"], still_from(case)
     return Answer(
         float(np.abs(rotation).max()) / critical,
         landings=landings(times, rotation),
@@ -150,22 +222,9 @@ def run_of(
     )
 
 
-def still_from(given: dict) -> float:
+def still_from(case: dict) -> float:
     """Return when the ground of a case comes to rest, s."""
-    return (len(given["acceleration"]) - 1) * given["time_step"]
-
-
-def limit_of_runs(runs: Sequence[Answer], reason: str) -> Answer:
-    """Return the limit of three runs; reason: why the largest rotation has none, if so.
-
-    Where the limit of a small rotation would be negative, the last run stands, with the bar of the extrapolation.
-    """
-    ratio, bar = limit_of([run.rotation_ratio for run in runs])
-    kept, kept_bar = limit_of([run.restitution for run in runs])
-    last = replace(runs[-1], rotation_ratio_error=bar, restitution=kept, restitution_error=kept_bar)
-    if math.isnan(ratio):
-        return replace(last, rotation_ratio=ratio, reason=reason, landings=None)
-    return last if ratio < 0 else replace(last, rotation_ratio=ratio)
+    return (len(case["acceleration"]) - 1) * case["time_step"]
 
 
 def limit_of(answers: Sequence[float]) -> tuple[float, float]:

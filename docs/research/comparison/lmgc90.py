@@ -10,45 +10,38 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
 from docs.research.comparison.bodies import RigidBodies, rigid_bodies
-from docs.research.comparison.cases import structures
-from docs.research.comparison.codes import Answer, landings, run_of, serve, still_from
+from docs.research.comparison.codes import Answer, landings, run_of, serve, still_from, structures
+from docs.research.stacks import ALERT, FRICTION
 from rocking.quantities import GRAVITY
 
 STEPS = (2e-3, 1e-3, 5e-4)
 """Time steps, s."""
-FRICTION = 5.0
 STILL = 6.0
 """How long still ground is followed, in units of 1/p."""
 FALLEN = 6.0
 """Turn of a body, in critical rotations, from which nothing comes back."""
-ALERT = 1e-2
-"""Gap within which contacts are sought, m."""
 
 
-def runs(given: dict) -> list[Answer]:
-    """Return the runs of a case."""
-    bodies = rigid_bodies(structures()[given["structure"]])
-    return [_run(given, bodies, step) for step in STEPS]
-
-
-def _run(given: dict, bodies: RigidBodies, step: float) -> Answer:
-    times, turns, centres = follow(given, bodies, step)
-    rotation, critical = bodies.rotation(turns), given["critical_rotation"]
+def run(case: dict, step: float) -> Answer:
+    """Return the run of a case with a time step."""
+    bodies = rigid_bodies(structures()[case["structure"]])
+    times, turns, centres = follow(case, bodies, step)
+    rotation, critical = bodies.rotation(turns), case["critical_rotation"]
     largest = int(np.abs(rotation).argmax())
     if np.abs(turns[-1]).max() > FALLEN * critical:
         return Answer(math.inf, landings=landings(times, rotation))
     energy = _energy(bodies, times, turns, centres)
-    return run_of(given, times, rotation, energy, bodies.outside_hinges(turns[largest]))
+    return run_of(case, times, rotation, energy, bodies.outside_hinges(turns[largest]))
 
 
-def follow(given: dict, bodies: RigidBodies, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def follow(case: dict, bodies: RigidBodies, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times (n,), counterclockwise turns (n, bodies) and centres of mass (n, bodies, 2), until the end or a fall."""
     from compas_lmgc90.solver import Solver
 
     solver = Solver(dt=step, theta=0.5, density=2000.0)
     depths = bodies.depths or (1.0,) * len(bodies.polygons)
     solver.geometry_from_v_f(list(map(_prism, bodies.polygons, depths)))
-    times, speed = base_speed(given, step)
+    times, speed = base_speed(case, step)
     for body in (*bodies.driven, *bodies.guided):
         for component in ("Vy", "Vz", "Rx", "Ry", "Rz"):
             if component != "Vz" or body in bodies.driven:
@@ -58,16 +51,16 @@ def follow(given: dict, bodies: RigidBodies, step: float) -> tuple[np.ndarray, n
     solver.preprocess()
     # LMGC90 turns the frame of a body into its principal axes before it starts.
     axes = np.array(solver.init_frame)
-    fallen = FALLEN * given["critical_rotation"]
+    fallen = FALLEN * case["critical_rotation"]
     # On still ground the energy only falls: what has turned little for a second stays up.
-    second, still = round(1 / step), still_from(given) / step
+    second, still = round(1 / step), still_from(case) / step
     turns, centres = [np.zeros(len(bodies.polygons))], [np.array(solver.init_coor)]
     for _ in range(times.size - 1):
         state = solver.lmgc90.compute_one_step()
         turned = np.array(state.body_frames).reshape(-1, 3, 3).transpose(0, 2, 1) @ axes
         turns.append(np.arctan2(turned[:, 2, 0], turned[:, 0, 0]))
         centres.append(np.array(state.bodies))
-        rests = len(turns) > still + second and np.abs(turns[-second:]).max() < given.get("settled", 0.0)
+        rests = len(turns) > still + second and np.abs(turns[-second:]).max() < case.get("settled", 0.0)
         if rests or np.abs(turns[-1]).max() > fallen:
             break
     solver.finalize()
@@ -76,18 +69,20 @@ def follow(given: dict, bodies: RigidBodies, step: float) -> tuple[np.ndarray, n
 
 def _energy(bodies: RigidBodies, times: np.ndarray, turns: np.ndarray, centres: np.ndarray) -> np.ndarray:
     """Energy (n,) relative to the ground, per density and thickness, from differences over two steps."""
-    masses, gyrations = bodies.masses()
+    masses, _, gyrations = bodies.properties
+    masses = masses.copy()
+    masses[list(bodies.driven)] = 0.0
     moved = centres - centres[:, bodies.driven[:1]]
     velocity, spin = np.gradient(moved, times, axis=0), np.gradient(turns, times, axis=0)
     moving = ((velocity**2).sum(axis=2) + gyrations * spin**2) @ masses / 2
     return moving + GRAVITY * (centres[:, :, 1] - centres[0, :, 1]) @ masses
 
 
-def base_speed(given: dict, step: float) -> tuple[np.ndarray, np.ndarray]:
+def base_speed(case: dict, step: float) -> tuple[np.ndarray, np.ndarray]:
     """Return times [s] and velocity [m/s] of the base (n,), the acceleration linear between its samples."""
-    acceleration, sample = np.array(given["acceleration"]), given["time_step"]
+    acceleration, sample = np.array(case["acceleration"]), case["time_step"]
     velocity = cumulative_trapezoid(acceleration, dx=sample, initial=0.0)
-    end = still_from(given) + STILL / given["frequency_parameter"]
+    end = still_from(case) + STILL / case["frequency_parameter"]
     times = np.arange(int(end / step) + 2) * step
     place = np.minimum((times / sample).astype(int), acceleration.size - 2)
     inside = np.minimum(times - place * sample, sample)
@@ -105,4 +100,4 @@ def _prism(polygon: np.ndarray, depth: float) -> dict:
 
 
 if __name__ == "__main__":
-    serve(runs, "The verdict depends on the time step.")
+    serve(run, STEPS, "The verdict depends on the time step.")

@@ -14,10 +14,9 @@ from pathlib import Path
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from docs.research.comparison.cases import structures
-from docs.research.comparison.codes import Answer, landings, run_of, serve, still_from
+from docs.research.comparison.codes import Answer, landings, run_of, serve, still_from, structures
 from rocking.quantities import GRAVITY
-from rocking.structures import Block, Mechanism
+from rocking.structures import Block
 
 STRAINS = (4e-5, 2e-5, 1e-5)
 """σ/E of the three runs."""
@@ -38,29 +37,29 @@ _WATCHED = 12
 _LIBRARIES = ("libquadmath.so.0", "libgfortran.so.4", "libblas.so.3", "liblapack.so.3")
 
 
-def runs(given: dict) -> list[Answer]:
-    """Return the runs of a case."""
-    return [_run(given, strain) for strain in STRAINS]
-
-
-def _run(given: dict, strain: float) -> Answer:
+def run(case: dict, strain: float) -> Answer:
+    """Return the run of a case at a flexibility."""
     ops = _opensees()
-    structure = structures()[given["structure"]]
+    structure = structures()[case["structure"]]
     _build(ops, structure, strain)
-    ops.timeSeries("Path", 200, "-dt", given["time_step"], "-values", *given["acceleration"])
+    ops.timeSeries("Path", 200, "-dt", case["time_step"], "-values", *case["acceleration"])
     ops.pattern("UniformExcitation", 300, 1, "-accel", 200)
     ops.wipeAnalysis()
     _solver(ops, ("RelativeNormUnbalance", 1e-8, 50))
     ops.integrator("Newmark", 0.5, 0.25)
     ops.analysis("Transient")
-    still = still_from(given)
-    followed = _follow(ops, still, still + STILL / given["frequency_parameter"])
+    still = still_from(case)
+    followed = _follow(ops, still, still + STILL / case["frequency_parameter"])
     if followed is None:
         return Answer(math.nan)
     times, rotation = followed
     if abs(rotation[-1]) > 1.0:
         return Answer(math.inf, landings=landings(times, rotation))
-    return run_of(given, times, rotation, _potential(structure.mechanism(), rotation))
+    # All energy of the rigid body where it turns back is ∫ G dφ.
+    side = structure.mechanism().positive
+    grid = np.linspace(0.0, side.end_rotation * 0.999, 2001)
+    potential = cumulative_trapezoid(side.gravity(grid), grid, initial=0.0)
+    return run_of(case, times, rotation, np.interp(np.abs(rotation), grid, potential))
 
 
 def _follow(ops, still: float, end: float) -> np.ndarray | None:
@@ -81,13 +80,6 @@ def _follow(ops, still: float, end: float) -> np.ndarray | None:
         if time.process_time() - start > BUDGET:
             return None
     return np.array(history).T
-
-
-def _potential(mechanism: Mechanism, rotation: np.ndarray) -> np.ndarray:
-    """∫ G dφ of the rigid body: all its energy where it turns back."""
-    grid = np.linspace(0.0, mechanism.positive.end_rotation * 0.999, 2001)
-    gravity = mechanism.positive.gravity(grid)
-    return np.interp(np.abs(rotation), grid, cumulative_trapezoid(gravity, grid, initial=0.0))
 
 
 def _build(ops, block: Block, strain: float) -> None:
@@ -141,4 +133,4 @@ def _opensees():
 
 
 if __name__ == "__main__":
-    serve(runs, "The verdict depends on the stiffness, or a run did not end in its time.")
+    serve(run, STRAINS, "The verdict depends on the stiffness, or a run did not end in its time.")

@@ -2,25 +2,22 @@
 
 import math
 import random
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
+from itertools import groupby, islice
+from operator import itemgetter
 
 import numpy as np
 import pandas as pd
 
 from docs.research import scores
 from docs.research.comparison import codes
-from docs.research.comparison.cases import SEED, CodeCase, pulse_cases, record_cases, structures
 from docs.research.reference import reference_landings
-from docs.research.report import publish
+from docs.research.report import Target
 from docs.research.scores import Score
-from docs.research.sites import Tell
+from docs.research.sites import timed
+from rocking import Mechanism, integrate
 from rocking.assessment.variations import cracks
-from rocking.motion import integrate
-from rocking.records import Accelerogram
-from rocking.structures import Mechanism
 from rocking.tables import Row, column, row
 
 REFERENCE = "scipy DOP853, 1e-12 (reference)"
@@ -63,27 +60,28 @@ class CodeRow(Row):
     reason: str = column("Why there is no number")
 
 
-def write_comparison(records: Sequence[Accelerogram], folder: Path, tell: Tell) -> None:
-    """Write codes.csv, its scores and its report into `folder`."""
-    cases = [*pulse_cases(), *record_cases(records)]
+def compare(target: Target) -> None:
+    """Run every code through the pulses and stretches of the first records."""
+    of_each = groupby(target.records, key=itemgetter(0))
+    first = [next(components)[1] for _, components in islice(of_each, codes.RECORDS // 3)]
+    cases = [*codes.pulse_cases(), *codes.record_cases(first)]
     slow, rows = slow_cases(cases), []
     for case in cases:
         rows += code_rows(case, {**codes.inner_codes(), **slow.get(case.name, {})})
-        tell(case.name)
+        target.tell(case.name)
     pulses = sum(case.kind == "pulse" for case in cases)
     subtitle = (
         f"{pulses} pulses and {len(cases) - pulses} stretches of records on a block, a frame and an arch of seven "
         "voussoirs; the reference is DOP853 of scipy at 1e-12, restarted at every sample and impact."
     )
     tables = {CodeRow: rows, Score: list(code_scores(rows))}
-    publish(folder, "Work against precision", subtitle, tables, [{"text": COMPARED}])
+    target.publish("Work against precision", subtitle, tables, COMPARED)
 
 
-def code_rows(case: CodeCase, asked: Mapping[str, codes.Code]) -> Iterator[CodeRow]:
+def code_rows(case: codes.CodeCase, asked: Mapping[str, codes.Code]) -> Iterator[CodeRow]:
     """Yield the rows of one case, the reference first."""
-    start = time.process_time()
-    truth, landings = reference_landings(case.mechanism, case.motion)
-    spent, side = time.process_time() - start, case.mechanism.positive
+    (truth, landings), spent = timed(lambda: reference_landings(case.mechanism, case.motion))
+    side = case.mechanism.positive
     forced = landings[landings[:, 0] <= case.motion.duration]
     fast = forced[forced[:, 1] > codes.SLOWEST * side.frequency_parameter * side.critical_rotation, 0]
     yield _row(case, REFERENCE, codes.Answer(truth, spent, landings=fast), truth, fast)
@@ -98,55 +96,52 @@ def missed(landings: np.ndarray, expected: np.ndarray, within: float) -> int:
     return int((np.abs(expected[:, None] - landings).min(axis=1) > within).sum())
 
 
-def slow_cases(cases: Sequence[CodeCase]) -> Mapping[str, Mapping[str, codes.Code]]:
+def slow_cases(cases: Sequence[codes.CodeCase]) -> Mapping[str, Mapping[str, codes.Code]]:
     """Return by case the slow codes that take it, of each code its sample."""
-    rocking: dict[str, list[str]] = {}
-    for case in cases:
-        if VISIBLE[0] < integrate(case.mechanism, case.motion).rotation_ratio < VISIBLE[1]:
-            rocking.setdefault(case.structure, []).append(case.name)
+    visible = [
+        case
+        for case in cases
+        if VISIBLE[0] < integrate(case.mechanism, case.motion).rotation_ratio < VISIBLE[1]
+    ]
     chosen: dict[str, dict[str, codes.Code]] = {}
     for name, code in codes.outer_codes().items():
         for structure, most in SAMPLED[name].items():
-            names = rocking.get(structure, [])
-            for case_name in random.Random(SEED).sample(names, min(most, len(names))):
+            names = [case.name for case in visible if case.structure == structure]
+            for case_name in random.Random(codes.SEED).sample(names, min(most, len(names))):
                 chosen.setdefault(case_name, {})[name] = code
     return chosen
 
 
-def _row(case: CodeCase, code: str, answer: codes.Answer, truth: float, expected: np.ndarray) -> CodeRow:
+def _row(
+    case: codes.CodeCase, code: str, answer: codes.Answer, truth: float, expected: np.ndarray
+) -> CodeRow:
     ratio, side = answer.rotation_ratio, case.mechanism.positive
-    agrees = None if math.isnan(ratio) else _kind(ratio) == _kind(truth)
+    # 0 at rest, 1 rocking, 2 overturned; a rotation beyond 1.5 critical ones at the end of a run has overturned.
+    kind, true_kind = ((each > 0) + (each > 1.5) for each in (ratio, truth))
+    agrees = None if math.isnan(ratio) else kind == true_kind
     error = abs(ratio / truth - 1) if agrees and 0 < truth < math.inf else 0.0 if agrees else math.nan
-    made = CodeRow.of(
+    more: dict[str, object] = {"another_model": (case.structure, code) in codes.ANOTHER_MODEL, "error": error}
+    if 0 <= answer.restitution <= 1:
+        same = Mechanism(replace(side, restitution=answer.restitution))
+        more["same_restitution_rotation_ratio"] = integrate(same, case.motion).rotation_ratio
+    if more["another_model"]:
+        mechanisms = [mechanism for _, mechanism in cracks(codes.structures()[case.structure])]
+        envelope = max(integrate(each, case.motion).rotation_ratio for each in mechanisms)
+        more |= {"error": math.nan, "envelope_rotation_ratio": envelope}
+    elif answer.landings is not None:
+        more["missed_impacts"] = missed(answer.landings, expected, 0.02 / side.frequency_parameter)
+    return CodeRow.of(
         answer,
         case=case.name,
         structure=case.structure,
         motion=case.kind,
         code=code,
-        another_model=False,
         reference_rotation_ratio=truth,
-        error=error,
         verdict_agrees=agrees,
         reference_impacts=expected.size,
         reference_restitution=side.restitution,
+        **more,
     )
-    if 0 <= answer.restitution <= 1:
-        same = integrate(Mechanism(replace(side, restitution=answer.restitution)), case.motion)
-        made = replace(made, same_restitution_rotation_ratio=same.rotation_ratio)
-    if (case.structure, code) in codes.ANOTHER_MODEL:
-        mechanisms = [mechanism for _, mechanism in cracks(structures()[case.structure])]
-        envelope = max(integrate(each, case.motion).rotation_ratio for each in mechanisms)
-        return replace(made, another_model=True, error=math.nan, envelope_rotation_ratio=envelope)
-    if answer.landings is not None:
-        made = replace(
-            made, missed_impacts=missed(answer.landings, expected, 0.02 / side.frequency_parameter)
-        )
-    return made
-
-
-def _kind(ratio: float) -> int:
-    """0 at rest, 1 rocking, 2 overturned; a rotation beyond 1.5 critical ones at the end of a run has overturned."""
-    return (ratio > 0) + (ratio > 1.5)
 
 
 def code_scores(rows: Sequence[CodeRow]) -> Iterator[Score]:
@@ -165,19 +160,14 @@ def code_scores(rows: Sequence[CodeRow]) -> Iterator[Score]:
 def _measures(own: pd.DataFrame) -> Mapping[str, scores.Measured]:
     """Errors where both rock; verdicts and impacts of all."""
     errors = own.error.where(own.rocks)
-    missing = own.missed_impacts.fillna(0).to_numpy()
-    impacts = own.reference_impacts.where(own.missed_impacts.notna(), 0).to_numpy()
-
-    def missed_share(kept: np.ndarray) -> float:
-        return float(missing[kept].sum() / impacts[kept].sum()) if impacts[kept].any() else math.nan
-
+    impacts = own.reference_impacts.where(own.missed_impacts.notna(), 0)
     return {
         "median error": scores.median(errors),
         "95 % error": scores.median(errors, 0.95),
         "share that rocks": own.rocks,
         "share of other verdicts": own.verdict_agrees.eq(False),
         "share without an answer": own.rotation_ratio.isna(),
-        "share of impacts missed": missed_share,
+        "share of impacts missed": scores.share_of(own.missed_impacts.fillna(0), impacts),
         "processor time of a response, s": scores.median(own.duration_s),
     }
 
