@@ -14,24 +14,22 @@ from rocking.records.measures import record_measures, response_spectrum
 from rocking.structures import EquivalentBlock, Mechanism
 
 SPECTRAL_PERIOD = 1.0
-"""Of the spectral acceleration, s."""
+"""Period of the spectral acceleration, s."""
 
 
 @dataclass(frozen=True)
 class IntensityMeasure:
-    """name: as settings and tables say it. unit: "" for a ratio. meaning: for axes. of_record: what it takes of a
-    record; it must grow in proportion to the accelerations. per: what it is divided by, of a mechanism."""
+    """A measure of how strong a motion is for a structure: a figure of the record over one of the mechanism.
+
+    name: as settings and tables have it. unit: "" for a ratio. meaning: for axes. of_record: the figure of the record,
+    which grows in proportion to the accelerations. per: the figure of the mechanism.
+    """
 
     name: str
     unit: str
     meaning: str
     of_record: Callable[[Accelerogram], float]
     per: Callable[[Mechanism], float] = lambda mechanism: 1.0
-
-    @property
-    def label(self) -> str:
-        """Name with unit: "pgv [m/s]"."""
-        return f"{self.name} [{self.unit or '-'}]"
 
     def of(self, record: Accelerogram, mechanism: Mechanism) -> float:
         """Return the measure of `record`. Raises ConfigurationError where the record has none."""
@@ -47,7 +45,7 @@ class IntensityMeasure:
         return value / self.per(mechanism)
 
     def remembered(self, record: Accelerogram) -> float:
-        """Of the record alone, measured once as long as it lives: many structures ask for it."""
+        """Return the figure of the record, measured once as long as the record lives: many structures ask for it."""
         of_record = _REMEMBERED.setdefault(record, {})
         if self.name not in of_record:
             of_record[self.name] = self.of_record(record)
@@ -97,7 +95,7 @@ INTENSITY_MEASURES: dict[str, IntensityMeasure] = {
     )
 }
 """By name; the first is the default."""
-MEASURES_IN_WORDS = ", ".join(each.label for each in INTENSITY_MEASURES.values())
+MEASURES_IN_WORDS = ", ".join(f"{each.name} [{each.unit or '-'}]" for each in INTENSITY_MEASURES.values())
 """Names with units, for the meanings of settings and columns."""
 
 

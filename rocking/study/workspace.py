@@ -6,6 +6,7 @@ from pathlib import Path
 
 from rocking.assessment.rows.of_record import ComparisonRow
 from rocking.assessment.rows.of_study import CapacityRow, StructureRow, capacity_rows, structure_rows
+from rocking.assessment.verdict import Method
 from rocking.errors import ConfigurationError, RecordError
 from rocking.quantities import counted
 from rocking.records import Accelerogram
@@ -114,7 +115,7 @@ def assess_file(
 def _told(row: ComparisonRow) -> str:
     """What became of a structure under a component, and what one pulse predicts."""
     outcome = str(row.answer_outcome)
-    if row.spared:
+    if row.answer_method is not Method.MECHANISM_ON_RECORD:
         settled = "overturns" if row.answer_outcome is Outcome.OVERTURNS else "does not overturn"
         outcome = f"{settled} ({row.answer_reason})"
     facts = [f"{row.component or 'component not named'}, {row.structure}: {outcome}"]

@@ -195,11 +195,6 @@ class ComparisonRow(CaseRow):
     overturning_estimate_low: float = column("Lower end of the 90 % interval of the estimate")
     overturning_estimate_high: float = column("Upper end of the 90 % interval of the estimate")
 
-    @property
-    def spared(self) -> bool:
-        """Whether something cheaper than the full integration answered."""
-        return self.answer_method is not Method.MECHANISM_ON_RECORD
-
 
 RATIO_COLUMNS = {
     Method.PRINTED: "printed_rotation_ratio",
@@ -279,10 +274,6 @@ class HorizontalMotion:
     azimuth: float | None
     rotd: RotD | None
 
-    def is_unlike(self, sine: Pulse | None) -> bool | None:
-        """Whether T_p and the period of `sine` differ by more than a factor 2; None where one of them is missing."""
-        return None if sine is None or self.velocity_pulse is None else self.velocity_pulse.is_unlike(sine)
-
 
 def horizontal_motions(accelerograms: Sequence[Accelerogram]) -> list[HorizontalMotion]:
     """Return the motion that each of the horizontal components of a record belongs to.
@@ -341,7 +332,7 @@ def record_row(
         velocity_pulse_azimuth_deg=motion.azimuth,
         velocity_pulse_like=pulse and pulse.pulse_like,
         pulse_period_ratio=pulse and dominant and dominant.period / pulse.period,
-        pulse_periods_unlike=motion.is_unlike(dominant),
+        pulse_periods_unlike=pulse and dominant and pulse.is_unlike(dominant),
     )
 
 

@@ -32,6 +32,7 @@ def test_a_pair_has_one_motion_and_its_axis_from_north():
         one.rotd.rotd50,
         one.rotd.rotd100,
     )
+    assert row.pulse_periods_unlike is one.velocity_pulse.is_unlike(Pulse(1.0, math.pi))
     assert row.pulse_period_ratio == pytest.approx(2.0 / one.velocity_pulse.period)
     alone = record_row(IDENTITY, north, "", component(0.1, ""), horizontal_motions([north])[0], None)
     assert math.isnan(alone.rotd100_peak_acceleration_m_s2) and math.isnan(alone.pulse_period_ratio)
@@ -55,12 +56,12 @@ def test_a_still_or_short_record_has_no_velocity_pulse():
     for short in (Accelerogram(np.zeros(3000), STEP), Accelerogram(np.ones(50), STEP)):
         (motion,) = horizontal_motions([short])
         assert motion.velocity_pulse is None and motion.azimuth is None
-        assert motion.is_unlike(Pulse(1.0, 1.0)) is None
+        row = record_row(IDENTITY, short, "", None, motion, Pulse(1.0, 1.0))
+        assert row.pulse_periods_unlike is None
 
 
 def test_periods_more_than_a_factor_2_apart_are_unlike():
     (motion,) = horizontal_motions([component(1.0, "N")])
     period = motion.velocity_pulse.period
-    assert motion.is_unlike(Pulse(1.0, 2 * math.pi / (0.49 * period))) is True
-    assert motion.is_unlike(Pulse(1.0, 2 * math.pi / (0.51 * period))) is False
-    assert motion.is_unlike(None) is None
+    assert motion.velocity_pulse.is_unlike(Pulse(1.0, 2 * math.pi / (0.49 * period))) is True
+    assert motion.velocity_pulse.is_unlike(Pulse(1.0, 2 * math.pi / (0.51 * period))) is False
