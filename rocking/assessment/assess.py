@@ -84,7 +84,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Failure:
-    """Something that gave no result: at which stage, for which structure ("" for all), and why."""
+    """A stage that gave no result: for which structure ("" for all), and why."""
 
     stage: str
     structure: str
@@ -323,7 +323,7 @@ def assess(
     settings: AssessmentSettings | None = None,
     vertical: Accelerogram | None = None,
 ) -> StructureAssessment:
-    """Say whether `structure` survives `record`, and how sure that is.
+    """Return the verdict on `structure` under `record`, with the ensemble that says how sure it is.
 
     record: one accelerogram, or both horizontal components, which then make one ensemble over eight directions; or an
     obspy Stream or Trace, as Accelerogram.from_obspy reads it, whose vertical component acts too. members: of the

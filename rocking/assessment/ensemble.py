@@ -1,8 +1,8 @@
-"""The ensemble: what becomes of a structure when all that is not known varies within stated ranges.
+"""The ensemble: what becomes of a structure when its uncertain inputs, the causes, vary within stated ranges.
 
-Each cause is uniform in its range and independent of the others. What the causes are is an assumption, not a
-measurement; the ensemble says how sure an answer can be if they are right. Its members stand at the points of a
-deterministic design: rank-1 lattices, the smaller ones contained in the larger.
+Each cause is uniform in its range and independent of the others. The ranges are assumptions, not measurements; the
+ensemble says how sure an answer can be if they are right. Its members stand at the points of a deterministic design:
+rank-1 lattices, the smaller ones contained in the larger.
 """
 
 from collections.abc import Mapping
@@ -26,7 +26,7 @@ from rocking.records.rotation import aligned, rotate
 from rocking.structures import Mechanism
 
 CAUSES = ("amplitude", "restitution", "polarity", "direction", "processing", "vertical")
-"""Names of what may vary: each is a coordinate of a point of the design."""
+"""The causes: each is a coordinate of a point of the design."""
 FIRST = 16
 """Members with which an ensemble begins."""
 MOST_NEAR_A_LIMIT = 256
@@ -34,13 +34,13 @@ MOST_NEAR_A_LIMIT = 256
 UNANIMOUS = 64
 """Members of which none overturns, or none stands, that settle a verdict."""
 FAR = 0.3
-"""Largest rotation ratio of fewer members up to which they settle that it stands. The target `calibrate` measures on
-sites left out which verdicts that changes."""
+"""Rotation ratio that fewer members must all stay below to settle that the structure stands. The target `calibrate`
+measures how many verdicts this changes, on sites that took no part in any fit."""
 LATTICE_ERROR = 4.0
 """Members times the error of a probability that all but few cases stay below; `calibrate_ensemble` counts them."""
 LEAST_LOSS = 1e-3
-"""Share of the velocity that every member loses at an impact, but for one that is stated to lose less: without a loss a
-member rocks on through millions of impacts below any rotation that matters, and is given up."""
+"""Share of the velocity that a member loses at an impact at least, unless the structure states less: without a loss it
+would rock through millions of impacts below any rotation that matters, until the integration fails."""
 AS_IT_IS = "unchanged"
 """Name of the processing that leaves a record as it is."""
 DIRECTIONS = 8
@@ -50,12 +50,13 @@ target `calibrate_ensemble` holds their verdicts against draws over three times 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Ensemble:
-    """The largest rotation ratio of every member, (m,): inf overturns, 0 does not lift, nan failed.
+    """The members of a structure under the ground motions that one record stands for.
 
-    causes: value of each cause that varied, by member, (m,). settings: what varied by how much, with the structure's
-    own range of the restitution. rotation_ratio: of the case as given, nan where it is not known. reasons: why members
-    failed. crack: what opens, as statics chooses it, where the structure does not say where it is cracked. elsewhere:
-    that of another crack that may form and does not stand, where this one stands.
+    rotation_ratios: largest rotation over critical rotation of every member, (m,); inf overturns, 0 does not lift, nan
+    failed. causes: value of each cause that varied, by member, (m,). settings: the ranges, with the structure's own
+    range of the restitution. rotation_ratio: of the run as recorded, nan without one. reasons: why members failed, by
+    their place. crack: what opens, as statics chooses it, where the structure does not say where it is cracked.
+    elsewhere: the ensemble of another crack that may form and does not stand, where this one stands.
     """
 
     rotation_ratios: np.ndarray
@@ -120,16 +121,16 @@ class Ensemble:
 
     @property
     def verdict(self) -> Verdict:
-        """What can be said of the structure: undecided, too, where it stands only as statics lets it crack."""
+        """The verdict on the structure: undecided, too, where it stands only with the crack that statics chooses."""
         alone = verdict(self.overturning_share, self.probability_error, self.settings.risk)
         return Verdict.UNDECIDED if alone is Verdict.STANDS and self.elsewhere is not None else alone
 
     @property
     def probability_error(self) -> float:
-        """How far the probability may lie from that of very many members; none where so many agree that it is small.
+        """The most by which the share of members that overturn differs from that of very many members.
 
-        Of a lattice the error falls with the members themselves, not with their root. No member of UNANIMOUS or more
-        that differs counts as none that does, and so do fewer that all stay FAR from overturning.
+        It falls with the number of members itself, as they stand on a lattice, not with its root. It counts as none
+        where UNANIMOUS members or more agree, or where fewer all stay FAR from overturning.
         """
         many = self.members >= UNANIMOUS and self.overturning_members in (0, self.members)
         return 0.0 if many or self.far else LATTICE_ERROR / max(self.members, 1)
@@ -160,8 +161,9 @@ class Ensemble:
 
 @lru_cache(maxsize=2)  # the two components of a record
 def processed(accelerogram: Accelerogram) -> Mapping[str, Accelerogram]:
-    """Return the record as each variant of the processing leaves it, by name, made once; those that do not fit are left
-    out. The one AS_IT_IS is the same object.
+    """Return the record after each variant of the processing, by name, but for those that do not fit the record.
+
+    The one AS_IT_IS is the same object. The variants are computed once.
     """
     records = {}
     for name, processing in variants().items():
@@ -187,8 +189,8 @@ class GroundMotions:
     ) -> "GroundMotions":
         """Return the motions of one component, or of two and the directions between them, DIRECTIONS in all.
 
-        vertical: with one component sample by sample as it is. processing: whether a raw record is taken as each
-        variant of its processing leaves it. Raises RecordError for components that do not belong together.
+        vertical: with one component it must have the same samples. processing: whether raw components enter after each
+        variant of their processing. Raises RecordError for components that do not belong together.
         """
         raw = all(each.source.path and each.processed is False for each in components)
         variants_of = [processed(each) if processing and raw else {"": each} for each in components]
@@ -261,10 +263,11 @@ def ensemble(
 ) -> Ensemble:
     """Follow `structure` through the members of its ensemble, the same ones at every call.
 
-    It ends after FIRST members that all rest, and grows to MOST_NEAR_A_LIMIT where those asked for leave a verdict in
-    doubt that more may settle. verdict_only: it ends after FIRST members, too, that all stay far from overturning:
-    that settles the verdict but says less of the band. whether_it_stands: it also ends after FIRST of which so many
-    overturn that it does not stand, and never grows. Raises MotionError as `integrate` does.
+    It ends after FIRST members where they all rest. It grows from the number in the settings to MOST_NEAR_A_LIMIT
+    members where that may settle an undecided verdict. verdict_only: it also ends after FIRST members where they all
+    stay far from overturning, which settles the verdict but says less of the quantiles. whether_it_stands: it also
+    ends where so many of FIRST overturn that the structure does not stand, and never grows. Raises MotionError as
+    `integrate` does.
     """
     settings = settings or EnsembleSettings()
     points = lattice(max(settings.size, MOST_NEAR_A_LIMIT))

@@ -1,12 +1,12 @@
-"""What must be computed to say whether a structure overturns under a record: the first of these that settles it.
+"""Which method settles, with the least work, whether a structure overturns under a record: the first of these.
 
 1. Nothing: |ü_g| / (g + ü_v) never exceeds λ, so it stays at rest. Exact.
 2. Peak velocity: from p PGV/(gλ) the structure stands, where the estimate's 90 % interval lies within the risk. Of a
    structure unlike those of the calibration, and with vertical motion, it says nothing.
 3. Block on record at five scales, where an ensemble would follow: whether it stands or overturns, likewise. It costs
    twice as much as the mechanism once, but a fortieth of an ensemble.
-4. Mechanism on record, which settles what happens as given.
-5. The ensemble, where one is asked for, which ends after 16 members that all stay far from overturning.
+4. Mechanism on record, which settles what happens as recorded.
+5. The ensemble, where the settings have one, which ends after 16 members that all stay far from overturning.
 
 The estimates of 2 and 3 are tiers, each a logistic regression of the share of members that overturn, fitted by the
 target `calibrate` to the ensembles of mechanisms under real records; tiers.json holds the coefficients. The interval of
@@ -51,14 +51,14 @@ _SLACK = 0.05
 
 
 class Tier(StrEnum):
-    """What an estimate rests on."""
+    """The figure of a case from which an estimate follows."""
 
     PEAK_VELOCITY = "peak velocity"
     BLOCK_AT_FIVE_SCALES = "block at five scales"
 
     @property
     def terms(self) -> tuple[str, ...]:
-        """The measures it takes, those of the structure last."""
+        """Names of its terms, those of the structure last."""
         own = ("peak_velocity",) if self is Tier.PEAK_VELOCITY else tuple(from_nudged(np.zeros(len(NUDGES))))
         return (*own, *STRUCTURE)
 
@@ -131,7 +131,7 @@ def read_tiers(path: Path) -> dict[Tier, TierFit]:
 
 
 def of_structure(mechanism: Mechanism) -> dict[str, float]:
-    """Return what tiers take of a structure: restitution, defects of its equivalent block, frequency parameter."""
+    """Return the terms of a structure: restitution, defects of its equivalent block, and its frequency parameter."""
     defects = mechanism.block_defects
     return {
         "restitution": min(side.restitution for side in mechanism.sides),
@@ -148,9 +148,9 @@ def of_velocity(record: Accelerogram, block: EquivalentBlock) -> dict[str, float
 
 
 def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
-    """Return what the rotation ratios at NUDGES tell: of the middle one, of the largest, and how many overturn.
+    """Return the terms of the block at NUDGES: of the middle rotation ratio, of the last one, and how many overturn.
 
-    A block that fails counts as one that overturns.
+    A block that cannot be followed counts as one that overturns.
     """
     overturns = ~(rotation_ratios < math.inf)
     share = float(overturns.mean())
@@ -167,7 +167,7 @@ def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class Answer:
-    """What answered, and why nothing dearer was asked. response: None without an integration."""
+    """The method that settled a case, its outcome, and why no dearer one followed. response: of an integration."""
 
     method: Method
     outcome: Outcome
@@ -183,7 +183,7 @@ class Answer:
 
 
 def answer_of(whole: Response, reason: str = "") -> Answer:
-    """Return what the mechanism on the record itself says."""
+    """Return the answer of the mechanism under the record itself."""
     return Answer(Method.MECHANISM_ON_RECORD, whole.outcome, reason, whole)
 
 
@@ -207,9 +207,9 @@ def cheapest_answer(
 ) -> Answer:
     """Return the first answer that settles whether `mechanism` overturns; the mechanism's own where nothing else does.
 
-    risk: largest probability of the opposite; 0: only what is exact. tolerance, history: of the integration.
-    ensemble_follows: whether what is not settled costs an ensemble too. fits: other tiers than those that the package
-    ships. Raises MotionError as `integrate` does.
+    risk: largest probability of the opposite outcome; 0: no estimate is trusted. tolerance, history: of the
+    integration. ensemble_follows: whether an ensemble follows the integration, so that the block at five scales is
+    cheaper. fits: other tiers than those that the package ships. Raises MotionError as `integrate` does.
     """
     if stays_at_rest(mechanism, record, vertical):
         reason = "the ground never reaches the uplift acceleration"

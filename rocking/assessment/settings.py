@@ -1,4 +1,4 @@
-"""What an assessment and a fragility are made with."""
+"""The settings of an assessment and of a fragility."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -15,7 +15,7 @@ SIZES = (16, 64, 256, 1024, 4096)
 
 @dataclass(frozen=True)
 class EnsembleSettings:
-    """What is not known of a case, and how much of it a verdict bears. Raises ConfigurationError."""
+    """The ranges of the uncertain inputs, and the risk that a verdict bears. Raises ConfigurationError."""
 
     members: int = described(
         64, "number of members, rounded up to 16, 64, 256, 1024 or 4096; 0: no ensemble", ge=0, le=4096
@@ -51,7 +51,7 @@ class PredictingPulse(PulseSettings):
 
 @dataclass(frozen=True)
 class AssessmentSettings:
-    """What a comparison is made with. Raises ConfigurationError when a value is outside what is allowed.
+    """The settings of every method. Raises ConfigurationError when a value is outside what is allowed.
 
     fidelity: auto stops at the first method that settles whether a structure overturns to fidelity_risk.
     """
@@ -81,7 +81,7 @@ class AssessmentSettings:
 
 @dataclass(frozen=True)
 class FragilitySettings:
-    """What fragility is measured with. Raises ConfigurationError when a value is outside what is allowed."""
+    """The settings of a study's fragility. Raises ConfigurationError when a value is outside what is allowed."""
 
     intensity_measure: str = described(
         "pgv", f"measure of the levels: {MEASURES_IN_WORDS}", one_of=lambda: tuple(INTENSITY_MEASURES)

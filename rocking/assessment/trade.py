@@ -37,7 +37,7 @@ def trade(
 ) -> list[TradeRow]:
     """Return a row for each method and structure, and one for each method over all structures.
 
-    Every structure is met by every record with every method, one response at a time. tell: is given a line for each
+    Every structure is met by every record with every method, one response at a time. tell: takes a line for each
     record, and one for each case that cannot be followed. Times are processor times of this machine, in s.
 
     >>> pier = rocking.Block.of_size(0.8, 6.0, 0.9)

@@ -37,9 +37,9 @@ IN_DOUBT = 0.3
 
 @dataclass(frozen=True)
 class Variation:
-    """A case with one thing changed: rotation ratios under pulse (nan: none) and record.
+    """A case with another crack or another processing of the record: its rotation ratios under record and pulse.
 
-    crack, position: what opens, in words, and its height, m. processing: of the record.
+    predicted_rotation_ratio: nan without a pulse. crack, position: what opens, in words, and its height, m.
     """
 
     integrated_rotation_ratio: float

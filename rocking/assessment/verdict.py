@@ -14,11 +14,11 @@ from enum import StrEnum
 NEGLIGIBLE = 1e-3
 """Largest rotation over critical rotation at which a structure counts as resting."""
 CLOSE = 0.1
-"""Relative difference up to which a prediction and the integration are not told apart in words."""
+"""Relative difference up to which the words are "within 10 %"."""
 
 
 class Verdict(StrEnum):
-    """What can be said of a structure under a ground motion, all considered that is not known.
+    """The verdict on a structure under a ground motion, with all uncertain inputs considered.
 
     >>> [str(verdict) for verdict in rocking.Verdict]
     ['stands', 'overturns', 'undecided', 'unknown']
@@ -55,13 +55,14 @@ class Agreement(StrEnum):
     TOO_HIGH = "too high"
     """The prediction says more than happens."""
     UNKNOWN = "unknown"
-    """One of the two is not known."""
+    """One of the two is missing."""
 
 
 def verdict(probability: float, error: float, risk: float) -> Verdict:
-    """Return what a probability of overturning, known to ± `error`, says where `risk` of the opposite can be borne.
+    """Return the verdict of a probability of overturning that is sure to ± `error`.
 
-    A probability that may lie on either side of a limit decides nothing.
+    risk: largest probability of the opposite outcome. A probability that may lie on either side of a limit decides
+    nothing.
     """
     if math.isnan(probability):
         return Verdict.UNKNOWN
@@ -81,7 +82,7 @@ def rocks(rotation_ratio: float) -> bool:
 
 
 def agreement(predicted: float, integrated: float) -> Agreement:
-    """Compare two rotation ratios (inf: overturns, nan: not known)."""
+    """Compare two rotation ratios (inf: overturns, nan: missing)."""
     if math.isnan(predicted) or math.isnan(integrated):
         return Agreement.UNKNOWN
     difference = _severity(predicted) - _severity(integrated)
@@ -96,7 +97,7 @@ def ratio(predicted: float, integrated: float) -> float:
 def ratio_in_words(predicted: float, integrated: float) -> str:
     """Say how a predicted rotation ratio stands to the integrated one: "20 × too low", "within 10 %".
 
-    Two digits at the most; "" where one of them is not known.
+    Two digits at the most; "" where one of them is missing.
     """
     if math.isnan(predicted) or math.isnan(integrated):
         return ""

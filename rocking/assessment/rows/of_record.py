@@ -208,7 +208,7 @@ RATIO_COLUMNS = {
 
 @row("ensemble")
 class EnsembleRow(MembersRow):
-    """One row per structure: what becomes of it when what is not known varies; component 'both' for all directions."""
+    """One row per structure: its ensemble over the uncertain inputs; component 'both' for all directions."""
 
     failed_members: int = column("Number of members whose integration failed")
     risk: float = column("Largest probability of an opposite outcome in a verdict")

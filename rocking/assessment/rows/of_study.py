@@ -219,7 +219,7 @@ class TradeMethod(StrEnum):
     MECHANISM = "mechanism, 1e-6"
     FINE = "mechanism, 1e-9"
     ENSEMBLE = "ensemble"
-    """The mechanism with all that is not known of a case; its rotation is the median."""
+    """The mechanism with its uncertain inputs; its rotation is the median of the members."""
 
 
 @row("trade")
