@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures import Arch, ArchOnPiers, Block, Facade, LoadedWall, RigidBody, Wall
 
@@ -47,3 +48,12 @@ def test_participating_mass_of_a_facade_by_hand():
 def test_a_load_that_only_rises_takes_no_part_sideways():
     wall = LoadedWall.hinged_at(3.2, 1.9, 0.25, 20e3, top_load=30e3, top_slab="flat")
     assert wall.capacity_curve().participating_mass_ratio == pytest.approx(1.0, rel=1e-9)
+
+
+def test_a_structure_that_rocks_to_one_side_has_the_curve_of_that_side_alone():
+    both, one = (Block.of_size(0.6, 6.0, restitution=0.5, one_sided=each) for each in (False, True))
+    assert np.array_equal(one.capacity_curve(1).multiplier, both.capacity_curve(1).multiplier)
+    assert np.array_equal(both.capacity_curve(-1).multiplier, both.capacity_curve(1).multiplier)
+    for structure, side, count in ((one, -1, 9), (both, 0, 9), (both, 1, 1)):
+        with pytest.raises(StructureError, match=f"side is {side} and count {count}, but side must be 1"):
+            structure.capacity_curve(side, count)
