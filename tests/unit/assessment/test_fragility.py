@@ -86,6 +86,12 @@ def test_a_curve_that_is_no_lognormal_has_the_median_of_the_rising_curve_beside_
     assert (found.reversals > 0).sum() == 10
 
 
+def test_a_record_overturns_at_a_level_where_more_than_half_of_its_members_do():
+    shares = np.array([[0.6, 0.5, 0.6], [0.5, 0.4, 0.5], [0.6, 0.7, 0.4]])
+    found = fragility_of(np.array([1.0, 2.0, 3.0]), shares, list("abc"))
+    assert found.reversals.tolist() == [1, 0, 1]
+
+
 @pytest.mark.parametrize("share", [[0.0, 0.2, 0.45], [0.0, 0.5, 0.5]])
 def test_a_curve_that_does_not_pass_one_half_has_no_upper_end(share):
     exceedance = (np.arange(20)[:, None] < 20 * np.array(share)).astype(float)
