@@ -76,8 +76,11 @@ def test_a_trace_keeps_its_peaks_and_its_places():
     kept = extremes(times, values, 0.0, 20.0)
     assert kept.size == BINS and kept.min() == -3.0
     assert abs((kept.argmin() + 0.5) * 20 / BINS - times[7777]) < 20 / BINS
-    sparse = extremes(np.array([0.0, 20.0]), np.array([0.0, 1.0]), 0.0, 20.0)
-    assert np.allclose(sparse[1:-1], ((np.arange(BINS) + 0.5) / BINS)[1:-1])
+    # two samples of a line fill two of the bins; another has the value at its middle
+    sparse = extremes(np.array([0.0, 6.0]), np.array([0.0, 12.0]), 0.0, 6.0)
+    middles = (np.arange(BINS) + 0.5) * 12.0 / BINS
+    assert np.abs(sparse - middles).max() <= 6.0 / BINS * (1 + 1e-9)
+    assert sparse[1:-1] == pytest.approx(middles[1:-1], rel=1e-12) and sparse[-1] == 12.0
 
 
 def test_drawings_are_those_of_the_structure(study):

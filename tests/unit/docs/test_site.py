@@ -9,6 +9,7 @@ import sys
 import time
 from html import unescape
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import obspy
@@ -93,17 +94,8 @@ def test_the_page_on_fdsn_reaches_a_verdict(monkeypatch, capsys):
     (code, _) = re.findall(r"^```py\n(.*?)^```$", written(FOLDER / "fdsn.md"), re.M | re.S)
     stream, inventory, acceleration = stored_answer()
 
-    class Client:
-        def __init__(self, name):
-            self.name = name
-
-        def get_waveforms(self, starttime, endtime, **channel):
-            return stream
-
-        def get_stations(self, level, **channel):
-            return inventory
-
-    monkeypatch.setattr("obspy.clients.fdsn.Client", Client)
+    client = SimpleNamespace(get_waveforms=lambda **_: stream, get_stations=lambda **_: inventory)
+    monkeypatch.setattr("obspy.clients.fdsn.Client", lambda name: client)
     names = {}
     exec(compile(code, "fdsn.md", "exec"), names)
     for record in names["records"]:
@@ -121,14 +113,14 @@ def stored_answer():
     place = {"latitude": 35.8, "longitude": -117.6, "elevation": 735}
     since = obspy.UTCDateTime("2019-07-06T03:19:40")
     sensitivity = InstrumentSensitivity(COUNTS_PER_M_S2, 1.0, input_units="M/S**2", output_units="COUNTS")
+    place |= {"start_date": since - 1e6, "response": Response(instrument_sensitivity=sensitivity)}
     channels, traces = [], []
     for code, azimuth in (("HNE", 90.0), ("HNN", 0.0)):
-        channel = Channel(code, "", **place, depth=0.0, azimuth=azimuth, dip=0.0, start_date=since - 1e6)
-        channel.response = Response(instrument_sensitivity=sensitivity)
-        channels.append(channel)
+        channels.append(Channel(code, "", **place, depth=0.0, azimuth=azimuth, dip=0.0))
         header = {"network": "CI", "station": "CLC", "channel": code, "delta": 0.01, "starttime": since}
         traces.append(obspy.Trace(np.round(acceleration * COUNTS_PER_M_S2).astype(np.int32), header))
-    network = Network("CI", stations=[Station("CLC", **place, channels=channels)])
+    station = Station("CLC", 35.8, -117.6, 735.0, channels=channels)
+    network = Network("CI", stations=[station])
     return obspy.Stream(traces), Inventory([network]), acceleration
 
 

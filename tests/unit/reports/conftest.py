@@ -1,5 +1,10 @@
 """One assessed record for the tests of the reports: synthetic motion, real computation, rows as CSV files hold."""
 
+import re
+import shutil
+import subprocess
+from html import unescape
+
 import numpy as np
 import pytest
 
@@ -35,6 +40,22 @@ ASSESSMENT = AssessmentSettings()
 SETTINGS = {name: getattr(ASSESSMENT, name) for name in ("tolerance", "acceleration_scale")}
 HOSTILE = ("$x^$", "#panic(1)", "<b>bold</b>", "W" * 80, "Жёлтый Ω 中文")
 """Names that a template or a figure might take for markup, that no column holds, or that not every font has."""
+
+
+Word = tuple[float, float, float, float, str]
+"""Left, upper, right and lower edge [points] from the upper left corner of the page, and text."""
+
+
+def pages(document: bytes) -> list[list[Word]]:
+    """The words of each page of a PDF."""
+    if shutil.which("pdftotext") is None:
+        pytest.skip("pdftotext (poppler-utils) is not installed; it says for this test where the words stand")
+    run = subprocess.run(["pdftotext", "-bbox", "-", "-"], input=document, capture_output=True, check=True)
+    word = re.compile(r'<word xMin="(.*?)" yMin="(.*?)" xMax="(.*?)" yMax="(.*?)">(.*?)</word>')
+    return [
+        [(*map(float, edges), unescape(text)) for *edges, text in word.findall(page)]
+        for page in run.stdout.decode().split("<page ")[1:]
+    ]
 
 
 def fate(verdict: Verdict, rotation_ratio: float, **more) -> Fate:

@@ -1,11 +1,7 @@
 """How a report falls onto pages: no table torn after a row or three, no page nearly empty."""
 
 import itertools
-import re
-import shutil
-import subprocess
 from dataclasses import replace
-from html import unescape
 
 import pytest
 
@@ -13,7 +9,7 @@ from rocking.assessment.fate import RecordTables
 from rocking.reports.document import compile_document
 from rocking.reports.summary import summary_report
 
-from .conftest import SETTINGS, SUMMARISED, summarised
+from .conftest import SETTINGS, SUMMARISED, Word, pages, summarised
 
 TEMPLATE = """
 #import "layout.typ": data, document-page, ruled
@@ -26,41 +22,25 @@ FOOTER = 780.0
 COUNTS = (1, 3, 10)
 
 
-Word = tuple[float, float, float, float, str]
-"""Left, upper, right and lower edge [points] from the upper left corner of the page, and text."""
-
-
-def pages(document: bytes) -> list[list[Word]]:
-    """The words of each page."""
-    if shutil.which("pdftotext") is None:
-        pytest.skip("pdftotext (poppler-utils) is not installed; it says for this test where the words stand")
-    run = subprocess.run(["pdftotext", "-bbox", "-", "-"], input=document, capture_output=True, check=True)
-    word = re.compile(r'<word xMin="(.*?)" yMin="(.*?)" xMax="(.*?)" yMax="(.*?)">(.*?)</word>')
-    return [
-        [(*map(float, edges), unescape(text)) for *edges, text in word.findall(page)]
-        for page in run.stdout.decode().split("<page ")[1:]
-    ]
-
-
 def covered(page: list[Word]) -> list[tuple[str, str]]:
     """Pairs of words of which one stands on half of the other or more; a subscript reaches into the line below it."""
-    found = []
+    pairs = []
     for one, other in itertools.combinations(page, 2):
         width = min(one[2], other[2]) - max(one[0], other[0])
         height = min(one[3], other[3]) - max(one[1], other[1])
         smaller = min((each[2] - each[0]) * (each[3] - each[1]) for each in (one, other))
         if width > 0 and height > 0 and width * height > smaller / 2:
-            found.append((one[4], other[4]))
-    return found
+            pairs.append((one[4], other[4]))
+    return pairs
 
 
 def assert_well_laid(document: bytes) -> list[list[Word]]:
     """No page is three quarters empty, no word stands on another; returns the words of the pages."""
-    found = pages(document)
-    for page in found:
+    words = pages(document)
+    for page in words:
         assert max(word[3] for word in page if word[3] < FOOTER) > 842 / 4
         assert covered(page) == []
-    return found
+    return words
 
 
 def sixty(noun: str, count: int) -> list[str]:
@@ -80,11 +60,11 @@ def test_no_table_goes_on_over_a_page_after_one_row(count, tmp_path):
     torn = 0
     for above in range(150, 245, 8):
         document = compile_document(tmp_path / "one.typ", {"table": table, "above": str(above)})
-        found = [sum(word[4].startswith("row") for word in page) for page in pages(document)]
-        found = [many for many in found if many]
-        assert sum(found) == count
-        assert min(found) >= min(count, 4), above
-        torn += len(found) > 1
+        counts = [sum(word[4].startswith("row") for word in page) for page in pages(document)]
+        counts = [many for many in counts if many]
+        assert sum(counts) == count
+        assert min(counts) >= min(count, 4), above
+        torn += len(counts) > 1
     assert torn or count <= 8
 
 
@@ -92,7 +72,7 @@ def test_no_table_goes_on_over_a_page_after_one_row(count, tmp_path):
 def test_the_report_of_a_record_is_well_laid(example, count):
     """With names of 60 characters too."""
     names = sixty("structure", count)
-    kept = {
+    rows = {
         table: [
             replace(row, structure=name)
             for name in names
@@ -102,13 +82,11 @@ def test_the_report_of_a_record_is_well_laid(example, count):
         for table in ("comparison", "ensemble", "variations")
     }
     structures = dict.fromkeys(names, example.structures["wall 3 m"])
-    tables = replace(example.tables, **kept)
+    tables = replace(example.tables, **rows)
     document = replace(example, structures=structures, tables=tables).pdf()
     words = [word[4] for page in assert_well_laid(document) for word in page]
-    tables_named = [
-        after for word, after in itertools.pairwise(words) if word == "Table" and after.endswith(".")
-    ]
-    assert set(tables_named) == {f"{number}." for number in range(1, 6)}, "each table has a number of its own"
+    numbers = {after for word, after in itertools.pairwise(words) if word == "Table" and after.endswith(".")}
+    assert numbers == {f"{number}." for number in range(1, 6)}, "each table has a number of its own"
 
 
 @pytest.mark.parametrize(("count", "records"), list(zip(COUNTS, (1, 13, 13), strict=True)))
@@ -119,16 +97,10 @@ def test_the_summary_is_well_laid(example, count, records):
     tables = RecordTables()
     for record in sixty("record", records):
         for table in SUMMARISED:
-            kept = getattr(tables, table)
             for row in getattr(example.tables, table):
-                if not hasattr(row, "structure"):
-                    kept.append(replace(row, record=record))
-                else:
-                    kept += [
-                        replace(row, record=record, structure=name)
-                        for name in names
-                        if kind[name] == row.structure
-                    ]
+                own = [{"structure": name} for name in names if kind[name] == getattr(row, "structure", "")]
+                own = own if hasattr(row, "structure") else [{}]
+                getattr(tables, table).extend(replace(row, record=record, **each) for each in own)
     structures = {name: example.structures[kind[name]] for name in names}
     document = assert_well_laid(summary_report(summarised(tables, structures), SETTINGS))
     rows = [sum(word[4] == "transept," for word in page) for page in document]

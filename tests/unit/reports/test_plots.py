@@ -8,7 +8,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import rocking
-from rocking.reports.explore import BINS, extremes
 from rocking.reports.panels import draw_rotation
 from rocking.reports.summary import prediction_scatter
 
@@ -109,14 +108,6 @@ def test_what_overturns_and_what_rests_stand_beyond_a_line_from_what_rocks():
         assert max(rocking_ones) < upper < largest < axes.get_xlim()[1]
     factors = {line.get_ydata()[-1] / line.get_xdata()[-1] for line in axes.lines[:3]}
     assert factors == {0.5, 1.0, 2.0}
-
-
-def test_a_bin_of_the_page_without_a_sample_has_the_value_at_its_middle():
-    """Two samples of a line fill two of the bins; no bin is farther from it than half a bin."""
-    shown = extremes(np.array([0.0, 6.0]), np.array([0.0, 12.0]), 0.0, 6.0)
-    middles = (np.arange(BINS) + 0.5) * 12.0 / BINS
-    assert np.abs(shown - middles).max() <= 6.0 / BINS * (1 + 1e-9)
-    assert shown[1:-1] == pytest.approx(middles[1:-1], rel=1e-12) and shown[-1] == 12.0
 
 
 def test_what_cannot_be_drawn_is_said():
