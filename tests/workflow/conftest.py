@@ -89,9 +89,9 @@ class SmallStudy:
             **self.surroundings,
         )  # fmt: skip
 
-    def rocking(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        """Run the command rocking of this tree, from a folder that is not the study's."""
-        command = [sys.executable, "-m", "rocking.study.cli", *arguments]
+    def rocking(self, *arguments: str, before: Sequence[str] = ()) -> subprocess.CompletedProcess[str]:
+        """Run the command rocking of this tree, from a folder that is not the study's; before: what starts it."""
+        command = [*before, sys.executable, "-m", "rocking.study.cli", *arguments]
         surroundings = self.surroundings | {"cwd": self.tree}
         return subprocess.run(
             command, timeout=900, check=False, capture_output=True, text=True, **surroundings

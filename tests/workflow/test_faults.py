@@ -95,3 +95,16 @@ def test_a_full_disk_is_said_and_leaves_nothing_half_written(
         assert done.returncode == 0, done.stdout
         assert study.rows_of("good_1") == expected
         assert (study.results / "summary" / "record.csv").read_text().count("\n") == 2, "head and one record"
+
+
+def test_a_limit_on_the_size_of_files_is_said_and_leaves_nothing_half_written(
+    finished, start, tmp_path: Path
+) -> None:
+    """Of 6 kB, in blocks of 512 bytes: a job of three records writes more than that into one table."""
+    study = start.copy_to(tmp_path / "study")
+    done = study.rocking("run", str(study.folder), before=("sh", "-c", 'ulimit -f 12; exec "$@"', "sh"))
+    assert done.returncode == 1 and "File too large; mend that, then start again." in done.stdout, done.stdout
+    assert not study.unfinished()
+    again = study.rocking("run", str(study.folder))
+    assert again.returncode == 0, again.stdout + again.stderr
+    assert study.tables() == finished.tables()

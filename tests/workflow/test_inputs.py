@@ -70,10 +70,18 @@ def test_a_dry_run_changes_nothing_and_a_run_in_other_jobs_fills_in_the_hash(
     assert _planned(study, "--config", "records_per_job=3") == []
 
 
-def test_a_date_or_a_comment_computes_nothing_and_a_number_everything(finished, tmp_path: Path) -> None:
+def test_a_date_a_comment_or_other_line_ends_compute_nothing_and_a_number_everything(
+    finished, tmp_path: Path
+) -> None:
     study = finished.copy_to(tmp_path / "study")
     structures = study.folder / "structures.yaml"
     structures.write_text("# the old pier\n" + structures.read_text())
+    catalogue = study.folder / "records" / "catalogue.csv"
+    for path in (study.folder / "config.yaml", structures, catalogue):
+        lines = path.read_bytes().splitlines()
+        path.write_bytes(b"\r\n".join([*lines, b""]))
+    assert _planned(study) == []
+    catalogue.write_bytes(b"\n".join([*catalogue.read_bytes().splitlines(), b""]))
     os.utime(structures, (IN_TEN_YEARS, IN_TEN_YEARS))
     for name in ("good_1.txt", "catalogue.csv"):
         os.utime(study.folder / "records" / name, (LONG_AGO, LONG_AGO))

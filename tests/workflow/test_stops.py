@@ -2,6 +2,7 @@
 
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -34,6 +35,10 @@ def _wait(condition: Callable[[], object], process: subprocess.Popen[str]) -> No
 
 def _jobs_run(study) -> bool:
     return any((study.folder / ".snakemake" / "incomplete").glob("*"))
+
+
+def _record_is_done(study) -> bool:
+    return any(log.stat().st_size for log in study.results.glob("summary/logs/assess_*.log"))
 
 
 def _kill_all(process: subprocess.Popen[str]) -> None:
@@ -134,3 +139,57 @@ def test_a_second_run_is_locked_out_and_harms_nothing(finished, tmp_path: Path, 
         _kill_all(first)
     assert first.returncode == 0
     assert study.tables() == finished.tables()
+
+
+def _taken_away(folder: Path) -> None:
+    folder.rename(folder.with_name("away"))
+
+
+def _brought_back(folder: Path) -> None:
+    folder.with_name("away").rename(folder)
+
+
+def _read_only(folder: Path, mode: int = 0o555) -> None:
+    for path in (folder, *folder.rglob("*")):
+        if path.is_dir():
+            path.chmod(mode)
+
+
+def _writable(folder: Path) -> None:
+    _read_only(folder, 0o755)
+
+
+@pytest.mark.parametrize(
+    ("name", "harm", "mend", "words"),
+    [
+        ("records", _taken_away, _brought_back, "the file went away while the study ran; bring it back."),
+        ("results", _read_only, _writable, "Permission denied"),
+    ],
+    ids=["records vanish", "results read-only"],
+)
+def test_a_folder_that_fails_midway_is_said_and_the_same_command_goes_on(
+    finished, start, tmp_path: Path, name: str, harm: Callable, mend: Callable, words: str
+) -> None:
+    """In the midst of a job of three records, of which none is then taken for one that cannot be read."""
+    study = start.copy_to(tmp_path / "study")
+    config = study.folder / "config.yaml"
+    config.write_text(config.read_text().replace("records_per_job: 1", "records_per_job: 3"))
+    command = [sys.executable, "-m", "rocking.study.cli", "run", str(study.folder)]
+    if os.geteuid() == 0:  # to whom permissions mean nothing, unless that is taken from it
+        if not shutil.which("setpriv"):
+            pytest.skip("root writes everywhere, and setpriv is not installed to take that from it")
+        command = ["setpriv", "--bounding-set=-dac_override", *command]
+    process = _started(study, *command)
+    try:
+        _wait(lambda: _record_is_done(study), process)
+        harm(study.folder / name)
+        told = process.communicate(timeout=300)[0]
+    finally:
+        _kill_all(process)
+        mend(study.folder / name)
+    assert process.returncode == 1 and words in told and "failed, wholly or in part" not in told, told
+    again = study.rocking("run", str(study.folder))
+    assert again.returncode == 0, again.stdout + again.stderr
+    assert not study.unfinished()
+    for record in ("good_1", "good_2", "good_3"):
+        assert study.rows_of(record) == finished.rows_of(record)

@@ -100,7 +100,7 @@ def test_a_hazard_that_is_none_is_refused_before_anything_is_written(tmp_path, h
 
 def test_a_hazard_curve_gives_annual_rates(tmp_path):
     hazard = tmp_path / "hazard.csv"
-    hazard.write_text("intensity,annual_rate\n0.01,0.1\n10,0.00001\n")
+    hazard.write_bytes(b"intensity,annual_rate\r\n0.01,0.1\r\n10,0.00001\r\n")  # as Windows ends lines
     write_fragility(_records(tmp_path, 2), _study(hazard=str(hazard)), tmp_path / "out")
     rows = list(read_rows(FragilitySummaryRow, tmp_path / "out" / "fragility_summary.csv"))
     assert all(0 <= row.annual_rate_low <= row.annual_rate <= row.annual_rate_high <= 0.1 for row in rows)
