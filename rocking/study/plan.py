@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -61,11 +62,18 @@ class Plan:
         """Write the hashes that the catalogue leaves blank: the files are checked against them from now on."""
         fill_hashes(self.settings.catalogue, self.settings.mirror)
 
+    @cached_property
+    def _files(self) -> dict[str, dict[str, str]]:
+        """Those of each record, looked at once."""
+        mirror = self.settings.mirror
+        return {
+            name: {str(path): self.hashes.of(path) for path in local_files(record, mirror)}
+            for name, record in self.records.items()
+        }
+
     def files(self, records: Iterable[str]) -> dict[str, str]:
         """Return the sha256 of each file on this machine from which `records` are read; "" where it is not there."""
-        mirror = self.settings.mirror
-        paths = sorted({path for record in records for path in local_files(self.records[record], mirror)})
-        return {str(path): self.hashes.of(path) for path in paths}
+        return dict(sorted(pair for record in records for pair in self._files[record].items()))
 
     def params(self, *jobs: str) -> dict[str, Any]:
         """Return what the results of `jobs`, or of all, depend on: snakemake remembers and compares it."""
