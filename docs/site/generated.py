@@ -44,8 +44,8 @@ def structures() -> str:
 
 def tables() -> str:
     """Every column of every table."""
-    known = dict.fromkeys((*PER_RECORD, HistoryRow, *SUMMARY_TABLES, SpectrumRow))
-    return "\n\n".join(_table_section(described.table) for described in known)
+    classes = dict.fromkeys((*PER_RECORD, HistoryRow, *SUMMARY_TABLES, SpectrumRow))
+    return "\n\n".join(_table_section(each.table) for each in classes)
 
 
 def equations() -> str:
@@ -54,8 +54,8 @@ def equations() -> str:
     body = []
     for row in equation_rows():
         numbers = (row.printed_number, row.corrected_number, row.deciding_number)
-        shown = (f"{number:.5g}".replace("inf", "overturns") for number in numbers)
-        body.append((row.equation, row.quantity, *shown))
+        texts = (f"{number:.5g}".replace("inf", "overturns") for number in numbers)
+        body.append((row.equation, row.quantity, *texts))
     return table(head, body)
 
 
@@ -67,15 +67,15 @@ def pulse_methods() -> str:
 
 def blocks() -> str:
     """The largest error of each equivalent block over a figure of the paper, for few of its curves."""
-    shown: dict[tuple[str, ...], float] = {}
+    errors: dict[tuple[str, ...], float] = {}
     for figure in equivalence_figures():
         for row in figure.rows:
             block = _BLOCKS[figure.name[-1]].get(row.panel)
             if block and row.curve in _CURVES:
                 key = (figure.name[-1], row.curve, row.y_quantity.partition(",")[0], block)
-                shown[key] = max(shown.get(key, 0.0), abs(row.y - 1))
+                errors[key] = max(errors.get(key, 0.0), abs(row.y - 1))
     head = ("figure", "structure", "quantity", "block", "largest error")
-    return table(head, ((*key, f"{100 * error:.1f} %") for key, error in shown.items()))
+    return table(head, ((*key, f"{100 * error:.1f} %") for key, error in errors.items()))
 
 
 _PERIODS = {"a": "linearised", "c": "exact at rest"}

@@ -67,9 +67,9 @@ def write_pages(target: Path) -> None:
     figures = {f"{name}.svg": outlined(drawing(kind, form)) for name, kind, form in forms()}
     figures |= {f"paper_{each.name}.svg": outlined(each.figure) for each in equivalence_figures()}
     for page in written_pages():
-        text, made = illustrated(page.read_text(encoding="utf-8"), page.name)
+        text, of_page = illustrated(page.read_text(encoding="utf-8"), page.name)
         (target / page.name).write_text(filled(text, page.name), encoding="utf-8")
-        figures |= made
+        figures |= of_page
     for name, content in figures.items():
         (target / "figures" / name).write_text(content, encoding="utf-8")
 
@@ -90,7 +90,7 @@ def filled(text: str, name: str) -> str:
     Raises ConfigurationError for a part that nothing generates.
     """
 
-    def made(match: re.Match[str]) -> str:
+    def content(match: re.Match[str]) -> str:
         kind, part = match.groups()
         if kind == "file":
             return (ROOT / part).read_text(encoding="utf-8")
@@ -99,7 +99,7 @@ def filled(text: str, name: str) -> str:
             raise ConfigurationError(f"{name}: generated part is {part!r}, but must be one of {names}.")
         return GENERATED[part]()
 
-    return _MARK.sub(made, text)
+    return _MARK.sub(content, text)
 
 
 def illustrated(text: str, page: str) -> tuple[str, dict[str, str]]:
@@ -112,13 +112,13 @@ def illustrated(text: str, page: str) -> tuple[str, dict[str, str]]:
     names: dict[str, object] = {}
     figures: dict[str, str] = {}
 
-    def made(match: re.Match[str]) -> str:
+    def content(match: re.Match[str]) -> str:
         code, name, caption = match.groups()
         if code is not None:
             with redirect_stdout(io.StringIO()) as printed:
                 exec(compile(code, f"{page} (example)", "exec"), names)
-            said = printed.getvalue()
-            return f"{match[0]}\n\n```text\n{said}```" if said else match[0]
+            output = printed.getvalue()
+            return f"{match[0]}\n\n```text\n{output}```" if output else match[0]
         file = f"{Path(page).stem}_{name}.svg"
         figures[file] = outlined(names["axes"].figure)  # type: ignore[attr-defined]
         return (
@@ -130,7 +130,7 @@ def illustrated(text: str, page: str) -> tuple[str, dict[str, str]]:
         (Path(folder) / "records").symlink_to(ROOT / "records")
         os.chdir(folder)  # as a reader who tries the examples in a folder with the shipped records
         try:
-            return _EXAMPLE.sub(made, text), figures
+            return _EXAMPLE.sub(content, text), figures
         finally:
             os.chdir(home)
 

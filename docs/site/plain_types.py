@@ -31,8 +31,8 @@ def _values(part: Object) -> Iterator[Attribute | Parameter]:
 def _plain(annotation: Annotation, package: Module) -> Annotation:
     """Return the type that an annotation says, without what it says beside."""
     if isinstance(annotation, ExprName) and annotation.canonical_path.startswith(f"{package.path}."):
-        named = package.modules_collection[annotation.canonical_path]
-        return _plain(named.value, package) if named.is_attribute else annotation
+        target = package.modules_collection[annotation.canonical_path]
+        return _plain(target.value, package) if target.is_attribute else annotation
     if isinstance(annotation, ExprSubscript) and annotation.canonical_path == "typing.Annotated":
         assert isinstance(annotation.slice, ExprTuple)
         return _plain(annotation.slice.elements[0], package)

@@ -88,18 +88,18 @@
   function filter() {
     const text = at("text").value.trim().toLowerCase();
     const verdict = at("verdict").value;
-    const isNamed = (name) => name.toLowerCase().includes(text);
+    const matches = (name) => name.toLowerCase().includes(text);
     for (const button of matrix.querySelectorAll("tbody button")) {
       const { record, structure } = button.dataset;
-      const kept = isNamed(records[record].id) || isNamed(structures[structure].name);
-      button.hidden = !kept || (verdict && button.dataset.verdict !== verdict);
+      const match = matches(records[record].id) || matches(structures[structure].name);
+      button.hidden = !match || (verdict && button.dataset.verdict !== verdict);
     }
-    const used = structures.map((_, s) => matrix.querySelector(`${SHOWN}[data-structure="${s}"]`));
+    const columns = structures.map((_, s) => matrix.querySelector(`${SHOWN}[data-structure="${s}"]`));
     for (const row of matrix.tBodies[0].rows) row.hidden = !row.querySelector(SHOWN);
-    for (const row of matrix.rows) used.forEach((some, s) => { row.cells[s + 3].hidden = !some; });
-    const shown = matrix.querySelectorAll(`tbody ${SHOWN}`);
-    at("shown").textContent = `${shown.length} of ${records.length * structures.length} cells`;
-    if (shown.length && !matrix.querySelector(`${SHOWN}[tabindex="0"]`)) roam(shown[0]);
+    for (const row of matrix.rows) columns.forEach((cell, s) => { row.cells[s + 3].hidden = !cell; });
+    const cells = matrix.querySelectorAll(`tbody ${SHOWN}`);
+    at("shown").textContent = `${cells.length} of ${records.length * structures.length} cells`;
+    if (cells.length && !matrix.querySelector(`${SHOWN}[tabindex="0"]`)) roam(cells[0]);
   }
 
   // One cell is in the order of the tabulator; arrows go on to the next one that is shown
@@ -131,8 +131,8 @@
 
   const draw = (name, attributes, text) => add(at("histories"), name, attributes, text);
 
-  function ticks(low, high, wished) {
-    const raw = (high - low) / wished;
+  function ticks(low, high, number) {
+    const raw = (high - low) / number;
     const power = 10 ** Math.floor(Math.log10(raw));
     const step = power * [1, 2, 5, 10].find((each) => each * power >= raw);
     const first = Math.ceil(low / step);

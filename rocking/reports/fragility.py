@@ -58,9 +58,9 @@ def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") 
     names = list(dict.fromkeys(curves["structure"]))
     for first in range(0, len(names), ON_A_PAGE):
         page = names[first : first + ON_A_PAGE]
-        drawn = fragility_figure(curves[curves["structure"].isin(page)])
+        figure = fragility_figure(curves[curves["structure"].isin(page)])
         alt = f"Fragility curves of {counted(len(page), 'structure')} with 90 % intervals."
-        parts.append(picture(drawn, alt) | {"caption": of_curves})
+        parts.append(picture(figure, alt) | {"caption": of_curves})
     records = f"{counted(ida['record'].nunique(), 'record')} of {counted(stations, 'station')}"
     return {
         "title": "Fragility",
@@ -110,12 +110,12 @@ def _unit(measure: str) -> str:
 
 def governing_records(ida: "DataFrame") -> dict[str, str]:
     """Return for each structure the records that overturn it at the lowest levels, with the level of each."""
-    fallen = ida[ida["overturning_share"] >= _HALF]
-    first = fallen.groupby(["structure", "record"], sort=False, observed=True)["level"].min().reset_index()
-    named: dict[str, list[str]] = {}
-    for _, row in first.sort_values("level", kind="stable").iterrows():
-        named.setdefault(str(row["structure"]), []).append(f"{row['record']} ({number(row['level'], 2)})")
-    return {structure: ", ".join(records[:_GOVERNING]) for structure, records in named.items()}
+    falls = ida[ida["overturning_share"] >= _HALF]
+    levels = falls.groupby(["structure", "record"], sort=False, observed=True)["level"].min()
+    texts: dict[str, list[str]] = {}
+    for (structure, record), level in levels.sort_values(kind="stable").items():
+        texts.setdefault(str(structure), []).append(f"{record} ({number(level, 2)})")
+    return {structure: ", ".join(records[:_GOVERNING]) for structure, records in texts.items()}
 
 
 @styled
@@ -130,15 +130,15 @@ def fragility_figure(curves: "DataFrame") -> Figure:
         panel.set_axis_off()
     for panel in panels[:, 0]:
         panel.set_ylabel("probability [-]")
-    shown = curves[~curves["governing"] | np.isinf(curves["threshold"])]
+    visible = curves[~curves["governing"] | np.isinf(curves["threshold"])]
     for name, panel in zip(names, panels.flat, strict=False):
-        of_structure = shown[shown["structure"] == name]
+        of_structure = visible[visible["structure"] == name]
         for _, curve in of_structure.groupby(["threshold", "governing"]):
             _draw_curve(panel, curve)
         measure = of_structure["intensity_measure"].iloc[0]
         panel.set(title=elided(name, 60), xlabel=f"{measure} [{_unit(measure)}]")
-    named = (panel.get_legend_handles_labels() for panel in panels.flat)
-    handles = {label: handle for each in named for handle, label in zip(*each, strict=True)}
+    legends = (panel.get_legend_handles_labels() for panel in panels.flat)
+    handles = {label: handle for each in legends for handle, label in zip(*each, strict=True)}
     figure.legend(handles.values(), handles.keys(), loc="upper center", ncols=4)
     return figure
 

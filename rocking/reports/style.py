@@ -88,9 +88,9 @@ def thinned(times: np.ndarray, values: np.ndarray, most: int = MOST_POINTS) -> t
     stretch = math.ceil(2 * size / most)
     padded = np.pad(values, (0, -size % stretch), mode="edge").reshape(-1, stretch)
     begins = np.arange(len(padded)) * stretch
-    kept = np.unique(np.concatenate([begins + padded.argmin(axis=1), begins + padded.argmax(axis=1)]))
-    kept = kept[kept < size]
-    return times[kept], values[kept]
+    places = np.unique(np.concatenate([begins + padded.argmin(axis=1), begins + padded.argmax(axis=1)]))
+    places = places[places < size]
+    return times[places], values[places]
 
 
 @cache

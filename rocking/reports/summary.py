@@ -117,8 +117,8 @@ def severity_map(fates: Sequence[Fate], records: "DataFrame") -> dict[str, objec
     """Return verdict and share by record and structure, both the worst first. fates: the worst first."""
     names = [worst_first((getattr(fate, which), fate) for fate in fates) for which in ("record", "structure")]
     rows, columns = names[0][:MOST_MAPPED], names[1][:MOST_STRUCTURES]
-    left = [(len(names[0]) - len(rows), "record"), (len(names[1]) - len(columns), "structure")]
-    rest = " and ".join(counted(many, noun) for many, noun in left if many)
+    others = [(len(names[0]) - len(rows), "record"), (len(names[1]) - len(columns), "structure")]
+    rest = " and ".join(counted(count, noun) for count, noun in others if count)
     by_pair = {(fate.record, fate.structure): fate for fate in fates}
     peaks = records.groupby("record", observed=True)[["peak_acceleration_m_s2", "peak_velocity_m_s"]].max()
     peaks = (peaks / [GRAVITY, 1.0]).reindex(rows)

@@ -49,9 +49,9 @@ def trade_picture(folder: Path) -> list[dict[str, str]]:
         f"{row.method}: {1e3 * row.cpu_s:.2g} ms, {printing.of(row.wrong_verdicts, row.cases)} verdicts wrong"
         for row in rows
     )
-    shown = picture(trade_figure(rows), "Median error against processor time of every method.")
+    figure = picture(trade_figure(rows), "Median error against processor time of every method.")
     caption = "Median error of the largest rotation against the processor time of one response, over all structures."
-    return [shown | {"caption": caption, "conclusion": f"{conclusion}."}] if rows else []
+    return [figure | {"caption": caption, "conclusion": f"{conclusion}."}] if rows else []
 
 
 @styled
