@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar, get_args, get_type_hints
 
@@ -195,12 +195,6 @@ class RecordTables:
     def verdicts(self) -> list[Fate]:
         """What became of each structure, all components considered."""
         return fates(self.comparison, self.ensemble, self.failures, self.variations)
-
-    def of_component(self, component: str) -> "RecordTables":
-        """Return the rows of one component, without the timings."""
-        tables = {each.table.name: getattr(self, each.table.name) for each in PER_RECORD[:-1]}
-        own = {name: [row for row in rows if row.component == component] for name, rows in tables.items()}
-        return replace(self, timings=[], **own)
 
     def add(
         self,

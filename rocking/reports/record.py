@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from importlib.metadata import version
 from itertools import accumulate
@@ -51,7 +51,7 @@ class RecordReport:
     structures: Mapping[str, Structure]
     tables: RecordTables
     settings: Mapping[str, Any]
-    responses: Mapping[tuple[str, str], Response] = field(default_factory=dict)
+    responses: Mapping[tuple[str, str], Response]
 
     def pdf(self) -> bytes:
         """Return the document."""
@@ -297,11 +297,11 @@ def _page_three(report: RecordReport) -> dict[str, object]:
 def _pulse_sentence(report: RecordReport, motion: Motion) -> str:
     """Say what the dominant pulse of a component is, and what makes it doubtful."""
     component = motion.accelerogram.component
-    of_component = report.tables.of_component(component)
-    row = next(row for row in of_component.pulses if row.ranked and row.rank == 1)
+    ranked = (row for row in report.tables.pulses if row.component == component and row.ranked)
+    row = min(ranked, key=lambda row: row.rank)
     sentences = {flag.value: flag.sentence for flag in Flag}
     doubts = [sentences.get(flag, printing.sentence(f"{flag}.")) for flag in row.flags]
-    if any(each.pulse_periods_unlike for each in of_component.record):
+    if any(each.pulse_periods_unlike for each in report.tables.record if each.component == component):
         doubts.append(
             "Its period differs by more than a factor of two from that of the velocity pulse: they are two features."
         )
