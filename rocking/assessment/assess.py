@@ -9,7 +9,7 @@ from time import process_time
 from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.ensemble import Ensemble, GroundMotions
-from rocking.assessment.fidelity import Answer, Estimate, Tier, answer_of, cheapest_answer, estimated
+from rocking.assessment.fidelity import Answer, Estimate, Tier, cheapest_answer, estimated
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import crack_margin, cracks, ensemble_over_cracks
 from rocking.assessment.verdict import Method, ratio_in_words
@@ -205,7 +205,8 @@ def _case(
             started = process_time()
             responses[method] = run()
             durations[method] = process_time() - started
-        answer = answer_of(responses[Method.MECHANISM_ON_RECORD])
+        whole = responses[Method.MECHANISM_ON_RECORD]
+        answer = Answer(Method.MECHANISM_ON_RECORD, whole.outcome, "", whole)
     check = UNKNOWN
     if isinstance(structure, Structure) and answer.response is not None:
         check = check_model(structure, answer.response, record, vertical)
@@ -213,7 +214,7 @@ def _case(
     if members and answer.method is Method.MECHANISM_ON_RECORD:
         motions = GroundMotions.of(record, vertical=vertical, processing=settings.ensemble.processing)
         ensemble = ensemble_over_cracks(structure, motions, settings, verdict_only=auto)
-        return replace(case, ensemble=replace(ensemble, rotation_ratio=answer.rotation_ratio))
+        return replace(case, ensemble=replace(ensemble, rotation_ratio=case.integrated_rotation_ratio))
     if alone and vertical is None:
         return replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
     return case
@@ -244,7 +245,8 @@ def _cheapest(
     answer = cheapest_answer(of_statics, record, risk=risk, ensemble_follows=ensemble_follows, **how)
     if answer.method is not Method.MECHANISM_ON_RECORD or of_statics is mechanism:
         return answer
-    return answer_of(integrate(mechanism, record, **how), answer.reason)
+    whole = integrate(mechanism, record, **how)
+    return replace(answer, outcome=whole.outcome, response=whole)
 
 
 @dataclass(frozen=True)

@@ -214,16 +214,6 @@ class GroundMotions:
         horizontal = {each: motion.scaled(factor) for each, motion in self.horizontal.items()}
         return replace(self, horizontal=horizontal)
 
-    @cached_property
-    def directions(self) -> tuple[str, ...]:
-        """Names of the directions."""
-        return tuple(dict.fromkeys(direction for direction, _ in self.horizontal))
-
-    @cached_property
-    def processings(self) -> tuple[str, ...]:
-        """Names of the processings."""
-        return tuple(dict.fromkeys(processing for _, processing in self.horizontal))
-
 
 _GENERATOR = (1, 182667, 469891, 377, 1723, 1677)
 """Amplitude, restitution and polarity have the first components of the vector exod2_base2_m20 of Cools, Kuo & Nuyens
@@ -312,15 +302,16 @@ def drawn(
     restitution = np.clip(own + offset[:, None], 0.0, np.maximum(own, 1 - LEAST_LOSS))
     unlike = settings.polarity and not reduced.symmetric
     polarity = np.where(points[:, 2] < 0.5, -1.0, 1.0) if unlike else np.ones(len(points))
-    direction = np.array(motions.directions)[(points[:, 3] * len(motions.directions)).astype(int)]
-    processing = np.array(motions.processings)[(points[:, 4] * len(motions.processings)).astype(int)]
+    directions, processings = (list(dict.fromkeys(each)) for each in zip(*motions.horizontal, strict=True))
+    direction = np.array(directions)[(points[:, 3] * len(directions)).astype(int)]
+    processing = np.array(processings)[(points[:, 4] * len(processings)).astype(int)]
     lifted = np.where(points[:, 5] < 0.5, amplitude, 0.0)
     varies = {
         "amplitude": amplitude if settings.amplitude_range else None,
         "restitution": offset if settings.restitution_range else None,
         "polarity": polarity if unlike else None,
-        "direction": direction if len(motions.directions) > 1 else None,
-        "processing": processing if len(motions.processings) > 1 else None,
+        "direction": direction if len(directions) > 1 else None,
+        "processing": processing if len(processings) > 1 else None,
         "vertical": lifted > 0 if motions.vertical is not None else None,
     }
     causes = {name: values for name, values in varies.items() if values is not None}

@@ -174,18 +174,6 @@ class Answer:
     reason: str
     response: Response | None = None
 
-    @property
-    def rotation_ratio(self) -> float:
-        """Largest rotation over the critical one; inf if it overturns, nan where a tier says that it stands."""
-        if self.response is not None:
-            return self.response.rotation_ratio
-        return math.inf if self.outcome is Outcome.OVERTURNS else math.nan
-
-
-def answer_of(whole: Response, reason: str = "") -> Answer:
-    """Return the answer of the mechanism under the record itself."""
-    return Answer(Method.MECHANISM_ON_RECORD, whole.outcome, reason, whole)
-
 
 def stays_at_rest(
     mechanism: Mechanism, accelerogram: Accelerogram, vertical: Accelerogram | None = None
@@ -226,7 +214,8 @@ def cheapest_answer(
             if estimate.low >= 1 - risk and tier is Tier.BLOCK_AT_FIVE_SCALES:
                 return Answer(method, Outcome.OVERTURNS, reason)
     whole = integrate(mechanism, record, tolerance, history=history, vertical=vertical)
-    return answer_of(whole, f"{'the block' if ensemble_follows else 'the peak velocity'} does not settle it")
+    reason = f"{'the block' if ensemble_follows else 'the peak velocity'} does not settle it"
+    return Answer(Method.MECHANISM_ON_RECORD, whole.outcome, reason, whole)
 
 
 def estimated(

@@ -125,7 +125,9 @@ def test_the_processing_of_a_raw_record_is_a_cause():
     motions = GroundMotions.of(record, processing=True)
     assert motions.horizontal["made", "unchanged"] is record, "what is there already is not made again"
     found = drawn(BLOCK, motions, lattice(64), EnsembleSettings())
-    assert set(found.causes["processing"]) == set(motions.processings) == set(processed(record))
+    assert (
+        set(found.causes["processing"]) == {name for _, name in motions.horizontal} == set(processed(record))
+    )
     for k in np.flatnonzero(found.causes["processing"] == "high-pass 0.2 Hz"):
         motion = process(record, Processing(taper=0.02, high_pass=0.2)).scaled(found.causes["amplitude"][k])
         alone = integrate(Block(2.0, 0.2, restitution=0.9 + found.causes["restitution"][k]), motion)
@@ -192,13 +194,14 @@ def test_two_components_make_one_ensemble_over_eight_directions():
     """Of two that move together, 3 and 4 times the same, the motion along an angle is 3 cos + 4 sin of it."""
     first, second = _record(3.0, "first"), _record(4.0, "second")
     motions = GroundMotions.of(first, second)
-    peaks = [motions.horizontal[name, ""].peak_acceleration for name in motions.directions]
+    peaks = [motion.peak_acceleration for motion in motions.horizontal.values()]
     angles = np.radians(22.5 * np.arange(8))
     expected = np.abs(3 * np.cos(angles) + 4 * np.sin(angles)) / 3 * first.peak_acceleration
     assert peaks == pytest.approx(expected, rel=1e-12)
-    assert motions.directions[0] == "first" and motions.directions[4] == "second"
+    directions = [name for name, _ in motions.horizontal]
+    assert directions[0] == "first" and directions[4] == "second"
     found = assess([first, second], BLOCK)
-    assert set(found.causes["direction"]) == set(motions.directions)
+    assert set(found.causes["direction"]) == set(directions)
     assert found.rotation_ratio == integrate(BLOCK, second).rotation_ratio
 
 

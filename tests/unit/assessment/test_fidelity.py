@@ -6,7 +6,7 @@ from scipy.constants import g
 
 from rocking.assessment.assess import AssessmentSettings, Method, assess_structures
 from rocking.assessment.ensemble import GroundMotions, ensemble
-from rocking.assessment.fidelity import NUDGES, Tier, cheapest_answer, estimated, stays_at_rest
+from rocking.assessment.fidelity import Tier, cheapest_answer, estimated, stays_at_rest
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import Verdict
 from rocking.motion.integration import integrate
@@ -42,7 +42,7 @@ def test_vertical_acceleration_can_end_the_rest():
 def test_where_the_peak_velocity_says_that_it_stands_nothing_is_integrated():
     found = cheapest_answer(MECHANISM, record(1.02))
     assert found.method is Method.PEAK_VELOCITY and found.response is None
-    assert found.outcome is Outcome.ROCKS and np.isnan(found.rotation_ratio)
+    assert found.outcome is Outcome.ROCKS
     assert np.isfinite(integrate(MECHANISM, record(1.02)).rotation_ratio)
     assert "1 %" in found.reason
 
@@ -56,7 +56,7 @@ def test_what_it_does_not_settle_is_integrated():
     ):
         found = cheapest_answer(MECHANISM, motion, **settings)
         assert found.method is Method.MECHANISM_ON_RECORD
-        assert found.rotation_ratio == integrate(MECHANISM, motion).rotation_ratio
+        assert found.response.rotation_ratio == integrate(MECHANISM, motion).rotation_ratio
 
 
 def test_where_an_ensemble_would_follow_the_block_may_settle_it():
@@ -67,7 +67,7 @@ def test_where_an_ensemble_would_follow_the_block_may_settle_it():
     assert found.method is Method.BLOCK_ON_RECORD and found.response is None
     assert ensemble(MECHANISM, GroundMotions.of(motion)).verdict is Verdict.STANDS
     falls = cheapest_answer(MECHANISM, record(40.0), ensemble_follows=True, risk=0.1)
-    assert falls.method is Method.BLOCK_ON_RECORD and falls.rotation_ratio == np.inf
+    assert falls.method is Method.BLOCK_ON_RECORD and falls.outcome is Outcome.OVERTURNS
     (case,) = assess_structures(motion, {"block": BLOCK}, AssessmentSettings(fidelity="auto")).cases
     assert case.answer.method is Method.BLOCK_ON_RECORD and case.ensemble is None
 
@@ -82,12 +82,8 @@ def test_an_estimate_settles_up_to_the_risk_and_on_the_side_where_it_lies():
     doubt = 1 - estimated(Tier.BLOCK_AT_FIVE_SCALES, MECHANISM, strong).low
     found = cheapest_answer(MECHANISM, strong, risk=1.001 * doubt, ensemble_follows=True)
     assert (found.method, found.outcome) == (Method.BLOCK_ON_RECORD, Outcome.OVERTURNS)
-    assert np.isinf(found.rotation_ratio) and np.isinf(integrate(MECHANISM, strong).rotation_ratio)
+    assert np.isinf(integrate(MECHANISM, strong).rotation_ratio)
     assert cheapest_answer(MECHANISM, strong, risk=0.99 * doubt, ensemble_follows=True).response is not None
-
-
-def test_the_scales_of_the_block_lie_evenly_around_the_motion_as_given():
-    assert np.allclose(np.diff(NUDGES), np.diff(NUDGES)[0]) and NUDGES[len(NUDGES) // 2] == 1.0
 
 
 def test_a_block_unlike_its_mechanism_settles_nothing_and_gets_no_estimate():
