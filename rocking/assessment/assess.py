@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from rocking.assessment.ensemble import Ensemble, GroundMotions
 from rocking.assessment.fidelity import Answer, Estimate, Tier, cheapest_answer, estimated
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.variations import crack_margin, cracks, ensemble_over_cracks
+from rocking.assessment.variations import cracks, ensemble_over_cracks
 from rocking.assessment.verdict import Method, ratio_in_words
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError, PulseError, RockingError
@@ -236,8 +236,8 @@ def _cheapest(
     mechanisms = [each for _, each in cracks(structure)]
     of_statics = mechanism if len(mechanisms) == 1 else mechanisms[0]
     risk = settings.fidelity_risk
-    if len(mechanisms) > 1:
-        motion = record.scaled(crack_margin(structure))
+    if len(mechanisms) > 1 and isinstance(structure, Structure):
+        motion = record.scaled(structure.crack_margin)
         estimates = (estimated(Tier.PEAK_VELOCITY, each, motion) for each in mechanisms)
         if not all(each is not None and each.high <= risk for each in estimates):
             risk = 0.0

@@ -225,5 +225,3 @@ class RecordTables:
 
 PER_RECORD: tuple[type[Row], ...] = tuple(get_args(each)[0] for each in get_type_hints(RecordTables).values())
 """The rows of every table of one record."""
-RECORD_TABLES = PER_RECORD[:-2]
-"""Those that hold results."""

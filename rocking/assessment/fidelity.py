@@ -46,6 +46,8 @@ STRUCTURE = ("restitution", "restoring_defect", "forcing_defect")
 """Terms of the structure, which every tier has last."""
 NORMAL_95 = 1.6449
 """95 % quantile of the normal distribution."""
+SHIPPED = Path(__file__).with_name("tiers.json")
+"""File of the tiers that the package ships."""
 _SLACK = 0.05
 """Share of the range of a property by which a structure may lie beyond those behind the fit."""
 
@@ -113,13 +115,8 @@ class TierFit:
 
 
 @lru_cache(maxsize=1)
-def shipped_tiers() -> dict[Tier, TierFit]:
-    """Return the tiers that the package ships, made by the target `calibrate` from real records."""
-    return read_tiers(Path(__file__).with_name("tiers.json"))
-
-
-def read_tiers(path: Path) -> dict[Tier, TierFit]:
-    """Return the tiers in a file that the target `calibrate` made."""
+def read_tiers(path: Path = SHIPPED) -> dict[Tier, TierFit]:
+    """Return the tiers in a file that the target `calibrate` made; by default of the shipped one."""
     fits = {}
     for name, each in json.loads(path.read_text(encoding="utf-8"))["tiers"].items():
         del each["terms"]
@@ -222,7 +219,7 @@ def estimated(
     tier: Tier, mechanism: Mechanism, record: Accelerogram, fits: Mapping[Tier, TierFit] | None = None
 ) -> Estimate | None:
     """Return the share that overturns, as `tier` has it; None of a structure unlike those of the calibration."""
-    fit = (fits or shipped_tiers())[tier]
+    fit = (fits or read_tiers())[tier]
     try:
         own = of_structure(mechanism)
         block = mechanism.equivalent_block("rest")

@@ -68,13 +68,13 @@ def ensemble_over_cracks(
     how: Any = {"settings": settings.ensemble, "tolerance": settings.tolerance}
     (description, mechanism), *others = cracks(structure)
     headline = ensemble(mechanism, motions, verdict_only=verdict_only, **how)
-    if not others:
+    if not others or isinstance(structure, Mechanism):
         return headline
     headline = replace(headline, crack=description)
     if headline.verdict is not Verdict.STANDS:
         return headline
     under = ""
-    if (margin := crack_margin(structure)) > 1:
+    if (margin := structure.crack_margin) > 1:
         others.append((description, mechanism))
         motions = motions.scaled(margin)
         under = f" under {margin:g} times the motion"
@@ -117,11 +117,6 @@ def cracks(structure: Structure | Mechanism) -> tuple[tuple[str, Mechanism], ...
     if isinstance(structure, Mechanism):
         return (("", structure),)
     return tuple((each.description, each.structure.mechanism()) for each in structure.candidates(CRACKS))
-
-
-def crack_margin(structure: Structure | Mechanism) -> float:
-    """Return the factor on the motion under which it must stand whatever cracks."""
-    return structure.crack_margin if isinstance(structure, Structure) else 1.0
 
 
 def candidates(

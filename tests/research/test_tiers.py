@@ -9,7 +9,7 @@ from docs.research.sites import structures_tried
 from docs.research.tiers import answer_scores, left_out, tier_cases
 from rocking.assessment import fidelity
 from rocking.assessment.ensemble import GroundMotions, ensemble
-from rocking.assessment.fidelity import Tier, shipped_tiers
+from rocking.assessment.fidelity import Tier, read_tiers
 from rocking.assessment.verdict import Method, Verdict
 from rocking.records import Accelerogram
 from rocking.structures import Block
@@ -50,7 +50,7 @@ def test_a_site_left_out_took_no_part(cases):
 
 def test_the_structures_tried_are_those_behind_the_tiers_that_ship():
     of_each = pd.DataFrame([fidelity.of_structure(each.mechanism()) for each in structures_tried().values()])
-    for tier in shipped_tiers().values():
+    for tier in read_tiers().values():
         for name, ends in tier.ranges.items():
             assert of_each[name].agg(["min", "max"]).tolist() == pytest.approx(ends, rel=1e-6, abs=1e-9)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment import fidelity
-from rocking.assessment.fidelity import NUDGES, Tier, shipped_tiers
+from rocking.assessment.fidelity import NUDGES, Tier, read_tiers
 from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
@@ -45,14 +45,14 @@ def test_the_peak_velocity_is_that_of_a_sine():
 
 @pytest.mark.parametrize("tier", Tier)
 def test_an_estimate_grows_with_the_motion_and_lies_in_its_interval(tier):
-    found = [shipped_tiers()[tier].estimate(measured(factor)) for factor in (0.5, 1.0, 3.0)]
+    found = [read_tiers()[tier].estimate(measured(factor)) for factor in (0.5, 1.0, 3.0)]
     assert all(each.low <= each.share <= each.high for each in found)
     assert found[0].share < found[1].share < found[2].share
 
 
 @pytest.mark.parametrize("odd", [{"forcing_defect": 2.0}, {"frequency_parameter": 6.0}, {"restitution": 0.1}])
 def test_nothing_is_said_of_a_structure_unlike_those_behind_it(odd):
-    fit = shipped_tiers()[Tier.PEAK_VELOCITY]
+    fit = read_tiers()[Tier.PEAK_VELOCITY]
     assert fit.estimate(measured()) is not None and fit.estimate(measured() | odd) is None
     assert fit.unlike(measured() | odd)
 
@@ -60,7 +60,7 @@ def test_nothing_is_said_of_a_structure_unlike_those_behind_it(odd):
 @pytest.mark.parametrize("share, beyond", [(0.04, False), (0.06, True)])
 @pytest.mark.parametrize("name", ["restitution", "restoring_defect", "forcing_defect", "frequency_parameter"])
 def test_a_structure_is_like_those_behind_it_within_a_twentieth_of_their_range(name, share, beyond):
-    fit = shipped_tiers()[Tier.PEAK_VELOCITY]
+    fit = read_tiers()[Tier.PEAK_VELOCITY]
     measures = {each: sum(ends) / 2 for each, ends in fit.ranges.items()}
     assert not fit.unlike(measures)
     least, largest = fit.ranges[name]
