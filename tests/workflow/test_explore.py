@@ -9,9 +9,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.signal import detrend
 
 from rocking.motion.integration import integrate
+from rocking.pulses import extract_pulses
+from rocking.records.processing import displacement
 from rocking.reports.explore import BINS, drawings, explore_page, extremes
+from rocking.sine_pulse import predict_maximum
 from rocking.structures import load_structures
 from rocking.study.job import Study, run_job
 from rocking.study.results import page_contents
@@ -107,6 +111,22 @@ def test_the_page_carries_the_rotation_that_was_integrated(content, study):
         expected = response.rotation_ratio
         assert largest > 1 if math.isinf(expected) else math.isclose(largest, expected, rel_tol=0.01)
     assert drawn
+
+
+def test_the_page_carries_the_closed_form_of_each_case_and_the_path_of_the_ground(content, study):
+    """Without the line that best fits the displacement, by scipy; each bin holds one of the samples within it."""
+    _, done, records = study
+    (accelerogram,), _ = done.open(records[0])
+    pulse = extract_pulses(accelerogram).dominant
+    for name in ("pier", "parapet", "wall"):
+        block = done.structures[name].mechanism().equivalent_block()
+        largest = predict_maximum(block, pulse).rotation_ratio
+        assert content["records"][0]["cases"][name]["predicted"] == pytest.approx(min(largest, 1e9), rel=1e-5)
+    ((_, motion),) = content["records"][0]["motions"].items()
+    path = detrend(displacement(accelerogram))
+    drawn = unpacked(motion["displacement"])
+    expected = extremes(accelerogram.times, path, 0.0, accelerogram.duration)
+    assert drawn == pytest.approx(expected, abs=np.abs(path).max() / 30000)
 
 
 def test_every_case_and_every_failure_is_on_the_page(content, study):
