@@ -15,6 +15,8 @@ from rocking.records import Accelerogram
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.read import read_content
 
+WARNED = {"GeoNet V1A/V2A": "3 components", "UNAM/CICESE: repeated last line": "surplus lines"}
+"""What a made file leaves out or holds twice: of the others nothing is said."""
 MEAN_REMOVED = {"BHRC", "K-NET/KiK-net", "SAC", "Kinemetrics EVT"}
 
 
@@ -50,6 +52,8 @@ def test_values_step_and_one_recogniser(name: str) -> None:
     assert [form.name for form in FORMATS if form.recognise(content)] == [format_of(name)]
     records = read_content(content, "made", options)
     record = next(r for r in records if not r.vertical)
+    sentences = {sentence for each in records for sentence in each.warnings}
+    assert all(WARNED.get(name, "no warning") in sentence for sentence in sentences)
     expected = TRUE - TRUE.mean() if name in MEAN_REMOVED else TRUE
     assert record.time_step == pytest.approx(STEP, rel=1e-12)
     assert np.abs(record.acceleration - expected).max() <= 1.01 * digit
@@ -104,6 +108,9 @@ def test_a_peak_that_contradicts_the_header_is_refused(name: str) -> None:
         read_made(name, make(1.02))
 
 
+PEER_HEAD = made_files.peer().partition("\nNPTS")[0]
+
+
 @pytest.mark.parametrize(("name", "old", "new", "word"), [
     ("PEER AT2", "ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME SERIES IN UNITS OF CM/S", "velocity"),
     ("PEER AT2", "ACCELERATION TIME SERIES IN UNITS OF G", "DISPLACEMENT TIME SERIES IN UNITS OF CM", "displacement"),
@@ -114,10 +121,17 @@ def test_a_peak_that_contradicts_the_header_is_refused(name: str) -> None:
     ("DYNA (ESM, ITACA, AFAD)", "DATA_TYPE: ACCELERATION", "DATA_TYPE: VELOCITY", "holds VELOCITY"),
     ("RESORCE", "Accelaration time series in m/s/s", "Velocity time series in m/s", "holds Velocity"),
     ("CSMNC", "UNCORRECTED ACCELERATION          UNIT: CM/SEC/SEC", "CORRECTED VELOCITY UNIT: CM/SEC", "VELOCITY"),
+    ("CSMNC", "UNIT: CM/SEC/SEC", "UNIT: G", "must be 'cm/s2'"),
     ("UNAM/CICESE", ": Gal (cm/s/s)", ": cm/s", "a file of velocity"),
     ("CWB", "gal. DCoffset(corr)", "count", "unit is 'count'"),
     ("CSMIP V1/V2", "in cm/sec2. (8f10.6)", "in parsecs. (8f10.6)", "'parsecs'"),
     ("COSMOS V1/V2", "units=cm/sec2(04)", "units=parsecs(99)", "'parsecs'"),
+    ("COSMOS V1/V2", "units=cm/sec2(04)", "units=m/s2(04)", "their code 04 says cm/s2"),
+    ("COSMOS V1/V2", " acceleration pts", " velocity pts", "a channel of velocity has units of cm/s2"),
+    ("CSMIP V1/V2: of 1983", "POINTS OF ACCEL", "POINTS OF VELOC", "of velocity"),
+    ("PEER AT2", "ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME HISTORY, UNITS: CM/S", "velocity"),
+    ("PEER AT2", PEER_HEAD, PEER_HEAD.replace("NGA STRONG MOTION DATABASE", "STRONG MOTION ACCELEROGRAM").replace(
+        "ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME SERIES IN UNITS OF CM/S"), "velocity"),
 ])  # fmt: skip
 def test_other_quantities_and_units_are_refused_by_name(name: str, old: str, new: str, word: str) -> None:
     text = MADE[name][0]()

@@ -59,9 +59,9 @@ class MadeRow(Head):
     flags: tuple[str, ...] = column("What is doubtful")
 
 
-def made(record: str = "one", speed: float = 1.0, **known) -> MadeRow:
+def made(record: str = "one", speed: float = 1.0, **others) -> MadeRow:
     rest = {"count": 1, "missing_count": None, "holds": None, "colour": Colour.RED, "other_colour": None}
-    return MadeRow(**{"record": record, "sha256": "ab", "speed_rad_s": speed, "flags": (), **rest, **known})
+    return MadeRow(**{"record": record, "sha256": "ab", "speed_rad_s": speed, "flags": (), **rest, **others})
 
 
 TEXT = st.text(max_size=12) | st.text("=+-@\t\r\n'\\u\x00\u2028n", max_size=6)
@@ -79,29 +79,12 @@ ROWS = st.builds(
 )
 
 
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [
-        (None, ""),
-        (True, "true"),
-        (math.nan, ""),
-        (math.inf, "INF"),
-        (-math.inf, "-INF"),
-        (0.1 + 0.2, "0.30000000000000004"),
-        (np.float64(0.5), "0.5"),
-        (Colour.RED, "red hot"),
-        (("one", "two"), "one; two"),
-        (7, "7"),
-        (-7.5, "-7.5"),
-        ("=1+1", "'=1+1"),
-        ("@SUM(A1)", "'@SUM(A1)"),
-        ("-NS", "'-NS"),
-        ("\t=1", "'\\u0009=1"),
-        ("two\nlines", "two\\u000alines"),
-        ("C:\\records", "C:\\\\records"),
-        ("'quoted'", "'quoted'"),
-    ],
-)
+@pytest.mark.parametrize(("value", "text"), [
+    (None, ""), (True, "true"), (math.nan, ""), (math.inf, "INF"), (-math.inf, "-INF"), (7, "7"), (-7.5, "-7.5"),
+    (0.1 + 0.2, "0.30000000000000004"), (np.float64(0.5), "0.5"), (Colour.RED, "red hot"), (("one", "two"), "one; two"),
+    ("=1+1", "'=1+1"), ("@SUM(A1)", "'@SUM(A1)"), ("-NS", "'-NS"), ("\t=1", "'\\u0009=1"), ("'quoted'", "'quoted'"),
+    ("two\nlines", "two\\u000alines"), ("C:\\records", "C:\\\\records"),
+])  # fmt: skip
 def test_a_cell_says_what_the_value_is(value: object, text: str) -> None:
     assert cell(value) == text
 
@@ -124,17 +107,8 @@ def test_a_frame_has_the_type_of_each_column(tmp_path: Path) -> None:
     rows = [made(speed=math.inf, holds=True), made(speed=math.nan, missing_count=3)]
     write_rows(MadeRow, rows, tmp_path / "made.csv")
     table = frame(MadeRow, tmp_path / "made.csv")
-    assert {name: str(kind) for name, kind in table.dtypes.items()} == {
-        "record": "str",
-        "speed_rad_s": "float64",
-        "count": "int64",
-        "missing_count": "Int64",
-        "holds": "boolean",
-        "colour": "category",
-        "other_colour": "category",
-        "flags": "str",
-        "sha256": "str",
-    }
+    kinds = ["str", "float64", "int64", "Int64", "boolean", "category", "category", "str", "str"]
+    assert [str(kind) for kind in table.dtypes] == kinds
     assert math.isinf(table["speed_rad_s"][0]) and math.isnan(table["speed_rad_s"][1])
     assert table["holds"].isna().tolist() == [False, True]
     assert list(frame(MadeRow, tmp_path / "made.csv", ["count"])) == ["count"]
@@ -157,18 +131,16 @@ def test_a_row_of_another_class_is_refused_and_nothing_is_written(tmp_path: Path
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "sentence"),
-    [
-        ("count,", "", r"line 1: the columns are not those of made \(count\)"),
-        ("count,", "many,", r"line 1: the columns are not those of made \(count, many\)"),
-        ("2.5", "fast", r"line 3, column speed_rad_s: 'fast' must be a number"),
-        (",17,", ",1.5,", r"line 3, column count: '1.5' must be a whole number"),
-        (",true,", ",yes,", r"line 3, column holds: 'yes' must be true or false"),
-        ("blue", "green", r"line 3, column colour: 'green' must be red hot, blue"),
-        (",blue,", ",,", r"line 3, column colour: '' must be red hot, blue"),
-    ],
-)
+@pytest.mark.parametrize(("old", "new", "sentence"), [
+    ("count,", "", r"line 1: the columns are not those of made \(count\)"),
+    ("count,", "many,", r"line 1: the columns are not those of made \(count, many\)"),
+    ("2.5", "fast", r"line 3, column speed_rad_s: 'fast' must be a number"),
+    (",17,", ",1.5,", r"line 3, column count: '1.5' must be a whole number"),
+    (",true,", ",yes,", r"line 3, column holds: 'yes' must be true or false"),
+    ("blue", "green", r"line 3, column colour: 'green' must be red hot, blue"),
+    (",blue,", ",,", r"line 3, column colour: '' must be red hot, blue"),
+    ("\ntwo", "\n1,2\ntwo", "line 3, has 2 cells, but must have 9"),
+])  # fmt: skip
 def test_a_defect_is_one_sentence_with_its_place(tmp_path: Path, old: str, new: str, sentence: str) -> None:
     path = tmp_path / "made.csv"
     write_rows(MadeRow, [made(), made("two", 2.5, count=17, holds=True, colour=Colour.BLUE)], path)
@@ -180,30 +152,14 @@ def test_a_defect_is_one_sentence_with_its_place(tmp_path: Path, old: str, new: 
             list(reader(MadeRow, path))
 
 
-HEAD = ",".join(column.name for column in MadeRow.table.columns)
-
-
-@pytest.mark.parametrize(
-    ("content", "sentence"),
-    [
-        (None, "make the table again"),
-        (b"\xff\xfe", "make the table again"),
-        (b"record,speed_rad_s\n", "make the table again"),
-        (b"a,b,c,d,e,f,g\n", r"\(a, b, c, colour, count, d\); make the table again"),
-        (f"{HEAD}\ntwo,1\n".encode(), "line 2, has 2 cells, but must have 9"),
-    ],
-)
-def test_what_is_no_table_is_refused_in_a_sentence(
-    tmp_path: Path, content: bytes | None, sentence: str
-) -> None:
+@pytest.mark.parametrize("content", [None, b"\xff\xfe", b"record,speed_rad_s\n"])
+def test_what_is_no_table_is_refused_in_a_sentence(tmp_path: Path, content: bytes | None) -> None:
     path = tmp_path / "made.csv"
     if content is not None:
         path.write_bytes(content)
-    with pytest.raises(RockingError, match=sentence):
-        list(read_rows(MadeRow, path))
-    if sentence == "make the table again":
-        with pytest.raises(RockingError, match=sentence):
-            frame(MadeRow, path)
+    for reader in (read_rows, frame):
+        with pytest.raises(RockingError, match="make the table again"):
+            list(reader(MadeRow, path))
 
 
 def test_an_interrupted_writer_leaves_the_old_file(tmp_path: Path) -> None:

@@ -114,13 +114,6 @@ def test_files_that_are_no_catalogue(tmp_path: Path, text: str | bytes, message:
         load_catalogue(path)
 
 
-def test_the_hash_is_checked_before_use(folder: Path) -> None:
-    (record,) = load_catalogue(write(folder, row()))
-    (folder / "table.csv").write_text(TABLE.replace("1,", "2,", 1))
-    with pytest.raises(RecordError, match=r"one: .*table\.csv has sha256 .* another version"):
-        open_record(record)
-
-
 def test_the_mirror_comes_first_and_links_may_not_leave_it(folder: Path, tmp_path_factory) -> None:
     mirror, outside = (tmp_path_factory.mktemp(name) for name in ("mirror", "outside"))
     (record,) = load_catalogue(write(folder, row()))
