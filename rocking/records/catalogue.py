@@ -168,15 +168,11 @@ def stays_inside(path: str) -> bool:
     return bool(parts) and is_plain and not path.startswith("/") and ".." not in parts
 
 
-def load_catalogue(path: str | Path, mirror: str | Path | None = None) -> tuple[CatalogueRecord, ...]:
-    """Return the rows of the CSV file at `path`.
-
-    mirror: a folder; if given, a file that is neither bundled, nor there, nor fetchable is a defect.
-    Raises CatalogueError with every defect of the file in one message.
-    """
+def load_catalogue(path: str | Path) -> tuple[CatalogueRecord, ...]:
+    """Return the rows of the CSV file at `path`; raises CatalogueError with every defect of it in one message."""
     path = Path(path)
     rows = read_rows(path)
-    records: list[CatalogueRecord] = []
+    records = []
     defects = []
     for line, row in rows:
         try:
@@ -186,10 +182,6 @@ def load_catalogue(path: str | Path, mirror: str | Path | None = None) -> tuple[
     counts = Counter(row["id"].strip().lower() for _, row in rows if row["id"].strip())
     twice = [(name, n) for name, n in counts.items() if n > 1]
     defects += [f"id {name!r} stands {n} times (upper and lower case count as one)" for name, n in twice]
-    for record in records if mirror is not None else ():
-        for file in () if record.example_name or record.is_remote else record.files:
-            if not any((Path(place) / file.name).is_file() for place in (mirror, record.folder) if place):
-                defects.append(f"{record.id}: file {file.name!r} is neither in {mirror} nor {record.folder}.")
     if defects:
         raise CatalogueError(f"{path.name} has {len(defects)} defects: " + " | ".join(defects))
     return tuple(records)
@@ -199,7 +191,6 @@ def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
     """Return line and cells of each row of the catalogue at `path`. Raises CatalogueError for what is no catalogue."""
     content = read_whole(path, _LARGEST, CatalogueError)
     try:
-        text = StringIO(content.decode("utf-8-sig"), newline="")
         text = StringIO(content.decode("utf-8-sig"), newline="")
         reader = csv.DictReader(text, restkey="", restval="", strict=True)
         rows = [(reader.line_num, row) for row in reader]

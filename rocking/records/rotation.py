@@ -27,48 +27,26 @@ class RotD:
     azimuth: float
 
 
-def rotate(
-    first: Accelerogram, second: Accelerogram, azimuth: float | None = None, *, angle: float = 0.0
-) -> Accelerogram:
-    """Return the horizontal motion along one axis, from two components of one time step and one start.
+def rotate(first: Accelerogram, second: Accelerogram, angle: float) -> Accelerogram:
+    """Return the horizontal motion along an axis at `angle`, rad, from the first component towards the second.
 
-    azimuth: degrees clockwise from north; the components then need known azimuths at least 30° apart, and need not be
-    orthogonal. angle: in its stead, rad from the first component towards the second, taken as orthogonal.
-    The longer component is cut to the shorter. Raises RecordError when they do not fit together.
+    The components have one time step and one start, and are taken as orthogonal; the longer is cut to the shorter.
+    Raises RecordError when they do not fit together.
     """
     a, b = paired(first, second)
-    if azimuth is None:
-        angle = finite(RecordError, "angle", angle, "rad")
-        shares = np.cos(angle), np.sin(angle)
-        one, other, degrees = first.component or "one", second.component or "two", np.degrees(angle)
-        sentence = f"Rotated by {degrees:.2f}° from component {one} towards component {other}."
-        component = f"{degrees:.0f}° from {one}"
-        azimuth = azimuth_of_axis(first.azimuth, second.azimuth, angle)
-    else:
-        shares = _shares(first.azimuth, second.azimuth, finite(RecordError, "azimuth", azimuth, "degrees"))
-        origin = f"{first.azimuth:g}° and {second.azimuth:g}°"
-        sentence = f"Rotated from {origin} to {azimuth:g}° clockwise from north."
-        component, azimuth = f"{azimuth:g}", azimuth % 360
+    angle = finite(RecordError, "angle", angle, "rad")
+    shares = np.cos(angle), np.sin(angle)
+    one, other, degrees = first.component or "one", second.component or "two", np.degrees(angle)
+    sentence = f"Rotated by {degrees:.2f}° from component {one} towards component {other}."
+    changes: dict[str, Any] = {"component": f"{degrees:.0f}° from {one}"}
+    changes["azimuth"] = azimuth_of_axis(first.azimuth, second.azimuth, angle)
     short, long = sorted((first.acceleration.size, second.acceleration.size))
     cut = f"The components hold {short} and {long} samples; the longer was cut to the shorter."
     warnings = dict.fromkeys((*first.warnings, *second.warnings, *([cut] if short < long else [])))
-    changed: dict[str, Any] = {"component": component, "azimuth": azimuth, "warnings": tuple(warnings)}
+    changes["warnings"] = tuple(warnings)
     for name in ("initial_velocity", "initial_displacement"):
-        changed[name] = shares[0] * getattr(first, name) + shares[1] * getattr(second, name)
-    return first.processed_by(shares[0] * a + shares[1] * b, sentence, **changed)
-
-
-def _shares(first: float | None, second: float | None, azimuth: float) -> tuple[float, float]:
-    """What the components along two azimuths contribute to the motion along a third, degrees."""
-    if first is None or second is None:
-        raise RecordError(
-            "a component has no known azimuth; give one with dataclasses.replace(record, azimuth=...)."
-        )
-    one, two, wanted = np.radians([first, second, azimuth])
-    base = np.sin(two - one)
-    if abs(base) < _FLATTEST:
-        raise RecordError(f"the azimuths are {first:g}° and {second:g}°, but must differ by 30° or more.")
-    return np.sin(two - wanted) / base, np.sin(wanted - one) / base
+        changes[name] = shares[0] * getattr(first, name) + shares[1] * getattr(second, name)
+    return first.processed_by(shares[0] * a + shares[1] * b, sentence, **changes)
 
 
 def azimuth_of_axis(first: float | None, second: float | None, angle: float) -> float | None:
@@ -94,8 +72,13 @@ def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
         raise RecordError(f"step is {step!r} degrees, but must be above 0 and at most 90.")
     a, b = paired(first, second)
     if first.azimuth is not None and second.azimuth is not None:
-        north, east = rotate(first, second, 0.0), rotate(first, second, 90.0)
-        a, b = north.acceleration, east.acceleration
+        one, two = np.radians([first.azimuth, second.azimuth])
+        base = np.sin(two - one)
+        if abs(base) < _FLATTEST:
+            azimuths = f"{first.azimuth:g}° and {second.azimuth:g}°"
+            raise RecordError(f"the azimuths are {azimuths}, but must differ by 30° or more.")
+        axes = np.radians([0.0, 90.0])
+        a, b = (np.sin(two - axis) / base * a + np.sin(axis - one) / base * b for axis in axes)
     angles = np.arange(0.0, 180.0, step)
     peaks = np.array([np.abs(a * np.cos(t) + b * np.sin(t)).max() for t in np.radians(angles)])
     return RotD(float(np.median(peaks)), float(peaks.max()), float(angles[peaks.argmax()]))
