@@ -37,7 +37,7 @@ class Source:
     unit: str = ""
 
 
-_KEPT = (
+_OBSPY_EXTRAS = (
     "component", "event", "azimuth", "vertical", "processed", "processing", "warnings", "magnitude", "magnitude_type",
     "event_time", "latitude", "longitude", "elevation", "epicentral_distance",
 )  # fmt: skip
@@ -198,7 +198,7 @@ class Accelerogram(Drawn):
                 state = "both a unit and a response" if by_response else "neither a unit nor a response"
                 raise RecordError(f"{trace.id} has {state}; give unit= or the inventory= of counts.")
             fields: dict[str, Any] = {"processed": False if by_response else None, **names(trace)}
-            fields |= {name: own[name] for name in _KEPT if name in own} | site(trace, inventory)
+            fields |= {name: own[name] for name in _OBSPY_EXTRAS if name in own} | site(trace, inventory)
             with about(trace.id):
                 if by_response:
                     samples, step = calibrated(trace, inventory, response)
@@ -216,7 +216,7 @@ class Accelerogram(Drawn):
         """
         from obspy import Trace, UTCDateTime  # which takes a second to import
 
-        more = {name: getattr(self, name) for name in _KEPT}
+        more = {name: getattr(self, name) for name in _OBSPY_EXTRAS}
         header = {"delta": self.time_step, "rocking": more | {"unit": "m/s2", "format": self.source.format}}
         header |= {name: getattr(self, name) for name in ("network", "station", "location")}
         if self.start_time:
@@ -234,10 +234,10 @@ def _samples(values: np.ndarray) -> np.ndarray:
     if np.ma.is_masked(values):
         raise RecordError("the samples are masked in places; fill or cut the gap before use.")
     try:
-        given = np.asarray(values)
-        if given.dtype.kind not in "iufO":
+        array = np.asarray(values)
+        if array.dtype.kind not in "iufO":
             raise TypeError
-        samples = np.array(given, dtype=np.float64)
+        samples = np.array(array, dtype=np.float64)
     except (TypeError, ValueError):
         raise RecordError("the samples are not all real numbers; give a one-dimensional array.") from None
     if samples.ndim != 1 or samples.size < 2:

@@ -16,7 +16,7 @@ from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import is_safe_id, read_rows, stays_inside
 from rocking.records.processing import process, velocity
-from rocking.records.read import bytes_of, is_unnamed, plain, printable, read, recognise, undressed, unpacked
+from rocking.records.read import bare_text, bytes_of, is_unnamed, plain, printable, read, recognise, unpack
 from rocking.records.station import why_apart
 
 Row = dict[str, str]
@@ -195,10 +195,13 @@ def _angle(level: Sequence[Accelerogram]) -> float | None:
 def _listed(path: Path, folder: Path, declared: Mapping[str, Any]) -> ListedFile:
     name = path.relative_to(folder).as_posix()
     file = printable(name)
-    try:
-        channels, missing = _read(path, declared)
-    except RecordError as error:
-        return ListedFile(file, refusal=printable(str(error)))
+    for missing in ((), ("unit",), ("time_step",), ("unit", "time_step")):  # no more than the file leaves out
+        try:
+            channels = read(path, **{each: declared[each] or _STAND_INS[each] for each in missing})
+            break
+        except RecordError as error:
+            if not isinstance(error, UndeclaredError) or len(missing) == 2:
+                return ListedFile(file, refusal=printable(str(error)))
     reason = ""
     if not stays_inside(name) or name != name.strip() or name != file:
         reason = _BAD_NAME
@@ -228,14 +231,6 @@ def _peaks(record: Accelerogram) -> tuple[str, str]:
 
 
 _CELLS = {"unit": "unit", "time_step": "time_step_s"}
-
-
-def _read(path: Path, declared: Mapping[str, Any]) -> tuple[list[Accelerogram], tuple[str, ...]]:
-    """Return the channels and what had to be declared, which is no more than the file leaves out."""
-    for missing in ((), ("unit",), ("time_step",), ("unit", "time_step")):
-        with suppress(UndeclaredError):
-            return read(path, **{name: declared[name] or _STAND_INS[name] for name in missing}), missing
-    raise UndeclaredError(f"{printable(path.name)}: neither unit nor time step is declared.")
 
 
 def _row(group: Sequence[ListedFile], level: Sequence[Accelerogram], ids: set[str]) -> Row:
@@ -283,22 +278,19 @@ _ALIGNED = "<<<>>>><"
 
 def listing_text(listed: Sequence[ListedFile]) -> str:
     """Return one line for each channel of each file: format, step, samples, PGA, PGV, component and status."""
+    rows: list[tuple[str, ...]] = [_HEAD]
+    for file in listed:
+        start = len(rows)
+        for record, size, peaks in zip(file.channels, file.sizes, file.peaks, strict=True):
+            step = "" if "time_step_s" in file.blanks else f"{record.time_step:g}"
+            rows.append(("", record.component, record.source.format, step, str(size), *peaks, ""))
+        rows[start:] = rows[start:] or [("",) * len(_HEAD)]
+        rows[start] = (file.file, *rows[start][1:-1], file.status)
     columns = []
-    rows = zip(_HEAD, *(row for file in listed for row in _lines(file)), strict=True)
-    for column, widest, side in zip(rows, _WIDEST, _ALIGNED, strict=True):
-        cells = [text if len(text) <= widest else f"{text[: widest - 1]}…" for text in column]
-        width = max(map(len, cells))
-        columns.append([f"{text:{side}{width}}" for text in cells])
+    for column, widest, side in zip(zip(*rows, strict=True), _WIDEST, _ALIGNED, strict=True):
+        cells = [cell if len(cell) <= widest else f"{cell[: widest - 1]}…" for cell in column]
+        columns.append([f"{cell:{side}{max(map(len, cells))}}" for cell in cells])
     return "".join("  ".join(row).rstrip() + "\n" for row in zip(*columns, strict=True))
-
-
-def _lines(file: ListedFile) -> list[tuple[str, ...]]:
-    rows: list[tuple[str, ...]] = []
-    for record, samples, peaks in zip(file.channels, file.sizes, file.peaks, strict=True):
-        step = "" if "time_step_s" in file.blanks else f"{record.time_step:g}"
-        rows.append(("", record.component, record.source.format, step, str(samples), *peaks, ""))
-    first, *others = rows or [("",) * len(_HEAD)]
-    return [(file.file, *first[1:-1], file.status), *others]
 
 
 _LOOKED_AT = 200  # files beside a catalogue that are opened, at most, to see whether they are records
@@ -315,7 +307,7 @@ def unlisted(catalogue: Path) -> tuple[str, ...]:
     records = []
     for path in islice((path for path in _files(folder) if path not in catalogued), _LOOKED_AT):
         with suppress(RecordError):
-            form = recognise(undressed(unpacked(bytes_of(path), path.name)))
+            form = recognise(bare_text(unpack(bytes_of(path), path.name)))
             records += [path.relative_to(folder).as_posix()] if form.name != "StationXML" else []
     if not records:
         return ()

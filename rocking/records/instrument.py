@@ -47,8 +47,8 @@ def directed(fields: dict[str, Any]) -> dict[str, Any]:
     """Return fields of an Accelerogram, `vertical` and `azimuth` by its component's name where they are blank."""
     component = fields.get("component", "")
     vertical = fields.get("vertical", is_vertical(component))
-    given = fields.get("azimuth")
-    along = None if vertical else azimuth(component) if given is None else given
+    along = fields.get("azimuth")
+    along = None if vertical else azimuth(component) if along is None else along
     return fields | {"vertical": vertical, "azimuth": along}
 
 

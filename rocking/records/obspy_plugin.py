@@ -9,7 +9,7 @@ from pathlib import Path
 
 from rocking.errors import RecordError
 from rocking.records.formats import FORMATS, Format, Options
-from rocking.records.read import LARGEST_FILE, read_content, undressed, unpacked
+from rocking.records.read import LARGEST_FILE, bare_text, read_content, unpack
 
 PLUGINS = {form.plugin: form.name for form in FORMATS if form.plugin}
 """Name in obspy → name in FORMATS. K-NET, EVT, SAC and miniSEED are obspy's own already."""
@@ -20,7 +20,7 @@ _HEAD = 2**16
 def is_format(form: Format, source) -> bool:
     """Whether `source`, a path or an open binary file, is of this format; False for whatever cannot be read."""
     try:
-        return form.recognise(undressed(unpacked(_bytes(source, _HEAD), "file")))
+        return form.recognise(bare_text(unpack(_bytes(source, _HEAD), "file")))
     except Exception:
         return False
 
@@ -33,7 +33,7 @@ def read_format(form: Format, source, **options):
     from obspy import Stream
 
     name = Path(str(source)).name if isinstance(source, str | Path) else "file"
-    content = unpacked(_bytes(source, LARGEST_FILE), name)
+    content = unpack(_bytes(source, LARGEST_FILE), name)
     declared = Options(unit=options.get("unit"), time_step=options.get("time_step"))
     return Stream([record.to_obspy() for record in read_content(content, name, declared, reader=form)])
 

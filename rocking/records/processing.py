@@ -23,13 +23,11 @@ class Processing:
     2005); velocity and displacement need them kept to end at rest. Raises RecordError when a setting is out of range.
     """
 
-    pre_event: float | None = described(
-        None, "time at the start of the record whose mean is removed", "s", gt=0
-    )
-    baseline: Baseline = described(
-        "none",
-        "none; linear: removes the least-squares line; adaptive: removes the drift of velocity around the shaking",
-    )
+    # fmt: off
+    pre_event: float | None = described(None, "time at the start of the record whose mean is removed", "s", gt=0)
+    baseline: Baseline = described("none", "none; linear: removes the least-squares line; adaptive: removes the drift "
+        "of velocity around the shaking")
+    # fmt: on
     taper: float = described(0.0, "share of the record that a cosine taper covers at each end", ge=0, le=0.5)
     high_pass: float | None = described(None, "corner frequency of the acausal high-pass filter", "Hz", gt=0)
     low_pass: float | None = described(None, "corner frequency of the acausal low-pass filter", "Hz", gt=0)
@@ -117,8 +115,8 @@ def _filtered(record: Accelerogram, processing: Processing) -> Accelerogram:
         steps.append(f"{pad} zeros before and after{'' if processing.keep_padding else ' while filtering'}.")
     for kind, corner in (("highpass", processing.high_pass), ("lowpass", processing.low_pass)):
         if corner:
-            held = 0 if pad else _room(processing.order, corner, record)
-            values = _butterworth(values, record.time_step, kind, corner, processing.order, held)
+            margin = 0 if pad else _room(processing.order, corner, record)
+            values = _butterworth(values, record.time_step, kind, corner, processing.order, margin)
             run = f"of order {processing.order}, run both ways, corner {corner:g} Hz"
             steps.append(f"Acausal Butterworth {kind} {run}.")
     initial: dict[str, float] = {}
@@ -140,17 +138,17 @@ def _room(order: int, corner: float, record: Accelerogram) -> int:
 
 
 def _butterworth(
-    values: np.ndarray, time_step: float, kind: str, corner: float, order: int, held: int
+    values: np.ndarray, time_step: float, kind: str, corner: float, order: int, margin: int
 ) -> np.ndarray:
-    """Return `values` (n,) run both ways through a filter, the end values held on over `held` samples to ring out."""
+    """Return `values` (n,) run both ways through a filter, its end values continued over `margin` samples."""
     from scipy import signal  # takes half a second to import, and no record that is only read needs it
 
     nyquist = 0.5 / time_step
     if not corner < nyquist:
         raise RecordError(f"the {kind} corner is {corner!r} Hz, but must be below {nyquist:g} Hz (Nyquist).")
     sections = signal.butter(order, corner / nyquist, kind, output="sos")
-    whole = np.pad(values, held, mode="edge")
-    return signal.sosfiltfilt(sections, whole, padtype=None)[held : held + values.size]
+    whole = np.pad(values, margin, mode="edge")
+    return signal.sosfiltfilt(sections, whole, padtype=None)[margin : margin + values.size]
 
 
 def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:
@@ -164,8 +162,8 @@ def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:
     sentence = f"Resampled from {record.time_step:g} to {step:g} s, linear between samples."
     if step > record.time_step:
         corner = _LOW_PASS_SHARE * 0.5 / step
-        held = _room(8, corner, record)
-        values = _butterworth(values, record.time_step, "lowpass", corner, 8, held)
+        margin = _room(8, corner, record)
+        values = _butterworth(values, record.time_step, "lowpass", corner, 8, margin)
         sentence = f"Low-passed at {corner:g} Hz against aliasing. {sentence}"
     even = np.interp(np.arange(number) * step, record.times, values)
     return record.processed_by(even, sentence, time_step=step)

@@ -54,7 +54,7 @@ def read_raw(raw: bytes, path: Path, options: Options) -> list[Accelerogram]:
     """Return the channels in `raw`, the bytes of the file at `path`, as read() does."""
     name = printable(path.name)
     source = Source(printable(str(path)), sha256=hashlib.sha256(raw).hexdigest())
-    return read_content(unpacked(raw, name), name, options, source)
+    return read_content(unpack(raw, name), name, options, source)
 
 
 def read_content(
@@ -66,9 +66,9 @@ def read_content(
     """
     source = source or Source(name, sha256=hashlib.sha256(content).hexdigest())
     with about(name[:120]):
-        text = undressed(content)
+        text = bare_text(content)
         reader = reader or recognise(text)
-        records = told_apart(reader.read(text, replace(options, file=name)))
+        records = distinct_channels(reader.read(text, replace(options, file=name)))
         if not records:
             raise RecordError("the file holds no channel of acceleration; use the acceleration file.")
         notes = (_DOUBLED,) if b"\r\r\n" in content[:2000] and text is not content else ()
@@ -80,19 +80,19 @@ def read_content(
         return records
 
 
-def undressed(content: bytes) -> bytes:
+def bare_text(content: bytes) -> bytes:
     """Return a text without a byte order mark and the blanks, zeros and ^Z that pad its end; lines end in \\n.
 
     Content that holds a zero byte among its first is no text and stays as it is.
     """
     text = content.removeprefix(b"\xef\xbb\xbf")
-    kept = text.rstrip(b"\x1a\0 \t\r\n")
-    if b"\0" in kept[:512]:
+    body = text.rstrip(b"\x1a\0 \t\r\n")
+    if b"\0" in body[:512]:
         return content
-    ended = any(end in text[len(kept) :] for end in (b"\r", b"\n"))
-    if b"\r" in kept:
-        kept = kept.replace(b"\r\r\n", b"\n").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
-    return kept + b"\n" if ended else kept
+    ended = any(end in text[len(body) :] for end in (b"\r", b"\n"))
+    if b"\r" in body:
+        body = body.replace(b"\r\r\n", b"\n").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    return body + b"\n" if ended else body
 
 
 _DOUBLED = "The line ends are doubled (CR CR LF) by a faulty conversion; the numbers are unharmed."
@@ -119,7 +119,7 @@ def recognise(content: bytes) -> Format:
     )
 
 
-def unpacked(raw: bytes, name: str) -> bytes:
+def unpack(raw: bytes, name: str) -> bytes:
     """Return `raw`, all of it unpacked if it is gzip. Raises RecordError when it is damaged or unpacks to too much."""
     if not raw.startswith(b"\x1f\x8b"):
         return raw
@@ -146,7 +146,7 @@ def printable(text: str) -> str:
     return plain(text.encode("utf-8", "backslashreplace").decode()) if not text.isprintable() else text
 
 
-def told_apart(records: Sequence[Accelerogram]) -> list[Accelerogram]:
+def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     """Return the channels of a file, each with a component of its own and what is doubtful of it as warnings.
 
     One without a name is called after its place, "channel 1"; those that share a name get their place as well.

@@ -87,15 +87,13 @@ def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
 def paired(first: Accelerogram, second: Accelerogram) -> tuple[np.ndarray, np.ndarray]:
     """Return both accelerations, m/s², over the samples they share. Raises RecordError where they do not fit."""
     if abs(first.time_step / second.time_step - 1) > 1e-9:
-        raise RecordError(
-            f"time_step is {first.time_step!r} s and {second.time_step!r} s, but must be one; resample first."
-        )
+        steps = f"time_step is {first.time_step!r} s and {second.time_step!r} s"
+        raise RecordError(f"{steps}, but must be one; resample first.")
     if first.vertical or second.vertical:
         raise RecordError("a component is vertical, but both must be horizontal.")
     if first.start_time and second.start_time and first.start_time != second.start_time:
-        raise RecordError(
-            f"the components start at {first.start_time} and {second.start_time}, but must start together."
-        )
+        starts = f"{first.start_time} and {second.start_time}"
+        raise RecordError(f"the components start at {starts}, but must start together.")
     n = min(first.acceleration.size, second.acceleration.size)
     return first.acceleration[:n], second.acceleration[:n]
 
@@ -106,12 +104,11 @@ def aligned(vertical: Accelerogram, horizontal: Accelerogram) -> Accelerogram:
     Raises RecordError when their time steps differ by more than rounding.
     """
     if not np.isclose(vertical.time_step, horizontal.time_step, rtol=1e-9, atol=0):
+        steps = f"time_step of the vertical component is {vertical.time_step!r} s"
         raise RecordError(
-            f"time_step of the vertical component is {vertical.time_step!r} s, but must equal that of the horizontal "
-            f"one, {horizontal.time_step!r} s; resample one of them."
+            f"{steps}, but the horizontal one has {horizontal.time_step!r} s; resample one of them."
         )
     size = horizontal.acceleration.size
-    samples = np.zeros(size)
-    kept = min(size, vertical.acceleration.size)
-    samples[:kept] = vertical.acceleration[:kept]
+    samples = vertical.acceleration[:size]
+    samples = np.pad(samples, (0, size - samples.size))
     return replace(vertical, acceleration=samples, time_step=horizontal.time_step)

@@ -12,7 +12,7 @@ from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram, read
 from rocking.records.formats import FORMATS, Options
 from rocking.records.processing import displacement, velocity
-from rocking.records.read import read_content, undressed
+from rocking.records.read import bare_text, read_content
 
 pytestmark = pytest.mark.real_records
 
@@ -84,7 +84,7 @@ def more(real_records: Path) -> list[dict[str, str]]:
 def test_exactly_one_format_recognises_each_file(real_records: Path, manifest: list[dict[str, str]]) -> None:
     matrix = {}
     for file in sorted({row["file"] for row in [*manifest, *more(real_records)]}):
-        content = undressed((real_records / file).read_bytes())
+        content = bare_text((real_records / file).read_bytes())
         matrix[file] = [form.name for form in FORMATS if form.recognise(content)]
     assert {file: names for file, names in matrix.items() if len(names) != 1} == {}
     assert {names[0] for names in matrix.values()} == {form.name for form in FORMATS}

@@ -121,9 +121,7 @@ def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
     for key, value in measured.items():
         if allowed and key in header and not abs(header[key] - value) <= allowed:
             stated = f"the header states {key.upper()} = {header[key]:g}, but the samples reach {value:g}"
-            raise RecordError(
-                f"{stated}; the file is damaged or its header belongs to another record; fetch it again."
-            )
+            raise RecordError(f"{stated}; the file is damaged or its header another's; fetch it again.")
     begin, end = header.get("b", 0.0), header.get("e", 0.0)
     # Single precision keeps seven digits of the times.
     allowed = 0.5 * step + 3e-7 * max(abs(begin), abs(end))

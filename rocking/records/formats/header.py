@@ -148,9 +148,7 @@ class Layout:
         if "quantity" in self.patterns:
             quantity = self.required("quantity", head)
             if not re.fullmatch(r"acc\w*tion", quantity, re.I):
-                raise RecordError(
-                    f"the file holds {quantity}; use the file of acceleration of the same record."
-                )
+                raise RecordError(f"the file holds {quantity}; use the acceleration file of the same record.")
         if "unit" not in self.patterns:
             return self.unit
         unit = self.required("unit", head)
@@ -214,7 +212,7 @@ def required(what: str, pattern: str, text: str) -> re.Match[str]:
     match = re.search(pattern, text, re.I | re.M) if pattern else None
     if not match or not match[1].strip():
         raise RecordError(
-            f"the header does not declare {what}; the file is damaged or not what it seems; fetch it again."
+            f"the header does not declare {what}; the file is damaged or another; fetch it again."
         )
     return match
 
@@ -302,9 +300,7 @@ def check_duration(declared: float, samples: int, time_step: float, steps: float
 def check_equal(field: str, first: float, second: float, relative: float = 1e-3) -> None:
     """Check that two places of a header give the same number. Raises RecordError when they do not."""
     if abs(first - second) > relative * abs(first):
-        raise RecordError(
-            f"the header gives {field} as {first:g} and {second:g}: it is damaged; fetch it again."
-        )
+        raise RecordError(f"the header gives {field} as {first:g} and {second:g}; fetch the file again.")
 
 
 def check_nothing_left(rows: list[str]) -> None:

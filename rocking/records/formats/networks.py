@@ -216,13 +216,10 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
     head = "\n".join(rows)
     scale = r"^Scale Factor\s*([\d.]+)\s*\(gal\)\s*/\s*([\d.]+)\s*$"
     parts = required("a Scale Factor like 3920(gal)/6182761", scale, head)
-    full, counts = (
-        positive(RecordError, "Scale Factor", text.number("Scale Factor", parts[i])) for i in (1, 2)
-    )
-    unit = options.unit_of("gal")
-    values, offset = without_offset(
-        text.numbers(text.after_lines(content, len(_KNET_KEYS))) * (full / counts), unit
-    )
+    factors = (text.number("Scale Factor", part) for part in parts.groups())
+    full, counts = (positive(RecordError, "Scale Factor", factor) for factor in factors)
+    samples = text.numbers(text.after_lines(content, len(_KNET_KEYS))) * (full / counts)
+    values, offset = without_offset(samples, options.unit_of("gal"))
     direction = _KNET.text("component", head)
     facts: dict[str, Any] = {"processing": (offset,), "borehole": direction in _BOREHOLE}
     facts["component"] = _KIKNET.get(direction, direction)
@@ -298,9 +295,8 @@ def _geonet_channel(block: list[str], options: Options, total: int) -> Accelerog
     at = _GEONET.number("peak_time", head)
     if at is not None and len(integers) == 40 and integers[_PREPENDED].isdecimal():
         at += int(integers[_PREPENDED]) * text.number("the step", _GEONET.required("step", head))
-    record = _GEONET.channel(
-        head, values * factor, options, warnings=(note,) if total % 3 else (), peak_time=at
-    )
+    notes = (note,) if total % 3 else ()
+    record = _GEONET.channel(head, values * factor, options, warnings=notes, peak_time=at)
     if size == len(rows):
         return record
     return agree_with_velocity(record, text.filled(rows[size : 2 * size], samples, _PER_LINE, _WIDTH) / 1000)
@@ -333,9 +329,8 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     reals = text.fields(rows[_SMC_INTEGERS:_SMC_REALS], 15)
     if integers.size < 48 or reals.size < 50:
         raise RecordError(f"the header holds {integers.size} integers and {reals.size} reals, not 48 and 50.")
-    remarks, samples = (
-        text.count("a count in the header", f"{integers[at]:.0f}") for at in (_COMMENTS, _SAMPLES)
-    )
+    counts = (f"{integers[at]:.0f}" for at in (_COMMENTS, _SAMPLES))
+    remarks, samples = (text.count("a count in the header", size) for size in counts)
     first = _SMC_REALS + remarks
     if any(row.startswith("|") != (at < first) for at, row in enumerate(rows[_SMC_REALS:], _SMC_REALS)):
         raise RecordError(f"the header declares {remarks} lines of comment, but others begin with |.")

@@ -180,7 +180,7 @@ def only_even_step(times: np.ndarray) -> float:
     """Return the step of `times` (n,) s. Raises RecordError where they are uneven."""
     if (step := even_step(times)) is None:
         raise RecordError(
-            "the times are not evenly spaced, but this format's are; the file is damaged; fetch it again."
+            "the times are not even, but this format's are; the file is damaged; fetch it again."
         )
     return step
 

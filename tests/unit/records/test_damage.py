@@ -14,7 +14,7 @@ from rocking.errors import RecordError
 from rocking.records import Accelerogram
 from rocking.records.formats import Options
 from rocking.records.formats.header import check_duration
-from rocking.records.read import LARGEST_FILE, read_content, unpacked
+from rocking.records.read import LARGEST_FILE, read_content, unpack
 
 
 def read_text(text: str, **declared) -> list[Accelerogram]:
@@ -187,11 +187,11 @@ def test_evt_frames_are_summed_and_in_order() -> None:
 def test_every_member_of_a_gzip_file_is_read() -> None:
     text = made("PEER AT2").encode()
     packed = gzip.compress(text[:400]) + gzip.compress(text[400:]) + b"\0" * 100
-    assert unpacked(packed, "made") == text
+    assert unpack(packed, "made") == text
     for damaged, word in ((packed + b"more", "damaged gzip"), (packed[:-150], "is cut"),
                           (gzip.compress(b"1" * LARGEST_FILE) + gzip.compress(b"2\n"), "more than")):  # fmt: skip
         with pytest.raises(RecordError, match=word):
-            unpacked(damaged, "made")
+            unpack(damaged, "made")
 
 
 @pytest.mark.parametrize("separator", [";", "; ", "\t", "   "])
