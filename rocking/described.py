@@ -146,8 +146,8 @@ def check_described(error: type[RockingError], made: Any) -> None:
         except ValueError as wrong:
             raise error(f"{name} is {wrong}") from None
     for name in parts_of(kind):
-        if not isinstance(getattr(made, name), needed := type(getattr(kind, name))):
-            raise error(f"{name} is {getattr(made, name)!r}, but must be a {needed.__name__}.")
+        if not isinstance(getattr(made, name), part := type(getattr(kind, name))):
+            raise error(f"{name} is {getattr(made, name)!r}, but must be a {part.__name__}.")
 
 
 def read_described(
@@ -170,7 +170,8 @@ def read_described(
     if not isinstance(mapping, Mapping):
         defects.append(f"{above.rstrip('.')} is {mapping!r}, but must be a mapping of {', '.join(names)}.")
         return default
-    values, before = {}, len(defects)
+    values = {}
+    before = len(defects)
     for key, value in mapping.items():
         if key in parts:
             values[key] = read_described(parts[key], value, defects, f"{above}{key}.", interpret)

@@ -22,7 +22,8 @@ _RESERVED = re.compile(
     r"(con|prn|aux|nul|(com|lpt)\d|summary|datapackage|paper|calibration|documentation|fragility|validation|comparison|"
     r"cracks|calibrate|calibrate_ensemble|cover|trade_fragility|govern|screen|validate|compare)(\..*)?", re.I,
 )  # fmt: skip
-_HASH, _COMMIT = re.compile(r"[0-9a-f]{64}"), re.compile(r"[0-9a-f]{40}")
+_HASH = re.compile(r"[0-9a-f]{64}")
+_COMMIT = re.compile(r"[0-9a-f]{40}")
 _REPOSITORY = re.compile(r"(?!\.+/)[\w.-]+/(?!\.+$)[\w.-]+", re.ASCII)
 _PROSE = ("event", "station", "licence", "note")
 _LARGEST = 16 * 2**20  # bytes of a catalogue: a hundred thousand rows

@@ -101,7 +101,8 @@ def _levelled(record: Accelerogram, processing: Processing) -> Accelerogram:
 
 
 def _filtered(record: Accelerogram, processing: Processing) -> Accelerogram:
-    values, steps = record.acceleration, []
+    values = record.acceleration
+    steps = []
     if processing.taper:
         length = max(1, int(processing.taper * values.size))
         ramp = 0.5 * (1 - np.cos(np.pi * np.arange(length) / length))
@@ -169,8 +170,8 @@ def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:
     return record.processed_by(even, sentence, time_step=step)
 
 
-_CANDIDATES, _DEGREES = 20, (1, 2)
-"""Places at which shaking may end, and degrees of the polynomial after each."""
+_CANDIDATES = 20  # places at which shaking may end
+_DEGREES = (1, 2)  # of the polynomial after each
 _FEWEST, _LEFT = 64, 16  # samples of the record and after shaking, at least: fewer say nothing of a drift
 
 
@@ -197,8 +198,10 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
     last = min(strong + int(0.85 * (acceleration.size - strong)), acceleration.size - _LEFT)
     ends = np.unique(np.linspace(strong, last, _CANDIDATES).astype(int)).tolist()
 
-    def largest(tried: tuple[int, int, np.ndarray]) -> float:
-        course = np.cumsum(velocity - tried[2])  # a drift that is left makes it larger than the ground's own
+    def largest(candidate: tuple[int, int, np.ndarray]) -> float:
+        course = np.cumsum(
+            velocity - candidate[2]
+        )  # a drift that is left makes it larger than the ground's own
         return max(course.max(), -course.min())
 
     end, degree, drift = min(_drifts(velocity, onset, ends), key=largest)
@@ -211,18 +214,18 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
 
 def _drifts(velocity: np.ndarray, onset: int, ends: Sequence[int]) -> Iterator[tuple[int, int, np.ndarray]]:
     """Yield end, degree and drift (n,): a line to the onset, a polynomial from the end, a cubic bridge between."""
-    before, slope = _fitted(velocity[:onset])[0]
+    before, slope = _polynomials(velocity[:onset])[0]
     height = before[-1] + slope
     for end in ends:
         width = end - onset
         s = np.arange(width) / width
         start = (1 + 2 * s) * (1 - s) ** 2 * height + s * (1 - s) ** 2 * (slope * width)
-        for degree, (after, rise) in zip(_DEGREES, _fitted(velocity[end:]), strict=True):
+        for degree, (after, rise) in zip(_DEGREES, _polynomials(velocity[end:]), strict=True):
             bridge = start + s**2 * (3 - 2 * s) * after[0] + s**2 * (s - 1) * width * rise
             yield end, degree, np.concatenate([before, bridge, after])
 
 
-def _fitted(values: np.ndarray) -> list[tuple[np.ndarray, float]]:
+def _polynomials(values: np.ndarray) -> list[tuple[np.ndarray, float]]:
     """Return the least-squares polynomial of each degree through `values` (k,), and its slope there, per sample."""
     # In Legendre's polynomials of these places, which are orthogonal, a degree only adds its own term.
     x = np.linspace(-1, 1, values.size)

@@ -36,8 +36,11 @@ def rotate(first: Accelerogram, second: Accelerogram, angle: float) -> Accelerog
     a, b = paired(first, second)
     angle = finite(RecordError, "angle", angle, "rad")
     shares = np.cos(angle), np.sin(angle)
-    one, other, degrees = first.component or "one", second.component or "two", np.degrees(angle)
-    sentence = f"Rotated by {degrees:.2f}° from component {one} towards component {other}."
+    one = first.component or "one"
+    degrees = np.degrees(angle)
+    sentence = (
+        f"Rotated by {degrees:.2f}° from component {one} towards component {second.component or 'two'}."
+    )
     changes: dict[str, Any] = {"component": f"{degrees:.0f}° from {one}"}
     changes["azimuth"] = azimuth_of_axis(first.azimuth, second.azimuth, angle)
     short, long = sorted((first.acceleration.size, second.acceleration.size))

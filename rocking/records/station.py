@@ -241,20 +241,23 @@ class _Downloader:
     def __call__(self, address: str, target: str, _: object) -> None:
         request = urllib.request.Request(address, headers={"User-Agent": "rocking"})
         opener = urllib.request.build_opener(_Direct)
-        with opener.open(request, timeout=self._left()) as answer, Path(target).open("wb") as stream:
+        with (
+            opener.open(request, timeout=self._remaining_time()) as answer,
+            Path(target).open("wb") as stream,
+        ):
             size = 0
             while piece := answer.read1(_PIECE):
                 size += len(piece)
                 if size > LARGEST_FILE:
                     raise RecordError(f"the file is larger than {LARGEST_FILE} bytes, which no record is")
                 stream.write(piece)
-                self._left()
+                self._remaining_time()
 
-    def _left(self) -> float:
-        left = self.ends - time.monotonic()
-        if left <= 0:
+    def _remaining_time(self) -> float:
+        remaining = self.ends - time.monotonic()
+        if remaining <= 0:
             raise RecordError(f"the download took more than {LONGEST_DOWNLOAD:g} s")
-        return min(left, _SILENCE)
+        return min(remaining, _SILENCE)
 
 
 def fill_hashes(path: str | Path, mirror: str | Path | None = None) -> tuple[str, ...]:

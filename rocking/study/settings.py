@@ -21,7 +21,7 @@ from rocking.described import (
 )
 from rocking.errors import ConfigurationError
 from rocking.records.processing import Processing
-from rocking.tables.yaml_file import said_by
+from rocking.tables.yaml_file import scalar_value
 
 
 @dataclass(frozen=True)
@@ -124,7 +124,7 @@ def read_settings(config: Mapping[str, Any]) -> Settings:
     defect, one a line: the setting, its value, and what is allowed.
     """
     defects: list[str] = []
-    settings = read_described(Settings(), config, defects, "setting ", said_by)
+    settings = read_described(Settings(), config, defects, "setting ", scalar_value)
     if defects:
         raise ConfigurationError("\n".join(defects))
     return settings

@@ -92,9 +92,9 @@ def readable(path: Path) -> Iterator[Any]:
 
 def check_columns(table: Table, names: Iterable[str], path: Path) -> None:
     columns = list(names)
-    wanted = list(table.column_names)
-    if columns != wanted:
-        wrong = sorted(set(columns) ^ set(wanted)) or ["in another order"]
+    expected = list(table.column_names)
+    if columns != expected:
+        wrong = sorted(set(columns) ^ set(expected)) or ["in another order"]
         raise RockingError(
             f"{path}, line 1: the columns are not those of {table.name} ({', '.join(wrong[:6])}); make the table again."
         )

@@ -47,8 +47,8 @@ def whole(path: Path) -> Iterator[BinaryIO]:
     path = Path(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        for left_by_a_kill in path.parent.glob(f".{glob.escape(path.name)}.*.part"):
-            left_by_a_kill.unlink(missing_ok=True)
+        for remnant_of_a_kill in path.parent.glob(f".{glob.escape(path.name)}.*.part"):
+            remnant_of_a_kill.unlink(missing_ok=True)
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
     except OSError as error:
         raise _unwritten(path, error) from error

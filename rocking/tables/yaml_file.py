@@ -34,7 +34,7 @@ def read_yaml(
         raise error(f"{path}: the {what} is not valid YAML ({' '.join(str(defect).split())}).") from None
 
 
-def said_by(text: str) -> Any:
+def scalar_value(text: str) -> Any:
     """Return the value that a scalar in YAML says, the text itself where it is none."""
     try:
         return _StrictLoader(text).get_single_data() if text.strip() else text

@@ -64,8 +64,8 @@ def _check_blocks(content: bytes) -> set[str]:
         while at < len(content):
             at += get_record_information(io.BytesIO(content), offset=at)["record_length"]
     if at != len(content):
-        size, left = notes["record_length"], notes["excess_bytes"]
-        raise RecordError(f"the last record of {size} bytes is cut after {left}; fetch the whole file.")
+        record = f"the last record of {notes['record_length']} bytes"
+        raise RecordError(f"{record} is cut after {notes['excess_bytes']}; fetch the whole file.")
     samples = sum(trace.stats.npts for trace in heads)
     if samples > LARGEST_SERIES:
         raise RecordError(f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.")

@@ -39,7 +39,8 @@ def _table(content: bytes) -> tuple[tuple[str, ...], int, int] | None:
             return None
         else:
             parts = re.split(r"[,;\t]", line) if re.search(r"[,;\t]", line) else line.split()
-            names, start = tuple(part.strip().strip("\"'") for part in parts), start + 1
+            names = tuple(part.strip().strip("\"'") for part in parts)
+            start += 1
     uneven = len(set(widths[:-1])) > 1 or widths[-1:] > widths[:1]
     if len(widths) < 2 or uneven or (names and len(names) != widths[0]):
         return None
@@ -74,8 +75,8 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError(f"row {at + 1} of the samples has {counts[at]} columns, but the first has {width}.")
     if width == 1 or wrapped:
         label = names[0] if names else ""
-        named: dict[str, Any] = {"component": "" if _unit(label) else label, "warnings": _repeats(values)}
-        records = [options.accelerogram(_unit(label), values, None, processed=None, **named)]
+        facts: dict[str, Any] = {"component": "" if _unit(label) else label, "warnings": _repeats(values)}
+        records = [options.accelerogram(_unit(label), values, None, processed=None, **facts)]
     else:
         records = _timed_columns(values.reshape(-1, width), names, options)
     return [record.warned(*_cut_number(body)) for record in records]
@@ -109,10 +110,11 @@ def _timed_columns(rows: np.ndarray, names: tuple[str, ...], options: Options) -
     labels = names or ("time", *[""] * (rows.shape[1] - 1))
     timed = bool(_TIME.fullmatch(labels[0]))
     processing: tuple[str, ...] = ()
-    step, warnings = options.time_step, _repeats(rows.ravel())
+    step = options.time_step
+    warnings = () if timed else _repeats(rows.ravel())
     if timed:
         times = rows[:, 0]
-        step, warnings = text.even_step(times), ()
+        step = text.even_step(times)
         if step is None:
             step, even, sentence = text.resampled(times)
             rows = np.stack([np.interp(even, times, column) for column in rows.T], axis=1)
@@ -155,11 +157,11 @@ def _points_for_commas(content: bytes) -> bytes | None:
         return None if decimal and any(";" in row for row in rows) else content
     if decimal and max(map(len, cells)) > 1:
         return re.sub(rb"(?<=\d),(?=\d)|(?<![\d,]),(?=\d)", b".", content)
-    named = re.search(r"[A-Za-z]", next(line for line in head if line.strip()))
+    has_names = re.search(r"[A-Za-z]", next(line for line in head if line.strip()))
     first = [row.split(",")[0] for row in rows]
     steps = {int(b) - int(a) for a, b in pairwise(first)} if all(map(str.isdecimal, first)) else set()
     counts = len(rows) > 2 and len(steps) == 1 and steps.pop() > 0  # evenly upwards, as times do
-    return content if named or counts else None
+    return content if has_names or counts else None
 
 
 _WORDS = re.compile(r"[A-Za-z=:,;()]+")

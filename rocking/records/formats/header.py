@@ -303,7 +303,7 @@ def check_equal(field: str, first: float, second: float, relative: float = 1e-3)
         raise RecordError(f"the header gives {field} as {first:g} and {second:g}; fetch the file again.")
 
 
-def check_nothing_left(rows: list[str]) -> None:
+def check_end(rows: list[str]) -> None:
     """Check that nothing but blanks follows the last channel. Raises RecordError: a channel is cut."""
     if any(row.strip() for row in rows):
         raise RecordError(f"{len(rows)} lines follow the last whole channel: another is cut; fetch it again.")

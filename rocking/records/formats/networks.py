@@ -232,7 +232,8 @@ _JMA = Layout("", {
     "latitude": r"^\s*LAT\.=\s*(.*)", "longitude": r"^\s*LON\.=\s*(.*)", "unit": r"^\s*UNIT\s*=\s*(\w+)",
     "start": r"^\s*INITIAL TIME\s*=\s*([\d ]+)", "magnitude": r"^SITE CODE=(?:[^,]*,){4}\s*([\d.]+)",
 }, ahead=_JAPAN, code="JMA")  # fmt: skip
-_JMA_HEADER, _JMA_NAMES = 7, "NS,EW,UD"
+_JMA_HEADER = 7
+_JMA_NAMES = "NS,EW,UD"
 _JMA_FIRST = re.compile(rf"SITE CODE=(?:.*\n){{6}}[ \t]*{_JMA_NAMES}[ \t]*(?:\n|\Z)")
 
 

@@ -50,8 +50,8 @@ def _kind(content: bytes) -> str:
     series = _SERIES.search(text)  # what it says counts more than a title that speaks of an accelerogram
     if not series and re.search(r"\bACC(EL|\b)", text):
         return "acceleration"
-    named = series or re.search(r"\b(VELOCITY|DISPLACEMENT)\b", text)
-    return named[1].lower() if named else "velocity" if _VELOCITY_UNIT.search(text) else "acceleration"
+    quantity = series or re.search(r"\b(VELOCITY|DISPLACEMENT)\b", text)
+    return quantity[1].lower() if quantity else "velocity" if _VELOCITY_UNIT.search(text) else "acceleration"
 
 
 def _refuse(content: bytes, options: Options) -> list[Accelerogram]:

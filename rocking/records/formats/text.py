@@ -130,11 +130,11 @@ def filled(rows: list[str], declared: int, per_line: int, width: int, margin: in
 
     Raises RecordError when lines are missing or repeated: the block ends elsewhere than its header says.
     """
-    wanted = -(-declared // per_line)
+    line_count = -(-declared // per_line)
     rows = [row for row in rows if row.strip()]
-    if len(rows) < wanted or (len(rows) > wanted and declared > 1):
-        state = "truncated" if len(rows) < wanted else "damaged"
-        stated = f"the header declares {declared} samples, or {wanted} lines, but {len(rows)} stand there"
+    if len(rows) < line_count or (len(rows) > line_count and declared > 1):
+        state = "truncated" if len(rows) < line_count else "damaged"
+        stated = f"the header declares {declared} samples, or {line_count} lines, but {len(rows)} stand there"
         raise RecordError(f"{stated}: lines are missing or repeated, the file is {state}; fetch it again.")
     return whole(fields(rows, width, margin), declared, per_line=0)[0]
 

@@ -16,8 +16,8 @@ from rocking.records.formats import text
 from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.header import (
     Layout,
+    check_end,
     check_equal,
-    check_nothing_left,
     distance,
     in_blocks,
     optional,
@@ -67,7 +67,7 @@ def _cosmos(block: list[str], options: Options, total: int) -> Accelerogram | No
     end = next((i for i, row in enumerate(block) if i > at and _END.match(row)), None)
     if end is None:
         raise RecordError("no line End-of-data ends a channel: the file is truncated; fetch it again.")
-    check_nothing_left(block[end + 1 :])
+    check_end(block[end + 1 :])
     per_line, width = (max(1, int(data[name])) for name in ("per_line", "width"))
     reals = _reals(block[:at])
     step = reals[_STEP] / 1000 if 0 < reals[_STEP] < 1e4 else reals[_RECORDER_STEP]
@@ -147,7 +147,7 @@ def _rows(block: list[str]) -> tuple[str, list[str]]:
     required("points and length", _DURATION, head)
     body = block[_HEADER:]
     end = next((i for i, row in enumerate(body) if row.startswith("/&")), len(body))
-    check_nothing_left(body[end + 1 :])
+    check_end(body[end + 1 :])
     return head, [row for row in body[:end] if row.strip()]
 
 
@@ -220,7 +220,7 @@ def _read_csmip(content: bytes, options: Options) -> list[Accelerogram]:
     if any(_announcement(line) or _VOLUME_1.match(line) for line in rest):
         channels.append(rest)
     else:
-        check_nothing_left(rest)
+        check_end(rest)
     return [_csmip(block, options, len(channels)) for block in channels]
 
 
@@ -237,10 +237,12 @@ def _csmip(block: list[str], options: Options, total: int) -> Accelerogram:
         raise RecordError("no line announces points of acceleration: the file is cut or of velocity.")
     parts = []
     for (i, data), end in zip(announced, [*(i for i, _ in announced[1:]), len(block)], strict=True):
-        rows, declared = block[i + 1 : end], text.count("number of points", data["n"])
+        rows = block[i + 1 : end]
+        samples = text.count("number of points", data["n"])
         width = int(data["width"] or text.column_width(rows[0] if rows else ""))
-        parts.append(text.filled(rows, declared, max(1, int(data["per_line"] or _PER_LINE)), max(1, width)))
-    head, values = "\n".join(block[: announced[0][0]]), parts[0]
+        parts.append(text.filled(rows, samples, max(1, int(data["per_line"] or _PER_LINE)), max(1, width)))
+    head = "\n".join(block[: announced[0][0]])
+    values = parts[0]
     is_corrected = bool(_VOLUME_2.match(head))
     rate = facts.get("rate")
     step = 1 / max(1e-9, text.number("rate", rate)) if rate else text.number("step", facts["step"])

@@ -11,7 +11,7 @@ import pytest
 from rocking.errors import ConfigurationError
 from rocking.study.cli import main
 from rocking.study.plan import check_config_file, make_plan
-from rocking.tables.yaml_file import said_by
+from rocking.tables.yaml_file import scalar_value
 
 ROOT = Path(__file__).parents[3]
 BOMB = "\n".join(
@@ -85,7 +85,7 @@ def test_plain_snakemake_refuses_it_too(tmp_path: Path, text: str, words: str) -
 
 @pytest.mark.parametrize("text", ["1:30", "011", "0x1f", "1_000", "yes", "2020-01-01"])
 def test_what_yaml_1_1_would_turn_into_something_else_is_a_text(tmp_path: Path, text: str) -> None:
-    assert said_by(text) == text
+    assert scalar_value(text) == text
     (tmp_path / "config.yaml").write_text(f"friction_coefficient: {text}\r\nresults: out\r\n")
     config = check_config_file(tmp_path / "config.yaml")
     with pytest.raises(ConfigurationError, match="setting friction_coefficient is"):
