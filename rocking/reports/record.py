@@ -64,10 +64,17 @@ class RecordReport:
             "running": f"{self.record}.{self.scale_note}",
             "scale-note": self.scale_note,
             **printing.settings_texts(self.settings),
-            **_page_one(self),
-            **_page_two(self),
-            **_page_three(self),
-            **_appendix(self),
+            "subtitle": _subtitle(self.tables.record),
+            "key": [_key_numbers(row) for row in self.tables.record],
+            "headlines": headlines(self.fates),
+            "sentences": _sentences(self),
+            "notices": _notices(self),
+            "pulse-sentences": [
+                _pulse_sentence(self.tables, motion) for motion in self.motions if motion.pulses
+            ],
+            "doubts": _doubts(self.tables.comparison, several=len(self.motions) > 1),
+            **_pictures(self),
+            **_tables(self),
         }
 
     @cached_property
@@ -150,26 +157,7 @@ def failure_report(record: str, message: str) -> bytes:
     return compile_document("plain.typ", data)
 
 
-# Page one --------------------------------------------------------------------------------------------------
-
-
-def _page_one(report: RecordReport) -> dict[str, object]:
-    fates = [fate for fate in report.fates if fate.structure in report.structures][:MOST_DRAWN]
-    names = printing.listed([fate.structure for fate in fates])
-    strip = f"Drawings of the structures in their state: {names}."
-    ground = "Acceleration of the ground and its dominant pulse."
-    return {
-        "subtitle": _subtitle(report.tables.record),
-        "key": [_key_numbers(row) for row in report.tables.record],
-        "ground": pictures(figures.ground_figure, report.motions, ground),
-        "strip": pictures(
-            figures.strip_figure, fates, strip, report.structures, report.labels, report.peak_acceleration
-        ),
-        "strip-note": remainder(len(report.fates) - len(fates), "structure", "the table of verdicts"),
-        "headlines": headlines(report.fates),
-        "sentences": _sentences(report),
-        "notices": _notices(report),
-    }
+# Sentences -----------------------------------------------------------------------------------------------
 
 
 def headlines(fates: Sequence[Fate]) -> list[dict[str, str]]:
@@ -259,49 +247,14 @@ def _key_numbers(row: RecordRow) -> str:
     )
 
 
-# Page two --------------------------------------------------------------------------------------------------
-
-
-def _page_two(report: RecordReport) -> dict[str, object]:
-    histories = report.histories[:MOST_DRAWN]
-    others = len(report.fates) - len(histories)
-    alt = (
-        f"Rotation histories of {counted(len(histories), 'structure')} above the acceleration of the ground."
-    )
-    return {
-        "histories": pictures(figures.histories_figure, histories, alt, report.labels, report.motions),
-        "histories-note": remainder(others, "structure", "the table of verdicts, at rest or less demanding"),
-    }
-
-
-# Page three ------------------------------------------------------------------------------------------------
-
-
-def _page_three(report: RecordReport) -> dict[str, object]:
-    rows = [row for row in report.tables.comparison if row.agreement is not Agreement.UNKNOWN]
-    demanding = sorted(
-        rows, key=lambda row: (row.agreement is Agreement.TOO_LOW, row.integrated_rotation_ratio)
-    )
-    cases = [row for row in rows if row in demanding[-MOST_COMPARED:]]
-    with_pulse = [motion for motion in report.motions if motion.pulses]
-    alt = f"Closed form beside integration of {counted(len(cases), 'case')}."
-    return {
-        "pulse-figures": pictures(figures.pulses_figure, with_pulse, "The dominant pulse and its evidence."),
-        "comparison": pictures(figures.comparison_figure, cases, alt, report.labels, len(report.motions) > 1),
-        "comparison-note": remainder(len(rows) - len(cases), "case", "the table of every method"),
-        "pulse-sentences": [_pulse_sentence(report, motion) for motion in with_pulse],
-        "doubts": _doubts(report, rows),
-    }
-
-
-def _pulse_sentence(report: RecordReport, motion: Motion) -> str:
+def _pulse_sentence(tables: RecordTables, motion: Motion) -> str:
     """Say what the dominant pulse of a component is, and what makes it doubtful."""
     component = motion.accelerogram.component
-    ranked = (row for row in report.tables.pulses if row.component == component and row.ranked)
+    ranked = (row for row in tables.pulses if row.component == component and row.ranked)
     row = min(ranked, key=lambda row: row.rank)
     sentences = {flag.value: flag.sentence for flag in Flag}
     doubts = [sentences.get(flag, printing.sentence(f"{flag}.")) for flag in row.flags]
-    if any(each.pulse_periods_unlike for each in report.tables.record if each.component == component):
+    if any(each.pulse_periods_unlike for each in tables.record if each.component == component):
         doubts.append(
             "Its period differs by more than a factor of two from that of the velocity pulse: they are two features."
         )
@@ -313,19 +266,20 @@ def _pulse_sentence(report: RecordReport, motion: Motion) -> str:
     return " ".join([pulse, *doubts])
 
 
-def _doubts(report: RecordReport, rows: Sequence[ComparisonRow]) -> list[str]:
+def _doubts(rows: Sequence[ComparisonRow], several: bool) -> list[str]:
     """Say where the closed form says less than happens, and which of its two simplifications is the reason."""
     reasons: dict[str, list[str]] = {}
-    for row in sorted(rows, key=lambda row: -row.integrated_rotation_ratio):
+    compared = [row for row in rows if row.agreement is not Agreement.UNKNOWN]
+    for row in sorted(compared, key=lambda row: -row.integrated_rotation_ratio):
         if row.agreement is Agreement.TOO_LOW:
             same = tuple(
                 agreement(simpler, row.integrated_rotation_ratio) is Agreement.SAME
                 for simpler in (row.block_on_record_rotation_ratio, row.mechanism_on_pulse_rotation_ratio)
             )
-            name = row.structure + (f" ({words(row.component)})" if len(report.motions) > 1 else "")
+            name = row.structure + (f" ({words(row.component)})" if several else "")
             reasons.setdefault(_BLAME[same], []).append(name)
     if not reasons:
-        return ["The closed form says of no structure less than happens."] if rows else []
+        return ["The closed form says of no structure less than happens."] if compared else []
     return [
         f"The closed form misses what happens to {printing.listed(names, 8)}: {why}."
         for why, names in reasons.items()
@@ -341,10 +295,42 @@ _BLAME: dict[tuple[bool, ...], str] = {
 """By whether the block under the record, and the mechanism under the pulse, have the outcome of the integration."""
 
 
-# Appendix --------------------------------------------------------------------------------------------------
+# Pictures and tables ---------------------------------------------------------------------------------------
 
 
-def _appendix(report: RecordReport) -> dict[str, object]:
+def _pictures(report: RecordReport) -> dict[str, object]:
+    """Return the pictures of the worst cases, and the sentences that say where the others stand."""
+    motions, labels = report.motions, report.labels
+    fates = [fate for fate in report.fates if fate.structure in report.structures][:MOST_DRAWN]
+    names = printing.listed([fate.structure for fate in fates])
+    strip = (f"Drawings of the structures in their state: {names}.", report.structures, labels)
+    histories = report.histories[:MOST_DRAWN]
+    rotations = (
+        f"Rotation histories of {counted(len(histories), 'structure')} above the acceleration of the ground."
+    )
+    rows = [row for row in report.tables.comparison if row.agreement is not Agreement.UNKNOWN]
+    worst = sorted(rows, key=lambda row: (row.agreement is Agreement.TOO_LOW, row.integrated_rotation_ratio))
+    cases = [row for row in rows if row in worst[-MOST_COMPARED:]]
+    comparison = f"Closed form beside integration of {counted(len(cases), 'case')}."
+    pulses = [motion for motion in motions if motion.pulses]
+    verdicts = "the table of verdicts"
+    return {
+        "ground": pictures(
+            figures.ground_figure, motions, "Acceleration of the ground and its dominant pulse."
+        ),
+        "strip": pictures(figures.strip_figure, fates, *strip, report.peak_acceleration),
+        "strip-note": remainder(len(report.fates) - len(fates), "structure", verdicts),
+        "histories": pictures(figures.histories_figure, histories, rotations, labels, motions),
+        "histories-note": remainder(
+            len(report.fates) - len(histories), "structure", f"{verdicts}, at rest or less demanding"
+        ),
+        "pulse-figures": pictures(figures.pulses_figure, pulses, "The dominant pulse and its evidence."),
+        "comparison": pictures(figures.comparison_figure, cases, comparison, labels, len(motions) > 1),
+        "comparison-note": remainder(len(rows) - len(cases), "case", "the table of every method"),
+    }
+
+
+def _tables(report: RecordReport) -> dict[str, object]:
     tables, record = report.tables, report.tables.record
     number_of: Column = ("No.", "auto", "r", lambda row: report.numbers[row.structure])
     ranked = [row for row in tables.pulses if row.rank <= MOST_PULSES]
@@ -402,7 +388,7 @@ VERDICT_COLUMNS: list[Column] = [
     ("5 %", "0.75", "r", lambda fate: printing.to_spread(fate.rotation_ratio_low, fate)),
     ("50 %", "0.75", "r", lambda fate: printing.to_spread(fate.rotation_ratio_median, fate)),
     ("95 %", "0.75", "r", lambda fate: printing.to_spread(fate.rotation_ratio_high, fate)),
-    *columns_of(Fate, "direction=1.1 polarity=0.7"),
+    *columns_of(Fate, "direction=0.9 polarity=0.9"),
 ]
 STRUCTURE_COLUMNS: list[Column] = [
     (
