@@ -79,11 +79,7 @@ def method_scores(
         if method in (TradeMethod.MECHANISM, TradeMethod.ENSEMBLE):
             cpu_s -= curve_s  # which the other methods do not make
         shares = np.isinf(ratios).mean(axis=2)
-        measures: dict[str, scores.Measured] = {
-            "error of the median": partial(_median_error, levels, shares, exact),
-            "mean error of the curve": partial(_curve_error, shares, exact),
-            "processor time of all, s": np.full(len(shares), cpu_s),
-        }
+        measures = _errors(levels, shares, exact) | {"processor time of all, s": np.full(len(shares), cpu_s)}
         yield from scores.scored(method, name, measures, reference.stations)
 
 
@@ -92,14 +88,16 @@ def median_of(levels: np.ndarray, shares: np.ndarray) -> float:
     return crossing(levels, shares.sum(axis=0), np.full(levels.size, float(len(shares))))
 
 
-def _median_error(levels: np.ndarray, shares: np.ndarray, exact: np.ndarray, rows: np.ndarray) -> float:
-    return median_of(levels, shares[rows]) / median_of(levels, exact[rows]) - 1
+def _errors(levels: np.ndarray, shares: np.ndarray, exact: np.ndarray) -> dict[str, scores.Measured]:
+    def median_error(rows: np.ndarray) -> float:
+        return median_of(levels, shares[rows]) / median_of(levels, exact[rows]) - 1
 
+    def curve_error(rows: np.ndarray) -> float:
+        truth = exact[rows].mean(axis=0)
+        is_open = (truth > OPEN[0]) & (truth < OPEN[1])
+        return float(np.abs(shares[rows].mean(axis=0) - truth)[is_open].mean()) if is_open.any() else np.nan
 
-def _curve_error(shares: np.ndarray, exact: np.ndarray, rows: np.ndarray) -> float:
-    truth = exact[rows].mean(axis=0)
-    is_open = (truth > OPEN[0]) & (truth < OPEN[1])
-    return float(np.abs(shares[rows].mean(axis=0) - truth)[is_open].mean()) if is_open.any() else np.nan
+    return {"error of the median": median_error, "mean error of the curve": curve_error}
 
 
 def _by_sines(block: EquivalentBlock, sines: Sequence[Sequence[Pulse]], factors: np.ndarray) -> np.ndarray:

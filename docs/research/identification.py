@@ -14,7 +14,7 @@ same groups a sharpness b is fitted last, because weights that stay spread are t
     logit P'_t = b logit P_t .
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,7 +22,7 @@ from scipy.optimize import minimize_scalar
 from scipy.special import expit, logit
 from scipy.stats import qmc
 
-from rocking import Accelerogram, EquivalentBlock, integrate_batch
+from rocking import EquivalentBlock
 
 PARAMETERS = (
     "uplift_multiplier_positive",
@@ -92,13 +92,6 @@ class Mixture:
         """Return 5 %, 50 % and 95 % of PARAMETERS over the population."""
         ends = np.quantile(self.parameters, LEVELS, axis=0, weights=self.weights, method="inverted_cdf")
         return {name: tuple(own) for name, own in zip(PARAMETERS, ends.T.tolist(), strict=True)}
-
-
-def overturning_table(parameters: np.ndarray, motions: Iterable[Accelerogram]) -> np.ndarray:
-    """Return (n, m) whether each block of (m, 4) PARAMETERS overturns under each motion; they may come one by one."""
-    blocks = [two_sided_block(*each) for each in parameters.tolist()]
-    rows = [np.isinf(integrate_batch(blocks, motion)[:, 0]) for motion in motions]
-    return np.array(rows, dtype=bool).reshape(len(rows), len(blocks))
 
 
 def two_sided_block(

@@ -13,7 +13,6 @@ from scipy.integrate import solve_ivp
 from rocking import Accelerogram, Mechanism, MotionError
 from rocking.quantities import GRAVITY
 
-REFERENCE_TOLERANCE = 1e-12
 STEPS_PER_SAMPLE = 2
 """Least steps between two samples of the reference, so that no hop hides inside a step."""
 REST_SPEED = 1e-7
@@ -24,35 +23,34 @@ STILL_LANDINGS = 3
 """Landings on still ground after which each side has had its largest flight: impacts only take energy away."""
 
 
-def reference_landings(mechanism: Mechanism, accelerogram: Accelerogram) -> tuple[float, np.ndarray]:
-    """Return φ_max/φ_cr by DOP853 at 1e-12, restarted at every sample and every impact; inf if it overturns.
-
-    And (k, 2) time [s] and speed of arrival [rad/s] of every landing.
-    """
-    return _Run(mechanism, accelerogram, "DOP853", REFERENCE_TOLERANCE, restart=True).answer()
-
-
-def event_landings(
-    mechanism: Mechanism, accelerogram: Accelerogram, method: str, tolerance: float
+def landings(
+    mechanism: Mechanism,
+    record: Accelerogram,
+    method: str = "DOP853",
+    tolerance: float = 1e-12,
+    *,
+    restart: bool = True,
 ) -> tuple[float, np.ndarray]:
-    """Return the same as one writes it with `solve_ivp`: the record interpolated, an event at each impact.
+    """Return φ_max/φ_cr, inf if it overturns, and (k, 2) time [s] and speed of arrival [rad/s] of every landing.
 
-    No step is longer than a sample. Overturning is a rotation past the end of the mechanism.
+    restart: at every sample and every impact, as of the reference. Else as one writes it with `solve_ivp`: the record
+    interpolated, an event at each impact, no step longer than a sample, and overturning a rotation past the end of the
+    mechanism.
     """
-    return _Run(mechanism, accelerogram, method, tolerance, restart=False).answer()
+    if mechanism.remembers:
+        raise MotionError(
+            "the structure has ties that yield or break, but the reference solution knows elastic ones only; leave "
+            "their strength out."
+        )
+    return _Run(mechanism, record, method, tolerance, restart).answer()
 
 
 class _Run:
     """One mechanism through one record; `sides` holds +1 and −1, or +1 alone for a one-sided structure."""
 
     def __init__(
-        self, mechanism: Mechanism, record: Accelerogram, method: str, tolerance: float, *, restart: bool
+        self, mechanism: Mechanism, record: Accelerogram, method: str, tolerance: float, restart: bool
     ) -> None:
-        if mechanism.remembers:
-            raise MotionError(
-                "the structure has ties that yield or break, but the reference solution knows elastic ones only; leave "
-                "their strength out."
-            )
         self.method, self.tolerance, self.restart = method, tolerance, restart
         self.ground, self.step = record.acceleration.tolist(), record.time_step
         self.duration = record.duration
@@ -66,7 +64,7 @@ class _Run:
         samples = range(1, len(self.ground) - 1) if self.restart else ()
         still = STILL / min(side.frequency_parameter for side in self.sides.values())
         now, sign, state, still_landings = 0.0, 0, (0.0, 0.0), 0
-        landings: list[tuple[float, float]] = []
+        arrivals: list[tuple[float, float]] = []
         for until in (*(k * self.step for k in samples), self.duration, self.duration + still):
             while now < until and self.peak < math.inf and still_landings < STILL_LANDINGS:
                 if sign == 0:
@@ -75,10 +73,10 @@ class _Run:
                         break
                 now, state, landed = self._fly(sign, state, now, until)
                 if landed:
-                    landings.append((now, -state[1]))
+                    arrivals.append((now, -state[1]))
                     still_landings += until > self.duration
                     sign, state = self._impact(sign, state[1])
-        return self.peak, np.array(landings, dtype=float).reshape(-1, 2)
+        return self.peak, np.array(arrivals, dtype=float).reshape(-1, 2)
 
     def _acceleration(self, time: float) -> float:
         place = min(int(time / self.step), len(self.ground) - 2)
@@ -132,13 +130,13 @@ class _Run:
             atol=1e-3 * self.tolerance * size * np.array([1, 1 / span]),
             max_step=self.step / (STEPS_PER_SAMPLE if self.restart else 1),
         )
-        landings, turns, ends = solved.y_events
+        down, turns, ends = solved.y_events
         peaks = [state[0], solved.y[0, -1], *(y[0] for y in turns)]
         self.peak = (
             math.inf if len(ends) else max(self.peak, *(each / side.critical_rotation for each in peaks))
         )
         rate = float(solved.y[1, -1])
-        if len(landings):
+        if len(down):
             return float(solved.t[-1]), (0.0, rate), True
         return until, (float(solved.y[0, -1]), rate), False
 

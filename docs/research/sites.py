@@ -4,7 +4,7 @@ import re
 import zlib
 from collections.abc import Callable, Iterable, Iterator
 from time import process_time
-from typing import TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +22,6 @@ SiteRecord = tuple[str, str, Accelerogram]
 """Identifier, site and record of a component that counts."""
 UPLIFTS = (1.3, 8.0)
 """Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
-T = TypeVar("T")
 
 
 @row()
@@ -98,7 +97,7 @@ def draw_of(name: str, *place: int) -> np.random.Generator:
     return np.random.default_rng([zlib.crc32(name.encode()), *place])
 
 
-def timed(run: Callable[[], T]) -> tuple[T, float]:
+def timed(run: Callable[[], Any]) -> tuple[Any, float]:
     """Return what `run` returns, and the processor time that it took, s."""
     started = process_time()
     return run(), process_time() - started

@@ -8,14 +8,8 @@ import pytest
 from scipy.optimize import minimize
 
 from docs.research import identification as ident
-from docs.research.identification import (
-    PARAMETERS,
-    BlockPrior,
-    fit_mixture,
-    overturning_table,
-    two_sided_block,
-)
-from rocking.motion import integrate
+from docs.research.identification import PARAMETERS, BlockPrior, fit_mixture, two_sided_block
+from rocking.motion import integrate, integrate_batch
 from rocking.records import Accelerogram
 
 STEP = 0.02
@@ -63,23 +57,28 @@ def test_the_blocks_of_a_prior_fill_its_box():
 
 def test_known_structures_are_found_and_predicted_under_motions_that_took_no_part():
     records, outcomes = campaign(range(12), 0.05)
-    blocks = PRIOR.parameters()
+    parameters = PRIOR.parameters()
+    blocks = [two_sided_block(*each) for each in parameters.tolist()]
+
+    def overturning(motions):
+        return np.array([np.isinf(integrate_batch(blocks, each)[:, 0]) for each in motions])
+
     motions = [each.event for each in records]
-    mixture = fit_mixture(blocks, overturning_table(blocks, records), np.array(outcomes), motions)
+    mixture = fit_mixture(parameters, overturning(records), np.array(outcomes), motions)
     for name, value in zip(PARAMETERS, TRUTH, strict=True):
         low, median, high = mixture.ranges()[name]
         assert low <= value <= high and low <= median <= high
     low, _, high = mixture.ranges()["uplift_multiplier_positive"]
-    prior_low, prior_high = np.quantile(blocks[:, 0], [0.05, 0.95])
+    prior_low, prior_high = np.quantile(parameters[:, 0], [0.05, 0.95])
     assert high / low < 0.8 * prior_high / prior_low
     records, outcomes = campaign(range(100, 112), 0.05)
-    probability = mixture.probability(overturning_table(blocks, records))
+    probability = mixture.probability(overturning(records))
     share = np.mean(outcomes)
     assert 0.1 < share < 0.9
     assert np.mean((probability > 0.5) == outcomes) >= 0.9
     assert np.mean((probability - outcomes) ** 2) < 0.4 * share * (1 - share)
     still = Accelerogram(np.full(50, 0.01), STEP)
-    assert 1e-5 < mixture.probability(overturning_table(blocks, [still]))[0] < 0.05
+    assert 1e-5 < mixture.probability(overturning([still]))[0] < 0.05
 
 
 def test_many_steps_reach_the_largest_likelihood():

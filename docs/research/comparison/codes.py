@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from docs.research.reference import event_landings
+from docs.research import reference
 from docs.research.sites import timed
 from rocking import Accelerogram, Arch, Block, Frame, Mechanism, Pulse, Response, integrate
 from rocking.quantities import GRAVITY
@@ -39,6 +39,8 @@ SLOWEST = 1e-3
 """Speed of arrival, in p φ_cr, of the weakest impact that is counted."""
 VISIBLE = 0.02
 """Largest excursions, over the critical rotation, from which a restitution is read."""
+STILL = 6.0
+"""How long the other codes follow still ground at most, in units of 1/p."""
 TIMEOUT = 900.0
 """Seconds that a process of another code may take."""
 TOLERANCES = (1e-3, 1e-6, 1e-9)
@@ -153,8 +155,9 @@ def _ours(tolerance: float, case: CodeCase) -> Answer:
 
 
 def _scipy(method: str, case: CodeCase) -> Answer:
-    (ratio, landings), spent = timed(lambda: event_landings(case.mechanism, case.motion, method, 1e-6))
-    return Answer(ratio, spent, landings=landings[:, 0])
+    run = partial(reference.landings, case.mechanism, case.motion, method, 1e-6, restart=False)
+    (ratio, arrivals), spent = timed(run)
+    return Answer(ratio, spent, landings=arrivals[:, 0])
 
 
 def _outer(module: str, case: CodeCase) -> Answer:

@@ -10,14 +10,12 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
 from docs.research.comparison.bodies import RigidBodies, rigid_bodies
-from docs.research.comparison.codes import Answer, landings, run_of, serve, still_from, structures
+from docs.research.comparison.codes import STILL, Answer, landings, run_of, serve, still_from, structures
 from docs.research.stacks import ALERT, FRICTION
 from rocking.quantities import GRAVITY
 
 STEPS = (2e-3, 1e-3, 5e-4)
 """Time steps, s."""
-STILL = 6.0
-"""How long still ground is followed, in units of 1/p."""
 FALLEN = 6.0
 """Turn of a body, in critical rotations, from which nothing comes back."""
 
@@ -30,7 +28,14 @@ def run(case: dict, step: float) -> Answer:
     largest = int(np.abs(rotation).argmax())
     if np.abs(turns[-1]).max() > FALLEN * critical:
         return Answer(math.inf, landings=landings(times, rotation))
-    energy = _energy(bodies, times, turns, centres)
+    # Energy relative to the ground, per density and thickness, from differences over two steps.
+    masses, _, gyrations = bodies.properties
+    masses = masses.copy()
+    masses[list(bodies.driven)] = 0.0
+    moved = centres - centres[:, bodies.driven[:1]]
+    velocity, spin = np.gradient(moved, times, axis=0), np.gradient(turns, times, axis=0)
+    moving = ((velocity**2).sum(axis=2) + gyrations * spin**2) @ masses / 2
+    energy = moving + GRAVITY * (centres[:, :, 1] - centres[0, :, 1]) @ masses
     return run_of(case, times, rotation, energy, bodies.outside_hinges(turns[largest]))
 
 
@@ -65,17 +70,6 @@ def follow(case: dict, bodies: RigidBodies, step: float) -> tuple[np.ndarray, np
             break
     solver.finalize()
     return times[: len(turns)], np.array(turns), np.array(centres)[:, :, [0, 2]]
-
-
-def _energy(bodies: RigidBodies, times: np.ndarray, turns: np.ndarray, centres: np.ndarray) -> np.ndarray:
-    """Energy (n,) relative to the ground, per density and thickness, from differences over two steps."""
-    masses, _, gyrations = bodies.properties
-    masses = masses.copy()
-    masses[list(bodies.driven)] = 0.0
-    moved = centres - centres[:, bodies.driven[:1]]
-    velocity, spin = np.gradient(moved, times, axis=0), np.gradient(turns, times, axis=0)
-    moving = ((velocity**2).sum(axis=2) + gyrations * spin**2) @ masses / 2
-    return moving + GRAVITY * (centres[:, :, 1] - centres[0, :, 1]) @ masses
 
 
 def base_speed(case: dict, step: float) -> tuple[np.ndarray, np.ndarray]:

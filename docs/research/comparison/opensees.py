@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from docs.research.comparison.codes import Answer, landings, run_of, serve, still_from, structures
+from docs.research.comparison.codes import STILL, Answer, landings, run_of, serve, still_from, structures
 from rocking.quantities import GRAVITY
 from rocking.structures import Block
 
@@ -26,8 +26,6 @@ SHORTEST = 1e-7
 DAMPING = 0.05
 """Of the first mode, stiffness-proportional."""
 DENSITY = 2000.0
-STILL = 6.0
-"""How long still ground is followed at most, in units of 1/p."""
 REVERSALS = 3
 """Reversals on still ground after which nothing new comes."""
 BUDGET = 90.0

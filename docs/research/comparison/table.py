@@ -10,9 +10,8 @@ from operator import itemgetter
 import numpy as np
 import pandas as pd
 
-from docs.research import scores
+from docs.research import reference, scores
 from docs.research.comparison import codes
-from docs.research.reference import reference_landings
 from docs.research.report import Target
 from docs.research.scores import Score
 from docs.research.sites import timed
@@ -80,7 +79,7 @@ def compare(target: Target) -> None:
 
 def code_rows(case: codes.CodeCase, asked: Mapping[str, codes.Code]) -> Iterator[CodeRow]:
     """Yield the rows of one case, the reference first."""
-    (truth, landings), spent = timed(lambda: reference_landings(case.mechanism, case.motion))
+    (truth, landings), spent = timed(lambda: reference.landings(case.mechanism, case.motion))
     side = case.mechanism.positive
     forced = landings[landings[:, 0] <= case.motion.duration]
     fast = forced[forced[:, 1] > codes.SLOWEST * side.frequency_parameter * side.critical_rotation, 0]
