@@ -42,12 +42,12 @@ def _show(message: Warning | str, *_: object, **__: object) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    declared = argparse.ArgumentParser(add_help=False)
-    declared.add_argument(
+    declarations = argparse.ArgumentParser(add_help=False)
+    declarations.add_argument(
         "--unit", help="unit of the numbers, where the file states none: m/s2, cm/s2, g, ..."
     )
-    declared.add_argument("--time-step", type=float, help="time step in s, where the file states none")
-    one_file = argparse.ArgumentParser(add_help=False, parents=[declared])
+    declarations.add_argument("--time-step", type=float, help="time step in s, where the file states none")
+    one_file = argparse.ArgumentParser(add_help=False, parents=[declarations])
     one_file.add_argument("file", type=Path, help="file of an accelerogram, in any format that is read")
     one_file.add_argument("--scale", type=float, default=1.0, help="factor on the accelerations (default: 1)")
     channels = argparse.ArgumentParser(add_help=False, parents=[one_file])
@@ -61,13 +61,13 @@ def _parser() -> argparse.ArgumentParser:
 
     def verb(function: Any, text: str, *parents: argparse.ArgumentParser) -> Any:
         name = function.__name__.removeprefix("_")
-        made = verbs.add_parser(name, help=text, description=text, parents=parents)
-        made.set_defaults(run=function)
-        return made.add_argument
+        subparser = verbs.add_parser(name, help=text, description=text, parents=parents)
+        subparser.set_defaults(run=function)
+        return subparser.add_argument
 
     add = verb(_start, "start a study in a folder of your own")
     add("folder", type=Path)
-    add = verb(_catalogue, "write a catalogue of the accelerograms in a folder", declared)
+    add = verb(_catalogue, "write a catalogue of the accelerograms in a folder", declarations)
     add("folder", type=Path)
     add("--output", type=Path, help="CSV file to write (default: catalogue.csv in the folder)")
     add = verb(_run, "run the study in a folder")

@@ -79,11 +79,12 @@ class Study:
 
     def _processed(self, accelerogram: Accelerogram) -> Accelerogram:
         which = self.settings.processing.apply
-        wanted = which == "always" or (which == "raw" and accelerogram.processed is False)
-        return process(accelerogram, self.settings.processing) if wanted else accelerogram
+        if which == "always" or (which == "raw" and accelerogram.processed is False):
+            return process(accelerogram, self.settings.processing)
+        return accelerogram
 
 
-def planned(config: Mapping[str, Any], params: Any) -> tuple[Study, list[CatalogueRecord]]:
+def begin_job(config: Mapping[str, Any], params: Any) -> tuple[Study, list[CatalogueRecord]]:
     """Return the study and the records of a job, from its `config` and what `Plan.params` planned for it.
 
     The next run waits for the end of this process, should its scheduler be killed. Raises ConfigurationError when the
@@ -139,30 +140,35 @@ class Assessed:
         alone: bool,
     ) -> None:
         """Append what one component gives: cases, other cracks, other processing. motion: of it, or of its pair."""
-        study, tables, component = self.study, self.tables, accelerogram.component
+        study = self.study
+        tables = self.tables
+        component = accelerogram.component
         beside = None if vertical is None else aligned(vertical, accelerogram)
         assessment = assess_structures(accelerogram, study.structures, study.assessment, beside, alone)
         identity = identity_of(self.record.id, accelerogram, study.settings_sha256)
         tables.add(identity, assessment, study.assessment, self.record.licence, beside, motion)
         for stage, duration in assessment.durations.items():
             self.durations[stage] += duration
-        varied: dict[str, list[Variation]] = {}
+        variations: dict[str, list[Variation]] = {case.structure: [] for case in assessment.cases}
         for case in assessment.cases:
             if response := case.responses.get(Method.MECHANISM_ON_RECORD):
                 self.responses[component, case.structure] = response
             pulse = case.prediction.pulse if case.prediction else None
             structure = study.structures[case.structure]
+            number = study.settings.candidates
             with self.stage("variations", component, case.structure):
-                number = study.settings.candidates
-                varied[case.structure] = candidates(structure, accelerogram, pulse, number, study.assessment)
+                variations[case.structure] += candidates(
+                    structure, accelerogram, pulse, number, study.assessment
+                )
         if study.settings.processing_variants:
             as_recorded = {case.structure: case.integrated_rotation_ratio for case in assessment.cases}
             structures = {name: study.structures[name] for name in as_recorded}
             with self.stage("variations", component):
-                recorded = processed(accelerogram)
-                of_each = processed_variants(structures, recorded, study.assessment, as_recorded, beside)
-                varied = {name: varied.get(name, []) + of_each[name] for name in of_each}
-        for name, several in varied.items():
+                motions = processed(accelerogram)
+                of_each = processed_variants(structures, motions, study.assessment, as_recorded, beside)
+                for name, several in of_each.items():
+                    variations[name] += several
+        for name, several in variations.items():
             tables.variations.extend(VariationRow.of(identity, each, structure=name) for each in several)
 
     def assess_directions(self, pair: GroundMotions) -> None:
@@ -193,13 +199,16 @@ def run_job(
     with written_part(part) as add:
         for record in records:
             assessed = assess_record(record, study)
-            tables, folder, content = assessed.tables, results / record.id, None
+            tables = assessed.tables
+            folder = results / record.id
+            content = None
             if study.settings.reports:
                 from rocking.reports.explore import record_content  # matplotlib takes a second to import
 
                 write_report(assessed, folder)
-                shown = (assessed.accelerograms, study.structures, tables, assessed.responses)
-                content = record_content(record.id, *shown)
+                content = record_content(
+                    record.id, assessed.accelerograms, study.structures, tables, assessed.responses
+                )
             else:
                 remove_copies(folder)
             if study.settings.histories:
@@ -207,19 +216,24 @@ def run_job(
                 write_rows(HistoryRow, rows, folder / HistoryRow.table.file_name)
             add(tables, content)
             tell(f"{record.id}: {record_line(tables.verdicts, tables.failures)}")
-        if gone := [path for path in files if not os.path.isfile(path)]:
-            raise RecordError(f"{gone[0]}: the file went away while the study ran; bring it back.")
+        for path in files:
+            if not os.path.isfile(path):
+                raise RecordError(f"{path}: the file went away while the study ran; bring it back.")
 
 
 def write_report(assessed: Assessed, folder: Path) -> None:
     """Write report.pdf of one record into `folder`, beside the tables that it names."""
     from rocking.reports.record import RecordReport, failure_report  # matplotlib takes a second to import
 
-    tables, record, study = assessed.tables, assessed.record.id, assessed.study
+    tables = assessed.tables
+    record = assessed.record.id
+    study = assessed.study
     tables.write(folder)
     if tables.comparison:
-        shown = (study.structures, tables, study.settings.mapping(), assessed.responses)
-        report = RecordReport(record, assessed.accelerograms, *shown).pdf()
+        settings = study.settings.mapping()
+        report = RecordReport(
+            record, assessed.accelerograms, study.structures, tables, settings, assessed.responses
+        ).pdf()
     else:
         report = failure_report(record, " ".join(failure.message for failure in tables.failures))
     write_whole(folder / "report.pdf", report)
@@ -236,7 +250,11 @@ def assess_record(record: CatalogueRecord, study: Study, opened: Opened | None =
     if horizontal:
         with assessed.stage("velocity pulse"):
             motions = horizontal_motions(horizontal)
-        pair = _pair(assessed, vertical)
+        pair = None
+        ensemble = study.assessment.ensemble
+        if len(horizontal) == 2 and ensemble.members:
+            with assessed.stage("directions", BOTH_COMPONENTS):
+                pair = GroundMotions.of(*horizontal, vertical=vertical, processing=ensemble.processing)
         for accelerogram, motion in zip(horizontal, motions, strict=True):
             assessed.assess(accelerogram, motion, vertical, alone=pair is None)
         if pair:
@@ -244,13 +262,3 @@ def assess_record(record: CatalogueRecord, study: Study, opened: Opened | None =
     for stage, duration in assessed.durations.items():
         assessed.tables.timings.append(TimingRow(record=record.id, stage=stage, duration_s=duration))
     return assessed
-
-
-def _pair(assessed: Assessed, vertical: Accelerogram | None) -> GroundMotions | None:
-    """The motions of both horizontal components; None without two of them that belong together, or an ensemble."""
-    ensemble = assessed.study.assessment.ensemble
-    if len(assessed.accelerograms) == 2 and ensemble.members:
-        first, second = assessed.accelerograms
-        with assessed.stage("directions", BOTH_COMPONENTS):
-            return GroundMotions.of(first, second, vertical=vertical, processing=ensemble.processing)
-    return None

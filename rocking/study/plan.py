@@ -52,11 +52,14 @@ class Plan:
     @property
     def doubts(self) -> tuple[str, ...]:
         """What to tell the user before the run, one sentence each; folders of records that left the catalogue too."""
-        kept = {*self.records, "summary", "fragility"}
+        names = {*self.records, "summary", "fragility"}
         folders = (report.parent for report in sorted(Path(self.settings.results).glob("*/report.pdf")))
-        left = "{} is of a record that is not in the catalogue any more; remove it if you do not need it."
-        gone = (left.format(folder) for folder in folders if folder.name not in kept)
-        return (*repeated(self.records.values()), *unlisted(Path(self.settings.catalogue)), *gone)
+        former = "{} is of a record that is not in the catalogue any more; remove it if you do not need it."
+        return (
+            *repeated(self.records.values()),
+            *unlisted(Path(self.settings.catalogue)),
+            *(former.format(folder) for folder in folders if folder.name not in names),
+        )
 
     def fill_hashes(self) -> None:
         """Write the hashes that the catalogue leaves blank: the files are checked against them from now on."""
@@ -95,20 +98,20 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     """
     defects: list[str] = []
 
-    def collected(load: Callable[..., T], *arguments: Any) -> T | None:
+    def attempt(load: Callable[..., T], *arguments: Any) -> T | None:
         try:
             return load(*arguments)
         except RockingError as error:
             defects.append(str(error))
             return None
 
-    settings = collected(read_settings, config) or named_files(config)
-    listed = collected(load_catalogue, settings.catalogue) or ()
-    structures = collected(load_structures, settings.structures) or {}
-    collected(_check_writable, Path(settings.results))
+    settings = attempt(read_settings, config) or named_files(config)
+    catalogue = attempt(load_catalogue, settings.catalogue) or ()
+    structures = attempt(load_structures, settings.structures) or {}
+    attempt(_check_writable, Path(settings.results))
     if defects:
         raise ConfigurationError("\n".join(defects))
-    records = {record.id: with_hashes(record, settings.mirror) for record in listed}
+    records = {record.id: with_hashes(record, settings.mirror) for record in catalogue}
     return Plan(
         settings=settings,
         records=records,
@@ -142,12 +145,12 @@ def check_config_file(path: Path) -> dict[str, Any]:
 
 
 def _check_writable(results: Path) -> None:
-    there = next(path for path in (results.absolute(), *results.absolute().parents) if path.exists())
-    if not there.is_dir():
-        raise ConfigurationError(f"setting results: {there} is a file, but must be a folder.")
-    if not os.access(there, os.W_OK | os.X_OK):
+    folder = next(path for path in (results.absolute(), *results.absolute().parents) if path.exists())
+    if not folder.is_dir():
+        raise ConfigurationError(f"setting results: {folder} is a file, but must be a folder.")
+    if not os.access(folder, os.W_OK | os.X_OK):
         raise ConfigurationError(
-            f"setting results: nothing can be written in {there}; mend its permissions or name another folder."
+            f"setting results: nothing can be written in {folder}; mend its permissions or name another folder."
         )
 
 
@@ -223,10 +226,10 @@ def share_out(
     """
     identifiers = tuple(identifiers)
     number = len(identifiers)
-    wanted = number / size if size else max(min(number / _FEW[reports], _MOST_JOBS), number / _MANY)
-    count = 1 << max(0, (math.ceil(wanted) - 1).bit_length())
-    shared: dict[str, list[str]] = {}
+    least = number / size if size else max(min(number / _FEW[reports], _MOST_JOBS), number / _MANY)
+    count = 1 << max(0, (math.ceil(least) - 1).bit_length())
+    jobs: dict[str, list[str]] = {}
     for identifier in identifiers:
         place = int.from_bytes(hashlib.sha256(identifier.encode()).digest()[:4], "big") % count
-        shared.setdefault(f"{place:05d}_of_{count:05d}", []).append(identifier)
-    return {name: tuple(shared[name]) for name in sorted(shared)}
+        jobs.setdefault(f"{place:05d}_of_{count:05d}", []).append(identifier)
+    return {name: tuple(jobs[name]) for name in sorted(jobs)}

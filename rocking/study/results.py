@@ -63,7 +63,7 @@ def page_contents(folders: Iterable[Path], records: Iterable[str]) -> list[dict[
     return [contents[record] for record in records if record in contents]
 
 
-def gathered(row_class: type[Row], folders: Iterable[Path], records: Iterable[str]) -> Iterator[bytes]:
+def table_lines(row_class: type[Row], folders: Iterable[Path], records: Iterable[str]) -> Iterator[bytes]:
     """Yield a table of `records` in their order, head first, from the parts in `folders`, which keep that order."""
     place = {record: number for number, record in enumerate(records)}
 
@@ -118,15 +118,15 @@ class Results:
             raise RockingError(f"table is {name!r}, but must be one of {', '.join(_TABLES)}.")
         row_class = _TABLES[name]
         file = row_class.table.file_name
-        kept = list(row_class.table.column_names if columns is None else columns)
+        names = list(row_class.table.column_names if columns is None else columns)
         if (summary := self.folder / "summary" / file).exists():
-            return frame(row_class, summary, kept)
+            return frame(row_class, summary, names)
         parts = [path for part in parts_in(self.folder) if (path := part / file).exists()]
         paths = parts or sorted(self.folder.glob(f"*/{file}"))  # of records that were assessed one by one
         if not paths:
             raise RockingError(f"{self.folder} holds no {file}; name the folder of a study's results.")
-        table = pd.concat([frame(row_class, path, ["record", *kept]) for path in paths])
-        return table.sort_values("record", kind="stable", ignore_index=True)[kept]
+        table = pd.concat([frame(row_class, path, ["record", *names]) for path in paths])
+        return table.sort_values("record", kind="stable", ignore_index=True)[names]
 
     def write_record(self, record: str, folder: Path | str | None = None) -> list[Path]:
         """Write the tables of one record as CSV into `folder`, else beside its report, and return their paths.
@@ -136,7 +136,7 @@ class Results:
         """
         target = self.folder / record if folder is None else Path(folder)
         parts = parts_in(self.folder)
-        tables = {each: list(gathered(each, parts, [record])) for each in PER_RECORD}
+        tables = {each: list(table_lines(each, parts, [record])) for each in PER_RECORD}
         if len(tables[TimingRow]) == 1:  # which every record has, also one that could not be read
             raise RockingError(
                 f"{self.folder} holds no tables of {record!r}; name a record of a study that has been run."

@@ -134,16 +134,16 @@ def _snakemake(arguments: Sequence[str]) -> int:
 def _logged(log: Path) -> Iterator[TextIO]:
     """Let this process and its children write into `log`, and yield the stream that they would have written to."""
     sys.stdout.flush()
-    kept = {number: os.dup(number) for number in (1, 2)}
+    copies = {number: os.dup(number) for number in (1, 2)}
     with log.open("wb") as stream, os.fdopen(os.dup(1), "w") as terminal:
-        for number in kept:
+        for number in copies:
             os.dup2(stream.fileno(), number)
         try:
             yield terminal
         finally:
-            for number, place in kept.items():
-                os.dup2(place, number)
-                os.close(place)
+            for number, copy in copies.items():
+                os.dup2(copy, number)
+                os.close(copy)
 
 
 def begin(plan: Plan) -> None:

@@ -20,10 +20,10 @@ from rocking.assessment.rows.of_study import (
     structure_rows,
 )
 from rocking.errors import ConfigurationError, RockingError
-from rocking.records.catalogue import CatalogueRecord
+from rocking.records import Accelerogram, CatalogueRecord
 from rocking.structures import Structure
 from rocking.study.job import Study
-from rocking.study.results import IN_PARTS, gathered, page_contents, part, remove_other_parts
+from rocking.study.results import IN_PARTS, page_contents, part, remove_other_parts, table_lines
 from rocking.tables import Row, data_package, frame, write_tables, write_whole
 
 _GOVERNING = ("structure", "record", "level", "overturning_share")
@@ -74,7 +74,7 @@ def write_summary(
     """Write the tables of the summary into `target`: of `records`, in their order, from their jobs in `parts`."""
     for each in SUMMARY_TABLES:
         if each in IN_PARTS:
-            write_whole(target / each.table.file_name, gathered(each, parts, records))
+            write_whole(target / each.table.file_name, table_lines(each, parts, records))
     cases = frame(ComparisonRow, target / ComparisonRow.table.file_name, AGREEMENT_COLUMNS)
     tables: dict[type[Row], Iterable[Row]] = {
         StructureRow: structure_rows(structures),
@@ -90,8 +90,11 @@ def _report(folder: Path, study: Study, fragility: Path) -> None:
     from rocking.reports.summary import prediction_scatter, summary_report
     from rocking.reports.trade import trade_picture
 
-    shown = {each.table.name: each for each in SUMMARY_TABLES if each.table.name in _SHOWN}
-    tables = {name: frame(each, folder / each.table.file_name) for name, each in shown.items()}
+    tables = {
+        each.table.name: frame(each, folder / each.table.file_name)
+        for each in SUMMARY_TABLES
+        if each.table.name in _SHOWN
+    }
     if (fragility / "fragility_summary.csv").exists():
         from rocking.assessment.rows.of_fragility import FragilitySummaryRow, IdaRow  # a quarter of a second
 
@@ -124,17 +127,19 @@ def write_fragility(
     hazard = rows.read_hazard(Path(settings.hazard)) if settings.hazard else None
     measure = intensity_measure(settings.intensity_measure)
     mechanism = next(iter(study.structures.values())).mechanism()
-    names, accelerograms, unused = [], [], []
+    names: list[str] = []
+    accelerograms: list[Accelerogram] = []
+    reasons: list[str] = []
     for record in records:
         try:
-            opened, _ = study.open(record)
-            for accelerogram in opened:
+            components, _ = study.open(record)
+            for accelerogram in components:
                 measure.of(accelerogram, mechanism)
         except RockingError as error:
-            unused.append(f"{record.id}: {error}")
+            reasons.append(f"{record.id}: {error}")
             continue
-        names += [f"{record.id} {accelerogram.component}".strip() for accelerogram in opened]
-        accelerograms += opened
+        names += [f"{record.id} {accelerogram.component}".strip() for accelerogram in components]
+        accelerograms += components
     if not accelerograms:
         raise ConfigurationError(
             "no record of the catalogue can be used, but a fragility needs two stations; the log says why."
@@ -154,11 +159,11 @@ def write_fragility(
         for threshold in rows.ROTATION_RATIOS:
             for governing in (False, True) if analysis.governing_ratios is not None else (False,):
                 curve = analysis.fragility(threshold, governing=governing)
-                summed = rows.fragility_summary_row(name, curve, governing, hazard)
+                row = rows.fragility_summary_row(name, curve, governing, hazard)
                 tables[rows.FragilityRow] += rows.fragility_rows(name, curve, governing)
-                tables[rows.FragilitySummaryRow].append(summed)
+                tables[rows.FragilitySummaryRow].append(row)
         of_measures = rows.intensity_measure_rows(name, structure.mechanism(), accelerograms, analysis)
         tables[rows.IntensityMeasureRow] += of_measures
         tell(f"{count} of {len(study.structures)}: {name}")
     write_tables(tables, folder, "rocking-fragility")
-    return unused
+    return reasons

@@ -82,10 +82,10 @@ def closing_lines(verdicts: Sequence[Fate], failures: Iterable[FailureRow]) -> I
 
 def check_any_read(summary: Path, records: Collection[str]) -> None:
     """Raise RecordError when a summary, where one was asked for, says of each record that it could not be read."""
-    written = (summary / FailureRow.table.file_name).is_file()
-    rows = read_table(FailureRow, summary) if written else []
-    unread = {row.record: row.message for row in rows if row.stage == "read"}
-    if written and set(unread) >= set(records):
+    if not (summary / FailureRow.table.file_name).is_file():
+        return
+    unread = {row.record: row.message for row in read_table(FailureRow, summary) if row.stage == "read"}
+    if set(unread) >= set(records):
         number = counted(len(records), "record")
         raise RecordError(f"none of {number} could be read; the first: {next(iter(unread.values()))}")
 
@@ -161,8 +161,8 @@ class Progress:
         if self._back and self._done < self._total:
             text = f"{self._done} of {counted(self._total, 'record')}"
             if self._done:
-                left = (time.monotonic() - self._began) / self._done * (self._total - self._done)
-                text += f", about {left / 60:.0f} min left" if left > 90 else f", about {left:.0f} s left"
+                rest = (time.monotonic() - self._began) / self._done * (self._total - self._done)
+                text += f", about {rest / 60:.0f} min left" if rest > 90 else f", about {rest:.0f} s left"
             print(self._back + fitting(text, self._stream), end="", file=self._stream, flush=True)
 
 

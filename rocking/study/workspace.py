@@ -2,6 +2,7 @@
 
 import math
 import re
+from itertools import chain
 from pathlib import Path
 
 from rocking.assessment.rows.of_record import ComparisonRow
@@ -46,20 +47,19 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
     CatalogueError when `target` is no catalogue.
     """
     standing = [row for _, row in read_rows(target)] if target.exists() else []
-    listed, rows = list_folder(folder, unit=unit, time_step=time_step, catalogue=standing)
+    files, rows = list_folder(folder, unit=unit, time_step=time_step, catalogue=standing)
     if not rows and not standing:
-        reasons = "; ".join(f"{file.file}: {file.refusal}" for file in listed) or "it holds no file"
+        reasons = "; ".join(f"{file.file}: {file.refusal}" for file in files) or "it holds no file"
         raise RecordError(f"{folder}: no accelerogram was read ({reasons}).")
     if rows:
-        used = (name for row in rows for name in row)
-        columns = dict.fromkeys([*(standing[0] if standing else COLUMNS), *used])
+        columns = dict.fromkeys(chain(standing[0] if standing else COLUMNS, *rows))
         write_whole(target, catalogue_text([*standing, *rows], list(columns)).encode())
-    there = {file.record for file in listed}
+    records = {file.record for file in files}
     of_folder = (each for each in standing if not (each.get("source_repository") or "obspy:" in each["file"]))
-    gone = "{}: its row stays in the catalogue, but its file is not there; remove the row or add the file.\n"
-    told = "".join(gone.format(each["id"]) for each in of_folder if each["id"] not in there)
+    note = "{}: its row stays in the catalogue, but its file is not there; remove the row or add the file.\n"
+    lines = "".join(note.format(each["id"]) for each in of_folder if each["id"] not in records)
     count = counted(len(standing) + len(rows), "record")
-    return f"{listing_text(listed)}{told}{target}: {count}, {len(rows)} of them new"
+    return f"{listing_text(files)}{lines}{target}: {count}, {len(rows)} of them new"
 
 
 def read_own(
@@ -96,12 +96,12 @@ def assess_file(
     output: a folder for report.pdf and the tables, laid out like the results of a study. Raises RecordError or
     ConfigurationError before anything is written.
     """
-    listed = load_structures(structures)
-    if name not in (None, *listed):
-        names = ", ".join(listed)
+    all_structures = load_structures(structures)
+    if name not in (None, *all_structures):
+        names = ", ".join(all_structures)
         raise ConfigurationError(f"structure is {name!r}, but must be one of those in {structures}: {names}.")
-    chosen = {each: listed[each] for each in listed if name in (None, each)}
-    study = Study(chosen, Settings(), settings_sha256(Settings(), listed))
+    chosen = {each: all_structures[each] for each in all_structures if name in (None, each)}
+    study = Study(chosen, Settings(), settings_sha256(Settings(), all_structures))
     assessed = assess_record(record, study, study.open(record, channels))
     if output is not None:
         write_report(assessed, output / record.id)

@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from rocking.study.job import planned, run_job
+from rocking.study.job import begin_job, run_job
 from rocking.study.terminal import line_writer
 
 if __name__ == "__main__":
-    study, records = planned(snakemake.config, snakemake.params)
+    study, records = begin_job(snakemake.config, snakemake.params)
     part, results = Path(snakemake.output[0]).parent, Path(study.settings.results)
     params, tell_line = snakemake.params, line_writer(Path(snakemake.log[0]))
     run_job(records, study, part, results, tell_line, params.files)

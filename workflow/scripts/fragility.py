@@ -3,14 +3,14 @@
 from pathlib import Path
 
 from rocking.reports.fragility import write_fragility_report
-from rocking.study.job import planned
+from rocking.study.job import begin_job
 from rocking.study.summary import write_fragility
 from rocking.study.terminal import line_writer
 
 if __name__ == "__main__":
     output, tell = snakemake.output, line_writer(Path(snakemake.log[0]))
-    study, records = planned(snakemake.config, snakemake.params)
+    study, records = begin_job(snakemake.config, snakemake.params)
     folder = Path(output.pdf).parent
-    unused = write_fragility(records, study, folder, tell)
+    reasons = write_fragility(records, study, folder, tell)
     write_fragility_report(folder, Path(output.pdf), Path(output.svg))
-    tell("\n".join(unused) or "All records were used.")
+    tell("\n".join(reasons) or "All records were used.")

@@ -1,7 +1,7 @@
 """Summarise all records: snakemake.* onto rocking.study.summary."""
 
-from rocking.study.job import planned
+from rocking.study.job import begin_job
 from rocking.study.summary import summarise
 
 if __name__ == "__main__":
-    summarise(*planned(snakemake.config, snakemake.params), snakemake.params.jobs, snakemake.params)
+    summarise(*begin_job(snakemake.config, snakemake.params), snakemake.params.jobs, snakemake.params)

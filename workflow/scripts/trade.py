@@ -8,7 +8,7 @@ from rocking.assessment.rows.of_study import TradeRow
 from rocking.assessment.trade import trade
 from rocking.errors import RockingError
 from rocking.reports.trade import write_trade_report
-from rocking.study.job import planned
+from rocking.study.job import begin_job
 from rocking.study.terminal import line_writer
 from rocking.tables import write_tables
 
@@ -16,21 +16,21 @@ MOST_RECORDS = 70
 """Records that are tried, spread evenly over the catalogue."""
 
 
-def opened(study, listed, tell):
+def components(study, records, tell):
     """Yield the components of each record that is tried."""
-    places = np.unique(np.linspace(0, len(listed) - 1, min(MOST_RECORDS, len(listed))).astype(int))
+    places = np.unique(np.linspace(0, len(records) - 1, min(MOST_RECORDS, len(records))).astype(int))
     for number, place in enumerate(places, start=1):
         try:
-            yield from study.open(listed[place])[0]
-            tell(f"{number} of {len(places)}: {listed[place].id}")
+            yield from study.open(records[place])[0]
+            tell(f"{number} of {len(places)}: {records[place].id}")
         except RockingError as error:
-            tell(f"{number} of {len(places)}: {listed[place].id}: {error}")
+            tell(f"{number} of {len(places)}: {records[place].id}: {error}")
 
 
 if __name__ == "__main__":
     output, tell = snakemake.output, line_writer(Path(snakemake.log[0]))
-    study, listed = planned(snakemake.config, snakemake.params)
+    study, records = begin_job(snakemake.config, snakemake.params)
     folder = Path(output.pdf).parent
-    rows = trade(opened(study, listed, tell), study.structures, settings=study.settings, tell=tell)
+    rows = trade(components(study, records, tell), study.structures, settings=study.settings, tell=tell)
     write_tables({TradeRow: rows}, folder, "rocking-trade", "trade.json")
     write_trade_report(folder, Path(output.pdf), Path(output.svg))

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from rocking.errors import ConfigurationError
 from rocking.records import CatalogueRecord
 from rocking.study import plan
-from rocking.study.job import planned
+from rocking.study.job import begin_job
 from rocking.study.plan import ContentHashes, Plan, make_plan, share_out
 from rocking.study.settings import Settings
 
@@ -46,7 +46,7 @@ def test_a_blank_hash_is_filled_in_and_checked_from_then_on(tmp_path: Path) -> N
     assert Path(str(settings["catalogue"])).read_bytes() == before, "a plan alone writes nothing"
     assert first.records["a"].sha256 == hashlib.sha256(b"one").hexdigest() and first.records["b"].sha256 == ""
     first.fill_hashes()
-    planned(settings, SimpleNamespace(**first.params()))
+    begin_job(settings, SimpleNamespace(**first.params()))
     (tmp_path / "a.AT2").write_bytes(b"two")
     assert make_plan(settings).records["a"].sha256 == first.records["a"].sha256
 
@@ -69,10 +69,10 @@ def test_what_was_edited_after_planning_stops_the_job(tmp_path: Path, name: str,
     made = make_plan(settings)
     params, path = SimpleNamespace(**made.params(*made.jobs)), Path(str(settings[name]))
     path.write_text("\n# a comment\n" * (name == "structures") + path.read_text())
-    assert {record.id for record in planned(settings, params)[1]} == {"a", "b"}
+    assert {record.id for record in begin_job(settings, params)[1]} == {"a", "b"}
     path.write_text(path.read_text().replace(old, new, 1))
     with pytest.raises(ConfigurationError, match="changed while the study ran"):
-        planned(settings, params)
+        begin_job(settings, params)
 
 
 def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_path: Path) -> None:
