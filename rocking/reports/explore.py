@@ -28,8 +28,8 @@ from rocking.structures import Mechanism, Structure
 Content = dict[str, Any]
 """What JSON can hold."""
 
-BINS = 600
-"""Points of a trace on the page."""
+BINS, GROUND_BINS, PULSE_BINS = 600, 2400, 60
+"""Points on the page of a trace, of an acceleration, of which a case may show a short piece, and of a pulse."""
 FRAMES = 24
 """Drawings of a structure for each side; between two of them the page interpolates."""
 _HERE = Path(__file__).parent
@@ -138,20 +138,21 @@ def _motion(accelerogram: Accelerogram, tables: RecordTables) -> Content:
     line = np.polyval(np.polyfit(times, path, 1), times)
     motion = {
         "duration": duration,
-        "acceleration": _trace(times, accelerogram.acceleration, 0.0, duration),
+        "acceleration": _trace(times, accelerogram.acceleration, 0.0, duration, GROUND_BINS),
         "displacement": _trace(times, path - line, 0.0, duration),
     }
     ranked = [row for row in tables.pulses if row.component == accelerogram.component and row.ranked]
     if ranked:
         pulse = min(ranked, key=lambda row: row.rank).pulse
-        inside = np.linspace(pulse.start_time, pulse.end_time, BINS)
-        motion["pulse"] = _trace(inside, pulse.acceleration(inside), pulse.start_time, pulse.end_time)
+        inside = np.linspace(pulse.start_time, pulse.end_time, PULSE_BINS)
+        ends = pulse.start_time, pulse.end_time
+        motion["pulse"] = _trace(inside, pulse.acceleration(inside), *ends, PULSE_BINS)
     return motion
 
 
-def _trace(times: np.ndarray, values: np.ndarray, begin: float, end: float) -> Content:
+def _trace(times: np.ndarray, values: np.ndarray, begin: float, end: float, bins: int = BINS) -> Content:
     """Return `values` from `begin` to `end` [s], as `extremes` has them."""
-    return {"span": [_number(begin), _number(end)]} | packed(extremes(times, values, begin, end))
+    return {"span": [_number(begin), _number(end)]} | packed(extremes(times, values, begin, end, bins))
 
 
 def drawings(structure: Structure) -> list[Content]:
@@ -190,15 +191,15 @@ def packed(values: ArrayLike) -> Content:
     return {"scale": scale, "data": base64.b64encode(whole.tobytes()).decode()}
 
 
-def extremes(times: np.ndarray, values: np.ndarray, begin: float, end: float) -> np.ndarray:
-    """Return the value farthest from zero in each of BINS equal stretches of [begin, end] s, (BINS,): peaks stay.
+def extremes(times: np.ndarray, values: np.ndarray, begin: float, end: float, bins: int = BINS) -> np.ndarray:
+    """Return the value farthest from zero in each of `bins` equal stretches of [begin, end] s, (bins,): peaks stay.
 
     A stretch without a sample takes the value interpolated at its middle.
     """
-    edges = np.linspace(begin, end, BINS + 1)
+    edges = np.linspace(begin, end, bins + 1)
     of_bins = np.interp((edges[:-1] + edges[1:]) / 2, times, values)
     inside = (times >= begin) & (times <= end)
-    place = np.minimum(np.searchsorted(edges, times[inside], side="right") - 1, BINS - 1)
+    place = np.minimum(np.searchsorted(edges, times[inside], side="right") - 1, bins - 1)
     samples = values[inside]
     order = np.argsort(np.abs(samples), kind="stable")
     of_bins[place[order]] = samples[order]  # the last one written, the farthest, stays
