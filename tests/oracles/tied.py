@@ -44,14 +44,8 @@ class Held:
         x, y, turn = (slopes(np.array([self.places(a)[n] for a in angles])) for n in (2, 3, 4))
         u = np.array([self.points(a) for a in angles])
         inertia = masses @ (x**2 + y**2) + inertias @ turn**2
-        rows = [
-            inertia,
-            slopes(inertia[:, None])[0],
-            masses @ y,
-            masses @ x,
-            *u.T,
-            *(slopes(u) if u.size else []),
-        ]
+        rows = [inertia, slopes(inertia[:, None])[0], masses @ y, masses @ x, *u.T]
+        rows += [*slopes(u)] if u.size else []
         return chebyshev.chebfit(nodes, np.array(rows).T, _DEGREE)
 
     def terms(self, phi):
@@ -79,12 +73,8 @@ class TiedBody:
     """What breaking ties took with them: the energy they stored."""
 
     def __post_init__(self):
-        self.plastic, self.mode, self.pieces, self.events = (
-            np.zeros(self.count),
-            ["elastic"] * self.count,
-            [],
-            [],
-        )
+        self.plastic, self.mode = np.zeros(self.count), ["elastic"] * self.count
+        self.pieces, self.events = [], []
 
     def tension(self, n, u, plastic):
         if self.mode[n] in ("broken", "slack"):
@@ -118,40 +108,34 @@ class TiedBody:
             inertia, bend, weight, push, u, pull = held.terms(y[0])
             ties = sum(self.tension(n, u[n], y[2 + n]) * pull[n] for n in range(count))
             force = bend / 2 * y[1] ** 2 + weight * (GRAVITY + vertical(time)) + sign * push * ground(time)
-            grows = (
-                [pull[n] * y[1] if self.mode[n] == "yield" else 0.0 for n in range(self.count)]
-                if count
-                else []
-            )
-            return [y[1], -(force + ties) / inertia, *(grows or [0.0] * self.count)]
+            grows = [pull[n] * y[1] if count and self.mode[n] == "yield" else 0.0 for n in range(self.count)]
+            return [y[1], -(force + ties) / inertia, *grows]
+
+        marks = []
 
         def event(function, direction, name):
-            function.terminal, function.direction, function.name = True, direction, name
-            return function
+            """What ends the flight where it passes zero upwards (1) or downwards (−1); not where the flight starts."""
 
-        # an event is not asked for where the flight starts
-        marks = [event(lambda t, y: y[0] if t > now else 1.0, -1, ("land", 0))]
+            def mark(t, y):
+                return function(t, y) if t > now else -direction
+
+            mark.terminal, mark.direction, mark.name = True, direction, name
+            marks.append(mark)
+
+        event(lambda t, y: y[0], -1, ("land", 0))
         for n in range(count):
 
             def taut(t, y, n=n):
                 return self.pretension + self.stiffness * (held.terms(y[0])[4][n] - y[2 + n])
 
             if self.mode[n] == "elastic":
-                marks.append(
-                    event(
-                        lambda t, y, taut=taut: taut(t, y) - self.strength if t > now else -1.0,
-                        1,
-                        ("yield", n),
-                    )
-                )
-                marks.append(event(lambda t, y, taut=taut: taut(t, y) if t > now else 1.0, -1, ("slack", n)))
+                event(lambda t, y, taut=taut: taut(t, y) - self.strength, 1, ("yield", n))
+                event(taut, -1, ("slack", n))
             elif self.mode[n] == "slack":
-                marks.append(
-                    event(lambda t, y, taut=taut: taut(t, y) if t > now else -1.0, 1, ("elastic", n))
-                )
+                event(taut, 1, ("elastic", n))
             elif self.mode[n] == "yield":
-                marks.append(event(lambda t, y: y[1] if t > now else 1.0, -1, ("elastic", n)))
-                marks.append(event(lambda t, y, n=n: y[2 + n] - self.elongation, 1, ("broken", n)))
+                event(lambda t, y: y[1], -1, ("elastic", n))
+                event(lambda t, y, n=n: y[2 + n] - self.elongation, 1, ("broken", n))
         solved = solve_ivp(
             slope, (now, end), [phi, rate, *self.plastic], "DOP853", events=marks, dense_output=True, rtol=rtol,
             atol=1e-3 * rtol, max_step=0.02,

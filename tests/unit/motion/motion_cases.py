@@ -1,12 +1,14 @@
 """Structures and ground motions that the tests of motion share."""
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.constants import g
 
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Arch, Block, Wall
-from rocking.structures.mechanism import Mechanism
+from rocking.structures.mechanism import EquivalentBlock, Mechanism
 
 
 def mechanisms() -> dict[str, Mechanism]:
@@ -45,3 +47,15 @@ def random_case(rng: np.random.Generator) -> tuple[Mechanism, Accelerogram | Pul
     step = rng.choice([0.005, 0.01, 0.02, 0.05, 0.2])
     count, width = int(rng.integers(50, 600)), int(rng.integers(3, 40))
     return mechanism, noise(int(rng.integers(2**31)), count, step, lift * rng.uniform(1.05, 5), width)
+
+
+def with_restitution(structure: Mechanism | EquivalentBlock, positive: float, negative: float):
+    """The same with these η on its sides; a symmetric one gets two sides where they differ."""
+    one_sided, alike = structure.one_sided, positive == negative
+    if isinstance(structure, Mechanism):
+        other = structure.negative or (None if one_sided or alike else structure.positive)
+        other = other and replace(other, restitution=negative)
+        return replace(structure, positive=replace(structure.positive, restitution=positive), negative=other)
+    other = structure.other_side or (None if one_sided or alike else structure)
+    other = other and replace(other, restitution=negative, other_side=None)
+    return replace(structure, restitution=positive, other_side=other)

@@ -1,9 +1,8 @@
 """The edges of the allowed: each with the reason for the result expected."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from motion_cases import with_restitution
 from scipy.constants import g
 
 from rocking.errors import MotionError
@@ -74,17 +73,11 @@ def test_thin_arch_and_hinge_from_low_to_high_keep_the_tolerance(structure):
     assert response.rotation_ratio == pytest.approx(tight.rotation_ratio, rel=1e-7)
 
 
-def with_restitution(structure, restitution):
-    if isinstance(structure, EquivalentBlock):
-        return replace(structure, restitution=restitution)
-    return replace(structure, positive=replace(structure.positive, restitution=restitution))
-
-
 @BOTH
 def test_zeno_chain_of_a_hundred_thousand_impacts_ends_in_rest(structure):
     """Each impact keeps η² of the energy, E/E_cr ≈ 2 x − x²; rest at 1e-14 of it: ln(E/1e-14)/(−2 ln η) impacts."""
     start = 0.02
-    structure = with_restitution(structure, 0.9999)
+    structure = with_restitution(structure, 0.9999, 0.9999)
     # Flights last (2/p) acosh(1/(1 − x)); their sum over the chain is finite, and the record outlasts it.
     record = Accelerogram(np.zeros(200_000), 0.05)
     response = integrate(structure, record, 1e-6, history=True, initial_rotation=start)
@@ -100,6 +93,6 @@ def test_zeno_chain_of_a_hundred_thousand_impacts_ends_in_rest(structure):
 @BOTH
 def test_rattling_without_loss_is_cut_short_with_a_reason(structure):
     """η = 1 from 1e-6 rad: flights of 2 ms for a day would be 4e7 impacts; it stops and says so."""
-    lossless = with_restitution(structure, 1.0)
+    lossless = with_restitution(structure, 1.0, 1.0)
     with pytest.raises(MotionError, match="5000000 impacts before the motion ended"):
         integrate(lossless, Accelerogram(np.zeros(1001), 100.0), initial_rotation=1e-6)

@@ -1,10 +1,8 @@
 """Many responses at a call: each equals the one that `integrate` gives for the same motion."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
-from motion_cases import MECHANISMS, noise, random_case
+from motion_cases import MECHANISMS, noise, random_case, with_restitution
 from scipy.constants import g
 
 from rocking.errors import MotionError
@@ -13,27 +11,10 @@ from rocking.motion.batch import rocking_spectrum
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Block, EquivalentBlock
-from rocking.structures.mechanism import Mechanism
 
 RECORD, VERTICAL = noise(5, 600, 0.01, 4.0), noise(6, 600, 0.01, 2.0)
 BLOCKS = {name: mechanism.equivalent_block() for name, mechanism in MECHANISMS.items()}
 STRUCTURES = MECHANISMS | {f"{name}, linear": block for name, block in BLOCKS.items()}
-
-
-def with_restitution(structure, positive, negative):
-    if isinstance(structure, Mechanism):
-        other = structure.negative or (None if structure.one_sided else structure.positive)
-        return replace(
-            structure,
-            positive=replace(structure.positive, restitution=positive),
-            negative=None if other is None else replace(other, restitution=negative),
-        )
-    other = structure.other_side or (None if structure.one_sided else structure)
-    return replace(
-        structure,
-        restitution=positive,
-        other_side=None if other is None else replace(other, restitution=negative, other_side=None),
-    )
 
 
 def one_by_one(structure, record, members, k, vertical, tolerance):

@@ -33,10 +33,8 @@ def test_wall_has_the_closed_form_parameters(h1, h2, thickness):
     squared = 3 * GRAVITY / (4 * lower_diagonal) * sum_ / (1 + x)
     assert mechanism.positive.frequency_parameter == pytest.approx(np.sqrt(squared), rel=1e-14)
     assert mechanism.positive.acceleration_scale == pytest.approx((1 + x) / sum_, rel=1e-14)
-    end, reach = (
-        mechanism.positive.end_rotation,
-        0.9 * min(1, 1 / ratio),
-    )  # nine tenths of where it locks, or lying
+    # nine tenths of where it locks, or lying
+    end, reach = mechanism.positive.end_rotation, 0.9 * min(1, 1 / ratio)
     assert end == np.pi / 2 or np.sin(end - mechanism.critical_rotation) == pytest.approx(reach, rel=1e-12)
 
 

@@ -1,19 +1,19 @@
-"""Rigid body, spire and frame against quadrature and closed forms."""
+"""Rigid body and spire against quadrature and closed forms, and what contacts carry at rest and at φ = 0."""
 
 import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from rocking.structures.block import RigidBody, Spire
+from rocking.quantities import GRAVITY
+from rocking.structures import Block, RigidBody, Spire, Wall
 
 
 def test_momentum_balance_of_an_off_centre_body_keeps_angular_momentum_about_the_new_corner():
     body = RigidBody(0.3, 0.5, 2.0, 1.4)
     for side, old, new in ((body.mechanism().positive, 0.5, 0.3), (body.mechanism().negative, 0.3, 0.5)):
-        # Clockwise spin 1 about a corner `old` to the right: the mass moves right at 2.0 and up at `old`.
-        before = (
-            1.4 * 1.0 + 2.0 * 2.0 - new * old
-        )  # spin + height × v_x − v_y × distance, about the other corner
+        # Clockwise spin 1 about a corner `old` to the right: the mass moves right at 2.0 and up at `old`. About the
+        # other corner that is spin + height × v_x − v_y × distance.
+        before = 1.4 * 1.0 + 2.0 * 2.0 - new * old
         after = (1.4 + 2.0**2 + new**2) * side.restitution
         assert after == pytest.approx(before, rel=1e-14)
 
@@ -38,23 +38,13 @@ def test_spire_mass_properties_by_quadrature(plan, wall, crack):
             top = height * (1 - 2 * cover / width)
             if crack >= top:
                 continue
-            total += (
-                sign
-                * dblquad(
-                    lambda t, z, cover=cover: (
-                        weight((half := width / 2 * (1 - z / height) - cover) * np.sin(t), z)
-                        * depth(half * np.sin(t), half)
-                        * half
-                        * np.cos(t)
-                    ),
-                    crack,
-                    top,
-                    -np.pi / 2,
-                    np.pi / 2,
-                    epsabs=1e-11,
-                    epsrel=1e-11,
-                )[0]
-            )
+
+            def column(t, z, cover=cover):
+                half = width / 2 * (1 - z / height) - cover
+                return weight(half * np.sin(t), z) * depth(half * np.sin(t), half) * half * np.cos(t)
+
+            within = crack, top, -np.pi / 2, np.pi / 2
+            total += sign * dblquad(column, *within, epsabs=1e-11, epsrel=1e-11)[0]
         return total
 
     body = Spire(width, height, wall, plan, crack).linkage
@@ -63,3 +53,22 @@ def test_spire_mass_properties_by_quadrature(plan, wall, crack):
     inertia = integral(lambda x, z: x**2 + (z - crack - centre) ** 2, 0) / mass
     assert body.rest[0].imag - crack == pytest.approx(centre, rel=1e-9)
     assert body.inertias[0] == pytest.approx(inertia, rel=1e-9)
+
+
+def test_at_rest_the_base_carries_the_weight_and_needs_the_ground_acceleration_as_friction():
+    found = Wall(2.0, 2.0, 0.4).contact_forces(0.0, 0.0, 0.0, 0.0)
+    assert found.normal[0, 0] == pytest.approx(GRAVITY, rel=1e-14)
+    assert found.normal[1, 0] == pytest.approx(GRAVITY / 2, rel=1e-14)
+    block = Block(2.0, 0.2).contact_forces(0.0, 0.0, 0.0, [0.5, -1.0])
+    np.testing.assert_allclose(block.required_friction[0], np.array([0.5, 1.0]) / GRAVITY, rtol=1e-14)
+
+
+def test_at_zero_rotation_the_velocity_chooses_the_side():
+    body = RigidBody(0.3, 0.5, 2.0, 1.4)
+    leaving = body.mechanism().angular_acceleration([0.0, 0.0], [0.4, -0.4])
+    inside = body.mechanism().angular_acceleration([1e-13, -1e-13], [0.4, -0.4])
+    np.testing.assert_allclose(leaving, inside, rtol=1e-11)
+    found = body.contact_forces([0.0, 0.0], [0.4, -0.4], leaving)
+    expected = body.contact_forces([1e-13, -1e-13], [0.4, -0.4], inside)
+    np.testing.assert_allclose(found.normal, expected.normal, rtol=1e-11)
+    np.testing.assert_allclose(found.tangential, expected.tangential, rtol=1e-11)
