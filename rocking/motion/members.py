@@ -49,12 +49,12 @@ class Members:
             "polarity": (polarity, float),
             "vertical": (vertical, bool),
         }
-        given = {name: np.atleast_1d(np.asarray(*column)) for name, column in columns.items()}
+        arrays = {name: np.atleast_1d(np.asarray(*column)) for name, column in columns.items()}
         if restitution is not None:
             eta = np.atleast_1d(np.asarray(restitution, dtype=float))
-            given["restitution"] = eta if eta.ndim == 2 else np.stack([eta, eta], axis=-1)
-        size = max(array.shape[0] for array in given.values())
-        for name, array in given.items():
+            arrays["restitution"] = eta if eta.ndim == 2 else np.stack([eta, eta], axis=-1)
+        size = max(array.shape[0] for array in arrays.values())
+        for name, array in arrays.items():
             shape = (size, 2) if name == "restitution" else (size,)
             if array.ndim != len(shape) or array.shape[0] not in (1, size) or array.shape[1:] != shape[1:]:
                 raise MotionError(f"{name} has the shape {array.shape}, but must hold one value or {size}.")
@@ -66,7 +66,7 @@ class Members:
             ("polarity", "be 1 or -1", lambda values: np.abs(values) == 1),
             ("restitution", "lie between 0 and 1", lambda values: (values >= 0) & (values <= 1)),
         ):
-            values = given.get(name, np.ones(1))
+            values = arrays.get(name, np.ones(1))
             wrong = values[~(holds(values) & np.isfinite(values))]
             if wrong.size:
                 raise MotionError(f"{name} holds {wrong[0]!s}, but every value must {allowed}.")

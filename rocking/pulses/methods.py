@@ -31,7 +31,7 @@ def predicting_pulse(candidates: Sequence[PulseEvidence], demand: Demand) -> Pul
 
 
 def sine_of_velocity_pulse(accelerogram: Accelerogram) -> PulseEvidence:
-    """Return the sine of largest energy gain within half a period and half an octave of the largest velocity pulse.
+    """Return the sine of most energy gain within half a period and half an octave of the largest velocity pulse.
 
     The closed form asks for a sine of acceleration, and the period T_p of a velocity pulse (Shahi & Baker 2014) is not
     its period: so the velocity pulse only says where to look, and the sine is fitted there. The largest velocity pulse

@@ -179,13 +179,13 @@ def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, c
     velocity = math.cos(orientation) * velocities[0] + math.sin(orientation) * velocities[-1]
     scale = _refined_scale(velocity, scales, row, column)
     pulse, centre = _extracted(velocity, scale, column)
-    peak, left = np.abs(velocity).max(), np.abs(velocity - pulse).max()
+    peak, remainder = np.abs(velocity).max(), np.abs(velocity - pulse).max()
     energy = ((velocity - pulse) ** 2).sum() / (velocity**2).sum()
     return VelocityPulse(
         period=PERIOD_OF_SCALE * scale * step,
         orientation=orientation,
         peak_velocity=float(peak),
-        indicator=float(pulse_indicator(left / peak, energy, peak)),
+        indicator=float(pulse_indicator(remainder / peak, energy, peak)),
         late=_late(velocity, pulse),
         centre_time=centre * step,
     )

@@ -117,9 +117,9 @@ class Arch(Crackable):
         try:
             return onset_at(self.ring, np.array(self.hinge_angles))
         except (NoMechanism, TooThin, ValueError):
-            given = ", ".join(f"{each:.6g}" for each in np.degrees(self.hinge_angles))
+            angles = ", ".join(f"{each:.6g}" for each in np.degrees(self.hinge_angles))
             raise StructureError(
-                f"hinge_angles is {given}°, but must be four angles of a mechanism that turns about the intrados "
+                f"hinge_angles is {angles}°, but must be four angles of a mechanism that turns about the intrados "
                 "at the first and the third and about the extrados at the others; leave it out for those of statics."
             ) from None
 
@@ -308,10 +308,10 @@ class ArchOnPiers(Arch):
 
     def _static_onset(self) -> Onset:
         """λ of the mechanism that governs and its hinges (angles from the left springing; a foot is beyond it)."""
-        needed = self.thickness * float(np.sin(self.embrace_angle / 2))
-        if self.pier_width < needed:
+        least = self.thickness * float(np.sin(self.embrace_angle / 2))
+        if self.pier_width < least:
             raise StructureError(
-                f"pier_width is {self.pier_width!r} m, but must be at least {needed:.6g} m to carry the springing."
+                f"pier_width is {self.pier_width!r} m, but must be at least {least:.6g} m to carry the springing."
             )
         return super()._static_onset()
 

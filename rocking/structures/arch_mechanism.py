@@ -171,7 +171,7 @@ def onset_at(ring: Ring, hinges: np.ndarray) -> Onset:
     Raises NoMechanism where a hinge lies outside the ring or would have to close, TooThin where nothing has to push.
     """
     sections = hinges - ring.embrace_angle / 2
-    outside = sections.shape != (4,) or np.abs(ring.kept(sections) - sections).max() > _CLEARANCE
+    outside = sections.shape != (4,) or np.abs(ring.on_ring(sections) - sections).max() > _CLEARANCE
     if outside or np.any(np.diff(hinges) < _APART):
         raise NoMechanism
     rows = ring.gaps(sections, PATTERN)
@@ -202,11 +202,11 @@ def other_hinges(ring: Ring, onset: Onset, count: int) -> list[np.ndarray]:
     turns = np.linalg.solve(rows[..., :4].transpose(0, 2, 1), _DOWN[None, :, None])[..., 0]
     multipliers = (turns * rows[..., 4]).sum(axis=1)
     moves = (turns > 0).all(axis=1) & (multipliers > onset.multiplier)
-    taken = [static]
+    mechanisms = [static]
     for four in hinges[moves][np.argsort(multipliers[moves])]:
-        if len(taken) <= count and all(np.abs(four - each).max() >= spacing for each in taken):
-            taken.append(four)
-    return [each + ring.embrace_angle / 2 for each in taken[1:]]
+        if len(mechanisms) <= count and all(np.abs(four - each).max() >= spacing for each in mechanisms):
+            mechanisms.append(four)
+    return [each + ring.embrace_angle / 2 for each in mechanisms[1:]]
 
 
 def _touching_line(rows: np.ndarray) -> np.ndarray:
@@ -246,10 +246,10 @@ def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.n
         step = np.where(
             curvature > 0, -slope / np.where(curvature > 0, curvature, 1.0), -np.sign(slope) * spacing
         )
-        moved = ring.kept(hinges + np.clip(step, -spacing, spacing))
-        if np.abs(moved - hinges).max() < 1e-13:
+        following = ring.on_ring(hinges + np.clip(step, -spacing, spacing))
+        if np.abs(following - hinges).max() < 1e-13:
             break
-        hinges = moved
+        hinges = following
     return hinges, unknowns
 
 

@@ -138,7 +138,7 @@ class Ring:
         """Sections moved back between the springings."""
         return np.clip(section, -self.embrace_angle / 2, self.embrace_angle / 2)
 
-    def kept(self, section: np.ndarray) -> np.ndarray:
+    def on_ring(self, section: np.ndarray) -> np.ndarray:
         """Sections moved back onto the ring; feet stay."""
         foot = self.feet(section)
         return np.where(foot == 0, self.on_arch(section), foot * self.ends[1])

@@ -56,8 +56,8 @@ class Contacts:
     def required_friction(self) -> np.ndarray:
         """Smallest friction coefficient that prevents sliding, (h, k); inf where not pressed, nan where not known."""
         pressed = self.normal > 0
-        needed = np.abs(self.tangential) / np.where(pressed, self.normal, 1.0)
-        return np.where(pressed | np.isnan(self.normal), needed, np.inf)
+        ratio = np.abs(self.tangential) / np.where(pressed, self.normal, 1.0)
+        return np.where(pressed | np.isnan(self.normal), ratio, np.inf)
 
     @property
     def opens(self) -> np.ndarray:

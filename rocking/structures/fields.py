@@ -98,7 +98,7 @@ class Field(Described):
         number = isinstance(value, float | int) and not isinstance(value, bool)
         return float(value / _SI[self.unit]) if self.unit in _SI and number else value
 
-    def kept(self, value: Any) -> Any:
+    def in_si(self, value: Any) -> Any:
         """Return a value in SI as a structure keeps it; raises StructureError for another than is allowed."""
         if isinstance(value, list):
             value = tuple(value)

@@ -81,12 +81,12 @@ class Frame(Structure):
         """Columns 0.6 of their height apart, and a beam of their material and breadth as deep as its mass asks."""
         half, height = self.column.breadth / 2, self.column.height
         column = rectangle(-half, half, 0.0, height)
-        drawn = [(n, column + x) for n, x in enumerate(self._axes)]
+        outlines = [(n, column + x) for n, x in enumerate(self._axes)]
         left, right = self._axes[0] - half, self._axes[-1] + half
         depth = self.beam_mass_ratio * self.columns * 2 * half * height / (right - left)
         if self.beam_mass_ratio:
-            drawn.append((self.columns, rectangle(left, right, height, height + depth)))
-        return drawn
+            outlines.append((self.columns, rectangle(left, right, height, height + depth)))
+        return outlines
 
     def _dimensions(self) -> dict[str, Path]:
         first, half, height = self._axes[0], self.column.breadth / 2, self.column.height

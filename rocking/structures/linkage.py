@@ -81,10 +81,10 @@ def keeps_last(method: Callable[[Owner, np.ndarray], Motion]) -> Callable[[Owner
 
     @wraps(method)
     def keeping(self: Owner, rotation: ArrayLike) -> Motion:
-        asked = np.asarray(rotation, dtype=float)
+        places = np.asarray(rotation, dtype=float)
         last: tuple[np.ndarray, Motion] | None = self.__dict__.get("_last")
-        if last is None or not np.array_equal(last[0], asked):
-            last = self.__dict__["_last"] = asked.copy(), method(self, asked)
+        if last is None or not np.array_equal(last[0], places):
+            last = self.__dict__["_last"] = places.copy(), method(self, places)
         return last[1]
 
     return keeping

@@ -86,7 +86,7 @@ class Structure(ABC):
         for each in constructor(type(self)).fields:
             value = getattr(self, each.name)
             if value is not each.default:
-                object.__setattr__(self, each.name, each.kept(value))
+                object.__setattr__(self, each.name, each.in_si(value))
         restitution = getattr(self, "restitution", None)
         if self.one_sided and not isinstance(restitution, float):
             raise StructureError(
@@ -106,7 +106,7 @@ class Structure(ABC):
         form = next(each for each in cls.forms() if each.make == make)
         for each in form.fields:
             if each.name in values:
-                each.kept(values[each.name])
+                each.in_si(values[each.name])
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.description})"
@@ -144,11 +144,11 @@ class Structure(ABC):
     def outline(self, rotation: float = 0.0) -> list[np.ndarray]:
         """Return the rigid parts at a signed `rotation` [rad] as polygons (k, 2) in m, x to the right, y up."""
         linkage, motion = self._posed(rotation)
-        drawn = []
+        polygons = []
         for part, corners in self._seen(rotation < 0):
-            moved = 0.0 if part == STILL else linkage.carried(part, corners, motion).moved
-            drawn.append(plane(corners + moved, rotation < 0))
-        return drawn
+            shift = 0.0 if part == STILL else linkage.carried(part, corners, motion).moved
+            polygons.append(plane(corners + shift, rotation < 0))
+        return polygons
 
     def _seen(self, mirrored: bool) -> list[tuple[int, np.ndarray]]:
         """The outlines at rest as the linkage of one side sees them."""
@@ -198,9 +198,9 @@ class Structure(ABC):
         motion, at_rest = linkage.motion(rotation), linkage.motion(0.0)
         parts = [(part, corners) for part, corners in self._seen(side < 0) if part != STILL]
         corners = [(part, corner) for part, of_part in parts for corner in of_part]
-        moved = np.array([linkage.carried(*each, motion).moved.real for each in corners])
-        control = int(np.argmax(moved[:, rotation.size // 2]))
-        displacement = moved[control] - moved[control, 0]  # which is rounding
+        shifts = np.array([linkage.carried(*each, motion).moved.real for each in corners])
+        control = int(np.argmax(shifts[:, rotation.size // 2]))
+        displacement = shifts[control] - shifts[control, 0]  # which is rounding
         place = plane(corners[control][1], side < 0)
         speed = float(linkage.carried(*corners[control], at_rest).velocity.real)
 
@@ -258,15 +258,15 @@ class Structure(ABC):
 
     def dimensions(self) -> tuple[Dimension, ...]:
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
-        drawn, paths = [], self._dimensions()
-        for each, _, text in self._given:
-            letter, shown = each.value.letter, paths.get(each.name, [])
-            if not isinstance(shown, list):
-                drawn.append(Dimension(letter, text + each.suffix, *shown))
+        lines, paths = [], self._dimensions()
+        for each, _, text in self._values:
+            letter, path = each.value.letter, paths.get(each.name, [])
+            if not isinstance(path, list):
+                lines.append(Dimension(letter, text + each.suffix, *path))
                 continue
-            for number, (one, path) in enumerate(zip(text.split(", "), shown, strict=False), start=1):
-                drawn.append(Dimension(letter + str(number).translate(_SUBSCRIPTS), one + each.suffix, *path))
-        return tuple(drawn)
+            for number, (one, own) in enumerate(zip(text.split(", "), path, strict=False), start=1):
+                lines.append(Dimension(letter + str(number).translate(_SUBSCRIPTS), one + each.suffix, *own))
+        return tuple(lines)
 
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
         """Return the loads, thrusts and ties on it at a signed `rotation` [rad]."""
@@ -311,19 +311,19 @@ class Structure(ABC):
     @property
     def form(self) -> Form:
         """The form it was described in, or the first one."""
-        given = self.__dict__.get("_typed", {})
-        return max(self.forms(), key=lambda form: len(set(form.required) & given.keys()))
+        values = self.__dict__.get("_typed", {})
+        return max(self.forms(), key=lambda form: len(set(form.required) & values.keys()))
 
     @property
     def description(self) -> str:
         """What it was described by, in words with units: "breadth 0.6 m, height 6.0 m"."""
-        return ", ".join(each.phrased(text) for each, value, text in self._given if value is not False)
+        return ", ".join(each.phrased(text) for each, value, text in self._values if value is not False)
 
     @property
     def size(self) -> str:
         """Its sizes in short, as they were typed: "0.6 × 6.0 m", "10 × 1.5 m, 157.5°"."""
         parts: dict[str, list[str]] = {}
-        for each, _, text in self._given:
+        for each, _, text in self._values:
             if each.required and each.unit:
                 parts.setdefault(each.suffix, []).append(text)
         return ", ".join(" × ".join(texts) + suffix for suffix, texts in parts.items())
@@ -331,11 +331,11 @@ class Structure(ABC):
     @property
     def remarks(self) -> tuple[str, ...]:
         """A sentence for each size beyond its plausible range."""
-        return tuple(filter(None, (each.remark(self.type_name, value) for each, value, _ in self._given)))
+        return tuple(filter(None, (each.remark(self.type_name, value) for each, value, _ in self._values)))
 
     def as_config(self) -> dict[str, object]:
         """Return the mapping of a structure list that describes it, without a name."""
-        return {"type": self.type_name, **{each.key: value for each, value, _ in self._given}}
+        return {"type": self.type_name, **{each.key: value for each, value, _ in self._values}}
 
     def typed(self, values: dict[str, object], texts: dict[str, str]) -> None:
         """Remember the `values` of a file by key, and their `texts` as they were typed; for the loader only."""
@@ -350,24 +350,24 @@ class Structure(ABC):
         return built
 
     @property
-    def _given(self) -> list[tuple[Field, Any, str]]:
+    def _values(self) -> list[tuple[Field, Any, str]]:
         """The values of its form in the units of a file and as texts; options that were not given are left out."""
         typed = self.__dict__.get("_typed")
         if typed is not None:
             return [(each, *typed[each.key]) for each in self.form.fields if each.key in typed]
         defaults = {each.name: each.default for each in constructor(type(self)).fields}
-        given = []
+        values = []
         for each in self.form.fields:
             value = getattr(self, each.name)
             if each.required or (value is not None and value != defaults.get(each.name)):
                 outside = each.outward(value)
-                given.append((each, outside, typed_text(outside, "{:.6g}")))
-        return given
+                values.append((each, outside, typed_text(outside, "{:.6g}")))
+        return values
 
     def _impact(self, mirrored: bool) -> float:
         """η of the impact that ends rocking on one side: the number, or that of a balance where it is a name."""
-        given: Restitution = getattr(self, "restitution", None)
-        chosen = self.usual_restitution if given is None else given
+        own: Restitution = getattr(self, "restitution", None)
+        chosen = self.usual_restitution if own is None else own
         if not isinstance(chosen, str):
             return float(chosen)
         ratio = self._momentum_balance(mirrored)
@@ -443,10 +443,10 @@ class Crackable(Structure):
         Where λ has its least value between two of the heights, the height of that is one more. A crack at which what
         holds the structure leaves no mechanism is left out.
         """
-        given = float(getattr(self, f"{self.crack_name}_height"))
+        own = float(getattr(self, f"{self.crack_name}_height"))
         shares, joints = np.linspace(self.lowest_crack, HIGHEST_SHARE, count), self.joints
-        tried = self.height * shares if joints is None else joints  # type: ignore[attr-defined]
-        heights = sorted({*map(float, tried), given})
+        places = self.height * shares if joints is None else joints  # type: ignore[attr-defined]
+        heights = sorted({*map(float, places), own})
         cracked = [each for each in map(self._candidate, heights) if each]
         # of equal multipliers, as all along a solid spire, the lowest crack
         order = np.argsort([float(f"{each.multiplier:.9g}") for each in cracked], kind="stable")

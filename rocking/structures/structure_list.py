@@ -55,34 +55,34 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
         raise ConfigurationError(
             f"type is {kind!r}, but must be one of {', '.join(TYPES)}{_nearest(kind, TYPES)}."
         )
-    given = {
+    values = {
         key: value for key, value in mapping.items() if key not in ("type", "name") and value is not None
     }
-    form = _form(kind, given)
+    form = _form(kind, values)
     arguments: dict[str, Any] = {
-        form.keys[key].name: form.keys[key].inward(value) for key, value in given.items()
+        form.keys[key].name: form.keys[key].inward(value) for key, value in values.items()
     }
     make: Callable[..., Structure] = getattr(TYPES[kind], form.make) if form.make else TYPES[kind]
     structure = make(**arguments)
-    structure.typed(given, {key: typed_text(value) for key, value in given.items()} | dict(texts or {}))
+    structure.typed(values, {key: typed_text(value) for key, value in values.items()} | dict(texts or {}))
     return structure
 
 
-def _form(kind: str, given: Mapping[str, object]) -> Form:
+def _form(kind: str, values: Mapping[str, object]) -> Form:
     """The form of `kind` that the keys `given` fill; ConfigurationError names what is unknown, missing or too much."""
     forms = TYPES[kind].forms()
     allowed = {key for form in forms for key in form.keys}
-    for key in given:
+    for key in values:
         if key not in allowed:
             keys = ", ".join(sorted(allowed))
             raise ConfigurationError(
                 f"{key} is not a key of {article(kind)}{_nearest(key, allowed)}; use {keys}."
             )
-    form = max(forms, key=lambda form: len(set(form.required) & given.keys()))
-    missing = [key for key in form.required if key not in given]
+    form = max(forms, key=lambda form: len(set(form.required) & values.keys()))
+    missing = [key for key in form.required if key not in values]
     if missing:
         raise ConfigurationError(f"{article(kind)} needs {' and '.join(missing)}; give it.")
-    foreign = [key for key in given if key not in form.keys]
+    foreign = [key for key in values if key not in form.keys]
     if foreign:
         raise ConfigurationError(
             f"{article(kind)} is given {' and '.join(foreign)} beside {' and '.join(form.required)}; give one set."

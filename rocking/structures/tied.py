@@ -99,9 +99,9 @@ class Tied(Crackable):
         """What hangs on it, as seen from one side."""
 
     @staticmethod
-    def _load(start: complex, part: int, load: float, held: bool) -> Hung:
+    def _load(start: complex, part: int, load: float, weight_only: bool) -> Hung:
         """A load [N/m], whose mass something else holds or which moves along."""
-        return Hung("load", start, part, -1j * load) if held else Hung("load", start, part, mass=load)
+        return Hung("load", start, part, -1j * load) if weight_only else Hung("load", start, part, mass=load)
 
     def tie_events(self, rotation: float) -> str:
         tie, events = self._tie, []
@@ -119,11 +119,11 @@ class Tied(Crackable):
 
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
         linkage, motion = self._posed(rotation)
-        mirrored, size, drawn = rotation < 0, 0.15 * self.height, []
+        mirrored, size, marks = rotation < 0, 0.15 * self.height, []
         anchorage = float(np.vstack(self.outline())[:, 0].min()) - 2 * size
         for each in self._hung(mirrored):
-            moved = 0j if each.part == STILL else linkage.carried(each.part, each.start, motion).moved
-            head = plane(np.asarray(each.start + moved), mirrored)
+            shift = 0j if each.part == STILL else linkage.carried(each.part, each.start, motion).moved
+            head = plane(np.asarray(each.start + shift), mirrored)
             tail = {"load": [0.0, size], "thrust": [-size, 0.0], "tie": [anchorage - head[0], 0.0]}[each.kind]
             text = f"{(abs(each.force) + each.mass) / 1e3:.6g} kN/m"
             if each.kind == "tie":
@@ -131,8 +131,8 @@ class Tied(Crackable):
                 if self.tie_strength is not None:
                     end = "yields" if self.tie_plastic_elongation else "breaks"
                     text += f", {end} at {self.tie_strength / 1e3:.6g} kN/m"
-            drawn.append(Mark(each.kind, text, np.array([head + tail, head])))
-        return tuple(drawn)
+            marks.append(Mark(each.kind, text, np.array([head + tail, head])))
+        return tuple(marks)
 
     @cached_property
     def _tie(self) -> Tie:

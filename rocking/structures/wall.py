@@ -60,8 +60,8 @@ class WallLinkage(Linkage):
         across = self._half_thickness * cosine - self._lower_half * sine
         up = self._lower_half * cosine + self._half_thickness * sine
         # R₂² − S² = (h₂/2)² + (b − S)(b + S), without the cancellation of a flat upper block
-        moved = 2 * self._half_thickness * np.sin(rotation / 2) ** 2 + self._lower_half * sine
-        upper_up = np.sqrt(self._upper_half**2 + moved * (self._half_thickness + across))
+        offset = 2 * self._half_thickness * np.sin(rotation / 2) ** 2 + self._lower_half * sine
+        upper_up = np.sqrt(self._upper_half**2 + offset * (self._half_thickness + across))
         ratio = up / upper_up
         curvature = across * (1 - ratio**2) / upper_up
         lower, upper = -across + 1j * up, across + 1j * up / ratio
@@ -81,7 +81,7 @@ class WallLinkage(Linkage):
             return blocks
         # a load on the top rises with its bearing and moves to no side
         lifts = [1j * np.imag(self.carried(1, each.start, blocks)) for each in self.loads]
-        bearings = [each.start + moved for each, (moved, _, _) in zip(self.loads, lifts, strict=True)]
+        bearings = [each.start + shift for each, (shift, _, _) in zip(self.loads, lifts, strict=True)]
         still = np.zeros((len(lifts), *across.shape))
         return replace(
             blocks,
