@@ -409,7 +409,5 @@ def rock_linear(blocks, samples, factors, restitution, start, settle, best, log,
         own = Blocks(blocks.frequency[b], blocks.push[b], blocks.span[b], blocks.near[b], blocks.one_sided)
         for m in range(count):
             eta = restitution[b, m, 0], restitution[b, m, 1]
-            status, impacts, uplift, side, steps = _rock(
-                own, samples, factors[m], eta, start, settle, best, log
-            )
-            runs.conclude(results[b * count + m], status, impacts, uplift, side, steps, best)
+            end = _rock(own, samples, factors[m], eta, start, settle, best, log)
+            runs.conclude(results[b * count + m], *end, best)

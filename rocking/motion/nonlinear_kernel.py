@@ -849,7 +849,5 @@ def rock(
     """
     for m in range(horizontal.size):
         member = Member(horizontal[m], vertical[m], (restitution[m, 0], restitution[m, 1]))
-        status, impacts, uplift, side, steps = _rock(
-            sides, ground, member, start, tolerance, settle, phase, best, log
-        )
-        runs.conclude(results[m], status, impacts, uplift, side, steps, best)
+        end = _rock(sides, ground, member, start, tolerance, settle, phase, best, log)
+        runs.conclude(results[m], *end, best)

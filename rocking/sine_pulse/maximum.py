@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import lru_cache
 
 import numpy as np
 
@@ -164,6 +165,7 @@ def sides_under(block: EquivalentBlock, pulse: Pulse) -> list["sine_pulse.kernel
     return sides[::-1] if pulse.amplitude > 0 else sides
 
 
+@lru_cache(maxsize=4096)
 def _rows_of(block: EquivalentBlock) -> list[tuple[float, float, float, float, float, bool]]:
     """p, gλ, η, velocity scale, end and existence of the positive and of the negative side."""
     rows = [
