@@ -46,7 +46,7 @@ class Prediction:
     pulse_rank: int
     amplitude_ratio: float
     frequency_ratio: float
-    printed: float
+    printed_rotation_ratio: float
     maximum: Maximum
 
 
@@ -162,7 +162,7 @@ def predict(
         pulse_rank=candidates.index(chosen) + 1,
         amplitude_ratio=abs(pulse.amplitude) / (GRAVITY * side.uplift_multiplier),
         frequency_ratio=pulse.circular_frequency / block.frequency_parameter,
-        printed=printed_maximum(block, pulse),
+        printed_rotation_ratio=printed_maximum(block, pulse),
         maximum=predict_maximum(block, pulse),
     )
 

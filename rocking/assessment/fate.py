@@ -31,9 +31,7 @@ class Fate(MembersRow):
     The component is that of the governing case.
     """
 
-    rotation_ratio: float = column(
-        "Largest rotation over critical rotation of the run as recorded, worst component; INF if it overturns"
-    )
+    rotation_ratio: float = column("Largest rotation over critical rotation as recorded; INF if it overturns")
     direction: str = column("Direction of the largest rotation; empty with one")
     polarity: str = column("Sign of the motion of the largest rotation: as recorded, reversed; or empty")
     peak_side: int | None = column(rows.PEAK_SIDE)

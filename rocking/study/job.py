@@ -175,11 +175,12 @@ class Assessed:
         """Append the ensembles over all directions of a record that has two horizontal components."""
         settings = self.study.assessment
         identity = identity_of(self.record.id, self.accelerograms[0], self.study.settings_sha256)
+        identity = replace(identity, component=BOTH_COMPONENTS)
         for name in dict.fromkeys(case.structure for case in self.tables.comparison):
             structure, quick = self.study.structures[name], settings.fidelity == "auto"
             with self.stage("directions", BOTH_COMPONENTS, name):
                 members = ensemble_over_cracks(structure, pair, settings, verdict_only=quick)
-                self.tables.ensemble.append(ensemble_row(identity, name, members, BOTH_COMPONENTS))
+                self.tables.ensemble.append(ensemble_row(identity, name, members))
 
 
 def run_job(

@@ -110,9 +110,7 @@ class CurveRow(Row):
     """A row about the curve of a structure: for which crack, intensity measure and rotation it holds."""
 
     structure: str = column(STRUCTURE)
-    governing: bool = column(
-        "Whether the worst crack that may form counts, instead of the one that statics chooses"
-    )
+    governing: bool = column("Whether the worst crack that may form counts, not that of statics")
     intensity_measure: str = column(_MEASURE)
     threshold: float = column("Rotation over critical rotation that is exceeded; INF: overturning")
 
@@ -134,23 +132,17 @@ class FragilitySummaryRow(CurveRow):
 
     records: int = column("Number of records")
     stations: int = column("Number of stations")
-    median: float = column(
-        "Level at which the empirical curve crosses one half, each station with the same weight; INF: it does not"
-    )
+    median: float = column("Level at which the empirical curve crosses one half; INF: it does not")
     median_low: float = column("Lower end of the 90 % interval of the median, by resampling stations")
     median_high: float = column("Upper end of the 90 % interval of the median; INF: none at the levels tried")
     lognormal_median: float = column("Median of the lognormal curve, for those who need two parameters")
     dispersion: float = column("Standard deviation of the logarithm, lognormal curve")
     misfit: float = column("Largest distance of the lognormal from the empirical curve")
-    reversals: int = column(
-        "Number of records under which the structure stands again when they are scaled up"
-    )
+    reversals: int = column("Number of records that, scaled up, let the structure stand again")
     annual_rate: float = column("Annual rate of exceedance; empty without a hazard curve", unit="1/year")
     annual_rate_low: float = column("Annual rate by the lower ends of the interval", unit="1/year")
     annual_rate_high: float = column("Annual rate by the upper ends of the interval", unit="1/year")
-    annual_rate_remainder: float = column(
-        "Most that the rate may lack beyond the ends of curve and hazard", unit="1/year"
-    )
+    annual_rate_remainder: float = column("Most that the rate may lack beyond both curves", unit="1/year")
 
 
 @row("intensity_measures")
@@ -163,14 +155,9 @@ class IntensityMeasureRow(Row):
     figure: str = column("Figure of the record that may say more: PGV/PGA, magnitude or ln of the distance")
     records: int = column("Number of records with the measure and the figure")
     stations: int = column("Number of stations")
-    slope: float = column(
-        "Change of the logarithm of the level that overturns, for one standard deviation of the figure"
-    )
+    slope: float = column("Change of the logarithm of that level for one standard deviation of the figure")
     p_value: float = column("p-value of no change; below 0.05 the measure does not suffice")
-    power: float = column(
-        "Share of samples of as many stations that would show a slope of this size; where it is low, a large p-value "
-        "says little"
-    )
+    power: float = column("Share of samples of as many stations that would show such a slope at 5 %")
 
 
 def ida_rows(

@@ -44,9 +44,7 @@ class ComponentRow(Row):
     component: str = column(COMPONENT)
     scale_factor: float = column(SCALE_FACTOR, last=True)
     record_sha256: str = column(RECORD_SHA256, last=True)
-    settings_sha256: str = column(
-        "SHA-256 of settings, structure list and package behind this row", last=True
-    )
+    settings_sha256: str = column("SHA-256 of settings, structures and package behind the row", last=True)
 
 
 def identity_of(record: str, accelerogram: Accelerogram, settings_sha256: str) -> ComponentRow:
@@ -170,9 +168,7 @@ class ComparisonRow(CaseRow):
     within_factor_two: bool | None = column("Whether their ratio lies between 1/2 and 2")
     agreement: Agreement = column("Closed form against integration: same outcome, too low or too high")
     regime: Regime | None = column("Regime of the closed form")
-    printed_rotation_ratio: float = column(
-        "Rotation ratio of the block by Eq. 15 as printed", equation="Eq. 15"
-    )
+    printed_rotation_ratio: float = column("Rotation ratio of the block as printed", equation="Eq. 15")
     block_on_record_rotation_ratio: float = column("Rotation ratio of the block under the record")
     mechanism_on_pulse_rotation_ratio: float = column("Rotation ratio of the mechanism under the pulse")
     pulse_rank: int | None = column("Rank of the pulse that predicts among those of its method")
@@ -189,9 +185,7 @@ class ComparisonRow(CaseRow):
     answer_method: Method = column("Method that settled the verdict; see the setting fidelity")
     answer_outcome: Outcome = column("Outcome of that method: no uplift, rocks or overturns")
     answer_reason: str = column("Reason why that method sufficed, with fidelity: auto")
-    overturning_estimate: float = column(
-        "Estimate of the overturning share from p PGV/(gλ), where no ensemble ran"
-    )
+    overturning_estimate: float = column("Overturning share by p PGV/(gλ), where no ensemble ran")
     overturning_estimate_low: float = column("Lower end of the 90 % interval of the estimate")
     overturning_estimate_high: float = column("Upper end of the 90 % interval of the estimate")
 
@@ -266,12 +260,12 @@ class TimingRow(Row):
 class HorizontalMotion:
     """The motion of a pair of horizontal components, or of one that stands alone.
 
-    velocity_pulse: None where the motion is still or too short for one. azimuth: of its axis, degrees clockwise from
-    north in [0, 180); None where a component does not state its own. rotd: None of one component alone.
+    velocity_pulse: None where the motion is still or too short for one. velocity_pulse_azimuth: of its axis, degrees
+    clockwise from north in [0, 180); None where a component does not state its own. rotd: None of one component alone.
     """
 
     velocity_pulse: VelocityPulse | None
-    azimuth: float | None
+    velocity_pulse_azimuth: float | None
     rotd: RotD | None
 
 
@@ -329,7 +323,6 @@ def record_row(
         vertical_peak_acceleration_m_s2=vertical and vertical.peak_acceleration,
         rotd50_peak_acceleration_m_s2=motion.rotd and motion.rotd.rotd50,
         rotd100_peak_acceleration_m_s2=motion.rotd and motion.rotd.rotd100,
-        velocity_pulse_azimuth_deg=motion.azimuth,
         velocity_pulse_like=pulse and pulse.pulse_like,
         pulse_period_ratio=pulse and dominant and dominant.period / pulse.period,
         pulse_periods_unlike=pulse and dominant and pulse.is_unlike(dominant),
@@ -373,7 +366,6 @@ def comparison_row(identity: ComponentRow, case: "Case", friction_coefficient: f
         prediction,
         case.responses.get(Method.MECHANISM_ON_RECORD),
         case.check,
-        printed_rotation_ratio=prediction and prediction.printed,
         prediction_over_integration=ratio(*ratios),
         prediction_in_words=ratio_in_words(*ratios),
         within_factor_two=within_factor_two(*ratios),
@@ -384,16 +376,13 @@ def comparison_row(identity: ComponentRow, case: "Case", friction_coefficient: f
     )
 
 
-def ensemble_row(
-    identity: ComponentRow, structure: str, ensemble: "Ensemble", component: str | None = None
-) -> EnsembleRow:
-    """Return the row of one ensemble. component: instead of the one of `identity`."""
+def ensemble_row(identity: ComponentRow, structure: str, ensemble: "Ensemble") -> EnsembleRow:
+    """Return the row of one ensemble."""
     return EnsembleRow.of(
         identity,
         ensemble,
         ensemble.settings,
         structure=structure,
-        component=identity.component if component is None else component,
         worst_direction=ensemble.worst("direction"),
         worst_polarity={"1.0": "as recorded", "-1.0": "reversed"}.get(ensemble.worst("polarity"), ""),
         worst_processing=ensemble.worst("processing"),

@@ -42,15 +42,9 @@ class StructureRow(Row):
     critical_rotation_rad: float = column("Critical rotation")
     uplift_multiplier: float = column("Uplift acceleration in g", equation="Eq. 7")
     static_multiplier: float = column("Least uplift acceleration in g over all cracks")
-    acceleration_scale_linearised: float = column(
-        "Acceleration scale a_sc of the linearised block", equation="Eq. 11"
-    )
-    acceleration_scale_uplift: float = column(
-        "Acceleration scale a_sc,alt of the true uplift", equation="Eq. 13"
-    )
-    linearised_over_true_uplift: float = column(
-        "Uplift acceleration of the linearised block over the true one", equation="Eq. 12"
-    )
+    acceleration_scale_linearised: float = column("Scale a_sc of the linearised block", equation="Eq. 11")
+    acceleration_scale_uplift: float = column("Scale a_sc,alt of the true uplift", equation="Eq. 13")
+    linearised_over_true_uplift: float = column("Uplift acceleration over the true one", equation="Eq. 12")
     restitution: float = column(_ETA, equation="Eq. 2")
     restoring_defect: float = column("Largest error of the block's restoring force, relative")
     forcing_defect: float = column("Growth of the forcing up to φ_cr; unsafe where above 0")
@@ -123,19 +117,18 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
 def capacity_rows(structures: Mapping[str, Structure]) -> Iterator[CapacityRow]:
     """Yield the capacity curve of each side of each structure, at CAPACITY_POINTS rotations."""
     for name, structure in structures.items():
-        signs = (1,) if len(structure.mechanism().sides) == 1 else (1, -1)
-        for sign in signs:
+        both = {"positive": 1, "negative": -1}
+        for side, sign in list(both.items())[: len(structure.mechanism().sides)]:
             curve = structure.capacity_curve(sign, CAPACITY_POINTS)
             columns = {
-                "rotation_rad": curve.rotation,
-                "multiplier": curve.multiplier,
-                "displacement_m": curve.displacement,
-                "effective_displacement_m": curve.effective_displacement,
+                "rotation_rad": curve.rotation.tolist(),
+                "multiplier": curve.multiplier.tolist(),
+                "displacement_m": curve.displacement.tolist(),
+                "effective_displacement_m": curve.effective_displacement.tolist(),
             }
-            for place in range(CAPACITY_POINTS):
-                point = {name: float(values[place]) for name, values in columns.items()}
-                side = "positive" if sign > 0 else "negative"
-                yield CapacityRow.of(curve, structure=name, side=side, **point)
+            for values in zip(*columns.values(), strict=True):
+                point = dict(zip(columns, values, strict=True))
+                yield CapacityRow.of(point, curve, structure=name, side=side)
 
 
 AGREEMENT_COLUMNS = (

@@ -24,7 +24,7 @@ def test_a_pair_has_one_motion_and_its_axis_from_north():
     north, east = component(math.cos(0.3), "N", 0.0), component(math.sin(0.3), "E", 90.0)
     one, other = horizontal_motions([north, east])
     assert one is other
-    assert one.azimuth == pytest.approx(math.degrees(0.3))
+    assert one.velocity_pulse_azimuth == pytest.approx(math.degrees(0.3))
     assert one.velocity_pulse.orientation == pytest.approx(0.3)
     assert one.rotd.rotd100 == pytest.approx(3.0, rel=1e-3)
     row = record_row(IDENTITY, north, "", None, one, Pulse(1.0, math.pi))
@@ -49,13 +49,13 @@ def test_what_is_no_pair_stands_alone(others):
     assert len(motions) == 1 + len(others)
     assert motions[0].rotd is None
     assert motions[0].velocity_pulse.period == pytest.approx(1.93 * 2.0, rel=0.02)
-    assert motions[0].azimuth == 20.0
+    assert motions[0].velocity_pulse_azimuth == 20.0
 
 
 def test_a_still_or_short_record_has_no_velocity_pulse():
     for short in (Accelerogram(np.zeros(3000), STEP), Accelerogram(np.ones(50), STEP)):
         (motion,) = horizontal_motions([short])
-        assert motion.velocity_pulse is None and motion.azimuth is None
+        assert motion.velocity_pulse is None and motion.velocity_pulse_azimuth is None
         row = record_row(IDENTITY, short, "", None, motion, Pulse(1.0, 1.0))
         assert row.pulse_periods_unlike is None
 
