@@ -9,22 +9,9 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats import text
+from rocking.records.formats import header, text
 from rocking.records.formats.format import Format, Options, without_offset
-from rocking.records.formats.header import (
-    NUMBER,
-    Layout,
-    check_equal,
-    in_blocks,
-    key,
-    keyed,
-    optional,
-    optional_number,
-    parted,
-    required,
-    site,
-    typed_magnitude,
-)
+from rocking.records.formats.header import Layout, key, keyed
 from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.plausibility import agree_with_velocity
 
@@ -44,14 +31,14 @@ _WORD = r"([\w/^*]*)"
 
 
 def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = parted(content, _DYNA_END.match, "of numbers", _DYNA_HEADER)
+    head, rows = header.parted(content, _DYNA_END.match, "of numbers", _DYNA_HEADER)
     is_filtered_anew = head.startswith("AAD_")
     head = re.sub("^AAD_", "", head, flags=re.M)
-    date = optional(key("EVENT_DATE_YYYYMMDD"), head)
-    scales = f"Mw={optional(key('MAGNITUDE_W'), head)} ML={optional(key('MAGNITUDE_L'), head)}"
-    facts: dict[str, Any] = typed_magnitude(scales)
-    facts["event"] = f"{optional(key('EVENT_NAME'), head)} {date}"
-    facts["event_time"] = f"{date} {optional(key('EVENT_TIME_HHMMSS'), head)}"
+    date = header.optional(key("EVENT_DATE_YYYYMMDD"), head)
+    scales = f"Mw={header.optional(key('MAGNITUDE_W'), head)} ML={header.optional(key('MAGNITUDE_L'), head)}"
+    facts: dict[str, Any] = header.typed_magnitude(scales)
+    facts["event"] = f"{header.optional(key('EVENT_NAME'), head)} {date}"
+    facts["event_time"] = f"{date} {header.optional(key('EVENT_TIME_HHMMSS'), head)}"
     if is_filtered_anew:  # the peak that the header states is that of the samples before
         facts["peak"] = 0.0
     return _DYNA.series(head, rows, options, **facts)
@@ -71,12 +58,12 @@ def _directions(line: str) -> list[str]:
 
 
 def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = parted(content, _directions, "names the columns (N-S, E-W, U-D)", _AFAD_HEADER)
+    head, rows = header.parted(content, _directions, "names the columns (N-S, E-W, U-D)", _AFAD_HEADER)
     labels = _directions(rows[0])
     table = text.table(rows[1:], len(labels))
     _, notes = text.whole(table[:, 0], _AFAD.count(head), per_line=1)
-    line = optional(r"^(.*PGA.*:.*)", head)
-    peaks = [optional_number(rf"\({re.escape(label)}\)\s*{NUMBER}", line) for label in labels]
+    line = header.optional(r"^(.*PGA.*:.*)", head)
+    peaks = [header.optional_number(rf"\({re.escape(label)}\)\s*{header.NUMBER}", line) for label in labels]
     is_processed = "RAW" not in line
     return _AFAD.channels(head, table, labels, options, peaks=peaks, warnings=notes, processed=is_processed)
 
@@ -93,7 +80,8 @@ _RESORCE = Layout("m/s2", {"network": r"^Network\s*:\s*(\S+)", "quantity": r"^(\
 
 
 def _read_resorce(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = parted(content, _RESORCE_TITLE.match, "names the time series and its unit", _RESORCE_HEADER)
+    title = "names the time series and its unit"
+    head, rows = header.parted(content, _RESORCE_TITLE.match, title, _RESORCE_HEADER)
     return _RESORCE.series(f"{head}\n{rows[0]}", rows[1:], options)
 
 
@@ -105,13 +93,14 @@ _CWB = Layout("gal", {"unit": key("AMPLITUDEUNIT", _WORD)} | keyed(
 
 
 def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = parted(content, re.compile("#Data:").match, "begins with #Data:", _CWB_HEADER)
+    head, rows = header.parted(content, re.compile("#Data:").match, "begins with #Data:", _CWB_HEADER)
     head = re.sub("^#", "", head, flags=re.M)
     labels = re.findall(r"([A-Z])\(", _CWB.required("channels", head))
     table = text.table(rows[1:], len(labels) + 1, width=10)
     magnitudes = re.findall(r"^Magnitude\((\w+)\)(:.*)", head, re.I | re.M)
-    extremes = [re.findall(NUMBER, optional(rf"^.*MAX.*\b{label}\s*:(.*)", head), re.I) for label in labels]
-    facts = typed_magnitude(" ".join(scale + value for scale, value in magnitudes))
+    lines = (header.optional(rf"^.*MAX.*\b{label}\s*:(.*)", head) for label in labels)
+    extremes = [re.findall(header.NUMBER, line, re.I) for line in lines]
+    facts = header.typed_magnitude(" ".join(scale + value for scale, value in magnitudes))
     facts["peaks"] = [max((abs(float(end)) for end in ends), default=None) for ends in extremes]
     return _CWB.channels(head, table[:, 1:], labels, options, step=text.only_even_step(table[:, 0]), **facts)
 
@@ -130,7 +119,7 @@ _REPEATED = 2  # surplus lines that some files of the network end in
 
 
 def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = parted(content, re.compile(_DATA).match, f"begins with {_DATA}", _UNAM_HEADER)
+    head, rows = header.parted(content, re.compile(_DATA).match, f"begins with {_DATA}", _UNAM_HEADER)
     rules = [i for i, line in enumerate(rows[:10]) if _RULE.match(line)]
     if len(rules) < 2:
         raise RecordError(f"no heading {_DATA} above two rules; the file is cut.")
@@ -140,7 +129,7 @@ def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
     if len(sizes) != 1:
         raise RecordError(f"the channels declare {sizes} samples, but must be equally long.")
     samples = text.count("NUM. TOTAL DE MUESTRAS", sizes[0])
-    width = optional_number(r"^FORMATO DATOS.*\d+F(\d+)", head)
+    width = header.optional_number(r"^FORMATO DATOS.*\d+F(\d+)", head)
     table = text.table(rows[rules[1] + 1 :], len(heads), max(1, int(width or 10)))
     table, notes = _without_repeats(table, samples)
     _, surplus = text.whole(table[:, 0], samples, per_line=1)
@@ -151,15 +140,15 @@ def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
 def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[str, ...]) -> Accelerogram:
     step = text.number("INTERVALO DE MUESTREO", _UNAM.required("step", head))
     keys = "VEL. DE MUESTREO", "FACTOR DE DECIMACION", "ACEL. MAX."
-    rate, thinned, place = (optional_number(key(name) + "$", head) for name in keys)
+    rate, decimation, place = (header.optional_number(key(name) + "$", head) for name in keys)
     if rate is not None:
-        check_equal("the interval", step, (thinned or 1.0) / max(1e-9, rate))
+        header.check_equal("the interval", step, (decimation or 1.0) / max(1e-9, rate))
     parts = [part.strip() for part in _UNAM.text("orientation", head).split(";") if part.strip()]
     directions = (part for part in parts if azimuth(part) is not None or is_vertical(part))
     facts: dict[str, Any] = {"warnings": notes, "peak_time": None if place is None else (place - 1) * step}
     # Of bearing and sense, "N90E;" or "V;+", one may be blank.
     facts["component"] = next(directions, parts[-1])
-    facts["event_time"] = f"{_UNAM.text('event', head)} {optional(key('HORA EPICENTRO (GMT)'), head)}"
+    facts["event_time"] = f"{_UNAM.text('event', head)} {header.optional(key('HORA EPICENTRO (GMT)'), head)}"
     return _UNAM.channel(head, values, options, step=step, **facts)
 
 
@@ -215,7 +204,7 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError(f"the header has no line {missing[0]!r}; K-NET's has {len(_KNET_KEYS)} lines.")
     head = "\n".join(rows)
     scale = r"^Scale Factor\s*([\d.]+)\s*\(gal\)\s*/\s*([\d.]+)\s*$"
-    parts = required("a Scale Factor like 3920(gal)/6182761", scale, head)
+    parts = header.required("a Scale Factor like 3920(gal)/6182761", scale, head)
     factors = (text.number("Scale Factor", part) for part in parts.groups())
     full, counts = (positive(RecordError, "Scale Factor", factor) for factor in factors)
     samples = text.numbers(text.after_lines(content, len(_KNET_KEYS))) * (full / counts)
@@ -239,7 +228,7 @@ _JMA_FIRST = re.compile(rf"SITE CODE=(?:.*\n){{6}}[ \t]*{_JMA_NAMES}[ \t]*(?:\n|
 
 def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
     """The header gives no number of samples."""
-    head, rows = parted(content, _JMA_HEADER)
+    head, rows = header.parted(content, _JMA_HEADER)
     labels = _JMA_NAMES.split(",")
     if broken := next((row for row in rows if row.strip() and row.count(",") != len(labels) - 1), ""):
         raise RecordError(f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.")
@@ -261,7 +250,7 @@ _CSMNC_FIRST = re.compile(r"(?=(?:.*\n){0,15}NO\. OF POINTS:)(?:.*\n){0,15}OBSER
 
 
 def _read_csmnc(content: bytes, options: Options) -> list[Accelerogram]:
-    return _CSMNC.series(*parted(content, _CSMNC_HEADER), options)
+    return _CSMNC.series(*header.parted(content, _CSMNC_HEADER), options)
 
 
 _GEONET = Layout("mm/s2", {
@@ -291,7 +280,8 @@ def _geonet_channel(block: list[str], options: Options, total: int) -> Accelerog
     # A corrected file goes on with velocity and displacement.
     size = len(rows) // 3 if len(rows) == 3 * -(-samples // _PER_LINE) else len(rows)
     values = text.filled(rows[:size], samples, _PER_LINE, _WIDTH)
-    factor = text.number("raw unit", optional(r"readings in units of\s+([\d.]+)\s*mm/s/s", head) or "1")
+    unit = header.optional(r"readings in units of\s+([\d.]+)\s*mm/s/s", head) or "1"
+    factor = text.number("raw unit", unit)
     integers = " ".join(block[_TEXT : _TEXT + 4]).split()
     at = _GEONET.number("peak_time", head)
     if at is not None and len(integers) == 40 and integers[_PREPENDED].isdecimal():
@@ -322,7 +312,7 @@ _MISSING = 1.69e38
 
 
 def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = parted(content, _SMC_TEXT)
+    head, rows = header.parted(content, _SMC_TEXT)
     kind = head.partition("\n")[0].strip()
     if kind[:1] not in ("0", "1", "2"):
         raise RecordError(f"this SMC file is of kind {kind[:40]!r}, not of acceleration.")
@@ -343,9 +333,9 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     values, notes = text.whole(text.fields(body, width), samples, 80 // width)
     extremes = [(abs(reals[i]), reals[i - 1]) for i in (_LARGEST, _SMALLEST) if abs(reals[i]) < _MISSING]
     peak, at = max(extremes, default=(None, 0.0))
-    scales = " ".join(optional(r"^Moment (Mag.*)", head).replace("Mag", "Mw").split())
-    place = site(*(real if abs(real) < _MISSING else None for real in reals[_PLACE].tolist()))
-    facts: dict[str, Any] = {**typed_magnitude(scales), **place, "warnings": notes, "peak": peak}
+    scales = " ".join(header.optional(r"^Moment (Mag.*)", head).replace("Mag", "Mw").split())
+    place = header.site(*(real if abs(real) < _MISSING else None for real in reals[_PLACE].tolist()))
+    facts: dict[str, Any] = {**header.typed_magnitude(scales), **place, "warnings": notes, "peak": peak}
     facts["high_pass_frequency"] = float(reals[_CORNER]) if 0 < reals[_CORNER] < 100 else None
     facts["peak_time"] = float(at) if 0 < at < _MISSING else None
     return [_SMC.channel(head, values, options, step=1 / rate, **facts)]
@@ -372,7 +362,7 @@ CSMNC = Format("CSMNC", "China Strong Motion Networks Centre",
     "lines OBSERVING POINT: and NO. OF POINTS: in the first 16", _CSMNC_FIRST, _read_csmnc, "CSMNC")  # fmt: skip
 GEONET = Format("GeoNet V1A/V2A", "GeoNet (GNS Science), New Zealand",
     "first line Corrected or Uncorrected accelerogram above a Site line", _GEONET_FIRST,
-    in_blocks(_GEONET_BLOCK, _geonet_channel), "GEONET")  # fmt: skip
+    header.in_blocks(_GEONET_BLOCK, _geonet_channel), "GEONET")  # fmt: skip
 SMC = Format("USGS SMC", "U.S. Geological Survey",
     "first line like 2 CORRECTED ACCELEROGRAM above ten text lines and integers", _SMC_FIRST, _read_smc,
     "USGS_SMC")  # fmt: skip

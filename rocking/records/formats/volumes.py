@@ -12,18 +12,9 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats import text
+from rocking.records.formats import header, text
 from rocking.records.formats.format import Format, Options, without_offset
-from rocking.records.formats.header import (
-    Layout,
-    check_end,
-    check_equal,
-    distance,
-    in_blocks,
-    optional,
-    optional_number,
-    required,
-)
+from rocking.records.formats.header import Layout
 from rocking.records.instrument import is_vertical
 from rocking.records.plausibility import agree_with_mean_square, agree_with_velocity
 
@@ -67,7 +58,7 @@ def _cosmos(block: list[str], options: Options, total: int) -> Accelerogram | No
     end = next((i for i, row in enumerate(block) if i > at and _END.match(row)), None)
     if end is None:
         raise RecordError("no line End-of-data ends a channel: the file is truncated; fetch it again.")
-    check_end(block[end + 1 :])
+    header.check_end(block[end + 1 :])
     per_line, width = (max(1, int(data[name])) for name in ("per_line", "width"))
     reals = _reals(block[:at])
     step = reals[_STEP] / 1000 if 0 < reals[_STEP] < 1e4 else reals[_RECORDER_STEP]
@@ -77,7 +68,7 @@ def _cosmos(block: list[str], options: Options, total: int) -> Accelerogram | No
     stated = [None if abs(real - _UNKNOWN) < 1e-3 else real for real in reals]
     note = f"The header gives the series a length of {length:g} s, but its samples last {lasts:g} s."
     facts: dict[str, Any] = {"component": _component(head), "warnings": (note,) if wrong else ()}
-    facts |= {"elevation": stated[_ELEVATION], "epicentral_distance": distance(stated[_DISTANCE])}
+    facts |= {"elevation": stated[_ELEVATION], "epicentral_distance": header.distance(stated[_DISTANCE])}
     facts |= {"peak": stated[_PEAK], "peak_time": stated[_PEAK_TIME]}
     record = _COSMOS.channel(head, values, options, unit=data["unit"], step=step, total=total, **facts)
     if record.processed or len(reals) <= _RMS:
@@ -97,10 +88,10 @@ def _reals(head: list[str]) -> list[float]:
 
 def _component(head: str) -> str:
     """Return the direction of the channel line ("360 deg" as 360, "Up"), else the channel code of the SCNL comment."""
-    direction = optional(r"^Sta\s+Chan?\s*[^:]*:\s*([^(\n]*?)\s*\(", head).split(":")[-1].strip()
-    if degrees := optional(r"^(\d+)\s*deg", direction):
+    direction = header.optional(r"^Sta\s+Chan?\s*[^:]*:\s*([^(\n]*?)\s*\(", head).split(":")[-1].strip()
+    if degrees := header.optional(r"^(\d+)\s*deg", direction):
         return degrees
-    code = optional(r"<SCNL>\s*[^.\s]+\.([A-Z0-9]{3})\.", head)
+    code = header.optional(r"<SCNL>\s*[^.\s]+\.([A-Z0-9]{3})\.", head)
     return code if direction.lower() in ("", "other") and code else direction
 
 
@@ -143,11 +134,11 @@ _CSMIP_2 = Layout("", _CSMIP | {
 def _rows(block: list[str]) -> tuple[str, list[str]]:
     """Return the text and the rows of numbers of one channel in tenths of g. Raises RecordError for another unit."""
     head = "\n".join(block[:_TEXT])
-    required("units of G/10", r"^(UNITS)\b.*\bG/10", head)
-    required("points and length", _DURATION, head)
+    header.required("units of G/10", r"^(UNITS)\b.*\bG/10", head)
+    header.required("points and length", _DURATION, head)
     body = block[_HEADER:]
     end = next((i for i, row in enumerate(body) if row.startswith("/&")), len(body))
-    check_end(body[end + 1 :])
+    header.check_end(body[end + 1 :])
     return head, [row for row in body[:end] if row.strip()]
 
 
@@ -161,7 +152,7 @@ def _digitised(
     head, rows = _rows(block)
     times, values = text.table(rows, 2, layout.width, layout.margin).T
     text.whole(times, layout.count(head), per_line=0)
-    duration = text.number("duration", optional(_DURATION, head))
+    duration = text.number("duration", header.optional(_DURATION, head))
     # The length may count a last step or not.
     if abs(duration - times[-1]) > 2 * np.ptp(times) / (times.size - 1) + 0.001:
         stated = f"the header declares a length of {duration:g} s, but the last sample is at {times[-1]:g} s"
@@ -181,7 +172,7 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
     head, rows = _rows(block)
     samples = text.filled(rows, _BHRC.count(head), _BHRC.per_line, _BHRC.width)
     values, offset = without_offset(samples, options.unit_of("g/10"))
-    step = text.number("duration", optional(_DURATION, head)) / values.size
+    step = text.number("duration", header.optional(_DURATION, head)) / values.size
     reals = " ".join(block[_REALS_AT : _REALS_AT + 2]).split()
     printed = reals[_RATE] if len(reals) > _RATE else "0"
     rate = float(printed) if text.is_number(printed) else 0.0
@@ -194,7 +185,7 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
     facts: dict[str, Any] = {"processing": (offset,), "warnings": (note,) if note else ()}
     facts["vertical"] = is_vertical(letter)
     if letter in ("L", "T"):
-        facts["azimuth"] = optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", head)
+        facts["azimuth"] = header.optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", head)
     return _BHRC.channel(head, values, options, step=step, **facts)
 
 
@@ -220,7 +211,7 @@ def _read_csmip(content: bytes, options: Options) -> list[Accelerogram]:
     if any(_announcement(line) or _VOLUME_1.match(line) for line in rest):
         channels.append(rest)
     else:
-        check_end(rest)
+        header.check_end(rest)
     return [_csmip(block, options, len(channels)) for block in channels]
 
 
@@ -247,11 +238,11 @@ def _csmip(block: list[str], options: Options, total: int) -> Accelerogram:
     rate = facts.get("rate")
     step = 1 / max(1e-9, text.number("rate", rate)) if rate else text.number("step", facts["step"])
     points = r"^\s*(\S+)\s+points of instrument" if is_corrected else r"^No\. of points\s*=\s*(\S+)"
-    if points := optional(points, head):
-        check_equal("the number of points", text.count("number of points", points), values.size, 0)
-    interval = optional_number(r"^At equally-spaced intervals of\s+([\d.]+)", head)
+    if points := header.optional(points, head):
+        header.check_equal("the number of points", text.count("number of points", points), values.size, 0)
+    interval = header.optional_number(r"^At equally-spaced intervals of\s+([\d.]+)", head)
     if is_corrected and interval:
-        check_equal("the interval", interval, step)
+        header.check_equal("the interval", interval, step)
     layout = _CSMIP_2 if is_corrected else _CSMIP_1
     more: dict[str, Any] = {"unit": facts["unit"], "step": step, "processed": is_corrected, "total": total}
     record = layout.channel(head, values, options, **more)
@@ -270,16 +261,16 @@ _BHRC_FIRST = re.compile(r"\* VOL1DS FILE:", re.I)
 
 
 COSMOS = Format("COSMOS V1/V2", "COSMOS, CESMD and USGS, USA",
-    "first line like Corrected acceleration (Format v01.20", _COSMOS_FIRST, in_blocks(_COSMOS_FIRST, _cosmos),
+    "first line like Corrected acceleration (Format v01.20", _COSMOS_FIRST, header.in_blocks(_COSMOS_FIRST, _cosmos),
     "COSMOS_V1V2")  # fmt: skip
 USC = Format("USC Volume 1", "University of Southern California",
     "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", _USC_FIRST,
-    in_blocks(_USC_FIRST, partial(_digitised, _USC)), "USC_V1")  # fmt: skip
+    header.in_blocks(_USC_FIRST, partial(_digitised, _USC)), "USC_V1")  # fmt: skip
 RENADIC = Format("RENADIC", "RENADIC (Universidad de Chile)",
     "first line UNCORRECTED ACCELEROGRAM DATA PROCESSED with RENADIC below",
     re.compile(_VOLUME_1.pattern + _OF_RENADIC, re.I),
-    in_blocks(_VOLUME_1, partial(_digitised, _RENADIC, is_even=True)), "RENADIC")  # fmt: skip
-BHRC = Format("BHRC", "BHRC, Iran", "first line * VOL1DS FILE:", _BHRC_FIRST, in_blocks(_BHRC_FIRST, _bhrc),
+    header.in_blocks(_VOLUME_1, partial(_digitised, _RENADIC, is_even=True)), "RENADIC")  # fmt: skip
+BHRC = Format("BHRC", "BHRC, Iran", "first line * VOL1DS FILE:", _BHRC_FIRST, header.in_blocks(_BHRC_FIRST, _bhrc),
     "BHRC")  # fmt: skip
 CSMIP = Format("CSMIP V1/V2", "California Geological Survey (CSMIP, CDMG)",
     "first line like Uncorrected Accelerogram Data Processed, or Corrected accelerogram Chan", _CSMIP_FIRST,
