@@ -5,6 +5,7 @@ import pytest
 from motion_cases import MECHANISMS, noise, random_case
 from oracle import Oracle
 from scipy.constants import g
+from straight import straight
 
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
@@ -49,30 +50,9 @@ def test_equivalent_block_against_the_oracle(seed):
     block = MECHANISMS["block"].equivalent_block()
     record = noise(seed, 50, 0.02, lifting(MECHANISMS["block"], 1.5))
     exact = integrate(block, record)
-    ratio, _ = Oracle(straight(block)).run(record.acceleration, 0.02, after=3.0)
+    ratio, _ = Oracle(Mechanism(straight(block))).run(record.acceleration, 0.02, after=3.0)
     assert exact.rotation_ratio == pytest.approx(ratio, rel=1e-9)
     assert exact.tolerance == 0.0
-
-
-def straight(block):
-    """The equivalent block as a Mechanism of straight lines, for the oracle."""
-    from rocking.structures.mechanism import Side
-
-    stiffness = block.frequency_parameter**2 / g
-
-    def side(each):
-        return Side(
-            inertia=np.ones_like,
-            inertia_slope=np.zeros_like,
-            gravity=lambda r: stiffness * (each.critical_rotation - r),
-            gravity_slope=lambda r: -stiffness * np.ones_like(r),
-            ground=lambda r: stiffness * each.acceleration_scale * np.ones_like(r),
-            critical_rotation=each.critical_rotation,
-            end_rotation=1e3,
-            restitution=each.restitution,
-        )
-
-    return Mechanism(side(block))
 
 
 @pytest.mark.parametrize("name", ["two sides", "one side", "wall"])

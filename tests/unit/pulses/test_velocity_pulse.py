@@ -18,7 +18,6 @@ from rocking.pulses.velocity_pulse import (
     transform,
 )
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.rotation import rotate
 
 STEP = 0.005
 TIMES = np.arange(8000) * STEP
@@ -76,6 +75,8 @@ def test_what_cannot_hold_a_velocity_pulse_is_refused():
     short = Accelerogram(np.ones(100), STEP)
     with pytest.raises(PulseError, match="100 samples"):
         velocity_pulse(short, short)
+    with pytest.raises(RecordError, match=r"time_step is 0\.005 s and 0\.01 s"):
+        velocity_pulse(zero, Accelerogram(np.ones(3000), 2 * STEP))
 
 
 @pytest.mark.parametrize(("share", "late"), [(0.11, False), (0.14, True)])
@@ -87,22 +88,6 @@ def test_a_pulse_is_late_by_the_energy_that_went_before(share, late, unit):
     ripple = np.sin(2 * np.pi * TIMES / 0.2) * (np.abs(TIMES - 10) < 1)
     ripple *= math.sqrt(share / (1 - share) * (pulse @ pulse) / (ripple @ ripple))
     assert _late(unit * (ripple + pulse), unit * pulse) is late
-
-
-@pytest.mark.parametrize(("azimuths", "expected"), [((20, 110), 50), ((20, 290), 350), ((20, 60), None)])
-def test_the_azimuth_of_the_axis(azimuths, expected):
-    first, second = (Accelerogram(np.ones(50), STEP, azimuth=a) for a in azimuths)
-    azimuth = rotate(first, second, angle=math.radians(30)).azimuth
-    assert azimuth == (None if expected is None else pytest.approx(expected))
-
-
-def test_components_share_the_samples_that_both_have_or_are_refused():
-    first, second = (Accelerogram(np.arange(n, dtype=float), STEP) for n in (50, 43))
-    assert np.array_equal(rotate(first, second, angle=math.pi / 2).acceleration.round(9), np.arange(43))
-    with pytest.raises(RecordError, match=r"time_step is 0\.005 s and 0\.01 s"):
-        velocity_pulse(first, Accelerogram(second.acceleration, 2 * STEP))
-    with pytest.raises(RecordError, match="vertical"):
-        velocity_pulse(first, Accelerogram(second.acceleration, STEP, vertical=True))
 
 
 def plain(velocities, scale):

@@ -4,14 +4,14 @@ import math
 
 import numpy as np
 import pytest
-from scipy.constants import g
 from scipy.integrate import quad
+from straight import straight
 
 from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.sine_pulse import predict_maximum
-from rocking.structures import Arch, Block, EquivalentBlock, Mechanism, Side, Wall
+from rocking.structures import Arch, Block, EquivalentBlock, Mechanism, Wall
 
 BLOCK, WALL = Block(1.52, 0.165, restitution=0.85), Wall(1.5, 1.5, 0.4)
 ARCH = Arch(10.0, 1.5, np.deg2rad(157.5), restitution=0.9)
@@ -19,29 +19,14 @@ STRUCTURES = {"block": BLOCK, "wall": WALL, "arch": ARCH, "unequal wall": Wall(1
 TWO_SIDES = Mechanism(WALL.mechanism().positive, STRUCTURES["unequal wall"].mechanism().positive)
 
 
-def straight(p, critical, multiplier, eta):
-    """I constant and G linear, as a mechanism."""
-    square = p**2 / g
-    return Side(
-        inertia=lambda r: 1.0 + 0.0 * r,
-        inertia_slope=lambda r: 0.0 * r,
-        gravity=lambda r: square * (critical - r),
-        gravity_slope=lambda r: -square + 0.0 * r,
-        ground=lambda r: square * critical / multiplier + 0.0 * r,
-        critical_rotation=critical,
-        end_rotation=5 * critical,
-        restitution=eta,
-    )
-
-
 def test_a_linear_mechanism_is_its_own_block():
-    block = Mechanism(straight(2.3, 0.17, 0.21, 0.9)).equivalent_block()
+    plain = EquivalentBlock(2.3, 0.17, 0.17 / 0.21, 0.9)
+    block = Mechanism(straight(plain)).equivalent_block()
     assert block.frequency_parameter == pytest.approx(2.3, rel=1e-12)
     assert block.uplift_multiplier == pytest.approx(0.21, rel=1e-12)
     assert block.critical_arc == pytest.approx(0.17, rel=1e-12)
     x = np.linspace(0, 4.9, 50)
     assert block.rotation_ratios(x) == pytest.approx(x, rel=1e-12, abs=0)
-    plain = EquivalentBlock(2.3, 0.17, 0.17 / 0.21, 0.9)
     for pulse in (Pulse(4.0, 6.0), Pulse(7.0, 14.0), Pulse(-5.0, 9.0)):
         found, expected = predict_maximum(block, pulse), predict_maximum(plain, pulse)
         assert found.rotation_ratio == pytest.approx(expected.rotation_ratio, rel=1e-12)
@@ -91,7 +76,7 @@ def test_defects_of_the_table():
         assert defects.restoring == pytest.approx(restoring, abs=5.001e-4)
         assert defects.forcing == pytest.approx(forcing, abs=0.006)
     assert TWO_SIDES.block_defects == STRUCTURES["unequal wall"].mechanism().block_defects
-    assert Mechanism(straight(2.0, 0.1, 0.2, 0.9)).block_defects.restoring < 1e-14
+    assert Mechanism(straight(EquivalentBlock(2.0, 0.1, 0.5, 0.9))).block_defects.restoring < 1e-14
 
 
 def crests(structure, start):
