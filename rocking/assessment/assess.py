@@ -55,9 +55,9 @@ class Case:
     """One structure under one accelerogram. prediction is None where the record has no pulse.
 
     check: whether the model held along the response of the mechanism to the record. answer: of the mechanism on the
-    record, or of the cheapest method that is trusted in its stead. ensemble: None where none was asked for.
-    overturning_estimate: from the peak velocity, where no ensemble ran; None of an unusual structure. durations: CPU
-    time of the methods that were compared, s.
+    record, or of the cheapest method that settles the case. ensemble: None where none ran. overturning_estimate: from
+    the peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. durations: CPU time
+    of the methods that were compared, s.
     """
 
     structure: str
@@ -72,12 +72,12 @@ class Case:
 
     @property
     def predicted_rotation_ratio(self) -> float:
-        """Of the closed form; nan without a pulse."""
+        """Rotation ratio of the closed form; nan without a pulse."""
         return self.prediction.maximum.rotation_ratio if self.prediction else nan
 
     @property
     def integrated_rotation_ratio(self) -> float:
-        """Of the mechanism on the record; nan where something cheaper answered."""
+        """Rotation ratio of the mechanism on the record; nan where a cheaper method settled the case."""
         response = self.responses.get(Method.MECHANISM_ON_RECORD)
         return response.rotation_ratio if response else nan
 

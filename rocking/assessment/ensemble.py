@@ -242,6 +242,11 @@ def lattice(size: int) -> np.ndarray:
     return points
 
 
+def design(settings: EnsembleSettings) -> np.ndarray:
+    """Return the points of the members in the order in which they are followed, MOST_NEAR_A_LIMIT at least."""
+    return lattice(max(settings.size, MOST_NEAR_A_LIMIT))
+
+
 def ensemble(
     structure: Rocking,
     motions: GroundMotions,
@@ -260,7 +265,7 @@ def ensemble(
     `integrate` does.
     """
     settings = settings or EnsembleSettings()
-    points = lattice(max(settings.size, MOST_NEAR_A_LIMIT))
+    points = design(settings)
     follow = partial(drawn, structure, motions, settings=settings, tolerance=tolerance)
     members = follow(points[:FIRST])
     quick = verdict_only or whether_it_stands

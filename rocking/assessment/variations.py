@@ -10,15 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.assessment.ensemble import (
-    AS_IT_IS,
-    MOST_NEAR_A_LIMIT,
-    Ensemble,
-    GroundMotions,
-    drawn,
-    ensemble,
-    lattice,
-)
+from rocking.assessment.ensemble import AS_IT_IS, Ensemble, GroundMotions, design, drawn, ensemble
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.errors import RockingError
@@ -99,9 +91,8 @@ def screened(
     """
     if np.all(headline.rotation_ratios <= NEGLIGIBLE):
         return []  # the others lift no earlier; of the cases above, none below 8 NEGLIGIBLE had one that falls
-    points = lattice(max(settings.ensemble.size, MOST_NEAR_A_LIMIT))
     order = np.argsort(-headline.rotation_ratios, kind="stable")
-    few = points[order[[0, 1, order.size // 2]]]
+    few = design(settings.ensemble)[order[[0, 1, order.size // 2]]]
     severity = {}
     for each in mechanisms:
         members = drawn(each[1], motions, few, settings.ensemble, tolerance=settings.tolerance)

@@ -9,14 +9,6 @@ import numpy as np
 
 from rocking.assessment.fate import Fate
 from rocking.assessment.rows import of_record as rows
-from rocking.assessment.rows.of_record import (
-    ComparisonRow,
-    EnsembleRow,
-    FailureRow,
-    PulseRow,
-    RecordRow,
-    TimingRow,
-)
 from rocking.records import Accelerogram
 from rocking.structures import Structure
 from rocking.tables import Row, column, row
@@ -186,16 +178,16 @@ def spectrum_rows(
 
 
 SUMMARY_TABLES: tuple[type[Row], ...] = (
-    RecordRow,
-    PulseRow,
-    ComparisonRow,
-    EnsembleRow,
+    rows.RecordRow,
+    rows.PulseRow,
+    rows.ComparisonRow,
+    rows.EnsembleRow,
     Fate,
     AgreementRow,
     StructureRow,
     CapacityRow,
-    FailureRow,
-    TimingRow,
+    rows.FailureRow,
+    rows.TimingRow,
 )
 """The rows of the tables of the summary folder."""
 
