@@ -18,7 +18,7 @@ from rocking.records.formats import FORMATS
 from rocking.sine_pulse import Regime
 from rocking.structures.fields import Form
 from rocking.study.settings import Settings
-from rocking.tables import Table
+from rocking.tables import data_package
 
 
 def formats() -> str:
@@ -45,7 +45,8 @@ def structures() -> str:
 def tables() -> str:
     """Every column of every table."""
     classes = dict.fromkeys((*PER_RECORD, HistoryRow, *SUMMARY_TABLES, SpectrumRow))
-    return "\n\n".join(_table_section(each.table) for each in classes)
+    package = json.loads(data_package("tables", {each: each.table.file_name for each in classes}))
+    return "\n\n".join(map(_table_section, package["resources"]))
 
 
 def equations() -> str:
@@ -146,7 +147,11 @@ def _structure(drawing: str, kind: str, form: Form) -> str:
     return f"### `type: {kind}` — {form.meaning}\n\n{picture}\n\n{keys}"
 
 
-def _table_section(described: Table) -> str:
-    rows = ((f"`{c.name}`", c.type, c.unit, c.meaning, c.more["equation"]) for c in described.columns)
+def _table_section(resource: Mapping[str, Any]) -> str:
+    """The columns of a table, as the data package has them."""
+    keys = ("type", "unit", "description", "equation")
+    rows = (
+        (f"`{each['name']}`", *(each.get(key, "") for key in keys)) for each in resource["schema"]["fields"]
+    )
     body = table(("column", "type", "unit", "meaning", "equation"), rows)
-    return f"## {described.file_name}\n\n{described.description}.\n\n{body}"
+    return f"## {resource['path']}\n\n{resource['description']}.\n\n{body}"
