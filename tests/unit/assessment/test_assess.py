@@ -78,29 +78,29 @@ def test_a_row_of_the_comparison_holds_what_each_method_says(case):
 
 
 def test_a_structure_that_fails_costs_no_other_its_result():
-    found = assess_structures(RECORD, {"bad": Impossible(2.0, 0.2), "block": BLOCK}, SETTINGS)
-    assert [case.structure for case in found.cases] == ["block"]
-    assert [(f.stage, f.structure) for f in found.failures] == [("responses", "bad")]
-    assert "0.2 m" in found.failures[0].message
+    assessment = assess_structures(RECORD, {"bad": Impossible(2.0, 0.2), "block": BLOCK}, SETTINGS)
+    assert [case.structure for case in assessment.cases] == ["block"]
+    assert [(f.stage, f.structure) for f in assessment.failures] == [("responses", "bad")]
+    assert "0.2 m" in assessment.failures[0].message
 
 
 def test_a_record_without_a_pulse_is_integrated_all_the_same():
     still = Accelerogram(np.zeros(1000), STEP)
-    found = assess_structures(still, {"block": BLOCK}, SETTINGS)
-    assert found.analysis is None
-    assert found.failures[0].stage == "pulses"
-    assert found.cases[0].prediction is None
-    assert found.cases[0].responses[Method.MECHANISM_ON_RECORD].outcome is Outcome.NO_UPLIFT
+    assessment = assess_structures(still, {"block": BLOCK}, SETTINGS)
+    assert assessment.analysis is None
+    assert assessment.failures[0].stage == "pulses"
+    assert assessment.cases[0].prediction is None
+    assert assessment.cases[0].responses[Method.MECHANISM_ON_RECORD].outcome is Outcome.NO_UPLIFT
 
 
 def test_what_is_timed_adds_up_to_no_more_than_was_spent(case):
     started = process_time()
-    found = assess_structures(RECORD, {"block": BLOCK, "stout": Block(2.0, 0.3)}, SETTINGS)
+    assessment = assess_structures(RECORD, {"block": BLOCK, "stout": Block(2.0, 0.3)}, SETTINGS)
     spent = process_time() - started
-    stages = [found.durations.pop(name) for name in ("pulses", "responses")]
+    stages = [assessment.durations.pop(name) for name in ("pulses", "responses")]
     assert min(stages) > 0 and sum(stages) <= spent
-    assert set(found.durations) == {*found.cases[0].responses, Method.CLOSED_FORM}
-    assert 0 < sum(found.durations.values()) <= stages[1]
+    assert set(assessment.durations) == {*assessment.cases[0].responses, Method.CLOSED_FORM}
+    assert 0 < sum(assessment.durations.values()) <= stages[1]
     assert case.prediction.pulse == extract_pulses(RECORD).dominant, "which predicts by default"
 
 
@@ -127,12 +127,12 @@ def test_choice_by_demand_never_asks_less_than_choice_by_energy():
 def test_a_pulse_method_that_finds_nothing_costs_no_integration():
     # 1.1 s of record hold a sine of 0.5 s, but no wavelet of T_p = 0.24 s, which is 1.19 s long
     short = Accelerogram(Pulse(3.0, 4 * np.pi, 0.3).acceleration(np.arange(110) * STEP), STEP)
-    found = assess_structures(
+    assessment = assess_structures(
         short, {"block": BLOCK}, AssessmentSettings(pulse=PredictingPulse(choice="velocity"))
     )
-    assert [failure.stage for failure in found.failures] == ["pulses"]
-    assert found.cases[0].prediction is None and found.analysis is not None
-    assert found.cases[0].responses[Method.MECHANISM_ON_RECORD].rotation_ratio > 0
+    assert [failure.stage for failure in assessment.failures] == ["pulses"]
+    assert assessment.cases[0].prediction is None and assessment.analysis is not None
+    assert assessment.cases[0].responses[Method.MECHANISM_ON_RECORD].rotation_ratio > 0
 
 
 def test_a_steady_vertical_acceleration_scales_gravity():

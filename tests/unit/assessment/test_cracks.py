@@ -35,19 +35,19 @@ def test_stands_means_that_every_crack_stands_and_a_crack_that_does_not_is_named
     seen = set()
     for severity in (1.5, 2.5, 3.5, 5.0, 8.0, 14.0):
         motion = record(severity * multiplier * 9.80665)
-        found = rocking.assess(motion, structure)
+        assessment = rocking.assess(motion, structure)
         of_statics = ensemble(cracks(structure)[0][1], GroundMotions.of(motion)).verdict
         follow = partial(ensemble, motions=GroundMotions.of(motion.scaled(structure.crack_margin)))
         verdicts = {description: follow(mechanism).verdict for description, mechanism in cracks(structure)}
         if of_statics is not Verdict.STANDS:
-            assert found.verdict is of_statics
+            assert assessment.verdict is of_statics
         elif set(verdicts.values()) == {Verdict.STANDS}:
-            assert found.verdict is Verdict.STANDS and found.elsewhere is None
+            assert assessment.verdict is Verdict.STANDS and assessment.elsewhere is None
         else:
-            assert found.verdict is Verdict.UNDECIDED
-            assert verdicts[found.governing.description.split(" under ")[0]] is not Verdict.STANDS
-            assert found.governing.description in repr(found)
-        seen.add(found.verdict)
+            assert assessment.verdict is Verdict.UNDECIDED
+            assert verdicts[assessment.governing.description.split(" under ")[0]] is not Verdict.STANDS
+            assert assessment.governing.description in repr(assessment)
+        seen.add(assessment.verdict)
     assert expected <= seen
 
 

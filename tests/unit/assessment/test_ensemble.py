@@ -83,9 +83,9 @@ def test_the_generator_is_what_its_criterion_asks_for():
 
 def test_members_are_what_integrate_says_of_each():
     motions, points = GroundMotions.of(_record(5.0)), lattice(16)
-    found = drawn(BLOCK, motions, points, EnsembleSettings())
-    causes = found.causes["amplitude"], found.causes["restitution"]
-    for ratio, factor, offset in zip(found.rotation_ratios, *causes, strict=True):
+    result = drawn(BLOCK, motions, points, EnsembleSettings())
+    causes = result.causes["amplitude"], result.causes["restitution"]
+    for ratio, factor, offset in zip(result.rotation_ratios, *causes, strict=True):
         alone = integrate(Block(2.0, 0.2, restitution=0.9 + offset), _record(5.0 * factor))
         assert ratio == pytest.approx(alone.rotation_ratio, rel=1e-6)
 
@@ -93,22 +93,22 @@ def test_members_are_what_integrate_says_of_each():
 def test_the_probability_is_the_share_of_the_range_that_overturns():
     settings = EnsembleSettings(restitution_range=0.0, amplitude_range=0.2)
     record = _record(_boundary())
-    found = ensemble(BLOCK, GroundMotions.of(record), settings)
+    result = ensemble(BLOCK, GroundMotions.of(record), settings)
     factors = np.linspace(0.8, 1.2, 801)[1::2]
     falls = np.isinf(rocking.integrate_batch([BLOCK], record, factors)[0]).mean()
     assert 0.02 < falls < 0.98
     # two strata may be cut by the boundary
-    assert found.overturning_share == pytest.approx(falls, abs=2 / 64)
+    assert result.overturning_share == pytest.approx(falls, abs=2 / 64)
 
 
 def test_the_sign_of_the_motion_is_a_cause_for_unlike_sides_alone():
     wave = np.where(TIMES < 0.5, -3.0, 0.0) * np.sin(2 * np.pi * np.minimum(TIMES, 0.5))
     one_pulse = Accelerogram(wave, STEP)
-    found = ensemble(FACADE, GroundMotions.of(one_pulse), EnsembleSettings())
-    assert set(np.unique(found.causes["polarity"])) == {-1.0, 1.0}
-    lifted = found.rotation_ratios > 0
+    result = ensemble(FACADE, GroundMotions.of(one_pulse), EnsembleSettings())
+    assert set(np.unique(result.causes["polarity"])) == {-1.0, 1.0}
+    lifted = result.rotation_ratios > 0
     assert (
-        lifted[found.causes["polarity"] == 1.0].all() and not lifted[found.causes["polarity"] == -1.0].any()
+        lifted[result.causes["polarity"] == 1.0].all() and not lifted[result.causes["polarity"] == -1.0].any()
     )
     assert "polarity" not in ensemble(BLOCK, GroundMotions.of(one_pulse), EnsembleSettings()).causes
 
@@ -124,14 +124,14 @@ def test_the_processing_of_a_raw_record_is_a_cause():
     record = _raw(5.0)
     motions = GroundMotions.of(record, processing=True)
     assert motions.horizontal["made", "unchanged"] is record, "what is there already is not made again"
-    found = drawn(BLOCK, motions, lattice(64), EnsembleSettings())
+    result = drawn(BLOCK, motions, lattice(64), EnsembleSettings())
     assert (
-        set(found.causes["processing"]) == {name for _, name in motions.horizontal} == set(processed(record))
+        set(result.causes["processing"]) == {name for _, name in motions.horizontal} == set(processed(record))
     )
-    for k in np.flatnonzero(found.causes["processing"] == "high-pass 0.2 Hz"):
-        motion = process(record, Processing(taper=0.02, high_pass=0.2)).scaled(found.causes["amplitude"][k])
-        alone = integrate(Block(2.0, 0.2, restitution=0.9 + found.causes["restitution"][k]), motion)
-        assert found.rotation_ratios[k] == pytest.approx(alone.rotation_ratio, rel=1e-6)
+    for k in np.flatnonzero(result.causes["processing"] == "high-pass 0.2 Hz"):
+        motion = process(record, Processing(taper=0.02, high_pass=0.2)).scaled(result.causes["amplitude"][k])
+        alone = integrate(Block(2.0, 0.2, restitution=0.9 + result.causes["restitution"][k]), motion)
+        assert result.rotation_ratios[k] == pytest.approx(alone.rotation_ratio, rel=1e-6)
     assert list(drawn(BLOCK, motions, lattice(64), FIXED).causes) == ["processing"]
 
 
@@ -145,8 +145,8 @@ def test_the_processing_of_a_raw_record_is_a_cause():
     ],
 )
 def test_the_processing_of_another_record_is_none(record, settings):
-    found = assess(record, BLOCK, settings=AssessmentSettings(ensemble=settings))
-    assert "processing" not in found.causes
+    result = assess(record, BLOCK, settings=AssessmentSettings(ensemble=settings))
+    assert "processing" not in result.causes
 
 
 @pytest.mark.parametrize(("stated", "most"), [(0.987, 0.999), (0.9995, 0.9995), (1.0, 1.0), (0.9, 0.95)])
@@ -154,11 +154,11 @@ def test_no_member_bounces_better_than_it_may(stated, most, monkeypatch):
     """A range of ±0.05 reaches beyond 1, where a member would rock for ever."""
     seen = []
 
-    def kept(reduced, forcing, horizontal, vertical, restitution, tolerance):
+    def note_restitution(reduced, forcing, horizontal, vertical, restitution, tolerance):
         seen.append(restitution)
         return follow_factors(reduced, forcing, horizontal, vertical, restitution, tolerance)
 
-    monkeypatch.setattr("rocking.assessment.ensemble.follow_factors", kept)
+    monkeypatch.setattr("rocking.assessment.ensemble.follow_factors", note_restitution)
     block = Block(2.0, 0.2, restitution=stated)
     drawn(block, GroundMotions.of(_record(0.5)), lattice(64), EnsembleSettings())
     # of 64 points one stands in each 64th of the range
@@ -170,19 +170,19 @@ def test_a_structure_may_say_how_well_its_restitution_is_known():
     motions, points = GroundMotions.of(_record(5.0)), lattice(64)
     for known in (0.0, 0.15):
         block = Block(2.0, 0.2, restitution=0.8, restitution_range=known)
-        found = drawn(block, motions, points, EnsembleSettings())
+        result = drawn(block, motions, points, EnsembleSettings())
         wide = drawn(
             Block(2.0, 0.2, restitution=0.8), motions, points, EnsembleSettings(restitution_range=known)
         )
-        assert np.array_equal(found.rotation_ratios, wide.rotation_ratios)
-        assert found.settings.restitution_range == known and ("restitution" in found.causes) == (known > 0)
+        assert np.array_equal(result.rotation_ratios, wide.rotation_ratios)
+        assert result.settings.restitution_range == known and ("restitution" in result.causes) == (known > 0)
 
 
 def test_where_the_verdict_alone_is_asked_it_ends_early_far_from_overturning_only():
     seen = set()
     for amplitude in np.arange(2.0, 7.0, 0.5):
         motions = GroundMotions.of(_record(amplitude))
-        whole, quick = (ensemble(BLOCK, motions, verdict_only=wanted) for wanted in (False, True))
+        whole, quick = (ensemble(BLOCK, motions, verdict_only=verdict_only) for verdict_only in (False, True))
         far = whole.rotation_ratios[:16].max() <= 0.3
         assert quick.members == (16 if far else whole.members)
         assert quick.verdict is whole.verdict
@@ -200,13 +200,13 @@ def test_two_components_make_one_ensemble_over_eight_directions():
     assert peaks == pytest.approx(expected, rel=1e-12)
     directions = [name for name, _ in motions.horizontal]
     assert directions[0] == "first" and directions[4] == "second"
-    found = assess([first, second], BLOCK)
-    assert set(found.causes["direction"]) == set(directions)
-    assert found.rotation_ratio == integrate(BLOCK, second).rotation_ratio
+    result = assess([first, second], BLOCK)
+    assert set(result.causes["direction"]) == set(directions)
+    assert result.rotation_ratio == integrate(BLOCK, second).rotation_ratio
 
 
 @pytest.mark.parametrize(
-    ("probability", "error", "said"),
+    ("probability", "error", "expected"),
     [
         (0.0, 0.0, Verdict.STANDS),
         (0.04, 0.005, Verdict.STANDS),
@@ -217,8 +217,8 @@ def test_two_components_make_one_ensemble_over_eight_directions():
         (math.nan, 0.0, Verdict.UNKNOWN),
     ],
 )
-def test_verdict(probability, error, said):
-    assert verdict(probability, error, 0.05) is said
+def test_verdict(probability, error, expected):
+    assert verdict(probability, error, 0.05) is expected
 
 
 def test_a_probability_that_reaches_its_limit_with_its_error_still_decides():
@@ -253,15 +253,15 @@ def test_ratio_in_words(predicted, integrated, words):
 
 def test_assess_says_in_one_call_what_its_parts_say():
     record = _record(4.0)
-    found = rocking.assess(record, BLOCK)
-    assert found.verdict == "stands" and found.overturning_share == 0
-    assert found.rotation_ratio == integrate(BLOCK, record).rotation_ratio
-    assert found.rotation_ratio_low <= found.rotation_ratio_median <= found.rotation_ratio_high
-    assert found.rotation_ratio_low < found.rotation_ratio < found.rotation_ratio_high
-    assert "stands: overturns in 0 of 64" in repr(found)
-    frame = found.frame().set_index("method")
-    assert frame.loc["mechanism on record", "rotation_ratio"] == found.rotation_ratio
-    assert found.plot().get_ylabel() == "rotation / critical rotation [-]"
+    result = rocking.assess(record, BLOCK)
+    assert result.verdict == "stands" and result.overturning_share == 0
+    assert result.rotation_ratio == integrate(BLOCK, record).rotation_ratio
+    assert result.rotation_ratio_low <= result.rotation_ratio_median <= result.rotation_ratio_high
+    assert result.rotation_ratio_low < result.rotation_ratio < result.rotation_ratio_high
+    assert "stands: overturns in 0 of 64" in repr(result)
+    frame = result.frame().set_index("method")
+    assert frame.loc["mechanism on record", "rotation_ratio"] == result.rotation_ratio
+    assert result.plot().get_ylabel() == "rotation / critical rotation [-]"
 
 
 @pytest.mark.real_records
@@ -313,12 +313,12 @@ def test_components_without_a_name_are_numbered():
 
 @pytest.mark.parametrize("structure", [BLOCK, Wall.hinged_at(3.0, 1.5, 0.4), Arch(5.0, 0.8, np.radians(150))])
 def test_an_assessment_goes_to_another_process_and_back(structure):
-    found = assess(_record(4.0), structure, members=16)
-    for again in (pickle.loads(pickle.dumps(found)), copy.deepcopy(found)):
-        assert again.verdict is found.verdict
-        assert np.array_equal(again.rotation_ratios, found.rotation_ratios)
+    result = assess(_record(4.0), structure, members=16)
+    for again in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
+        assert again.verdict is result.verdict
+        assert np.array_equal(again.rotation_ratios, result.rotation_ratios)
         (case,) = again.cases.values()
-        assert assess(_record(4.0), case.mechanism, members=16).rotation_ratio == found.rotation_ratio
+        assert assess(_record(4.0), case.mechanism, members=16).rotation_ratio == result.rotation_ratio
 
 
 def test_an_ensemble_grows_where_more_members_may_decide():

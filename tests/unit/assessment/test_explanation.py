@@ -36,10 +36,10 @@ def test_the_slope_and_the_scatter_are_those_behind_the_outcomes():
     rng = np.random.default_rng(3)
     figures = rng.standard_normal(400)
     names = [str(k) for k in range(400)]
-    found = explanation(*outcomes(0.3 * figures + 0.4 * rng.standard_normal(400)), figures, names)
+    columns = explanation(*outcomes(0.3 * figures + 0.4 * rng.standard_normal(400)), figures, names)
     # its standard error is 0.4/20
-    assert found["slope"] == pytest.approx(0.3, abs=0.06)
-    assert found["p_value"] < 1e-6 and found["power"] > 0.99
+    assert columns["slope"] == pytest.approx(0.3, abs=0.06)
+    assert columns["p_value"] < 1e-6 and columns["power"] > 0.99
     # the logistic law of the same scatter, and 1/28 of it by chance
     unlike = explanation(*outcomes(0.4 * rng.standard_normal(400)), figures, names)
     assert unlike["efficiency"] == pytest.approx(0.4, rel=0.12)
@@ -56,8 +56,8 @@ def test_the_scatter_of_outcomes_that_a_level_parts_cleanly_is_that_of_the_penal
         return float(1e-9 * levels.size * (slope * spread) ** 2 / 2 - likelihood)
 
     best = minimize(loss, (0.0, 10.0), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-16})
-    found = explanation(levels, falls, np.ones(len(falls)), list("abcd"))
-    assert found["efficiency"] == pytest.approx(1 / best.x[1], rel=1e-3)
+    columns = explanation(levels, falls, np.ones(len(falls)), list("abcd"))
+    assert columns["efficiency"] == pytest.approx(1 / best.x[1], rel=1e-3)
 
 
 def test_a_record_that_never_overturns_counts():
@@ -80,9 +80,9 @@ def test_stations_without_a_dependence_seldom_seem_to_have_one():
         figures, capacities = (
             (rng.standard_normal((30, 1)) + 0.3 * rng.standard_normal((30, 2))).ravel() for _ in range(2)
         )
-        found = explanation(*outcomes(0.5 * capacities), figures, names)
-        called.append(found["p_value"] < 0.05)
-        power.append(found["power"])
+        columns = explanation(*outcomes(0.5 * capacities), figures, names)
+        called.append(columns["p_value"] < 0.05)
+        power.append(columns["power"])
     # 5 % of 200 scatter by 1.5 %; three deviations, and the error from 30 stations is somewhat small
     assert np.mean(called) < 0.11
     assert np.median(power) < 0.3, "and says that it would seldom see a slope of that size"

@@ -17,7 +17,7 @@ def case(component: str, ratio: float, **more: object) -> ComparisonRow:
 
 
 def ensemble(component: str, verdict: Verdict, overturning: int, members: int = 64) -> EnsembleRow:
-    known = {
+    values = {
         "record": "a",
         "structure": "pier",
         "component": component,
@@ -27,7 +27,7 @@ def ensemble(component: str, verdict: Verdict, overturning: int, members: int = 
         "overturning_share": overturning / members,
         "rotation_ratio_high": 0.5,
     }
-    return EnsembleRow(**dict.fromkeys(EnsembleRow.table.column_names) | known)
+    return EnsembleRow(**dict.fromkeys(EnsembleRow.table.column_names) | values)
 
 
 def failure(component: str, structure: str = "pier") -> FailureRow:
@@ -78,11 +78,11 @@ def test_a_structure_that_failed_under_every_component_is_unknown_and_says_why()
 
 
 def test_the_worst_of_several_comes_last_by_severity():
-    found = [
+    several = [
         *fates([case("EW", 0.9)], [ensemble("EW", Verdict.STANDS, 0)]),
         *fates([], failures=[failure("EW")]),
         *fates([case("EW", 0.1)], [ensemble("EW", Verdict.UNDECIDED, 5)]),
         *fates([case("EW", 0.05)], [ensemble("EW", Verdict.UNDECIDED, 60)]),
         *fates([case("EW", math.inf)], [ensemble("EW", Verdict.OVERTURNS, 63)]),
     ]
-    assert sorted(found[3:] + found[:3], key=lambda fate: fate.severity) == found
+    assert sorted(several[3:] + several[:3], key=lambda fate: fate.severity) == several

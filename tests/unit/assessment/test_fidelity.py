@@ -40,11 +40,11 @@ def test_vertical_acceleration_can_end_the_rest():
 
 
 def test_where_the_peak_velocity_says_that_it_stands_nothing_is_integrated():
-    found = cheapest_answer(MECHANISM, record(1.02))
-    assert found.method is Method.PEAK_VELOCITY and found.response is None
-    assert found.outcome is Outcome.ROCKS
+    answer = cheapest_answer(MECHANISM, record(1.02))
+    assert answer.method is Method.PEAK_VELOCITY and answer.response is None
+    assert answer.outcome is Outcome.ROCKS
     assert np.isfinite(integrate(MECHANISM, record(1.02)).rotation_ratio)
-    assert "1 %" in found.reason
+    assert "1 %" in answer.reason
 
 
 def test_what_it_does_not_settle_is_integrated():
@@ -54,17 +54,17 @@ def test_what_it_does_not_settle_is_integrated():
         (record(1.02), {"risk": 0.0}),
         (record(1.02), {"vertical": Accelerogram(np.zeros(400), STEP)}),
     ):
-        found = cheapest_answer(MECHANISM, motion, **settings)
-        assert found.method is Method.MECHANISM_ON_RECORD
-        assert found.response.rotation_ratio == integrate(MECHANISM, motion).rotation_ratio
+        answer = cheapest_answer(MECHANISM, motion, **settings)
+        assert answer.method is Method.MECHANISM_ON_RECORD
+        assert answer.response.rotation_ratio == integrate(MECHANISM, motion).rotation_ratio
 
 
 def test_where_an_ensemble_would_follow_the_block_may_settle_it():
     """A motion that the peak velocity leaves open, far from what the block's five scales leave in doubt."""
     motion = record(1.1)
     assert cheapest_answer(MECHANISM, motion).method is Method.MECHANISM_ON_RECORD
-    found = cheapest_answer(MECHANISM, motion, ensemble_follows=True)
-    assert found.method is Method.BLOCK_ON_RECORD and found.response is None
+    answer = cheapest_answer(MECHANISM, motion, ensemble_follows=True)
+    assert answer.method is Method.BLOCK_ON_RECORD and answer.response is None
     assert ensemble(MECHANISM, GroundMotions.of(motion)).verdict is Verdict.STANDS
     falls = cheapest_answer(MECHANISM, record(40.0), ensemble_follows=True, risk=0.1)
     assert falls.method is Method.BLOCK_ON_RECORD and falls.outcome is Outcome.OVERTURNS
@@ -80,8 +80,8 @@ def test_an_estimate_settles_up_to_the_risk_and_on_the_side_where_it_lies():
         assert cheapest_answer(MECHANISM, motion, risk=risk).method is method
     strong = record(40.0)
     doubt = 1 - estimated(Tier.BLOCK_AT_FIVE_SCALES, MECHANISM, strong).low
-    found = cheapest_answer(MECHANISM, strong, risk=1.001 * doubt, ensemble_follows=True)
-    assert (found.method, found.outcome) == (Method.BLOCK_ON_RECORD, Outcome.OVERTURNS)
+    answer = cheapest_answer(MECHANISM, strong, risk=1.001 * doubt, ensemble_follows=True)
+    assert (answer.method, answer.outcome) == (Method.BLOCK_ON_RECORD, Outcome.OVERTURNS)
     assert np.isinf(integrate(MECHANISM, strong).rotation_ratio)
     assert cheapest_answer(MECHANISM, strong, risk=0.99 * doubt, ensemble_follows=True).response is not None
 
@@ -94,8 +94,8 @@ def test_a_block_unlike_its_mechanism_settles_nothing_and_gets_no_estimate():
     mechanism = tied.mechanism()
     assert mechanism.block_defects.restoring > 1
     strong = record(40.0 * mechanism.uplift_multiplier / MECHANISM.uplift_multiplier)
-    found = cheapest_answer(mechanism, strong, ensemble_follows=True)
-    assert found.method is Method.MECHANISM_ON_RECORD
+    answer = cheapest_answer(mechanism, strong, ensemble_follows=True)
+    assert answer.method is Method.MECHANISM_ON_RECORD
     settings = AssessmentSettings(fidelity="auto", ensemble=EnsembleSettings(members=0))
     (case,) = assess_structures(strong, {"tied": tied}, settings).cases
     assert case.overturning_estimate is None

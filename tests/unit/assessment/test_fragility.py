@@ -45,10 +45,10 @@ def test_the_fit_is_the_maximum_that_scipy_finds():
             return -(over * norm.logcdf(eta) + (1 - over) * norm.logsf(eta)).sum()
 
         best = minimize(negative, (0.0, -1.0), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-12})
-        found = fragility_of(LEVELS, over, [str(k) for k in range(12)])
+        curve = fragility_of(LEVELS, over, [str(k) for k in range(12)])
         # The likelihood is flat to its rounding within the root of the machine precision of the best.
-        assert found.lognormal_median == pytest.approx(math.exp(best.x[0]), rel=1e-6)
-        assert found.dispersion == pytest.approx(math.exp(best.x[1]), rel=1e-6)
+        assert curve.lognormal_median == pytest.approx(math.exp(best.x[0]), rel=1e-6)
+        assert curve.dispersion == pytest.approx(math.exp(best.x[1]), rel=1e-6)
 
 
 def _made(rng: np.random.Generator, stations: int, median: float = 1.0, dispersion: float = 0.5):
@@ -65,10 +65,10 @@ def test_the_intervals_cover_a_known_curve():
     middle = (truth > 0.02) & (truth < 0.98)
     covered, medians = [], []
     for _ in range(60):
-        found = fragility_of(LEVELS, *_made(rng, 25))
-        inside = (found.probability_low <= truth) & (truth <= found.probability_high)
+        curve = fragility_of(LEVELS, *_made(rng, 25))
+        inside = (curve.probability_low <= truth) & (truth <= curve.probability_high)
         covered.append(inside[middle].mean())
-        medians.append(found.interval[0] <= 1.0 <= found.interval[1])
+        medians.append(curve.interval[0] <= 1.0 <= curve.interval[1])
     # 60 trials of a coverage of 0.9 scatter by 0.04; three deviations of a single proportion are 0.12.
     assert np.mean(covered) == pytest.approx(0.9, abs=0.08) and np.mean(medians) >= 0.78
 
@@ -78,46 +78,46 @@ def test_a_curve_that_is_no_lognormal_has_the_median_of_the_rising_curve_beside_
     levels = np.array([0.25, 0.5, 1.0, 2.0, 4.0])
     share = np.array([0.0, 0.8, 0.3, 0.9, 1.0])
     exceedance = (np.arange(20)[:, None] < 20 * share).astype(float)
-    found = fragility_of(levels, exceedance, [str(k) for k in range(20)])
+    curve = fragility_of(levels, exceedance, [str(k) for k in range(20)])
     # isotonic: 0, 0.55, 0.55, 0.9, 1; one half lies at 0.5/0.55 of the octave from 0.25 to 0.5
-    assert found.median == pytest.approx(0.25 * 2 ** (0.5 / 0.55), rel=1e-12)
-    lognormal = norm.cdf(np.log(levels / found.lognormal_median) / found.dispersion)
-    assert found.misfit == pytest.approx(np.abs(share - lognormal).max(), rel=1e-9)
-    assert (found.reversals > 0).sum() == 10
+    assert curve.median == pytest.approx(0.25 * 2 ** (0.5 / 0.55), rel=1e-12)
+    lognormal = norm.cdf(np.log(levels / curve.lognormal_median) / curve.dispersion)
+    assert curve.misfit == pytest.approx(np.abs(share - lognormal).max(), rel=1e-9)
+    assert (curve.reversals > 0).sum() == 10
 
 
 def test_a_record_overturns_at_a_level_where_more_than_half_of_its_members_do():
     shares = np.array([[0.6, 0.5, 0.6], [0.5, 0.4, 0.5], [0.6, 0.7, 0.4]])
-    found = fragility_of(np.array([1.0, 2.0, 3.0]), shares, list("abc"))
-    assert found.reversals.tolist() == [1, 0, 1]
+    curve = fragility_of(np.array([1.0, 2.0, 3.0]), shares, list("abc"))
+    assert curve.reversals.tolist() == [1, 0, 1]
 
 
 def test_a_station_weighs_as_one_whatever_its_records():
     """Ten records of one station that always overturn change the share by one station, not by ten."""
     exceedance = np.vstack([np.ones((10, 3)), np.zeros((3, 3))])
-    found = fragility_of(np.array([1.0, 2.0, 3.0]), exceedance, ["a"] * 10 + ["b", "c", "d"])
-    assert found.probability.tolist() == [0.25] * 3
+    curve = fragility_of(np.array([1.0, 2.0, 3.0]), exceedance, ["a"] * 10 + ["b", "c", "d"])
+    assert curve.probability.tolist() == [0.25] * 3
 
 
 def test_outcomes_are_those_of_single_responses():
-    found = fragility(RECORDS, BLOCK, intensity_measure="pga", levels=[0.3, 0.6, 1.2])
-    for row, record in zip(found.exceedance, RECORDS, strict=True):
-        for level, exceeds in zip(found.levels, row, strict=True):
+    curve = fragility(RECORDS, BLOCK, intensity_measure="pga", levels=[0.3, 0.6, 1.2])
+    for row, record in zip(curve.exceedance, RECORDS, strict=True):
+        for level, exceeds in zip(curve.levels, row, strict=True):
             scaled = record.scaled(level * 9.80665 / record.peak_acceleration)
             assert exceeds == math.isinf(integrate(BLOCK, scaled).rotation_ratio)
 
 
 def test_levels_of_their_own_reach_from_rest_to_overturning():
-    found = rocking.fragility(RECORDS, BLOCK, intensity_measure="pgv")
-    assert found.levels.size == 40 and np.all(np.diff(found.levels) > 0)
-    assert found.probability[0] == 0 and found.probability[-1] == 1
-    assert found.levels[0] < found.median < found.levels[-1]
+    curve = rocking.fragility(RECORDS, BLOCK, intensity_measure="pgv")
+    assert curve.levels.size == 40 and np.all(np.diff(curve.levels) > 0)
+    assert curve.probability[0] == 0 and curve.probability[-1] == 1
+    assert curve.levels[0] < curve.median < curve.levels[-1]
     # half of the levels at least lie where the share moves, of 18 or more that are spread evenly
-    flat = (found.probability == 0) | (found.probability == 1)
+    flat = (curve.probability == 0) | (curve.probability == 1)
     assert (~flat).sum() + 2 >= 20
-    assert found.interval[0] < found.median < found.interval[1]
-    assert found.independent == 3
-    assert found.plot().get_xlabel() == "pgv [m/s]"
+    assert curve.interval[0] < curve.median < curve.interval[1]
+    assert curve.independent == 3
+    assert curve.plot().get_xlabel() == "pgv [m/s]"
 
 
 @pytest.mark.parametrize("ensemble", [None, EnsembleSettings()])
@@ -140,9 +140,9 @@ def test_a_case_without_an_answer_counts_as_one_that_falls_and_costs_no_other(en
 
     monkeypatch.setattr("rocking.assessment.fragility.integrate_batch", failing_batch)
     monkeypatch.setattr("rocking.assessment.fragility.drawn", failing_members)
-    found = fragility(RECORDS, BLOCK, levels=levels, ensemble=ensemble)
-    assert found.exceedance[2].tolist() == [1.0 if ensemble is None else 1 / 16] * 2
-    assert not np.delete(found.exceedance, 2, axis=0).any()
+    curve = fragility(RECORDS, BLOCK, levels=levels, ensemble=ensemble)
+    assert curve.exceedance[2].tolist() == [1.0 if ensemble is None else 1 / 16] * 2
+    assert not np.delete(curve.exceedance, 2, axis=0).any()
 
 
 def test_members_make_shares_of_the_outcomes():
@@ -176,11 +176,11 @@ def test_a_row_of_the_analysis_tells_the_lower_median_of_its_members(members):
 
 def test_a_cloud_keeps_the_records_as_they_are():
     records = [record.scaled(factor) for factor, record in zip(np.linspace(2, 12, 6), RECORDS, strict=True)]
-    found = fragility(records, BLOCK, method="cloud", intensity_measure="pga")
-    assert sorted(found.levels) == pytest.approx(sorted(r.peak_acceleration / 9.80665 for r in records))
+    curve = fragility(records, BLOCK, method="cloud", intensity_measure="pga")
+    assert sorted(curve.levels) == pytest.approx(sorted(r.peak_acceleration / 9.80665 for r in records))
     falls = {r.peak_acceleration: math.isinf(integrate(BLOCK, r).rotation_ratio) for r in records}
-    assert np.nansum(found.exceedance) == sum(falls.values())
-    assert found.probability.tolist() == [float(falls[peak]) for peak in sorted(falls)]
+    assert np.nansum(curve.exceedance) == sum(falls.values())
+    assert curve.probability.tolist() == [float(falls[peak]) for peak in sorted(falls)]
 
 
 @pytest.mark.parametrize(
@@ -222,17 +222,17 @@ def test_the_median_is_linear_in_the_logarithm_between_two_levels_and_the_middle
     share, median
 ):
     exceedance = (np.arange(20)[:, None] < 20 * np.array(share)).astype(float)
-    found = fragility_of(np.array([1.0, 2.0, 4.0, 8.0]), exceedance, [str(k) for k in range(20)])
-    assert found.median == pytest.approx(median, rel=1e-12)
-    assert math.isinf(found.interval[1]) == math.isinf(median) and found.interval[0] >= 1.0
+    curve = fragility_of(np.array([1.0, 2.0, 4.0, 8.0]), exceedance, [str(k) for k in range(20)])
+    assert curve.median == pytest.approx(median, rel=1e-12)
+    assert math.isinf(curve.interval[1]) == math.isinf(median) and curve.interval[0] >= 1.0
 
 
 def test_the_interval_of_a_share_is_that_of_jeffreys_for_the_scatter_of_the_stations():
     """6 of 20 stations: their shares scatter by p(1 − p) n/(n − 1), as those of n − 1 independent records."""
     exceedance = (np.arange(20)[:, None] < np.array([6, 14])).astype(float)
-    found = fragility_of(np.array([1.0, 2.0]), exceedance, [str(k) for k in range(20)])
+    curve = fragility_of(np.array([1.0, 2.0]), exceedance, [str(k) for k in range(20)])
     for place, share in enumerate((0.3, 0.7)):
         ends = beta.ppf((0.05, 0.95), 19 * share + 0.5, 19 * (1 - share) + 0.5)
-        assert (found.probability_low[place], found.probability_high[place]) == pytest.approx(
+        assert (curve.probability_low[place], curve.probability_high[place]) == pytest.approx(
             tuple(ends), rel=1e-9
         )

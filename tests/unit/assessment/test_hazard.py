@@ -22,11 +22,11 @@ def test_the_rate_is_that_of_the_closed_form():
     slope, scale, median, dispersion = 2.5, 1e-3, 1.2, 0.4
     thresholds = median * np.exp(dispersion * norm.ppf((np.arange(300) + 0.5) / 300))
     curve = fragility_of(LEVELS, (thresholds[:, None] < LEVELS).astype(float), [str(k) for k in range(300)])
-    found = annual_rate(curve, _points(LEVELS[[0, -1]], scale * LEVELS[[0, -1]] ** -slope))
+    rates = annual_rate(curve, _points(LEVELS[[0, -1]], scale * LEVELS[[0, -1]] ** -slope))
     exact = scale * median**-slope * math.exp(slope**2 * dispersion**2 / 2)
     # Steps of 2 % in the level, half a step of lag in a curve that is counted: 2.5 x 1 % of the rate.
-    assert found["annual_rate"] == pytest.approx(exact, rel=0.03)
-    assert found["annual_rate_low"] < found["annual_rate"] < found["annual_rate_high"]
+    assert rates["annual_rate"] == pytest.approx(exact, rel=0.03)
+    assert rates["annual_rate_low"] < rates["annual_rate"] < rates["annual_rate_high"]
 
 
 def test_what_curve_and_hazard_leave_out_is_said():
@@ -34,9 +34,9 @@ def test_what_curve_and_hazard_leave_out_is_said():
     half = (np.arange(200)[:, None] < 100 * (np.array([1.0, 2.0]) > 1.5)).astype(float)
     curve = fragility_of(np.array([1.0, 2.0]), half, [str(k) for k in range(200)])
     points = _points([0.5, 8.0], [0.16, 0.01])  # rate 0.08/x
-    found = annual_rate(curve, points)
+    rates = annual_rate(curve, points)
     # above 2.0 there occurs 0.04 a year, of which the curve counts a half; the steps of the integral are 0.7 %
-    assert found["annual_rate_remainder"] == pytest.approx(0.02, rel=0.02)
+    assert rates["annual_rate_remainder"] == pytest.approx(0.02, rel=0.02)
     # the same where the hazard curve ends at the last level: all that is rarer occurs beyond it
     ended = annual_rate(curve, _points([0.5, 2.0], [0.16, 0.04]))
     assert ended["annual_rate_remainder"] == pytest.approx(0.02, rel=1e-9)

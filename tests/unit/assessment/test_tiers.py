@@ -45,9 +45,9 @@ def test_the_peak_velocity_is_that_of_a_sine():
 
 @pytest.mark.parametrize("tier", Tier)
 def test_an_estimate_grows_with_the_motion_and_lies_in_its_interval(tier):
-    found = [read_tiers()[tier].estimate(measured(factor)) for factor in (0.5, 1.0, 3.0)]
-    assert all(each.low <= each.share <= each.high for each in found)
-    assert found[0].share < found[1].share < found[2].share
+    estimates = [read_tiers()[tier].estimate(measured(factor)) for factor in (0.5, 1.0, 3.0)]
+    assert all(each.low <= each.share <= each.high for each in estimates)
+    assert estimates[0].share < estimates[1].share < estimates[2].share
 
 
 @pytest.mark.parametrize("odd", [{"forcing_defect": 2.0}, {"frequency_parameter": 6.0}, {"restitution": 0.1}])

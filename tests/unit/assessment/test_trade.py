@@ -22,10 +22,10 @@ def records():
 
 @pytest.fixture(scope="module")
 def rows(records):
-    told = []
-    found = rocking.trade(records, STRUCTURES, tell=told.append)
-    assert [line.partition(":")[0] for line in told] == ["record 1", "record 2", "record 3"]
-    return {(row.method, row.structure): row for row in found}
+    lines = []
+    rows_of_all = rocking.trade(records, STRUCTURES, tell=lines.append)
+    assert [line.partition(":")[0] for line in lines] == ["record 1", "record 2", "record 3"]
+    return {(row.method, row.structure): row for row in rows_of_all}
 
 
 def test_every_method_has_a_row_for_each_structure_and_for_all(rows):

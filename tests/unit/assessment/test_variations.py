@@ -19,8 +19,8 @@ WALL = Wall(2.0, 2.0, 0.3)
 
 
 def test_the_middle_candidate_is_the_wall_itself():
-    found = candidates(WALL, RECORD, PULSE, 5, SETTINGS)
-    middle = found[2]
+    variations = candidates(WALL, RECORD, PULSE, 5, SETTINGS)
+    middle = variations[2]
     assert middle.position == pytest.approx(2.0)
     assert middle.integrated_rotation_ratio == integrate(WALL, RECORD).rotation_ratio
 
@@ -39,6 +39,6 @@ def test_processing_that_changes_nothing_changes_no_answer():
     records = processed(RECORD)
     assert "unchanged" in records
     variations = processed_variants({"": Block(2.0, 0.2)}, records, SETTINGS)[""]
-    found = {each.processing: each.integrated_rotation_ratio for each in variations}
-    assert found["unchanged"] == integrate(Block(2.0, 0.2), RECORD).rotation_ratio
-    assert found["high-pass 0.2 Hz"] != found["unchanged"]
+    ratios = {each.processing: each.integrated_rotation_ratio for each in variations}
+    assert ratios["unchanged"] == integrate(Block(2.0, 0.2), RECORD).rotation_ratio
+    assert ratios["high-pass 0.2 Hz"] != ratios["unchanged"]
