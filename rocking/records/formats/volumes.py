@@ -190,7 +190,7 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
 
 
 _VOLUME_1 = re.compile(r"Uncorrected Accelerogram Data[ \t]+Processed", re.I)
-_VOLUME_2 = re.compile(r"Corrected accelerogram[ \t]+.*Chan", re.I)
+_VOLUME_2 = re.compile(r"Corrected accelerogram[ \t].*Chan", re.I)
 _VOLUME_3 = re.compile(r"(Response and )?Fourier amplitude spectr|Response (and|spectr)", re.I)
 _OF_RENADIC = r"(?:.*\n){0,12}.*RENADIC"
 _CSMIP_FIRST = re.compile(rf"{_VOLUME_1.pattern}(?!{_OF_RENADIC})|{_VOLUME_2.pattern}", re.I)
