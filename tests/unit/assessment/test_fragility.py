@@ -236,3 +236,19 @@ def test_the_interval_of_a_share_is_that_of_jeffreys_for_the_scatter_of_the_stat
         assert (curve.probability_low[place], curve.probability_high[place]) == pytest.approx(
             tuple(ends), rel=1e-9
         )
+
+
+def test_stations_count_as_half_to_twice_as_many_independent_records_whatever_their_scatter():
+    """Four stations that nearly agree on a share; and one tried with all its records beside nine with a tenth."""
+    agreeing = np.array([[0.24, 1.0], [0.25, 1.0], [0.25, 1.0], [0.26, 1.0]])
+    unlike = np.full((91, 2), np.nan)
+    unlike[0], unlike[1::10] = 1.0, 0.0
+    names = ["first", *(f"{k // 10}" for k in range(90))]
+    for exceedance, stations, share, independent in (
+        (agreeing, list("abcd"), 0.25, 8),
+        (unlike, names, 1 / 1.9, 5),
+    ):
+        found = fragility_of(np.array([1.0, 2.0]), exceedance, stations)
+        ends = beta.ppf((0.05, 0.95), independent * share + 0.5, independent * (1 - share) + 0.5)
+        assert found.probability[0] == pytest.approx(share, rel=1e-12)
+        assert (found.probability_low[0], found.probability_high[0]) == pytest.approx(tuple(ends), rel=1e-9)

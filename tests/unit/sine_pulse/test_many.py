@@ -81,8 +81,10 @@ def test_every_cell_is_the_prediction(eta: float) -> None:
 @pytest.mark.parametrize("polarity", [1, -1])
 def test_a_long_pulse_overturns_at_the_acceleration_that_lifts(polarity: int) -> None:
     """Its limit for ω → 0, where the ground stands still on the scale of the block; ω/p is 0.005 and enters squared."""
-    weak, strong = (EquivalentBlock(20.0, 0.2, multiplier, 0.9) for multiplier in (0.05, 0.4))
-    for block in (weak, strong, replace(weak, other_side=strong), replace(strong, other_side=weak)):
+    weak, strong = (EquivalentBlock(20.0, 0.02, coefficient, 0.9) for coefficient in (0.4, 0.05))
+    assert weak.uplift_multiplier == pytest.approx(0.05)  # 0.5 m/s², below every other figure of the block
+    pairs = replace(weak, other_side=strong), replace(strong, other_side=weak)
+    for block in (weak, strong, replace(weak, one_sided=True), *pairs):
         ((amplitude,),) = overturning_amplitudes([block], [0.1], polarity)
         least = min(side.uplift_multiplier for side in (block, block.other_side) if side)
         assert amplitude == pytest.approx(least * g, rel=1e-4)
