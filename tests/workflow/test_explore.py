@@ -44,9 +44,9 @@ def study(tmp_path_factory) -> tuple[Path, Study, list]:
     write_study(folder, 2, duration=8.0)
     (folder / "structures.yaml").write_text(STRUCTURES, encoding="utf-8")
     (folder / "records" / "synthetic_00001.AT2").write_text("no record", encoding="utf-8")
-    told = {"ensemble": {"members": 16}, "candidates": 0, "processing_variants": False}
+    choices = {"ensemble": {"members": 16}, "candidates": 0, "processing_variants": False}
     settings = read_settings(
-        told | {"catalogue": str(folder / "records" / "catalogue.csv"), "results": str(folder / "results")}
+        choices | {"catalogue": str(folder / "records" / "catalogue.csv"), "results": str(folder / "results")}
     )
     study = Study(load_structures(folder / "structures.yaml"), settings)
     records = load_catalogue(folder / "records" / "catalogue.csv")
@@ -63,23 +63,23 @@ def study(tmp_path_factory) -> tuple[Path, Study, list]:
 @pytest.fixture(scope="module")
 def content(study) -> dict:
     """What the page carries."""
-    (found,) = re.findall(
+    (text,) = re.findall(
         r'<script type="application/json" id="content">(.*?)</script>', study[0].read_text(encoding="utf-8")
     )
-    return json.loads(found)
+    return json.loads(text)
 
 
-def unpacked(said: dict) -> np.ndarray:
-    return np.frombuffer(base64.b64decode(said["data"]), "<i2") * said["scale"]
+def unpacked(packed: dict) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(packed["data"]), "<i2") * packed["scale"]
 
 
 def test_a_trace_keeps_its_peaks_and_its_places():
     times = np.arange(0.0, 20.0, 0.001)
     values = 0.1 * np.sin(times)
     values[7777] = -3.0
-    kept = extremes(times, values, 0.0, 20.0)
-    assert kept.size == BINS and kept.min() == -3.0
-    assert abs((kept.argmin() + 0.5) * 20 / BINS - times[7777]) < 20 / BINS
+    envelope = extremes(times, values, 0.0, 20.0)
+    assert envelope.size == BINS and envelope.min() == -3.0
+    assert abs((envelope.argmin() + 0.5) * 20 / BINS - times[7777]) < 20 / BINS
     # two samples of a line fill two of the bins; another has the value at its middle
     sparse = extremes(np.array([0.0, 6.0]), np.array([0.0, 12.0]), 0.0, 6.0)
     middles = (np.arange(BINS) + 0.5) * 12.0 / BINS
@@ -101,11 +101,13 @@ def test_drawings_are_those_of_the_structure(study):
 
 def test_the_page_carries_the_rotation_that_was_integrated(content, study):
     """The history that moves the drawing has the largest rotation of an integration done here."""
-    _, done, records = study
+    _, assessed, records = study
     drawn = {name: each for name, each in content["records"][0]["cases"].items() if "history" in each}
-    accelerograms, _ = done.open(records[0])
+    accelerograms, _ = assessed.open(records[0])
     for name, each in drawn.items():
-        response = integrate(done.structures[name].mechanism(), accelerograms[0], done.assessment.tolerance)
+        response = integrate(
+            assessed.structures[name].mechanism(), accelerograms[0], assessed.assessment.tolerance
+        )
         largest = np.abs(unpacked(each["history"])).max()
         # between the steps of a history the peak may lie a little higher; a fall is followed farther
         expected = response.rotation_ratio
@@ -115,11 +117,11 @@ def test_the_page_carries_the_rotation_that_was_integrated(content, study):
 
 def test_the_page_carries_the_closed_form_of_each_case_and_the_path_of_the_ground(content, study):
     """Without the line that best fits the displacement, by scipy; each bin holds one of the samples within it."""
-    _, done, records = study
-    (accelerogram,), _ = done.open(records[0])
+    _, assessed, records = study
+    (accelerogram,), _ = assessed.open(records[0])
     pulse = extract_pulses(accelerogram).dominant
     for name in ("pier", "parapet", "wall"):
-        block = done.structures[name].mechanism().equivalent_block()
+        block = assessed.structures[name].mechanism().equivalent_block()
         largest = predict_maximum(block, pulse).rotation_ratio
         assert content["records"][0]["cases"][name]["predicted"] == pytest.approx(min(largest, 1e9), rel=1e-5)
     ((_, motion),) = content["records"][0]["motions"].items()

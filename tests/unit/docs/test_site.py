@@ -41,9 +41,9 @@ def succeeds(*command: str, folder: Path) -> str:
     """Run a command in a folder as a reader would, this Python first; return what it printed."""
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     surroundings = os.environ | {"MPLBACKEND": "agg", "PATH": path}
-    done = subprocess.run(command, cwd=folder, env=surroundings, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
+    run = subprocess.run(command, cwd=folder, env=surroundings, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stdout + run.stderr
+    return run.stdout
 
 
 @pytest.fixture(scope="module")
@@ -52,8 +52,8 @@ def folder(tmp_path_factory) -> Path:
     pytest.importorskip("material", reason="the site is set with mkdocs-material, of the extra docs")
     study = new_study(tmp_path_factory.mktemp("site") / "study", ROOT)
     study.add_synthetic("one", 1)
-    done = study.run("documentation")
-    assert done.returncode == 0, done.stdout
+    run = study.run("documentation")
+    assert run.returncode == 0, run.stdout
     return study.results / "documentation"
 
 
@@ -152,9 +152,9 @@ def test_every_file_that_a_page_links_exists():
 
 
 def test_every_test_that_a_page_names_exists():
-    named = re.findall(r"`(tests/[\w/]+\.py)(?:::(\w+))?`", "\n".join(map(written, PAGES)))
-    assert named
-    for file, function in named:
+    tests = re.findall(r"`(tests/[\w/]+\.py)(?:::(\w+))?`", "\n".join(map(written, PAGES)))
+    assert tests
+    for file, function in tests:
         assert f"def {function}" in written(ROOT / file), f"{file}::{function}"
 
 
@@ -186,7 +186,7 @@ def test_the_site_leaves_nothing_of_the_code_out(site):
     settings = yaml.safe_load(written(ROOT / "workflow" / "config.yaml"))
     for name, value in settings.items():
         names = [f"{name}.{inner}" for inner in value] if isinstance(value, dict) else [name]
-        assert all(f"<code>{known}</code>" in site["settings.html"] for known in names)
+        assert all(f"<code>{key}</code>" in site["settings.html"] for key in names)
     assert "Annotated" not in site["api_structures.html"], "a parameter is printed with its plain type"
     described = set().union(*map(anchors, site.values()))
     assert {f"{getattr(rocking, name).__module__}.{name}" for name in rocking.__all__} <= described

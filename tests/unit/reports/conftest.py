@@ -95,9 +95,14 @@ def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[st
 
 def summarised(tables: RecordTables, structures: dict[str, object]) -> dict[str, object]:
     """Return the summary tables of one record as data frames."""
-    made = {name: frame(rows_class, getattr(tables, name)) for name, rows_class in SUMMARISED.items()}
-    agreement = frame(AgreementRow, agreement_rows(made["comparison"]))
-    return made | {"structures": frame(StructureRow, structure_rows(structures)), "agreement": agreement}
+    tables_of_study = {
+        name: frame(rows_class, getattr(tables, name)) for name, rows_class in SUMMARISED.items()
+    }
+    agreement = frame(AgreementRow, agreement_rows(tables_of_study["comparison"]))
+    return tables_of_study | {
+        "structures": frame(StructureRow, structure_rows(structures)),
+        "agreement": agreement,
+    }
 
 
 @pytest.fixture(scope="package")

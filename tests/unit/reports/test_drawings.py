@@ -47,9 +47,9 @@ def test_page_one_draws_a_structure_as_it_fell_rocked_or_stands():
 def test_a_thinned_trace_keeps_its_peaks_and_few_points():
     times = np.arange(200_000) * 0.005
     values = np.random.default_rng(1).normal(size=times.size)
-    kept_times, kept = thinned(times, values)
-    assert kept.size <= MOST_POINTS and (kept.min(), kept.max()) == (values.min(), values.max())
-    assert np.array_equal(np.interp(kept_times, times, values), kept)
+    envelope_times, envelope = thinned(times, values)
+    assert envelope.size <= MOST_POINTS and (envelope.min(), envelope.max()) == (values.min(), values.max())
+    assert np.array_equal(np.interp(envelope_times, times, values), envelope)
     assert thinned(times[:100], values[:100])[1].size == 100
 
 

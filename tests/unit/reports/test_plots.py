@@ -45,10 +45,10 @@ def lines(axes: Axes) -> dict[str, np.ndarray]:
 
 @pytest.mark.parametrize("name", PLOTTED)
 def test_it_returns_the_axes_it_was_given_or_new_ones_with_units(name):
-    given = Figure().subplots()
-    assert PLOTTED[name].plot(axes=given) is given
+    own = Figure().subplots()
+    assert PLOTTED[name].plot(axes=own) is own
     new = PLOTTED[name].plot()
-    assert isinstance(new, Axes) and new.figure is not given.figure
+    assert isinstance(new, Axes) and new.figure is not own.figure
     for label in (new.get_xlabel(), new.get_ylabel()):
         assert label.endswith("]") and "[" in label
     new.figure.canvas.draw()  # markup in a name stays text

@@ -38,8 +38,8 @@ def csv_numbers(example: RecordReport) -> np.ndarray:
     tables = [getattr(example.tables, field.name) for field in fields(example.tables)]
     rows = [row for table in [*tables, structure_rows(example.structures)] for row in table]
     cells = (cell(getattr(row, name)) for row in rows for name in row.table.column_names)
-    known = np.array([float(token) for text in cells for token in CSV_NUMBER.findall(text)])
-    return np.concatenate([known, 100 * known])
+    numbers = np.array([float(token) for text in cells for token in CSV_NUMBER.findall(text)])
+    return np.concatenate([numbers, 100 * numbers])
 
 
 def texts_of(data: dict) -> list[str]:
@@ -64,12 +64,12 @@ def data(example) -> dict:
 
 
 def test_every_number_that_is_printed_stands_in_a_csv(example, data):
-    structures, known = "|".join(map(re.escape, example.structures)), csv_numbers(example)
+    structures, numbers = "|".join(map(re.escape, example.structures)), csv_numbers(example)
     printed = [each for text in texts_of(data) for each in printed_numbers(re.sub(structures, "", text))]
     assert len(printed) > 100
     for value, half in printed:
         # rounding to the last printed digit, and the rounding of that comparison itself
-        assert np.abs(known - value).min() <= half * (1 + 1e-9), value
+        assert np.abs(numbers - value).min() <= half * (1 + 1e-9), value
 
 
 def test_page_one_begins_with_the_verdicts_by_name_and_holds_no_table(example, data):
@@ -146,8 +146,8 @@ def test_nothing_that_lifts_no_structure_and_no_pulse_are_told_first():
         "No structure could be assessed": ([shaken()], {}),
         "No pulse could be sought": (flat, {"block": Block.of_size(1.0, 4.0)}),
     }
-    for notice, given in cases.items():
-        report = assessed("one", *given)
+    for notice, (records, structures) in cases.items():
+        report = assessed("one", records, structures)
         data = report.data()
         assert any(notice in each["text"] for each in data["notices"]) and data["histories"] == []
         assert report.pdf().startswith(b"%PDF")

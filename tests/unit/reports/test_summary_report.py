@@ -69,9 +69,9 @@ def summary_tables(comparison, **tables):
 def test_agreement_counts_all_and_each_structure():
     rows = {row.structure: row for row in agreement_rows(frame(ComparisonRow, CASES))}
     assert {name: row.cases for name, row in rows.items()} == {"": 5, "pier": 2, "arch": 1, "wall": 2}
-    shown = summary_data(summary_tables(CASES), SETTINGS)["agreement"]["rows"]
+    content = summary_data(summary_tables(CASES), SETTINGS)["agreement"]["rows"]
     # records, cases, both rock, within a factor 2, median ratio; overturning, found, missed, false
-    assert shown[0] == ["all", "3", "5", "2", "1", "0.696", "2", "1", "1", "1"]
+    assert content[0] == ["all", "3", "5", "2", "1", "0.696", "2", "1", "1", "1"]
     assert rows[""].median_ratio == (0.5 / 0.4 + 0.1 / 0.7) / 2 and rows["pier"].median_ratio == 1.25
     more = [*CASES, case("pier", 0.8, 0.1, "two")]
     assert next(agreement_rows(frame(ComparisonRow, more))).median_ratio == 1.25  # of 1/7, 5/4 and 8
@@ -101,10 +101,10 @@ def test_the_summary_counts_the_verdicts_of_each_structure_and_names_its_worst_r
 
 def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first():
     ensembles = [ensemble("two", "wall", 63, Verdict.OVERTURNS), ensemble("three", "wall", 0, Verdict.STANDS)]
-    shown = summary_data(summary_tables(CASES, ensemble=ensembles), SETTINGS)["map"]
-    assert shown["heads"] == ["pier", "wall", "arch"]
-    assert [row["record"] for row in shown["rows"]] == ["one", "two", "three"]
-    assert [[cell["text"] for cell in row["cells"]] for row in shown["rows"]] == [
+    content = summary_data(summary_tables(CASES, ensemble=ensembles), SETTINGS)["map"]
+    assert content["heads"] == ["pier", "wall", "arch"]
+    assert [row["record"] for row in content["rows"]] == ["one", "two", "three"]
+    assert [[cell["text"] for cell in row["cells"]] for row in content["rows"]] == [
         ["▲", "–", "–"],
         ["–", "▲ 98", "● 0.80"],
         ["–", "● 0", "–"],
