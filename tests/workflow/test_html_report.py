@@ -38,14 +38,7 @@ def study(tmp_path_factory) -> Path:
     (folder / "structures.yaml").write_text(pier, encoding="utf-8")
     shutil.copy(ROOT / "records" / "synthetic_strong_pulse.AT2", folder / "records")
     assert main(["catalogue", str(folder / "records")]) == 0
-    run = [
-        sys.executable,
-        "-m",
-        "rocking.study.cli",
-        "run",
-        str(folder),
-        "--",
-    ]  # its own process, as libraries may warn there
+    run = [sys.executable, "-m", "rocking.study.cli", "run", str(folder), "--"]  # where libraries may warn
     subprocess.run([*run, "--cores", "1", "--quiet"], check=True)
     assert (folder / "results" / "synthetic_strong_pulse" / "report.pdf").read_bytes().startswith(b"%PDF")
     subprocess.run([*run, "--report", "report.html"], check=True)

@@ -141,29 +141,19 @@ def test_a_second_run_is_locked_out_and_harms_nothing(finished, tmp_path: Path, 
     assert study.tables() == finished.tables()
 
 
-def _taken_away(folder: Path) -> None:
-    folder.rename(folder.with_name("away"))
+def _set_mode(folder: Path, mode: int) -> None:
+    for path in (folder, *folder.rglob("*/")):
+        path.chmod(mode)
 
 
-def _brought_back(folder: Path) -> None:
-    folder.with_name("away").rename(folder)
-
-
-def _read_only(folder: Path, mode: int = 0o555) -> None:
-    for path in (folder, *folder.rglob("*")):
-        if path.is_dir():
-            path.chmod(mode)
-
-
-def _writable(folder: Path) -> None:
-    _read_only(folder, 0o755)
+AWAY = "the file went away while the study ran; bring it back."
 
 
 @pytest.mark.parametrize(
     ("name", "harm", "mend", "words"),
     [
-        ("records", _taken_away, _brought_back, "the file went away while the study ran; bring it back."),
-        ("results", _read_only, _writable, "Permission denied"),
+        ("records", lambda at: at.rename(f"{at}_"), lambda at: Path(f"{at}_").rename(at), AWAY),
+        ("results", lambda at: _set_mode(at, 0o555), lambda at: _set_mode(at, 0o755), "Permission denied"),
     ],
     ids=["records vanish", "results read-only"],
 )

@@ -1,16 +1,12 @@
 """The fragility of a study: its tables say what the curves are, and a bad record costs no other."""
 
-import hashlib
 import math
 from pathlib import Path
 
 import pytest
 
 from rocking.assessment.intensity import INTENSITY_MEASURES
-from rocking.assessment.rows.of_fragility import (
-    FRAGILITY_TABLES,
-    FragilitySummaryRow,
-)
+from rocking.assessment.rows.of_fragility import FRAGILITY_TABLES, FragilitySummaryRow
 from rocking.errors import ConfigurationError
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
@@ -30,19 +26,13 @@ def _study(**fragility: object) -> Study:
 
 
 def _records(folder: Path, count: int) -> list[CatalogueRecord]:
-    made = []
+    records = []
     for seed in range(count):
-        content = at2_text(
-            SyntheticRecord(f"made{seed}", seed, 4.0, 0.4 + 0.2 * seed, 1.0, 1.0, 6.0, 0.01)
-        ).encode()
-        (folder / f"made{seed}.AT2").write_bytes(content)
-        said = {"unit": "g", "event": "made", "station": str(seed), "folder": folder}
-        made.append(
-            CatalogueRecord(
-                f"made{seed}", f"made{seed}.AT2", sha256=hashlib.sha256(content).hexdigest(), **said
-            )
-        )
-    return made
+        recipe = SyntheticRecord(f"made{seed}", seed, 4.0, 0.4 + 0.2 * seed, 1.0, 1.0, 6.0, 0.01)
+        (folder / f"made{seed}.AT2").write_text(at2_text(recipe))
+        cells = {"unit": "g", "event": "made", "station": str(seed), "folder": folder}
+        records.append(CatalogueRecord(f"made{seed}", f"made{seed}.AT2", **cells))
+    return records
 
 
 def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):

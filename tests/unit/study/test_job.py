@@ -18,7 +18,7 @@ from rocking.errors import RockingError, StructureError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
-from rocking.records.synthetic import SyntheticRecord, at2_text
+from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text
 from rocking.structures import Block
 from rocking.study.job import Study, assess_record, run_job
 from rocking.study.results import Results, page_contents, part
@@ -210,8 +210,32 @@ def test_a_history_is_that_of_the_response(tmp_path: Path) -> None:
             assert reached > 1
         steps, rise = np.diff(of_it["time_s"]), np.diff(of_it["rotation_rad"])
         velocity, sign = of_it["angular_velocity_rad_s"].to_numpy(), np.sign(of_it["rotation_rad"].to_numpy())
-        smooth = (
-            sign[1:] == sign[:-1]
-        )  # impacts change no rotation; else the trapezoidal rule holds to its third order
+        smooth = sign[1:] == sign[:-1]  # at an impact the velocity jumps; else the trapezoidal rule holds
         gained = steps * (velocity[1:] + velocity[:-1]) / 2
         assert np.abs(gained - rise)[smooth].max() <= 1e-3 * of_it["rotation_rad"].abs().max()
+
+
+RAW = CatalogueRecord("STNA", "obspy:STNA.20020722.044649.evt.gz", scale_factor=50.0)
+"""The Kinemetrics file that obspy installs: counts of a recorder, offset included; weak, therefore multiplied."""
+
+
+def _opened(record: CatalogueRecord, apply: str = "raw") -> Accelerogram:
+    settings = Settings(processing=replace(Settings().processing, apply=apply))
+    return Study({}, settings).open(record)[0][0]
+
+
+def test_a_processed_file_and_one_that_cannot_say_are_left_as_they_are_unless_always(tmp_path):
+    (tmp_path / "a.AT2").write_text(at2_text(SHIPPED))
+    values = np.sin(np.arange(4000) * 0.05) + 0.3
+    (tmp_path / "c.txt").write_text("\n".join(f"{i * 0.01:.2f} {v:.6f}" for i, v in enumerate(values)))
+    for record in (
+        CatalogueRecord("a", "a.AT2", folder=tmp_path),
+        CatalogueRecord("c", "c.txt", unit="m/s2", folder=tmp_path),
+    ):
+        assert _opened(record).processing == ()
+        assert any("Butterworth highpass" in step for step in _opened(record, "always").processing)
+
+
+def test_a_raw_file_is_processed_unless_never():
+    assert len(_opened(RAW).processing) > len(_opened(RAW, "never").processing)
+    assert _opened(RAW).high_pass_frequency == 0.1

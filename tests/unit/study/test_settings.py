@@ -44,12 +44,12 @@ def _config(name: tuple[str, ...], value: object) -> dict[str, object]:
 
 def test_what_a_part_of_the_package_takes_by_default_is_the_default_of_a_study() -> None:
     settings = Settings()
-    parts = (
+    for of_study, of_part in (
         (settings, AssessmentSettings()),
         (settings.fragility, FragilitySettings()),
-    )
-    for made, part in (*parts, (settings.processing, UNPROCESSED_DEFAULT)):
-        assert {each.name: getattr(made, each.name) for each in fields(part)} == vars(part)
+        (settings.processing, UNPROCESSED_DEFAULT),
+    ):
+        assert {each.name: getattr(of_study, each.name) for each in fields(of_part)} == vars(of_part)
 
 
 def test_the_shipped_files_are_those_that_the_tree_writes() -> None:
