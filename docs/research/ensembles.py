@@ -16,8 +16,6 @@ import pandas as pd
 
 from docs.research import scores, sites
 from docs.research.report import Target
-from docs.research.scores import Score
-from docs.research.sites import Records
 from rocking.assessment.ensemble import CAUSES, Ensemble, GroundMotions, drawn, ensemble, lattice
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import cracks, ensemble_over_cracks
@@ -73,12 +71,12 @@ def calibrate_ensemble(target: Target) -> None:
     """Hold ensembles under near-fault and other records against random draws."""
     trials = list(try_ensembles(*target.catalogues, target.structures))
     subtitle = f"Shares of few members beside {DRAWS} random draws of the same causes."
-    tables = {EnsembleTrial: trials, Score: list(ensemble_scores(trials))}
+    tables = {EnsembleTrial: trials, scores.Score: list(ensemble_scores(trials))}
     target.publish("How right the share of an ensemble is", subtitle, tables)
 
 
 def try_ensembles(
-    near_fault: Records, others: Records, structures: Mapping[str, Structure]
+    near_fault: sites.Records, others: sites.Records, structures: Mapping[str, Structure]
 ) -> Iterator[EnsembleTrial]:
     """Yield trials of the components that count, and of the pairs, at scales that spread from uplift to overturning.
 
@@ -134,7 +132,7 @@ def _trial(
     )
 
 
-def ensemble_scores(trials: Sequence[EnsembleTrial]) -> Iterator[Score]:
+def ensemble_scores(trials: Sequence[EnsembleTrial]) -> Iterator[scores.Score]:
     """Yield every measure on each half of the sites, with intervals."""
     risk = EnsembleSettings().risk
     for half, own in pd.DataFrame(trials).groupby("half"):
@@ -159,7 +157,7 @@ def screen(target: Target) -> None:
     for name, site, record in sites.one_of_each(sites.independent(target.records)):
         trials += screening_trials(name, site, record, target.structures)
         target.tell(name)
-    tables = {ScreeningTrial: trials, Score: list(screening_scores(trials))}
+    tables = {ScreeningTrial: trials, scores.Score: list(screening_scores(trials))}
     target.publish("What the verdict over all cracks misses", f"{len(trials)} cases.", tables)
 
 
@@ -201,7 +199,7 @@ def verdict_of_all(static: Ensemble, of_each: Iterable[Ensemble]) -> Verdict:
     return Verdict.OVERTURNS if static.verdict is Verdict.OVERTURNS else Verdict.UNDECIDED
 
 
-def screening_scores(trials: Sequence[ScreeningTrial]) -> Iterator[Score]:
+def screening_scores(trials: Sequence[ScreeningTrial]) -> Iterator[scores.Score]:
     """Yield misses and verdicts against fresh draws, by structure and of all, with intervals by site."""
     every = pd.DataFrame(trials)
     for part, own in [("all", every), *every.groupby("structure", sort=False)]:

@@ -12,7 +12,6 @@ import numpy as np
 
 from docs.research import scores, sites
 from docs.research.report import Target
-from docs.research.scores import Score
 from rocking import Accelerogram, Block, EquivalentBlock, Pulse, integrate_batch, predict_maxima
 from rocking.assessment.fragility import crossing, fragility, fragility_of
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -42,17 +41,17 @@ def trade_fragility(target: Target) -> None:
     """Score every method on the records and structures of the target."""
     motions = [record for _, record in target.records]
     sines, searched_s = sites.timed(lambda: [best_sines(each, AssessmentSettings()) for each in motions])
-    rows: list[Score] = []
+    rows: list[scores.Score] = []
     for name, structure in target.structures.items():
         rows += method_scores(name, structure, motions, sines)
         target.tell(f"fragility of {name}")
     subtitle = f"{len(motions)} components; the sines of all took {searched_s:.0f} s of processor time."
-    target.publish("What accuracy costs in a fragility", subtitle, {Score: rows})
+    target.publish("What accuracy costs in a fragility", subtitle, {scores.Score: rows})
 
 
 def method_scores(
     name: str, structure: Structure, records: Sequence[Accelerogram], sines: Sequence[Sequence[Pulse]]
-) -> Iterator[Score]:
+) -> Iterator[scores.Score]:
     """Yield the scores of every method for one structure, against the mechanism at TIGHT. sines: best first."""
     follow = partial(fragility, records, structure, intensity_measure="pgv")
     reference = follow(tolerance=TIGHT).analysis
@@ -114,7 +113,7 @@ def cover(target: Target) -> None:
     """Score the median of fragilities whose truth is known: the curve of all real stations, or of a population."""
     labels, motions = zip(*((site, each) for _, site, each in sites.independent(target.records)), strict=True)
     tried = {name: each for name, each in sites.structures_tried().items() if name in TRIED}
-    rows: list[Score] = []
+    rows: list[scores.Score] = []
     for name, structure in {"stone pier, 2 by 9 m": Block.of_size(2.0, 9.0), **tried}.items():
         analysis = fragility(motions, structure, stations=labels).analysis
         shares = np.isinf(analysis.rotation_ratios).mean(axis=2)
@@ -128,27 +127,29 @@ def cover(target: Target) -> None:
         rows += population_scores(name)
         target.tell(name)
     subtitle = f"{TRIALS} intervals and {ESTIMATES} medians of each; of real stations the pool is the truth."
-    target.publish("What the interval of a fragility's median covers", subtitle, {Score: rows})
+    target.publish("What the interval of a fragility's median covers", subtitle, {scores.Score: rows})
 
 
-def population_scores(name: str) -> Iterator[Score]:
+def population_scores(name: str) -> Iterator[scores.Score]:
     """Yield the scores of one of POPULATIONS."""
     rng, draw = np.random.default_rng(99), partial(population_shares, name)
     truth = np.mean([draw(rng, 10_000).mean(axis=0) for _ in range(MANY // 10_000)], axis=0)
     yield from _scores(name, "drawn", LEVELS, truth, draw)
 
 
-def _scores(name: str, whence: str, levels: np.ndarray, curve: np.ndarray, draw: Draw) -> Iterator[Score]:
+def _scores(
+    name: str, whence: str, levels: np.ndarray, curve: np.ndarray, draw: Draw
+) -> Iterator[scores.Score]:
     """Coverage of the interval and bias of the median, at each number of stations. curve: (k,) of all of them."""
     truth = median_of(levels, curve[None])
     for count in STATIONS:
         rng, names = np.random.default_rng(count), list(map(str, range(count)))
         over = np.array([median_of(levels, draw(rng, count)) for _ in range(ESTIMATES)]) / truth
         ends = [fragility_of(levels, draw(rng, count), names).interval for _ in range(TRIALS)]
-        held = [low <= truth <= high for low, high in ends]
+        covers = [low <= truth <= high for low, high in ends]
         bias = {"bias of the median": lambda rows, over=over: float(np.median(over[rows])) - 1}
         part = f"{count} stations {whence}"
-        yield from scores.scored(name, part, {"intervals that hold the median": held}, range(TRIALS))
+        yield from scores.scored(name, part, {"intervals that hold the median": covers}, range(TRIALS))
         yield from scores.scored(name, part, bias, range(ESTIMATES), replicates=200)
 
 

@@ -143,8 +143,8 @@ def _left_out(
         return {middle: np.full(len(hits), 0.5)}
     parts = min(FOLDS, names.size)
     fold = place % parts
-    kept = (fold[:, None] != np.arange(parts)).astype(np.float32)
-    masks, choices = np.tile(kept, len(UNEXPLAINED)), np.repeat(UNEXPLAINED, parts)
+    mask = (fold[:, None] != np.arange(parts)).astype(np.float32)
+    masks, choices = np.tile(mask, len(UNEXPLAINED)), np.repeat(UNEXPLAINED, parts)
     stated = {}
     for steps, weights in zip(ITERATIONS, _weights(hits, prior, masks, choices, ITERATIONS), strict=True):
         each = with_unexplained(hits @ weights, choices).reshape(len(hits), len(UNEXPLAINED), parts)
@@ -172,20 +172,20 @@ def _patterns(overturns: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray
 
 
 def _weights(
-    hits: np.ndarray, prior: np.ndarray, kept: np.ndarray, unexplained: np.ndarray, iterations: Sequence[int]
+    hits: np.ndarray, prior: np.ndarray, mask: np.ndarray, unexplained: np.ndarray, iterations: Sequence[int]
 ) -> Iterator[np.ndarray]:
     """Yield the weights (m, c) of c fits side by side after each of the rising numbers of steps, from the prior on.
 
-    hits: (n, m) whether candidate j ends test t as it ended. kept: (n, c), 1 for the tests of a fit, else 0.
+    hits: (n, m) whether candidate j ends test t as it ended. mask: (n, c), 1 for the tests of a fit, else 0.
     unexplained: (c,) ε. Tests that all candidates end alike say nothing and are left aside.
     """
     telling = hits.min(axis=1) != hits.max(axis=1)
-    hits, kept = hits[telling], kept[telling]
-    count, share = kept.sum(axis=0), unexplained.astype(np.float32)
+    hits, mask = hits[telling], mask[telling]
+    count, share = mask.sum(axis=0), unexplained.astype(np.float32)
     weights, done = np.repeat(prior[:, None], len(share), axis=1), 0
     for steps in iterations:
         for _ in range(steps - done):
-            ratio = kept / with_unexplained(hits @ weights, share)
+            ratio = mask / with_unexplained(hits @ weights, share)
             gain = (1 - share) * (hits.T @ ratio) + share / 2 * ratio.sum(axis=0)
             weights *= np.where(count, gain / np.maximum(count, 1), 1)
         done = steps

@@ -141,12 +141,12 @@ class _Run:
         return until, (float(solved.y[0, -1]), rate), False
 
     def _impact(self, sign: int, velocity: float) -> tuple[int, tuple[float, float]]:
-        kept = self.sides[sign].restitution * max(-velocity, 0.0)
+        speed = self.sides[sign].restitution * max(-velocity, 0.0)
         sign = -sign if -sign in self.sides else sign
         side = self.sides[sign]
-        if kept <= REST_SPEED * side.critical_rotation * side.frequency_parameter:
+        if speed <= REST_SPEED * side.critical_rotation * side.frequency_parameter:
             return 0, (0.0, 0.0)
-        return sign, (0.0, kept)
+        return sign, (0.0, speed)
 
 
 def _event(value: Callable[[float, np.ndarray], float], terminal: bool, direction: int) -> Any:

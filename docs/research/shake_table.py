@@ -79,7 +79,7 @@ class Campaign:
         if name in self._arrays:
             samples = self._arrays[name]
         elif listed is not None:
-            samples = _fetched(listed)
+            samples = _download(listed)
         else:
             raise RecordError(f"test {number}: no samples in {self.folder / MOTIONS} nor in the catalogue.")
         if listed is not None and not listed.holds(samples):
@@ -123,19 +123,20 @@ def read_tests(path: Path) -> pd.DataFrame:
     return tests.sort_values("test", ignore_index=True)
 
 
-def _fetched(listed: TableMotion) -> np.ndarray:
+def _download(listed: TableMotion) -> np.ndarray:
     """The samples of a test, float32 (n,), g, from the source; a file that does not hold those listed is not kept.
 
     In TestNNN.txt one header line stands before eight columns: the second is the acceleration along the shaking.
     """
-    path, held = download(listed.source_path, REPOSITORY, COMMIT, listed.source_path), False
+    path = download(listed.source_path, REPOSITORY, COMMIT, listed.source_path)
+    is_right = False
     try:
         lines = path.read_bytes().decode("ascii").splitlines()[1:]
         samples = np.array([float(line.split()[1]) for line in lines if line.strip()], dtype="<f4")
-        held = listed.holds(samples)
+        is_right = listed.holds(samples)
         return samples
     except (UnicodeDecodeError, IndexError, ValueError) as error:
         raise RecordError(f"{path.name}: the file is no table of a test, {error}; fetch it again.") from None
     finally:
-        if not held:
+        if not is_right:
             path.unlink()

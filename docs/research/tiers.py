@@ -15,7 +15,6 @@ from scipy.special import expit, logit
 
 from docs.research import scores, sites
 from docs.research.report import Target
-from docs.research.scores import Score
 from rocking import Accelerogram, Mechanism, Outcome, Verdict, integrate, integrate_batch
 from rocking.assessment import fidelity
 from rocking.assessment.ensemble import GroundMotions, drawn, ensemble, lattice
@@ -46,7 +45,7 @@ def calibrate(target: Target) -> None:
     about: dict[str, object] = {"records": cases.record.nunique(), "sites": cases.site.nunique()}
     about["cases"] = len(cases)
     subtitle = ", ".join(f"{many} {name}" for name, many in about.items())
-    target.publish("What a cheap figure says of overturning", f"{subtitle}.", {Score: rows})
+    target.publish("What a cheap figure says of overturning", f"{subtitle}.", {scores.Score: rows})
     hashes = "\n".join(sorted({record.source.sha256 for _, _, record in records}))
     about["records_sha256"] = hashlib.sha256(hashes.encode()).hexdigest()
     fits = {tier: {"terms": tier.terms, **vars(fit(tier, cases))} for tier in Tier}
@@ -108,7 +107,7 @@ def left_out(tier: Tier, cases: pd.DataFrame) -> np.ndarray:
     return scores.left_out(cases.site.to_numpy(), estimates)
 
 
-def tier_scores(cases: pd.DataFrame) -> Iterator[Score]:
+def tier_scores(cases: pd.DataFrame) -> Iterator[scores.Score]:
     """Yield the scores and the reliability of each tier on sites left out."""
     overturned, labels = cases.share.to_numpy(), cases.site.tolist()
     for tier in Tier:
@@ -149,11 +148,11 @@ def _answer_trial(
     given. whole: its ensemble. quick: one that may end early.
     """
     motions = GroundMotions.of(record)
-    asked = partial(cheapest_answer, mechanism, record, risk=RISK, fits=fits)
+    answer = partial(cheapest_answer, mechanism, record, risk=RISK, fits=fits)
     runs: dict[str, Callable[[], Any]] = {
         "mechanism": partial(integrate, mechanism, record),
-        "alone": asked,
-        "beside": partial(asked, ensemble_follows=True),
+        "alone": answer,
+        "beside": partial(answer, ensemble_follows=True),
         "whole": partial(ensemble, mechanism, motions),
         "quick": partial(ensemble, mechanism, motions, verdict_only=True),
     }
@@ -172,7 +171,7 @@ def _answer_trial(
     }
 
 
-def answer_scores(trials: pd.DataFrame) -> Iterator[Score]:
+def answer_scores(trials: pd.DataFrame) -> Iterator[scores.Score]:
     """Yield every measure of the trials with its interval."""
     by_velocity = trials.method == Method.PEAK_VELOCITY
     by_block = trials.method == Method.BLOCK_ON_RECORD

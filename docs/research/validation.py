@@ -10,7 +10,6 @@ from scipy.special import expit, logit
 from docs.research import scores
 from docs.research.identification import BlockPrior, fit_mixture, two_sided_block
 from docs.research.report import Target
-from docs.research.scores import Score
 from docs.research.shake_table import SPECIMENS, Campaign
 from rocking import Pulse, PulseError, extract_pulses, integrate_batch, predict_maxima
 from rocking.records.processing import Processing, process, velocity
@@ -69,7 +68,7 @@ def validate(target: Target, campaign: Campaign) -> None:
     tests = measured.tests
     motions = tests.motion.tolist()
     counts = {"cases": len(motions), "sites": len(set(motions))}
-    rows: list[Score] = []
+    rows: list[scores.Score] = []
     predictions: list[PredictionRow] = []
     for specimen in SPECIMENS:
         probability = left_out(measured, specimen)
@@ -85,12 +84,12 @@ def validate(target: Target, campaign: Campaign) -> None:
         for name, (low, middle, high) in population.ranges().items():
             about = {"subject": name, "part": f"{part}, 5 to 95 % of the population of all motions"}
             ends = {"value": middle, "value_low": low, "value_high": high}
-            rows.append(Score(measure="median of the population", **about, **ends, **counts))
+            rows.append(scores.Score(measure="median of the population", **about, **ends, **counts))
     subtitle = (
         f"{len(tests)} tests of two granite specimens under {counts['sites']} input motions, each motion left out of "
         "the fit that predicts it."
     )
-    tables = {Score: rows, PredictionRow: predictions}
+    tables = {scores.Score: rows, PredictionRow: predictions}
     target.publish("Validation against shake-table tests", subtitle, tables, ABOUT)
 
 

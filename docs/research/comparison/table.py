@@ -13,7 +13,6 @@ import pandas as pd
 from docs.research import reference, scores
 from docs.research.comparison import codes
 from docs.research.report import Target
-from docs.research.scores import Score
 from docs.research.sites import timed
 from rocking import Mechanism, integrate
 from rocking.assessment.variations import cracks
@@ -73,18 +72,18 @@ def compare(target: Target) -> None:
         f"{pulses} pulses and {len(cases) - pulses} stretches of records on a block, a frame and an arch of seven "
         "voussoirs; the reference is DOP853 of scipy at 1e-12, restarted at every sample and impact."
     )
-    tables = {CodeRow: rows, Score: list(code_scores(rows))}
+    tables = {CodeRow: rows, scores.Score: list(code_scores(rows))}
     target.publish("Work against precision", subtitle, tables, COMPARED)
 
 
-def code_rows(case: codes.CodeCase, asked: Mapping[str, codes.Code]) -> Iterator[CodeRow]:
+def code_rows(case: codes.CodeCase, others: Mapping[str, codes.Code]) -> Iterator[CodeRow]:
     """Yield the rows of one case, the reference first."""
     (truth, landings), spent = timed(lambda: reference.landings(case.mechanism, case.motion))
     side = case.mechanism.positive
     forced = landings[landings[:, 0] <= case.motion.duration]
     fast = forced[forced[:, 1] > codes.SLOWEST * side.frequency_parameter * side.critical_rotation, 0]
     yield _row(case, REFERENCE, codes.Answer(truth, spent, landings=fast), truth, fast)
-    for name, code in asked.items():
+    for name, code in others.items():
         yield _row(case, name, code(case), truth, fast)
 
 
@@ -143,7 +142,7 @@ def _row(
     )
 
 
-def code_scores(rows: Sequence[CodeRow]) -> Iterator[Score]:
+def code_scores(rows: Sequence[CodeRow]) -> Iterator[scores.Score]:
     """Yield error and work of every code on every structure, with intervals by case."""
     table = pd.DataFrame(rows).astype({"missed_impacts": float})
     moves = table.reference_rotation_ratio.between(0, math.inf, inclusive="neither")
