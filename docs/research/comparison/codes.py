@@ -209,11 +209,7 @@ def serve(run: Callable[[dict, float], Answer], settings: Sequence[float], reaso
 
 
 def run_of(
-    case: dict,
-    times: np.ndarray,
-    rotation: np.ndarray,
-    energy: np.ndarray,
-    outside_hinges: float = math.nan,
+    case: dict, times: np.ndarray, rotation: np.ndarray, energy: np.ndarray, outside_hinges: float = math.nan
 ) -> Answer:
     """Return what a history (n,) that stays up says of the case `case`; energy (n,) as for `restitution`."""
     critical, still = case["critical_rotation"], still_from(case)
