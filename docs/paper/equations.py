@@ -21,8 +21,7 @@ from rocking.tables import Row, column, row
 
 
 @row(
-    "equations",
-    "One row per equation that the source paper prints with a slip, with the number that decides",
+    "equations", "One row per equation that the source paper prints with a slip, with the number that decides"
 )
 class EquationRow(Row):
     """One slip, both forms, and the number that decides between them."""

@@ -75,7 +75,11 @@ class _Run:
                 if landed:
                     arrivals.append((now, -state[1]))
                     still_landings += until > self.duration
-                    sign, state = self._impact(sign, state[1])
+                    speed = self.sides[sign].restitution * max(-state[1], 0.0)
+                    sign = -sign if -sign in self.sides else sign
+                    side, state = self.sides[sign], (0.0, speed)
+                    if speed <= REST_SPEED * side.critical_rotation * side.frequency_parameter:
+                        sign, state = 0, (0.0, 0.0)
         return self.peak, np.array(arrivals, dtype=float).reshape(-1, 2)
 
     def _acceleration(self, time: float) -> float:
@@ -139,14 +143,6 @@ class _Run:
         if len(down):
             return float(solved.t[-1]), (0.0, rate), True
         return until, (float(solved.y[0, -1]), rate), False
-
-    def _impact(self, sign: int, velocity: float) -> tuple[int, tuple[float, float]]:
-        speed = self.sides[sign].restitution * max(-velocity, 0.0)
-        sign = -sign if -sign in self.sides else sign
-        side = self.sides[sign]
-        if speed <= REST_SPEED * side.critical_rotation * side.frequency_parameter:
-            return 0, (0.0, 0.0)
-        return sign, (0.0, speed)
 
 
 def _event(value: Callable[[float, np.ndarray], float], terminal: bool, direction: int) -> Any:
