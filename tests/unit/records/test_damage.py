@@ -54,6 +54,7 @@ def test_channels_that_the_header_speaks_of_are_missed(monkeypatch: pytest.Monke
     ("CSMNC", " SEC\nPRE-EVENT", f" SEC    DURATION: {2 * N * STEP:.2f} SEC\nPRE-EVENT"),
     ("UNAM/CICESE", f"/{N * STEP:.2f}/{N * STEP:.2f}", f"/{2 * N * STEP:.2f}/{2 * N * STEP:.2f}"),
     ("UNAM/CICESE", "/100/100", "/200/200"),
+    ("CWB", "SampleRate(Hz): 100", "SampleRate(Hz): 50"),
     ("CSMIP V1/V2: of 1983", "INTERVALS OF    0.010", "INTERVALS OF    0.020"),
     ("CSMIP V1/V2: of 1983", f"  {N} POINTS OF INSTRUMENT", f"  {N + 8} POINTS OF INSTRUMENT"),
     ("CSMIP V1/V2: raw", f"LENGTH = {N * STEP:.3f}", f"LENGTH = {2 * N * STEP:.3f}"),

@@ -66,6 +66,11 @@ def test_files_that_do_not_fit_together_are_refused_in_a_sentence(station):
         assert str(caught.value).startswith("a: ") and "\n" not in str(caught.value)
 
 
+def test_an_inventory_that_is_not_there_is_named(station):
+    with pytest.raises(RecordError, match=r"a: inventory 'none\.xml' is missing"):
+        open_station(_record(station, inventory="none.xml"))
+
+
 def test_files_that_name_no_component_are_named_by_the_row(tmp_path):
     for name, factor in (("u", 0.5), ("a", 1.0), ("b", 2.0)):
         rows = "".join(f"{i * 0.01:.2f} {factor * v:.8f}\n" for i, v in enumerate(VALUES))
