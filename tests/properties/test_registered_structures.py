@@ -101,7 +101,7 @@ def test_the_standard_form_is_that_of_its_moving_masses(structure):
     side = structure.mechanism().positive
     # near the end of its geometry a linkage locks, and differences say little
     last = min(side.critical_rotation, 0.8 * side.end_rotation)
-    step = 1e-2 * last
+    step = 3e-3 * last  # with three times as much, the flat block above a high hinge shows truncation of 2e-9
     at = smooth(side, last * np.linspace(0.05, 0.95, 9), 4 * step)
     assume(at.size)
     linkage = structure.linkage
