@@ -466,7 +466,8 @@ class Crackable(Structure):
             return candidate.multiplier if candidate else np.inf
 
         accuracy = {"xatol": 1e-3 * (high - low)}
-        least = minimize_scalar(multiplier, bounds=(low, high), method="bounded", options=accuracy)
+        with np.errstate(invalid="ignore"):  # λ is infinite where a crack leaves no mechanism
+            least = minimize_scalar(multiplier, bounds=(low, high), method="bounded", options=accuracy)
         return self._candidate(float(least.x))
 
     def _candidate(self, height: float) -> Candidate | None:
