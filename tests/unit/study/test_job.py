@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ import pytest
 from rocking.assessment.assess import assess
 from rocking.assessment.fate import PER_RECORD
 from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, HistoryRow, PulseRow
+from rocking.assessment.rows.of_study import TradeMethod, TradeRow
 from rocking.errors import RockingError, StructureError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
@@ -22,9 +24,9 @@ from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text
 from rocking.structures import Block
 from rocking.study.job import Study, assess_record, run_job
 from rocking.study.results import Results, page_contents, part
-from rocking.study.settings import Settings
-from rocking.study.summary import write_summary
-from rocking.tables import csv_lines, frame, read_rows
+from rocking.study.settings import Settings, StudyTrade
+from rocking.study.summary import summarise, write_summary
+from rocking.tables import csv_lines, frame, read_rows, write_tables
 
 ROOT = Path(__file__).parents[3]
 CONTENT = at2_text(SyntheticRecord("made", 1, 4.0, 0.6, 1.0, 1.0, 6.0, 0.01)).encode()
@@ -131,6 +133,36 @@ def test_the_summary_holds_every_row_of_every_record_in_its_order(in_two_jobs) -
         lines = list(csv_lines(each, chain.from_iterable(found)))
         assert "".join(lines) == (results / "summary" / each.table.file_name).read_text(encoding="utf-8")
         assert each is FailureRow or len(lines) > 3
+
+
+@pytest.mark.parametrize("in_summary", [False, True])
+def test_a_summary_draws_the_trade_where_its_study_measures_it(
+    tmp_path: Path, monkeypatch, in_summary
+) -> None:
+    """Whether or not an earlier run has left the table."""
+    trades: list[list] = []
+    monkeypatch.setattr(
+        "rocking.reports.summary.summary_report",
+        lambda _tables, _settings, trade: trades.append(trade) or b"",
+    )
+    settings = replace(
+        _study().settings, reports=True, trade=StudyTrade(in_summary), results=str(tmp_path / "results")
+    )
+    study, results = replace(_study(), settings=settings), tmp_path / "results"
+    run_job([_record(tmp_path)], study, part(results, "00000_of_00001"), results)
+    row = TradeRow.of(
+        method=TradeMethod.FINE,
+        structure="",
+        cases=1,
+        error=1e-7,
+        wrong_verdicts=0,
+        unsafe_verdicts=0,
+        cpu_s=1e-3,
+    )
+    write_tables({TradeRow: [row]}, results / "summary")
+    hashes = SimpleNamespace(settings_sha256="", package_sha256="")
+    summarise(study, [_record(tmp_path)], ["00000_of_00001"], hashes)
+    assert len(trades[0]) == in_summary
 
 
 def test_the_tables_of_one_record_are_those_that_it_has_alone(in_two_jobs, tmp_path: Path) -> None:
