@@ -327,9 +327,9 @@ def test_an_ensemble_grows_where_more_members_may_decide():
     few = ensemble(BLOCK, GroundMotions.of(_record(2.0)), EnsembleSettings(members=16))
     assert few.members == 16 and 0 < few.rotation_ratios.max() < 0.3, "nothing is in doubt"
     grown = {}
-    for amplitude in np.arange(4.5, 8, 0.1):
+    for amplitude in (*np.arange(4.5, 8, 0.2), *np.arange(16, 20, 0.5)):
         motions = GroundMotions.of(_record(amplitude))
         falls = drawn(BLOCK, motions, lattice(256)[:64], EnsembleSettings()).overturning_members
-        grown[min(falls, 64 - falls)] = ensemble(BLOCK, motions).members == 256
-    assert len(grown) > 3
-    assert all(grew == (0 < few <= 7) for few, grew in grown.items()), grown
+        grown[falls] = ensemble(BLOCK, motions).members == 256
+    assert sum(0 < falls <= 7 for falls in grown) and sum(57 <= falls < 64 for falls in grown), grown
+    assert all(grew == (0 < min(falls, 64 - falls) <= 7) for falls, grew in grown.items()), grown
