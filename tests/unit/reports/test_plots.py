@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 import rocking
 from rocking.reports.panels import draw_rotation
+from rocking.reports.style import plain_logarithmic
 from rocking.reports.summary import prediction_scatter
 
 TIMES = np.arange(3000) * 0.01
@@ -108,6 +109,19 @@ def test_what_overturns_and_what_rests_stand_beyond_a_line_from_what_rocks():
         assert max(rocking_ones) < upper < largest < axes.get_xlim()[1]
     factors = {line.get_ydata()[-1] / line.get_xdata()[-1] for line in axes.lines[:3]}
     assert factors == {0.5, 1.0, 2.0}
+
+
+@pytest.mark.parametrize("which", ["x", "y"])
+def test_a_logarithmic_axis_names_one_two_and_five_in_plain_numbers_and_leaves_the_other_alone(which):
+    panel = Figure().subplots()
+    panel.set(xlim=(0.1, 10), ylim=(0.1, 10))
+    plain_logarithmic(panel, which)
+    axes = {"x": panel.xaxis, "y": panel.yaxis}
+    chosen = axes.pop(which)
+    places = [place for place in chosen.get_majorticklocs() if 0.1 <= place <= 10]
+    assert chosen.get_major_formatter().format_ticks(places) == ["0.1", "0.2", "0.5", "1", "2", "5", "10"]
+    assert chosen.get_scale() == "log" and not len(chosen.get_minorticklocs())
+    assert [other.get_scale() for other in axes.values()] == ["linear"]
 
 
 def test_what_cannot_be_drawn_is_said():
