@@ -77,7 +77,7 @@ class Response(Drawn):
 
         Raises MotionError without a history.
         """
-        from pandas import DataFrame
+        from pandas import DataFrame  # which takes half a second to import
 
         if self.times is None:
             raise MotionError(

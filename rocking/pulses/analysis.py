@@ -159,7 +159,7 @@ class PulseAnalysis(Drawn):
 
     def frame(self) -> "DataFrame":
         """Return a pandas frame with one row per pulse, by gain, the dominant one first."""
-        from pandas import DataFrame
+        from pandas import DataFrame  # which takes half a second to import
 
         return DataFrame(
             {

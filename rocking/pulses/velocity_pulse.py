@@ -226,7 +226,7 @@ def _late(velocity: np.ndarray, pulse: np.ndarray) -> bool:
 
 @cache
 def _table() -> tuple[np.ndarray, np.ndarray]:
-    import pywt
+    import pywt  # here, as scipy below, because a record of one component needs neither
 
     _, wavelet, places = pywt.Wavelet("db4").wavefun(level=10)
     return places, wavelet

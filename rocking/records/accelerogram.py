@@ -147,7 +147,7 @@ class Accelerogram(Drawn):
 
     def spectrum(self, periods: np.ndarray | None = None, damping: float = 0.05) -> "ResponseSpectrum":
         """Return the response spectrum at undamped `periods`, s, as response_spectrum does; None: at its own."""
-        from rocking import response_spectrum
+        from rocking import response_spectrum  # which stands above this
 
         return response_spectrum(self, periods, damping)
 
@@ -225,7 +225,7 @@ class Accelerogram(Drawn):
 
     def frame(self) -> "DataFrame":
         """Return a pandas frame of the columns time_s and acceleration_m_s2."""
-        from pandas import DataFrame
+        from pandas import DataFrame  # which takes half a second to import
 
         return DataFrame({"time_s": self.times, "acceleration_m_s2": self.acceleration})
 

@@ -30,7 +30,7 @@ def read_format(form: Format, source, **options):
 
     options: unit and time_step where the file is silent; what obspy adds is ignored. Raises RecordError.
     """
-    from obspy import Stream
+    from obspy import Stream  # which takes a second to import, and loads this module itself
 
     name = Path(str(source)).name if isinstance(source, str | Path) else "file"
     content = unpack(_bytes(source, LARGEST_FILE), name)

@@ -1,4 +1,7 @@
-"""The `rocking` command: few verbs, each one call of the same functions as the workflow."""
+"""The `rocking` command: few verbs, each one call of the same functions as the workflow.
+
+Each verb imports what it calls, so that help and refusals come at once.
+"""
 
 import argparse
 import sys

@@ -112,7 +112,7 @@ class Results:
 
     def table(self, name: str, columns: Iterable[str] | None = None) -> "DataFrame":
         """Return the table `name`, or only some of its columns. Raises RockingError where there is none."""
-        import pandas as pd
+        import pandas as pd  # which takes half a second to import
 
         if name not in _TABLES:
             raise RockingError(f"table is {name!r}, but must be one of {', '.join(_TABLES)}.")

@@ -52,7 +52,7 @@ def _stream(content: bytes, form: str, **options: Any):
 
 def _check_blocks(content: bytes) -> set[str]:
     """Check by the heads of its blocks that a miniSEED file is whole and not too large; a warning of a leap."""
-    import obspy
+    import obspy  # which takes a second to import
     from obspy.io.mseed.util import get_record_information
 
     with warnings.catch_warnings():
@@ -211,7 +211,7 @@ def _inventory(stats, options: Options):
 
 
 def _parse(path: Path):
-    from obspy import read_inventory
+    from obspy import read_inventory  # which takes a second to import
 
     content = read_whole(path, _LARGEST_XML, RecordError, path.name)
     if b"FDSNStationXML" not in content[:2000] or b"<!DOCTYPE" in content:
