@@ -5,8 +5,11 @@ import struct
 from collections.abc import Callable
 
 import numpy as np
+import obspy
 
+from rocking.records import Accelerogram
 from rocking.records.formats import Options
+from rocking.records.read import read_content
 
 N = 40
 STEP = 0.01
@@ -277,14 +280,9 @@ def csmip_raw(stated: float = 1.0) -> str:
 
 def csmip_film(stated: float = 1.0) -> str:
     """The raw volume of the CDMG, digitised from film: pairs of seconds and tenths of g."""
-    peak = stated * np.abs(TRUE).max() / 9.80665
-    head = volume1(
-        "UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 02/08/94, CDMG QN94A403", "CHAN  1:  45 DEG",
-        f"UNITS OF UNCOR ACCEL ARE SEC AND G/10.     MAX  =  {peak:6.3f} G, AT  11.576 SEC.",
-        "/&  ----- END OF DATA FOR CHANNEL  1 -----\n",
-    )  # fmt: skip
-    head = head.replace("UNIVERSIDAD DE CHILE - RENADIC", "MADE EARTHQUAKE")
-    return head.format(columns(pairs(), 10, "7.3f"))
+    text = renadic(stated).replace("UNIVERSIDAD DE CHILE - RENADIC", "MADE EARTHQUAKE")
+    text = text.replace("PROCESSED: 1/1/11", "PROCESSED: 02/08/94, CDMG QN94A403")
+    return text.replace("CHAN  1: EW       (STA CHN:  1)", "CHAN  1:  45 DEG")
 
 
 def unam_with_blank_block(stated: float = 1.0) -> str:
@@ -307,21 +305,12 @@ def two_headers() -> str:
     return head + columns(TRUE / 9.80665, 8, "12.7f")
 
 
-def miniseed() -> bytes:
-    return _by_obspy("MSEED", encoding="FLOAT32")
-
-
-def sac() -> bytes:
-    return _by_obspy("SAC")
-
-
-def _by_obspy(form: str, **options) -> bytes:
-    import obspy
-
+def by_obspy(form: str, values: np.ndarray | None = None, **options) -> bytes:
+    """The content of a file that obspy writes: of `values`, or of what every sample file holds."""
     header = {"network": "XX", "station": "MADE", "channel": "HNE", "delta": STEP}
-    stream = obspy.Stream([obspy.Trace(TRUE.astype(np.float32), header=header)])
     written = io.BytesIO()
-    stream.write(written, format=form, **options)
+    trace = obspy.Trace(TRUE.astype(np.float32) if values is None else values, header)
+    trace.write(written, format=form, **options)
     return written.getvalue()
 
 
@@ -382,8 +371,8 @@ MADE: dict[str, tuple[Callable[..., str], float, Options]] = {
 what the caller declares)."""
 
 MADE_BINARY: dict[str, tuple[Callable[[], bytes], float, Options]] = {
-    "miniSEED": (miniseed, 1e-7, Options(unit="m/s2")),
-    "SAC": (sac, 1e-7, Options(unit="m/s2")),
+    "miniSEED": (lambda: by_obspy("MSEED", encoding="FLOAT32"), 1e-7, Options(unit="m/s2")),
+    "SAC": (lambda: by_obspy("SAC"), 1e-7, Options(unit="m/s2")),
     "Kinemetrics EVT": (evt, 2e-6, Options()),
 }
 """The same for formats that are no text."""
@@ -399,3 +388,14 @@ MADE_REFUSED: dict[str, tuple[str, str]] = {
 def format_of(label: str) -> str:
     """Return the name of the format of a label in MADE."""
     return label.partition(":")[0]
+
+
+def content_of(label: str) -> bytes:
+    """Return the content of the file of a label in MADE or MADE_BINARY."""
+    made = (MADE | MADE_BINARY)[label][0]()
+    return made if isinstance(made, bytes) else made.encode("latin-1")
+
+
+def read_text(text: str, options: Options | None = None, **declared) -> list[Accelerogram]:
+    """Return the channels read from `text`, with what the caller declares."""
+    return read_content(text.encode("latin-1"), "made", options or Options(**declared))

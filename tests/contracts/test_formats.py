@@ -1,7 +1,6 @@
 """The formats as promised: one reader reads each real file of the manifest rightly, or refuses it by name."""
 
 import csv
-import re
 from pathlib import Path
 
 import numpy as np
@@ -19,9 +18,9 @@ pytestmark = pytest.mark.real_records
 REFUSED = {"VT2": "velocity", "V3": "spectra", "xml": "StationXML"}
 """Files that hold no acceleration, by the end of their name, and the word by which they are refused."""
 
-TRUNCATED = ("HEC000_truncated.AT2", "HEC090_truncated.AT2", "KOBE_NS1_wrong_header.AT2")
-
-
+TRUNCATED = {"HEC000_truncated.AT2": (4531, 1621), "HEC090_truncated.AT2": (4531, 275),
+             "KOBE_NS1_wrong_header.AT2": (10102, 2567)}  # fmt: skip
+"""File → samples that it declares, and that it holds."""
 SERIES_STEP = {"Cosmos12TimeSeriesTest.v1": 0.01, "us1000hyfh_akbmrp_AKBMR--n.1000hyfh.BNZ.--.acc.V2c": 0.005}
 """Step of a resampled COSMOS series, s: the manifest lists the recorder's. The same headers state lengths of 70 and
 210 s and peaks at 27.85 and 76.215 s, where 7000 and 42000 samples have them with these steps alone."""
@@ -38,24 +37,14 @@ def declared(row: dict[str, str]) -> dict:
     return {}
 
 
-def time_series(manifest: list[dict[str, str]]) -> dict[str, list[dict[str, str]]]:
-    """Return the rows of each file that holds acceleration and is whole."""
+@pytest.fixture(scope="module")
+def series(real_records: Path, manifest) -> dict[str, tuple[list[dict[str, str]], list[Accelerogram]]]:
+    """File → its rows, and what is read from it, of each that holds acceleration and is whole."""
     files: dict[str, list[dict[str, str]]] = {}
     for row in manifest:
-        if row["file"].endswith(tuple(REFUSED)) or Path(row["file"]).name in TRUNCATED:
-            continue
-        files.setdefault(row["file"], []).append(row)
-    return files
-
-
-Series = dict[str, tuple[list[dict[str, str]], list[Accelerogram]]]
-
-
-@pytest.fixture(scope="module")
-def series(real_records: Path, manifest: list[dict[str, str]]) -> Series:
-    """File → its rows, and what is read from it."""
-    files = time_series(manifest).items()
-    return {file: (rows, read(real_records / file, **declared(rows[0]))) for file, rows in files}
+        if not row["file"].endswith((*REFUSED, *TRUNCATED)):
+            files.setdefault(row["file"], []).append(row)
+    return {file: (rows, read(real_records / file, **declared(rows[0]))) for file, rows in files.items()}
 
 
 def test_every_channel_agrees_with_the_manifest(series) -> None:
@@ -98,12 +87,9 @@ def test_what_is_not_acceleration_is_refused_by_name(real_records: Path, manifes
             read(real_records / file)
 
 
-@pytest.mark.parametrize(("name", "declared_samples", "held"), [
-    ("HEC000_truncated.AT2", 4531, 1621),
-    ("HEC090_truncated.AT2", 4531, 275),
-    ("KOBE_NS1_wrong_header.AT2", 10102, 2567),
-])  # fmt: skip
-def test_broken_files_are_refused(real_records: Path, name: str, declared_samples: int, held: int) -> None:
+@pytest.mark.parametrize("name", TRUNCATED)
+def test_broken_files_are_refused(real_records: Path, name: str) -> None:
+    declared_samples, held = TRUNCATED[name]
     with pytest.raises(RecordError, match=f"{name}.*{declared_samples} samples.*holds {held}"):
         read(real_records / "broken_samples" / name)
 
@@ -125,16 +111,10 @@ WARNED = {
 
 def test_no_real_file_is_warned_of_without_reason(series) -> None:
     for file, (_, records) in series.items():
-        known = WARNED.get(Path(file).name)
-        told = {sentence for record in records for sentence in record.warnings}
-        assert all(known and re.search(known, sentence) for sentence in told), (file, told)
-
-
-def test_units_declared_wrongly_are_stopped_with_the_factor(real_records: Path) -> None:
-    (record,) = read(real_records / "broken_samples" / "RSN4083_header_lost.AT2", unit="g", time_step=0.005)
-    gal = "\n".join(f"{100 * value:.6e}" for value in record.acceleration)
-    with pytest.raises(RecordError, match=r"above the 5 g .*980\.665 \(cm/s² against g\)"):
-        read_content(gal.encode(), "made.txt", Options(unit="g", time_step=0.005))
+        words = WARNED.get(Path(file).name, "no warning").split("|")
+        sentences = {sentence for record in records for sentence in record.warnings}
+        assert all(any(word in sentence for word in words) for sentence in sentences), (file, sentences)
+        assert words == ["no warning"] or all(word in "".join(sentences) for word in words), (file, sentences)
 
 
 def test_rinaldi_velocity_is_peers_own(real_records: Path) -> None:

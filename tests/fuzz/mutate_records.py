@@ -10,6 +10,7 @@ share of the real ones.
 """
 
 import argparse
+import csv
 import os
 import random
 import re
@@ -59,25 +60,21 @@ def made() -> list[Whole]:
     values = 0.9 * np.sin(7 * times) * np.exp(-((times - 2) ** 2)) + 0.01 * np.sin(61 * times)
     every = made_files.MADE | made_files.MADE_BINARY
     with patch.multiple(made_files, N=SAMPLES, TRUE=values):
-        contents = {label: make() for label, (make, _, _) in every.items()}
-    return [
-        Whole(label, text if isinstance(text, bytes) else text.encode("latin-1"), every[label][2])
-        for label, text in contents.items()
-    ]
+        return [Whole(label, made_files.content_of(label), every[label][2]) for label in every]
 
 
 def real(folder: Path) -> list[Whole]:
-    """Return the smaller real files, one or two of each format."""
-    from test_formats_mutation import SMALL
+    """Return the smallest real file of each format in the manifest of `folder`, of those that can be read."""
+    from test_formats import REFUSED, TRUNCATED, declared
 
-    declared = {".sac": "g", ".th": "g", ".txt": "m/s2"}
-    found = []
-    for name in SMALL:
-        path = folder / name
-        unit = declared.get(path.suffix) if "afad" not in name else None
-        step = 0.005 if path.suffix == ".th" else None
-        found.append(Whole(name, path.read_bytes(), Options(unit=unit, time_step=step, folder=path.parent)))
-    return found
+    with (folder / "manifest.tsv").open(encoding="utf-8") as stream:
+        rows = sorted(csv.DictReader(stream, delimiter="\t"), key=lambda row: -int(row["size"]))
+    small = {row["format"]: row for row in rows if not row["file"].endswith((*REFUSED, *TRUNCATED))}
+    paths = {folder / row["file"]: declared(row) for row in small.values()}
+    return [
+        Whole(path.name, path.read_bytes(), Options(folder=path.parent, **more))
+        for path, more in paths.items()
+    ]
 
 
 def repeat_line(content: bytes, dice: random.Random) -> bytes:
@@ -112,19 +109,14 @@ def cut_bytes(content: bytes, dice: random.Random) -> bytes:
     return content[:at] + content[at + dice.randint(1, 200) :]
 
 
-def truncate(content: bytes, dice: random.Random) -> bytes:
-    """Lose the end."""
-    return content[: dice.randrange(1, len(content))]
-
-
-def append(content: bytes, dice: random.Random) -> bytes:
-    """Append the file to itself."""
-    return content + content
-
-
 KINDS: Mapping[str, Callable[[bytes, random.Random], bytes]] = {
-    function.__name__: function
-    for function in (repeat_line, drop_line, swap_lines, flip_digit, cut_bytes, truncate, append)
+    "repeat_line": repeat_line,
+    "drop_line": drop_line,
+    "swap_lines": swap_lines,
+    "flip_digit": flip_digit,
+    "cut_bytes": cut_bytes,
+    "truncate": lambda content, dice: content[: dice.randrange(1, len(content))],
+    "append": lambda content, dice: 2 * content,
 }
 
 
