@@ -3,6 +3,7 @@
 import csv
 import hashlib
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -81,21 +82,34 @@ class SmallStudy:
         inherited = {name: value for name, value in os.environ.items() if name not in ("COLUMNS", "LINES")}
         return {"cwd": self.folder, "env": inherited | {"PYTHONPATH": str(self.tree)}}
 
-    def run(self, *options: str) -> subprocess.CompletedProcess[str]:
-        """Run snakemake on this study; its output and errors as one text."""
-        return subprocess.run(
-            self.command(*options),
-            timeout=900, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-            **self.surroundings,
-        )  # fmt: skip
+    def run(self, *options: str, status: int = 0) -> str:
+        """Run snakemake on this study, which must end with `status`; its output and errors as one text."""
+        streams = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+        done = subprocess.run(
+            self.command(*options), timeout=900, check=False, **streams, **self.surroundings
+        )
+        assert done.returncode == status, done.stdout
+        return done.stdout
 
-    def rocking(self, *arguments: str, before: Sequence[str] = ()) -> subprocess.CompletedProcess[str]:
-        """Run the command rocking of this tree, from a folder that is not the study's; before: what starts it."""
+    def planned(self, *options: str) -> list[str]:
+        """The kinds of jobs in the table that snakemake prints before a run, without the target."""
+        table = self.run("--dry-run", *options).partition("Job stats:")[2].partition("\ntotal ")[0]
+        return sorted(re.findall(r"(?m)^(assess|summarise|report|trade|fragility)(?:_\w+)? +\d+ *$", table))
+
+    def rocking(
+        self, *arguments: str, before: Sequence[str] = (), status: int = 0
+    ) -> subprocess.CompletedProcess[str]:
+        """Run the command rocking of this tree, from a folder that is not the study's; it must end with `status`.
+
+        before: what starts it.
+        """
         command = [*before, sys.executable, "-m", "rocking.study.cli", *arguments]
         surroundings = self.surroundings | {"cwd": self.tree}
-        return subprocess.run(
+        done = subprocess.run(
             command, timeout=900, check=False, capture_output=True, text=True, **surroundings
         )
+        assert done.returncode == status, done.stdout + done.stderr
+        return done
 
     def tables(self) -> dict[str, bytes]:
         """The bytes of every file of the results that must not differ between runs, by path."""
@@ -167,8 +181,7 @@ def start(tree: Path, tmp_path_factory: pytest.TempPathFactory) -> SmallStudy:
 def finished(start: SmallStudy, tmp_path_factory: pytest.TempPathFactory) -> SmallStudy:
     """The same study after an undisturbed run; copy it before changing anything."""
     study = start.copy_to(tmp_path_factory.mktemp("finished") / "study")
-    done = study.run()
-    assert done.returncode == 0, done.stdout
+    study.run()
     return study
 
 

@@ -20,7 +20,7 @@ BROKEN = {
     "cut_off": ({"content": _at2("NPTS=   200, DT= 0.01 SEC", GOOD_VALUES)}, "200"),
     "not_a_number": ({"content": _at2("NPTS=   100, DT= 0.01 SEC", "NaN " + GOOD_VALUES[5:])}, "NaN"),
     "time_stands_still": ({"content": _at2("NPTS=   100, DT= 0.00 SEC", GOOD_VALUES)}, "time_step is 0"),
-    "no_unit": ({"content": b"0.00 0.1\n0.01 0.2\n0.02 -0.1\n" * 1 + b"0.03 0.1\n", "unit": ""}, "unit"),
+    "no_unit": ({"content": b"0.00 0.1\n0.01 0.2\n0.02 -0.1\n0.03 0.1\n", "unit": ""}, "unit"),
     "another_version": ({"content": GOOD, "sha256": "0" * 64}, "sha256"),
     "lost_file": ({"content": b"", "file": "nobody_has_it.AT2"}, "nobody_has_it"),
     "no_such_component": ({"content": GOOD, "component": "X;Y"}, "component"),
@@ -37,8 +37,7 @@ def with_broken(start, tmp_path_factory: pytest.TempPathFactory):
     study = start.copy_to(tmp_path_factory.mktemp("broken") / "study")
     for name, (cells, _) in BROKEN.items():
         study.add(name, **cells)
-    done = study.run("--config", "records_per_job=4")
-    assert done.returncode == 0, done.stdout
+    study.run("--config", "records_per_job=4")
     return study
 
 
@@ -49,8 +48,7 @@ def test_each_broken_record_is_one_row_that_says_why(with_broken) -> None:
     for name, (_, word) in BROKEN.items():
         message = rows[name]["message"]
         assert rows[name]["stage"] == "read"
-        assert any(part.lower() in message.lower() for part in word.split("|")), message
-        assert "Traceback" not in message and "\n" not in message
+        assert word.lower() in message.lower() and "Traceback" not in message and "\n" not in message, message
 
 
 def test_broken_records_change_no_byte_of_the_good_ones(with_broken, finished) -> None:
@@ -69,42 +67,36 @@ def test_bad_input_is_refused_at_once_before_anything_is_written(start, tmp_path
     structures.write_text(structures.read_text().replace("thickness_m", "thicknes_m"))
     with (study.folder / "config.yaml").open("a") as stream:
         stream.write("tollerance: 1.0e-5\n")
-    done = study.run()
-    assert done.returncode != 0
+    told = study.run(status=1)
     for named in ("good_1", "../outside", "a/b", "thicknes_m", "thickness_m", "tollerance"):
-        assert named in done.stdout, f"{named} is not named in\n{done.stdout}"
+        assert named in told, f"{named} is not named in\n{told}"
     assert not study.results.exists()
     assert not (tmp_path / "outside").exists()
 
 
-def test_a_full_disk_is_said_and_leaves_nothing_half_written(
-    finished, start, tmp_path: Path, small_disk
-) -> None:
+def test_a_full_disk_is_said_and_leaves_nothing_half_written(finished, start, tmp_path, small_disk) -> None:
     study = start.copy_to(tmp_path / "study")
     study.keep("good_1")
     study.results.mkdir()
     with small_disk(study.results, "24k") as enlarge:
-        done = study.run()
-        assert done.returncode != 0
-        assert "No space left on device; mend that, then start again." in done.stdout
+        assert "No space left on device; mend that, then start again." in study.run(status=1)
         assert not study.unfinished()
         expected = finished.rows_of("good_1")
         assert study.rows_of("good_1").items() <= expected.items()
         enlarge("50m")
-        done = study.run()
-        assert done.returncode == 0, done.stdout
+        study.run()
         assert study.rows_of("good_1") == expected
         assert (study.results / "summary" / "record.csv").read_text().count("\n") == 2, "head and one record"
 
 
 def test_a_limit_on_the_size_of_files_is_said_and_leaves_nothing_half_written(
-    finished, start, tmp_path: Path
+    finished, start, tmp_path
 ) -> None:
     """Of 6 kB, in blocks of 512 bytes: a job of three records writes more than that into one table."""
     study = start.copy_to(tmp_path / "study")
-    done = study.rocking("run", str(study.folder), before=("sh", "-c", 'ulimit -f 12; exec "$@"', "sh"))
-    assert done.returncode == 1 and "File too large; mend that, then start again." in done.stdout, done.stdout
+    limit = ("sh", "-c", 'ulimit -f 12; exec "$@"', "sh")
+    done = study.rocking("run", str(study.folder), before=limit, status=1)
+    assert "File too large; mend that, then start again." in done.stdout
     assert not study.unfinished()
-    again = study.rocking("run", str(study.folder))
-    assert again.returncode == 0, again.stdout + again.stderr
+    study.rocking("run", str(study.folder))
     assert study.tables() == finished.tables()

@@ -7,30 +7,14 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
 
 KILLS = int(os.environ.get("ROCKING_KILLS", "1"))
 """How many runs are killed; ROCKING_KILLS=20 takes some minutes."""
-
-
-def _started(study, *command: str) -> subprocess.Popen[str]:
-    """A run of the study in a process group of its own: by `rocking run`, or by another command."""
-    ours = (sys.executable, "-m", "rocking.study.cli", "run", str(study.folder))
-    surroundings = study.surroundings | {"cwd": study.tree}
-    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
-    return subprocess.Popen(command or ours, start_new_session=True, **streams, **surroundings)
-
-
-def _wait(condition: Callable[[], object], process: subprocess.Popen[str]) -> None:
-    deadline = time.monotonic() + 300
-    while not condition():
-        assert process.poll() is None, process.communicate()[0]
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
 
 
 def _jobs_run(study) -> bool:
@@ -41,12 +25,28 @@ def _record_is_done(study) -> bool:
     return any(log.stat().st_size for log in study.results.glob("summary/logs/assess_*.log"))
 
 
-def _kill_all(process: subprocess.Popen[str]) -> None:
-    """Kill the command and all its jobs, as a power cut would."""
-    with suppress(ProcessLookupError):
-        os.killpg(process.pid, signal.SIGKILL)
-    process.wait(timeout=100)
-    process.stdout.close()
+@contextmanager
+def _started(study, *command: str, until: Callable[..., bool] = _jobs_run) -> Iterator[subprocess.Popen[str]]:
+    """A run in a process group of its own, by `rocking run` or another command, from `until` on.
+
+    In the end the command and all its jobs are killed, as a power cut would.
+    """
+    ours = (sys.executable, "-m", "rocking.study.cli", "run", str(study.folder))
+    surroundings = study.surroundings | {"cwd": study.tree}
+    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    process = subprocess.Popen(command or ours, start_new_session=True, **streams, **surroundings)
+    try:
+        deadline = time.monotonic() + 300
+        while not until(study):
+            assert process.poll() is None, process.communicate()[0]
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+        yield process
+    finally:
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait(timeout=100)
+        process.stdout.close()
 
 
 ON_DEMAND = pytest.mark.slow
@@ -63,9 +63,7 @@ ON_DEMAND = pytest.mark.slow
 )
 def test_one_request_to_stop_ends_in_order(start, tmp_path: Path, number: int, everybody: bool) -> None:
     study = start.copy_to(tmp_path / "study")
-    process = _started(study)
-    try:
-        _wait(lambda: _jobs_run(study), process)
+    with _started(study) as process:
         (os.killpg if everybody else os.kill)(process.pid, number)
         told = process.communicate(timeout=300)[0]
         assert process.returncode == 128 + number, told
@@ -73,8 +71,6 @@ def test_one_request_to_stop_ends_in_order(start, tmp_path: Path, number: int, e
         assert not study.unfinished() and not (study.results / "summary" / "provenance.json").exists()
         with pytest.raises(ProcessLookupError):
             os.killpg(process.pid, 0)
-    finally:
-        _kill_all(process)
 
 
 def test_after_a_kill_the_same_command_goes_on_to_the_same_bytes(finished, start, tmp_path: Path) -> None:
@@ -82,39 +78,24 @@ def test_after_a_kill_the_same_command_goes_on_to_the_same_bytes(finished, start
     moment = random.Random(8)
     for number in range(KILLS):
         study = start.copy_to(tmp_path / f"study_{number}")
-        process = _started(study)
-        try:
-            _wait(lambda study=study: _jobs_run(study), process)
+        with _started(study):
             time.sleep(moment.uniform(0, 5) if number else 0)
-        finally:
-            _kill_all(process)
         expected = finished.tables()
         assert {path: expected[path] for path in study.tables()} == study.tables(), "half-written"
         again = study.rocking("run", str(study.folder))
-        assert again.returncode == 0, again.stdout + again.stderr
         assert study.tables() == expected and not study.unfinished()
-        _check_verdicts(again.stdout, 0 if number else 3)
-
-
-def _check_verdicts(told: str, at_least: int) -> None:
-    """Each record that was computed has a line with both structures in it."""
-    records = [line for line in told.splitlines() if line.startswith("good_")]
-    assert at_least <= len(records) <= 3
-    for line in records:
-        assert "block" in line and "wall" in line
-        assert any(f"{word}: " in line for word in ("overturns", "undecided", "stands"))
+        records = [line for line in again.stdout.splitlines() if line.startswith("good_")]
+        assert (0 if number else 3) <= len(records) <= 3, "each record that was computed has a line"
+        for line in records:
+            assert "block" in line and "wall" in line
+            assert any(f"{word}: " in line for word in ("overturns", "undecided", "stands"))
 
 
 def test_a_run_waits_for_the_jobs_of_one_whose_scheduler_alone_was_killed(start, tmp_path: Path) -> None:
     study = start.copy_to(tmp_path / "study")
-    process = _started(study)
-    try:
-        _wait(lambda: _jobs_run(study), process)
+    with _started(study) as process:
         process.kill()
-        again = study.rocking("run", str(study.folder))
-        assert again.returncode == 0, again.stdout + again.stderr
-    finally:
-        _kill_all(process)
+        study.rocking("run", str(study.folder))
     assert not study.unfinished()
 
 
@@ -124,19 +105,13 @@ def test_a_run_waits_for_the_jobs_of_one_whose_scheduler_alone_was_killed(start,
 def test_a_second_run_is_locked_out_and_harms_nothing(finished, tmp_path: Path, otherwise: bool) -> None:
     study = finished.copy_to(tmp_path / "study")
     study.forget("good_3")
-    first = _started(study, *(study.command() if otherwise else ()))
-    try:
-        _wait(lambda: _jobs_run(study), first)
+    with _started(study, *(study.command() if otherwise else ())) as first:
         os.killpg(first.pid, signal.SIGSTOP)  # on a slow machine it would end before the others begin
-        second = study.rocking("run", str(study.folder))
-        assert second.returncode == 1
+        second = study.rocking("run", str(study.folder), status=1)
         assert "another run works in this study" in second.stderr
-        third = study.run()
-        assert third.returncode == 1 and "another run works in this study" in third.stdout
+        assert "another run works in this study" in study.run(status=1)
         os.killpg(first.pid, signal.SIGCONT)
         first.communicate(timeout=600)
-    finally:
-        _kill_all(first)
     assert first.returncode == 0
     assert study.tables() == finished.tables()
 
@@ -169,17 +144,12 @@ def test_a_folder_that_fails_midway_is_said_and_the_same_command_goes_on(
         if not shutil.which("setpriv"):
             pytest.skip("root writes everywhere, and setpriv is not installed to take that from it")
         command = ["setpriv", "--bounding-set=-dac_override", *command]
-    process = _started(study, *command)
-    try:
-        _wait(lambda: _record_is_done(study), process)
+    with _started(study, *command, until=_record_is_done) as process:
         harm(study.folder / name)
         told = process.communicate(timeout=300)[0]
-    finally:
-        _kill_all(process)
-        mend(study.folder / name)
+    mend(study.folder / name)
     assert process.returncode == 1 and words in told and "failed, wholly or in part" not in told, told
-    again = study.rocking("run", str(study.folder))
-    assert again.returncode == 0, again.stdout + again.stderr
+    study.rocking("run", str(study.folder))
     assert not study.unfinished()
     for record in ("good_1", "good_2", "good_3"):
         assert study.rows_of(record) == finished.rows_of(record)

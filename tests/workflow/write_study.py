@@ -14,33 +14,23 @@ from rocking.records.synthetic import SyntheticRecord, at2_text
 ROOT = Path(__file__).parents[2]
 
 
-def recipe(number: int, duration: float, time_step: float) -> SyntheticRecord:
-    """The recipe of one record: pulse of 0.1 to 0.6 g and 0.4 to 2 s in noise of 0.2 g, drawn by its number."""
-    amplitude, period = np.random.RandomState(number).uniform((0.1, 0.4), (0.6, 2.0))
-    return SyntheticRecord(
-        name=f"synthetic_{number:05d}",
-        seed=number,
-        pulse_amplitude=amplitude * GRAVITY,
-        pulse_period=period,
-        pulse_start=0.2 * duration,
-        noise_peak=0.2 * GRAVITY,
-        duration=duration,
-        time_step=time_step,
-    )
-
-
 def write_study(folder: Path, records: int, duration: float = 20.0, time_step: float = 0.01) -> None:
     """Write a study of synthetic records with the shipped settings and structures, without reports.
 
-    duration and time_step: of each record, s.
+    Each holds a pulse of 0.1 to 0.6 g and 0.4 to 2 s, drawn by its number, in noise of 0.2 g. duration and time_step:
+    of each record, s.
     """
     (folder / "records").mkdir(parents=True)
     rows = []
     for number in range(records):
-        made = recipe(number, duration, time_step)
-        content = at2_text(made).encode()
-        (folder / "records" / f"{made.name}.AT2").write_bytes(content)
-        rows.append((made.name, f"{made.name}.AT2", "g", hashlib.sha256(content).hexdigest()))
+        name = f"synthetic_{number:05d}"
+        amplitude, period = np.random.RandomState(number).uniform((0.1, 0.4), (0.6, 2.0))
+        strengths = {"pulse_amplitude": amplitude * GRAVITY, "noise_peak": 0.2 * GRAVITY}
+        times = {"pulse_start": 0.2 * duration, "duration": duration, "time_step": time_step}
+        recipe = SyntheticRecord(name, number, pulse_period=period, **strengths, **times)
+        content = at2_text(recipe).encode()
+        (folder / "records" / f"{name}.AT2").write_bytes(content)
+        rows.append((name, f"{name}.AT2", "g", hashlib.sha256(content).hexdigest()))
     with (folder / "records" / "catalogue.csv").open("w", encoding="utf-8", newline="") as stream:
         csv.writer(stream).writerows([("id", "file", "unit", "sha256"), *rows])
     shipped = yaml.safe_load((ROOT / "workflow" / "config.yaml").read_text(encoding="utf-8"))

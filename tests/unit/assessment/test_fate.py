@@ -5,42 +5,13 @@ import math
 import pytest
 
 from rocking.assessment.fate import fates
-from rocking.assessment.rows.of_record import ComparisonRow, EnsembleRow, FailureRow
 from rocking.assessment.verdict import Verdict
-from rocking.structures import Outcome
-
-
-def case(component: str, ratio: float, **more: object) -> ComparisonRow:
-    ratios = {"integrated_rotation_ratio": ratio, "answer_outcome": Outcome.at(ratio)}
-    whose = {"record": "a", "structure": "pier", "component": component, "answer_reason": ""}
-    return ComparisonRow(**dict.fromkeys(ComparisonRow.table.column_names) | whose | ratios | more)
-
-
-def ensemble(component: str, verdict: Verdict, overturning: int, members: int = 64) -> EnsembleRow:
-    values = {
-        "record": "a",
-        "structure": "pier",
-        "component": component,
-        "verdict": verdict,
-        "overturning_members": overturning,
-        "members": members,
-        "overturning_share": overturning / members,
-        "rotation_ratio_high": 0.5,
-    }
-    return EnsembleRow(**dict.fromkeys(EnsembleRow.table.column_names) | values)
-
-
-def failure(component: str, structure: str = "pier") -> FailureRow:
-    return FailureRow(record="a", component=component, structure=structure, stage="responses", message="No.")
+from tests.unit.assessment.made_rows import case, ensemble, failure
 
 
 @pytest.mark.parametrize(
     ("ratios", "verdict"),
-    [
-        ([0.97], Verdict.STANDS),
-        ([math.inf], Verdict.OVERTURNS),
-        ([0.2, math.inf], Verdict.OVERTURNS),
-    ],
+    [([0.97], Verdict.STANDS), ([math.inf], Verdict.OVERTURNS), ([0.2, math.inf], Verdict.OVERTURNS)],
 )
 def test_without_an_ensemble_the_single_run_of_the_worst_component_decides(ratios, verdict):
     cases = [case(str(place), ratio, peak_side=place) for place, ratio in enumerate(ratios)]

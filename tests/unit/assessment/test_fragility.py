@@ -1,4 +1,4 @@
-"""Fragility: fits against scipy's own maximum, intervals against known truths, curves against responses one by one."""
+"""Fragility: fits against scipy's maximum, intervals against known truths, rates against a closed form."""
 
 import math
 import statistics
@@ -11,9 +11,9 @@ from scipy.stats import beta, norm
 
 import rocking
 from rocking.assessment.ensemble import drawn
-from rocking.assessment.fragility import IncrementalDynamicAnalysis, fragility, fragility_of
+from rocking.assessment.fragility import Fragility, IncrementalDynamicAnalysis, fragility, fragility_of
 from rocking.assessment.intensity import INTENSITY_MEASURES
-from rocking.assessment.rows.of_fragility import ida_rows
+from rocking.assessment.rows.of_fragility import HazardRow, annual_rate, ida_rows
 from rocking.assessment.settings import EnsembleSettings
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
@@ -35,6 +35,16 @@ PEAK = int(_record(0.9, "").acceleration.argmax())
 RECORDS = [_record(period, f"{k // 2}") for k, period in enumerate((0.6, 0.7, 0.9, 1.0, 1.3, 1.5))]
 
 
+def _names(count: int) -> list[str]:
+    return [str(k) for k in range(count)]
+
+
+def _counted(levels: list[float], shares: list[float], stations: int) -> Fragility:
+    """The curve of records, one a station, of which the first `shares` overturn."""
+    exceedance = np.arange(stations)[:, None] < stations * np.array(shares)
+    return fragility_of(np.array(levels), exceedance.astype(float), _names(stations))
+
+
 def test_the_fit_is_the_maximum_that_scipy_finds():
     rng = np.random.default_rng(3)
     for _ in range(4):
@@ -45,7 +55,7 @@ def test_the_fit_is_the_maximum_that_scipy_finds():
             return -(over * norm.logcdf(eta) + (1 - over) * norm.logsf(eta)).sum()
 
         best = minimize(negative, (0.0, -1.0), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-12})
-        curve = fragility_of(LEVELS, over, [str(k) for k in range(12)])
+        curve = fragility_of(LEVELS, over, _names(12))
         # The likelihood is flat to its rounding within the root of the machine precision of the best.
         assert curve.lognormal_median == pytest.approx(math.exp(best.x[0]), rel=1e-6)
         assert curve.dispersion == pytest.approx(math.exp(best.x[1]), rel=1e-6)
@@ -75,13 +85,11 @@ def test_the_intervals_cover_a_known_curve():
 
 def test_a_curve_that_is_no_lognormal_has_the_median_of_the_rising_curve_beside_it():
     """Half fall at 0.5 and stand again up to 1.5: pooled over the levels of the dip, the curve is one half there."""
-    levels = np.array([0.25, 0.5, 1.0, 2.0, 4.0])
-    share = np.array([0.0, 0.8, 0.3, 0.9, 1.0])
-    exceedance = (np.arange(20)[:, None] < 20 * share).astype(float)
-    curve = fragility_of(levels, exceedance, [str(k) for k in range(20)])
+    levels, share = [0.25, 0.5, 1.0, 2.0, 4.0], [0.0, 0.8, 0.3, 0.9, 1.0]
+    curve = _counted(levels, share, 20)
     # isotonic: 0, 0.55, 0.55, 0.9, 1; one half lies at 0.5/0.55 of the octave from 0.25 to 0.5
     assert curve.median == pytest.approx(0.25 * 2 ** (0.5 / 0.55), rel=1e-12)
-    lognormal = norm.cdf(np.log(levels / curve.lognormal_median) / curve.dispersion)
+    lognormal = norm.cdf(np.log(curve.levels / curve.lognormal_median) / curve.dispersion)
     assert curve.misfit == pytest.approx(np.abs(share - lognormal).max(), rel=1e-9)
     assert (curve.reversals > 0).sum() == 10
 
@@ -90,13 +98,6 @@ def test_a_record_overturns_at_a_level_where_more_than_half_of_its_members_do():
     shares = np.array([[0.6, 0.5, 0.6], [0.5, 0.4, 0.5], [0.6, 0.7, 0.4]])
     curve = fragility_of(np.array([1.0, 2.0, 3.0]), shares, list("abc"))
     assert curve.reversals.tolist() == [1, 0, 1]
-
-
-def test_a_station_weighs_as_one_whatever_its_records():
-    """Ten records of one station that always overturn change the share by one station, not by ten."""
-    exceedance = np.vstack([np.ones((10, 3)), np.zeros((3, 3))])
-    curve = fragility_of(np.array([1.0, 2.0, 3.0]), exceedance, ["a"] * 10 + ["b", "c", "d"])
-    assert curve.probability.tolist() == [0.25] * 3
 
 
 def test_outcomes_are_those_of_single_responses():
@@ -134,9 +135,8 @@ def test_a_case_without_an_answer_counts_as_one_that_falls_and_costs_no_other(en
         made = drawn(structure, motions, *more, **how)
         (motion,) = motions.horizontal.values()
         lost = np.isclose(motion.acceleration, motion.acceleration.max()).argmax() == PEAK
-        return replace(
-            made, rotation_ratios=np.where(lost & (np.arange(16) == 3), np.nan, made.rotation_ratios)
-        )
+        ratios = np.where(lost & (np.arange(16) == 3), np.nan, made.rotation_ratios)
+        return replace(made, rotation_ratios=ratios)
 
     monkeypatch.setattr("rocking.assessment.fragility.integrate_batch", failing_batch)
     monkeypatch.setattr("rocking.assessment.fragility.drawn", failing_members)
@@ -148,10 +148,9 @@ def test_a_case_without_an_answer_counts_as_one_that_falls_and_costs_no_other(en
 def test_members_make_shares_of_the_outcomes():
     levels = np.geomspace(0.2, 2, 12)
     plain = fragility(RECORDS, BLOCK, levels=levels)
-    fixed = EnsembleSettings(amplitude_range=0.0, restitution_range=0.0)
-    assert np.array_equal(
-        fragility(RECORDS, BLOCK, levels=levels, ensemble=fixed).exceedance, plain.exceedance
-    )
+    settings = EnsembleSettings(amplitude_range=0.0, restitution_range=0.0)
+    fixed = fragility(RECORDS, BLOCK, levels=levels, ensemble=settings)
+    assert np.array_equal(fixed.exceedance, plain.exceedance)
     spread = fragility(RECORDS, BLOCK, levels=levels, ensemble=EnsembleSettings(amplitude_range=0.3))
     assert ((spread.exceedance > 0) & (spread.exceedance < 1)).any()
 
@@ -201,9 +200,8 @@ def test_bad_input_is_one_sentence(changed, sentence):
 
 def test_a_record_without_the_measure_is_named():
     still = Accelerogram(np.zeros(400), STEP, station="still")
-    with pytest.raises(
-        ConfigurationError, match=r"still has a pgv of 0\.0, but must have one greater than 0"
-    ):
+    sentence = r"still has a pgv of 0\.0, but must have one greater than 0"
+    with pytest.raises(ConfigurationError, match=sentence):
         fragility([*RECORDS, still], BLOCK)
 
 
@@ -221,34 +219,58 @@ def test_a_record_without_the_measure_is_named():
 def test_the_median_is_linear_in_the_logarithm_between_two_levels_and_the_middle_of_a_flat_half(
     share, median
 ):
-    exceedance = (np.arange(20)[:, None] < 20 * np.array(share)).astype(float)
-    curve = fragility_of(np.array([1.0, 2.0, 4.0, 8.0]), exceedance, [str(k) for k in range(20)])
+    curve = _counted([1.0, 2.0, 4.0, 8.0], share, 20)
     assert curve.median == pytest.approx(median, rel=1e-12)
     assert math.isinf(curve.interval[1]) == math.isinf(median) and curve.interval[0] >= 1.0
 
 
 def test_the_interval_of_a_share_is_that_of_jeffreys_for_the_scatter_of_the_stations():
-    """6 of 20 stations: their shares scatter by p(1 − p) n/(n − 1), as those of n − 1 independent records."""
-    exceedance = (np.arange(20)[:, None] < np.array([6, 14])).astype(float)
-    curve = fragility_of(np.array([1.0, 2.0]), exceedance, [str(k) for k in range(20)])
-    for place, share in enumerate((0.3, 0.7)):
-        ends = beta.ppf((0.05, 0.95), 19 * share + 0.5, 19 * (1 - share) + 0.5)
-        assert (curve.probability_low[place], curve.probability_high[place]) == pytest.approx(
-            tuple(ends), rel=1e-9
-        )
+    """Of n stations, one record each, the shares scatter as those of n − 1 independent records.
 
-
-def test_stations_count_as_half_to_twice_as_many_independent_records_whatever_their_scatter():
-    """Four stations that nearly agree on a share; and one tried with all its records beside nine with a tenth."""
+    But all count as half to twice as many as they are: four that nearly agree, and one tried with all its records
+    beside nine with a tenth, which weigh a tenth.
+    """
     agreeing = np.array([[0.24, 1.0], [0.25, 1.0], [0.25, 1.0], [0.26, 1.0]])
     unlike = np.full((91, 2), np.nan)
     unlike[0], unlike[1::10] = 1.0, 0.0
     names = ["first", *(f"{k // 10}" for k in range(90))]
-    for exceedance, stations, share, independent in (
-        (agreeing, list("abcd"), 0.25, 8),
-        (unlike, names, 1 / 1.9, 5),
+    for curve, share, independent in (
+        (_counted([1.0, 2.0], [0.3, 0.7], 20), 0.3, 19),
+        (fragility_of(np.array([1.0, 2.0]), agreeing, list("abcd")), 0.25, 8),
+        (fragility_of(np.array([1.0, 2.0]), unlike, names), 1 / 1.9, 5),
     ):
-        found = fragility_of(np.array([1.0, 2.0]), exceedance, stations)
         ends = beta.ppf((0.05, 0.95), independent * share + 0.5, independent * (1 - share) + 0.5)
-        assert found.probability[0] == pytest.approx(share, rel=1e-12)
-        assert (found.probability_low[0], found.probability_high[0]) == pytest.approx(tuple(ends), rel=1e-9)
+        assert curve.probability[0] == pytest.approx(share, rel=1e-12)
+        assert (curve.probability_low[0], curve.probability_high[0]) == pytest.approx(tuple(ends), rel=1e-9)
+
+
+def _points(levels, rates) -> list[HazardRow]:
+    return [HazardRow(intensity=level, annual_rate=rate) for level, rate in zip(levels, rates, strict=True)]
+
+
+def test_the_rate_is_that_of_the_closed_form():
+    """ν = k₀ x⁻ᵏ and a lognormal of median m and dispersion β: rate = k₀ m⁻ᵏ exp(k²β²/2) (Cornell 1996)."""
+    slope, scale, median, dispersion = 2.5, 1e-3, 1.2, 0.4
+    levels = np.geomspace(0.02, 50.0, 400)
+    thresholds = median * np.exp(dispersion * norm.ppf((np.arange(300) + 0.5) / 300))
+    curve = fragility_of(levels, (thresholds[:, None] < levels).astype(float), _names(300))
+    rates = annual_rate(curve, _points(levels[[0, -1]], scale * levels[[0, -1]] ** -slope))
+    exact = scale * median**-slope * math.exp(slope**2 * dispersion**2 / 2)
+    # Steps of 2 % in the level, half a step of lag in a curve that is counted: 2.5 x 1 % of the rate.
+    assert rates["annual_rate"] == pytest.approx(exact, rel=0.03)
+    assert rates["annual_rate_low"] < rates["annual_rate"] < rates["annual_rate_high"]
+
+
+def test_what_curve_and_hazard_leave_out_is_said():
+    """One half of a rate that occurs at and above the level where a curve ends at one half; all below the hazard."""
+    curve = _counted([1.0, 2.0], [0.0, 0.5], 200)
+    points = _points([0.5, 8.0], [0.16, 0.01])  # rate 0.08/x
+    rates = annual_rate(curve, points)
+    # above 2.0 there occurs 0.04 a year, of which the curve counts a half; the steps of the integral are 0.7 %
+    assert rates["annual_rate_remainder"] == pytest.approx(0.02, rel=0.02)
+    # the same where the hazard curve ends at the last level: all that is rarer occurs beyond it
+    ended = annual_rate(curve, _points([0.5, 2.0], [0.16, 0.04]))
+    assert ended["annual_rate_remainder"] == pytest.approx(0.02, rel=1e-9)
+    falling = fragility_of(np.array([0.1, 0.2]), np.ones((4, 2)), list("abcd"))
+    # between 0.1 and 0.5, which the hazard curve does not reach, there occurs 0.8 − 0.16
+    assert annual_rate(falling, points)["annual_rate_remainder"] == pytest.approx(0.64, rel=0.02)

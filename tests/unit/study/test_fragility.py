@@ -48,10 +48,8 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
     curves = [row for row in rows["fragility"] if row.structure == "slender" and math.isinf(row.threshold)]
     for curve in curves:
         outcomes = [row for row in rows["ida"] if row.structure == "slender" and row.level == curve.level]
-        assert (
-            curve.probability == sum(row.overturning_share for row in outcomes) / len(outcomes)
-            and len(outcomes) == 2
-        )
+        assert len(outcomes) == 2
+        assert curve.probability == sum(row.overturning_share for row in outcomes) / 2
     assert {row.records for row in rows["fragility_summary"]} == {2}
     assert {row.threshold for row in rows["fragility"]} == {0.1, 0.3, 0.5, math.inf}
     of_statics, governing = {}, {}
@@ -67,24 +65,25 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
     assert (tmp_path / "curves.pdf").read_bytes().startswith(b"%PDF")
 
 
-def test_one_station_is_refused_before_anything_is_written(tmp_path):
-    with pytest.raises(ConfigurationError, match="come from 1 station, but a fragility needs at least 2"):
-        write_fragility(_records(tmp_path, 1), _study(), tmp_path / "out")
-    assert not (tmp_path / "out").exists()
-
-
 @pytest.mark.parametrize(
-    ("hazard", "sentence"),
+    ("count", "hazard", "sentence"),
     [
-        ("intensity,annual_rate\n0.01,0.1\n10,0.2\n", "annual_rate must not rise"),
-        ("intensity,annual_rate\n10,0.1\n0.01,0.2\n", "intensity must ascend"),
-        ("intensity,annual_rate\n10,0.1\n", "must hold at least 2"),
+        (1, "", "come from 1 station, but a fragility needs at least 2"),
+        (
+            3,
+            "0.1,0.001\n0.2,0.002\n",
+            "says 0.002 a year at 0.2, more than 0.001 at 0.1, but annual_rate must not rise",
+        ),
+        (3, "0.2,0.01\n0.1,0.001\n", "holds 0.1 after 0.2, but intensity must ascend"),
+        (3, "0.1,0.01\n", "holds 1 points, but must hold at least 2"),
+        (3, "0.1,0.01\n0.2,0\n", "both must be above 0"),
     ],
 )
-def test_a_hazard_that_is_none_is_refused_before_anything_is_written(tmp_path, hazard, sentence):
-    (tmp_path / "hazard.csv").write_text(hazard)
+def test_bad_input_is_refused_before_anything_is_written(tmp_path, count, hazard, sentence):
+    (tmp_path / "hazard.csv").write_text(f"intensity,annual_rate\n{hazard}")
+    settings = {"hazard": str(tmp_path / "hazard.csv")} if hazard else {}
     with pytest.raises(ConfigurationError, match=sentence):
-        write_fragility(_records(tmp_path, 3), _study(hazard=str(tmp_path / "hazard.csv")), tmp_path / "out")
+        write_fragility(_records(tmp_path, count), _study(**settings), tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
 

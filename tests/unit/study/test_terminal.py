@@ -7,93 +7,52 @@ from pathlib import Path
 import pytest
 
 from rocking.assessment.fate import fates
-from rocking.assessment.rows.of_record import ComparisonRow, EnsembleRow, FailureRow
 from rocking.assessment.verdict import Verdict
-from rocking.structures import Outcome
 from rocking.study import terminal
 from rocking.study.terminal import Progress, closing_lines, line_writer, paths_to_read, record_line
-
-
-def _case(record: str, structure: str, ratio: float) -> ComparisonRow:
-    known = {
-        "record": record,
-        "structure": structure,
-        "integrated_rotation_ratio": ratio,
-        "answer_outcome": Outcome.at(ratio),
-    }
-    return ComparisonRow(**dict.fromkeys(ComparisonRow.table.column_names) | known)
-
-
-def _ensemble(
-    record: str, structure: str, verdict: Verdict, overturning: int, component: str = "EW"
-) -> EnsembleRow:
-    known = {
-        "record": record,
-        "component": component,
-        "structure": structure,
-        "verdict": verdict,
-        "overturning_members": overturning,
-        "overturning_share": overturning / 64,
-        "members": 64,
-        "rotation_ratio_high": 0.5,
-    }
-    return EnsembleRow(**dict.fromkeys(EnsembleRow.table.column_names) | known)
-
-
-def _failure(record: str, structure: str, message: str) -> FailureRow:
-    return FailureRow(record=record, component="", structure=structure, stage="", message=message)
+from tests.unit.assessment.made_rows import case, ensemble, failure
 
 
 def test_the_worst_component_counts() -> None:
-    cases = [
-        *(_case("a", "pier", 0.5), _case("a", "pier", math.inf)),
-        *(_case("a", "wall", 0.25), _case("a", "wall", 0.0005), _case("a", "arch", 0.0)),
-    ]
+    ratios = [("pier", 0.5), ("pier", math.inf), ("wall", 0.25), ("wall", 0.0005), ("arch", 0.0)]
+    cases = [case("", ratio, structure) for structure, ratio in ratios]
     assert record_line(fates(cases), []) == "overturns: pier; stands: wall 0.25, arch"
 
 
 def test_undecided_is_ordered_by_share_and_counted_where_there_is_much_of_it() -> None:
-    cases = [_case("a", name, 0.25) for name in ("pier", "wall", "arch")]
+    cases = [case("EW", 0.25, name) for name in ("pier", "wall", "arch")]
     ensembles = [
-        _ensemble("a", "pier", Verdict.UNDECIDED, 5),
-        _ensemble("a", "wall", Verdict.UNDECIDED, 60),
-        _ensemble("a", "arch", Verdict.STANDS, 0),
+        ensemble("EW", Verdict.UNDECIDED, count, name) for name, count in (("pier", 5), ("wall", 60))
     ]
-    assert record_line(fates(cases, ensembles), []) == (
-        "undecided: wall (60 of 64), pier (5 of 64); stands: arch 0.25"
-    )
-    many = [_ensemble("a", f"pier {number}", Verdict.UNDECIDED, 5) for number in range(7)]
-    cases += [_case("a", each.structure, 0.25) for each in many]
-    assert (
-        record_line(fates(cases, ensembles + many), []) == "undecided: 9, in verdicts.csv; stands: arch 0.25"
-    )
+    ensembles.append(ensemble("EW", Verdict.STANDS, 0, "arch"))
+    line = record_line(fates(cases, ensembles), [])
+    assert line == "undecided: wall (60 of 64), pier (5 of 64); stands: arch 0.25"
+    many = [ensemble("EW", Verdict.UNDECIDED, 5, f"pier {number}") for number in range(7)]
+    cases += [case("EW", 0.25, each.structure) for each in many]
+    line = record_line(fates(cases, ensembles + many), [])
+    assert line == "undecided: 9, in verdicts.csv; stands: arch 0.25"
 
 
 def test_a_failure_stands_first_without_repeating_the_record() -> None:
-    failures = [_failure("a", "wall", "it cannot stand."), _failure("a", "", "a: it cannot be read.")]
-    line = record_line(fates([_case("a", "pier", 0.5)]), failures)
+    failures = [failure("", "wall", "it cannot stand."), failure("", "", "a: it cannot be read.")]
+    line = record_line(fates([case("", 0.5)]), failures)
     assert line == "failed: wall: it cannot stand. it cannot be read.; stands: pier 0.5"
 
 
 def test_the_table_at_the_end_counts_what_overturns_and_what_is_undecided_apart() -> None:
     cases = [
-        *(_case("a", "pier", math.inf), _case("b", "pier", math.inf)),
-        *(_case("a", "wall", math.inf), _case("b", "wall", 0.1), _case("b", "arch", 0.1)),
+        *(case("EW", math.inf), case("EW", math.inf, record="b"), case("EW", math.inf, "wall")),
+        *(case("EW", 0.1, structure, "b") for structure in ("wall", "arch")),
     ]
-    doubts = [_ensemble("a", "pier", Verdict.UNDECIDED, 60)]
-    lines = list(closing_lines(fates(cases, doubts), [_failure("c", "", "not read.")]))
+    doubts = [ensemble("EW", Verdict.UNDECIDED, 60)]
+    lines = list(closing_lines(fates(cases, doubts), [failure("", "", "not read.", "c")]))
     assert [line.split() for line in lines[2:4]] == [["pier", "1", "1", "b,", "a?"], ["wall", "1", "0", "a"]]
     assert lines[4:] == ["1 record failed, wholly or in part: c"]
 
 
 def test_nothing_overturns() -> None:
-    assert list(closing_lines(fates([_case("a", "pier", 0.1)]), [])) == [
-        "Every structure stands under 1 record."
-    ]
-    failed = FailureRow(
-        record="a", component="", structure="pier", stage="responses", message="it cannot stand."
-    )
-    assert list(closing_lines(fates([], failures=[failed]), []))[2].endswith("a–")
+    assert list(closing_lines(fates([case("", 0.1)]), [])) == ["Every structure stands under 1 record."]
+    assert list(closing_lines(fates([], failures=[failure("")]), []))[2].endswith("a–")
 
 
 def test_the_paths_are_those_that_exist(tmp_path: Path) -> None:
