@@ -44,6 +44,11 @@ def own_of(job):
     return [f"{RESULTS}/{record}/{name}" for record in PLAN.jobs[job] for name in names]
 
 
+def in_report(name, caption, category, **labels):
+    """A file of the summary, with its place in the page that snakemake --report makes."""
+    return report(f"{SUMMARY}/{name}", caption=f"../report/{caption}.rst", category=category, labels=labels)
+
+
 TARGETS = [f"{SUMMARY}/{each.table.file_name}" for each in SUMMARY_TABLES]
 TARGETS += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json"]
 TARGETS += [path for job in PLAN.jobs for path in (*part_of(job), *own_of(job))]

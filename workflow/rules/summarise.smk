@@ -6,12 +6,6 @@ DOCUMENTS = {
     "study.html": ("explore", "page to explore the study"),
 }
 
-
-def in_report(name, caption, category, **labels):
-    """A file of the summary, with its place in the page that snakemake --report makes."""
-    return report(f"{SUMMARY}/{name}", caption=f"../report/{caption}.rst", category=category, labels=labels)
-
-
 SUMMARIES = [
     in_report(table.file_name, "table", "Tables", table=table.file_name, content=table.description)
     for table in (each.table for each in SUMMARY_TABLES)
