@@ -74,6 +74,20 @@ def test_the_skill_is_that_over_the_base_rate():
         assert scores.brier_skill(np.array(stated), outcomes)(every) == pytest.approx(skill)
 
 
+def test_the_skill_on_shares_is_that_on_the_outcomes_they_sum_up_of_the_cases_drawn():
+    """Each share is of four outcomes. Cases of which all overturn, or none, have no skill."""
+    shares = np.array([0.25, 0.75, 0.5, 1.0, 0.0, 0.0])
+    stated = np.array([0.3, 0.6, 0.1, 0.9, 0.2, 0.1])
+    fours = np.concatenate([np.arange(4) < 4 * share for share in shares]).astype(float)
+    skill = scores.brier_skill(stated, shares)
+    of_fours = scores.brier_skill(np.repeat(stated, 4), fours)
+    for rows in ([0, 1], [2, 3, 3], [5, 0]):
+        assert skill(np.array(rows)) == pytest.approx(
+            of_fours(np.concatenate([4 * k + np.arange(4) for k in rows]))
+        )
+    assert np.isnan([skill(np.array([3, 3])), skill(np.array([4, 5]))]).all()
+
+
 def test_intervals_draw_whole_sites():
     """Ten cases of one site are one draw: the interval is as wide as for ten times fewer cases."""
     many = np.repeat(np.random.default_rng(2).random(40), 10)

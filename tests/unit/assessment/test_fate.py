@@ -5,6 +5,7 @@ import math
 import pytest
 
 from rocking.assessment.fate import fates
+from rocking.assessment.rows.of_record import VariationRow
 from rocking.assessment.verdict import Verdict
 from tests.unit.assessment.made_rows import case, ensemble, failure
 
@@ -26,13 +27,15 @@ def test_the_ensemble_over_all_directions_decides_before_those_of_the_components
     alone = [ensemble("EW", Verdict.STANDS, 0), ensemble("NS", Verdict.OVERTURNS, 64)]
     (fate,) = fates(cases, alone)
     assert (fate.verdict, fate.component) == (Verdict.OVERTURNS, "NS")
-    (fate,) = fates(cases, [*alone, ensemble("both", Verdict.UNDECIDED, 40)])
-    assert (fate.verdict, fate.component, fate.count) == (Verdict.UNDECIDED, "both", "40 of 64")
-    assert fate.leaning == "leans to overturns, overturns in 40 of 64"
+    (fate,) = fates(cases, [*alone, ensemble("both", Verdict.UNDECIDED, 32)])
+    assert (fate.verdict, fate.component, fate.count) == (Verdict.UNDECIDED, "both", "32 of 64")
+    assert fate.leaning == "leans to overturns, overturns in 32 of 64", "of two alike the worse"
     assert math.isinf(fate.rotation_ratio), "of the worst component as recorded"
 
 
 def test_a_component_that_failed_leaves_the_verdict_unknown_unless_another_overturns():
+    (fate,) = fates([case("EW", 0.3)], [ensemble("both", Verdict.STANDS, 0)], [failure("NS")])
+    assert fate.verdict is Verdict.STANDS, "of all directions"
     (fate,) = fates([case("EW", 0.3)], [ensemble("EW", Verdict.STANDS, 0)], [failure("NS")])
     assert fate.verdict is Verdict.UNKNOWN and "NS" in fate.why
     (fate,) = fates([case("EW", math.inf)], [ensemble("EW", Verdict.OVERTURNS, 64)], [failure("NS")])
@@ -40,6 +43,14 @@ def test_a_component_that_failed_leaves_the_verdict_unknown_unless_another_overt
     for ratio, verdict in ((0.2, Verdict.UNKNOWN), (math.inf, Verdict.OVERTURNS)):
         (fate,) = fates([case("EW", ratio)], failures=[failure("NS")])
         assert fate.verdict is verdict
+
+
+def test_a_crack_that_overturns_leaves_undecided_what_stands_as_given():
+    crack = {"crack": "crack at 3 m", "integrated_rotation_ratio": math.inf}
+    fallen = VariationRow.of(record="a", structure="pier", **crack)
+    (fate,) = fates([case("EW", 0.3)], variations=[fallen])
+    assert fate.verdict is Verdict.UNDECIDED
+    assert fate.leaning == "leans to stands, overturns with the crack at 3 m"
 
 
 def test_a_structure_that_failed_under_every_component_is_unknown_and_says_why():
