@@ -128,26 +128,21 @@ def test_a_steady_vertical_acceleration_scales_gravity():
     assert largest > plain.responses[Method.MECHANISM_ON_RECORD].rotation_ratio
 
 
+ABOVE = math.nextafter(NEGLIGIBLE, 1.0)
+
+
 @pytest.mark.parametrize(
-    ("predicted", "integrated", "expected"),
+    ("pairs", "expected"),
     [
-        (math.inf, math.inf, "same outcome"),
-        (0.9, math.inf, "too low"),
-        (0.0, 0.1, "too low"),
-        (0.0, 1e-6, "same outcome"),
-        (math.inf, 0.4, "too high"),
-        (math.nan, 0.4, "unknown"),
+        (((math.inf, math.inf), (0.0, 1e-6)), "same outcome"),
+        (((0.9, math.inf), (0.0, 0.1), (NEGLIGIBLE, ABOVE)), "too low"),
+        (((math.inf, 0.4), (ABOVE, NEGLIGIBLE)), "too high"),
+        (((math.nan, 0.4),), "unknown"),
     ],
 )
-def test_agreement(predicted, integrated, expected):
-    assert agreement(predicted, integrated) == expected
-
-
-def test_agreement_changes_where_rest_ends():
-    above = math.nextafter(NEGLIGIBLE, 1.0)
-    assert rests(NEGLIGIBLE) and not rests(above) and not rests(math.nan)
-    assert agreement(NEGLIGIBLE, above) == "too low"
-    assert agreement(above, NEGLIGIBLE) == "too high"
+def test_agreement_changes_where_rest_ends(pairs, expected):
+    assert {agreement(predicted, integrated) for predicted, integrated in pairs} == {expected}
+    assert rests(NEGLIGIBLE) and not rests(ABOVE) and not rests(math.nan)
 
 
 @pytest.mark.parametrize(

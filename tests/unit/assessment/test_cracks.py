@@ -1,4 +1,4 @@
-"""Cracks that may form: every one is followed where the mechanism of statics stands, and one that falls is named."""
+"""Cracks that may form, each followed where that of statics stands, candidates over the height, and processing."""
 
 from functools import partial
 
@@ -7,18 +7,23 @@ import pytest
 
 import rocking
 from rocking.assessment.assess import assess_structures
-from rocking.assessment.ensemble import GroundMotions, ensemble
+from rocking.assessment.ensemble import GroundMotions, ensemble, processed
 from rocking.assessment.fragility import fragility
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.variations import cracks, ensemble_over_cracks
+from rocking.assessment.variations import candidates, cracks, ensemble_over_cracks, processed_variants
 from rocking.assessment.verdict import Verdict
+from rocking.motion import integrate
 from rocking.motion.members import follow_factors
+from rocking.pulses import Pulse
 from rocking.records import Accelerogram
-from rocking.structures import Arch, Spire, Wall
+from rocking.structures import Arch, Block, Spire, Wall
 
 STEP, TIMES = 0.01, np.arange(0, 4, 0.01)
 SPIRE = Spire(width=3.0, height=15.0, wall_thickness=0.3)
 WALL = Wall.hinged_at(6.0, 3.0, 0.4)
+LOW_WALL = Wall(2.0, 2.0, 0.3)
+PULSE = Pulse(2.5, 2 * np.pi / 0.9, 3.0)
+SINE = Accelerogram(PULSE.acceleration(np.arange(2000) * STEP), STEP)
 
 
 def record(amplitude: float, period: float = 0.9) -> Accelerogram:
@@ -91,3 +96,30 @@ def test_the_governed_fragility_is_never_below_that_of_statics():
         for over in (False, True)
     )
     assert np.all(governed.probability >= plain.probability) and governed.median <= plain.median
+
+
+def test_the_middle_candidate_is_the_wall_itself():
+    variations = candidates(LOW_WALL, SINE, PULSE, 5, AssessmentSettings())
+    middle = variations[2]
+    assert middle.position == pytest.approx(2.0)
+    assert middle.integrated_rotation_ratio == integrate(LOW_WALL, SINE).rotation_ratio
+
+
+def test_a_higher_hinge_lifts_earlier():
+    # λ = 2 tan α₁ falls as the lower block grows, so a shaking that leaves low hinges shut opens high ones.
+    lifted = [
+        c.integrated_rotation_ratio > 0
+        for c in candidates(LOW_WALL, SINE.scaled(0.8), None, 9, AssessmentSettings())
+    ]
+    assert lifted == sorted(lifted)
+    assert lifted[-1]
+    assert not lifted[0]
+
+
+def test_processing_that_changes_nothing_changes_no_answer():
+    records, block = processed(SINE), Block(2.0, 0.2)
+    assert "unchanged" in records
+    variations = processed_variants({"": block}, records, AssessmentSettings())[""]
+    ratios = {each.processing: each.integrated_rotation_ratio for each in variations}
+    assert ratios["unchanged"] == integrate(block, SINE).rotation_ratio
+    assert ratios["high-pass 0.2 Hz"] != ratios["unchanged"]

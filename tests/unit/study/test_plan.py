@@ -127,9 +127,7 @@ def _hash(record: CatalogueRecord, hashes: ContentHashes | None = None, **settin
 
 
 @pytest.mark.parametrize("when", [1e9, time.time() + 3e8], ids=["long ago", "in ten years"])
-def test_a_new_date_changes_no_hash_and_a_new_content_with_the_old_date_does(
-    tmp_path: Path, when: float
-) -> None:
+def test_a_new_date_changes_no_hash_and_a_new_content_with_the_old_date_does(tmp_path, when) -> None:
     record = _record(tmp_path)
     before, file = _hash(record), tmp_path / "a.dat"
     os.utime(file, (when, when))
@@ -151,9 +149,7 @@ def test_a_new_date_changes_no_hash_and_a_new_content_with_the_old_date_does(
     ],
     ids=["named StationXML", "StationXML beside", "packed", "declared unit", "no miniSEED", "second file"],
 )
-def test_every_file_that_is_read_counts_and_no_other(
-    tmp_path: Path, cells: dict[str, str], content: bytes, file: str, counts: bool
-) -> None:
+def test_every_file_that_is_read_counts_and_no_other(tmp_path, cells, content, file, counts) -> None:
     record = _record(tmp_path, content, **cells)
     (tmp_path / file).write_text("sensitivity 1000")
     before = _hash(record)

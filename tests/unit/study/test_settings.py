@@ -14,14 +14,7 @@ from rocking.assessment.settings import AssessmentSettings, FragilitySettings
 from rocking.described import described_values, parts_of
 from rocking.errors import ConfigurationError
 from rocking.records.processing import UNPROCESSED_DEFAULT
-from rocking.study.settings import (
-    EXAMPLE,
-    Settings,
-    commented_yaml,
-    json_schema,
-    read_settings,
-    schema_file,
-)
+from rocking.study.settings import EXAMPLE, Settings, commented_yaml, json_schema, read_settings, schema_file
 
 ROOT = Path(__file__).parents[3]
 SCHEMA = Draft7Validator(json_schema())
