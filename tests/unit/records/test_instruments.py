@@ -103,9 +103,6 @@ def test_sac_needs_a_unit_and_loses_its_offset(tmp_path: Path) -> None:
         read(path)
     (record,) = read(path, unit="m/s2")
     assert record.time_step == 0.01 and abs(record.acceleration.mean()) < 1e-9
-    with pytest.raises(RecordError):
-        path.write_bytes(path.read_bytes()[:-8])
-        read(path, unit="m/s2")
 
 
 def test_obspys_own_records() -> None:
@@ -149,9 +146,7 @@ def test_every_plug_in_is_declared_and_refuses_quietly(tmp_path: Path) -> None:
             assert is_format(source) is False
 
 
-@pytest.mark.parametrize(
-    "make", [os.mkfifo, lambda path: path.symlink_to("/dev/zero")], ids=["pipe", "device"]
-)
+@pytest.mark.parametrize("make", [os.mkfifo, lambda path: path.symlink_to("/dev/zero")])
 def test_an_input_that_is_no_file_is_refused_and_not_waited_for(miniseed: Path, make) -> None:
     """As record, as inventory, beside a record, and as catalogue."""
     path = miniseed.parent / "odd.xml"

@@ -104,14 +104,6 @@ def test_what_would_fold_is_gone_and_what_is_kept_is_whole() -> None:
     assert "aliasing" in coarser.processing[0]
 
 
-def test_velocity_and_displacement_by_trapezoid() -> None:
-    wave = record(sine(0.8))
-    assert np.allclose(velocity(wave), cumulative_trapezoid(wave.acceleration, dx=DT, initial=0), atol=1e-12)
-    assert np.allclose(displacement(wave), cumulative_trapezoid(velocity(wave), dx=DT, initial=0), atol=1e-12)
-    constant = record(np.full(101, 2.0))
-    assert velocity(constant)[-1] == pytest.approx(2.0) and displacement(constant)[-1] == pytest.approx(1.0)
-
-
 def test_variants_differ_and_all_run() -> None:
     samples = np.concatenate([np.zeros(600), synthetic_record(SHIPPED).acceleration]) + 0.01
     wave = Accelerogram(samples, SHIPPED.time_step)

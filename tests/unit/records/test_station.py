@@ -64,9 +64,6 @@ def test_files_that_do_not_fit_together_are_refused_in_a_sentence(station):
         with pytest.raises(RecordError, match=word) as caught:
             open_station(_record(station, f"e.asc;{other}.asc"))
         assert str(caught.value).startswith("a: ") and "\n" not in str(caught.value)
-
-
-def test_an_inventory_that_is_not_there_is_named(station):
     with pytest.raises(RecordError, match=r"a: inventory 'none\.xml' is missing"):
         open_station(_record(station, inventory="none.xml"))
 
