@@ -34,9 +34,8 @@ def peer() -> str:
 
 
 def peer_2008() -> str:
-    head = "PEER NGA STRONG MOTION DATABASE RECORD\nQUAKE, 1/2/99, STATION, 045\n"
-    head += "ACCELERATION TIME HISTORY IN UNITS OF G\n"
-    return f"{head}{N}    {STEP}    NPTS, DT\n" + columns(TRUE / 9.80665, 5, "15.7E")
+    text = peer().replace("TIME SERIES", "TIME HISTORY")
+    return text.replace(f"NPTS= {N}, DT= {STEP} SEC", f"{N}    {STEP}    NPTS, DT")
 
 
 def cosmos(stated: float = 1.0) -> str:
@@ -267,15 +266,9 @@ def csmip_of_1983(stated: float = 1.0) -> str:
 
 def csmip_raw(stated: float = 1.0) -> str:
     """The raw volume of the CDMG, digital: evenly spaced, in g."""
-    peak = stated * np.abs(TRUE).max() / 9.80665
-    head = volume1(
-        "UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 06/16/98, CDMG 23583", "CHAN  1:  45 DEG",
-        f"UNITS OF UNCOR ACCEL IS G.                 MAX  =  {peak:6.3f} G, AT   9.425 SEC.", "",
-    )  # fmt: skip
+    text = csmip_film(stated).replace("ARE SEC AND G/10.", "IS G.")
     body = f"{N} POINTS OF ACCEL DATA EQUALLY SPACED AT {STEP:.3f} SEC.  (UNITS: G)\n"
-    body += columns(TRUE / 9.80665, 8, "9.6f")
-    made = head.replace("UNIVERSIDAD DE CHILE - RENADIC", "MADE EARTHQUAKE").format(body)
-    return made + "/&  ----- END OF DATA FOR CHANNEL  1 -----\n"
+    return text.replace(columns(pairs(), 10, "7.3f"), body + columns(TRUE / 9.80665, 8, "9.6f"))
 
 
 def csmip_film(stated: float = 1.0) -> str:
@@ -301,7 +294,7 @@ def unam_with_repeats(stated: float = 1.0) -> str:
 
 def two_headers() -> str:
     """A title with the unit, then number of samples and step, then eight numbers a line: files like KOBE.000."""
-    head = f"Made, Kobe 000, acceleration in g\n{N} points, dt = {STEP} sec\n"
+    head = f"Kobe 000, acceleration in g\n{N} points, dt = {STEP} sec\n"
     return head + columns(TRUE / 9.80665, 8, "12.7f")
 
 

@@ -15,7 +15,7 @@ from rocking.records.read import read_content
 FIELDS = ("component", "azimuth", "station", "network", "event", "processed", "high_pass_frequency")
 SAID: dict[str, list[tuple[Any, ...]]] = {
     "PEER AT2": [("45", 45.0, "Station", "", "Quake", True, None)],
-    "PEER AT2: of 2008": [("045", 45.0, "STATION", "", "QUAKE", True, None)],
+    "PEER AT2: of 2008": [("45", 45.0, "Station", "", "Quake", True, None)],
     "COSMOS V1/V2": [("45", 45.0, "CE-J1", "", "Some Day", True, 0.3)],
     "CSMIP V1/V2": [("45", 45.0, "89146", "", "", True, 0.3)],
     "CSMIP V1/V2: of 1983": [("45", 45.0, "36456", "", "MADE EARTHQUAKE", True, 0.05)],
@@ -29,15 +29,11 @@ SAID: dict[str, list[tuple[Any, ...]]] = {
     "DYNA (ESM, ITACA, AFAD)": [("HNE", 90.0, "X", "", "MADE", True, 0.1)],
     "DYNA (ESM, ITACA, AFAD): filtered anew": [("HNE", 90.0, "X", "", "MADE", True, 0.025)],
     "JMA CSV": [
-        ("NS", 0.0, "9CFMADE", "JMA", "", False, None),
-        ("EW", 90.0, "9CFMADE", "JMA", "", False, None),
-        ("UD", None, "9CFMADE", "JMA", "", False, None),
+        (*each, "9CFMADE", "JMA", "", False, None) for each in (("NS", 0.0), ("EW", 90.0), ("UD", None))
     ],
     "EMOD3D text": [("090", 90.0, "MADE", "", "", None, None)],
     "AFAD/NSMN text": [
-        ("N-S", 0.0, "0921", "TK", "", False, None),
-        ("E-W", 90.0, "0921", "TK", "", False, None),
-        ("U-D", None, "0921", "TK", "", False, None),
+        (*each, "0921", "TK", "", False, None) for each in (("N-S", 0.0), ("E-W", 90.0), ("U-D", None))
     ],
     "RESORCE": [("NS", 0.0, "", "", "2009-04-06 01:32:39", True, 0.1)],
     "GeoNet V1A/V2A": [("N45E", 45.0, "WTMC", "NZ", "", False, None)],
@@ -45,9 +41,7 @@ SAID: dict[str, list[tuple[Any, ...]]] = {
     "CWB": [("U", None, "EAS", "TW", "", False, None), ("N", 0.0, "EAS", "TW", "", False, None)],
     "CSMNC": [("EW", 90.0, "65JZC", "", "QUAKE", False, None)],
     "titled column": [("channel 1", None, "", "", "made", None, None)],
-    "titled column: two headers": [
-        ("channel 1", None, "", "", "Made, Kobe 000, acceleration in g", None, None)
-    ],
+    "titled column: two headers": [("channel 1", None, "", "", "Kobe 000, acceleration in g", None, None)],
     "columns of numbers": [("NS", 0.0, "", "", "", None, None), ("EW", 90.0, "", "", "", None, None)],
     "miniSEED": [("HNE", 90.0, "MADE", "XX", "", False, None)],
     "SAC": [("HNE", 90.0, "MADE", "XX", "", False, None)],

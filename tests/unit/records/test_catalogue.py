@@ -86,6 +86,8 @@ def test_all_defects_stand_in_one_message(folder: Path) -> None:
         row(id="nan", high_pass_hz="nan"), row(id="sha", sha256="ABC"), row(id="out", file="../table.csv"),
         row(id="abs", file="/etc/passwd"), row(id="drive", file="c:\\x"), row(id="none", file=""),
         row(id="repo", source_repository="x", source_path="../y", source_commit="main"),
+        row(id="hashes", file="a.csv;b.csv"), row(id="fetched", source_repository="a/b", sha256=""),
+        row(id="paths", file="a.csv;b.csv", source_repository="../..", source_path="z"),
     ]  # fmt: skip
     with pytest.raises(CatalogueError) as caught:
         load_catalogue(write(folder, *bad))
@@ -93,7 +95,9 @@ def test_all_defects_stand_in_one_message(folder: Path) -> None:
     for part in ("'a/b'", "x" * 81, "'con'", "'same' stands 2 times", "'1_0'", "'furlong'", "time_step_s is 0.0 s",
                  "scale_factor is 0", "'nan'", "'ABC'", "'../table.csv'", "'/etc/passwd'", "'c:", "file is missing",
                  "source_repository is 'x'", "source_path is '../y'", "source_commit is 'main'", "magnitude is 11",
-                 "epicentral_distance_km is -3", "magnitude is 'big'"):  # fmt: skip
+                 "epicentral_distance_km is -3", "magnitude is 'big'", "sha256 holds 1 hashes for 2 files",
+                 "sha256 is missing; a file that is fetched", "source_repository is '../..'", "source_path is 'z'",
+                 ):  # fmt: skip
         assert part in said
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rocking.errors import CatalogueError, RecordError
+from rocking.errors import RecordError
 from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
 from rocking.records.folder import list_folder, unlisted
 
@@ -98,20 +98,6 @@ def test_records_beside_the_catalogue_that_it_does_not_name_are_told(station):
     assert unlisted(station / "catalogue.csv")[0].startswith("2 files are")
     (station / "other.csv").write_text("id,file\nb,z.asc\nc,more.asc\n")
     assert unlisted(station / "catalogue.csv") == ()
-
-
-SOURCE = {"source_repository": "a/b", "source_path": "a;b;c", "source_commit": "0" * 40, "sha256": "0" * 64}
-ALL = ";".join(["0" * 64] * 3)
-
-
-@pytest.mark.parametrize("cells", [
-    {"sha256": "0" * 64}, {"file": "../e.asc;n.asc"}, {"sha256": "ABC"}, SOURCE,
-    SOURCE | {"sha256": ALL, "source_path": "a"}, SOURCE | {"sha256": ALL, "source_repository": "../.."},
-])  # fmt: skip
-def test_cells_that_do_not_name_every_file_are_refused(tmp_path, cells):
-    assert _record(tmp_path, **SOURCE | {"sha256": ALL})
-    with pytest.raises(CatalogueError):
-        _record(tmp_path, **cells)
 
 
 JOINED = {
