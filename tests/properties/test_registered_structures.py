@@ -204,16 +204,18 @@ def test_a_structure_comes_back_from_its_description_a_file_and_another_process(
         path = Path(folder) / "structures.yaml"
         path.write_text(yaml.safe_dump([entry], allow_unicode=True), encoding="utf-8")
         (listed,) = load_structures(path).values()
+    mechanism = structure.mechanism()
     for again in (structure_from_config(mapping), listed, pickle.loads(pickle.dumps(structure))):
         assert again == structure and again.description == structure.description
-        assert again.mechanism().uplift_multiplier == structure.mechanism().uplift_multiplier
+        assert again.mechanism().uplift_multiplier == mechanism.uplift_multiplier
+    assert pickle.loads(pickle.dumps(mechanism)).uplift_multiplier == mechanism.uplift_multiplier
     for field in structure.form.fields:
         value = mapping.get(field.key)
         if value is not None and not isinstance(value, bool):
             said = ", ".join(map(str, value)) if isinstance(value, list) else value
             assert f"{said}{field.suffix}" in structure.description
     assert structure.size and "=" not in structure.description
-    for text in (repr(structure), repr(structure.mechanism())):
+    for text in (repr(structure), repr(mechanism)):
         assert not re.search("lambda|array|function", text) and len(text) < 600
 
 

@@ -51,14 +51,6 @@ def test_minimum_thickness_of_the_semicircle():
     assert limiting_thickness(Ring(1.0, np.pi), TooThin) == pytest.approx(0.107478038, abs=0.5e-9)
 
 
-def test_arch_scales_with_its_radius():
-    small, large = (Arch(r, 0.15 * r, np.radians(157.5)).mechanism() for r in (1.0, 15.0))
-    assert large.uplift_multiplier == pytest.approx(small.uplift_multiplier, rel=1e-14)
-    assert large.critical_rotation == pytest.approx(small.critical_rotation, rel=1e-14)
-    ratio = small.positive.frequency_parameter / large.positive.frequency_parameter
-    assert ratio == pytest.approx(np.sqrt(15), rel=1e-14)
-
-
 @pytest.mark.parametrize("ratio", [0.0, 0.5, 2.0, 20.0])
 @pytest.mark.parametrize("slenderness", [0.1, 0.2])
 def test_frame_of_makris_and_vassiliou(slenderness, ratio):
@@ -71,16 +63,6 @@ def test_frame_of_makris_and_vassiliou(slenderness, ratio):
     assert mechanism.positive.frequency_parameter == pytest.approx(np.sqrt(squared), rel=1e-14)
     assert mechanism.uplift_multiplier == pytest.approx(np.tan(slenderness), rel=1e-14)
     assert mechanism.restitution == pytest.approx(restitution, rel=1e-14)
-
-
-def test_wall_of_the_paper_in_its_slender_limit():
-    """DeJong and Dimitrakopoulos, after Eqs. 8 and 11: p = √2 p_block, a_sc = 0.5, λ_lin = 2α;
-    exact at equal heights."""
-    side = Wall(2.0, 2.0, 0.2).mechanism().positive
-    diagonal = np.hypot(2.0, 0.2) / 2
-    assert side.frequency_parameter == pytest.approx(np.sqrt(2 * 3 * GRAVITY / (4 * diagonal)), rel=1e-14)
-    assert side.acceleration_scale == pytest.approx(0.5, rel=1e-14)
-    assert side.critical_rotation / side.acceleration_scale == pytest.approx(2 * np.arctan(0.1), rel=1e-14)
 
 
 def test_frequency_parameter_of_the_wall_grows_with_the_height_of_the_upper_block():

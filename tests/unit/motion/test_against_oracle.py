@@ -44,13 +44,18 @@ def test_vertical_acceleration_against_the_oracle():
     assert response.rotation_ratio != pytest.approx(integrate(mechanism, record).rotation_ratio, rel=1e-2)
 
 
-@pytest.mark.parametrize("seed", range(6))
-def test_equivalent_block_against_the_oracle(seed):
+FINE, COARSE = (50, 0.02, 1.5, 12), (30, 0.5, 1.2, 3)
+"""Count, time step, peak over what lifts and width of the smoothing: below and above a time step of 1/p."""
+
+
+@pytest.mark.parametrize("seed, sampling", [(seed, FINE) for seed in range(6)] + [(0, COARSE), (1, COARSE)])
+def test_equivalent_block_against_the_oracle(seed, sampling):
     """The exact response has no time-stepping error: what remains is the oracle's 1e-12, amplified."""
     block = MECHANISMS["block"].equivalent_block()
-    record = noise(seed, 50, 0.02, lifting(MECHANISMS["block"], 1.5))
+    count, step, strength, width = sampling
+    record = noise(seed, count, step, lifting(MECHANISMS["block"], strength), width)
     exact = integrate(block, record)
-    ratio, _ = Oracle(Mechanism(straight(block))).run(record.acceleration, 0.02, after=3.0)
+    ratio, _ = Oracle(Mechanism(straight(block))).run(record.acceleration, step, after=3.0)
     assert exact.rotation_ratio == pytest.approx(ratio, rel=1e-9)
     assert exact.tolerance == 0.0
 

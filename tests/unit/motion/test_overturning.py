@@ -78,15 +78,6 @@ def test_early_proof_agrees_with_an_oracle_that_follows_to_the_end():
     assert found >= 3
 
 
-def test_constant_acceleration_just_above_and_below_uplift():
-    """Above λ nothing ever restores it; below λ nothing ever lifts it."""
-    for structure in (UNIT, Block(1.0, 0.2).mechanism()):
-        level = structure.uplift_multiplier * g
-        for factor, outcome in ((1 - 1e-12, Outcome.NO_UPLIFT), (1 + 1e-12, Outcome.OVERTURNS)):
-            record = Accelerogram(np.full(20_000, level * factor), 0.01)
-            assert integrate(structure, record).outcome is outcome
-
-
 @pytest.mark.parametrize("speed", [-0.02, 0.02])
 @pytest.mark.parametrize("share, returns", [(0.97, True), (1.03, False)])
 def test_the_proof_on_the_linear_block_begins_where_the_record_can_take_no_more(speed, share, returns):

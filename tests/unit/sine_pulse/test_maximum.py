@@ -62,17 +62,11 @@ def spectrum(frequencies: list, amplitudes: list, restitution: float = 0.9) -> n
     [
         (lambda: predict_maximum(BLOCK, Pulse(10.0, 1e15)), r"is 5\d+.0, but must lie between 1e-12 and"),
         (lambda: predict_maximum(BLOCK, Pulse(1e200, 1.0)), r"amplitude over .* must be at most 1e\+12"),
-        (
-            lambda: predict_maxima([BLOCK], [Pulse(1.0, 1e14)]),
-            "circular_frequency over the block's frequency",
-        ),
+        (lambda: predict_maxima([BLOCK], [Pulse(1.0, 1e14)]), "circular_frequency over the block's"),
         (lambda: predict_maxima([BLOCK], [Pulse(1e15, 1.0)]), "a_g/"),
         (lambda: overturning_amplitudes([BLOCK], [1.0], 2), "polarity is 2, but must be 1 or -1"),
         (lambda: overturning_amplitudes([BLOCK], [0.0]), "circular_frequencies must be"),
-        (
-            lambda: spectrum([1.0, 0.0], [2.0]),
-            r"frequency_ratios holds 0\.0, but every value must lie between",
-        ),
+        (lambda: spectrum([1.0, 0.0], [2.0]), r"frequency_ratios holds 0\.0, but every value must lie"),
         (lambda: spectrum([1.0], [2.0, -1.0]), r"amplitude_ratios holds -1\.0, but every value must lie"),
         (lambda: spectrum([[1.0]], [1.0]), r"frequency_ratios has the shape \(1, 1\)"),
         (lambda: spectrum([1.0], [2.0], 1.5), r"restitution is 1\.5"),

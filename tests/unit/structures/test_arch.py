@@ -11,25 +11,17 @@ from rocking.structures.arch import Arch
 from rocking.structures.arch_mechanism import NoMechanism, TooThin, limiting_thickness, static_onset
 from rocking.structures.arch_ring import Ring
 
-GRID = list(
-    itertools.product((0.108, 0.12, 0.15, 0.2, 0.28, 0.31, 0.35), (120.0, 135.0, 150.0, 165.0, 180.0))
-)
+SMOOTH = itertools.product((0.108, 0.12, 0.15, 0.2, 0.28, 0.31, 0.35), (120, 135, 150, 165, 180), [None])
+BLOCKS = itertools.product([0.15], [120, 157.5], [5, 7, 12, 31, 40])
 
 
-@pytest.mark.parametrize("thickness, embrace", GRID)
-def test_static_and_kinematic_multipliers_agree(thickness, embrace):
-    ring = Ring(thickness, np.radians(embrace))
+@pytest.mark.parametrize("thickness, embrace, voussoirs", [*SMOOTH, *BLOCKS, (0.2, 180, 7), (0.1, 100, None)])
+def test_static_and_kinematic_multipliers_agree(thickness, embrace, voussoirs):
+    ring = Ring(thickness, np.radians(embrace), voussoirs)
     static, kinematic = static_onset(ring), kinematic_onset(ring)
     assert static.multiplier == pytest.approx(kinematic.multiplier, abs=1e-9)
     # A multiplier is flat in the hinges at its minimum, so they are known to the root of its rounding only.
     np.testing.assert_allclose(static.hinges, kinematic.hinges, atol=1e-6)
-
-
-@pytest.mark.parametrize("voussoirs", [3, 7, 12, 31])
-@pytest.mark.parametrize("thickness, embrace", [(0.15, 157.5), (0.2, 180.0), (0.15, 120.0)])
-def test_voussoir_routes_agree_with_each_other(voussoirs, thickness, embrace):
-    ring = Ring(thickness, np.radians(embrace), voussoirs)
-    assert static_onset(ring).multiplier == pytest.approx(kinematic_onset(ring).multiplier, rel=1e-12)
 
 
 def test_multiplier_and_embrace_angle_share_one_invariant():

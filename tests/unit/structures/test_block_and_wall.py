@@ -38,22 +38,6 @@ def test_wall_has_the_closed_form_parameters(h1, h2, thickness):
     assert end == np.pi / 2 or np.sin(end - mechanism.critical_rotation) == pytest.approx(reach, rel=1e-12)
 
 
-def test_mid_height_wall_is_equation_4_corrected():
-    thickness, height = 0.4, 1.8
-    side = Wall(height, height, thickness).mechanism().positive
-    diagonal, alpha = np.hypot(height, thickness) / 2, np.arctan(thickness / height)
-    rotation = np.linspace(0, 0.8 * side.end_rotation, 9)
-    scale = side.gravity(rotation) / np.sin(alpha - rotation)
-    angle = alpha - rotation
-    inertia = 2 * diagonal / 3 + 2 * diagonal * np.sin(angle) ** 2
-    np.testing.assert_allclose(scale, scale[0], rtol=1e-13)
-    np.testing.assert_allclose(side.inertia(rotation), scale * inertia, rtol=1e-13)
-    np.testing.assert_allclose(
-        side.inertia_slope(rotation) / 2, -scale * diagonal * np.sin(2 * angle), rtol=1e-11
-    )
-    np.testing.assert_allclose(side.ground(rotation), scale * 0.5 * np.cos(angle), rtol=1e-13)
-
-
 def test_wall_momentum_balance_never_goes_negative():
     alpha = np.arcsin(np.sqrt(2 / 9)) + 1e-3
     with pytest.warns(StructureWarning, match="not physical"):

@@ -1,17 +1,12 @@
 """Which crack governs: statics against a dense scan, and dynamics against statics."""
 
-import copy
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
-from operator import attrgetter, methodcaller
-
 import numpy as np
 import pytest
 
 from rocking.motion import Members, integrate_members
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
-from rocking.structures import ArchOnPiers, Block, Facade, Frame, LoadedWall, Spire, Wall
+from rocking.structures import Block, Facade, LoadedWall, Spire, Wall
 
 
 @pytest.mark.parametrize(
@@ -58,22 +53,6 @@ def test_the_base_of_a_spire_governs_statically_and_under_long_pulses_its_top_un
     for period, lowest in ((0.6, 14.25), (1.0, 14.25), (4.0, 0.0), (8.0, 0.0)):
         least = [least_overturning(each.structure.mechanism(), period) for each in cracks]
         assert cracks[int(np.argmin(least))].position == lowest
-
-
-def test_structures_and_mechanisms_travel_to_processes_and_are_copied():
-    structures = [
-        Block(2.0, 0.2), Wall.of_size(3.2, 0.25), Frame(Block(2.0, 0.2), 3, 0.4), Spire(3.0, 15.0),
-        Facade((3.5, 3.0), (0.6, 0.5), 20e3, tie_heights=(3.4,), tie_stiffness=1e4),
-        ArchOnPiers(5.0, 0.8, np.pi, pier_width=1.5, pier_height=4.0),
-    ]  # fmt: skip
-    mechanisms = [each.mechanism() for each in structures]
-    expected = [each.uplift_multiplier for each in mechanisms]
-    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
-        assert list(pool.map(attrgetter("uplift_multiplier"), mechanisms)) == expected
-        made = list(pool.map(methodcaller("mechanism"), structures))
-    assert [each.uplift_multiplier for each in made] == expected
-    assert copy.deepcopy(structures) == structures
-    assert [each.uplift_multiplier for each in copy.deepcopy(mechanisms)] == expected
 
 
 def test_a_structure_says_to_which_side_it_falls():

@@ -1,6 +1,6 @@
 """Façades and walls with loads, thrusts and ties: an oracle in positions and energy, limits, energy, refusals."""
 
-import dataclasses
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,38 +9,25 @@ from loaded import facade_lagrangian, wall_lagrangian
 from rocking.quantities import GRAVITY
 from rocking.structures import Block, Facade, Frame, LoadedWall, RigidBody, Wall
 
-FACADE = Facade(
-    (3.5, 3.0, 2.5),
-    (0.6, 0.5, 0.4),
-    20e3,
-    floor_loads=(12e3, 10e3, 5e3),
-    eccentricity=0.1,
-    tie_heights=(3.4, 6.4),
-    tie_stiffness=8e3,
-    thrust=1.5e3,
-    thrust_height=7.0,
-    crack_storey=2,
-)
+TIES = {"tie_heights": (3.4, 6.4), "tie_stiffness": 8e3}
+THRUST = {"thrust": 1.5e3, "thrust_height": 7.0}
+LOADS = {"floor_loads": (12e3, 10e3, 5e3), "eccentricity": 0.1}
+FACADE = Facade((3.5, 3.0, 2.5), (0.6, 0.5, 0.4), 20e3, **LOADS, **TIES, **THRUST, crack_storey=2)
 LOADED = LoadedWall(
     2.0, 1.4, 0.3, 19e3, top_load=9e3, eccentricity=0.08, tie_heights=(1.5, 2.6), tie_stiffness=20e3
 )
 
 
+TIGHT = {"one_sided": True, "restitution": 0.5}
 CASES = {
     "façade": (FACADE, facade_lagrangian),
-    "façade, loads held": (dataclasses.replace(FACADE, loads_held=True), facade_lagrangian),
-    "façade under a flat slab": (dataclasses.replace(FACADE, top_slab="flat"), facade_lagrangian),
-    "façade, tightened": (
-        dataclasses.replace(FACADE, one_sided=True, restitution=0.5, tie_pretension=2e3),
-        facade_lagrangian,
-    ),
+    "façade, loads held": (replace(FACADE, loads_held=True), facade_lagrangian),
+    "façade under a flat slab": (replace(FACADE, top_slab="flat"), facade_lagrangian),
+    "façade, tightened": (replace(FACADE, **TIGHT, tie_pretension=2e3), facade_lagrangian),
     "wall": (LOADED, wall_lagrangian),
-    "wall, load held": (dataclasses.replace(LOADED, load_held=True), wall_lagrangian),
-    "wall under a flat slab": (dataclasses.replace(LOADED, top_slab="flat"), wall_lagrangian),
-    "wall, tightened": (
-        dataclasses.replace(LOADED, one_sided=True, restitution=0.5, tie_pretension=1e3),
-        wall_lagrangian,
-    ),
+    "wall, load held": (replace(LOADED, load_held=True), wall_lagrangian),
+    "wall under a flat slab": (replace(LOADED, top_slab="flat"), wall_lagrangian),
+    "wall, tightened": (replace(LOADED, **TIGHT, tie_pretension=1e3), wall_lagrangian),
 }
 
 
@@ -69,15 +56,11 @@ def test_acceleration_is_that_of_positions_and_energy(case, sign):
 def test_without_loads_a_facade_is_a_block_and_a_loaded_wall_a_wall():
     """To 1e-12, at zero and in the limit of vanishing loads and stiffness."""
     block, wall = Block.of_size(0.6, 6.0).mechanism(), Wall(2.0, 1.4, 0.3).mechanism()
-    free = (
-        Facade((6.0,), (0.6,), 20e3),
-        Facade((6.0,), (0.6,), 20e3, (1e-11,), tie_heights=(5.0,), tie_stiffness=1e-11),
-    )
-    walls = (
-        LoadedWall(2.0, 1.4, 0.3, 19e3),
-        LoadedWall(2.0, 1.4, 0.3, 19e3, 1e-11, tie_heights=(1.0,), tie_stiffness=1e-11),
-    )
-    for found, expected in [(f.mechanism(), block) for f in free] + [(w.mechanism(), wall) for w in walls]:
+    soft = {"tie_heights": (1.0,), "tie_stiffness": 1e-11}
+    cases = [(Facade((6.0,), (0.6,), 20e3, **each), block) for each in ({}, soft | {"floor_loads": (1e-11,)})]
+    cases += [(LoadedWall(2.0, 1.4, 0.3, 19e3, **each), wall) for each in ({}, soft | {"top_load": 1e-11})]
+    for structure, expected in cases:
+        found = structure.mechanism()
         at = np.linspace(0, 1, 7) * expected.critical_rotation
         for side in found.sides:
             for name in ("inertia", "inertia_slope", "gravity", "gravity_slope", "ground"):

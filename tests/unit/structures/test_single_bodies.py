@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from rocking.quantities import GRAVITY
-from rocking.structures import Block, RigidBody, Spire, Wall
+from rocking.structures import RigidBody, Spire
 
 
 def test_momentum_balance_of_an_off_centre_body_keeps_angular_momentum_about_the_new_corner():
@@ -53,14 +52,6 @@ def test_spire_mass_properties_by_quadrature(plan, wall, crack):
     inertia = integral(lambda x, z: x**2 + (z - crack - centre) ** 2, 0) / mass
     assert body.rest[0].imag - crack == pytest.approx(centre, rel=1e-9)
     assert body.inertias[0] == pytest.approx(inertia, rel=1e-9)
-
-
-def test_at_rest_the_base_carries_the_weight_and_needs_the_ground_acceleration_as_friction():
-    found = Wall(2.0, 2.0, 0.4).contact_forces(0.0, 0.0, 0.0, 0.0)
-    assert found.normal[0, 0] == pytest.approx(GRAVITY, rel=1e-14)
-    assert found.normal[1, 0] == pytest.approx(GRAVITY / 2, rel=1e-14)
-    block = Block(2.0, 0.2).contact_forces(0.0, 0.0, 0.0, [0.5, -1.0])
-    np.testing.assert_allclose(block.required_friction[0], np.array([0.5, 1.0]) / GRAVITY, rtol=1e-14)
 
 
 def test_at_zero_rotation_the_velocity_chooses_the_side():

@@ -1,6 +1,6 @@
 """Ties that yield, break and go slack: scipy's own events, energy, limits, words."""
 
-import dataclasses
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -20,11 +20,12 @@ FACADE = Facade(
     (3.2, 2.8), (0.6, 0.5), 20e3, (10e3, 5e3), 0.05, tie_heights=(3.1, 5.8), tie_stiffness=3e5,
     tie_strength=6e3, tie_plastic_elongation=0.03, restitution=0.85,
 )  # fmt: skip
-TIGHTENED = dataclasses.replace(FACADE, one_sided=True, restitution=0.6, tie_pretension=2e3)
+TIGHTENED = replace(FACADE, one_sided=True, restitution=0.6, tie_pretension=2e3)
 WALL = LoadedWall(
     2.0, 1.4, 0.3, 19e3, top_load=9e3, tie_heights=(1.5, 2.6), tie_stiffness=4e5, tie_strength=6e3,
     tie_plastic_elongation=0.015, restitution=0.85,
 )  # fmt: skip
+UNTIED = {"tie_heights": (), "tie_stiffness": 0.0, "tie_strength": None, "tie_plastic_elongation": 0.0}
 
 
 def held(structure, sign):
@@ -50,11 +51,11 @@ def oracle(structure):
 
 MOTIONS = {
     "façade": (FACADE, 3.2, 5.0),
-    "façade, brittle": (dataclasses.replace(FACADE, tie_plastic_elongation=0.0), 3.0, 6.0),
-    "façade, yields without end": (dataclasses.replace(FACADE, tie_plastic_elongation=9.0), 3.6, 5.0),
+    "façade, brittle": (replace(FACADE, tie_plastic_elongation=0.0), 3.0, 6.0),
+    "façade, yields without end": (replace(FACADE, tie_plastic_elongation=9.0), 3.6, 5.0),
     "façade, tightened": (TIGHTENED, 4.0, 6.0),
     "wall": (WALL, 12.0, 8.0),
-    "wall, brittle": (dataclasses.replace(WALL, tie_plastic_elongation=0.0), 11.0, 9.0),
+    "wall, brittle": (replace(WALL, tie_plastic_elongation=0.0), 11.0, 9.0),
 }
 
 
@@ -68,11 +69,11 @@ def test_every_flight_is_that_of_scipys_own_events(case):
     start = np.arcsin(lift / amplitude) / omega
     end = min(found.times[-1], start + 3.0, *found.times[np.abs(found.rotation) > 0.35])
     body = oracle(structure)
-    body.follow(
-        lambda time: -amplitude * np.sin(omega * time) if time < pulse.period else 0.0,
-        lambda time: 0.0,
-        [start, pulse.period, end],
-    )
+
+    def push(time):
+        return -amplitude * np.sin(omega * time) if time < pulse.period else 0.0
+
+    body.follow(push, lambda time: 0.0, [start, pulse.period, end])
     inside = (found.times > start) & (found.times <= end)
     expected, ours = body.at(found.times[inside]), found.rotation[inside]
     assert np.isfinite(expected).all() and inside.sum() > 30
@@ -93,18 +94,15 @@ def test_vertical_motion_changes_weights_and_not_ties(case):
     rng = np.random.default_rng(3)
     horizontal, vertical = rng.uniform(-4, 4, 40), rng.uniform(-6, 6, 40)
     horizontal[:4], vertical[:4] = [0.0, -3.5, -4.5, -4.0], 0.0
-    found = integrate(
-        structure, Accelerogram(horizontal, step), 1e-11, history=True, vertical=Accelerogram(vertical, step)
-    )
+    record, lift = Accelerogram(horizontal, step), Accelerogram(vertical, step)
+    found = integrate(structure, record, 1e-11, history=True, vertical=lift)
     times = np.arange(40) * step
     start = found.uplift_time
     body = oracle(structure)
     stops = [start, *times[times > start]]
     until = stops[-1] if found.outcome == "rocks" else found.times[-1]
     stops = [stop for stop in stops if stop < until] + [until]
-    body.follow(
-        lambda time: np.interp(time, times, horizontal), lambda time: np.interp(time, times, vertical), stops
-    )
+    body.follow(*(lambda time, a=a: np.interp(time, times, a) for a in (horizontal, vertical)), stops)
     inside = (found.times > start) & (found.times <= until)
     assert inside.sum() > 20
     np.testing.assert_allclose(found.rotation[inside], body.at(found.times[inside]), rtol=0, atol=1e-8)
@@ -117,26 +115,18 @@ def history(structure, motion):
 
 def test_limits_of_the_strength():
     """Without end: the elastic tie. Next to none, or far too stiff and brittle: no tie. No elongation: brittle."""
-    pulse = Pulse(-1.9, 5.0)
-    elastic = dataclasses.replace(FACADE, tie_strength=None, tie_plastic_elongation=0.0, tie_stiffness=3e3)
-    strong = dataclasses.replace(elastic, tie_strength=1e30)
-    assert strong.mechanism().critical_rotation == pytest.approx(
-        elastic.mechanism().critical_rotation, rel=1e-12
-    )
-    assert history(strong, pulse) == pytest.approx(history(elastic, pulse), rel=1e-12)
-    free = dataclasses.replace(
-        FACADE, tie_strength=None, tie_plastic_elongation=0.0, tie_stiffness=0.0, tie_heights=()
-    )
-    expected = history(free, Pulse(-1.3, 5.0))
+
+    def alike(structure, expected, pulse, rel):
+        critical = expected.mechanism().critical_rotation
+        assert structure.mechanism().critical_rotation == pytest.approx(critical, rel=1e-12)
+        assert history(structure, pulse) == pytest.approx(history(expected, pulse), rel=rel)
+
+    elastic = replace(FACADE, tie_strength=None, tie_plastic_elongation=0.0, tie_stiffness=3e3)
+    alike(replace(elastic, tie_strength=1e30), elastic, Pulse(-1.9, 5.0), 1e-12)
+    brittle = replace(FACADE, tie_plastic_elongation=0.0)
     for change in ({"tie_strength": 1e-12}, {"tie_strength": 1e-6, "tie_stiffness": 1e9}):
-        weak = dataclasses.replace(FACADE, tie_plastic_elongation=0.0, **change)
-        assert weak.mechanism().critical_rotation == pytest.approx(
-            free.mechanism().critical_rotation, rel=1e-12
-        )
-        assert history(weak, Pulse(-1.3, 5.0)) == pytest.approx(expected, rel=1e-9)
-    brittle = dataclasses.replace(FACADE, tie_plastic_elongation=0.0)
-    short = dataclasses.replace(FACADE, tie_plastic_elongation=1e-13)
-    assert history(short, Pulse(-3.0, 6.0)) == pytest.approx(history(brittle, Pulse(-3.0, 6.0)), rel=1e-9)
+        alike(replace(brittle, **change), replace(FACADE, **UNTIED), Pulse(-1.3, 5.0), 1e-9)
+    alike(replace(FACADE, tie_plastic_elongation=1e-13), brittle, Pulse(-3.0, 6.0), 1e-9)
 
 
 @pytest.mark.parametrize("structure", [FACADE, WALL], ids=["façade", "wall"])
@@ -149,10 +139,8 @@ def test_acceleration_and_capacity_know_the_ties(structure):
         before = held.points(largest)
         tie = Tie(structure.tie_stiffness, 0.0, structure.tie_strength, structure.tie_plastic_elongation)
         plastic = np.maximum(before - tie.strength / tie.stiffness, 0.0)
-        force = np.where(
-            plastic > tie.plastic_elongation, 0.0, np.maximum(tie.stiffness * (u - plastic), 0.0)
-        )
-        force = np.minimum(force, tie.strength)
+        force = np.clip(tie.stiffness * (u - plastic), 0.0, tie.strength)
+        force[plastic > tie.plastic_elongation] = 0.0
         expected = -(bend / 2 * 0.09 + weight * (GRAVITY + 0.4) + push * 1.1 + force @ pull) / inertia
         found = mechanism.angular_acceleration(rotation, 0.3, 1.1, 0.4, largest)
         assert float(found) == pytest.approx(expected, rel=1e-9)
@@ -176,18 +164,14 @@ def test_contacts_remember_what_yielded():
 
 def test_the_critical_rotation_is_where_the_way_out_loses_its_hold():
     """Broken before the free wall's: the free wall's. Broken behind it: there, at once. Yielding: further out."""
-    free = dataclasses.replace(
-        FACADE, tie_heights=(), tie_stiffness=0.0, tie_strength=None, tie_plastic_elongation=0.0
-    )
-    bare = free.mechanism().critical_rotation
+    bare = replace(FACADE, **UNTIED).mechanism().critical_rotation
     assert FACADE.mechanism().critical_rotation == pytest.approx(bare, rel=1e-12)
-    late = dataclasses.replace(FACADE, tie_heights=(5.8,), tie_plastic_elongation=1.2 * bare * 5.8)
+    late = replace(FACADE, tie_heights=(5.8,), tie_plastic_elongation=1.2 * bare * 5.8)
     side = late.mechanism().positive
-    yields = dataclasses.replace(late, tie_plastic_elongation=50.0).mechanism().positive
+    yields = replace(late, tie_plastic_elongation=50.0).mechanism().positive
     assert bare < side.critical_rotation <= yields.critical_rotation
-    assert (
-        side.at("gravity", side.critical_rotation) <= 0 < side.at("gravity", 0.999 * side.critical_rotation)
-    )
+    within, beyond = (side.at("gravity", share * side.critical_rotation) for share in (0.999, 1))
+    assert beyond <= 0 < within
     assert yields.at("gravity", yields.critical_rotation) == pytest.approx(0.0, abs=1e-12)
     assert side.frequency_parameter > 0 and yields.frequency_parameter > 0
 
@@ -196,20 +180,18 @@ def test_the_critical_rotation_is_where_the_way_out_loses_its_hold():
 def test_the_defect_of_the_block_knows_a_tie_that_breaks_at_once(stiffness):
     """However early it breaks, it held until then: its defect is that of a tie that yields by a hair first."""
     brittle, hair = (
-        dataclasses.replace(WALL, tie_stiffness=stiffness, tie_plastic_elongation=elongation).mechanism()
-        for elongation in (0.0, 1e-9)
+        replace(WALL, tie_stiffness=stiffness, tie_plastic_elongation=each)
+        .mechanism()
+        .block_defects.restoring
+        for each in (0.0, 1e-9)
     )
-    assert brittle.block_defects.restoring == pytest.approx(hair.block_defects.restoring, rel=1e-3)
-    assert brittle.block_defects.restoring > 0.1
+    assert 0.1 < brittle == pytest.approx(hair, rel=1e-3)
 
 
 @pytest.mark.parametrize("height", [3.4, 3.4 - 1e-9, 1e-9])
 def test_a_tie_where_nothing_moves_does_nothing(height):
     """At the top that the floor holds, or at the foot: its motion is rounding, and its strength holds nothing back."""
-    free = dataclasses.replace(
-        WALL, tie_heights=(), tie_stiffness=0.0, tie_strength=None, tie_plastic_elongation=0.0
-    )
-    still = dataclasses.replace(WALL, tie_heights=(height,))
+    free, still = replace(WALL, **UNTIED), replace(WALL, tie_heights=(height,))
     found, expected = (history(each, Pulse(-6.0, 8.0))[:2] for each in (still, free))
     assert expected[0] > 1e-3
     assert found == pytest.approx(expected, rel=1e-6)  # what a strength of .07 weights does over 1e-9 m
